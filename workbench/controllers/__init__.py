@@ -1,0 +1,1 @@
+"""Control laws: each paper's in its own file, as sympy expressions."""

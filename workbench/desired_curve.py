@@ -1,0 +1,155 @@
+"""Desired curves: twice continuously differentiable position references as piecewise polynomials in time."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Annotated, Literal
+
+import numpy as np
+from numpy.polynomial import polynomial as poly
+from numpy.typing import NDArray
+from pydantic import Field
+
+from workbench.errors import WorkbenchError
+from workbench.toml_input import Positive, SourcedRecord
+
+DEGREE = 5
+
+
+@dataclass(frozen=True)
+class DesiredCurve:
+    """Position x_d(t): on [breaks_s[k], breaks_s[k+1]] it is sum_i coefficients[k, i] (t - breaks_s[k])^i.
+
+    breaks_s: shape (n+1,), s; coefficients: shape (n, 6), m/s^i. After the last break the train stands still.
+    Raises WorkbenchError when position, speed or acceleration jump at a break (the adaptive laws need C2).
+    """
+
+    breaks_s: NDArray[np.float64]
+    coefficients: NDArray[np.float64]
+
+    def __post_init__(self) -> None:
+        ends = np.diff(self.breaks_s)
+        for order, unit in enumerate(("m", "m/s", "m/s^2")):
+            rows = [poly.polyder(row, order) if order else row for row in self.coefficients]
+            left = np.array([poly.polyval(h, row) for h, row in zip(ends, rows, strict=True)])[:-1]
+            right = np.array([row[0] for row in rows])[1:]
+            jump = np.abs(left - right).max(initial=0.0)
+            if not jump <= 1e-9 * max(1.0, float(np.abs(self.coefficients[:, order]).max())):
+                raise WorkbenchError(f"desired curve: derivative {order} jumps by {jump:g} {unit} at a break; "
+                                     f"give a curve with continuous acceleration")
+
+    @property
+    def trip_time_s(self) -> float:
+        """Time at which the curve reaches its end."""
+        return float(self.breaks_s[-1])
+
+    @property
+    def length_m(self) -> float:
+        """Distance covered."""
+        last = self.coefficients[-1]
+        return float(poly.polyval(self.breaks_s[-1] - self.breaks_s[-2], last))
+
+    def at(self, time_s: NDArray[np.float64]) -> tuple[NDArray[np.float64], ...]:
+        """Position (m), speed (m/s) and acceleration (m/s^2) at times in s."""
+        time_s = np.asarray(time_s, dtype=float)
+        index = np.clip(np.searchsorted(self.breaks_s, time_s, side="right") - 1, 0, len(self.coefficients) - 1)
+        local = np.minimum(time_s, self.breaks_s[-1]) - self.breaks_s[index]
+        result = []
+        for order in range(3):
+            value = np.zeros_like(time_s)
+            for i in range(DEGREE, order - 1, -1):
+                value = value * local + self.coefficients[index, i] * np.prod(np.arange(i - order + 1, i + 1))
+            result.append(np.where(time_s >= self.breaks_s[-1], value if order == 0 else 0.0, value))
+        return tuple(result)
+
+
+def from_acceleration(pieces: list[tuple[float, list[float]]]) -> DesiredCurve:
+    """Integrate acceleration pieces (duration in s, polynomial of local time in m/s^2) from standstill."""
+    breaks, rows, speed, position = [0.0], [], 0.0, 0.0
+    for duration, acceleration in pieces:
+        velocity = poly.polyint(acceleration, k=speed)
+        path = poly.polyint(velocity, k=position)
+        rows.append(np.pad(path, (0, DEGREE + 1 - len(path))))
+        breaks.append(breaks[-1] + duration)
+        speed, position = float(poly.polyval(duration, velocity)), float(poly.polyval(duration, path))
+    return DesiredCurve(np.array(breaks), np.array(rows))
+
+
+def _speed_change(change_mps: float, rate_mps2: float, ramp_s: float) -> list[tuple[float, list[float]]]:
+    """Acceleration pieces for a change of speed: a smooth ramp to the rate, hold, a smooth ramp back."""
+    magnitude = abs(change_mps)
+    hold = magnitude / rate_mps2 - ramp_s
+    if hold < 0:  # the rate is never reached: two ramps of a shorter time and a lower peak with the same slope
+        ramp_s = float(np.sqrt(magnitude * ramp_s / rate_mps2))
+        rate_mps2, hold = magnitude / ramp_s, 0.0
+    a = float(np.copysign(rate_mps2, change_mps))
+    up = [0.0, 0.0, 3 * a / ramp_s**2, -2 * a / ramp_s**3]
+    down = [a, 0.0, -3 * a / ramp_s**2, 2 * a / ramp_s**3]
+    middle = [(hold, [a])] if hold > 0 else []
+    return [(ramp_s, up), *middle, (ramp_s, down)]
+
+
+def start_cruise_stop(length_m: float, cruise_mps: float, acceleration_mps2: float, braking_mps2: float,
+                      ramp_s: float) -> DesiredCurve:
+    """Accelerate, cruise, brake to a stop after length_m; acceleration itself is continuously differentiable.
+
+    Raises WorkbenchError when the line is too short to reach the cruise speed.
+    """
+    start = _speed_change(cruise_mps, acceleration_mps2, ramp_s)
+    stop = _speed_change(-cruise_mps, braking_mps2, ramp_s)
+    # A speed change that is symmetric in time covers mean speed x duration.
+    covered = cruise_mps / 2 * (sum(d for d, _ in start) + sum(d for d, _ in stop))
+    cruise_s = (length_m - covered) / cruise_mps
+    if not cruise_s > 0:
+        raise WorkbenchError(f"desired curve: {cruise_mps:.2f} m/s cannot be reached and left again within "
+                             f"{length_m:g} m ({covered:g} m needed): lower the cruise speed or raise the rates")
+    return from_acceleration([*start, (cruise_s, [0.0]), *stop])
+
+
+class DavisCruise(SourcedRecord):
+    """A start-cruise-stop curve whose rates follow from specific forces on straight level track.
+
+    The cruise speed solves davis_resistance(v) = cruise_mps2; the starting acceleration is start_mps2
+    minus the resistance at standstill.
+    """
+
+    kind: Literal["davis_cruise"]
+    cruise_mps2: Positive
+    start_mps2: Positive
+    braking_mps2: Positive
+    ramp_s: Positive
+
+
+class CruiseSpeed(SourcedRecord):
+    """A start-cruise-stop curve with its cruise speed given."""
+
+    kind: Literal["cruise_speed"]
+    cruise_mps: Annotated[float, Field(gt=0, le=150, allow_inf_nan=False)]
+    acceleration_mps2: Positive
+    braking_mps2: Positive
+    ramp_s: Positive
+
+
+def davis_cruise_speed(cruise_mps2: float, a: float, b: float, c: float) -> float:
+    """Speed in m/s at which a + b v + c v^2 equals cruise_mps2; raises WorkbenchError if there is none."""
+    if cruise_mps2 <= a:
+        raise WorkbenchError(f"reference.cruise_mps2 = {cruise_mps2:g} does not exceed the resistance at "
+                             f"standstill ({a:g} m/s^2): raise it")
+    if c == 0 and b == 0:
+        raise WorkbenchError("reference: the resistance does not depend on speed, so no cruise speed follows "
+                             "from it: use kind = 'cruise_speed'")
+    return float((cruise_mps2 - a) * 2 / (b + np.sqrt(b * b + 4 * c * (cruise_mps2 - a))))
+
+
+def build_curve(spec: DavisCruise | CruiseSpeed, length_m: float,
+                davis: tuple[float, float, float]) -> DesiredCurve:
+    """The desired curve of a scenario; `davis` per unit of mass; raises WorkbenchError if there is none."""
+    if isinstance(spec, CruiseSpeed):
+        return start_cruise_stop(length_m, spec.cruise_mps, spec.acceleration_mps2, spec.braking_mps2,
+                                 spec.ramp_s)
+    cruise = davis_cruise_speed(spec.cruise_mps2, *davis)
+    acceleration = spec.start_mps2 - davis[0]
+    if acceleration <= 0:
+        raise WorkbenchError(f"reference.start_mps2 = {spec.start_mps2:g} does not exceed the resistance at "
+                             f"standstill ({davis[0]:g} m/s^2): raise it")
+    return start_cruise_stop(length_m, cruise, acceleration, spec.braking_mps2, spec.ramp_s)

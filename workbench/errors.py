@@ -1,0 +1,29 @@
+"""The few errors the workbench raises; each message ends with its remedy."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+
+class WorkbenchError(Exception):
+    """Base of all errors that are the caller's to mend; the CLI prints it in one line and exits with 2."""
+
+
+class InputError(WorkbenchError):
+    """A file or an option cannot be used: names the file, the key and the remedy."""
+
+    def __init__(self, where: str | Path, key: str, problem: str) -> None:
+        self.where, self.key, self.problem = str(where), key, problem
+        super().__init__(f"{where}: {key}: {problem}" if key else f"{where}: {problem}")
+
+
+class CompileError(WorkbenchError):
+    """A sympy expression cannot become code: names the symbol that has no meaning there."""
+
+
+class ClaimError(WorkbenchError):
+    """A claim is ill-formed: names the claim and what is missing."""
+
+
+class SolverError(WorkbenchError):
+    """A numerical solver returned nothing that may be used: names the solver and its status."""

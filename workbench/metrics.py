@@ -1,0 +1,71 @@
+"""A run as numbers: the row that `workbench compare` writes (SI units)."""
+
+from __future__ import annotations
+
+from dataclasses import asdict, dataclass
+
+import numpy as np
+
+from workbench.scenario import Scenario
+from workbench.simulate.closed_loop import Run
+
+
+@dataclass(frozen=True)
+class Metrics:
+    """One row of a comparison. Errors are measured minus desired, extrema over every plant step.
+
+    energy_J: traction work at the wheel, braking not recovered; jerk_rms: of the acceleration over windows
+    of the log's spacing; saturated_fraction: of samples whose force was limited; limit_violations: plant
+    steps outside the position band; failed: why the run ended early, or None.
+    """
+
+    controller: str
+    position_error_min: float
+    position_error_max: float
+    speed_error_min: float
+    speed_error_max: float
+    position_rms: float
+    speed_rms: float
+    stopping_error: float
+    energy_J: float
+    jerk_rms: float
+    saturated_fraction: float
+    limit_violations: int
+    step_us_median: float
+    step_us_p99: float
+    deadline_misses: int
+    failed: str | None
+    command_max: float
+    command_min: float
+    speed_min: float
+    time_of_max_position_error: float
+    counters: dict[str, int]
+
+    def row(self) -> dict[str, object]:
+        """The row as plain data; numbers of a run that failed before its first sample are None."""
+        return {k: (None if isinstance(v, float) and not np.isfinite(v) else v) for k, v in asdict(self).items()}
+
+
+def measure(run: Run, scenario: Scenario) -> Metrics:
+    """The metrics of a run."""
+    total = run.totals
+    samples = max(1.0, total["samples"])
+    spacing = scenario.simulation.log_every_s
+    jerk = np.diff(run.column("v_mps"), 2) / spacing**2
+    return Metrics(
+        controller=run.controller,
+        position_error_min=total["position_error_min"], position_error_max=total["position_error_max"],
+        speed_error_min=total["speed_error_min"], speed_error_max=total["speed_error_max"],
+        position_rms=float(np.sqrt(total["position_error_square_sum"] / samples)),
+        speed_rms=float(np.sqrt(total["speed_error_square_sum"] / samples)),
+        stopping_error=run.final_position_m - scenario.track.length_m,
+        energy_J=total["traction_work_j"],
+        jerk_rms=float(np.sqrt(np.mean(jerk**2))) if len(jerk) else 0.0,
+        saturated_fraction=total["saturated_samples"] / max(1.0, total["commands"]),
+        limit_violations=int(total["band_violations"]),
+        step_us_median=float(np.median(run.step_us)), step_us_p99=float(np.percentile(run.step_us, 99)),
+        deadline_misses=int(np.sum(run.step_us > run.period_s * 1e6)),
+        failed=run.failed, command_max=total["command_max_mps2"], command_min=total["command_min_mps2"],
+        speed_min=total["speed_min_mps"], time_of_max_position_error=total["time_of_max_position_error_s"],
+        counters=run.counters,
+    )

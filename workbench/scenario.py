@@ -1,0 +1,177 @@
+"""A scenario: train, line, desired curve, limits, sampling, controllers and the paper's printed values."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated, Any, Literal, Self
+
+from pydantic import Field, Strict, model_validator
+
+from workbench.desired_curve import CruiseSpeed, DavisCruise, DesiredCurve, build_curve
+from workbench.errors import InputError, WorkbenchError
+from workbench.toml_input import (
+    Count,
+    NonNegative,
+    Number,
+    Positive,
+    Record,
+    SourcedRecord,
+    Text,
+    read_toml,
+    validate_record,
+)
+from workbench.track import Track, load_track
+from workbench.train import Train
+
+
+class Simulation(SourcedRecord):
+    """Plant step, duration beyond the desired curve, and the position band that is watched."""
+
+    plant_step_s: Annotated[float, Strict(), Field(gt=0, le=0.1, allow_inf_nan=False)]
+    dwell_s: NonNegative
+    position_band_m: Positive
+    log_every_s: Positive
+
+
+class Disturbance(SourcedRecord):
+    """The unknown disturbance: a sine of time, per unit of mass."""
+
+    amplitude_mps2: NonNegative
+    period_s: Positive
+
+
+class NeuronGrid(SourcedRecord):
+    """Where the hidden neurons stand: `count` centers evenly along the first input, others at fixed values."""
+
+    count: Count
+    first_center: Number
+    last_center: Number
+    other_centers: tuple[Number, ...] = ()
+    width: Positive
+
+
+class ControllerSpec(SourcedRecord):
+    """One controller of a scenario: which law, its sampling period, its parameters and initial values."""
+
+    law: Text
+    title: Text | None = None
+    period_s: Positive
+    parameters: dict[str, Number] = {}
+    initial: dict[str, Number] = {}
+    estimates: Literal["corrected", "explicit"] = "corrected"
+    neurons: NeuronGrid | None = None
+
+
+class Uncertainty(SourcedRecord):
+    """Monte Carlo: every named factor is drawn uniformly from 1 - spread to 1 + spread."""
+
+    runs: Count
+    seed: Annotated[int, Strict(), Field(ge=0)]
+    spread: Annotated[float, Strict(), Field(ge=0, lt=1, allow_inf_nan=False)]
+    factors: tuple[Literal["mass", "davis_a", "davis_b", "davis_c", "line_resistance"], ...]
+
+
+class PrintedRow(Record):
+    """A row of the paper's comparison table."""
+
+    controller: Text
+    position_error_m: tuple[Number, Number]
+    speed_error_mps: tuple[Number, Number]
+    stopping_accuracy_m: NonNegative
+
+
+class PrintedTable(Record):
+    """A table of the paper that the runs are held against."""
+
+    source: Text
+    rows: tuple[PrintedRow, ...]
+
+
+class PrintedValue(Record):
+    """A single number the paper prints, and the metric it is held against."""
+
+    source: Text
+    controller: Text
+    metric: Text
+    value: Number
+    unit: Text
+
+
+class Variant(Record):
+    """One change of an assumed value, to see how much it matters: dotted key -> value."""
+
+    title: Text
+    set: dict[str, Any]
+
+
+class Scenario(Record):
+    """Everything a run needs, with the source of every value."""
+
+    version: Literal[1]
+    name: Text
+    title: Text
+    paper: Text
+    citation: Text
+    track: Track
+    train: Train
+    reference: Annotated[DavisCruise | CruiseSpeed, Field(discriminator="kind")]
+    simulation: Simulation
+    disturbance: Disturbance
+    controllers: dict[str, ControllerSpec]
+    uncertainty: Uncertainty
+    printed_table: PrintedTable | None = None
+    printed_values: tuple[PrintedValue, ...] = ()
+    variants: tuple[Variant, ...] = ()
+
+    @model_validator(mode="after")
+    def _periods_are_whole_steps(self) -> Self:
+        if not self.controllers:
+            raise ValueError("controllers: none given: add a [controllers.<name>] table")
+        step = self.simulation.plant_step_s
+        for name, spec in self.controllers.items():
+            ratio = spec.period_s / step
+            if round(ratio) < 1 or abs(ratio - round(ratio)) > 1e-9 * ratio:
+                raise ValueError(f"controllers.{name}.period_s = {spec.period_s:g} is not a whole number of "
+                                 f"plant steps of {step:g} s: choose a multiple")
+        for row in self.printed_table.rows if self.printed_table else ():
+            if row.controller not in self.controllers:
+                raise ValueError(f"printed_table: '{row.controller}' is no controller of this scenario: "
+                                 f"choose one of {', '.join(self.controllers)}")
+        return self
+
+    def desired_curve(self) -> DesiredCurve:
+        """The desired curve over the whole line, for the nominal train."""
+        train = self.train
+        davis = (train.davis_a_mps2, train.davis_b_per_s, train.davis_c_per_m)
+        return build_curve(self.reference, self.track.length_m, davis)
+
+
+def load_scenario(path: Path) -> Scenario:
+    """Load a scenario from TOML, its line from the file it names; raises InputError naming file and key."""
+    return _build(path, read_toml(path))
+
+
+def load_variant(path: Path, variant: Variant) -> Scenario:
+    """The scenario with one variant's values set; raises InputError when a key does not exist."""
+    data = read_toml(path)
+    for key, value in variant.set.items():
+        *parents, last = key.split(".")
+        table: Any = data
+        for parent in parents:
+            table = table.get(parent) if isinstance(table, dict) else None
+        if not isinstance(table, dict) or last not in table:
+            raise InputError(path, f"variants: {key}", "no such key: name a value that the scenario states")
+        table[last] = value
+    return _build(path, data)
+
+
+def _build(path: Path, data: dict[str, Any]) -> Scenario:
+    line = data.get("track")
+    if not isinstance(line, str):
+        raise InputError(path, "track", "name the line's TOML file, relative to this one")
+    scenario = validate_record(data | {"track": load_track(path.parent / line)}, Scenario, path)
+    try:
+        scenario.desired_curve()
+    except WorkbenchError as trouble:
+        raise InputError(path, "reference", str(trouble)) from None
+    return scenario

@@ -1,0 +1,1 @@
+"""Closed loops: the compiled one, iterative and Monte Carlo runs around it."""
