@@ -1,10 +1,11 @@
-"""The only place where sympy expressions become code: numba kernels for simulation, casadi functions for MPC."""
+"""The only place where sympy expressions become code: numba kernels to simulate, casadi functions for MPC."""
 
 from __future__ import annotations
 
 import hashlib
 import importlib.util
 import inspect
+import keyword
 import os
 import sys
 import tempfile
@@ -45,8 +46,15 @@ class _Printer(PythonCodePrinter):
 _printer = _Printer({"fully_qualified_modules": True})
 
 
+# What the generated functions call their own variables.
+_TAKEN = {"math", "neurons", "neuron_data", "parameters", "scalars"}
+
+
 def _name(symbol: sp.Expr) -> str:
-    return str(symbol.base.label) if isinstance(symbol, sp.Indexed) else str(symbol)
+    name = str(symbol.base.label) if isinstance(symbol, sp.Indexed) else str(symbol)
+    if not name.isidentifier() or keyword.iskeyword(name) or name in _TAKEN or name.startswith("_"):
+        raise CompileError(f"symbol '{name}' cannot be the name of a variable: rename it")
+    return name
 
 
 def _require_known(exprs: Iterable[sp.Expr], known: Iterable[sp.Expr], where: str) -> None:
@@ -119,7 +127,8 @@ def law_source(law: ControlLaw, estimates: Estimates = "corrected") -> str:
     if estimates == "explicit":
         at_next = {}
 
-    head = [f"    {_name(s)} = {source}" for s, source in zip(MEASUREMENTS, _MEASUREMENT_ARGUMENTS, strict=True)]
+    given = zip(MEASUREMENTS, _MEASUREMENT_ARGUMENTS, strict=True)
+    head = [f"    {_name(s)} = {argument}" for s, argument in given]
     head += _unpack(law.parameters, "parameters")
     body = [*head, *_unpack([s.symbol for s in scalars], "scalars")]
     body += _neuron_loop(law, sums_now, [], {}, "_a")
@@ -127,8 +136,9 @@ def law_source(law: ControlLaw, estimates: Estimates = "corrected") -> str:
     body += _neuron_loop(law, sums_next, updates[len(scalars):], at_next, "_c")
     body += [f"    scalars[{i}] = {_name(s.symbol)}_next" for i, s in enumerate(scalars)]
     body += _assignments(["_command"], [command.xreplace(at_next)], "_d", "    ")
-    margin = [*head, *_assignments([f"_margin_{i}" for i in range(len(law.domain))], law.domain, "_e", "    ")]
-    smallest = ", ".join([*(f"_margin_{i}" for i in range(len(law.domain))), "math.inf", "math.inf"])
+    margins = [f"_margin_{i}" for i in range(len(law.domain))]
+    margin = [*head, *_assignments(margins, law.domain, "_e", "    ")]
+    smallest = ", ".join([*margins, "math.inf", "math.inf"])
     arguments = ", ".join(_MEASUREMENT_ARGUMENTS)
     return "\n".join([
         f"def control_step({arguments}, parameters, scalars, neurons, neuron_data):", *body,
@@ -177,15 +187,18 @@ def kernel_module(plant: Plant, law: ControlLaw, loop: ModuleType,
         f'"""Generated from the sympy expressions of {law.source} and {plant.source}."""', "",
         "import math", "", "from numba import njit", "",
         plant_source(plant), law_source(law, estimates), loop_source,
-    ]).replace("\ndef ", "\n@njit(cache=True)\ndef ")
+    ])
+    # By numpy's error model a division by zero gives inf or nan, which the loop reports as a diverged law.
+    text = text.replace("\ndef ", "\n@njit(cache=True, error_model='numpy')\ndef ")
     digest = hashlib.sha256(text.encode()).hexdigest()[:20]
     name = f"workbench_kernel_{digest}"
     if name in sys.modules:
         return sys.modules[name]
     path = cache_folder() / f"{name}.py"
-    if not path.exists() or path.read_text() != text:
+    if not path.exists() or path.read_text(encoding="utf-8") != text:
         # Written aside and renamed, so that no process ever imports half a file.
-        with tempfile.NamedTemporaryFile("w", dir=path.parent, suffix=".tmp", delete=False) as stream:
+        with tempfile.NamedTemporaryFile("w", encoding="utf-8", dir=path.parent, suffix=".tmp",
+                                         delete=False) as stream:
             stream.write(text)
         Path(stream.name).replace(path)
     spec = importlib.util.spec_from_file_location(name, path)
@@ -193,7 +206,11 @@ def kernel_module(plant: Plant, law: ControlLaw, loop: ModuleType,
         raise CompileError(f"cannot import the generated kernel {path}: remove it and run again")
     module = importlib.util.module_from_spec(spec)
     sys.modules[name] = module
-    spec.loader.exec_module(module)
+    try:
+        spec.loader.exec_module(module)
+    except BaseException:
+        del sys.modules[name]
+        raise
     return module
 
 

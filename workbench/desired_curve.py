@@ -2,16 +2,17 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from typing import Annotated, Literal
 
 import numpy as np
 from numpy.polynomial import polynomial as poly
 from numpy.typing import NDArray
-from pydantic import Field
+from pydantic import Field, Strict
 
 from workbench.errors import WorkbenchError
-from workbench.toml_input import Positive, SourcedRecord
+from workbench.toml_input import SourcedRecord
 
 DEGREE = 5
 
@@ -21,7 +22,8 @@ class DesiredCurve:
     """Position x_d(t): on [breaks_s[k], breaks_s[k+1]] it is sum_i coefficients[k, i] (t - breaks_s[k])^i.
 
     breaks_s: shape (n+1,), s; coefficients: shape (n, 6), m/s^i. After the last break the train stands still.
-    Raises WorkbenchError when position, speed or acceleration jump at a break (the adaptive laws need C2).
+    Raises WorkbenchError when position, speed or acceleration jump at a break, the standstill after the last
+    one included (the adaptive laws need C2), or when a value is not finite.
     """
 
     breaks_s: NDArray[np.float64]
@@ -29,14 +31,18 @@ class DesiredCurve:
 
     def __post_init__(self) -> None:
         ends = np.diff(self.breaks_s)
+        if not (np.all(ends > 0) and np.all(np.isfinite(self.coefficients))):
+            raise WorkbenchError("desired curve: its breaks do not increase or a coefficient is not finite: "
+                                 "give times in increasing order and finite values")
         for order, unit in enumerate(("m", "m/s", "m/s^2")):
             rows = [poly.polyder(row, order) if order else row for row in self.coefficients]
-            left = np.array([poly.polyval(h, row) for h, row in zip(ends, rows, strict=True)])[:-1]
-            right = np.array([row[0] for row in rows])[1:]
+            left = np.array([poly.polyval(h, row) for h, row in zip(ends, rows, strict=True)])
+            # The train stands where the curve ends, so that only its position may differ from zero there.
+            right = np.array([*(row[0] for row in rows[1:]), left[-1] if order == 0 else 0.0])
             jump = np.abs(left - right).max(initial=0.0)
             if not jump <= 1e-9 * max(1.0, float(np.abs(self.coefficients[:, order]).max())):
-                raise WorkbenchError(f"desired curve: derivative {order} jumps by {jump:g} {unit} at a break; "
-                                     f"give a curve with continuous acceleration")
+                raise WorkbenchError(f"desired curve: derivative {order} jumps by {jump:g} {unit} at a break"
+                                     f": give a curve with continuous acceleration")
 
     @property
     def trip_time_s(self) -> float:
@@ -52,7 +58,8 @@ class DesiredCurve:
     def at(self, time_s: NDArray[np.float64]) -> tuple[NDArray[np.float64], ...]:
         """Position (m), speed (m/s) and acceleration (m/s^2) at times in s."""
         time_s = np.asarray(time_s, dtype=float)
-        index = np.clip(np.searchsorted(self.breaks_s, time_s, side="right") - 1, 0, len(self.coefficients) - 1)
+        index = np.searchsorted(self.breaks_s, time_s, side="right") - 1
+        index = np.clip(index, 0, len(self.coefficients) - 1)
         local = np.minimum(time_s, self.breaks_s[-1]) - self.breaks_s[index]
         result = []
         for order in range(3):
@@ -79,7 +86,7 @@ def _speed_change(change_mps: float, rate_mps2: float, ramp_s: float) -> list[tu
     """Acceleration pieces for a change of speed: a smooth ramp to the rate, hold, a smooth ramp back."""
     magnitude = abs(change_mps)
     hold = magnitude / rate_mps2 - ramp_s
-    if hold < 0:  # the rate is never reached: two ramps of a shorter time and a lower peak with the same slope
+    if hold < 0:  # the rate is never reached: two shorter ramps to a lower peak with the same slope
         ramp_s = float(np.sqrt(magnitude * ramp_s / rate_mps2))
         rate_mps2, hold = magnitude / ramp_s, 0.0
     a = float(np.copysign(rate_mps2, change_mps))
@@ -102,8 +109,14 @@ def start_cruise_stop(length_m: float, cruise_mps: float, acceleration_mps2: flo
     cruise_s = (length_m - covered) / cruise_mps
     if not cruise_s > 0:
         raise WorkbenchError(f"desired curve: {cruise_mps:.2f} m/s cannot be reached and left again within "
-                             f"{length_m:g} m ({covered:g} m needed): lower the cruise speed or raise the rates")
+                             f"{length_m:g} m ({covered:g} m needed): lower the cruise speed or raise rates")
     return from_acceleration([*start, (cruise_s, [0.0]), *stop])
+
+
+# Beyond these bounds a value is a slip of the pen or of its unit, and the curve would not be computable.
+SLOWEST_MPS, FASTEST_MPS = 0.1, 150.0
+Rate = Annotated[float, Strict(), Field(ge=1e-3, le=20, allow_inf_nan=False)]
+RampTime = Annotated[float, Strict(), Field(ge=1e-2, le=600, allow_inf_nan=False)]
 
 
 class DavisCruise(SourcedRecord):
@@ -114,20 +127,20 @@ class DavisCruise(SourcedRecord):
     """
 
     kind: Literal["davis_cruise"]
-    cruise_mps2: Positive
-    start_mps2: Positive
-    braking_mps2: Positive
-    ramp_s: Positive
+    cruise_mps2: Rate
+    start_mps2: Rate
+    braking_mps2: Rate
+    ramp_s: RampTime
 
 
 class CruiseSpeed(SourcedRecord):
     """A start-cruise-stop curve with its cruise speed given."""
 
     kind: Literal["cruise_speed"]
-    cruise_mps: Annotated[float, Field(gt=0, le=150, allow_inf_nan=False)]
-    acceleration_mps2: Positive
-    braking_mps2: Positive
-    ramp_s: Positive
+    cruise_mps: Annotated[float, Strict(), Field(ge=SLOWEST_MPS, le=FASTEST_MPS, allow_inf_nan=False)]
+    acceleration_mps2: Rate
+    braking_mps2: Rate
+    ramp_s: RampTime
 
 
 def davis_cruise_speed(cruise_mps2: float, a: float, b: float, c: float) -> float:
@@ -135,10 +148,16 @@ def davis_cruise_speed(cruise_mps2: float, a: float, b: float, c: float) -> floa
     if cruise_mps2 <= a:
         raise WorkbenchError(f"reference.cruise_mps2 = {cruise_mps2:g} does not exceed the resistance at "
                              f"standstill ({a:g} m/s^2): raise it")
-    if c == 0 and b == 0:
+    # The root of the quadratic in the form that also holds for c = 0.
+    divisor = b + math.sqrt(b * b + 4 * c * (cruise_mps2 - a))
+    if divisor == 0:
         raise WorkbenchError("reference: the resistance does not depend on speed, so no cruise speed follows "
                              "from it: use kind = 'cruise_speed'")
-    return float((cruise_mps2 - a) * 2 / (b + np.sqrt(b * b + 4 * c * (cruise_mps2 - a))))
+    speed = (cruise_mps2 - a) * 2 / divisor
+    if not SLOWEST_MPS <= speed <= FASTEST_MPS:
+        raise WorkbenchError(f"reference.cruise_mps2 = {cruise_mps2:g} gives a cruise speed of {speed:g} m/s"
+                             f", outside {SLOWEST_MPS:g} to {FASTEST_MPS:g}: correct it or the resistance")
+    return speed
 
 
 def build_curve(spec: DavisCruise | CruiseSpeed, length_m: float,

@@ -10,11 +10,20 @@ class WorkbenchError(Exception):
 
 
 class InputError(WorkbenchError):
-    """A file or an option cannot be used: names the file, the key and the remedy."""
+    """A file or an option cannot be used: names the file, the key and the remedy, in one line.
+
+    `where` is empty where the file is not known yet; whoever knows it raises `error.within(path)`.
+    """
 
     def __init__(self, where: str | Path, key: str, problem: str) -> None:
         self.where, self.key, self.problem = str(where), key, problem
-        super().__init__(f"{where}: {key}: {problem}" if key else f"{where}: {problem}")
+        message = ": ".join(part for part in (self.where, key, problem) if part)
+        # Names and values come from files, so they may hold line breaks and control characters.
+        super().__init__("".join(c if c.isprintable() else " " for c in message))
+
+    def within(self, where: str | Path) -> InputError:
+        """The same error, naming the file it was found in."""
+        return InputError(where, self.key, self.problem)
 
 
 class CompileError(WorkbenchError):

@@ -43,14 +43,16 @@ class Metrics:
 
     def row(self) -> dict[str, object]:
         """The row as plain data; numbers of a run that failed before its first sample are None."""
-        return {k: (None if isinstance(v, float) and not np.isfinite(v) else v) for k, v in asdict(self).items()}
+        return {key: None if isinstance(value, float) and not np.isfinite(value) else value
+                for key, value in asdict(self).items()}
 
 
 def measure(run: Run, scenario: Scenario) -> Metrics:
     """The metrics of a run."""
     total = run.totals
     samples = max(1.0, total["samples"])
-    spacing = scenario.simulation.log_every_s
+    # The log's rows are a whole number of plant steps apart, which log_every_s need not be.
+    spacing = np.diff(run.column("t_s")[:2])
     jerk = np.diff(run.column("v_mps"), 2) / spacing**2
     return Metrics(
         controller=run.controller,

@@ -5,12 +5,13 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Annotated, Any, Literal, Self
 
-from pydantic import Field, Strict, model_validator
+from pydantic import BeforeValidator, Field, Strict, model_validator
 
 from workbench.desired_curve import CruiseSpeed, DavisCruise, DesiredCurve, build_curve
 from workbench.errors import InputError, WorkbenchError
 from workbench.toml_input import (
     Count,
+    Name,
     NonNegative,
     Number,
     Positive,
@@ -23,27 +24,32 @@ from workbench.toml_input import (
 from workbench.track import Track, load_track
 from workbench.train import Train
 
+MOST_LOG_ROWS = 10_000_000
+
+# Between two samples or two rows of the log; bounded so that a slip of the pen is no run of years.
+Interval = Annotated[float, Strict(), Field(ge=1e-5, le=3600, allow_inf_nan=False)]
+
 
 class Simulation(SourcedRecord):
     """Plant step, duration beyond the desired curve, and the position band that is watched."""
 
-    plant_step_s: Annotated[float, Strict(), Field(gt=0, le=0.1, allow_inf_nan=False)]
-    dwell_s: NonNegative
+    plant_step_s: Annotated[float, Strict(), Field(ge=1e-5, le=0.1, allow_inf_nan=False)]
+    dwell_s: Annotated[float, Strict(), Field(ge=0, le=3600, allow_inf_nan=False)]
     position_band_m: Positive
-    log_every_s: Positive
+    log_every_s: Interval
 
 
 class Disturbance(SourcedRecord):
     """The unknown disturbance: a sine of time, per unit of mass."""
 
-    amplitude_mps2: NonNegative
-    period_s: Positive
+    amplitude_mps2: Annotated[float, Strict(), Field(ge=0, le=20, allow_inf_nan=False)]
+    period_s: Annotated[float, Strict(), Field(ge=1e-2, allow_inf_nan=False)]
 
 
 class NeuronGrid(SourcedRecord):
-    """Where the hidden neurons stand: `count` centers evenly along the first input, others at fixed values."""
+    """Where the hidden neurons stand: `count` centers evenly along the first input, the others fixed."""
 
-    count: Count
+    count: Annotated[int, Strict(), Field(ge=1, le=100_000)]
     first_center: Number
     last_center: Number
     other_centers: tuple[Number, ...] = ()
@@ -55,9 +61,9 @@ class ControllerSpec(SourcedRecord):
 
     law: Text
     title: Text | None = None
-    period_s: Positive
-    parameters: dict[str, Number] = {}
-    initial: dict[str, Number] = {}
+    period_s: Interval
+    parameters: dict[str, Number] = Field(default_factory=dict)
+    initial: dict[str, Number] = Field(default_factory=dict)
     estimates: Literal["corrected", "explicit"] = "corrected"
     neurons: NeuronGrid | None = None
 
@@ -104,11 +110,17 @@ class Variant(Record):
     set: dict[str, Any]
 
 
+def _known_version(value: Any) -> Any:
+    if type(value) is not int or value != 1:
+        raise ValueError(f"{value!r} is not known: this workbench reads version = 1")
+    return value
+
+
 class Scenario(Record):
     """Everything a run needs, with the source of every value."""
 
-    version: Literal[1]
-    name: Text
+    version: Annotated[int, BeforeValidator(_known_version)]
+    name: Name
     title: Text
     paper: Text
     citation: Text
@@ -117,14 +129,14 @@ class Scenario(Record):
     reference: Annotated[DavisCruise | CruiseSpeed, Field(discriminator="kind")]
     simulation: Simulation
     disturbance: Disturbance
-    controllers: dict[str, ControllerSpec]
+    controllers: dict[Name, ControllerSpec]
     uncertainty: Uncertainty
     printed_table: PrintedTable | None = None
     printed_values: tuple[PrintedValue, ...] = ()
     variants: tuple[Variant, ...] = ()
 
     @model_validator(mode="after")
-    def _periods_are_whole_steps(self) -> Self:
+    def _parts_fit_together(self) -> Self:
         if not self.controllers:
             raise ValueError("controllers: none given: add a [controllers.<name>] table")
         step = self.simulation.plant_step_s
@@ -133,9 +145,12 @@ class Scenario(Record):
             if round(ratio) < 1 or abs(ratio - round(ratio)) > 1e-9 * ratio:
                 raise ValueError(f"controllers.{name}.period_s = {spec.period_s:g} is not a whole number of "
                                  f"plant steps of {step:g} s: choose a multiple")
-        for row in self.printed_table.rows if self.printed_table else ():
-            if row.controller not in self.controllers:
-                raise ValueError(f"printed_table: '{row.controller}' is no controller of this scenario: "
+        rows = self.printed_table.rows if self.printed_table else ()
+        printed = [("printed_table", row.controller) for row in rows]
+        printed += [("printed_values", value.controller) for value in self.printed_values]
+        for key, name in printed:
+            if name not in self.controllers:
+                raise ValueError(f"{key}: '{name}' is no controller of this scenario: "
                                  f"choose one of {', '.join(self.controllers)}")
         return self
 
@@ -171,7 +186,11 @@ def _build(path: Path, data: dict[str, Any]) -> Scenario:
         raise InputError(path, "track", "name the line's TOML file, relative to this one")
     scenario = validate_record(data | {"track": load_track(path.parent / line)}, Scenario, path)
     try:
-        scenario.desired_curve()
+        curve = scenario.desired_curve()
     except WorkbenchError as trouble:
         raise InputError(path, "reference", str(trouble)) from None
+    rows = (curve.trip_time_s + scenario.simulation.dwell_s) / scenario.simulation.log_every_s
+    if rows > MOST_LOG_ROWS:
+        raise InputError(path, "simulation.log_every_s", f"gives {rows:.0f} rows for a run of "
+                         f"{curve.trip_time_s:.0f} s, more than {MOST_LOG_ROWS}: log less often")
     return scenario

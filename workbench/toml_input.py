@@ -16,6 +16,8 @@ Positive = Annotated[float, Strict(), Field(gt=0, allow_inf_nan=False)]
 NonNegative = Annotated[float, Strict(), Field(ge=0, allow_inf_nan=False)]
 Count = Annotated[int, Strict(), Field(ge=1)]
 Text = Annotated[str, Strict(), Field(min_length=1)]
+# Names become file names and columns of tables.
+Name = Annotated[str, Strict(), Field(pattern=r"^[A-Za-z][A-Za-z0-9_.-]*$", max_length=100)]
 
 
 class Record(BaseModel):
@@ -62,12 +64,16 @@ def read_toml(path: Path) -> dict[str, Any]:
         raise InputError(path, "", "is not UTF-8 text: save it as UTF-8 TOML") from None
     except OSError as trouble:
         raise InputError(path, "", f"cannot be read ({trouble.strerror}): check its permissions") from None
+    except ValueError as trouble:  # a null character in the path
+        raise InputError(path, "", f"is no path ({trouble}): correct the name") from None
     if not text.strip():
         raise InputError(path, "", "is empty: a TOML table is expected")
     try:
         return tomllib.loads(text)
-    except tomllib.TOMLDecodeError as trouble:
+    except ValueError as trouble:  # TOMLDecodeError, and Python's own limit on the digits of an integer
         raise InputError(path, "", f"is not valid TOML: {trouble}") from None
+    except RecursionError:
+        raise InputError(path, "", "is nested too deeply: write flatter tables") from None
 
 
 def load_record(path: Path, model: type[R]) -> R:
@@ -83,27 +89,61 @@ def validate_record(data: dict[str, Any], model: type[R], where: Path | str) -> 
         errors = trouble.errors()
         # A mistyped key shows up twice, as unknown and as missing: the unknown one is what to mend.
         first = next((e for e in errors if e["type"] == "extra_forbidden"), errors[0])
-        key = ".".join(f"[{part}]" if isinstance(part, int) else str(part) for part in first["loc"])
         more = f" (and {len(errors) - 1} more)" if len(errors) > 1 else ""
-        raise InputError(where, key.replace(".[", "["), _explain(dict(first), errors) + more) from None
+        raise InputError(where, _key(dict(first), data), _explain(dict(first), errors) + more) from None
+
+
+def _key(error: dict[str, Any], data: Any) -> str:
+    """The dotted key as the file writes it: pydantic adds the kind of a union's member, which no file has."""
+    parts: list[str] = []
+    location = [part for part in error["loc"] if part != "[key]"]
+    table = data
+    for number, part in enumerate(location):
+        if isinstance(part, int):
+            parts[-1:] = [f"{parts[-1] if parts else ''}[{part}]"]
+            table = table[part] if isinstance(table, list | tuple) and part < len(table) else None
+            continue
+        absent = isinstance(table, dict) and part not in table
+        if absent and not (error["type"] == "missing" and number == len(location) - 1):
+            continue
+        parts.append(str(part))
+        table = table.get(part) if isinstance(table, dict) else None
+    return ".".join(parts)
+
+
+def _short(value: Any, limit: int = 60) -> str:
+    try:
+        text = repr(value)
+    except ValueError:  # an integer of more digits than Python prints
+        return "so large an integer"
+    return text if len(text) <= limit else f"{text[:limit]}..."
+
+
+def _unknown_key(error: dict[str, Any], errors: list[Any]) -> str:
+    parent = error["loc"][:-1]
+    missing = [str(e["loc"][-1]) for e in errors if e["type"] == "missing" and e["loc"][:-1] == parent]
+    name = str(error["loc"][-1])
+    stem = name.split("_", 1)[0]
+    close = difflib.get_close_matches(name, missing, n=1, cutoff=0.5)
+    close = close or [other for other in missing if other.split("_", 1)[0] == stem]
+    if close:
+        return f"unknown key; did you mean '{close[0]}' (the unit is part of the name)?"
+    return "unknown key: remove it or correct its spelling"
 
 
 def _explain(error: dict[str, Any], errors: list[Any]) -> str:
-    kind, value = error["type"], error.get("input")
-    if kind == "extra_forbidden":
-        parent = error["loc"][:-1]
-        missing = [str(e["loc"][-1]) for e in errors if e["type"] == "missing" and e["loc"][:-1] == parent]
-        name = str(error["loc"][-1])
-        stem = name.split("_")[0]
-        close = difflib.get_close_matches(name, missing, n=1, cutoff=0.5)
-        close = close or [other for other in missing if other.split("_")[0] == stem]
-        if close:
-            return f"unknown key; did you mean '{close[0]}' (the unit is part of the name)?"
-        return "unknown key: remove it or correct its spelling"
-    if kind == "missing":
-        return "is missing: add it"
-    if kind == "value_error":
-        return str(error["msg"]).removeprefix("Value error, ")
-    if kind == "finite_number":
-        return f"{value} is not a finite number: give a number"
-    return f"{error['msg'][0].lower()}{error['msg'][1:]}, not {value!r}"
+    value, message = error.get("input"), str(error["msg"])
+    match error["type"]:
+        case "extra_forbidden":
+            return _unknown_key(error, errors)
+        case "missing":
+            explained = "is missing: add it"
+        case "value_error":
+            explained = message.removeprefix("Value error, ")
+        case "string_pattern_mismatch":
+            explained = f"{_short(value)} is no name: use letters, digits, '_', '-', '.', a letter first"
+        case "finite_number":
+            explained = f"{value} is not a finite number: give a number"
+        case _:
+            explained = f"{message[0].lower()}{message[1:]}, not {_short(value)}: correct it"
+    return explained

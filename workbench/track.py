@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from itertools import pairwise
 from pathlib import Path
 from typing import Annotated, Self
 
@@ -71,7 +72,7 @@ class Track(SourcedRecord):
     """A line: grade and curve cover it without gap or overlap; tunnels may leave gaps (open air)."""
 
     name: Text
-    length_m: Positive
+    length_m: Annotated[float, Strict(), Field(gt=0, le=1e8, allow_inf_nan=False)]
     grade: tuple[GradeSection, ...]
     curve: tuple[CurveSection, ...]
     tunnel: tuple[TunnelSection, ...] = ()
@@ -85,7 +86,7 @@ class Track(SourcedRecord):
 
 
 def _require_order(kind: str, sections: Sequence[Section], length_m: float) -> None:
-    for number, (one, two) in enumerate(zip(sections, sections[1:], strict=False), start=1):
+    for number, (one, two) in enumerate(pairwise(sections), start=1):
         if two.start_m < one.start_m:
             raise ValueError(f"{kind}[{number}]: positions must increase, but {two.start_m:g} m comes after "
                              f"{one.start_m:g} m: sort the sections")

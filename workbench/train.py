@@ -1,4 +1,4 @@
-"""The single-particle train as sympy expressions: Newton's form and the form per unit of mass (yang2021 (1)-(4))."""
+"""The single-particle train as sympy expressions: Newton's form and per unit of mass (yang2021 (1)-(4))."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from typing import Annotated, Self
 import sympy as sp
 from pydantic import Field, Strict, model_validator
 
-from workbench.toml_input import NonNegative, Positive, SourcedRecord
+from workbench.toml_input import Positive, SourcedRecord
 
 p, v, F, f_add, t = sp.symbols("p v F f_add t", real=True)
 m = sp.Symbol("m", positive=True)
@@ -46,6 +46,10 @@ def single_particle_per_mass() -> Plant:
     return Plant({x_1: x_2, x_2: u + g + f}, u, f, (a_star, b_star, c_star), "yang2021 (4)")
 
 
+# A train that resists with more than 10 m/s^2 at standstill or at 1 m/s has its coefficients in another unit.
+DavisCoefficient = Annotated[float, Strict(), Field(ge=0, le=10, allow_inf_nan=False)]
+
+
 class Train(SourcedRecord):
     """A single-particle train: mass, Davis coefficients per unit of mass, traction and brake limits.
 
@@ -53,9 +57,9 @@ class Train(SourcedRecord):
     """
 
     mass_kg: Annotated[float, Strict(), Field(gt=0, allow_inf_nan=False)]
-    davis_a_mps2: NonNegative
-    davis_b_per_s: NonNegative
-    davis_c_per_m: NonNegative
+    davis_a_mps2: DavisCoefficient
+    davis_b_per_s: DavisCoefficient
+    davis_c_per_m: DavisCoefficient
     max_traction_n: Positive
     max_braking_n: Positive
     max_power_w: Positive | None = None
@@ -63,12 +67,16 @@ class Train(SourcedRecord):
     @model_validator(mode="after")
     def _plausible(self) -> Self:
         if not 1e3 <= self.mass_kg <= 1e8:
-            raise ValueError(f"mass_kg = {self.mass_kg:g} is no train between 1e3 and 1e8 kg: is it in tonnes?")
+            raise ValueError(f"mass_kg = {self.mass_kg:g} is no train between 1e3 and 1e8 kg: "
+                             f"is it in tonnes?")
         for name in ("max_traction_n", "max_braking_n"):
             specific = getattr(self, name) / self.mass_kg
             if not 0.01 <= specific <= 20:
                 raise ValueError(f"{name} gives {specific:g} m/s^2 for this mass, outside 0.01 to 20: "
                                  f"is it in kN?")
+        if self.max_power_w is not None and not 0.1 <= self.max_power_w / self.mass_kg <= 1e3:
+            raise ValueError(f"max_power_w gives {self.max_power_w / self.mass_kg:g} W/kg for this mass, "
+                             f"outside 0.1 to 1000: is it in kW?")
         return self
 
     @property

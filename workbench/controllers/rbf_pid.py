@@ -1,4 +1,4 @@
-"""RBFNN-PID: an incremental PID whose gains follow the Jacobian of a radial-basis-function model of the plant.
+"""RBFNN-PID: an incremental PID whose gains follow the Jacobian of a radial-basis model of the plant.
 
 yang2021 takes it from its reference [30], which is not reproduced in the paper; this is the textbook form,
 whose network is updated by the gradient laws with momentum that yang2021 prints as (10)-(15).
@@ -76,7 +76,8 @@ def _law(law_id: str, title: str, source: str, printed_14: bool) -> ControlLaw:
     squared_distance = sum(((x - ci) ** 2 for x, ci in zip(inputs, c, strict=True)), sp.Integer(0))
     move = center_step_as_printed if printed_14 else center_step
 
-    proportional, integral, derivative = error - e_prev, error * period, (error - 2 * e_prev + e_prev2) / period
+    proportional, integral = error - e_prev, error * period
+    derivative = (error - 2 * e_prev + e_prev2) / period
     gains = tuple(
         # Gradient of error^2/2 through the model's sensitivity; the model's output is the error itself,
         # so descent has the sign of -sensitivity.

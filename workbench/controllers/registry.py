@@ -14,7 +14,6 @@ from workbench.controllers.rbf_pid import rbf_pid, rbf_pid_printed
 from workbench.controllers.yang2021 import pocrac, rbfnn_pocrac
 from workbench.scenario import ControllerSpec, Scenario
 
-
 LAWS: dict[str, ControlLaw] = {law.id: law for law in (rbfnn_pocrac, pocrac, pid, rbf_pid, rbf_pid_printed)}
 
 _held = sp.Symbol("u_held", real=True)
@@ -36,4 +35,6 @@ class SampledController(Protocol):
         ...
 
 
-SAMPLED: dict[str, Callable[[Scenario, ControllerSpec, str], SampledController]] = {"mpc.tracking": TrackingMpc}
+SAMPLED: dict[str, Callable[[Scenario, ControllerSpec, str], SampledController]] = {
+    "mpc.tracking": TrackingMpc,
+}

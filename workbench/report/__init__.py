@@ -1,0 +1,1 @@
+"""Numbers and verdicts as figures, formulas and one self-contained page."""

@@ -4,7 +4,7 @@
 is joined to them. The plant is integrated by fixed-step RK4 between samples; the command is held.
 """
 
-# ruff: noqa: F821, D103, ANN001, ANN201
+# ruff: noqa: F821, D103, ANN001, ANN201, PLR0912, PLR0915
 # mypy: ignore-errors
 
 import math
@@ -70,6 +70,20 @@ def closed_loop(first, count, per_sample, dt, state, hints, breaks, coefficients
         curve_hint, x_d, xdot_d, xddot_d = desired(t, curve_hint, breaks, coefficients)
         e_p = p - x_d
         e_v = v - xdot_d
+        # Before the law is asked, so that the error with which a run leaves a law's domain is counted too.
+        acc[0] += 1.0
+        if e_p < acc[1] or e_p > acc[2]:
+            if acc[0] == 1.0 or abs(e_p) > max(abs(acc[1]), abs(acc[2])):
+                acc[14] = t
+            acc[1] = min(acc[1], e_p)
+            acc[2] = max(acc[2], e_p)
+        acc[3] = min(acc[3], e_v)
+        acc[4] = max(acc[4], e_v)
+        acc[5] += e_p * e_p
+        acc[6] += e_v * e_v
+        if abs(e_p) > band:
+            acc[10] += 1.0
+        acc[13] = min(acc[13], v)
         if n % per_sample == 0:
             if not domain_margin(p, v, x_d, xdot_d, xddot_d, period, parameters) > 0.0:
                 state[0], state[1], state[2], state[3] = p, v, u, force
@@ -86,19 +100,6 @@ def closed_loop(first, count, per_sample, dt, state, hints, breaks, coefficients
                 acc[9] += 1.0
             acc[11] = max(acc[11], u)
             acc[12] = min(acc[12], u)
-        acc[0] += 1.0
-        if e_p < acc[1] or e_p > acc[2]:
-            if acc[0] == 1.0 or abs(e_p) > max(abs(acc[1]), abs(acc[2])):
-                acc[14] = t
-            acc[1] = min(acc[1], e_p)
-            acc[2] = max(acc[2], e_p)
-        acc[3] = min(acc[3], e_v)
-        acc[4] = max(acc[4], e_v)
-        acc[5] += e_p * e_p
-        acc[6] += e_v * e_v
-        if abs(e_p) > band:
-            acc[10] += 1.0
-        acc[13] = min(acc[13], v)
         if n % log_every == 0 and n // log_every < log.shape[0]:
             row = n // log_every
             log[row, 0], log[row, 1], log[row, 2], log[row, 3] = t, p, v, x_d

@@ -1,0 +1,10 @@
+"""What every test starts from: a kernel cache beside the code, and hypothesis without chance or clock."""
+
+import os
+from pathlib import Path
+
+from hypothesis import settings
+
+os.environ.setdefault("WORKBENCH_CACHE", str(Path(__file__).parent.parent / ".cache"))
+settings.register_profile("fixed", derandomize=True, deadline=None)
+settings.load_profile("fixed")

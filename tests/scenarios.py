@@ -1,0 +1,84 @@
+"""Scenarios the tests run: the shipped ones, and a short line on which a run takes a fraction of a second."""
+
+import tomllib
+from pathlib import Path
+
+from workbench.controllers.base import ControlLaw
+from workbench.controllers.registry import LAWS
+from workbench.scenario import ControllerSpec, Scenario
+from workbench.toml_input import validate_record
+from workbench.track import Track
+
+BENCHMARKS = sorted((Path(__file__).parent.parent / "benchmarks").glob("*.toml"))
+YANG = Path(__file__).parent.parent / "benchmarks" / "yang2021.toml"
+
+SHORT_LINE = {
+    "name": "short line",
+    "length_m": 900.0,
+    "grade": [
+        {"start_m": 0.0, "end_m": 15.0, "grade_permille": 2.0},
+        {"start_m": 15.0, "end_m": 400.0, "grade_permille": -3.0},
+        {"start_m": 400.0, "end_m": 900.0, "grade_permille": 4.0},
+    ],
+    "curve": [
+        {"start_m": 0.0, "end_m": 300.0, "radius_m": float("inf")},
+        {"start_m": 300.0, "end_m": 900.0, "radius_m": 400.0},
+    ],
+    "tunnel": [{"start_m": 500.0, "end_m": 600.0, "resistance_n_per_kn": 1.5}],
+}
+SHORT_REFERENCE = {
+    "kind": "cruise_speed", "cruise_mps": 15.0, "acceleration_mps2": 0.4, "braking_mps2": 0.5, "ramp_s": 6.0,
+}
+
+
+def _sourced(values: dict) -> dict:
+    return values | {"source": dict.fromkeys(values, "assumed: a test")}
+
+
+def short_scenario(**changes: object) -> Scenario:
+    """yang2021's train and controllers on the short line; changes by dotted key, written with `__`."""
+    data = tomllib.loads(YANG.read_text(encoding="utf-8"))
+    track = validate_record(_sourced(SHORT_LINE), Track, "short line")
+    data |= {"track": track, "reference": _sourced(SHORT_REFERENCE)}
+    data["simulation"] |= {"plant_step_s": 0.01, "dwell_s": 2.0, "log_every_s": 0.01}
+    for spec in data["controllers"].values():
+        spec["period_s"] = 0.1 if spec["law"].startswith("mpc") else 0.01
+    for key, value in changes.items():
+        *parents, last = key.split("__")
+        table = data
+        for parent in parents:
+            table = table[parent]
+        if "source" in table and last not in table["source"]:
+            table["source"][last] = "assumed: a test"
+        table[last] = value
+    return validate_record(data, Scenario, "short scenario")
+
+
+def with_law(scenario: Scenario, law: ControlLaw, period_s: float, estimates: str = "corrected") -> Scenario:
+    """The scenario with one controller, 'only', that runs `law` with `values_for` it."""
+    spec = values_for(law) | {"law": law.id, "period_s": period_s, "estimates": estimates}
+    only = validate_record(_sourced(spec), ControllerSpec, f"controller for {law.id}")
+    return scenario.model_copy(update={"controllers": {"only": only}, "printed_table": None})
+
+
+def values_for(law: ControlLaw) -> dict:
+    """Values with which a law can run: those of a shipped scenario whose law has the same names, else plain."""
+    for path in BENCHMARKS:
+        for spec in tomllib.loads(path.read_text(encoding="utf-8"))["controllers"].values():
+            other = LAWS.get(spec["law"])
+            if other and set(other.parameters) == set(law.parameters) and \
+                    {s.symbol for s in other.states} == {s.symbol for s in law.states}:
+                return {key: spec[key] for key in ("parameters", "initial", "neurons") if key in spec}
+    values: dict = {
+        "parameters": {str(s): 0.5 for s in law.parameters},
+        "initial": {str(s.symbol): 0.1 for s in law.scalar_states},
+    }
+    indexed = (*(s.symbol for s in law.neuron_states), *law.neuron_data)
+    bases = [str(symbol.base.label) for symbol in indexed]
+    if bases:
+        inputs = sum(base[:2] == "c_" and base[2:].isdigit() for base in bases)
+        placed = {"b_h", "b_before"} | {base for base in bases if base.startswith("c_")}
+        values["initial"] |= {base: 0.1 for base in bases if base not in placed}
+        values["neurons"] = _sourced({"count": 5, "first_center": 0.0, "last_center": 900.0,
+                                      "other_centers": [1.0] * (inputs - 1), "width": 100.0})
+    return values

@@ -1,0 +1,804 @@
+"""Re-check certificates with exact arithmetic alone. Standard library only; knows nothing of who made them.
+
+A certificate states a goal: for all real values of its symbols, the relations in `assume` imply those in
+`show`. Expressions are Python syntax over + - * / **, log, exp, Sum(...) (over any number n of indexed
+symbols, formally) and D(...) (derivative along `flow`, which maps symbols to their rates).
+`proved` carries a proof, `refuted`/`violated`/`gap` a point (or functions of time) where the goal fails.
+
+What must be believed: this file, and the facts named in `fact`: log x <= x - 1 (x > 0), exp x >= 1 + x,
+exp x > 0; a function whose derivative is never positive does not increase.
+"""
+
+from __future__ import annotations
+
+import ast
+import json
+import sys
+from fractions import Fraction
+from pathlib import Path
+from typing import Any
+
+SUM = "Sum()"  # the formal sum over the index: a product SUM * term means the sum of the terms
+FLIP = {"<=": ">=", "<": ">"}
+OPERATORS = ("<=", ">=", "==", "!=", "<", ">")
+
+Monomial = tuple[tuple[str, int], ...]
+Poly = dict[Monomial, Fraction]
+Sign = tuple["Ratio", str]  # a value and what is known of it: > 0, >= 0, == 0 or != 0
+
+
+class CertificateError(Exception):
+    """The certificate does not establish its verdict; says why."""
+
+
+# --- polynomials and rational functions over atoms --------------------------------------------------------
+
+
+def constant(value: Fraction | int) -> Poly:
+    """A constant polynomial; zero is the empty one."""
+    return {(): Fraction(value)} if value else {}
+
+
+def add(a: Poly, b: Poly, scale: Fraction | int = 1) -> Poly:
+    """a + scale * b."""
+    total = dict(a)
+    for monomial, coefficient in b.items():
+        value = total.get(monomial, Fraction(0)) + scale * coefficient
+        if value:
+            total[monomial] = value
+        else:
+            total.pop(monomial, None)
+    return total
+
+
+def times_monomial(one: Monomial, two: Monomial) -> Monomial:
+    """Product of two monomials; powers that vanish are dropped."""
+    powers = dict(one)
+    for atom, power in two:
+        powers[atom] = powers.get(atom, 0) + power
+    return tuple(sorted((a, n) for a, n in powers.items() if n))
+
+
+def multiply(a: Poly, b: Poly) -> Poly:
+    """a * b."""
+    total: Poly = {}
+    for m1, c1 in a.items():
+        for m2, c2 in b.items():
+            monomial = times_monomial(m1, m2)
+            total[monomial] = total.get(monomial, Fraction(0)) + c1 * c2
+    return {m: c for m, c in total.items() if c}
+
+
+def divide_exactly(a: Poly, b: Poly) -> Poly | None:
+    """a / b when b divides a, else None."""
+    atoms = sorted({x for m in (*a, *b) for x, _ in m})
+
+    def order(monomial: Monomial) -> tuple[int, ...]:
+        powers = dict(monomial)
+        return tuple(powers.get(x, 0) for x in atoms)
+
+    if not b:
+        return None
+    lead = max(b, key=order)
+    quotient: Poly = {}
+    rest = dict(a)
+    while rest:
+        top = max(rest, key=order)
+        step = times_monomial(top, tuple((x, -n) for x, n in lead))
+        if any(n < 0 for _, n in step):
+            return None
+        term = {step: rest[top] / b[lead]}
+        quotient = add(quotient, term)
+        rest = add(rest, multiply(term, b), -1)
+    return quotient
+
+
+class Ratio:
+    """A rational function: numerator and non-zero denominator polynomial over atoms."""
+
+    def __init__(self, num: Poly, den: Poly | None = None) -> None:
+        self.num, self.den = num, den if den is not None else constant(1)
+        if not self.den:
+            raise CertificateError("division by zero")
+        if any(atom == SUM for m in self.den for atom, _ in m):
+            raise CertificateError("division by a sum")
+        if any(power > 1 for m in self.num for atom, power in m if atom == SUM):
+            raise CertificateError("a product of two sums")
+        if len(self.den) > 1:
+            whole = divide_exactly(self.num, self.den)
+            if whole is not None:
+                self.num, self.den = whole, constant(1)
+        else:  # a single term below: cancel it as far as it goes
+            (monomial, coefficient), = self.den.items()
+            shared = [(x, min(n, *(dict(m).get(x, 0) for m in self.num))) if self.num else (x, n)
+                      for x, n in monomial]
+            below = tuple((x, -n) for x, n in shared if n)
+            self.num = {times_monomial(m, below): c / coefficient for m, c in self.num.items()}
+            self.den = {times_monomial(monomial, below): Fraction(1)}
+
+    def __add__(self, other: Ratio) -> Ratio:
+        if self.den == other.den:
+            return Ratio(add(self.num, other.num), self.den)
+        return Ratio(add(multiply(self.num, other.den), multiply(other.num, self.den)),
+                     multiply(self.den, other.den))
+
+    def __mul__(self, other: Ratio) -> Ratio:
+        return Ratio(multiply(self.num, other.num), multiply(self.den, other.den))
+
+    def __neg__(self) -> Ratio:
+        return Ratio(add({}, self.num, -1), self.den)
+
+    def inverse(self) -> Ratio:
+        """One over it; CertificateError for zero."""
+        return Ratio(self.den, self.num)
+
+    def is_zero(self) -> bool:
+        """Whether it is zero as a rational function, hence wherever it is defined."""
+        return not self.num
+
+
+def number(value: Fraction | int) -> Ratio:
+    """A rational number as a Ratio."""
+    return Ratio(constant(value))
+
+
+def symbol(name: str) -> Ratio:
+    """An atom as a Ratio."""
+    return Ratio({((name, 1),): Fraction(1)})
+
+
+def same(a: Ratio, b: Ratio) -> bool:
+    """Whether two rational functions are equal."""
+    return (a + -b).is_zero()
+
+
+def atoms_of(value: Ratio) -> set[str]:
+    """The atoms in numerator and denominator."""
+    return {atom for m in (*value.num, *value.den) for atom, _ in m}
+
+
+# --- expressions ------------------------------------------------------------------------------------------
+
+
+def parse(text: str) -> ast.expr:
+    """The syntax tree of an expression; nothing is evaluated."""
+    try:
+        return ast.parse(text, mode="eval").body
+    except (SyntaxError, ValueError, RecursionError, MemoryError):
+        raise CertificateError(f"cannot read '{text[:80]}'") from None
+
+
+class Context:
+    """Reads expressions of one goal into Ratios; log and exp of an argument become atoms."""
+
+    def __init__(self, flow: dict[str, str], indexed: list[str]) -> None:
+        self.functions: dict[str, tuple[str, Ratio]] = {}
+        self.indexed = set(indexed)
+        self.flow: dict[str, Ratio] = {}
+        for name, rate in flow.items():
+            self.flow[name] = self.term(rate) if name in self.indexed else self.read(rate)
+
+    def read(self, text: str) -> Ratio:
+        """The value of an expression in which indexed symbols stand only inside Sum(...)."""
+        self._require_bound(parse(text), text)
+        return self.node(parse(text))
+
+    def term(self, text: str) -> Ratio:
+        """The value of an expression of one index, as it stands inside Sum(...)."""
+        return self.node(parse(text))
+
+    def _require_bound(self, tree: ast.AST, text: str) -> None:
+        if isinstance(tree, ast.Call) and isinstance(tree.func, ast.Name) and tree.func.id == "Sum":
+            return
+        if isinstance(tree, ast.Name) and tree.id in self.indexed:
+            raise CertificateError(f"indexed symbol '{tree.id}' outside a sum in '{text}'")
+        for child in ast.iter_child_nodes(tree):
+            self._require_bound(child, text)
+
+    def node(self, node: ast.expr) -> Ratio:
+        """The value of a syntax tree."""
+        match node:
+            case ast.Constant(value=int(value)) if not isinstance(value, bool):
+                return number(value)
+            case ast.Name(id=name):
+                return symbol(name)
+            case ast.UnaryOp(op=ast.USub(), operand=inner):
+                return -self.node(inner)
+            case ast.BinOp(left=left, op=ast.Pow(), right=right):
+                return self.power(self.node(left), self.node(right))
+            case ast.BinOp(left=left, op=op, right=right):
+                a, b = self.node(left), self.node(right)
+                match op:
+                    case ast.Add():
+                        return a + b
+                    case ast.Sub():
+                        return a + -b
+                    case ast.Mult():
+                        return a * b
+                    case ast.Div():
+                        return a * b.inverse()
+            case ast.Call(func=ast.Name(id=name), args=[inner], keywords=[]):
+                return self.call(name, self.node(inner))
+        raise CertificateError(f"'{ast.unparse(node)}' is not an expression of the certificate language")
+
+    @staticmethod
+    def power(base: Ratio, exponent: Ratio) -> Ratio:
+        """base**exponent for a whole number."""
+        value = exponent.num.get((), Fraction(0))
+        whole = exponent.den == constant(1) and set(exponent.num) <= {()} and value.denominator == 1
+        if not whole or abs(value) > 64:
+            raise CertificateError("powers must be whole numbers up to 64")
+        result = number(1)
+        for _ in range(abs(int(value))):
+            result = result * base
+        return result if value >= 0 else result.inverse()
+
+    def call(self, name: str, argument: Ratio) -> Ratio:
+        """Sum, D, log or exp of an argument."""
+        if name == "Sum":
+            return argument * symbol(SUM)
+        if name == "D":
+            return self.derivative(argument, self.flow)
+        if SUM in atoms_of(argument):
+            raise CertificateError(f"{name} of a sum")
+        if name == "log":
+            return self._log(argument)
+        if name == "exp":
+            return self._exp(argument)
+        raise CertificateError(f"unknown function '{name}'")
+
+    def _log(self, argument: Ratio) -> Ratio:
+        if same(argument, number(1)):
+            return number(0)
+        if set(argument.num) <= {()} and argument.den == constant(1) and argument.num.get((), 0) <= 0:
+            raise CertificateError("log of a number that is not positive")
+        for atom, (kind, known) in self.functions.items():
+            if kind == "log" and same(known, argument):
+                return symbol(atom)
+            if kind == "log" and same(known * argument, number(1)):
+                return Ratio({((atom, 1),): Fraction(-1)})
+        return self._new("log", argument)
+
+    def _exp(self, argument: Ratio) -> Ratio:
+        factor = number(1)
+        if argument.den == constant(1):  # exp(x + c log A) = exp(x) A**c for whole c
+            for monomial, coefficient in list(argument.num.items()):
+                atom, power = monomial[0] if len(monomial) == 1 else ("", 0)
+                kind, inner = self.functions.get(atom, ("", argument))
+                if kind == "log" and power == 1 and coefficient.denominator == 1:
+                    factor = factor * self.power(inner, number(coefficient))
+                    argument = argument + -Ratio({monomial: coefficient})
+        if argument.is_zero():
+            return factor
+        for atom, (kind, known) in self.functions.items():
+            if kind == "exp" and same(known, argument):
+                return factor * symbol(atom)
+            if kind == "exp" and same(known, -argument):
+                return factor * symbol(atom).inverse()
+        return factor * self._new("exp", argument)
+
+    def _new(self, kind: str, argument: Ratio) -> Ratio:
+        atom = f"{kind}#{len(self.functions)}"
+        self.functions[atom] = (kind, argument)
+        return symbol(atom)
+
+    def derivative(self, value: Ratio, flow: dict[str, Ratio]) -> Ratio:
+        """Total derivative along a flow; symbols without a rate are constant."""
+        d_num, d_den = self._poly_derivative(value.num, flow), self._poly_derivative(value.den, flow)
+        below = Ratio(value.den).inverse()
+        return d_num * below + -(Ratio(value.num) * d_den * below * below)
+
+    def _poly_derivative(self, poly: Poly, flow: dict[str, Ratio]) -> Ratio:
+        total = number(0)
+        for monomial, coefficient in poly.items():
+            for atom, power in monomial:
+                rate = self._rate(atom, flow)
+                if not rate.is_zero():
+                    rest = times_monomial(monomial, ((atom, -1),))
+                    total = total + Ratio({rest: coefficient * power}) * rate
+        return total
+
+    def _rate(self, atom: str, flow: dict[str, Ratio]) -> Ratio:
+        if atom in self.functions:
+            kind, argument = self.functions[atom]
+            inner = self.derivative(argument, flow)
+            return inner * argument.inverse() if kind == "log" else inner * symbol(atom)
+        return flow.get(atom, number(0))
+
+
+# --- signs -------------------------------------------------------------------------------------------------
+
+
+class Relations:
+    """Assumptions in force, as (margin, operator) with margin > 0, >= 0, == 0 or != 0.
+
+    Each is read where the earlier ones hold. `always` holds at every instant along the flow, `initial` names
+    the values of the flow's symbols at time zero; both serve the rule `nonincreasing` only.
+    """
+
+    def __init__(self, context: Context, texts: list[str]) -> None:
+        self.context = context
+        self.margins: list[Sign] = []
+        self.always: list[str] = []
+        self.initial: dict[str, Ratio] = {}
+        self.assume(texts)
+
+    def assume(self, texts: list[str]) -> None:
+        """Add relations, each read where the earlier ones hold."""
+        for text in texts:
+            self.require_defined(text)
+            self.margins.append(margin(self.context, text))
+
+    def with_margins(self, margins: list[Sign]) -> Relations:
+        """The same surroundings with other assumptions."""
+        other = Relations(self.context, [])
+        other.margins, other.always, other.initial = margins, self.always, self.initial
+        return other
+
+    def free_of(self, names: set[str]) -> Relations:
+        """The same list with every assumption about these symbols emptied, so that positions stay."""
+        empty = (number(0), ">=")
+        kept = [empty if depends(self.context, value, names) else (value, op) for value, op in self.margins]
+        return self.with_margins(kept)
+
+    def sign_known(self, poly: Poly, nonzero_only: bool = False) -> bool:
+        """Whether a polynomial is a product of margins known positive (or only non-zero), or obviously so."""
+        known = [r.num for r, op in self.margins if r.den == constant(1) and SUM not in atoms_of(r)
+                 and (op == ">" or (nonzero_only and op == "!="))]
+        known += [symbol(a).num for a, (kind, _) in self.context.functions.items() if kind == "exp"]
+        changed = True
+        while changed and set(poly) != {()}:
+            changed = False
+            for factor in known:
+                quotient = divide_exactly(poly, factor) if set(factor) != {()} else None
+                if quotient is not None:
+                    poly, changed = quotient, True
+        if set(poly) == {()}:
+            return poly[()] > 0 or nonzero_only
+        return self._positive_by_terms(poly)
+
+    def _positive_by_terms(self, poly: Poly) -> bool:
+        signs = {(m, op) for r, op in self.margins if r.den == constant(1) and len(r.num) == 1
+                 for m, c in r.num.items() if c > 0 and len(m) == 1 and m[0][1] == 1}
+        positive = {m[0][0] for m, op in signs if op == ">"}
+        positive |= {a for a, (kind, _) in self.context.functions.items() if kind == "exp"}
+        weak = positive | {m[0][0] for m, op in signs if op == ">="}
+        return (all(c > 0 and all(n % 2 == 0 or a in weak for a, n in m) for m, c in poly.items())
+                and any(all(a in positive for a, _ in m) for m in poly))
+
+    def require_defined(self, text: str) -> None:
+        """Every denominator in `text` must be non-zero and every argument of log positive, for all values."""
+        for part, nonzero_only in partial_operations(text):
+            value = self.context.node(part)
+            if value.is_zero() or not (self.sign_known(value.num, nonzero_only)
+                                       and self.sign_known(value.den, nonzero_only)):
+                wanted = "non-zero" if nonzero_only else "positive"
+                raise CertificateError(f"not shown {wanted}: {ast.unparse(part)}")
+
+    def require_defined_value(self, value: Ratio) -> None:
+        """The same for a value that is no text."""
+        if not self.sign_known(value.den, True):
+            raise CertificateError("a denominator is not shown non-zero")
+        for atom in atoms_of(value) & self.context.functions.keys():
+            kind, argument = self.context.functions[atom]
+            self.require_defined_value(argument)
+            if kind == "log" and not (self.sign_known(argument.num) and self.sign_known(argument.den)):
+                raise CertificateError("an argument of log is not shown positive")
+
+
+def partial_operations(text: str) -> list[tuple[ast.expr, bool]]:
+    """(denominator, True) and (argument of log, False), wherever an expression may be undefined."""
+    places: list[tuple[ast.expr, bool]] = []
+    for side in split_relation(text)[::2] if has_relation(text) else (text,):
+        for node in ast.walk(parse(side)):
+            match node:
+                case ast.BinOp(op=ast.Div(), right=below):
+                    places.append((below, True))
+                case ast.BinOp(left=below, op=ast.Pow(), right=n) if not isinstance(n, ast.Constant):
+                    places.append((below, True))
+                case ast.Call(func=ast.Name(id="log"), args=[inner]):
+                    places.append((inner, False))
+    return places
+
+
+def depends(context: Context, value: Ratio, names: set[str]) -> bool:
+    """Whether a value mentions one of the symbols, inside functions too."""
+    inner = [context.functions[atom][1] for atom in atoms_of(value) & context.functions.keys()]
+    return bool(atoms_of(value) & names) or any(depends(context, argument, names) for argument in inner)
+
+
+def has_relation(text: str) -> bool:
+    """Whether the text is a relation rather than an expression."""
+    return any(f" {operator} " in text for operator in OPERATORS)
+
+
+def split_relation(text: str) -> tuple[str, str, str]:
+    """(left, operator, right) of 'left <= right' and the like."""
+    found = [operator for operator in OPERATORS if f" {operator} " in text]
+    if len(found) != 1 or text.count(f" {found[0]} ") != 1:
+        raise CertificateError(f"'{text}' is no single relation")
+    left, _, right = text.partition(f" {found[0]} ")
+    return left, found[0], right
+
+
+def margin(context: Context, text: str) -> Sign:
+    """A relation as (value, operator): value > 0, >= 0, == 0 or != 0."""
+    left, operator, right = split_relation(text)
+    a, b = context.read(left), context.read(right)
+    if operator in ("<=", "<"):
+        return b + -a, FLIP[operator]
+    return a + -b, operator
+
+
+# --- proofs ------------------------------------------------------------------------------------------------
+
+
+def prove(value: Ratio, operator: str, given: Relations, proof: dict[str, Any]) -> None:
+    """Raise CertificateError unless `proof` shows value > 0, >= 0 or == 0 under the relations given."""
+    rules = {"identity": _identity, "combination": _combination, "cut": _cut, "monotone": _monotone,
+             "nonincreasing": _nonincreasing}
+    if proof.get("rule") not in rules:
+        raise CertificateError(f"unknown rule '{proof.get('rule')}'")
+    rules[proof["rule"]](value, operator, given, proof)
+
+
+def _identity(value: Ratio, operator: str, given: Relations, proof: dict[str, Any]) -> None:
+    if not value.is_zero() or operator not in ("==", ">="):
+        raise CertificateError("the two sides differ")
+
+
+def _cut(value: Ratio, operator: str, given: Relations, proof: dict[str, Any]) -> None:
+    """First the lemma, then the goal with the lemma as one more assumption."""
+    given.require_defined(proof["lemma"])
+    lemma = margin(given.context, proof["lemma"])
+    prove(*lemma, given, proof["proof"])
+    prove(value, operator, given.with_margins([*given.margins, lemma]), proof["then"])
+
+
+def _monotone(value: Ratio, operator: str, given: Relations, proof: dict[str, Any]) -> None:
+    """value(x) >= value(start) for x >= start, when value is defined and d value/dx >= 0 from start on."""
+    context, name = given.context, proof["variable"]
+    start = context.read(proof["from"])
+    step = symbol(name) + -start
+    if not any(same(known, step) and op in (">=", ">") for known, op in given.margins):
+        raise CertificateError(f"{name} >= {proof['from']} is not among the assumptions")
+    if depends(context, start, {name}):
+        raise CertificateError("the start depends on the variable")
+    elsewhere = given.free_of({name})  # what is assumed of x itself need not hold between start and x
+    between = elsewhere.with_margins([*elsewhere.margins, (step, ">=")])
+    between.require_defined_value(value)
+    prove(context.derivative(value, {name: number(1)}), ">=", between, proof["derivative"])
+    prove(substitute(context, value, {name: start}), operator, elsewhere, proof["at_start"])
+
+
+def _nonincreasing(value: Ratio, operator: str, given: Relations, proof: dict[str, Any]) -> None:
+    """A function of the flow whose derivative is never positive is at most what it was at time zero."""
+    context = given.context
+    if not given.initial or set(given.initial) != set(context.flow):
+        raise CertificateError("the goal names no initial values for its flow")
+    # Assumptions of the final instant say nothing of earlier ones: only those of constants are kept.
+    changing = (*context.flow.values(), *given.initial.values())
+    moving = set(context.flow).union(*(atoms_of(value) for value in changing))
+    along = given.free_of(moving)
+    along.assume(given.always)
+    along.require_defined(proof["function"])
+    function = context.read(proof["function"])
+    prove(-context.derivative(function, context.flow), ">=", along, proof["decrease"])
+    drop = substitute(context, function, given.initial) + -function
+    prove(value, operator, given.with_margins([*given.margins, (drop, ">=")]), proof["then"])
+
+
+def _factor(given: Relations, item: dict[str, Any]) -> Sign:
+    """(value, sign) of a factor of a combination; sign is '>', '>=', '==' (zero) or 'any'."""
+    context = given.context
+    match item:
+        case {"assume": int(i)}:
+            return given.margins[i]
+        case {"inverse": int(i)} if given.margins[i][1] == ">":
+            return given.margins[i][0].inverse(), ">"
+        case {"square_of": int(i)} if given.margins[i][1] == "!=":
+            return given.margins[i][0] * given.margins[i][0], ">"
+        case {"square": str(text)}:
+            given.require_defined(text)
+            root = context.read(text)
+            return root * root, ">="
+        case {"sum_of_squares": str(text)}:
+            given.require_defined(text)
+            value = context.term(text)
+            return value * value * symbol(SUM), ">="
+        case {"any": str(text)}:
+            given.require_defined(text)
+            return context.read(text), "any"
+        case {"fact": "log_tangent", "of": str(text)}:
+            given.require_defined(f"log({text})")
+            return context.read(text) + number(-1) + -context.read(f"log({text})"), ">="
+        case {"fact": "exp_tangent", "of": str(text)}:
+            given.require_defined(text)
+            return context.read(f"exp({text})") + number(-1) + -context.read(text), ">="
+        case {"fact": "exp_positive", "of": str(text)}:
+            given.require_defined(text)
+            return context.read(f"exp({text})"), ">"
+    raise CertificateError(f"unknown factor {item}")
+
+
+def _combination(value: Ratio, operator: str, given: Relations, proof: dict[str, Any]) -> None:
+    """multiplier * value = sum of coefficient * product of factors, all of known sign."""
+    scale = number(1)
+    for item in proof.get("multiplier", []):
+        factor, sign = _factor(given, item)
+        if sign != ">":
+            raise CertificateError("the multiplier is not strictly positive")
+        scale = scale * factor
+    total, strict = number(0), False
+    for term in proof["terms"]:
+        coefficient = Fraction(term["coefficient"])
+        product = number(coefficient)
+        signs: list[str] = []
+        for item in term["factors"]:
+            factor, sign = _factor(given, item)
+            product, signs = product * factor, [*signs, sign]
+        if "==" not in signs and (coefficient < 0 or not set(signs) <= {">", ">="}):
+            raise CertificateError(f"a term may be negative: {term}")
+        strict |= coefficient > 0 and set(signs) <= {">"}
+        total = total + product
+    if operator == "==" and not (proof["terms"] == [] or all(
+            any(_factor(given, f)[1] == "==" for f in t["factors"]) for t in proof["terms"])):
+        raise CertificateError("an equality needs equalities")
+    if operator == ">" and not strict:
+        raise CertificateError("no strictly positive term")
+    if operator not in (">", ">=", "==") or not same(scale * value, total):
+        raise CertificateError("the combination does not add up to the goal")
+
+
+def substitute(context: Context, value: Ratio, point: dict[str, Ratio]) -> Ratio:
+    """The value with symbols replaced, inside functions too."""
+
+    def poly(p: Poly) -> Ratio:
+        total = number(0)
+        for monomial, coefficient in p.items():
+            product = number(coefficient)
+            for atom, power in monomial:
+                base = point.get(atom, symbol(atom))
+                if atom in context.functions:
+                    kind, argument = context.functions[atom]
+                    inner = substitute(context, argument, point)
+                    base = context.call(kind, inner)
+                product = product * context.power(base, number(power))
+            total = total + product
+        return total
+
+    return poly(value.num) * poly(value.den).inverse()
+
+
+# --- values at a point: rational intervals -----------------------------------------------------------------
+
+PRECISION = Fraction(1, 10**30)
+
+
+def exp_bounds(x: Fraction) -> tuple[Fraction, Fraction]:
+    """Rational bounds of exp(x)."""
+    if x < 0:
+        low, high = exp_bounds(-x)
+        return 1 / high, 1 / low
+    halvings = 0
+    while x > Fraction(1, 2):
+        x, halvings = x / 2, halvings + 1
+    total, term, k = Fraction(1), Fraction(1), 0
+    while term > PRECISION:
+        k += 1
+        term = term * x / k
+        total += term
+    low, high = total, total + term  # the tail is below the last term for x <= 1/2
+    for _ in range(halvings):
+        low, high = _round(low * low, -1), _round(high * high, 1)
+    return low, high
+
+
+def log_bounds(x: Fraction) -> tuple[Fraction, Fraction]:
+    """Rational bounds of log(x), x > 0, by 2 atanh((x-1)/(x+1)) after scaling by powers of 2."""
+    if x <= 0:
+        raise CertificateError("log of a number that is not positive")
+    doublings = 0
+    while x > Fraction(3, 2):
+        x, doublings = x / 2, doublings + 1
+    while x < Fraction(3, 4):
+        x, doublings = x * 2, doublings - 1
+    low, high = _atanh_bounds((x - 1) / (x + 1))
+    if doublings:
+        two_low, two_high = _atanh_bounds(Fraction(1, 3))
+        low += doublings * (two_low if doublings > 0 else two_high)
+        high += doublings * (two_high if doublings > 0 else two_low)
+    return 2 * low, 2 * high
+
+
+def _atanh_bounds(z: Fraction) -> tuple[Fraction, Fraction]:
+    total, power, k = Fraction(0), z, 0
+    while abs(power) > PRECISION:
+        total, power, k = total + power / (2 * k + 1), power * z * z, k + 1
+    slack = abs(power) / (1 - z * z)
+    return total - slack, total + slack
+
+
+def _round(x: Fraction, direction: int) -> Fraction:
+    """x rounded outwards to a few dozen significant digits, to keep fractions short."""
+    scale = 10**40
+    while abs(x) * scale < 10**30 and x:
+        scale *= 10**10
+    whole = x.numerator * scale // x.denominator
+    return Fraction(whole + (direction > 0), scale)
+
+
+def bounds(context: Context, value: Ratio) -> tuple[Fraction, Fraction]:
+    """Rational bounds of a value without free symbols (n = 1 for sums)."""
+
+    def poly(p: Poly) -> tuple[Fraction, Fraction]:
+        low = high = Fraction(0)
+        for monomial, coefficient in p.items():
+            a, b = coefficient, coefficient
+            for atom, power in monomial:
+                if atom == SUM:
+                    continue
+                if atom not in context.functions:
+                    raise CertificateError(f"symbol '{atom}' has no value at the point")
+                kind, argument = context.functions[atom]
+                x, y = bounds(context, argument)
+                function = log_bounds if kind == "log" else exp_bounds
+                inner = function(x)[0], function(y)[1]
+                for _ in range(power):
+                    corners = [p * q for p in (a, b) for q in inner]
+                    a, b = min(corners), max(corners)
+            low, high = low + a, high + b
+        return low, high
+
+    (a, b), (c, d) = poly(value.num), poly(value.den)
+    if c <= 0 <= d:
+        raise CertificateError("a denominator is zero at the point")
+    corners = [p / q for p in (a, b) for q in (c, d)]
+    return min(corners), max(corners)
+
+
+def holds(context: Context, text: str, point: dict[str, Ratio]) -> bool:
+    """Whether a relation holds at a point; an error where it is undefined or the enclosure cannot tell."""
+    for part, nonzero_only in partial_operations(text):
+        low, high = bounds(context, substitute(context, context.node(part), point))
+        if not (low > 0 or (nonzero_only and high < 0)):
+            raise CertificateError(f"undefined at the point: {ast.unparse(part)}")
+    value, operator = margin(context, text)
+    low, high = bounds(context, substitute(context, value, point))
+    verdict = {">": (low > 0, high <= 0), ">=": (low >= 0, high < 0),
+               "==": (low == high == 0, low > 0 or high < 0), "!=": (low > 0 or high < 0, low == high == 0)}
+    true, false = verdict[operator]
+    if not (true or false):
+        raise CertificateError(f"the enclosure at the point is too wide to decide: {text}")
+    return true
+
+
+# --- certificates ------------------------------------------------------------------------------------------
+
+
+def read_goal(goal: dict[str, Any]) -> tuple[Context, Relations]:
+    """The goal's context and its assumptions."""
+    context = Context(goal.get("flow", {}), goal.get("indexed", []))
+    given = Relations(context, goal.get("assume", []))
+    given.always = goal.get("always", [])
+    given.initial = {name: context.read(text) for name, text in goal.get("initial", {}).items()}
+    return context, given
+
+
+def check_proved(goal: dict[str, Any], certificate: dict[str, Any]) -> None:
+    """A proof of every relation in `show`, and a point that meets all assumptions (nothing from nothing)."""
+    if goal.get("eventually"):
+        raise CertificateError("a claim of some later time is proved by naming that time")
+    context, given = read_goal(goal)
+    point = read_point(context, certificate["example"])
+    for text in (*goal.get("assume", []), *goal.get("always", [])):
+        if not holds(context, text, point):
+            raise CertificateError(f"the example breaks the assumption {text}")
+    if not goal["show"] or len(goal["show"]) != len(certificate["proofs"]):
+        raise CertificateError("one proof is needed for every relation shown")
+    for text, proof in zip(goal["show"], certificate["proofs"], strict=True):
+        given.require_defined(text)
+        prove(*margin(context, text), given, proof)
+
+
+def check_false(goal: dict[str, Any], certificate: dict[str, Any]) -> None:
+    """A point, or functions of time, where every assumption holds and a relation in `show` does not."""
+    if "functions" in certificate:
+        _check_model(goal, certificate)
+        return
+    if goal.get("eventually"):
+        raise CertificateError("a point says nothing of later times")
+    context, _ = read_goal(goal)
+    point = read_point(context, certificate["point"])
+    for text in (*goal.get("assume", []), *goal.get("always", [])):
+        if not holds(context, text, point):
+            raise CertificateError(f"the point breaks the assumption {text}")
+    outcomes = [holds(context, text, point) for text in goal["show"]]  # all of them: each must be defined
+    if all(outcomes):
+        raise CertificateError("the goal holds at the point")
+
+
+def _check_model(goal: dict[str, Any], certificate: dict[str, Any]) -> None:
+    """Functions of t for the flow's symbols, each rate being a free symbol: what is assumed always holds for
+    all t >= 0, and the relation shown fails for all t >= 0."""
+    time = goal["eventually"]
+    rates = {name: rate for name, rate in goal["flow"].items() if name != time}
+    if goal["flow"].get(time) != "1" or set(certificate["functions"]) != set(rates) or len(goal["show"]) != 1:
+        raise CertificateError("the model must give every moving symbol as a function of time")
+    context = Context({time: "1"}, [])
+    values = {name: context.read(text) for name, text in certificate["functions"].items()}
+    for name, rate in rates.items():
+        if not rate.isidentifier() or rate in values:
+            raise CertificateError("the model needs flows whose rates are free")
+        values[rate] = context.derivative(values[name], context.flow)
+    point = read_point(context, certificate["point"])
+    start = {name: substitute(context, value, {time: number(0)}) for name, value in values.items()}
+    for name, text in goal.get("initial", {}).items():
+        if name != time and not same(substitute(context, context.read(text), point), start[name]):
+            raise CertificateError(f"the model does not start at {text}")
+    for text in goal.get("assume", []):
+        if not holds(context, text, point):
+            raise CertificateError(f"the model breaks the assumption {text}")
+    later = Relations(context, [f"{time} >= 0"])
+
+    def along(text: str) -> Sign:
+        value, operator = margin(context, text)
+        value = substitute(context, substitute(context, value, values), point)
+        later.require_defined_value(value)
+        return value, operator
+
+    for text, proof in zip(goal["always"], certificate["always"], strict=True):
+        prove(*along(text), later, proof)
+    value, operator = along(goal["show"][0])
+    prove(-value, {">=": ">", ">": ">="}[operator], later, certificate["fails"])
+
+
+def read_point(context: Context, point: dict[str, str]) -> dict[str, Ratio]:
+    """Rational values 'p/q' of symbols."""
+    return {name: number(Fraction(text)) for name, text in point.items()}
+
+
+CHECKS = {"proved": check_proved, "refuted": check_false, "violated": check_false, "gap": check_false}
+
+
+def check(certificate: dict[str, Any]) -> None:
+    """Raise CertificateError, with the reason, unless the certificate establishes its verdict."""
+    try:
+        verdict, goal = certificate["verdict"], certificate["goal"]
+        if certificate.get("version") != 1 or verdict not in CHECKS:
+            raise CertificateError(f"version {certificate.get('version')}, {verdict}: not for this checker")
+        CHECKS[verdict](goal, certificate)
+        for name in ("correction", "repair"):
+            if name in certificate:
+                check_proved(certificate[name]["goal"], certificate[name])
+    except (KeyError, TypeError, ValueError, IndexError, AttributeError, ZeroDivisionError) as trouble:
+        raise CertificateError(f"malformed: {type(trouble).__name__} {trouble}") from None
+
+
+def check_folder(folder: Path) -> list[tuple[Path, str, str | None]]:
+    """(file, verdict, reason it is invalid or None) for every certificate below a folder."""
+    results: list[tuple[Path, str, str | None]] = []
+    for path in sorted(folder.rglob("*.json")):
+        verdict = "?"
+        try:
+            certificate = json.loads(path.read_text(encoding="utf-8"))
+            verdict = str(certificate.get("verdict")) if isinstance(certificate, dict) else "?"
+            check(certificate)
+            results.append((path, verdict, None))
+        except (CertificateError, ValueError, AttributeError) as trouble:
+            results.append((path, verdict, str(trouble)))
+    return results
+
+
+def main() -> int:
+    """Check the folder named on the command line; 0 when all certificates hold, 1 when not, 2 when none."""
+    folder = Path(sys.argv[1]) if len(sys.argv) == 2 else Path()
+    results = check_folder(folder)
+    for path, verdict, reason in results:
+        sys.stdout.write(f"{'ok     ' if reason is None else 'INVALID'} {verdict:9s} {path}"
+                         f"{': ' + reason if reason else ''}\n")
+    return 2 if not results else int(any(reason for _, _, reason in results))
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,211 @@
+"""The records of a proof: relations, goals, claims and their verdicts."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from fractions import Fraction
+from typing import Any, Literal
+
+import sympy as sp
+
+from workbench.errors import ClaimError
+
+Kind = Literal["identity", "inequality", "condition", "implication", "limit"]
+Verdict = Literal["proved", "refuted", "violated", "gap", "assumed", "undecided"]
+Operator = Literal["==", "<=", "<", ">=", ">", "!="]
+
+VERDICTS: tuple[Verdict, ...] = ("proved", "refuted", "violated", "gap", "assumed", "undecided")
+FAILED: tuple[Verdict, ...] = ("refuted", "violated", "gap")
+
+
+class D(sp.Function):
+    """Derivative along the goal's flow, left unevaluated so that decider and checker derive it on their own."""
+
+    nargs = 1
+
+
+@dataclass(frozen=True)
+class Relation:
+    """left operator right; never evaluated by sympy, so that nothing is decided by construction."""
+
+    left: sp.Expr
+    operator: Operator
+    right: sp.Expr
+
+    @property
+    def margin(self) -> sp.Expr:
+        """The expression that the relation says is == 0, > 0, >= 0 or != 0."""
+        return self.right - self.left if self.operator in ("<=", "<") else self.left - self.right
+
+    @property
+    def strict(self) -> bool:
+        """Whether the margin must be positive."""
+        return self.operator in ("<", ">")
+
+    def subs(self, values: dict[sp.Expr, sp.Expr]) -> Relation:
+        """The relation with symbols replaced."""
+        return Relation(self.left.xreplace(values), self.operator, self.right.xreplace(values))
+
+    def latex(self) -> str:
+        """LaTeX of the relation."""
+        sign = {"==": "=", "<=": r"\le", ">=": r"\ge", "!=": r"\ne"}.get(self.operator, self.operator)
+        return f"{latex(self.left)} {sign} {latex(self.right)}"
+
+
+def latex(expr: sp.Expr) -> str:
+    """LaTeX of an expression; derivatives along the flow as d/dt."""
+    plain = expr.replace(D, lambda inner: sp.Symbol(rf"\frac{{d}}{{dt}}\left[{sp.latex(inner)}\right]"))
+    return str(sp.latex(plain))
+
+
+def equal(left: Any, right: Any) -> Relation:
+    """left == right."""
+    return Relation(sp.sympify(left), "==", sp.sympify(right))
+
+
+def at_most(left: Any, right: Any) -> Relation:
+    """left <= right."""
+    return Relation(sp.sympify(left), "<=", sp.sympify(right))
+
+
+def less(left: Any, right: Any) -> Relation:
+    """left < right."""
+    return Relation(sp.sympify(left), "<", sp.sympify(right))
+
+
+def at_least(left: Any, right: Any) -> Relation:
+    """left >= right."""
+    return Relation(sp.sympify(left), ">=", sp.sympify(right))
+
+
+def greater(left: Any, right: Any) -> Relation:
+    """left > right."""
+    return Relation(sp.sympify(left), ">", sp.sympify(right))
+
+
+def differ(left: Any, right: Any) -> Relation:
+    """left != right."""
+    return Relation(sp.sympify(left), "!=", sp.sympify(right))
+
+
+@dataclass(frozen=True)
+class Goal:
+    """For all values of the symbols: `assume` implies every relation in `show`.
+
+    The sign that sympy knows of a symbol (positive, nonnegative) is an assumption too. `flow` gives the rates
+    that D(...) uses; `always` holds at every instant along it, `initial` names values at time zero;
+    `eventually` is the time symbol when `show` is claimed only from some time on. `hint` are functions or
+    lemmas that a proof may use; a hint can help a decider, never convince the checker.
+    """
+
+    show: tuple[Relation, ...]
+    assume: tuple[Relation, ...] = ()
+    flow: dict[sp.Expr, sp.Expr] = field(default_factory=dict)
+    always: tuple[Relation, ...] = ()
+    initial: dict[sp.Expr, sp.Expr] = field(default_factory=dict)
+    eventually: sp.Symbol | None = None
+    decreasing: sp.Expr | None = None
+    facts: tuple[sp.Expr, ...] = ()
+    lemmas: tuple[Relation, ...] = ()
+    model: dict[sp.Expr, sp.Expr] = field(default_factory=dict)
+
+    def __post_init__(self) -> None:
+        if not self.show:
+            raise ClaimError("a goal shows nothing: give at least one relation")
+
+    def relations(self) -> tuple[Relation, ...]:
+        """All relations of the goal."""
+        return (*self.show, *self.assume, *self.always)
+
+    def symbols(self) -> list[sp.Expr]:
+        """Free symbols, one per name, indexed symbols by their base's name; sorted by name."""
+        found: set[sp.Expr] = set()
+        exprs = [e for r in self.relations() for e in (r.left, r.right)]
+        for expr in (*exprs, *self.flow, *self.flow.values(), *self.initial.values()):
+            indexed = expr.atoms(sp.Indexed)
+            hidden = {s for i in indexed for s in i.free_symbols}
+            hidden |= {s for total in expr.atoms(sp.Sum) for s in total.bound_symbols}
+            hidden |= {s for total in expr.atoms(sp.Sum) for limit in total.limits for e in limit[1:]
+                       for s in e.free_symbols}
+            found |= {s for s in expr.free_symbols if s not in hidden and not isinstance(s, sp.IndexedBase)}
+            found |= indexed
+        return sorted(found, key=name_of)
+
+    def signs(self) -> tuple[Relation, ...]:
+        """What sympy knows of the symbols, as relations."""
+        known: list[Relation] = []
+        for s in self.symbols():
+            if isinstance(s, sp.Indexed) or s in self.flow:
+                continue
+            if s.is_positive:
+                known.append(greater(s, 0))
+            elif s.is_nonnegative:
+                known.append(at_least(s, 0))
+        return tuple(known)
+
+
+def name_of(symbol: sp.Expr) -> str:
+    """The name under which a symbol or an indexed symbol stands in certificates."""
+    return str(symbol.base.label) if isinstance(symbol, sp.Indexed) else str(symbol)
+
+
+@dataclass(frozen=True)
+class Claim:
+    """One step of a paper: what is printed, in which form it is decided, and what it rests on.
+
+    id: `<paper>:<equation>`; statement: LaTeX as printed; build: makes the goal; premises: ids of claims;
+    at: stated parameters at which a condition is evaluated; correction: builds the nearest true statement;
+    repair: parameters at which a violated condition holds; axiom: a cited result that is assumed;
+    recorded: the verdict on record; reading: how a garbled place was read.
+    """
+
+    id: str
+    title: str
+    kind: Kind
+    statement: str
+    recorded: Verdict
+    build: Callable[[], Goal] | None
+    premises: tuple[str, ...] = ()
+    scope: str = "all values of the domain"
+    at: dict[sp.Expr, Fraction] | None = None
+    correction: Callable[[], Goal] | None = None
+    corrected_statement: str | None = None
+    repair: dict[sp.Expr, Fraction] | None = None
+    axiom: str | None = None
+    note: str = ""
+
+    def __post_init__(self) -> None:
+        paper, _, equation = self.id.partition(":")
+        if not paper or not equation:
+            raise ClaimError(f"claim id '{self.id}': write it as <paper>:<equation>")
+        if self.recorded not in VERDICTS:
+            raise ClaimError(f"claim {self.id}: recorded verdict '{self.recorded}' is none of {', '.join(VERDICTS)}")
+        if (self.build is None) == (self.axiom is None):
+            raise ClaimError(f"claim {self.id}: give either a goal or the axiom it is assumed as")
+
+    @property
+    def paper(self) -> str:
+        """The paper's name."""
+        return self.id.partition(":")[0]
+
+    @property
+    def equation(self) -> str:
+        """The equation's number, with a suffix for a part."""
+        return self.id.partition(":")[2]
+
+
+@dataclass(frozen=True)
+class Decision:
+    """A claim decided: the verdict, the certificate that shows it, and how it was found."""
+
+    claim: Claim
+    verdict: Verdict
+    method: str
+    trust: str | None
+    seconds: float
+    certificate: dict[str, Any] | None = None
+    counterexample: dict[str, str] | None = None
+    correction: str | None = None
+    computed: str | None = None
+    tainted_by: tuple[str, ...] = ()

@@ -1,0 +1,282 @@
+"""Decide an inequality as a non-negative combination of what is assumed, of squares, and of tangent facts.
+
+A linear program over products of assumptions, monomials of known sign and squares of binomials proposes the
+combination; its support is then solved exactly over the rationals. What is returned is only a proposal: the
+certificate counts when `checker.py` has re-checked it.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from fractions import Fraction
+from itertools import combinations, combinations_with_replacement
+from typing import Any
+
+import numpy as np
+import sympy as sp
+from scipy.optimize import linprog
+from scipy.sparse import csc_array
+from sympy.polys.matrices import DomainMatrix
+
+from workbench.errors import ClaimError
+from workbench.proof.claim import Goal, Relation
+from workbench.proof.decide.laurent import (
+    Atoms,
+    Exponents,
+    Item,
+    Laurent,
+    flatten,
+    goal_atoms,
+    multiply,
+    ratio_of,
+    reduce_inverses,
+    shift,
+    to_laurent,
+)
+from workbench.proof.derive import SUM
+from workbench.proof.text import text
+
+MAX_COLUMNS = 20_000
+SUPPORT_TOLERANCE = 1e-9
+
+
+@dataclass(frozen=True)
+class Known:
+    """Something of known sign: its factor items, its value, and whether it is > 0, >= 0 or == 0."""
+
+    items: tuple[Item, ...]
+    value: Laurent
+    sign: str
+
+
+def find_combination(goal: Goal, shown: Relation, relations: tuple[Relation, ...]) -> dict[str, Any] | None:
+    """A proof by combination for one relation from `relations`, in the order the checker sees them, or None."""
+    if shown.operator == "!=":
+        return None
+    atoms = goal_atoms(relations)
+    try:
+        target = to_laurent(flatten(shown.margin, atoms, goal.flow), atoms)
+        known = _known(goal, relations, atoms)
+    except ClaimError:
+        return None
+    for rounds, pairs in ((1, False), (1, True), (2, False), (2, True)):
+        terms = _candidates(target, known, atoms, rounds, pairs)
+        if len(terms) <= MAX_COLUMNS:
+            chosen = _solve(target, terms, shown.strict, len(atoms.generators))
+            if chosen is not None:
+                return {"rule": "combination", "terms": [
+                    {"coefficient": str(c), "factors": list(term.items)} for c, term in chosen]}
+    return None
+
+
+def _known(goal: Goal, relations: tuple[Relation, ...], atoms: Atoms) -> list[Known]:
+    """Assumptions that are more than the sign of a symbol, and the tangent facts of every log and exp."""
+    known = [Known((), {(): Fraction(1)}, ">")]
+    for position, relation in enumerate(relations):
+        if relation.operator == "!=":
+            value = to_laurent(flatten(relation.margin, atoms, goal.flow), atoms)
+            known.append(Known(({"square_of": position},), reduce_inverses(multiply(value, value), atoms), ">"))
+            continue
+        if relation.margin.is_Symbol and relation.operator != "==":
+            continue
+        sign = "==" if relation.operator == "==" else ">" if relation.strict else ">="
+        value = to_laurent(flatten(relation.margin, atoms, goal.flow), atoms)
+        known.append(Known(({"assume": position},), value, sign))
+    arguments = [(argument, "exp_tangent") for argument in goal.facts]
+    for argument in list(atoms.logs):
+        arguments += [(argument, "log_tangent"), (1 / argument, "log_tangent")]
+    for argument in list(atoms.exps):
+        arguments += [(argument, "exp_tangent"), (-argument, "exp_tangent")]
+    for argument, fact in arguments:
+        fact_value = (argument - 1 - sp.log(argument) if fact == "log_tangent"
+                      else sp.exp(argument, evaluate=False) - 1 - argument)
+        value = to_laurent(flatten(fact_value, atoms, {}), atoms)
+        known.append(Known(({"fact": fact, "of": text(argument)},), value, ">="))
+    return known
+
+
+def _monomial(exponents: Exponents, atoms: Atoms) -> tuple[Item, ...] | None:
+    """Factor items of a monomial whose sign is known to be >= 0, else None."""
+    items: list[Item] = []
+    for generator, power in zip(atoms.generators, exponents, strict=False):
+        if power == 0:
+            continue
+        if generator in atoms.positive:
+            item = atoms.positive[generator][0 if power > 0 else 1]
+            if item is None:
+                return None
+            items += [item] * abs(power)
+        elif generator in atoms.nonnegative and power > 0:
+            items += [atoms.nonnegative[generator]] * power
+        elif power % 2 == 0 and power > 0 and generator not in atoms.indexed and generator != SUM:
+            items.append({"square": text(_plain(generator, atoms) ** (power // 2))})
+        else:
+            return None
+    return tuple(items)
+
+
+def _strict(exponents: Exponents, atoms: Atoms) -> bool:
+    return all(power == 0 or g in atoms.positive for g, power in zip(atoms.generators, exponents, strict=False))
+
+
+def _plain(generator: sp.Symbol, atoms: Atoms) -> sp.Expr:
+    """The expression a generator stands for."""
+    for table, function in ((atoms.logs, sp.log), (atoms.exps, sp.exp)):
+        for argument, symbol in table.items():
+            if symbol == generator:
+                return function(argument)
+    if generator in atoms.inverses:
+        return 1 / atoms.inverses[generator]
+    return generator
+
+
+def _expression(exponents: Exponents, atoms: Atoms) -> sp.Expr:
+    return sp.Mul(*(_plain(g, atoms) ** p for g, p in zip(atoms.generators, exponents, strict=False) if p))
+
+
+def _candidates(target: Laurent, known: list[Known], atoms: Atoms, rounds: int, pairs: bool) -> list[Known]:
+    """Terms of known sign that could add up to the target."""
+    pool = list(known)
+    if pairs:
+        signed = [k for k in known if k.items]
+        for one, two in combinations_with_replacement(signed, 2):
+            sign = "==" if "==" in (one.sign, two.sign) else ">" if one.sign == two.sign == ">" else ">="
+            try:
+                value = reduce_inverses(multiply(one.value, two.value), atoms)
+            except ClaimError:
+                continue
+            pool.append(Known(one.items + two.items, value, sign))
+    support = set(target)
+    terms: dict[tuple[str, ...], Known] = {}
+    for _ in range(rounds):
+        fresh: list[Known] = []
+        for base in pool:
+            for wanted in sorted(support):
+                for own in base.value:
+                    fresh += _scaled(base, ratio_of(wanted, own), atoms, terms)
+        fresh += _binomial_squares(support, atoms, terms)
+        support |= {e for term in fresh for e in term.value}
+        if len(terms) > MAX_COLUMNS:
+            break
+    return list(terms.values())
+
+
+def _scaled(base: Known, by: Exponents, atoms: Atoms, seen: dict[tuple[str, ...], Known]) -> list[Known]:
+    """base times a monomial, when that has a known sign."""
+    sum_place = atoms.generators.index(SUM)
+    if len(by) > sum_place and by[sum_place] != 0 and not (by[sum_place] == 1 and not base.items):
+        return []
+    if base.sign == "==":
+        items: tuple[Item, ...] | None = ({"any": text(_expression(by, atoms))},) if by else ()
+        if any(p and g in atoms.indexed | {SUM} for g, p in zip(atoms.generators, by, strict=False)):
+            return []
+    elif len(by) > sum_place and by[sum_place] == 1:
+        items = _sum_of_squares(by, atoms)
+    else:
+        items = _monomial(by, atoms)
+    if items is None:
+        return []
+    key = tuple(sorted(map(str, (*base.items, *items))))
+    if key in seen:
+        return []
+    sign = base.sign if base.sign != ">" or _strict(by, atoms) else ">="
+    term = Known((*base.items, *items), reduce_inverses(shift(base.value, by), atoms), sign)
+    seen[key] = term
+    return [term]
+
+
+def _sum_of_squares(exponents: Exponents, atoms: Atoms) -> tuple[Item, ...] | None:
+    """Items of SUM times an even monomial of indexed symbols times a scalar monomial of known sign."""
+    scalar, root = list(exponents), sp.Integer(1)
+    for i, (generator, power) in enumerate(zip(atoms.generators, exponents, strict=False)):
+        if generator == SUM:
+            scalar[i] = 0
+        elif generator in atoms.indexed and power:
+            if power % 2 or power < 0:
+                return None
+            root *= generator ** (power // 2)
+            scalar[i] = 0
+    items = _monomial(tuple(scalar), atoms)
+    return None if items is None else ({"sum_of_squares": text(root)}, *items)
+
+
+def _binomial_squares(support: set[Exponents], atoms: Atoms, seen: dict[tuple[str, ...], Known]) -> list[Known]:
+    """c (p + q)^2 and c (p - q)^2 for monomials c p^2 and c q^2 in the support, c of known sign."""
+    size, sum_place = len(atoms.generators), atoms.generators.index(SUM)
+    fresh = []
+    wide = [e + (0,) * (size - len(e)) for e in sorted(support)]
+    for one, two in combinations(wide, 2):
+        common = tuple(min(a, b) if (a - b) % 2 == 0 else 0 for a, b in zip(one, two, strict=True))
+        if one[sum_place] != two[sum_place] or any((a - b) % 2 for a, b in zip(one, two, strict=True)):
+            continue
+        # c keeps the odd powers of positive atoms; everything else is halved into p and q.
+        c = tuple(x if g in atoms.positive or g == SUM else x - x % 2 if g in atoms.indexed else x
+                  for x, g in zip(common, atoms.generators, strict=True))
+        c = tuple(0 if g not in atoms.positive and g not in atoms.nonnegative and g != SUM else x
+                  for x, g in zip(c, atoms.generators, strict=True))
+        p, q = (tuple((x - y) // 2 for x, y in zip(e, c, strict=True)) for e in (one, two))
+        if any((x - y) % 2 for e in (one, two) for x, y in zip(e, c, strict=True)):
+            continue
+        over_neurons = c[sum_place] == 1
+        scalar = tuple(0 if i == sum_place else x for i, x in enumerate(c))
+        items = _monomial(scalar, atoms)
+        if items is None or min((*p, *q)) < 0:
+            continue
+        for sign in (1, -1):
+            root = _expression(p, atoms) + sign * _expression(q, atoms)
+            square: Item = {"sum_of_squares" if over_neurons else "square": text(root)}
+            key = tuple(sorted(map(str, (square, *items))))
+            if key in seen:
+                continue
+            value = {ratio_of(one, ()): Fraction(1), ratio_of(two, ()): Fraction(1)}
+            cross = tuple(a + b + z for a, b, z in zip(p, q, c, strict=True))
+            value[ratio_of(cross, ())] = value.get(ratio_of(cross, ()), Fraction(0)) + 2 * sign
+            seen[key] = Known((square, *items), reduce_inverses(value, atoms), ">=")
+            fresh.append(seen[key])
+    return fresh
+
+
+def _solve(target: Laurent, terms: list[Known], strict: bool, size: int) -> list[tuple[Fraction, Known]] | None:
+    """Coefficients with sum c_i term_i = target, exact; c_i >= 0 except for terms that are zero."""
+    rows = {e: i for i, e in enumerate(sorted({*target, *(e for t in terms for e in t.value)}))}
+    entries = [(rows[e], j, float(c)) for j, t in enumerate(terms) for e, c in t.value.items()]
+    if not entries:
+        return [] if not target and not strict else None
+    i, j, values = (np.array(x) for x in zip(*entries, strict=True))
+    matrix = csc_array((values, (i, j)), shape=(len(rows), len(terms)))
+    right = np.zeros(len(rows))
+    for e, c in target.items():
+        right[rows[e]] = float(c)
+    limits = [(None, None) if t.sign == "==" else (0, None) for t in terms]
+    cost = np.array([1.0 + len(t.items) for t in terms])
+    if strict:  # prefer strictly positive terms so much that one is used whenever one can be
+        cost = cost - np.array([1e3 if t.sign == ">" else 0.0 for t in terms])
+        limits = [(low, 1e3 if low == 0 else None) for low, _ in limits]
+    answer = linprog(cost, A_eq=matrix, b_eq=right, bounds=limits, method="highs-ds")
+    if answer.status != 0:
+        return None
+    support = [k for k, c in enumerate(answer.x) if abs(c) > SUPPORT_TOLERANCE]
+    exact = _exact(target, [terms[k] for k in support], rows)
+    if exact is None or any(c < 0 and terms[k].sign != "==" for k, c in zip(support, exact, strict=True)):
+        return None
+    chosen = [(c, terms[k]) for k, c in zip(support, exact, strict=True) if c]
+    if strict and not any(t.sign == ">" for _, t in chosen):
+        return None
+    return chosen
+
+
+def _exact(target: Laurent, terms: list[Known], rows: dict[Exponents, int]) -> list[Fraction] | None:
+    """The exact solution on a support, or None; free columns are set to zero."""
+    used = sorted({e for t in terms for e in t.value} | set(target), key=rows.__getitem__)
+    if not terms:
+        return [] if not target else None
+    table = [[sp.QQ(*(t.value.get(e, Fraction(0)).as_integer_ratio())) for t in terms]
+             + [sp.QQ(*target.get(e, Fraction(0)).as_integer_ratio())] for e in used]
+    reduced, pivots = DomainMatrix(table, (len(used), len(terms) + 1), sp.QQ).rref()
+    if len(terms) in pivots:
+        return None
+    solution = [Fraction(0)] * len(terms)
+    for row, column in enumerate(pivots):
+        value = reduced[row, len(terms)].element
+        solution[column] = Fraction(int(value.numerator), int(value.denominator))
+    return solution

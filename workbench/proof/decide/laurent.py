@@ -1,0 +1,229 @@
+"""Expressions as Laurent polynomials over atoms: symbols, logarithms, exponentials, and 1/s for positive s."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from fractions import Fraction
+
+import sympy as sp
+
+from workbench.errors import ClaimError
+from workbench.proof.claim import Relation
+from workbench.proof.derive import SUM, expand_derivatives, formal_sums
+from workbench.proof.text import text
+
+Exponents = tuple[int, ...]
+Laurent = dict[Exponents, Fraction]
+Item = dict[str, object]
+
+
+@dataclass
+class Atoms:
+    """The generators of one goal; `positive` maps a generator to the factor items of it and of its inverse."""
+
+    generators: list[sp.Symbol] = field(default_factory=list)
+    positive: dict[sp.Symbol, tuple[Item, Item | None]] = field(default_factory=dict)
+    nonnegative: dict[sp.Symbol, Item] = field(default_factory=dict)
+    logs: dict[sp.Expr, sp.Symbol] = field(default_factory=dict)
+    exps: dict[sp.Expr, sp.Symbol] = field(default_factory=dict)
+    inverses: dict[sp.Symbol, sp.Expr] = field(default_factory=dict)
+    strict: list[tuple[sp.Expr, int]] = field(default_factory=list)
+    indexed: set[sp.Symbol] = field(default_factory=set)
+
+    def index(self, generator: sp.Symbol) -> int:
+        """The generator's position, added when new."""
+        if generator not in self.generators:
+            self.generators.append(generator)
+        return self.generators.index(generator)
+
+
+def flatten(expr: sp.Expr, atoms: Atoms, flow: dict[sp.Expr, sp.Expr]) -> sp.Expr:
+    """The expression as a rational function of plain symbols; logs and exps become atoms."""
+    flat = formal_sums(expand_derivatives(expr, flow))
+    names = {i: sp.Symbol(str(i.base.label), real=True) for i in flat.atoms(sp.Indexed)}
+    atoms.indexed |= set(names.values())
+    flat = flat.xreplace(names)
+    flat = flat.replace(sp.exp, lambda inner: exp_atom(inner, atoms))
+    return flat.replace(sp.log, lambda inner: log_atom(inner, atoms))
+
+
+def log_atom(argument: sp.Expr, atoms: Atoms) -> sp.Expr:
+    """log(argument) as an atom, up to sign: log(1/A) = -log(A)."""
+    for known, symbol in atoms.logs.items():
+        if sp.cancel(known - argument) == 0:
+            return symbol
+        if sp.cancel(known * argument) == 1:
+            return -symbol
+    symbol = sp.Dummy(f"L{len(atoms.logs)}", real=True)
+    atoms.logs[argument] = symbol
+    return symbol
+
+
+def exp_atom(argument: sp.Expr, atoms: Atoms) -> sp.Expr:
+    """exp(argument) with whole multiples of logarithms pulled out: exp(x + c log A) = exp(x) A**c."""
+    factor, rest = sp.Integer(1), sp.Integer(0)
+    for term in sp.Add.make_args(sp.expand(argument, log=False)):
+        coefficient, inner = term.as_independent(sp.log, as_Add=False)
+        if isinstance(inner, sp.log) and coefficient.is_Integer:
+            factor *= inner.args[0] ** coefficient
+        else:
+            rest += term
+    if rest == 0:
+        return factor
+    for known, symbol in atoms.exps.items():
+        if sp.cancel(known - rest) == 0:
+            return factor * symbol
+        if sp.cancel(known + rest) == 0:
+            return factor / symbol
+    symbol = sp.Dummy(f"E{len(atoms.exps)}", positive=True)
+    atoms.exps[rest] = symbol
+    atoms.positive[symbol] = ({"fact": "exp_positive", "of": text(rest)},
+                              {"fact": "exp_positive", "of": text(-rest)})
+    return factor * symbol
+
+
+def to_laurent(flat: sp.Expr, atoms: Atoms) -> Laurent:
+    """A flattened expression as a Laurent polynomial; a positive polynomial below becomes an inverse atom.
+
+    Raises ClaimError when a denominator is not a product of symbols and of polynomials assumed positive.
+    """
+    numerator, denominator = sp.fraction(sp.cancel(sp.together(flat)))
+    rest = sp.Integer(1)
+    for margin, position in atoms.strict:
+        while denominator.has(*margin.free_symbols):
+            quotient = sp.cancel(denominator / margin)
+            if not quotient.is_polynomial(*denominator.free_symbols):
+                break
+            denominator, rest = quotient, rest * _inverse_atom(margin, position, atoms)
+    constant, factors = sp.factor_list(denominator)
+    for symbol, power in factors:
+        if not symbol.is_Symbol:
+            raise ClaimError(f"the denominator {symbol} is not assumed positive: state its sign in the goal")
+        rest = rest * symbol ** (-power)
+    return reduce_inverses(_expand(sp.expand(numerator / constant) * rest, atoms), atoms)
+
+
+def _inverse_atom(margin: sp.Expr, position: int, atoms: Atoms) -> sp.Symbol:
+    """The atom 1/margin of an assumption's positive margin."""
+    for symbol, known in atoms.inverses.items():
+        if known == margin:
+            return symbol
+    symbol = sp.Dummy(f"z{len(atoms.inverses)}", positive=True)
+    atoms.inverses[symbol] = margin
+    atoms.positive[symbol] = ({"inverse": position}, {"assume": position})
+    return symbol
+
+
+def _expand(expr: sp.Expr, atoms: Atoms) -> Laurent:
+    result: Laurent = {}
+    for term in sp.Add.make_args(sp.expand(expr)):
+        coefficient, powers = term.as_coeff_Mul()
+        exponents: dict[int, int] = {}
+        for base, power in powers.as_powers_dict().items():
+            if base == 1:
+                continue
+            if not base.is_Symbol or not power.is_Integer:
+                raise ClaimError(f"{base}**{power} is not polynomial: it cannot be decided here")
+            exponents[atoms.index(base)] = int(power)
+        key = tuple(exponents.get(i, 0) for i in range(len(atoms.generators)))
+        value = Fraction(int(coefficient.p), int(coefficient.q))
+        result = add(result, {key: value})
+    return result
+
+
+def reduce_inverses(poly: Laurent, atoms: Atoms) -> Laurent:
+    """Normal form modulo z s = 1: no monomial keeps z together with the leading monomial of s."""
+    for symbol, margin in list(atoms.inverses.items()):
+        z = atoms.index(symbol)
+        terms = _expand(margin, atoms)
+        lead = max(terms, key=lambda e: (sum(e), e))
+        lead_value = terms[lead]
+        changed = True
+        while changed:
+            changed = False
+            for exponents, coefficient in list(poly.items()):
+                wide = _pad(exponents, len(atoms.generators))
+                if wide[z] >= 1 and all(a >= b for a, b in zip(wide, _pad(lead, len(wide)), strict=True) if b > 0):
+                    # z lead = (1 - z (s - lead)) / lead_value
+                    poly = add(poly, {exponents: -coefficient})
+                    base = _minus(wide, _pad(lead, len(wide)))
+                    lowered = list(base)
+                    lowered[z] -= 1
+                    poly = add(poly, {tuple(lowered): coefficient / lead_value})
+                    for e, c in terms.items():
+                        if e != lead:
+                            poly = add(poly, {_plus(base, _pad(e, len(wide))): -coefficient * c / lead_value})
+                    changed = True
+    return poly
+
+
+def _pad(exponents: Exponents, length: int) -> Exponents:
+    return exponents + (0,) * (length - len(exponents))
+
+
+def _minus(a: Exponents, b: Exponents) -> Exponents:
+    n = max(len(a), len(b))
+    return tuple(x - y for x, y in zip(_pad(a, n), _pad(b, n), strict=True))
+
+
+def _plus(a: Exponents, b: Exponents) -> Exponents:
+    n = max(len(a), len(b))
+    return tuple(x + y for x, y in zip(_pad(a, n), _pad(b, n), strict=True))
+
+
+def trim(exponents: Exponents) -> Exponents:
+    """Without trailing zeros, so that the same monomial has one key however many generators there are."""
+    end = len(exponents)
+    while end and exponents[end - 1] == 0:
+        end -= 1
+    return exponents[:end]
+
+
+def add(a: Laurent, b: Laurent) -> Laurent:
+    """a + b."""
+    total = dict(a)
+    for exponents, coefficient in b.items():
+        key = trim(exponents)
+        value = total.get(key, Fraction(0)) + coefficient
+        if value:
+            total[key] = value
+        else:
+            total.pop(key, None)
+    return total
+
+
+def multiply(a: Laurent, b: Laurent) -> Laurent:
+    """a * b, not reduced."""
+    total: Laurent = {}
+    for e1, c1 in a.items():
+        for e2, c2 in b.items():
+            total = add(total, {_plus(e1, e2): c1 * c2})
+    return total
+
+
+def shift(poly: Laurent, by: Exponents) -> Laurent:
+    """poly times a monomial."""
+    return {trim(_plus(e, by)): c for e, c in poly.items()}
+
+
+def ratio_of(a: Exponents, b: Exponents) -> Exponents:
+    """The exponents of monomial a / monomial b."""
+    return trim(_minus(a, b))
+
+
+def goal_atoms(relations: tuple[Relation, ...]) -> Atoms:
+    """Atoms of a goal whose assumptions stand at the given positions: which symbols and margins are signed."""
+    atoms = Atoms()
+    for position, relation in enumerate(relations):
+        if relation.operator in ("==", "!="):
+            continue
+        margin = relation.margin
+        if margin.is_Symbol:
+            if relation.strict:
+                atoms.positive[margin] = ({"assume": position}, {"inverse": position})
+            else:
+                atoms.nonnegative[margin] = {"assume": position}
+        elif relation.strict and margin.is_polynomial(*margin.free_symbols) and not margin.has(sp.Sum, sp.Indexed):
+            atoms.strict.append((margin, position))
+    atoms.index(SUM)
+    return atoms

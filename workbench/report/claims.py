@@ -1,0 +1,108 @@
+"""The claims of a proof document as a page shows them; tolerant of whatever a document leaves out."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+from urllib.parse import quote
+
+from markupsafe import Markup
+
+from workbench.report.formulas import formula
+
+# The order in which a reader wants to see them, with a sign for who cannot tell the colours.
+VERDICTS = {"refuted": "✗", "violated": "!", "gap": "⋯", "undecided": "?", "assumed": "≔", "proved": "✓"}
+NOT_AS_PRINTED = ("refuted", "violated", "gap")
+TRUST = {"exact": "certificate re-checked exactly", "oracle": "a solver's word",
+         "kernel": "re-checked by Coq"}
+FACTS = (("Stated", "stated"), ("Computed", "computed"), ("Scope", "scope"), ("Certificate", "certificate"))
+
+
+@dataclass(frozen=True)
+class ClaimRef:
+    """A claim named by another: its id, and its anchor where it stands in this document."""
+
+    id: str
+    anchor: str | None
+
+
+@dataclass(frozen=True)
+class ClaimView:
+    """One claim, ready to show; formulas are MathML, `facts` are labelled texts that fold away."""
+
+    id: str
+    anchor: str
+    title: str
+    equation: str
+    kind: str
+    statement: Markup
+    correction: Markup
+    verdict: str
+    sign: str
+    recorded: str
+    method: str
+    trust: str
+    note: str
+    tainted_by: tuple[ClaimRef, ...]
+    premises: tuple[ClaimRef, ...]
+    counterexample: tuple[str, ...]
+    facts: tuple[tuple[str, str], ...]
+    open: bool
+
+
+def claim_views(document: Mapping[str, Any]) -> list[ClaimView]:
+    """The claims of a `prove --json` document, in its order."""
+    entries = [entry for entry in _list(document.get("claims")) if isinstance(entry, Mapping)]
+    known = {_text(entry.get("id")) for entry in entries}
+    return [_view(entry, known) for entry in entries]
+
+
+def counts(claims: list[ClaimView]) -> dict[str, int]:
+    """How many claims have each verdict, the known verdicts first and all of them named."""
+    found = dict.fromkeys(VERDICTS, 0)
+    for claim in claims:
+        found[claim.verdict] = found.get(claim.verdict, 0) + 1
+    return found
+
+
+def _view(entry: Mapping[str, Any], known: set[str]) -> ClaimView:
+    verdict = _text(entry.get("verdict")) or "undecided"
+    recorded = _text(entry.get("recorded"))
+    seconds = entry.get("seconds")
+    shown = [(label, _text(entry.get(key))) for label, key in FACTS]
+    if isinstance(seconds, int | float):
+        shown.append(("Decided in", f"{seconds:.2g} s"))
+    refs = {key: tuple(ClaimRef(name, anchor(name) if name in known else None)
+                       for name in map(_text, _list(entry.get(key)))) for key in ("tainted_by", "premises")}
+    trust = _text(entry.get("trust"))
+    return ClaimView(
+        id=_text(entry.get("id")), anchor=anchor(_text(entry.get("id"))), title=_text(entry.get("title")),
+        equation=_text(entry.get("equation")), kind=_text(entry.get("kind")),
+        statement=formula(_text(entry.get("statement"))), correction=formula(_text(entry.get("correction"))),
+        verdict=verdict, sign=VERDICTS.get(verdict, "?"), recorded=recorded if recorded != verdict else "",
+        method=_text(entry.get("method")), trust=TRUST.get(trust, trust), note=_text(entry.get("note")),
+        tainted_by=refs["tainted_by"], premises=refs["premises"],
+        counterexample=_lines(entry.get("counterexample")),
+        facts=tuple((label, text) for label, text in shown if text), open=verdict in NOT_AS_PRINTED,
+    )
+
+
+def anchor(claim_id: str) -> str:
+    """The fragment under which a claim stands in the page."""
+    return "claim-" + quote(claim_id, safe=":.")
+
+
+def _text(value: object) -> str:
+    return "" if value is None else value if isinstance(value, str) else str(value)
+
+
+def _list(value: object) -> list[Any]:
+    return list(value) if isinstance(value, list | tuple) else [] if value is None else [value]
+
+
+def _lines(value: object) -> tuple[str, ...]:
+    """A counterexample as lines `name = value`, whatever its shape."""
+    if isinstance(value, Mapping):
+        return tuple(f"{name} = {_text(entry)}" for name, entry in value.items())
+    return tuple(_text(entry) for entry in _list(value))

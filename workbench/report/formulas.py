@@ -1,0 +1,84 @@
+"""LaTeX formulas as MathML, which browsers draw without any script or font from elsewhere."""
+
+from __future__ import annotations
+
+import html
+from functools import cache
+from xml.etree import ElementTree
+
+from latex2mathml.converter import convert_to_element
+from markupsafe import Markup, escape
+
+# What a formula may consist of: a claim file is a stranger's, and \href, \style and \text can carry anything.
+ELEMENTS = frozenset((
+    "math", "mrow", "mi", "mo", "mn", "mtext", "mspace", "mfrac", "msqrt", "mroot", "msub", "msup", "msubsup",
+    "munder", "mover", "munderover", "mtable", "mtr", "mtd", "mstyle", "mpadded", "mphantom", "menclose",
+))
+ATTRIBUTES = frozenset((
+    "accent", "accentunder", "columnalign", "columnspacing", "display", "displaystyle", "fence", "form",
+    "largeop", "linethickness", "lspace", "mathvariant", "maxsize", "minsize", "movablelimits", "notation",
+    "rowspacing", "rspace", "scriptlevel", "separator", "stretchy", "symmetric", "width",
+))
+ACCENTS = frozenset("˙¨^~¯ˇ´`→˘")
+BREAKS = frozenset("=≤≥<>+−⟹⇒⇔⟺∧∨∈")
+LONG = 40
+ARROWS = frozenset("⟹⟸⟺⟶⟵⟷⇒⇐⇔→←↔↦")
+
+
+def formula(latex: str) -> Markup:
+    """A LaTeX formula as inline MathML with display-style fractions; outer dollar signs are taken off.
+
+    Whatever cannot be converted comes back as the escaped LaTeX in a `code` element; this never raises.
+    """
+    return _convert(latex.strip().strip("$").strip())
+
+
+@cache
+def _convert(latex: str) -> Markup:
+    try:
+        root = convert_to_element(latex)
+        for element in root.iter():
+            _clean(element)
+        return Markup("").join(_serialise(part) for part in _parts(root))
+    except Exception:  # the converter raises many kinds on input it does not know, some of them its own bugs
+        return Markup("<code>{}</code>").format(escape(latex)) if latex else Markup("")
+
+
+def _serialise(root: ElementTree.Element) -> Markup:
+    root.set("displaystyle", "true")
+    return Markup(ElementTree.tostring(root, encoding="unicode"))
+
+
+def _parts(root: ElementTree.Element) -> list[ElementTree.Element]:
+    """A long formula cut before its operators, because browsers break lines only between formulas."""
+    if len(root) != 1 or root[0].tag != "mrow" or sum(1 for _ in root.iter()) < LONG:
+        return [root]
+    rows: list[list[ElementTree.Element]] = [[]]
+    for child in root[0]:
+        # An operator after an operator is a sign, and a sign stays with what it belongs to.
+        if child.tag == "mo" and child.text in BREAKS and rows[-1] and rows[-1][-1].tag != "mo":
+            child.set("form", "infix")
+            rows.append([])
+        rows[-1].append(child)
+    parts = []
+    for row in rows:
+        part = ElementTree.Element("math", root.attrib)
+        ElementTree.SubElement(part, "mrow").extend(row)
+        parts.append(part)
+    return parts
+
+
+def _clean(element: ElementTree.Element) -> None:
+    """Keep what is known to be harmless; raises ValueError for what the converter did not understand."""
+    if element.tag not in ELEMENTS:
+        raise ValueError(f"unknown element {element.tag}")
+    for name in element.attrib.keys() - ATTRIBUTES:
+        del element.attrib[name]
+    # The converter leaves symbols as character references and text as it was: both become plain characters.
+    element.text = html.unescape(element.text or "")
+    if "\\" in element.text:
+        raise ValueError(f"unknown command {element.text}")
+    if element.tag == "mi" and element.text in ARROWS:
+        element.tag = "mo"  # an operator gets space around it
+    if element.tag == "mover" and len(element) == 2 and html.unescape(element[1].text or "") in ACCENTS:
+        element.set("accent", "true")

@@ -1,0 +1,102 @@
+"""What a reader should know in a few lines, computed from the content and from nothing else."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from markupsafe import Markup
+
+from workbench.metrics import Metrics
+from workbench.report.claims import NOT_AS_PRINTED, ClaimView, counts
+from workbench.report.numbers import length, number
+from workbench.report.sources import SourcedValue
+from workbench.report.tables import largest_error
+from workbench.scenario import Scenario, Variant
+from workbench.simulate.sweep import SweepSummary
+
+PLURAL = {"gap": "gaps"}
+
+
+def proof_line(claims: Sequence[ClaimView]) -> Markup | None:
+    """Verdicts in words, with links to what does not hold as printed."""
+    if not claims:
+        return None
+    found = [f"{n} {PLURAL.get(v, v) if n > 1 else v}" for v, n in reversed(counts(list(claims)).items()) if n]
+    line = Markup("<strong>Proof.</strong> {} claims: {}.").format(len(claims), ", ".join(found))
+    wrong = [claim for claim in claims if claim.verdict in NOT_AS_PRINTED]
+    if wrong:
+        links = Markup(", ").join(Markup('<a href="#{}">{}</a>').format(c.anchor, c.id) for c in wrong[:8])
+        more = f" and {len(wrong) - 8} more" if len(wrong) > 8 else ""
+        line += Markup(" Not as printed: {}{}.").format(links, more)
+    tainted = sum(claim.verdict == "proved" and bool(claim.tainted_by) for claim in claims)
+    if tainted:
+        line += Markup(" {} of the proved rest on one of these.").format(tainted)
+    return line
+
+
+def nominal_line(scenario: Scenario, metrics: Sequence[Metrics], names: dict[str, str]) -> Markup | None:
+    """Best and worst of the nominal runs, who leaves the band, who fails."""
+    ranked = sorted((error, m.controller) for m in metrics if (error := largest_error(m)) is not None)
+    if not metrics:
+        return None
+    text = ""
+    if ranked:
+        listed = ", ".join(f"{names[controller]} {length(error)}" for error, controller in ranked)
+        text += f"Largest |position error| in the nominal run: {listed}."
+        band = scenario.simulation.position_band_m
+        leave = [names[controller] for error, controller in ranked if error > band]
+        text += (f" {_and(leave)} {'leave' if len(leave) > 1 else 'leaves'} the band of ±{length(band)}."
+                 if leave else f" All stay within the band of ±{length(band)}.")
+    failed = [names[m.controller] for m in metrics if m.failed is not None]
+    if failed:
+        text += f" Failed: {_and(failed)}."
+    return Markup("<strong>Tracking.</strong> {}").format(text.strip())
+
+
+def table_line(scenario: Scenario, summaries: Sequence[SweepSummary], names: dict[str, str]) -> Markup | None:
+    """Whether the paper's ranking and sizes come out of the Monte Carlo runs."""
+    found = {s.controller: max(abs(s.position_error_min), abs(s.position_error_max)) for s in summaries
+             if s.position_error_min is not None and s.position_error_max is not None}
+    rows = scenario.printed_table.rows if scenario.printed_table else ()
+    printed = {r.controller: max(map(abs, r.position_error_m)) for r in rows if r.controller in found}
+    if len(printed) < 2 or not scenario.printed_table:
+        return None
+    by_paper = sorted(printed, key=printed.__getitem__)
+    by_runs = sorted(printed, key=found.__getitem__)
+    runs = max(s.runs for s in summaries)
+    ratios = [found[name] / printed[name] for name in printed]
+    ranking = " &lt; ".join("{}" for _ in by_runs)
+    verdict = "is reproduced" if by_paper == by_runs else "is not reproduced"
+    line = Markup("<strong>{}.</strong> Over {} runs a controller the printed ranking by largest |position error| "
+                  f"{verdict}: {ranking}; the obtained errors are ").format(
+        scenario.printed_table.source.removeprefix("paper, "), runs, *(names[name] for name in by_runs))
+    return line + f"{number(min(ratios), 2)} to {number(max(ratios), 2)} times the printed ones."
+
+
+def variants_line(nominal: Sequence[Metrics], variants: Sequence[tuple[Variant, Sequence[Metrics]]],
+                  names: dict[str, str]) -> Markup | None:
+    """The change of an assumed value that matters most."""
+    base = {m.controller: error for m in nominal if (error := largest_error(m)) is not None}
+    changes = [(max(error / base[m.controller], base[m.controller] / error), variant, m.controller, error)
+               for variant, metrics in variants for m in metrics
+               if m.controller in base and (error := largest_error(m)) and base[m.controller]]
+    if not changes:
+        return None
+    _, variant, controller, error = max(changes, key=lambda change: change[0])
+    failures = sum(m.failed is not None for _, metrics in variants for m in metrics)
+    also = f" {failures} of the changed runs fail." if failures else ""
+    return Markup("<strong>Sensitivity.</strong> Of {} changes of assumed data “{}” matters most: the largest "
+                  "|position error| of {} goes from {} to {}.{}").format(
+        len(variants), variant.title, names.get(controller, controller), length(base[controller]),
+        length(error), also)
+
+
+def sources_line(values: Sequence[SourcedValue]) -> Markup:
+    """How much of the data the paper does not give."""
+    assumed = sum(value.kind == "assumed" for value in values)
+    return Markup('<strong>Data.</strong> {} of {} stated values are <a href="#assumptions">assumed</a>: '
+                  "the paper does not give them.").format(assumed, len(values))
+
+
+def _and(words: Sequence[str]) -> str:
+    return " and ".join([", ".join(words[:-1]), words[-1]]) if len(words) > 1 else "".join(words)

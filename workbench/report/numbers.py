@@ -1,0 +1,63 @@
+"""Numbers as a reader wants them: sensible digits, a true minus sign, never a NaN."""
+
+from __future__ import annotations
+
+import math
+
+NOTHING = "—"
+_SUPERSCRIPT = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
+THIN_SPACE = "\u202f"
+
+
+def number(value: float | None, digits: int = 3) -> str:
+    """A number with `digits` significant digits; a dash for None and whatever is not finite.
+
+    Tiny and huge numbers are written with a power of ten; integers are written out.
+    """
+    if value is None or not math.isfinite(value):
+        return NOTHING
+    if value == 0:
+        return "0"
+    if isinstance(value, int):
+        return grouped(str(value))
+    rounded = float(f"{value:.{digits - 1}e}")
+    exponent = math.floor(math.log10(abs(rounded)))
+    if not -4 <= exponent < 7:
+        mantissa = f"{rounded / 10.0**exponent:.{digits - 1}f}"
+        return f"{_minus(mantissa)}{THIN_SPACE}×{THIN_SPACE}10{str(exponent).translate(_SUPERSCRIPT)}"
+    return grouped(f"{rounded:.{max(0, digits - 1 - exponent)}f}")
+
+
+def fixed(value: float | None, decimals: int) -> str:
+    """A number with so many decimals; a dash for None and whatever is not finite."""
+    if value is None or not math.isfinite(value):
+        return NOTHING
+    text = f"{value:.{decimals}f}"
+    return grouped(text.removeprefix("-") if float(text) == 0 else text)
+
+
+def grouped(text: str) -> str:
+    """Digits of a number in groups of three before the point, with a true minus sign."""
+    sign, digits = ("−", text[1:]) if text.startswith("-") else ("", text)
+    whole, point, rest = digits.partition(".")
+    if len(whole) > 4:
+        whole = f"{int(whole):,}".replace(",", THIN_SPACE)
+    return sign + whole + point + rest
+
+
+def interval(low: float | None, high: float | None, digits: int = 3) -> str:
+    """An interval [low, high]; a dash when an end is missing."""
+    if NOTHING in (number(low), number(high)):
+        return NOTHING
+    return f"[{number(low, digits)}, {number(high, digits)}]"
+
+
+def length(value_m: float | None, digits: int = 3) -> str:
+    """A length in m with its unit, in mm below 1 m, with a power of ten below a micrometre."""
+    if value_m is None or not math.isfinite(value_m):
+        return NOTHING
+    return f"{number(value_m, digits)} m" if abs(value_m) >= 1 else f"{number(value_m * 1e3, digits)} mm"
+
+
+def _minus(text: str) -> str:
+    return text.replace("-", "−")

@@ -1,0 +1,58 @@
+"""Where every value of a scenario comes from: the paper, a convention, or an assumption."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+
+from pydantic import BaseModel
+
+from workbench.report.numbers import NOTHING, grouped
+from workbench.scenario import Scenario
+from workbench.toml_input import SourcedRecord
+
+
+@dataclass(frozen=True)
+class SourcedValue:
+    """One stated value: dotted key, the value as text, kind ('paper', 'assumed', 'convention'), the words."""
+
+    key: str
+    value: str
+    kind: str
+    words: str
+
+
+def sourced_values(scenario: Scenario) -> list[SourcedValue]:
+    """All values that state a source, in the scenario's order; nested records count by their own entries."""
+    return list(_walk(scenario, ""))
+
+
+def _walk(record: BaseModel, prefix: str) -> Iterator[SourcedValue]:
+    for name in type(record).model_fields:
+        value, key = getattr(record, name), f"{prefix}{name}"
+        source = record.source.get(name) if isinstance(record, SourcedRecord) else None
+        if source is not None and not isinstance(value, SourcedRecord):
+            kind, _, words = source.partition(":")
+            if kind not in ("assumed", "convention"):
+                kind, words = "paper", source.removeprefix("paper").lstrip(" ,:")
+            yield SourcedValue(key, stated(value), kind, words.strip())
+        if isinstance(value, BaseModel):
+            yield from _walk(value, f"{key}.")
+        elif isinstance(value, Mapping):
+            for inner, entry in value.items():
+                if isinstance(entry, BaseModel):
+                    yield from _walk(entry, f"{key}.{inner}.")
+
+
+def stated(value: object) -> str:
+    """A stated value as a short text: numbers as they were written, sections of a line by their count."""
+    text = NOTHING if value is None else str(value)
+    if isinstance(value, int | float) and not isinstance(value, bool):
+        text = grouped(f"{value:.12g}")
+    elif isinstance(value, Mapping):
+        text = ", ".join(f"{name} = {stated(entry)}" for name, entry in value.items())
+    elif isinstance(value, tuple | list) and value and isinstance(value[0], BaseModel):
+        text = f"{len(value)} sections"
+    elif isinstance(value, tuple | list):
+        text = ", ".join(stated(entry) for entry in value) or NOTHING
+    return text

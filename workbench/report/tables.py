@@ -1,0 +1,202 @@
+"""The tables of a report as rows of text: what was printed beside what was obtained."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+
+from workbench.controllers.registry import LAWS, SAMPLED
+from workbench.metrics import Metrics
+from workbench.report.numbers import NOTHING, fixed, grouped, interval, number
+from workbench.report.sources import stated
+from workbench.scenario import Scenario, Variant
+from workbench.simulate.closed_loop import Run
+from workbench.simulate.sweep import SweepSummary
+
+
+@dataclass(frozen=True)
+class MetricRow:
+    """One metric of all controllers: label, unit, a text each, and which of them is the best."""
+
+    label: str
+    unit: str
+    cells: tuple[str, ...]
+    best: int | None
+
+
+@dataclass(frozen=True)
+class ComparedRow:
+    """One controller of the paper's table: (printed, obtained, difference) for each of its three columns."""
+
+    title: str
+    cells: tuple[tuple[str, str, str], ...]
+    failed: str
+    in_paper: bool
+
+
+@dataclass(frozen=True)
+class PrintedRow:
+    """A single printed value beside what the nominal run gave."""
+
+    what: str
+    source: str
+    printed: str
+    obtained: str
+    difference: str
+    unit: str
+
+
+@dataclass(frozen=True)
+class VariantCell:
+    """One controller under one change: its errors in mm, or why it failed."""
+
+    error: str
+    stop: str
+    failed: str
+    differs: bool
+
+
+@dataclass(frozen=True)
+class VariantRow:
+    """One change of the assumed data, and all controllers under it."""
+
+    title: str
+    changes: tuple[str, ...]
+    cells: tuple[VariantCell | None, ...]
+
+
+def _significant(scale: float = 1.0, digits: int = 3) -> Callable[[float], str]:
+    return lambda value: number(value * scale, digits)
+
+
+def _count(value: float) -> str:
+    return grouped(str(int(value)))
+
+
+# key, label, unit, how it is written, whether smaller is better (None: there is no better)
+_Write = Callable[[float], str]
+METRICS: tuple[tuple[str, str, str, _Write, bool], ...] = (
+    ("position_error_min", "Position error, lowest", "mm", _significant(1e3), True),
+    ("position_error_max", "Position error, highest", "mm", _significant(1e3), True),
+    ("speed_error_min", "Speed error, lowest", "mm/s", _significant(1e3), True),
+    ("speed_error_max", "Speed error, highest", "mm/s", _significant(1e3), True),
+    ("position_rms", "Position error, RMS", "mm", _significant(1e3), True),
+    ("speed_rms", "Speed error, RMS", "mm/s", _significant(1e3), True),
+    ("stopping_error", "Stopping error", "mm", _significant(1e3), True),
+    ("energy_J", "Traction energy at the wheel", "MJ", lambda v: fixed(v / 1e6, 2), True),
+    ("jerk_rms", "Jerk, RMS", "m/s³", _significant(), True),
+    ("saturated_fraction", "Samples with the force limited", "%", _significant(100.0), True),
+    ("limit_violations", "Plant steps outside the position band", "", _count, True),
+    ("command_max", "Command, highest", "m/s²", _significant(), False),
+    ("command_min", "Command, lowest", "m/s²", _significant(), False),
+    ("speed_min", "Lowest speed (below 0: rolling back)", "mm/s", _significant(1e3), True),
+    ("time_of_max_position_error", "Time of the largest |position error|", "s", lambda v: fixed(v, 1), False),
+    ("step_us_median", "Time per control step, median", "µs", _significant(), True),
+    ("step_us_p99", "Time per control step, 99th percentile", "µs", _significant(), True),
+    ("deadline_misses", "Steps longer than the sampling period", "", _count, True),
+)
+
+
+def nominal_table(metrics: Sequence[Metrics]) -> list[MetricRow]:
+    """All metrics as rows, controllers as columns; the smallest magnitude is the best where that has a sense."""
+    rows = []
+    for key, label, unit, write, smaller in METRICS:
+        values: list[float | None] = [m.row()[key] for m in metrics]  # type: ignore[misc]
+        texts = [NOTHING if value is None else write(value) for value in values]
+        whole = {i: abs(v) for i, v in enumerate(values) if v is not None and metrics[i].failed is None}
+        best = min(whole, key=whole.__getitem__) if smaller and len({texts[i] for i in whole}) > 1 else None
+        rows.append(MetricRow(label, unit, tuple(texts), best))
+    return rows
+
+
+def information(scenario: Scenario, controller: str) -> str:
+    """What a controller is allowed to know, in words."""
+    law = scenario.controllers[controller].law
+    source = LAWS.get(law) or SAMPLED.get(law)
+    return str(getattr(source, "information", NOTHING))
+
+
+def titles(scenario: Scenario, runs: Sequence[Run]) -> dict[str, str]:
+    """The name of each controller to show."""
+    names = {name: spec.title or name for name, spec in scenario.controllers.items()}
+    return names | {run.controller: run.title for run in runs}
+
+
+def compared_table(scenario: Scenario, summaries: Sequence[SweepSummary],
+                   names: Mapping[str, str]) -> list[ComparedRow]:
+    """The paper's table beside the sweep, in the paper's order; controllers it lacks follow."""
+    printed = {row.controller: row for row in scenario.printed_table.rows} if scenario.printed_table else {}
+    found = {summary.controller: summary for summary in summaries}
+    rows = []
+    for controller in [*printed, *(name for name in found if name not in printed)]:
+        row, own = printed.get(controller), found.get(controller)
+        cells = (
+            _compare_ranges(row and row.position_error_m,
+                            own and (own.position_error_min, own.position_error_max)),
+            _compare_ranges(row and row.speed_error_mps, own and (own.speed_error_min, own.speed_error_max)),
+            _compare(row.stopping_accuracy_m if row else None, own.mean_abs_stopping_error if own else None),
+        )
+        failed = f"{own.failed} of {own.runs}" if own else NOTHING
+        rows.append(ComparedRow(names.get(controller, controller), cells, failed, row is not None))
+    return rows
+
+
+_Range = tuple[float | None, float | None]
+
+
+def _compare_ranges(printed: tuple[float, float] | None, obtained: _Range | None) -> tuple[str, str, str]:
+    low, high = obtained or (None, None)
+    if printed is None or low is None or high is None:
+        return interval(*printed) if printed else NOTHING, interval(low, high), NOTHING
+    return interval(*printed), interval(low, high), interval(low - printed[0], high - printed[1])
+
+
+def _compare(printed: float | None, obtained: float | None) -> tuple[str, str, str]:
+    if printed is None or obtained is None:
+        return number(printed), number(obtained), NOTHING
+    return number(printed), number(obtained), number(obtained - printed)
+
+
+def printed_values_table(scenario: Scenario, metrics: Sequence[Metrics],
+                         names: Mapping[str, str]) -> list[PrintedRow]:
+    """The single values that the paper prints beside the nominal run's."""
+    found = {m.controller: m for m in metrics}
+    rows = []
+    for value in scenario.printed_values:
+        own = found.get(value.controller)
+        obtained = getattr(own, value.metric, None)
+        obtained = None if not isinstance(obtained, int | float) or own is None or own.failed else float(obtained)
+        label = next((label for key, label, *_ in METRICS if key == value.metric), value.metric)
+        rows.append(PrintedRow(f"{names.get(value.controller, value.controller)}: {label}", value.source,
+                               *_compare(value.value, obtained), value.unit))
+    return rows
+
+
+def largest_error(metrics: Metrics) -> float | None:
+    """Largest |position error| in m of a run that did not fail."""
+    if metrics.failed is not None:
+        return None
+    return max(abs(metrics.position_error_min), abs(metrics.position_error_max))
+
+
+def variants_table(nominal: Sequence[Metrics],
+                   variants: Sequence[tuple[Variant, Sequence[Metrics]]]) -> list[VariantRow]:
+    """Largest |position error| and stopping error by change and controller; the nominal data first."""
+    base = {m.controller: largest_error(m) for m in nominal}
+    rows = [VariantRow("as stated", (), tuple(_variant_cell(m, None) for m in nominal))]
+    for variant, metrics in variants:
+        found = {m.controller: m for m in metrics}
+        rows.append(VariantRow(
+            variant.title, tuple(f"{key} = {stated(value)}" for key, value in variant.set.items()),
+            tuple(_variant_cell(found[m.controller], base[m.controller]) if m.controller in found else None
+                  for m in nominal),
+        ))
+    return rows
+
+
+def _variant_cell(metrics: Metrics, base: float | None) -> VariantCell:
+    error = largest_error(metrics)
+    if error is None:
+        return VariantCell("", "", metrics.failed or "", differs=True)
+    differs = base is not None and abs(error - base) > 0.1 * base
+    return VariantCell(number(error * 1e3), number(metrics.stopping_error * 1e3), "", differs)
