@@ -16,8 +16,8 @@ SHORT_LINE = {
     "name": "short line",
     "length_m": 900.0,
     "grade": [
-        {"start_m": 0.0, "end_m": 15.0, "grade_permille": 2.0},
-        {"start_m": 15.0, "end_m": 400.0, "grade_permille": -3.0},
+        {"start_m": 0.0, "end_m": 1.0, "grade_permille": 2.0},
+        {"start_m": 1.0, "end_m": 400.0, "grade_permille": -3.0},
         {"start_m": 400.0, "end_m": 900.0, "grade_permille": 4.0},
     ],
     "curve": [
@@ -62,7 +62,7 @@ def with_law(scenario: Scenario, law: ControlLaw, period_s: float, estimates: st
 
 
 def values_for(law: ControlLaw) -> dict:
-    """Values with which a law can run: those of a shipped scenario whose law has the same names, else plain."""
+    """Values a law can run with: those of a shipped scenario's law of the same names, else plain ones."""
     for path in BENCHMARKS:
         for spec in tomllib.loads(path.read_text(encoding="utf-8"))["controllers"].values():
             other = LAWS.get(spec["law"])

@@ -60,7 +60,7 @@ def _name(symbol: sp.Expr) -> str:
 def _require_known(exprs: Iterable[sp.Expr], known: Iterable[sp.Expr], where: str) -> None:
     allowed = {_name(s) for s in known}
     for expr in exprs:
-        for symbol in expr.free_symbols:
+        for symbol in sorted(expr.free_symbols, key=str):
             if isinstance(symbol, sp.IndexedBase) or symbol in (neuron, neuron_count):
                 continue
             if _name(symbol) not in allowed:

@@ -16,7 +16,10 @@ class Metrics:
 
     energy_J: traction work at the wheel, braking not recovered; jerk_rms: of the acceleration over windows
     of the log's spacing; saturated_fraction: of samples whose force was limited; limit_violations: plant
-    steps outside the position band; failed: why the run ended early, or None.
+    steps outside the position band; failed: why the run ended early, or None. Of a failed run the extrema
+    hold up to its end, and what only a whole run has (RMS, stopping error, energy, jerk) is NaN, in rows None.
+    step_us: a compiled law is timed in blocks of 1,000 samples, plant included; MPC call by call, plant
+    excluded.
     """
 
     controller: str
@@ -41,6 +44,11 @@ class Metrics:
     time_of_max_position_error: float
     counters: dict[str, int]
 
+    @property
+    def largest_position_error(self) -> float:
+        """Largest |position error|, m."""
+        return max(abs(self.position_error_min), abs(self.position_error_max))
+
     def row(self) -> dict[str, object]:
         """The row as plain data; numbers of a run that failed before its first sample are None."""
         return {key: None if isinstance(value, float) and not np.isfinite(value) else value
@@ -50,6 +58,7 @@ class Metrics:
 def measure(run: Run, scenario: Scenario) -> Metrics:
     """The metrics of a run."""
     total = run.totals
+    whole = np.nan if run.failed else 1.0  # what only makes sense for a whole run is no number for a failed one
     samples = max(1.0, total["samples"])
     # The log's rows are a whole number of plant steps apart, which log_every_s need not be.
     spacing = np.diff(run.column("t_s")[:2])
@@ -58,11 +67,11 @@ def measure(run: Run, scenario: Scenario) -> Metrics:
         controller=run.controller,
         position_error_min=total["position_error_min"], position_error_max=total["position_error_max"],
         speed_error_min=total["speed_error_min"], speed_error_max=total["speed_error_max"],
-        position_rms=float(np.sqrt(total["position_error_square_sum"] / samples)),
-        speed_rms=float(np.sqrt(total["speed_error_square_sum"] / samples)),
-        stopping_error=run.final_position_m - scenario.track.length_m,
-        energy_J=total["traction_work_j"],
-        jerk_rms=float(np.sqrt(np.mean(jerk**2))) if len(jerk) else 0.0,
+        position_rms=whole * float(np.sqrt(total["position_error_square_sum"] / samples)),
+        speed_rms=whole * float(np.sqrt(total["speed_error_square_sum"] / samples)),
+        stopping_error=whole * (run.final_position_m - scenario.track.length_m),
+        energy_J=whole * total["traction_work_j"],
+        jerk_rms=whole * float(np.sqrt(np.mean(jerk**2))) if len(jerk) else 0.0,
         saturated_fraction=total["saturated_samples"] / max(1.0, total["commands"]),
         limit_violations=int(total["band_violations"]),
         step_us_median=float(np.median(run.step_us)), step_us_p99=float(np.percentile(run.step_us, 99)),

@@ -87,10 +87,11 @@ class PrintedRow(Record):
 
 
 class PrintedTable(Record):
-    """A table of the paper that the runs are held against."""
+    """A table of the paper that the runs are held against, and why they differ as far as that was measured."""
 
     source: Text
     rows: tuple[PrintedRow, ...]
+    reasons: tuple[Text, ...] = ()
 
 
 class PrintedValue(Record):
@@ -104,10 +105,14 @@ class PrintedValue(Record):
 
 
 class Variant(Record):
-    """One change of an assumed value, to see how much it matters: dotted key -> value."""
+    """One change of an assumed value, to see how much it matters: dotted key -> value.
+
+    controllers: those whose run it changes; none named means all.
+    """
 
     title: Text
     set: dict[str, Any]
+    controllers: tuple[Text, ...] = ()
 
 
 def _known_version(value: Any) -> Any:
@@ -148,6 +153,7 @@ class Scenario(Record):
         rows = self.printed_table.rows if self.printed_table else ()
         printed = [("printed_table", row.controller) for row in rows]
         printed += [("printed_values", value.controller) for value in self.printed_values]
+        printed += [("variants", name) for variant in self.variants for name in variant.controllers]
         for key, name in printed:
             if name not in self.controllers:
                 raise ValueError(f"{key}: '{name}' is no controller of this scenario: "

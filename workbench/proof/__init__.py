@@ -1,0 +1,1 @@
+"""Claims, deciders, certificates, and the checker that re-checks them on its own."""

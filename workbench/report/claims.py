@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 from urllib.parse import quote
@@ -16,6 +16,7 @@ VERDICTS = {"refuted": "✗", "violated": "!", "gap": "⋯", "undecided": "?", "
 NOT_AS_PRINTED = ("refuted", "violated", "gap")
 TRUST = {"exact": "certificate re-checked exactly", "oracle": "a solver's word",
          "kernel": "re-checked by Coq"}
+CORRECTIONS = {"refuted": "True instead", "violated": "Repaired", "gap": "What does follow"}
 FACTS = (("Stated", "stated"), ("Computed", "computed"), ("Scope", "scope"), ("Certificate", "certificate"))
 
 
@@ -38,6 +39,7 @@ class ClaimView:
     kind: str
     statement: Markup
     correction: Markup
+    correction_label: str
     verdict: str
     sign: str
     recorded: str
@@ -58,7 +60,7 @@ def claim_views(document: Mapping[str, Any]) -> list[ClaimView]:
     return [_view(entry, known) for entry in entries]
 
 
-def counts(claims: list[ClaimView]) -> dict[str, int]:
+def counts(claims: Sequence[ClaimView]) -> dict[str, int]:
     """How many claims have each verdict, the known verdicts first and all of them named."""
     found = dict.fromkeys(VERDICTS, 0)
     for claim in claims:
@@ -80,6 +82,7 @@ def _view(entry: Mapping[str, Any], known: set[str]) -> ClaimView:
         id=_text(entry.get("id")), anchor=anchor(_text(entry.get("id"))), title=_text(entry.get("title")),
         equation=_text(entry.get("equation")), kind=_text(entry.get("kind")),
         statement=formula(_text(entry.get("statement"))), correction=formula(_text(entry.get("correction"))),
+        correction_label=CORRECTIONS.get(verdict, "Correction"),
         verdict=verdict, sign=VERDICTS.get(verdict, "?"), recorded=recorded if recorded != verdict else "",
         method=_text(entry.get("method")), trust=TRUST.get(trust, trust), note=_text(entry.get("note")),
         tainted_by=refs["tainted_by"], premises=refs["premises"],

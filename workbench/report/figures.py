@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Any, Literal
+from typing import Literal
 
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
 from matplotlib.ticker import MaxNLocator
 
 from workbench.report.numbers import fixed, length, number
@@ -18,7 +19,7 @@ from workbench.simulate.sweep import SweepRow
 from workbench.track import resistance_table
 
 START_S = 30.0
-MOST_POINTS = 60
+MOST_POINTS = 40
 
 Quantity = Literal["position", "speed", "command"]
 
@@ -75,8 +76,7 @@ def tracking(run: Run) -> str:
             axes.set(ylabel=label)
         above.legend(ncols=2, loc="lower center")
         below.set(xlabel="time (s)", xlim=(0, float(time[-1])))
-        return svg(figure, f"Speed and position of the train under {run.title} lie on the desired curves at "
-                           f"this scale")
+        return svg(figure, f"Desired and measured speed and position against time under {run.title}")
 
 
 def errors(scenario: Scenario, runs: Sequence[Run], quantity: Quantity) -> str:
@@ -101,7 +101,7 @@ def errors(scenario: Scenario, runs: Sequence[Run], quantity: Quantity) -> str:
             start.set_xlim(0, START_S)
             whole.set_title(f"{run.title}: {_remark(run, quantity)}")
             if quantity == "position":
-                whole.set_title(_draw_bounds(whole, start, scenario, run, unit), loc="right", fontsize=7.5)
+                _draw_bounds(whole, start, scenario, run, unit)
         grid[0, 1].set_title(f"first {START_S:g} s")
         for axes in grid[-1]:
             axes.set_xlabel("time (s)")
@@ -133,33 +133,24 @@ def _remark(run: Run, quantity: Quantity) -> str:
     return f"largest |error| {length(largest)} at {fixed(total['time_of_max_position_error_s'], 1)} s"
 
 
-def _draw_bounds(whole: Axes, start: Axes, scenario: Scenario, run: Run, unit: str) -> str:
-    """Draw the watched band and the law's barrier where they lie within the axis; says what was done."""
+def _draw_bounds(whole: Axes, start: Axes, scenario: Scenario, run: Run, unit: str) -> None:
+    """The watched band, dashed, and the law's barrier k, dotted, where they lie within the axis."""
     scale = 1e3 if unit == "mm" else 1.0
     barrier = scenario.controllers[run.controller].parameters.get("k")
-    bounds: list[tuple[str, float, Any, str]] = [
-        ("band", scenario.simulation.position_band_m, "--", "dashed"),
-    ]
-    if barrier is not None:
-        bounds.append(("barrier k", barrier, ":", "dotted"))
-    said = []
-    for label, bound, style, word in bounds:
-        if bound * scale > max(-whole.dataLim.y0, whole.dataLim.y1) * 1.3:
-            said.append(f"{label} ±{length(bound)} beyond this scale")
+    limits = start.get_ylim()
+    for bound, style in ((scenario.simulation.position_band_m, "--"), (barrier, ":")):
+        if bound is None or bound * scale > max(-whole.dataLim.y0, whole.dataLim.y1) * 1.3:
             continue
-        limits = start.get_ylim()
         for axes in (whole, start):
             for side in (bound * scale, -bound * scale):
                 axes.axhline(side, color=INK, linewidth=0.9, linestyle=style)
-        start.set_ylim(limits)
-        said.append(f"{word}: {label} ±{length(bound)}")
-    return "; ".join(said)
+    start.set_ylim(limits)
 
 
 def spread(scenario: Scenario, rows: Sequence[SweepRow], titles: dict[str, str]) -> str:
     """Largest |position error|, largest |speed error| and |stopping error| of every run, on log axes.
 
-    A dot a run (of many runs, 60 evenly ranked ones with both extremes), a bar at the median, and a diamond
+    A dot a run (of many runs, 40 evenly ranked ones with both extremes), a bar at the median, and a diamond
     where the paper prints a value. `titles`: controller to the name shown.
     """
     names = [name for name in scenario.controllers if any(row.controller == name for row in rows)]
@@ -189,8 +180,13 @@ def spread(scenario: Scenario, rows: Sequence[SweepRow], titles: dict[str, str])
             titles.get(n, n) + (f"\n{failed[n]} failed" if failed[n] else "") for n in names
         ])
         grid[0].tick_params(axis="y", labelsize=9.0)
+        signs = [Line2D([], [], color=INK, marker="o", alpha=0.55, markersize=4, linestyle="", label="a run"),
+                 Line2D([], [], color=INK, marker="|", markersize=11, markeredgewidth=2, linestyle="",
+                        label="median of the runs")]
         if printed:
-            grid[0].set_title("◇ printed in the paper    | median of the runs")
+            signs.append(Line2D([], [], color=INK, marker="D", markersize=6, markerfacecolor="none",
+                                linestyle="", label="printed in the paper"))
+        figure.legend(handles=signs, loc="outside upper left", ncols=3)
         return svg(figure, "Spread of the largest position error, the largest speed error and the stopping "
                            "error over the Monte Carlo runs; the numbers stand in the tables")
 

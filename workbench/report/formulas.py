@@ -22,7 +22,9 @@ ATTRIBUTES = frozenset((
 ACCENTS = frozenset("˙¨^~¯ˇ´`→˘")
 BREAKS = frozenset("=≤≥<>+−⟹⇒⇔⟺∧∨∈")
 LONG = 40
-ARROWS = frozenset("⟹⟸⟺⟶⟵⟷⇒⇐⇔→←↔↦")
+OPERATORS = frozenset("⟹⟸⟺⟶⟵⟷⇒⇐⇔→←↔↦:")
+LIMITS = frozenset(("lim", "max", "min", "sup", "inf", "lim sup", "lim inf", "∑", "∏"))
+UNDER = {"msub": "munder", "msup": "mover", "msubsup": "munderover"}
 
 
 def formula(latex: str) -> Markup:
@@ -78,7 +80,9 @@ def _clean(element: ElementTree.Element) -> None:
     element.text = html.unescape(element.text or "")
     if "\\" in element.text:
         raise ValueError(f"unknown command {element.text}")
-    if element.tag == "mi" and element.text in ARROWS:
+    if element.tag == "mi" and element.text in OPERATORS:
         element.tag = "mo"  # an operator gets space around it
-    if element.tag == "mover" and len(element) == 2 and html.unescape(element[1].text or "") in ACCENTS:
+    if element.tag in UNDER and len(element) and html.unescape(element[0].text or "") in LIMITS:
+        element.tag = UNDER[element.tag]
+    elif element.tag == "mover" and len(element) == 2 and html.unescape(element[1].text or "") in ACCENTS:
         element.set("accent", "true")

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from markupsafe import Markup
 
 from workbench.metrics import Metrics
-from workbench.report.claims import NOT_AS_PRINTED, ClaimView, counts
+from workbench.report.claims import NOT_AS_PRINTED, VERDICTS, ClaimView, counts
 from workbench.report.numbers import length, number
 from workbench.report.sources import SourcedValue
 from workbench.report.tables import largest_error
@@ -15,13 +15,15 @@ from workbench.scenario import Scenario, Variant
 from workbench.simulate.sweep import SweepSummary
 
 PLURAL = {"gap": "gaps"}
+NOTABLE = 1.1
 
 
 def proof_line(claims: Sequence[ClaimView]) -> Markup | None:
     """Verdicts in words, with links to what does not hold as printed."""
     if not claims:
         return None
-    found = [f"{n} {PLURAL.get(v, v) if n > 1 else v}" for v, n in reversed(counts(list(claims)).items()) if n]
+    found = [f"{n} {PLURAL.get(verdict, verdict) if n > 1 else verdict}"
+             for verdict, n in sorted(counts(claims).items(), key=lambda item: _rank(item[0])) if n]
     line = Markup("<strong>Proof.</strong> {} claims: {}.").format(len(claims), ", ".join(found))
     wrong = [claim for claim in claims if claim.verdict in NOT_AS_PRINTED]
     if wrong:
@@ -67,8 +69,8 @@ def table_line(scenario: Scenario, summaries: Sequence[SweepSummary], names: dic
     ratios = [found[name] / printed[name] for name in printed]
     ranking = " &lt; ".join("{}" for _ in by_runs)
     verdict = "is reproduced" if by_paper == by_runs else "is not reproduced"
-    line = Markup("<strong>{}.</strong> Over {} runs a controller the printed ranking by largest |position error| "
-                  f"{verdict}: {ranking}; the obtained errors are ").format(
+    line = Markup("<strong>{}.</strong> Over {} runs a controller the printed ranking by largest "
+                  f"|position error| {verdict}: {ranking}; the obtained errors are ").format(
         scenario.printed_table.source.removeprefix("paper, "), runs, *(names[name] for name in by_runs))
     return line + f"{number(min(ratios), 2)} to {number(max(ratios), 2)} times the printed ones."
 
@@ -77,18 +79,28 @@ def variants_line(nominal: Sequence[Metrics], variants: Sequence[tuple[Variant, 
                   names: dict[str, str]) -> Markup | None:
     """The change of an assumed value that matters most."""
     base = {m.controller: error for m in nominal if (error := largest_error(m)) is not None}
+    if not variants:
+        return None
+    line = Markup("<strong>Sensitivity.</strong> {} changes of assumed data.").format(len(variants))
+    broken = [(variant.title, failed) for variant, metrics in variants
+              if (failed := [names.get(m.controller, m.controller) for m in metrics
+                             if m.failed is not None and m.controller in base])]
+    for title, failed in broken[:2]:
+        line += Markup(" “{}” makes {} fail.").format(title, _and(failed))
+    if len(broken) > 2:
+        line += Markup(' <a href="#variants">{} more</a> make runs fail.').format(len(broken) - 2)
     changes = [(max(error / base[m.controller], base[m.controller] / error), variant, m.controller, error)
                for variant, metrics in variants for m in metrics
                if m.controller in base and (error := largest_error(m)) and base[m.controller]]
-    if not changes:
-        return None
-    _, variant, controller, error = max(changes, key=lambda change: change[0])
-    failures = sum(m.failed is not None for _, metrics in variants for m in metrics)
-    also = f" {failures} of the changed runs fail." if failures else ""
-    return Markup("<strong>Sensitivity.</strong> Of {} changes of assumed data “{}” matters most: the largest "
-                  "|position error| of {} goes from {} to {}.{}").format(
-        len(variants), variant.title, names.get(controller, controller), length(base[controller]),
-        length(error), also)
+    most = max(changes, key=lambda change: change[0], default=None)
+    if most and most[0] > NOTABLE:
+        _, variant, controller, error = most
+        line += Markup(" Where no run fails “{}” changes most: the largest |position error| of {} goes from "
+                       "{} to {}.").format(variant.title, names.get(controller, controller),
+                                        length(base[controller]), length(error))
+    elif most:
+        line += " No other changes a largest |position error| by more than 10 %."
+    return line
 
 
 def sources_line(values: Sequence[SourcedValue]) -> Markup:
@@ -96,6 +108,11 @@ def sources_line(values: Sequence[SourcedValue]) -> Markup:
     assumed = sum(value.kind == "assumed" for value in values)
     return Markup('<strong>Data.</strong> {} of {} stated values are <a href="#assumptions">assumed</a>: '
                   "the paper does not give them.").format(assumed, len(values))
+
+
+def _rank(verdict: str) -> int:
+    """Proved first: the order of a sentence, where the table of counts has what needs attention first."""
+    return -list(VERDICTS).index(verdict) if verdict in VERDICTS else 1
 
 
 def _and(words: Sequence[str]) -> str:

@@ -23,9 +23,16 @@ def number(value: float | None, digits: int = 3) -> str:
     rounded = float(f"{value:.{digits - 1}e}")
     exponent = math.floor(math.log10(abs(rounded)))
     if not -4 <= exponent < 7:
-        mantissa = f"{rounded / 10.0**exponent:.{digits - 1}f}"
-        return f"{_minus(mantissa)}{THIN_SPACE}×{THIN_SPACE}10{str(exponent).translate(_SUPERSCRIPT)}"
+        return _scientific(f"{rounded / 10.0**exponent:.{digits - 1}f}", exponent)
     return grouped(f"{rounded:.{max(0, digits - 1 - exponent)}f}")
+
+
+def exact(value: float) -> str:
+    """A number that somebody wrote down, with the digits it has."""
+    if not math.isfinite(value):
+        return NOTHING if math.isnan(value) else "∞" if value > 0 else "−∞"
+    mantissa, e, exponent = f"{value:.12g}".partition("e")
+    return _scientific(mantissa, int(exponent)) if e else grouped(mantissa)
 
 
 def fixed(value: float | None, decimals: int) -> str:
@@ -45,13 +52,6 @@ def grouped(text: str) -> str:
     return sign + whole + point + rest
 
 
-def interval(low: float | None, high: float | None, digits: int = 3) -> str:
-    """An interval [low, high]; a dash when an end is missing."""
-    if NOTHING in (number(low), number(high)):
-        return NOTHING
-    return f"[{number(low, digits)}, {number(high, digits)}]"
-
-
 def length(value_m: float | None, digits: int = 3) -> str:
     """A length in m with its unit, in mm below 1 m, with a power of ten below a micrometre."""
     if value_m is None or not math.isfinite(value_m):
@@ -59,5 +59,6 @@ def length(value_m: float | None, digits: int = 3) -> str:
     return f"{number(value_m, digits)} m" if abs(value_m) >= 1 else f"{number(value_m * 1e3, digits)} mm"
 
 
-def _minus(text: str) -> str:
-    return text.replace("-", "−")
+def _scientific(mantissa: str, exponent: int) -> str:
+    power = str(exponent).translate(_SUPERSCRIPT)
+    return f"{mantissa.replace('-', '−')}{THIN_SPACE}×{THIN_SPACE}10{power}"

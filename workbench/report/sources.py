@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 from pydantic import BaseModel
 
-from workbench.report.numbers import NOTHING, grouped
+from workbench.report.numbers import NOTHING, exact
 from workbench.scenario import Scenario
 from workbench.toml_input import SourcedRecord
 
@@ -48,7 +48,7 @@ def stated(value: object) -> str:
     """A stated value as a short text: numbers as they were written, sections of a line by their count."""
     text = NOTHING if value is None else str(value)
     if isinstance(value, int | float) and not isinstance(value, bool):
-        text = grouped(f"{value:.12g}")
+        text = exact(value)
     elif isinstance(value, Mapping):
         text = ", ".join(f"{name} = {stated(entry)}" for name, entry in value.items())
     elif isinstance(value, tuple | list) and value and isinstance(value[0], BaseModel):

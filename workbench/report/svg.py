@@ -21,7 +21,9 @@ Array = NDArray[np.float64]
 PALETTE = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9")
 # Stand-ins that become the page's own colours in the SVG text.
 INK, FAINT = "#010203", "#010204"
-_PAGE_COLOURS = {INK: "currentColor", FAINT: "var(--faint, #b4b4b4)"}
+_PAGE_COLOURS = {INK: "currentColor", FAINT: "var(--faint, #b4b4b4)"} | {
+    colour.lower(): f"var(--series-{i}, {colour})" for i, colour in enumerate(PALETTE)
+}
 # Text is laid out for DejaVu Sans, which matplotlib brings along; where it is missing another stands in.
 FONT, STAND_INS = "'DejaVu Sans'", "'DejaVu Sans', Verdana, 'Segoe UI', Helvetica, Arial, sans-serif"
 BUCKETS = 320
@@ -54,8 +56,7 @@ def svg(figure: Figure, alt: str) -> str:
     figure.savefig(stream, format="svg", transparent=True, metadata=nothing)
     text = stream.getvalue()
     text = re.sub(r"<metadata>.*?</metadata>", "", text[text.index("<svg"):], flags=re.DOTALL)
-    for stand_in, colour in _PAGE_COLOURS.items():
-        text = text.replace(stand_in, colour)
+    text = re.sub("|".join(_PAGE_COLOURS), lambda m: _PAGE_COLOURS[m[0]], text)
     text = text.replace(FONT, STAND_INS)
     # Names of groups repeat from figure to figure; only those that something points to are kept.
     used = set(re.findall(r'(?:url\(#|href="#)([^)"]+)', text))

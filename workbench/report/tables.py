@@ -2,31 +2,32 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 
 from workbench.controllers.registry import LAWS, SAMPLED
 from workbench.metrics import Metrics
-from workbench.report.numbers import NOTHING, fixed, grouped, interval, number
+from workbench.report.numbers import NOTHING, fixed, grouped, number
 from workbench.report.sources import stated
 from workbench.scenario import Scenario, Variant
 from workbench.simulate.closed_loop import Run
-from workbench.simulate.sweep import SweepSummary
+from workbench.simulate.sweep import WHOLE_RUN, SweepSummary
 
 
 @dataclass(frozen=True)
 class MetricRow:
-    """One metric of all controllers: label, unit, a text each, and which of them is the best."""
+    """One metric of all controllers: label, unit, a text each, and which of them are the best."""
 
     label: str
     unit: str
     cells: tuple[str, ...]
-    best: int | None
+    best: frozenset[int]
 
 
 @dataclass(frozen=True)
 class ComparedRow:
-    """One controller of the paper's table: (printed, obtained, difference) for each of its three columns."""
+    """One controller of the paper's table: (printed, obtained, difference) for each of its columns, in mm."""
 
     title: str
     cells: tuple[tuple[str, str, str], ...]
@@ -35,7 +36,7 @@ class ComparedRow:
 
 
 @dataclass(frozen=True)
-class PrintedRow:
+class SingleValueRow:
     """A single printed value beside what the nominal run gave."""
 
     what: str
@@ -48,7 +49,7 @@ class PrintedRow:
 
 @dataclass(frozen=True)
 class VariantCell:
-    """One controller under one change: its errors in mm, or why it failed."""
+    """One controller under one change: its errors in mm; of a failed run why, and in `stop` when."""
 
     error: str
     stop: str
@@ -98,14 +99,21 @@ METRICS: tuple[tuple[str, str, str, _Write, bool], ...] = (
 
 
 def nominal_table(metrics: Sequence[Metrics]) -> list[MetricRow]:
-    """All metrics as rows, controllers as columns; the smallest magnitude is the best where that has a sense."""
+    """All metrics as rows, controllers as columns; the smallest magnitude is best where that has a sense.
+
+    Of a failed run only what it did until then is shown.
+    """
     rows = []
     for key, label, unit, write, smaller in METRICS:
-        values: list[float | None] = [m.row()[key] for m in metrics]  # type: ignore[misc]
+        values: list[float | None] = [
+            None if m.failed is not None and key in WHOLE_RUN else m.row()[key]  # type: ignore[misc]
+            for m in metrics
+        ]
         texts = [NOTHING if value is None else write(value) for value in values]
         whole = {i: abs(v) for i, v in enumerate(values) if v is not None and metrics[i].failed is None}
-        best = min(whole, key=whole.__getitem__) if smaller and len({texts[i] for i in whole}) > 1 else None
-        rows.append(MetricRow(label, unit, tuple(texts), best))
+        shown = {texts[i] for i in whole}
+        first = texts[min(whole, key=whole.__getitem__)] if smaller and len(shown) > 1 else None
+        rows.append(MetricRow(label, unit, tuple(texts), frozenset(i for i in whole if texts[i] == first)))
     return rows
 
 
@@ -131,12 +139,14 @@ def compared_table(scenario: Scenario, summaries: Sequence[SweepSummary],
     for controller in [*printed, *(name for name in found if name not in printed)]:
         row, own = printed.get(controller), found.get(controller)
         cells = (
-            _compare_ranges(row and row.position_error_m,
-                            own and (own.position_error_min, own.position_error_max)),
-            _compare_ranges(row and row.speed_error_mps, own and (own.speed_error_min, own.speed_error_max)),
-            _compare(row.stopping_accuracy_m if row else None, own.mean_abs_stopping_error if own else None),
+            _compare_ranges(row.position_error_m if row else None,
+                            (own.position_error_min, own.position_error_max) if own else (None, None)),
+            _compare_ranges(row.speed_error_mps if row else None,
+                            (own.speed_error_min, own.speed_error_max) if own else (None, None)),
+            _compare(row.stopping_accuracy_m if row else None,
+                     own.mean_abs_stopping_error if own else None, 1e3),
         )
-        failed = f"{own.failed} of {own.runs}" if own else NOTHING
+        failed = f"{own.failed}/{own.runs}" if own else NOTHING
         rows.append(ComparedRow(names.get(controller, controller), cells, failed, row is not None))
     return rows
 
@@ -144,30 +154,35 @@ def compared_table(scenario: Scenario, summaries: Sequence[SweepSummary],
 _Range = tuple[float | None, float | None]
 
 
-def _compare_ranges(printed: tuple[float, float] | None, obtained: _Range | None) -> tuple[str, str, str]:
-    low, high = obtained or (None, None)
-    if printed is None or low is None or high is None:
-        return interval(*printed) if printed else NOTHING, interval(low, high), NOTHING
-    return interval(*printed), interval(low, high), interval(low - printed[0], high - printed[1])
+def _compare_ranges(printed: tuple[float, float] | None, obtained: _Range) -> tuple[str, str, str]:
+    (low, low_obtained, low_off), (high, high_obtained, high_off) = (
+        _compare(p, o, 1e3) for p, o in zip(printed or (None, None), obtained, strict=True))
+    return _pair(low, high), _pair(low_obtained, high_obtained), _pair(low_off, high_off)
 
 
-def _compare(printed: float | None, obtained: float | None) -> tuple[str, str, str]:
-    if printed is None or obtained is None:
-        return number(printed), number(obtained), NOTHING
-    return number(printed), number(obtained), number(obtained - printed)
+def _pair(low: str, high: str) -> str:
+    return NOTHING if NOTHING in (low, high) else f"[{low}, {high}]"
+
+
+def _compare(printed: float | None, obtained: float | None, scale: float = 1.0) -> tuple[str, str, str]:
+    """Printed (as many digits as were printed), obtained and difference, in units of 1/scale."""
+    printed = None if printed is None else printed * scale
+    obtained = None if obtained is None else obtained * scale
+    difference = None if printed is None or obtained is None else obtained - printed
+    return stated(printed), number(obtained), number(difference)
 
 
 def printed_values_table(scenario: Scenario, metrics: Sequence[Metrics],
-                         names: Mapping[str, str]) -> list[PrintedRow]:
+                         names: Mapping[str, str]) -> list[SingleValueRow]:
     """The single values that the paper prints beside the nominal run's."""
     found = {m.controller: m for m in metrics}
     rows = []
     for value in scenario.printed_values:
         own = found.get(value.controller)
-        obtained = getattr(own, value.metric, None)
-        obtained = None if not isinstance(obtained, int | float) or own is None or own.failed else float(obtained)
+        measured = getattr(own, value.metric, None) if own and own.failed is None else None
+        obtained = float(measured) if isinstance(measured, int | float) else None
         label = next((label for key, label, *_ in METRICS if key == value.metric), value.metric)
-        rows.append(PrintedRow(f"{names.get(value.controller, value.controller)}: {label}", value.source,
+        rows.append(SingleValueRow(f"{names.get(value.controller, value.controller)}: {label}", value.source,
                                *_compare(value.value, obtained), value.unit))
     return rows
 
@@ -197,6 +212,8 @@ def variants_table(nominal: Sequence[Metrics],
 def _variant_cell(metrics: Metrics, base: float | None) -> VariantCell:
     error = largest_error(metrics)
     if error is None:
-        return VariantCell("", "", metrics.failed or "", differs=True)
+        reason = metrics.failed or ""
+        when = re.search(r"t = ([\d.]+) s", reason)
+        return VariantCell("", f"{fixed(float(when[1]), 1)} s" if when else "", reason, differs=True)
     differs = base is not None and abs(error - base) > 0.1 * base
     return VariantCell(number(error * 1e3), number(metrics.stopping_error * 1e3), "", differs)

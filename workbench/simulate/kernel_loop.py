@@ -4,7 +4,7 @@
 is joined to them. The plant is integrated by fixed-step RK4 between samples; the command is held.
 """
 
-# ruff: noqa: F821, D103, ANN001, ANN201, PLR0912, PLR0915
+# ruff: noqa: F821, ANN001, ANN201, PLR0912, PLR0915
 # mypy: ignore-errors
 
 import math
@@ -24,6 +24,7 @@ RUNNING, LEFT_DOMAIN, DIVERGED = 0, 1, 2
 
 
 def desired(t, hint, breaks, coefficients):
+    """Piece of the desired curve at time t, and its position, speed and acceleration there."""
     last = coefficients.shape[0] - 1
     while hint < last and t >= breaks[hint + 1]:
         hint += 1
@@ -43,6 +44,7 @@ def desired(t, hint, breaks, coefficients):
 
 
 def additional(position, hint, edges, values):
+    """Section of the line at a position, and its additional resistance in N per kg."""
     last = edges.shape[0] - 1
     while hint < last and position >= edges[hint + 1]:
         hint += 1
@@ -52,6 +54,7 @@ def additional(position, hint, edges, values):
 
 
 def rates_at(t, p, v, force, hint, edges, values, sine, plant):
+    """Section of the line, and the derivatives of position and speed under a force in N."""
     hint, specific = additional(p, hint, edges, values)
     # sine: amplitude (N per kg) and angular frequency (rad/s) of the scenario's unknown disturbance
     opposing = plant[0] * (specific + sine[0] * math.sin(sine[1] * t))
@@ -61,6 +64,7 @@ def rates_at(t, p, v, force, hint, edges, values, sine, plant):
 
 def closed_loop(first, count, per_sample, dt, state, hints, breaks, coefficients, edges, values, sine, plant,
                 limits, band, nominal_mass, parameters, scalars, neurons, neuron_data, acc, log, log_every):
+    """Steps first to first + count - 1; returns RUNNING, LEFT_DOMAIN or DIVERGED, and the step reached."""
     # limits: traction force (N), braking force (N), power (W); state: position, speed, held command, force
     p, v, u, force = state[0], state[1], state[2], state[3]
     curve_hint, track_hint = hints[0], hints[1]
@@ -96,7 +100,8 @@ def closed_loop(first, count, per_sample, dt, state, hints, breaks, coefficients
             highest = min(limits[0], limits[2] / max(abs(v), 1e-3))
             force = min(max(wanted, -limits[1]), highest)
             acc[15] += 1.0
-            if force != wanted:
+            # A law that itself stops at the limit may pass it by a rounding error, which limits nothing.
+            if abs(force - wanted) > 1e-12 * abs(wanted):
                 acc[9] += 1.0
             acc[11] = max(acc[11], u)
             acc[12] = min(acc[12], u)

@@ -4,11 +4,13 @@ from __future__ import annotations
 
 import csv
 import hashlib
+import io
 import json
 import tempfile
 from collections.abc import Callable, Sequence
 from contextlib import nullcontext
 from dataclasses import asdict, dataclass, fields
+from functools import cache
 from pathlib import Path
 
 import numpy as np
@@ -182,7 +184,7 @@ def _summary(name: str, rows: list[SweepRow]) -> SweepSummary:
 
 def csv_text(rows: Sequence[SweepRow]) -> str:
     """The rows as CSV; floats by repr, so that they read back as the same numbers; None is an empty cell."""
-    stream = _Lines()
+    stream = io.StringIO()
     writer = csv.writer(stream, lineterminator="\n")
     factors = [f.name for f in fields(Factors)]
     values = [f.name for f in fields(SweepRow) if f.name not in ("run", "controller", "factors")]
@@ -191,23 +193,26 @@ def csv_text(rows: Sequence[SweepRow]) -> str:
         cells = [row.run, row.controller, *(getattr(row.factors, n) for n in factors),
                  *(getattr(row, n) for n in values)]
         writer.writerow(["" if c is None else repr(c) if isinstance(c, float) else c for c in cells])
-    return "".join(stream)
-
-
-class _Lines(list[str]):
-    write = list.append
+    return stream.getvalue()
 
 
 def inputs_digest(scenario: Scenario) -> str:
     """What the rows depend on: the scenario's values, its line, and the code that computes them."""
     data = scenario.model_dump(exclude={"printed_table", "printed_values", "variants", "title", "citation"})
-    digest = hashlib.sha256(json.dumps(data, sort_keys=True).encode())
+    text = json.dumps(data, sort_keys=True, default=str)
+    return hashlib.sha256(code_digest() + text.encode()).hexdigest()[:20]
+
+
+@cache
+def code_digest() -> bytes:
+    """A digest of the modules that simulate, read once: this process goes on with those it has imported."""
+    digest = hashlib.sha256()
     package = Path(__file__).parents[1]
     for pattern in ("*.py", "controllers/*.py", "simulate/*.py"):
         for file in sorted(package.glob(pattern)):
             if file.name != "cli.py":
                 digest.update(file.read_bytes())
-    return digest.hexdigest()[:20]
+    return digest.digest()
 
 
 def _chosen(scenario: Scenario, path: Path, controllers: Sequence[str] | None) -> list[str]:

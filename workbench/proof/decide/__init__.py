@@ -1,0 +1,1 @@
+"""Deciders: each proposes certificates of one kind; `engine` puts them in turn."""

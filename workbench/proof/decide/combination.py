@@ -36,7 +36,8 @@ from workbench.proof.decide.laurent import (
 from workbench.proof.derive import SUM
 from workbench.proof.text import text
 
-MAX_COLUMNS = 20_000
+MAX_COLUMNS = 6_000
+MAX_PRODUCT = 12
 SUPPORT_TOLERANCE = 1e-9
 
 
@@ -137,40 +138,42 @@ def _expression(exponents: Exponents, atoms: Atoms) -> sp.Expr:
 def _candidates(target: Laurent, known: list[Known], atoms: Atoms, rounds: int, pairs: bool) -> list[Known]:
     """Terms of known sign that could add up to the target."""
     pool = list(known)
+    sum_place = atoms.generators.index(SUM)
     if pairs:
-        signed = [k for k in known if k.items]
+        signed = [k for k in known if k.items and k.sign != "=="]
         for one, two in combinations_with_replacement(signed, 2):
-            sign = "==" if "==" in (one.sign, two.sign) else ">" if one.sign == two.sign == ">" else ">="
-            try:
-                value = reduce_inverses(multiply(one.value, two.value), atoms)
-            except ClaimError:
+            if len(one.value) * len(two.value) > MAX_PRODUCT:
                 continue
+            if any(e[sum_place] for k in (one, two) for e in k.value if len(e) > sum_place):
+                continue
+            sign = ">" if one.sign == two.sign == ">" else ">="
+            value = reduce_inverses(multiply(one.value, two.value), atoms)
             pool.append(Known(one.items + two.items, value, sign))
     support = set(target)
     terms: dict[tuple[str, ...], Known] = {}
     for _ in range(rounds):
         fresh: list[Known] = []
         for base in pool:
-            for wanted in sorted(support):
-                for own in base.value:
-                    fresh += _scaled(base, ratio_of(wanted, own), atoms, terms)
+            for by in sorted({ratio_of(wanted, own) for wanted in support for own in base.value}):
+                fresh += _scaled(base, by, atoms, terms)
+            if len(terms) > MAX_COLUMNS:
+                return list(terms.values())
         fresh += _binomial_squares(support, atoms, terms)
         support |= {e for term in fresh for e in term.value}
-        if len(terms) > MAX_COLUMNS:
-            break
     return list(terms.values())
 
 
 def _scaled(base: Known, by: Exponents, atoms: Atoms, seen: dict[tuple[str, ...], Known]) -> list[Known]:
     """base times a monomial, when that has a known sign."""
     sum_place = atoms.generators.index(SUM)
-    if len(by) > sum_place and by[sum_place] != 0 and not (by[sum_place] == 1 and not base.items):
+    sums = by[sum_place] if len(by) > sum_place else 0
+    if sums and (sums != 1 or any(e[sum_place] for e in base.value if len(e) > sum_place)):
         return []
     if base.sign == "==":
         items: tuple[Item, ...] | None = ({"any": text(_expression(by, atoms))},) if by else ()
         if any(p and g in atoms.indexed | {SUM} for g, p in zip(atoms.generators, by, strict=False)):
             return []
-    elif len(by) > sum_place and by[sum_place] == 1:
+    elif sums:
         items = _sum_of_squares(by, atoms)
     else:
         items = _monomial(by, atoms)

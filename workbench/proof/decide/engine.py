@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import time
+from collections.abc import Callable
 from dataclasses import replace
 from fractions import Fraction
 from typing import Any
@@ -11,11 +12,11 @@ import sympy as sp
 
 from workbench.errors import ClaimError
 from workbench.proof.checker import CertificateError, check
-from workbench.proof.claim import FAILED, Claim, D, Decision, Goal, Relation, Verdict, at_least, name_of
+from workbench.proof.claim import FAILED, Claim, D, Decision, Goal, Relation, Verdict, at_least, latex, name_of
 from workbench.proof.decide.combination import find_combination
 from workbench.proof.decide.identity import find_identity
 from workbench.proof.decide.refute import find_counterexample, find_example, value_at
-from workbench.proof.text import assumptions, goal_text, text
+from workbench.proof.text import assumptions, goal_text, relation_text, text
 
 Certificate = dict[str, Any]
 
@@ -26,10 +27,7 @@ def decide(claim: Claim) -> Decision:
     if claim.build is None:
         return Decision(claim, "assumed", claim.axiom or "", None, time.perf_counter() - started)
     goal = claim.build()
-    if claim.at is not None:
-        decision = _decide_condition(claim, goal)
-    else:
-        decision = _decide_statement(claim, goal)
+    decision = _decide_statement(claim, goal) if claim.at is None else _decide_condition(claim, goal)
     return replace(decision, seconds=time.perf_counter() - started)
 
 
@@ -78,7 +76,7 @@ def _decide_condition(claim: Claim, goal: Goal) -> Decision:
         if repaired is None:
             raise ClaimError(f"claim {claim.id}: its repair could not be proved: give values that meet it")
         falsified["repair"] = {k: v for k, v in repaired[0].items() if k not in ("version", "verdict")}
-        correction = ",\\ ".join(f"{_latex(s)} = {_fraction(v)}" for s, v in claim.repair.items())
+        correction = ",\\ ".join(f"{latex(s)} = {_fraction(v)}" for s, v in claim.repair.items())
         check(falsified)
     return Decision(claim, "violated", "exact evaluation at the stated values", "exact", 0.0, falsified, stated,
                     correction, value_at(goal, stated))
@@ -125,17 +123,26 @@ def _prove_relation(goal: Goal, shown: Relation) -> tuple[dict[str, Any], str] |
         return _by_decrease(goal, shown)
     given = assumptions(goal)
     steps: list[tuple[Relation, dict[str, Any]]] = []
-    for lemma in goal.lemmas:
-        proof = find_combination(goal, lemma, (*given, *(r for r, _ in steps)))
+    for lemma in (*goal.lemmas, *_signs_of_logs((shown, *given))):
+        known = tuple(r for r, _ in steps)
+        # Only what shares a symbol with the lemma is offered, so that side lemmas stay cheap; positions stay.
+        near = tuple(r if lemma.margin.free_symbols & r.margin.free_symbols else _EMPTY for r in (*given, *known))
+        proof = find_combination(goal, lemma, near)
         if proof is not None:
             steps.append((lemma, proof))
     final = find_combination(goal, shown, (*given, *(r for r, _ in steps)))
     if final is None:
         return None
+    method = "lemmas and combination" if steps else "combination"
     for lemma, proof in reversed(steps):
-        final = {"rule": "cut", "lemma": f"{text(lemma.left)} {lemma.operator} {text(lemma.right)}",
-                 "proof": proof, "then": final}
-    return final, "combination" if goal.lemmas == () else "lemmas and combination"
+        final = {"rule": "cut", "lemma": relation_text(lemma), "proof": proof, "then": final}
+    return final, method
+
+
+def _signs_of_logs(relations: tuple[Relation, ...]) -> list[Relation]:
+    """log A >= 0 for every logarithm in the relations: worth trying as a lemma."""
+    logs = sorted({log for r in relations for log in r.margin.atoms(sp.log)}, key=sp.default_sort_key)
+    return [at_least(log, 0) for log in logs if relations[0].margin != log]
 
 
 def _by_decrease(goal: Goal, shown: Relation) -> tuple[dict[str, Any], str] | None:
@@ -158,16 +165,15 @@ def _by_decrease(goal: Goal, shown: Relation) -> tuple[dict[str, Any], str] | No
 _EMPTY = at_least(0, 0)
 
 
-def _latex(symbol: Any) -> str:
-    return str(sp.latex(symbol))
-
-
 def _fraction(value: Fraction) -> str:
     return str(value.numerator) if value.denominator == 1 else rf"\frac{{{value.numerator}}}{{{value.denominator}}}"
 
 
-def decide_all(claims: list[Claim]) -> list[Decision]:
-    """Decide claims and carry failures along the premises; raises ClaimError for a premise that is no claim."""
+def decide_all(claims: list[Claim], on_progress: Callable[[int], None] = lambda done: None) -> list[Decision]:
+    """Decide claims and carry failures along the premises; on_progress(claims decided) after each.
+
+    Raises ClaimError for ids used twice and for a premise that is no claim.
+    """
     by_id = {claim.id: claim for claim in claims}
     if len(by_id) != len(claims):
         twice = sorted({c.id for c in claims if sum(d.id == c.id for d in claims) > 1})
@@ -176,7 +182,10 @@ def decide_all(claims: list[Claim]) -> list[Decision]:
         for premise in claim.premises:
             if premise not in by_id:
                 raise ClaimError(f"claim {claim.id}: premise '{premise}' is no claim: state it or correct the id")
-    decisions = {claim.id: decide(claim) for claim in claims}
+    decisions: dict[str, Decision] = {}
+    for claim in claims:
+        decisions[claim.id] = decide(claim)
+        on_progress(len(decisions))
     return [replace(d, tainted_by=_taint(d.claim, by_id, decisions)) for d in decisions.values()]
 
 

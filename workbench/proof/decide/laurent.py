@@ -133,28 +133,29 @@ def _expand(expr: sp.Expr, atoms: Atoms) -> Laurent:
 
 def reduce_inverses(poly: Laurent, atoms: Atoms) -> Laurent:
     """Normal form modulo z s = 1: no monomial keeps z together with the leading monomial of s."""
-    for symbol, margin in list(atoms.inverses.items()):
-        z = atoms.index(symbol)
+    total = dict(poly)
+    for symbol, margin in atoms.inverses.items():
+        z, size = atoms.index(symbol), len(atoms.generators)
         terms = _expand(margin, atoms)
         lead = max(terms, key=lambda e: (sum(e), e))
-        lead_value = terms[lead]
-        changed = True
-        while changed:
-            changed = False
-            for exponents, coefficient in list(poly.items()):
-                wide = _pad(exponents, len(atoms.generators))
-                if wide[z] >= 1 and all(a >= b for a, b in zip(wide, _pad(lead, len(wide)), strict=True) if b > 0):
-                    # z lead = (1 - z (s - lead)) / lead_value
-                    poly = add(poly, {exponents: -coefficient})
-                    base = _minus(wide, _pad(lead, len(wide)))
-                    lowered = list(base)
-                    lowered[z] -= 1
-                    poly = add(poly, {tuple(lowered): coefficient / lead_value})
-                    for e, c in terms.items():
-                        if e != lead:
-                            poly = add(poly, {_plus(base, _pad(e, len(wide))): -coefficient * c / lead_value})
-                    changed = True
-    return poly
+        places = [(i, n) for i, n in enumerate(lead) if n]
+        open_keys = list(total)
+        while open_keys:
+            exponents = open_keys.pop()
+            wide = _pad(exponents, size)
+            if exponents not in total or wide[z] < 1 or any(wide[i] < n for i, n in places):
+                continue
+            # z lead = (1 - z (s - lead)) / lead_value
+            coefficient = total.pop(exponents) / terms[lead]
+            base = _minus(wide, lead)
+            lowered = tuple(n - (i == z) for i, n in enumerate(base))
+            for e, c in (((), None), *terms.items()):
+                if e == lead:
+                    continue
+                key = trim(lowered) if c is None else trim(_plus(base, e))
+                _accumulate(total, key, coefficient if c is None else -coefficient * c)
+                open_keys.append(key)
+    return total
 
 
 def _pad(exponents: Exponents, length: int) -> Exponents:
@@ -183,13 +184,17 @@ def add(a: Laurent, b: Laurent) -> Laurent:
     """a + b."""
     total = dict(a)
     for exponents, coefficient in b.items():
-        key = trim(exponents)
-        value = total.get(key, Fraction(0)) + coefficient
-        if value:
-            total[key] = value
-        else:
-            total.pop(key, None)
+        _accumulate(total, exponents, coefficient)
     return total
+
+
+def _accumulate(total: Laurent, exponents: Exponents, coefficient: Fraction) -> None:
+    key = trim(exponents)
+    value = total.get(key, Fraction(0)) + coefficient
+    if value:
+        total[key] = value
+    else:
+        total.pop(key, None)
 
 
 def multiply(a: Laurent, b: Laurent) -> Laurent:
@@ -197,7 +202,7 @@ def multiply(a: Laurent, b: Laurent) -> Laurent:
     total: Laurent = {}
     for e1, c1 in a.items():
         for e2, c2 in b.items():
-            total = add(total, {_plus(e1, e2): c1 * c2})
+            _accumulate(total, _plus(e1, e2), c1 * c2)
     return total
 
 

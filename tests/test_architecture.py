@@ -1,0 +1,129 @@
+"""The shape of the package: imports run one way, files stay readable, nothing executes what it reads."""
+
+import ast
+import sys
+from graphlib import TopologicalSorter
+from pathlib import Path
+
+import pytest
+
+import workbench
+
+ROOT = Path(workbench.__file__).parent
+PATHS = {".".join(path.relative_to(ROOT.parent).with_suffix("").parts).removesuffix(".__init__"): path
+         for path in sorted(ROOT.rglob("*.py"))}
+
+# A module may import from its own floor and the floors below it. The longest prefix says which floor.
+FLOORS = (
+    ("errors",),
+    ("toml_input",),
+    ("train", "track", "desired_curve"),
+    ("scenario", "controllers.base"),  # what a scenario states, and what a law is
+    ("compile",),  # expressions to code; it must know what a law is
+    ("controllers",),  # the laws themselves, MPC among them, which is compiled and reads its scenario
+    ("simulate", "proof", "optimal", "gains"),
+    ("metrics",),  # numbers of a run
+    ("simulate.sweep", "simulate.compare"),  # many runs, each as its numbers
+    ("report",),
+    ("cli", "__main__"),
+)
+FLOOR_OF = {f"workbench.{prefix}": floor for floor, prefixes in enumerate(FLOORS) for prefix in prefixes}
+
+LONGEST = 300
+LONGER = {"workbench.proof.checker": 400, "workbench.simulate.kernel_loop": 400}
+
+# Loading a file of Python as a module: the generated kernels, and the paper files a user names.
+MAY_LOAD_MODULES = {"workbench.compile", "workbench.proof.paper"}
+FORBIDDEN_CALLS = {"eval", "exec", "compile", "__import__", "parse_expr"}
+FORBIDDEN_MODULES = {"pickle", "cPickle", "marshal", "shelve", "dill", "cloudpickle", "joblib"}
+
+
+def floor(module: str) -> int:
+    prefixes = [prefix for prefix in FLOOR_OF if module == prefix or module.startswith(f"{prefix}.")]
+    assert prefixes, f"{module} has no floor: give it one in FLOORS"
+    return FLOOR_OF[max(prefixes, key=len)]
+
+
+def tree(module: str) -> ast.Module:
+    return ast.parse(PATHS[module].read_text(encoding="utf-8"))
+
+
+def imported(module: str) -> set[str]:
+    """Full names of everything a module imports, anywhere in it; members of packages by their own module."""
+    names: set[str] = set()
+    package = module if PATHS[module].name == "__init__.py" else module.rpartition(".")[0]
+    for node in ast.walk(tree(module)):
+        if isinstance(node, ast.Import):
+            names |= {alias.name for alias in node.names}
+        elif isinstance(node, ast.ImportFrom):
+            above = package.split(".")[: len(package.split(".")) - node.level + 1] if node.level else []
+            source = ".".join([*above, *([node.module] if node.module else [])])
+            names |= {f"{source}.{a.name}" if f"{source}.{a.name}" in PATHS else source for a in node.names}
+    return names
+
+
+def own(module: str) -> set[str]:
+    return {name for name in imported(module) if name in PATHS and name != "workbench"}
+
+
+@pytest.mark.parametrize("module", [m for m in PATHS if m != "workbench"])
+def test_imports_run_downwards(module):
+    above = {name for name in own(module) if floor(name) > floor(module)}
+    assert above == set()
+
+
+def test_no_import_runs_in_a_circle():
+    order = list(TopologicalSorter({module: own(module) for module in PATHS}).static_order())
+    assert set(order) >= set(PATHS)
+
+
+@pytest.mark.parametrize("module", PATHS)
+def test_the_package_knows_no_paper_file_no_benchmark_and_no_test(module):
+    roots = {name.partition(".")[0] for name in imported(module)}
+    assert roots.isdisjoint({"proofs", "benchmarks", "tests"})
+
+
+@pytest.mark.parametrize("module", [m for m in PATHS if m == "workbench.proof.checker"])
+def test_the_checker_needs_nothing_but_the_standard_library(module):
+    roots = {name.partition(".")[0] for name in imported(module)}
+    assert roots <= sys.stdlib_module_names
+
+
+@pytest.mark.parametrize("module", PATHS)
+def test_a_file_can_be_read_in_one_sitting(module):
+    lines = len(PATHS[module].read_text(encoding="utf-8").splitlines())
+    assert lines <= LONGER.get(module, LONGEST)
+
+
+def _name(call: ast.Call) -> str:
+    function = call.func
+    return function.attr if isinstance(function, ast.Attribute) else getattr(function, "id", "")
+
+
+@pytest.mark.parametrize("module", PATHS)
+def test_nothing_that_was_read_is_executed(module):
+    """No eval, no pickles, no text parsed by sympy; modules are loaded in the two places made for it."""
+    offences = []
+    for call in (node for node in ast.walk(tree(module)) if isinstance(node, ast.Call)):
+        name = _name(call)
+        # re.compile is meant for text; every other attribute called `compile` is not.
+        of_re = isinstance(call.func, ast.Attribute) and getattr(call.func.value, "id", "") == "re"
+        strict = any(k.arg == "strict" and getattr(k.value, "value", None) is True for k in call.keywords)
+        if (name in FORBIDDEN_CALLS and not of_re) or (name in ("sympify", "S") and not strict) or (
+                name == "exec_module" and module not in MAY_LOAD_MODULES):
+            offences.append(f"line {call.lineno}: {name}")
+    offences += sorted(FORBIDDEN_MODULES & {name.partition(".")[0] for name in imported(module)})
+    assert offences == []
+
+
+def test_the_check_for_execution_finds_what_it_looks_for(tmp_path, monkeypatch):
+    bad = tmp_path / "bad.py"
+    monkeypatch.setitem(PATHS, "workbench.bad", bad)
+    for line in ("eval('1')", "exec('1')", "sp.sympify(text)", "import pickle", "from joblib import load",
+                 "loader.exec_module(m)", "compile('1', '', 'eval')"):
+        bad.write_text(line)
+        with pytest.raises(AssertionError):
+            test_nothing_that_was_read_is_executed("workbench.bad")
+    for line in ("re.compile('a')", "sp.sympify(value, strict=True)", "import json"):
+        bad.write_text(line)
+        test_nothing_that_was_read_is_executed("workbench.bad")

@@ -1,0 +1,136 @@
+"""Expressions become code in one place: what is refused there, and what is kept between runs."""
+
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+import sympy as sp
+
+from workbench.compile import casadi_function, kernel_module, law_source, numeric, plant_source
+from workbench.controllers.base import ControlLaw, LawState, over_neurons, position
+from workbench.controllers.registry import LAWS
+from workbench.errors import CompileError
+from workbench.simulate import kernel_loop
+from workbench.train import Plant, single_particle, single_particle_per_mass
+
+PLANTS = {"newton": single_particle(), "per mass": single_particle_per_mass()}
+
+PROCESS = """
+import sys
+from pathlib import Path
+sys.path.insert(0, sys.argv[1])
+from scenarios import short_scenario
+from workbench.compile import kernel_module
+from workbench.controllers.registry import LAWS
+from workbench.simulate import closed_loop, kernel_loop
+run = closed_loop.simulate(short_scenario(), "pid")
+kernel = kernel_module(closed_loop.single_particle(), LAWS["pid"], kernel_loop).closed_loop
+hits, misses = (sum(found.values()) for found in (kernel.stats.cache_hits, kernel.stats.cache_misses))
+print(hits, misses, repr(run.final_position_m))
+"""
+
+
+def _files(folder: Path) -> dict[str, int]:
+    return {str(p.relative_to(folder)): p.stat().st_mtime_ns for p in folder.rglob("*") if p.is_file()}
+
+
+def test_a_second_process_uses_the_first_ones_compiled_kernel(tmp_path):
+    environment = os.environ | {"WORKBENCH_CACHE": str(tmp_path)}
+    command = [sys.executable, "-W", "error", "-c", PROCESS, str(Path(__file__).parent)]
+
+    def run() -> list[str]:
+        done = subprocess.run(command, env=environment, capture_output=True, text=True, check=True)
+        return done.stdout.split()
+
+    hits, misses, position_m = run()
+    assert (hits, misses) == ("0", "1")
+    after_one = _files(tmp_path)
+    assert any(name.endswith(".nbc") for name in after_one)
+    hits, misses, again_m = run()
+    assert (hits, misses) == ("1", "0")
+    assert again_m == position_m
+    compiled = {name: time for name, time in _files(tmp_path).items() if not name.endswith(".pyc")}
+    assert compiled == {name: time for name, time in after_one.items() if not name.endswith(".pyc")}
+
+
+def test_a_changed_law_is_another_kernel_and_the_same_law_the_same_one(tmp_path, monkeypatch):
+    monkeypatch.setenv("WORKBENCH_CACHE", str(tmp_path))
+    laws = [ControlLaw("test.same_id", "a law", "a test", "full state, model unknown", command)
+            for command in (-position / 3, -position / 3, -position / 5)]
+    one, same, other = (kernel_module(single_particle(), law, kernel_loop) for law in laws)
+    assert one is same
+    assert one is not other
+    arguments = (6.0, 0.0, 0.0, 0.0, 0.0, 0.1, *(np.zeros(0),) * 2, *(np.zeros((0, 0)),) * 2)
+    assert one.control_step(*arguments) == pytest.approx(-2.0, rel=1e-15)
+    assert other.control_step(*arguments) == pytest.approx(-6 / 5, rel=1e-15)
+
+
+def test_a_cache_that_cannot_be_written_falls_back_to_another_folder(tmp_path, monkeypatch):
+    blocked = tmp_path / "a file"
+    blocked.write_text("not a folder")
+    monkeypatch.setenv("WORKBENCH_CACHE", str(blocked))
+    monkeypatch.setattr("tempfile.gettempdir", lambda: str(tmp_path))
+    law = ControlLaw("test.fallback", "a law", "a test", "full state, model unknown", -position / 7)
+    module = kernel_module(single_particle(), law, kernel_loop)
+    assert Path(module.__file__).is_relative_to(tmp_path / "workbench-kernels")
+
+
+def _law(command: sp.Expr, *parameters: sp.Symbol, states: tuple[LawState, ...] = ()) -> ControlLaw:
+    return ControlLaw("test.law", "a law", "a test", "full state, model unknown", command, states, parameters)
+
+
+@pytest.mark.parametrize("name", ["lambda", "a b", r"\hat{a}", "neurons", "math", "_in_0", "2x"])
+def test_a_symbol_that_cannot_name_a_variable_is_refused_by_its_name(name):
+    symbol = sp.Symbol(name)
+    with pytest.raises(CompileError, match="rename it"):
+        law_source(_law(symbol * position, symbol))
+
+
+def test_a_symbol_without_a_value_is_named():
+    with pytest.raises(CompileError, match=r"test\.law: symbol 'K' has no value there"):
+        law_source(_law(sp.Symbol("K") * position))
+    with pytest.raises(CompileError, match="symbol 'w' has no value"):
+        rates = {position: position * sp.Symbol("w")}
+        plant_source(Plant(rates, sp.Symbol("u"), sp.Symbol("f"), (), "a test"))
+
+
+def test_a_sum_inside_a_sum_is_refused():
+    weight = sp.IndexedBase("w")[sp.Symbol("j", integer=True, positive=True)]
+    law = _law(over_neurons(weight * over_neurons(weight)), states=(LawState(weight, rate=-weight),))
+    with pytest.raises(CompileError, match="a sum inside a sum"):
+        law_source(law)
+
+
+@pytest.mark.parametrize("plant", PLANTS.values(), ids=PLANTS.keys())
+def test_casadi_numpy_and_the_kernel_agree_with_exact_evaluation(plant):
+    symbols = (*plant.rates, plant.command, plant.disturbance, *plant.parameters)
+    exact = dict(zip(symbols, (sp.Rational(n, 7) for n in range(3, 3 + len(symbols))), strict=True))
+    expected = [float(rate.subs(exact)) for rate in plant.rates.values()]
+    numbers = [float(x) for x in exact.values()]
+    from_casadi = casadi_function("rates", symbols, list(plant.rates.values()))(*numbers)
+    assert [float(x) for x in from_casadi.elements()] == pytest.approx(expected, rel=1e-14)
+    assert [numeric(symbols, r)(*numbers) for r in plant.rates.values()] == pytest.approx(expected, rel=1e-14)
+    kernel = kernel_module(plant, LAWS["pid"], kernel_loop)
+    states = len(plant.rates) + 2
+    rates = kernel.plant_rates(*numbers[:states], np.array(numbers[states:]))
+    assert rates == pytest.approx(expected, rel=1e-14)
+
+
+def test_generated_source_names_the_papers_equations_it_comes_from():
+    module = kernel_module(single_particle(), LAWS["yang2021.pocrac"], kernel_loop)
+    assert "yang2021 (27), (33)-(36)" in module.__doc__
+    assert "yang2021 (1), (2)" in module.__doc__
+
+
+def test_generated_source_does_not_depend_on_the_order_of_hashes():
+    script = ("from workbench.compile import law_source\nfrom workbench.controllers.registry import LAWS\n"
+              "print([law_source(law, e) for law in LAWS.values() for e in ('corrected', 'explicit')])")
+    first, second = (
+        subprocess.run([sys.executable, "-c", script], env=os.environ | {"PYTHONHASHSEED": seed},
+                       capture_output=True, text=True, check=True).stdout
+        for seed in ("1", "2"))
+    assert first == second
+    assert first.count("def control_step") == 2 * len(LAWS)

@@ -1,0 +1,159 @@
+"""Bad input: each mistake becomes one line that names the file, the key and the remedy, and nothing else."""
+
+import shutil
+from pathlib import Path
+
+import pytest
+from input_mistakes import GRADES, LINE_MISTAKES, LINE_TEXT, SCENARIO_MISTAKES, TEXT
+from scenarios import BENCHMARKS, YANG, short_scenario
+
+from workbench.controllers.values import check_controllers
+from workbench.errors import InputError
+from workbench.scenario import Variant, load_scenario, load_variant
+from workbench.toml_input import read_toml
+from workbench.track import load_track
+
+
+@pytest.fixture
+def folder(tmp_path):
+    shutil.copytree(YANG.parent / "lines", tmp_path / "lines")
+    shutil.copy(YANG, tmp_path / "yang2021.toml")
+    return tmp_path
+
+
+def changed(text: str, old: str, new: str) -> str:
+    assert old in text, f"the shipped file no longer holds {old!r}"
+    return text.replace(old, new, 1)
+
+
+def refusal(read, *arguments) -> str:
+    with pytest.raises(InputError) as caught:
+        read(*arguments)
+    message = str(caught.value)
+    assert len(message.splitlines()) == 1
+    assert message.isprintable()
+    return message
+
+
+def load_all(path: Path) -> None:
+    check_controllers(load_scenario(path), path)
+
+
+@pytest.mark.parametrize("mistake", SCENARIO_MISTAKES)
+def test_a_mistake_in_a_scenario_is_named_with_its_key_and_remedy(mistake, folder):
+    old, new, key, words = SCENARIO_MISTAKES[mistake]
+    path = folder / "yang2021.toml"
+    path.write_text(changed(TEXT, old, new), encoding="utf-8")
+    message = refusal(load_all, path)
+    assert message.startswith(f"{path}: {key}")
+    assert words in message
+    assert len(message) < 400 + len(str(path))
+
+
+
+
+@pytest.mark.parametrize("mistake", LINE_MISTAKES)
+def test_a_mistake_in_a_line_is_named_with_the_lines_own_file(mistake, folder):
+    old, new, words = LINE_MISTAKES[mistake]
+    path = folder / "lines" / "yang2021.toml"
+    path.write_text(changed(LINE_TEXT, old, new), encoding="utf-8")
+    message = refusal(load_scenario, folder / "yang2021.toml")
+    assert message.startswith(f"{path}: {words}")
+    assert message == refusal(load_track, path)
+
+
+def test_a_straight_line_is_written_with_an_infinite_radius(folder):
+    path = folder / "lines" / "yang2021.toml"
+    path.write_text(changed(LINE_TEXT, "radius_m = 700.0", "radius_m = inf"), encoding="utf-8")
+    assert load_track(path).curve[4].radius_m == float("inf")
+
+
+def test_a_line_too_short_for_its_cruise_speed_is_refused_with_the_length_it_needs(folder):
+    short = ("grade = [{ start_m = 0.0, end_m = 900.0, grade_permille = 0.0 }]\n"
+             "curve = [{ start_m = 0.0, end_m = 900.0, radius_m = inf }]\n")
+    curves = LINE_TEXT[LINE_TEXT.index("curve = [") : LINE_TEXT.index("[source]")]
+    text = changed(changed(LINE_TEXT, GRADES + curves, short), "length_m = 53880.0", "length_m = 900.0")
+    (folder / "lines" / "yang2021.toml").write_text(text, encoding="utf-8")
+    path = folder / "yang2021.toml"
+    message = refusal(load_scenario, path)
+    assert message.startswith(f"{path}: reference: desired curve: 32.57 m/s cannot be reached")
+    assert "within 900 m" in message
+    assert "lower the cruise speed" in message
+
+
+def test_a_scenario_without_controllers_is_refused(folder):
+    path = folder / "yang2021.toml"
+    before, after = TEXT[: TEXT.index("[controllers.")], TEXT[TEXT.index("[uncertainty]") :]
+    after = after[: after.index("[printed_table]")]
+    path.write_text(f"{before}[controllers]\n{after}", encoding="utf-8")
+    assert "controllers: none given: add a [controllers.<name>] table" in refusal(load_scenario, path)
+
+
+def test_neurons_for_a_law_without_a_network_are_refused():
+    neurons = short_scenario().controllers["rbf_pid"].neurons.model_dump()
+    scenario = short_scenario(controllers__pid__neurons=neurons)
+    message = refusal(check_controllers, scenario, "my.toml")
+    assert message == "my.toml: controllers.pid.neurons: 'pid' has no hidden neurons: remove it"
+    scenario = short_scenario(controllers__mpc__neurons=neurons)
+    assert "controllers.mpc.neurons: 'mpc.tracking' has none" in refusal(check_controllers, scenario)
+
+
+def test_neurons_missing_for_a_law_with_a_network_are_asked_for():
+    spec = short_scenario().controllers["rbf_pid"].model_copy(update={"neurons": None})
+    scenario = short_scenario().model_copy(update={"controllers": {"rbf_pid": spec}})
+    message = refusal(check_controllers, scenario, "my.toml")
+    assert message.startswith("my.toml: controllers.rbf_pid.neurons: is missing: 'rbf_pid' has hidden")
+
+
+BAD_FILES = {
+    "missing": (lambda path: path.unlink(), "no such file: check the path"),
+    "empty": (lambda path: path.write_text(""), "is empty"),
+    "blank": (lambda path: path.write_text(" \n\n"), "is empty"),
+    "a folder": (lambda path: (path.unlink(), path.mkdir()), "is a folder: name a .toml file"),
+    "binary": (lambda path: path.write_bytes(bytes(range(256)) * 9), "is not UTF-8 text: save it as UTF-8"),
+    "zeros": (lambda path: path.write_bytes(bytes(100)), "is not valid TOML"),
+    "not TOML": (lambda path: path.write_text('{"mass_kg": 2}'), "is not valid TOML"),
+    "UTF-16": (lambda path: path.write_bytes("version = 1".encode("utf-16")), "is not UTF-8 text"),
+    "a loop of links": (lambda path: (path.unlink(), path.symlink_to(path)), "cannot be read"),
+}
+
+
+@pytest.mark.parametrize(("spoil", "words"), BAD_FILES.values(), ids=BAD_FILES.keys())
+@pytest.mark.parametrize("which", ["yang2021.toml", "lines/yang2021.toml"])
+def test_a_file_that_cannot_be_used_is_named(which, spoil, words, folder):
+    spoil(folder / which)
+    assert refusal(load_scenario, folder / "yang2021.toml").startswith(f"{folder / which}: {words}")
+
+
+def test_a_file_without_permission_is_named(monkeypatch):
+    def refuse(*_, **__):
+        raise PermissionError(13, "Permission denied")
+
+    monkeypatch.setattr(Path, "read_text", refuse)  # file modes do not stop root, who may run the tests
+    message = refusal(load_scenario, YANG)
+    assert message == f"{YANG}: cannot be read (Permission denied): check its permissions"
+
+
+@pytest.mark.parametrize("name", ["nowhere/line.toml", "", ".", "a\\u0000b.toml", "\\ud7ff", "x" * 5000])
+def test_a_track_that_is_not_there_is_named(name, folder):
+    path = folder / "yang2021.toml"
+    path.write_text(changed(TEXT, "lines/yang2021.toml", name), encoding="utf-8")
+    assert refusal(load_scenario, path).startswith(str(folder))
+
+
+def test_a_variant_that_names_no_value_is_refused():
+    for key in ("train.mass_t", "train", "train.mass_kg.x", "", "controllers.nobody.law",
+                "uncertainty.factors.0"):
+        variant = Variant(title="a test", set={key: 1.0})
+        assert refusal(load_variant, YANG, variant).startswith(f"{YANG}: ")
+    shorter = load_variant(YANG, Variant(title="a test", set={"reference.ramp_s": 4.0}))
+    assert shorter.desired_curve().trip_time_s < load_scenario(YANG).desired_curve().trip_time_s
+
+
+@pytest.mark.parametrize("path", BENCHMARKS, ids=lambda p: p.stem)
+def test_every_shipped_scenario_loads_with_all_its_controllers_and_variants(path):
+    scenario = load_scenario(path)
+    check_controllers(scenario, path)
+    for variant in scenario.variants:
+        check_controllers(load_variant(path, variant), path)
+    assert set(read_toml(path)["controllers"]) == set(scenario.controllers)

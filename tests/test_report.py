@@ -1,0 +1,259 @@
+"""The page: complete, self-contained, and nobody's text becomes its code."""
+
+import re
+from dataclasses import replace
+from html import escape, unescape
+from html.parser import HTMLParser
+from xml.etree import ElementTree
+
+import pytest
+from test_sweep import write_scenario
+
+from workbench.metrics import measure
+from workbench.report import figures, numbers
+from workbench.report.claims import VERDICTS
+from workbench.report.formulas import formula
+from workbench.report.page import ReportContent, build_page
+from workbench.report.sources import sourced_values
+from workbench.report.tables import nominal_table
+from workbench.scenario import load_scenario, load_variant
+from workbench.simulate.closed_loop import simulate
+from workbench.simulate.sweep import sweep
+
+HOSTILE = "<script>alert('x')</script><img src=x onerror=alert(1)>\"'&"
+VOID = {"meta", "link", "br", "img", "input", "hr", "wbr"}
+
+EXTRA = """
+[[printed_values]]
+source = "paper, section 6.1"
+controller = "pid"
+metric = "command_max"
+value = 0.48
+unit = "m/s^2"
+[[printed_values]]
+source = "paper, section 6.2"
+controller = "narrow"
+metric = "no_such_metric"
+value = 158.0
+unit = "s"
+[[variants]]
+title = "a weak motor & a hostile <b>title</b>"
+set = { "train.max_traction_n" = 20000.0 }
+"""
+
+
+@pytest.fixture(scope="module")
+def content(tmp_path_factory):
+    path = write_scenario(tmp_path_factory.mktemp("report"), EXTRA)
+    scenario = load_scenario(path)
+    runs = [simulate(scenario, name) for name in scenario.controllers]
+    changed = load_variant(path, scenario.variants[0])
+    claims = [
+        {"id": f"yang2021:{number}", "paper": "yang2021", "equation": str(number), "kind": "identity",
+         "statement": rf"e_{{{number}}} = \frac{{a}}{{b}}", "verdict": verdict, "method": "a method",
+         "scope": "all", "certificate": None, "counterexample": {"x": "1/2"}, "correction": "a = b",
+         "premises": ["yang2021:1"], "tainted_by": [], "trust": "exact", "seconds": 0.1}
+        for number, verdict in enumerate(VERDICTS, start=1)
+    ]
+    claims.append({"id": f"yang2021:{HOSTILE}", "statement": HOSTILE, "title": HOSTILE, "note": HOSTILE,
+                   "verdict": HOSTILE, "method": HOSTILE, "counterexample": [HOSTILE], "premises": [HOSTILE],
+                   "tainted_by": [HOSTILE], "correction": rf"\text{{{HOSTILE}}}"})
+    claims.append({"id": "yang2021:bare"})
+    return ReportContent(
+        scenario=scenario, claims={"version": 1, "claims": claims, "summary": {}}, runs=runs,
+        metrics=[measure(run, scenario) for run in runs], sweep=sweep(path, 2, 7, workers=1), sweep_seed=7,
+        variants=[(scenario.variants[0],
+                   [measure(simulate(changed, name), changed) for name in changed.controllers])],
+        findings=[f"finding {HOSTILE}"], timings={"proof": 1.5}, commands=["workbench report a<b"],
+    )
+
+
+@pytest.fixture(scope="module")
+def page(content):
+    return build_page(content)
+
+
+class Reader(HTMLParser):
+    """Checks that elements nest, and keeps ids, links, attributes and headings."""
+
+    def __init__(self):
+        super().__init__()
+        self.open, self.ids, self.links, self.tags, self.attributes = [], [], [], [], []
+
+    def handle_starttag(self, tag, attrs):
+        self.tags.append(tag)
+        self.attributes += attrs
+        self.ids += [value for name, value in attrs if name == "id"]
+        self.links += [value for name, value in attrs if name in ("href", "xlink:href")]
+        if tag not in VOID:
+            self.open.append(tag)
+
+    def handle_startendtag(self, tag, attrs):
+        self.handle_starttag(tag, attrs)
+        if tag not in VOID:
+            self.open.pop()
+
+    def handle_endtag(self, tag):
+        assert self.open.pop() == tag
+
+
+def read(page):
+    reader = Reader()
+    reader.feed(page)
+    assert reader.open == []
+    return reader
+
+
+def test_page_refers_to_nothing_outside(page):
+    for address in re.findall(r"https?://[^\s\"'<>)]*", page):
+        assert address.startswith("http://www.w3.org/"), address
+    reader = read(page)
+    assert all(link.startswith("#") for link in reader.links)
+    assert not {"link", "iframe", "object", "embed", "base", "form"} & set(reader.tags)
+    assert "url(" not in re.sub(r"url\(#[\w-]+\)", "", page)
+
+
+def test_links_lead_somewhere_and_figures_do_not_share_ids(page):
+    reader = read(page)
+    assert len(reader.ids) == len(set(reader.ids))
+    for link in reader.links:
+        assert link[1:] in reader.ids, link
+
+
+def test_every_claim_is_there_with_its_verdict(content, page):
+    text = unescape(page)
+    for claim in content.claims["claims"]:
+        assert claim["id"] in text
+        assert claim.get("verdict", "undecided") in text
+    assert page.count("<tbody data-verdict") == len(content.claims["claims"])
+
+
+def test_nobodys_text_becomes_markup(page):
+    reader = read(page)
+    assert reader.tags.count("script") == 1
+    assert "img" not in reader.tags and "b>title" not in reader.tags
+    assert not [name for name, _ in reader.attributes if name.startswith("on")]
+    assert "&lt;b&gt;heavy&lt;/b&gt;" in page and "<b>heavy" not in page
+    assert "A &lt;tiny&gt; scenario" in page
+
+
+def test_the_only_script_is_the_one_the_page_allows(page):
+    assert re.search(r"script-src 'sha256-[\w+/=]{44}'", page)
+    assert "default-src 'none'" in page
+
+
+def test_page_never_says_nan_and_shows_failures(page):
+    text = re.sub(r"<style>.*?</style>|<script>.*?</script>|<[^>]*>", " ", page, flags=re.DOTALL)
+    assert not re.search(r"\b(nan|NaN|inf|None)\b", text)
+    assert "left its domain" in text
+    assert re.search(r"failed:\s+yang2021.pocrac left", text)
+
+
+def test_page_is_accessible(page):
+    reader = read(page)
+    assert '<html lang="en">' in page and reader.tags.count("h1") == 1
+    tables = re.findall(r"<table[^>]*>\s*<(\w+)", page)
+    assert set(tables) == {"caption"}
+    drawings = re.findall(r"<svg[^>]*>", page)
+    assert drawings and all('role="img"' in tag and 'aria-label="' in tag for tag in drawings)
+
+
+def test_what_is_assumed_is_listed_with_its_reason(content, page):
+    values = {value.key: value for value in sourced_values(content.scenario)}
+    assert values["train.mass_kg"].kind == "assumed" and values["train.davis_a_mps2"].kind == "paper"
+    assert values["track.length_m"].words == "short" and values["simulation.log_every_s"].kind == "convention"
+    text = unescape(page).replace("<wbr>", "")
+    for value in values.values():
+        assert value.key in text and value.words in text
+
+
+def test_page_of_a_scenario_alone(content):
+    page = build_page(ReportContent(scenario=content.scenario))
+    read(page)
+    assert 'id="proof"' not in page and 'id="assumptions"' in page
+
+
+@pytest.mark.parametrize("document", [{}, {"claims": None}, {"claims": [None, 3, {}]}, {"claims": "x"}])
+def test_page_bears_odd_claim_documents(content, document):
+    read(build_page(ReportContent(scenario=content.scenario, claims=document)))
+
+
+def test_figures_are_reproducible_small_and_dateless(content):
+    scenario, runs = content.scenario, content.runs
+    for draw in (lambda: figures.line_profile(scenario), lambda: figures.tracking(runs[0]),
+                 lambda: figures.errors(scenario, runs, "position"),
+                 lambda: figures.errors(scenario, runs, "command"),
+                 lambda: figures.spread(scenario, content.sweep, {})):
+        text = draw()
+        assert text == draw()
+        assert len(text) < 150_000 and "<metadata" not in text and "20:" not in text
+        ElementTree.fromstring(text)
+
+
+def test_figures_of_long_runs_and_many_rows_stay_small(content):
+    long = replace(content.runs[0], log=content.runs[0].log.repeat(200, axis=0))
+    assert len(figures.errors(content.scenario, [long] * 6, "speed")) < 150_000
+    rows = [replace(row, run=i) for i in range(300) for row in content.sweep[:3]]
+    assert len(figures.spread(content.scenario, rows, {})) < 90_000  # of three controllers
+
+
+def test_failed_run_keeps_no_whole_run_numbers_and_wins_nothing(content):
+    place = list(content.scenario.controllers).index("narrow")
+    for row in nominal_table(content.metrics):
+        assert place not in row.best
+        if row.label in ("Stopping error", "Traction energy at the wheel"):
+            assert row.cells[place] == numbers.NOTHING
+
+
+@pytest.mark.parametrize("latex", [
+    r"\dot{V} \le -\rho V", r"\begin{cases} 1 & x < 0 \\ 2 & x > 0 \end{cases}",
+    r"$\lim_{t \to \infty} e_1 = 0$", r"\left|x\right| = \sum_{j=1}^{n} w_j",
+])
+def test_formulas_become_mathml(latex):
+    text = str(formula(latex))
+    assert ElementTree.fromstring(text).tag == "math"
+    assert "\\" not in text and "$" not in text
+
+
+def test_limits_stand_under_their_operator():
+    assert "<munder>" in formula(r"\lim_{t \to \infty} x")
+    assert "<munderover>" in formula(r"\sum_{j=1}^{n} w_j")
+
+
+def test_long_formulas_can_be_broken():
+    assert formula(" + ".join(rf"\frac{{a_{i}}}{{b_{i}}}" for i in range(9))).count("<math") == 9
+
+
+@pytest.mark.parametrize("latex", [r"\frac{1}{", r"\left( a < b", r"\nosuchcommand{<b>x</b>}", "{", "\\"])
+def test_what_is_no_formula_comes_back_as_escaped_code(latex):
+    assert formula(latex) == f"<code>{escape(latex)}</code>"
+
+
+def test_formulas_carry_nothing_but_mathml():
+    for latex in (r"\href{javascript:alert(1)}{x}", r"\style{background:url(x)}{y}", r"\class{a}{y}", HOSTILE,
+                  r"\text{<img src=x onerror=alert(1)>}", r"\text{</math><script>alert(1)</script>}"):
+        reader = read(str(formula(latex)))
+        assert {name for name, _ in reader.attributes} <= {"display", "displaystyle", "stretchy", "form"}
+        assert not {"img", "script", "a"} & set(reader.tags)
+    assert formula("") == ""
+
+
+@pytest.mark.parametrize(("value", "text"), [
+    (None, "—"), (float("nan"), "—"), (float("-inf"), "—"), (0.0, "0"), (-0.00562890, "−0.00563"),
+    (6477.0105, "6480"), (1234567.0, "1\u202f230\u202f000"), (1.40993e-7, "1.41\u202f×\u202f10⁻⁷"),
+    (0.99999, "1.00"), (17904, "17\u202f904"), (-3e12, "−3.00\u202f×\u202f10¹²"),
+])
+def test_numbers_for_readers(value, text):
+    assert numbers.number(value) == text
+
+
+@pytest.mark.parametrize(("value", "text"), [
+    (1e-5, "1\u202f×\u202f10⁻⁵"), (200000.0, "200\u202f000"), (-0.6, "−0.6"),
+    (float("inf"), "∞"), (14.8, "14.8"),
+])
+def test_stated_numbers_keep_their_digits(value, text):
+    assert numbers.exact(value) == text
+
+
+def test_fixed_decimals_have_no_negative_zero():
+    assert (numbers.fixed(-0.0001, 2), numbers.fixed(-1234.5, 1)) == ("0.00", "−1234.5")

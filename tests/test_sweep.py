@@ -1,0 +1,299 @@
+"""Monte Carlo: paired draws, the same bytes however it was run, and nothing lost."""
+
+import csv
+import json
+import math
+import operator
+from dataclasses import fields
+from pathlib import Path
+
+import pytest
+
+from workbench.errors import InputError
+from workbench.scenario import load_scenario
+from workbench.simulate.closed_loop import Factors
+from workbench.simulate.sweep import JOURNAL_NAME, draw_factors, summarise, sweep
+from workbench.simulate.workers import run_tasks
+
+RUNS, SEED = 3, 7
+
+
+def write_scenario(folder: Path, extra: str = "") -> Path:
+    """A scenario that runs in milliseconds; `narrow` has a barrier so tight that it fails at once."""
+    (folder / "line.toml").write_text("""
+name = "short"
+length_m = 2000.0
+grade = [{ start_m = 0.0, end_m = 800.0, grade_permille = 2.0 },
+         { start_m = 800.0, end_m = 2000.0, grade_permille = -1.0 }]
+curve = [{ start_m = 0.0, end_m = 2000.0, radius_m = inf }]
+[source]
+name = "convention: a name"
+length_m = "assumed: short"
+grade = "assumed: gentle"
+curve = "assumed: straight"
+""")
+    adaptive = """
+law = "yang2021.pocrac"
+period_s = 0.01
+parameters = {{ alpha = 0.5, beta = 0.51, k = {k}, lambda_1 = 0.01, lambda_2 = 0.01, lambda_3 = 0.01, \
+sigma_1 = 0.005, sigma_2 = 0.005, sigma_3 = 0.005 }}
+initial = {{ a_hat = 0.25, b_hat = 0.0, c_hat = 0.0 }}
+[controllers.{name}.source]
+law = "paper, (33)"
+period_s = "assumed: coarse"
+parameters = "paper, section 6"
+initial = "paper, section 6"
+"""
+    path = folder / "tiny.toml"
+    path.write_text(f"""
+version = 1
+name = "tiny"
+title = "A <tiny> scenario"
+paper = "yang2021"
+citation = "Nobody & Sons"
+track = "line.toml"
+[train]
+mass_kg = 200000.0
+davis_a_mps2 = 0.02
+davis_b_per_s = 1e-4
+davis_c_per_m = 1e-5
+max_traction_n = 200000.0
+max_braking_n = 240000.0
+[train.source]
+mass_kg = "assumed: <b>heavy</b>"
+davis_a_mps2 = "paper, section 6"
+davis_b_per_s = "paper, section 6"
+davis_c_per_m = "paper, section 6"
+max_traction_n = "assumed: plenty"
+max_braking_n = "assumed: plenty"
+[reference]
+kind = "cruise_speed"
+cruise_mps = 20.0
+acceleration_mps2 = 0.5
+braking_mps2 = 0.5
+ramp_s = 4.0
+[reference.source]
+kind = "assumed: simple"
+cruise_mps = "assumed: brisk"
+acceleration_mps2 = "assumed: gentle"
+braking_mps2 = "assumed: gentle"
+ramp_s = "assumed: smooth"
+[simulation]
+plant_step_s = 0.01
+dwell_s = 2.0
+position_band_m = 0.2
+log_every_s = 0.1
+[simulation.source]
+plant_step_s = "assumed: coarse"
+dwell_s = "assumed: short"
+position_band_m = "paper, section 4"
+log_every_s = "convention: ten a second"
+[disturbance]
+amplitude_mps2 = 0.0
+period_s = 60.0
+[disturbance.source]
+amplitude_mps2 = "assumed: none"
+period_s = "assumed: any"
+[controllers.pocrac]
+{adaptive.format(name="pocrac", k=0.21)}
+[controllers.narrow]
+{adaptive.format(name="narrow", k=0.0001)}
+[controllers.pid]
+law = "pid"
+period_s = 0.01
+parameters = {{ K_p = 0.75, K_i = 0.125, K_d = 1.5 }}
+initial = {{ eta_e = 0.0 }}
+[controllers.pid.source]
+law = "paper, section 6.2"
+period_s = "assumed: coarse"
+parameters = "assumed: poles at -0.5"
+initial = "assumed: empty"
+[uncertainty]
+runs = 3
+seed = 7
+spread = 0.1
+factors = ["mass", "davis_a"]
+[uncertainty.source]
+runs = "assumed: few"
+seed = "assumed: any"
+spread = "paper, section 6.2"
+factors = "assumed: two"
+[printed_table]
+source = "paper, Table 2"
+[[printed_table.rows]]
+controller = "pocrac"
+position_error_m = [-0.1, 0.2]
+speed_error_mps = [-0.2, 0.3]
+stopping_accuracy_m = 0.05
+[[printed_table.rows]]
+controller = "pid"
+position_error_m = [-1.0, 1.5]
+speed_error_mps = [-1.0, 0.9]
+stopping_accuracy_m = 0.4
+{extra}
+""")
+    return path
+
+
+@pytest.fixture(scope="module")
+def scenario_path(tmp_path_factory):
+    return write_scenario(tmp_path_factory.mktemp("tiny"))
+
+
+@pytest.fixture(scope="module")
+def whole(scenario_path, tmp_path_factory):
+    """The folder and rows of an uninterrupted run in one process."""
+    out = tmp_path_factory.mktemp("whole")
+    return out, sweep(scenario_path, RUNS, SEED, out=out, workers=1)
+
+
+def test_rows_are_ordered_and_paired(whole, scenario_path):
+    _, rows = whole
+    scenario = load_scenario(scenario_path)
+    names = list(scenario.controllers)
+    assert [(row.run, row.controller) for row in rows] == [(k, name) for k in range(RUNS) for name in names]
+    for row in rows:
+        assert row.factors == draw_factors(scenario, row.run, SEED)
+    assert len({row.factors for row in rows}) == RUNS
+
+
+def test_factors_are_drawn_for_named_ones_only_within_the_spread(scenario_path):
+    scenario = load_scenario(scenario_path)
+    drawn = [draw_factors(scenario, run) for run in range(200)]
+    assert all(abs(f.mass - 1) <= 0.1 and abs(f.davis_a - 1) <= 0.1 for f in drawn)
+    assert min(f.mass for f in drawn) < 0.91 and max(f.mass for f in drawn) > 1.09
+    assert all(f.davis_b == f.davis_c == f.line_resistance == 1.0 for f in drawn)
+    everything = scenario.uncertainty.model_copy(update={"factors": tuple(f.name for f in fields(Factors))})
+    more = draw_factors(scenario.model_copy(update={"uncertainty": everything}), 5)
+    assert (more.mass, more.davis_a) == (drawn[5].mass, drawn[5].davis_a)
+    assert draw_factors(scenario, 5, seed=8) != drawn[5]
+
+
+def test_two_workers_write_the_same_bytes(whole, scenario_path, tmp_path):
+    out, _ = whole
+    seen = []
+    sweep(scenario_path, RUNS, SEED, out=tmp_path, workers=2, on_progress=lambda *step: seen.append(step[:2]))
+    assert (tmp_path / "sweep.csv").read_bytes() == (out / "sweep.csv").read_bytes()
+    assert seen == [(i, 9) for i in range(1, 10)]
+
+
+@pytest.mark.parametrize("lines", [0, 1, 2, 6])
+def test_resuming_a_cut_journal_gives_the_same_bytes(whole, scenario_path, tmp_path, lines):
+    out, _ = whole
+    text = (out / JOURNAL_NAME).read_text().splitlines(keepends=True)
+    (tmp_path / JOURNAL_NAME).write_text("".join(text[:lines]) + text[lines][:9])
+    fresh = []
+    sweep(scenario_path, RUNS, SEED, out=tmp_path, resume=True, workers=1,
+          on_progress=lambda *step: fresh.append(step))
+    assert (tmp_path / "sweep.csv").read_bytes() == (out / "sweep.csv").read_bytes()
+    assert len(fresh) == 9 - max(0, lines - 1)
+    assert len((tmp_path / JOURNAL_NAME).read_text().splitlines()) == 10
+
+
+def test_a_finished_journal_serves_fewer_and_more_runs(whole, scenario_path, tmp_path):
+    out, rows = whole
+    (tmp_path / JOURNAL_NAME).write_bytes((out / JOURNAL_NAME).read_bytes())
+    assert sweep(scenario_path, 2, SEED, ["pid"], tmp_path, resume=True) == [
+        row for row in rows if row.controller == "pid" and row.run < 2]
+    more = sweep(scenario_path, RUNS + 1, SEED, ["pid"], tmp_path, resume=True, workers=1)
+    assert [row.run for row in more] == [0, 1, 2, 3]
+
+
+def test_an_interruption_keeps_what_is_finished(whole, scenario_path, tmp_path):
+    def stop(finished, total, row):
+        if finished == 4:
+            raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        sweep(scenario_path, RUNS, SEED, out=tmp_path, workers=1, on_progress=stop)
+    assert not (tmp_path / "sweep.csv").exists()
+    assert len((tmp_path / JOURNAL_NAME).read_text().splitlines()) == 5
+    sweep(scenario_path, RUNS, SEED, out=tmp_path, resume=True, workers=1)
+    assert (tmp_path / "sweep.csv").read_bytes() == (whole[0] / "sweep.csv").read_bytes()
+
+
+def test_a_journal_of_something_else_is_refused_with_a_remedy(whole, scenario_path, tmp_path):
+    journal = tmp_path / JOURNAL_NAME
+    journal.write_bytes((whole[0] / JOURNAL_NAME).read_bytes())
+    with pytest.raises(InputError, match=r"seed 7, not 8.*without resume"):
+        sweep(scenario_path, RUNS, SEED + 1, out=tmp_path, resume=True)
+    folder = tmp_path / "other"
+    folder.mkdir()
+    other = write_scenario(folder)
+    line = folder / "line.toml"
+    line.write_text(line.read_text().replace("grade_permille = 2.0", "grade_permille = 3.0"))
+    with pytest.raises(InputError, match=r"values, line and code.*without resume"):
+        sweep(other, RUNS, SEED, out=tmp_path, resume=True)
+    for text in ("not json\n", '{"a": 1}\n', journal.read_text() + '{"run": "x"}\n', "[1]\n"):
+        journal.write_text(text)
+        with pytest.raises(InputError, match="without resume"):
+            sweep(scenario_path, RUNS, SEED, out=tmp_path, resume=True)
+
+
+def test_starting_anew_keeps_the_old_journal_beside(whole, scenario_path, tmp_path):
+    journal = tmp_path / JOURNAL_NAME
+    journal.write_text("precious\n")
+    sweep(scenario_path, 1, SEED, ["pid"], tmp_path, workers=1)
+    assert journal.with_name(JOURNAL_NAME + ".before").read_text() == "precious\n"
+
+
+@pytest.mark.parametrize(("options", "key"), [
+    ({"runs": 0}, "runs"), ({"seed": -1}, "seed"), ({"workers": 0}, "workers"), ({"resume": True}, "resume"),
+    ({"controllers": ["pid", "mcp"]}, "mcp"), ({"controllers": []}, "controllers"),
+])
+def test_unusable_options_are_named(scenario_path, options, key):
+    with pytest.raises(InputError, match=key):
+        sweep(scenario_path, **({"runs": 1, "seed": 1} | options))
+
+
+def test_failed_runs_are_rows_without_meaningless_numbers(whole):
+    out, rows = whole
+    failed = [row for row in rows if row.controller == "narrow"]
+    assert all("left its domain" in row.failed for row in failed)
+    assert all(row.stopping_error is None and row.energy_J is None for row in failed)
+    text = (out / "sweep.csv").read_text()
+    assert "nan" not in text.lower().replace("narrow", "") and "inf" not in text
+    table = list(csv.DictReader(text.splitlines()))
+    assert [row["stopping_error"] == "" for row in table] == [row["controller"] == "narrow" for row in table]
+    assert not any("step_us" in column or "deadline" in column for column in table[0])
+    for row, cells in zip(rows, table, strict=True):
+        assert float(cells["factor_mass"]) == row.factors.mass
+        if row.stopping_error is not None:
+            assert float(cells["stopping_error"]) == row.stopping_error
+
+
+def test_summary_counts_failures_and_takes_extrema_over_the_rest(whole, scenario_path):
+    _, rows = whole
+    summaries = {s.controller: s for s in summarise(rows, load_scenario(scenario_path))}
+    assert list(summaries) == ["pocrac", "narrow", "pid"]
+    assert (summaries["narrow"].failed, summaries["narrow"].runs) == (RUNS, RUNS)
+    assert summaries["narrow"].position_error_max is None
+    own = [row for row in rows if row.controller == "pid"]
+    assert summaries["pid"].position_error_min == min(row.position_error_min for row in own)
+    assert summaries["pid"].speed_error_max == max(row.speed_error_max for row in own)
+    mean = sum(abs(row.stopping_error) for row in own) / RUNS
+    assert math.isclose(summaries["pid"].mean_abs_stopping_error, mean)
+
+
+def test_journal_lines_are_json_without_nan(whole):
+    for line in (whole[0] / JOURNAL_NAME).read_text().splitlines():
+        json.loads(line, parse_constant=pytest.fail)
+
+
+def test_what_workers_have_started_is_recorded_before_an_interruption_goes_on():
+    recorded = []
+
+    def record(value):
+        recorded.append(value)
+        if len(recorded) == 1:
+            raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        run_tasks(operator.add, 100, range(50), 2, record)
+    assert 1 < len(recorded) < 10
+    assert set(recorded) <= set(range(100, 150))
+
+
+def test_an_exception_in_a_worker_is_raised_here():
+    with pytest.raises(ZeroDivisionError):
+        run_tasks(operator.truediv, 1.0, [1, 2, 0, 3], 2, print)

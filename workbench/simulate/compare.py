@@ -1,0 +1,65 @@
+"""Every controller of a scenario on the same train and line, and again under each change of assumed values."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+
+from workbench.metrics import Metrics, measure
+from workbench.scenario import Scenario, Variant, load_scenario, load_variant
+from workbench.simulate.closed_loop import Run, check_controllers, simulate
+from workbench.simulate.workers import cores, run_tasks
+
+Case = tuple[int, str]  # 0 is the scenario as stated, i > 0 its i-th variant
+Progress = Callable[[int, int, str], None]
+
+
+@dataclass(frozen=True)
+class Comparison:
+    """Runs and metrics of the scenario as stated, in its order, and the metrics of every variant."""
+
+    scenario: Scenario
+    runs: tuple[Run, ...]
+    metrics: tuple[Metrics, ...]
+    variants: tuple[tuple[Variant, tuple[Metrics, ...]], ...]
+
+
+def compare(path: Path, with_variants: bool = True, workers: int | None = None,
+            on_progress: Progress | None = None) -> Comparison:
+    """Simulate all controllers of the scenario file in parallel processes.
+
+    on_progress(finished, total, what) is called after each run. A run that fails is a row that says so.
+    Raises InputError or WorkbenchError for a scenario or variant that cannot be used.
+    """
+    scenario = load_scenario(path)
+    check_controllers(scenario)
+    variants = scenario.variants if with_variants else ()
+    scenarios = [scenario, *(load_variant(path, variant) for variant in variants)]
+    for changed in scenarios[1:]:
+        check_controllers(changed)
+    cases = [(0, name) for name in scenario.controllers]
+    cases += [(i, name) for i, variant in enumerate(variants, start=1)
+              for name in scenario.controllers if name in (variant.controllers or scenario.controllers)]
+    found: dict[Case, tuple[Run | None, Metrics]] = {}
+
+    def record(result: tuple[Case, Run | None, Metrics]) -> None:
+        case, run, metrics = result
+        found[case] = run, metrics
+        if on_progress:
+            title = scenarios[0].title if case[0] == 0 else variants[case[0] - 1].title
+            on_progress(len(found), len(cases), f"{case[1]}: {title}")
+
+    run_tasks(_run_case, scenarios, cases, workers or cores(), record)
+    nominal = [found[0, name] for name in scenario.controllers]
+    return Comparison(
+        scenario, tuple(run for run, _ in nominal if run is not None), tuple(metrics for _, metrics in nominal),
+        tuple((variant, tuple(found[i, name][1] for j, name in cases if j == i))
+              for i, variant in enumerate(variants, start=1)))
+
+
+def _run_case(scenarios: list[Scenario], case: Case) -> tuple[Case, Run | None, Metrics]:
+    """The run and its metrics; the log of a variant's run stays in the worker."""
+    scenario = scenarios[case[0]]
+    run = simulate(scenario, case[1])
+    return case, run if case[0] == 0 else None, measure(run, scenario)
