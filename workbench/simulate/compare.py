@@ -33,11 +33,11 @@ def compare(path: Path, with_variants: bool = True, workers: int | None = None,
     Raises InputError or WorkbenchError for a scenario or variant that cannot be used.
     """
     scenario = load_scenario(path)
-    check_controllers(scenario)
+    check_controllers(scenario, path)
     variants = scenario.variants if with_variants else ()
     scenarios = [scenario, *(load_variant(path, variant) for variant in variants)]
-    for changed in scenarios[1:]:
-        check_controllers(changed)
+    for variant, changed in zip(variants, scenarios[1:], strict=True):
+        check_controllers(changed, f"{path}: variant '{variant.title}'")
     cases = [(0, name) for name in scenario.controllers]
     cases += [(i, name) for i, variant in enumerate(variants, start=1)
               for name in scenario.controllers if name in (variant.controllers or scenario.controllers)]

@@ -126,6 +126,7 @@ def sweep(scenario_path: Path, runs: int, seed: int, controllers: Sequence[str] 
     """
     scenario_path = Path(scenario_path)
     scenario = load_scenario(scenario_path)
+    check_controllers(scenario, scenario_path)
     names = _chosen(scenario, scenario_path, controllers)
     for key, value, least in (("runs", runs, 1), ("seed", seed, 0), ("workers", workers, 1)):
         if value is not None and value < least:
@@ -256,7 +257,6 @@ def _compile_kernels(scenario: Scenario) -> None:
         curve=(CurveSection(start_m=0.0, end_m=3.0, radius_m=float("inf")),),
         source=dict.fromkeys(("name", "length_m", "grade", "curve"), why),
     )
-    check_controllers(scenario)
     short = scenario.model_copy(update={"track": line, "reference": curve})
     for name in scenario.controllers:
         simulate(short, name)

@@ -1,0 +1,185 @@
+"""The command line as other programs and newcomers meet it: exit codes, one-line errors, stable JSON."""
+
+import json
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+from scenarios import YANG
+
+ROOT = YANG.parents[1]
+ROW_KEYS = {"controller", "position_error_min", "position_error_max", "speed_error_min", "speed_error_max",
+            "position_rms", "speed_rms", "stopping_error", "energy_J", "jerk_rms", "saturated_fraction",
+            "limit_violations", "step_us_median", "step_us_p99", "deadline_misses", "failed"}
+CLAIM_KEYS = {"id", "paper", "equation", "kind", "statement", "verdict", "method", "scope", "certificate",
+              "counterexample", "correction", "premises", "tainted_by", "trust", "seconds"}
+SHORT = """
+version = 1
+name = "short"
+title = "A short run"
+paper = "none"
+citation = "none"
+track = "line.toml"
+[train]
+mass_kg = 200000.0
+davis_a_mps2 = 0.02
+davis_b_per_s = 1e-4
+davis_c_per_m = 1e-5
+max_traction_n = 200000.0
+max_braking_n = 200000.0
+source = {{ mass_kg = "assumed: a test", davis_a_mps2 = "assumed: a test", davis_b_per_s = "assumed: a test", davis_c_per_m = "assumed: a test", max_traction_n = "assumed: a test", max_braking_n = "assumed: a test" }}
+[reference]
+kind = "cruise_speed"
+cruise_mps = 10.0
+acceleration_mps2 = 0.5
+braking_mps2 = 0.5
+ramp_s = 2.0
+source = {{ kind = "assumed: a test", cruise_mps = "assumed: a test", acceleration_mps2 = "assumed: a test", braking_mps2 = "assumed: a test", ramp_s = "assumed: a test" }}
+[simulation]
+plant_step_s = 0.01
+dwell_s = 1.0
+position_band_m = 0.2
+log_every_s = 0.1
+source = {{ plant_step_s = "assumed: a test", dwell_s = "assumed: a test", position_band_m = "assumed: a test", log_every_s = "assumed: a test" }}
+[disturbance]
+amplitude_mps2 = 0.0
+period_s = 60.0
+source = {{ amplitude_mps2 = "assumed: a test", period_s = "assumed: a test" }}
+[controllers.good]
+law = "pid"
+period_s = 0.01
+parameters = {{ K_p = 1.0, K_i = 0.1, K_d = 2.0 }}
+initial = {{ eta_e = 0.0 }}
+source = {{ law = "assumed: a test", period_s = "assumed: a test", parameters = "assumed: a test", initial = "assumed: a test" }}
+[controllers.slow]
+law = "yang2021.pocrac"
+period_s = {period}
+parameters = {{ alpha = 0.5, beta = 0.51, k = 0.21, lambda_1 = 0.01, lambda_2 = 0.01, lambda_3 = 0.01, sigma_1 = 0.005, sigma_2 = 0.005, sigma_3 = 0.005 }}
+initial = {{ a_hat = 0.02, b_hat = 0.0, c_hat = 0.0 }}
+source = {{ law = "assumed: a test", period_s = "assumed: a test", parameters = "assumed: a test", initial = "assumed: a test" }}
+[uncertainty]
+runs = 2
+seed = 1
+spread = 0.1
+factors = ["mass"]
+source = {{ runs = "assumed: a test", seed = "assumed: a test", spread = "assumed: a test", factors = "assumed: a test" }}
+"""
+LINE = """
+name = "line"
+length_m = 500.0
+grade = [{ start_m = 0.0, end_m = 500.0, grade_permille = 1.0 }]
+curve = [{ start_m = 0.0, end_m = 500.0, radius_m = inf }]
+source = { name = "assumed: a test", length_m = "assumed: a test", grade = "assumed: a test", curve = "assumed: a test" }
+"""
+
+
+def run(*arguments: object, folder: Path = ROOT):
+    return subprocess.run([sys.executable, "-m", "workbench", *map(str, arguments)], cwd=folder,
+                          capture_output=True, text=True, check=False, timeout=300)
+
+
+def one_line(result) -> str:
+    """The single line of standard error of a call that ended with 2."""
+    assert result.returncode == 2, result.stderr
+    assert "Traceback" not in result.stderr
+    lines = result.stderr.strip().splitlines()
+    assert len(lines) == 1, result.stderr
+    return lines[0]
+
+
+@pytest.fixture
+def short(tmp_path):
+    (tmp_path / "line.toml").write_text(LINE)
+    path = tmp_path / "short.toml"
+    path.write_text(SHORT.format(period=0.01))
+    return path
+
+
+def test_help_names_every_command():
+    shown = run("--help").stdout
+    for command in ("prove", "check-certificates", "compare", "sweep", "report"):
+        assert command in shown
+
+
+def test_the_example_of_the_readme_is_decided(tmp_path):
+    code = re.findall(r"```python\n(.*?)```", (ROOT / "README.md").read_text(), re.DOTALL)
+    assert len(code) == 1
+    (tmp_path / "my_paper.py").write_text(code[0])
+    result = run("prove", "my_paper.py", "--json", "out.json", folder=tmp_path)
+    assert result.returncode == 0, result.stderr
+    document = json.loads((tmp_path / "out.json").read_text())
+    assert document["version"] == 1 and document["summary"]["proved"] == 1
+    (claim,) = document["claims"]
+    assert claim.keys() >= CLAIM_KEYS and claim["id"] == "mine:3" and claim["trust"] == "exact"
+    assert run("check-certificates", "certificates", folder=tmp_path).returncode == 0
+
+
+def test_a_verdict_that_differs_from_the_record_is_exit_code_1(tmp_path):
+    code = re.findall(r"```python\n(.*?)```", (ROOT / "README.md").read_text(), re.DOTALL)[0]
+    (tmp_path / "my_paper.py").write_text(code.replace('"proved"', '"refuted"'))
+    result = run("prove", "my_paper.py", folder=tmp_path)
+    assert result.returncode == 1
+    assert "mine:3" in result.stderr and "proved" in result.stderr and "refuted" in result.stderr
+
+
+def test_compare_writes_the_stable_rows(short, tmp_path):
+    result = run("compare", short, "--json", tmp_path / "rows.json", "--workers", 1)
+    assert result.returncode == 0, result.stderr
+    document = json.loads((tmp_path / "rows.json").read_text())
+    assert document["version"] == 1 and document["scenario"] == "short"
+    for row in document["rows"]:
+        assert row.keys() >= ROW_KEYS
+        assert row["failed"] is None and row["energy_J"] > 0
+
+
+def test_a_run_that_fails_is_a_failed_row_and_stops_no_other(short, tmp_path):
+    short.write_text(SHORT.format(period=2.0))
+    result = run("compare", short, "--json", tmp_path / "rows.json", "--workers", 1)
+    assert result.returncode == 0, result.stderr
+    text = (tmp_path / "rows.json").read_text()
+    assert "NaN" not in text and "Infinity" not in text
+    good, bad = json.loads(text)["rows"]
+    assert good["failed"] is None
+    assert "left its domain" in bad["failed"] and "yang2021.pocrac" in bad["failed"] and "t = " in bad["failed"]
+    assert bad["stopping_error"] is None and bad["energy_J"] is None
+    assert "slow" in result.stderr
+
+
+def test_report_of_a_short_scenario_without_a_proof(short, tmp_path):
+    result = run("report", short, "--out", tmp_path / "out", "--runs", 1, "--workers", 1)
+    assert result.returncode == 0, result.stderr
+    page = (tmp_path / "out" / "report.html").read_text()
+    assert "A short run" in page
+    assert str(tmp_path / "out" / "report.html") in result.stdout.replace("\n", "")
+
+
+def test_bad_input_is_one_line_and_exit_code_2(short, tmp_path):
+    missing = tmp_path / "missing.toml"
+    assert "missing.toml" in one_line(run("compare", missing))
+    assert "no such proof file" in one_line(run("prove", tmp_path / "missing.py"))
+    assert "no certificate" in one_line(run("check-certificates", tmp_path / "nothing"))
+    short.write_text(SHORT.format(period=0.01).replace("mass_kg = 200000.0", "mass_kg = -1.0"))
+    line = one_line(run("compare", short))
+    assert "short.toml" in line and "train.mass_kg" in line
+    occupied = tmp_path / "file"
+    occupied.write_text("")
+    short.write_text(SHORT.format(period=0.01))
+    assert "another folder" in one_line(run("report", short, "--out", occupied / "out"))
+
+
+def test_a_broken_proof_file_is_one_line(tmp_path):
+    (tmp_path / "broken.py").write_text("import nothing_of_this_name\n")
+    assert "broken.py" in one_line(run("prove", tmp_path / "broken.py"))
+    (tmp_path / "empty.py").write_text("x = 1\n")
+    assert "Paper" in one_line(run("prove", tmp_path / "empty.py"))
+
+
+def test_a_tampered_certificate_is_named(tmp_path):
+    folder = tmp_path / "certificates"
+    folder.mkdir()
+    path = ROOT / "proofs" / "certificates" / "yang2021" / "43.json"
+    (folder / "43.json").write_text(path.read_text().replace('"1/2"', '"1/3"'))
+    result = run("check-certificates", folder)
+    assert result.returncode == 1 and "43.json" in result.stderr
