@@ -216,8 +216,8 @@ def approximation_error() -> Goal:
     return Goal((equal(f_true - f_hat, -over_neurons(W_tilde * h) + epsilon),))
 
 
-def _largest_jump() -> tuple[Fraction, Fraction]:
-    """Resistance (N per kg) just before and after the border with the largest jump in Table 1, exact."""
+def _section_resistances() -> list[Fraction]:
+    """Additional resistance (N per kg) of the sections of Table 1 in their order, exact."""
     def at(position: float) -> Fraction:
         grade = next(s.grade_permille for s in scenario.track.grade if s.start_m <= position < s.end_m)
         radius = next(s.radius_m for s in scenario.track.curve if s.start_m <= position < s.end_m)
@@ -227,10 +227,27 @@ def _largest_jump() -> tuple[Fraction, Fraction]:
         return Fraction(int(value.p), int(value.q))
 
     borders = sorted({s.start_m for s in (*scenario.track.grade, *scenario.track.curve)})
-    return max(pairwise(at(b) for b in borders), key=lambda pair: abs(pair[0] - pair[1]))
+    return [at(border) for border in borders]
+
+
+def _largest_jump() -> tuple[Fraction, Fraction]:
+    """Resistance just before and after the border with the largest jump in Table 1."""
+    return max(pairwise(_section_resistances()), key=lambda pair: abs(pair[0] - pair[1]))
 
 
 before_jump, after_jump = _largest_jump()
+f_star = sp.Symbol("f_star", positive=True)
+
+
+@paper.claim("A2", "Assumption 2: f is bounded on the line of Table 1", "condition",
+             r"|f(x)| \le f^*", "proved", at={f_star: Fraction(6, 100)},
+             note="With f* = 0.06 m/s^2, on every section of Table 1; the disturbance that the paper adds is not described.")
+def resistance_bounded() -> Goal:
+    """Grade and curve resistance of every section against f*."""
+    values = [sp.Rational(x.numerator, x.denominator) for x in _section_resistances()]
+    return Goal((at_most(max(values), f_star), at_least(min(values), -f_star)))
+
+
 f_before, f_after = sp.symbols("f_before f_after", real=True)
 
 paper.axiom("7", "Universal approximation by the network",
@@ -696,6 +713,21 @@ def distance_from_barrier() -> Goal:
     """A bound of V_1 is a bound of e_1 strictly inside k."""
     return Goal((at_most(e_1**2, k**2 * (1 - sp.exp(-2 * level))), less(k**2 * (1 - sp.exp(-2 * level)), k**2)),
                 (inside, at_most(V_1, level)), facts=(2 * level - sp.log(barrier),))
+
+
+@paper.claim("A4", "Assumption 4 follows: the barrier term of the input is bounded when V is", "implication",
+             r"V_1 \le B \Rightarrow \frac{|e_1|}{k^2 - e_1^2} \le \frac{e^{2B}}{k}", "proved",
+             premises=("theorem1.bounded",),
+             note="Assumption 4 supposes a bounded input, which is for the proof to show: with all signals bounded the "
+                  "other terms of (33) are, and this bounds the last one. At the stated gains B is above l/mu, "
+                  "so the bound is of no use for choosing an actuator, and a saturated input voids (41).")
+def input_bounded() -> Goal:
+    """The last term of (33) against a bound of V_1."""
+    inverse = 1 / (k**2 - e_1**2)
+    most = sp.exp(2 * level) / k
+    return Goal((at_most(e_1 * inverse, most), at_least(e_1 * inverse, -most)), (inside, at_most(V_1, level)),
+                facts=(2 * level - sp.log(barrier),),
+                lemmas=(at_most(inverse, most / k), at_most(e_1, k), at_least(e_1, -k)))
 
 
 wanted = sp.Symbol("rho", positive=True)
