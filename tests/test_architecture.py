@@ -30,7 +30,7 @@ FLOORS = (
 FLOOR_OF = {f"workbench.{prefix}": floor for floor, prefixes in enumerate(FLOORS) for prefix in prefixes}
 
 LONGEST = 300
-LONGER = {"workbench.proof.checker": 400, "workbench.simulate.kernel_loop": 400}
+LONGER = {"workbench.proof.checker": 1000, "workbench.simulate.kernel_loop": 400}
 
 # Loading a file of Python as a module: the generated kernels, and the paper files a user names.
 MAY_LOAD_MODULES = {"workbench.compile", "workbench.proof.paper"}

@@ -29,50 +29,59 @@ davis_b_per_s = 1e-4
 davis_c_per_m = 1e-5
 max_traction_n = 200000.0
 max_braking_n = 200000.0
-source = {{ mass_kg = "assumed: a test", davis_a_mps2 = "assumed: a test", davis_b_per_s = "assumed: a test", davis_c_per_m = "assumed: a test", max_traction_n = "assumed: a test", max_braking_n = "assumed: a test" }}
 [reference]
 kind = "cruise_speed"
 cruise_mps = 10.0
 acceleration_mps2 = 0.5
 braking_mps2 = 0.5
 ramp_s = 2.0
-source = {{ kind = "assumed: a test", cruise_mps = "assumed: a test", acceleration_mps2 = "assumed: a test", braking_mps2 = "assumed: a test", ramp_s = "assumed: a test" }}
 [simulation]
 plant_step_s = 0.01
 dwell_s = 1.0
 position_band_m = 0.2
 log_every_s = 0.1
-source = {{ plant_step_s = "assumed: a test", dwell_s = "assumed: a test", position_band_m = "assumed: a test", log_every_s = "assumed: a test" }}
 [disturbance]
 amplitude_mps2 = 0.0
 period_s = 60.0
-source = {{ amplitude_mps2 = "assumed: a test", period_s = "assumed: a test" }}
 [controllers.good]
 law = "pid"
 period_s = 0.01
-parameters = {{ K_p = 1.0, K_i = 0.1, K_d = 2.0 }}
-initial = {{ eta_e = 0.0 }}
-source = {{ law = "assumed: a test", period_s = "assumed: a test", parameters = "assumed: a test", initial = "assumed: a test" }}
+parameters = { K_p = 1.0, K_i = 0.1, K_d = 2.0 }
+initial = { eta_e = 0.0 }
 [controllers.slow]
 law = "yang2021.pocrac"
-period_s = {period}
-parameters = {{ alpha = 0.5, beta = 0.51, k = 0.21, lambda_1 = 0.01, lambda_2 = 0.01, lambda_3 = 0.01, sigma_1 = 0.005, sigma_2 = 0.005, sigma_3 = 0.005 }}
-initial = {{ a_hat = 0.02, b_hat = 0.0, c_hat = 0.0 }}
-source = {{ law = "assumed: a test", period_s = "assumed: a test", parameters = "assumed: a test", initial = "assumed: a test" }}
+period_s = PERIOD
+parameters = { GAINS }
+initial = { a_hat = 0.02, b_hat = 0.0, c_hat = 0.0 }
 [uncertainty]
 runs = 2
 seed = 1
 spread = 0.1
 factors = ["mass"]
-source = {{ runs = "assumed: a test", seed = "assumed: a test", spread = "assumed: a test", factors = "assumed: a test" }}
 """
 LINE = """
 name = "line"
 length_m = 500.0
 grade = [{ start_m = 0.0, end_m = 500.0, grade_permille = 1.0 }]
 curve = [{ start_m = 0.0, end_m = 500.0, radius_m = inf }]
-source = { name = "assumed: a test", length_m = "assumed: a test", grade = "assumed: a test", curve = "assumed: a test" }
 """
+LINE_SOURCE = "".join(f'source.{key} = "assumed: a test"\n' for key in ("name", "length_m", "grade", "curve"))
+GAINS = ", ".join(["alpha = 0.5, beta = 0.51, k = 0.21",
+                   *(f"{n}_{i} = 0.01" for n in ("lambda", "sigma") for i in "123")])
+
+
+def sourced(text: str) -> str:
+    """The TOML text with a source for every value of every table; the values before the first table need none."""
+    head, *tables = re.split(r"(?m)^(?=\[)", text)
+    lines = [head]
+    for table in tables:
+        keys = re.findall(r"(?m)^(\w+) = ", table)
+        lines.append(table + "source = { " + ", ".join(f'{key} = "assumed: a test"' for key in keys) + " }\n")
+    return "".join(lines)
+
+
+def short_toml(period_s: float = 0.01) -> str:
+    return sourced(SHORT.replace("PERIOD", str(period_s)).replace("GAINS", GAINS))
 
 
 def run(*arguments: object, folder: Path = ROOT):
@@ -91,9 +100,9 @@ def one_line(result) -> str:
 
 @pytest.fixture
 def short(tmp_path):
-    (tmp_path / "line.toml").write_text(LINE)
+    (tmp_path / "line.toml").write_text(LINE + LINE_SOURCE)
     path = tmp_path / "short.toml"
-    path.write_text(SHORT.format(period=0.01))
+    path.write_text(short_toml())
     return path
 
 
@@ -135,7 +144,7 @@ def test_compare_writes_the_stable_rows(short, tmp_path):
 
 
 def test_a_run_that_fails_is_a_failed_row_and_stops_no_other(short, tmp_path):
-    short.write_text(SHORT.format(period=2.0))
+    short.write_text(short_toml(2.0))
     result = run("compare", short, "--json", tmp_path / "rows.json", "--workers", 1)
     assert result.returncode == 0, result.stderr
     text = (tmp_path / "rows.json").read_text()
@@ -160,12 +169,12 @@ def test_bad_input_is_one_line_and_exit_code_2(short, tmp_path):
     assert "missing.toml" in one_line(run("compare", missing))
     assert "no such proof file" in one_line(run("prove", tmp_path / "missing.py"))
     assert "no certificate" in one_line(run("check-certificates", tmp_path / "nothing"))
-    short.write_text(SHORT.format(period=0.01).replace("mass_kg = 200000.0", "mass_kg = -1.0"))
+    short.write_text(short_toml().replace("mass_kg = 200000.0", "mass_kg = -1.0"))
     line = one_line(run("compare", short))
     assert "short.toml" in line and "train.mass_kg" in line
     occupied = tmp_path / "file"
     occupied.write_text("")
-    short.write_text(SHORT.format(period=0.01))
+    short.write_text(short_toml())
     assert "another folder" in one_line(run("report", short, "--out", occupied / "out"))
 
 

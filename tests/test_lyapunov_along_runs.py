@@ -4,6 +4,8 @@ V is (38) of yang2021 and its derivative is derived from (38), the plant and the
 sampled loop holds its command for one step, so the two agree up to the step, and twice as well at half of it.
 """
 
+import sys
+
 import numpy as np
 import pytest
 import sympy as sp
@@ -26,8 +28,6 @@ PROOF = YANG.parents[1] / "proofs" / "yang2021.py"
 @pytest.fixture(scope="module")
 def proof():
     collect_papers([PROOF])
-    import sys  # noqa: PLC0415
-
     return sys.modules["workbench_proofs_yang2021"]
 
 

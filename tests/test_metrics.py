@@ -58,6 +58,8 @@ def test_the_jerk_does_not_depend_on_how_the_log_was_asked_for():
 def test_a_run_too_short_for_a_jerk_has_none(rows):
     run = made_up_run()
     assert measure(replace(run, log=run.log[:rows]), short_scenario()).jerk_rms == 0.0
+    failed = replace(run, log=run.log[:rows], failed="it diverged")
+    assert measure(failed, short_scenario()).row()["jerk_rms"] is None
 
 
 def test_what_a_run_never_reached_is_none_and_can_be_written_as_json():

@@ -71,7 +71,7 @@ def measure(run: Run, scenario: Scenario) -> Metrics:
         speed_rms=whole * float(np.sqrt(total["speed_error_square_sum"] / samples)),
         stopping_error=whole * (run.final_position_m - scenario.track.length_m),
         energy_J=whole * total["traction_work_j"],
-        jerk_rms=whole * float(np.sqrt(np.mean(jerk**2))) if len(jerk) else 0.0,
+        jerk_rms=whole * (float(np.sqrt(np.mean(jerk**2))) if len(jerk) else 0.0),
         saturated_fraction=total["saturated_samples"] / max(1.0, total["commands"]),
         limit_violations=int(total["band_violations"]),
         step_us_median=float(np.median(run.step_us)), step_us_p99=float(np.percentile(run.step_us, 99)),
