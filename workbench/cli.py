@@ -97,11 +97,12 @@ def sweep(scenario: Annotated[Path, typer.Argument(help="Scenario TOML")],
           out: Annotated[Path, typer.Option(help="Folder for sweep.csv and its journal")],
           runs: Annotated[int, typer.Option(min=1, help="Runs per controller")] = 100,
           seed: Annotated[int, typer.Option(min=0)] = 2021,
+          controller: Annotated[list[str] | None, typer.Option(help="Only this one; may be repeated.")] = None,
           resume: Annotated[bool, typer.Option(help="Go on after an interruption.")] = False,
           workers: Workers = None) -> None:
     """Monte Carlo over the scenario's uncertainty: one row a run, the same bytes for the same seed."""
     with _progress() as show:
-        rows = run_sweep(scenario, runs, seed, out=out, resume=resume, workers=workers,
+        rows = run_sweep(scenario, runs, seed, controller, out=out, resume=resume, workers=workers,
                          on_progress=lambda done, total, _: show("Monte Carlo", done, total))
     out_console.print(_summary_table(summarise(rows, load_scenario(scenario)), runs))
     out_console.print(f"rows: {out / 'sweep.csv'}")

@@ -5,6 +5,10 @@ A certificate states a goal: for all real values of its symbols, the relations i
 symbols, formally) and D(...) (derivative along `flow`, which maps symbols to their rates).
 `proved` carries a proof, `refuted`/`violated`/`gap` a point (or functions of time) where the goal fails.
 
+D holds symbols without a rate constant. Only the rule `nonincreasing` and models follow the flow through time:
+`always` holds at every instant from time zero on, `initial` names values at time zero, `assume` and `show` speak
+of one later instant, and symbols that rates mention without having a rate are inputs, which may vary.
+
 What must be believed: this file, and the facts named in `fact`: log x <= x - 1 (x > 0), exp x >= 1 + x,
 exp x > 0; a function whose derivative is never positive does not increase.
 """
@@ -13,6 +17,7 @@ from __future__ import annotations
 
 import ast
 import json
+import re
 import sys
 from fractions import Fraction
 from pathlib import Path
@@ -21,6 +26,10 @@ from typing import Any
 SUM = "Sum()"  # the formal sum over the index: a product SUM * term means the sum of the terms
 FLIP = {"<=": ">=", "<": ">"}
 OPERATORS = ("<=", ">=", "==", "!=", "<", ">")
+NAME = re.compile(r"[A-Za-z_][A-Za-z0-9_]*")  # no atom of this file looks like that
+EXPRESSION = re.compile(r"[A-Za-z0-9_ +*/()-]*")
+RATIONAL = re.compile(r"-?[0-9]+(/[0-9]+)?")
+MOST_PRODUCTS, MOST_BITS, LARGEST_EXPONENT = 20_000, 200_000, 10_000  # more is refused, not computed
 
 Monomial = tuple[tuple[str, int], ...]
 Poly = dict[Monomial, Fraction]
@@ -60,7 +69,9 @@ def times_monomial(one: Monomial, two: Monomial) -> Monomial:
 
 
 def multiply(a: Poly, b: Poly) -> Poly:
-    """a * b."""
+    """The product a * b."""
+    if len(a) * len(b) > MOST_PRODUCTS:
+        raise CertificateError("an expression is too large to be expanded")
     total: Poly = {}
     for m1, c1 in a.items():
         for m2, c2 in b.items():
@@ -162,6 +173,8 @@ def atoms_of(value: Ratio) -> set[str]:
 
 def parse(text: str) -> ast.expr:
     """The syntax tree of an expression; nothing is evaluated."""
+    if not EXPRESSION.fullmatch(text):
+        raise CertificateError(f"'{text[:80]}' is not an expression of the certificate language")
     try:
         return ast.parse(text, mode="eval").body
     except (SyntaxError, ValueError, RecursionError, MemoryError):
@@ -173,8 +186,10 @@ class Context:
 
     def __init__(self, flow: dict[str, str], indexed: list[str]) -> None:
         self.functions: dict[str, tuple[str, Ratio]] = {}
-        self.indexed = set(indexed)
+        self.indexed, self.rates = set(indexed), flow
         self.flow: dict[str, Ratio] = {}
+        if any(calls(rate, "D") for rate in flow.values()):
+            raise CertificateError("a rate is given by a derivative")
         for name, rate in flow.items():
             self.flow[name] = self.term(rate) if name in self.indexed else self.read(rate)
 
@@ -231,6 +246,8 @@ class Context:
         result = number(1)
         for _ in range(abs(int(value))):
             result = result * base
+            if any(c.numerator.bit_length() + c.denominator.bit_length() > MOST_BITS for c in result.num.values()):
+                raise CertificateError("a power is too large to be expanded")
         return result if value >= 0 else result.inverse()
 
     def call(self, name: str, argument: Ratio) -> Ratio:
@@ -305,6 +322,19 @@ class Context:
             return inner * argument.inverse() if kind == "log" else inner * symbol(atom)
         return flow.get(atom, number(0))
 
+    def partial_operations(self, text: str) -> list[tuple[ast.expr, bool]]:
+        """Where an expression or relation may be undefined; with D, every rate must be defined too."""
+        rates = self.rates.values() if calls(text, "D") else ()
+        return [place for part in (text, *rates) for place in partial_operations(part)]
+
+    def inputs(self) -> set[str]:
+        """Symbols that rates mention without having a rate themselves: they may vary in time."""
+        return set().union(*(symbols_of(self, rate) for rate in self.flow.values())) - self.flow.keys() - {SUM}
+
+    def moving(self) -> set[str]:
+        """Symbols that may change along the flow."""
+        return self.inputs() | {name for name, rate in self.flow.items() if not rate.is_zero()}
+
 
 # --- signs -------------------------------------------------------------------------------------------------
 
@@ -338,7 +368,7 @@ class Relations:
     def free_of(self, names: set[str]) -> Relations:
         """The same list with every assumption about these symbols emptied, so that positions stay."""
         empty = (number(0), ">=")
-        kept = [empty if depends(self.context, value, names) else (value, op) for value, op in self.margins]
+        kept = [empty if symbols_of(self.context, value) & names else (value, op) for value, op in self.margins]
         return self.with_margins(kept)
 
     def sign_known(self, poly: Poly, nonzero_only: bool = False) -> bool:
@@ -346,7 +376,7 @@ class Relations:
         known = [r.num for r, op in self.margins if r.den == constant(1) and SUM not in atoms_of(r)
                  and (op == ">" or (nonzero_only and op == "!="))]
         known += [symbol(a).num for a, (kind, _) in self.context.functions.items() if kind == "exp"]
-        changed = True
+        changed = bool(poly)
         while changed and set(poly) != {()}:
             changed = False
             for factor in known:
@@ -366,12 +396,15 @@ class Relations:
         return (all(c > 0 and all(n % 2 == 0 or a in weak for a, n in m) for m, c in poly.items())
                 and any(all(a in positive for a, _ in m) for m in poly))
 
+    def sign_known_value(self, value: Ratio, nonzero_only: bool = False) -> bool:
+        """The same for a rational function, where it is defined."""
+        return self.sign_known(value.num, nonzero_only) and self.sign_known(value.den, nonzero_only)
+
     def require_defined(self, text: str) -> None:
         """Every denominator in `text` must be non-zero and every argument of log positive, for all values."""
-        for part, nonzero_only in partial_operations(text):
+        for part, nonzero_only in self.context.partial_operations(text):
             value = self.context.node(part)
-            if value.is_zero() or not (self.sign_known(value.num, nonzero_only)
-                                       and self.sign_known(value.den, nonzero_only)):
+            if not self.sign_known_value(value, nonzero_only):
                 wanted = "non-zero" if nonzero_only else "positive"
                 raise CertificateError(f"not shown {wanted}: {ast.unparse(part)}")
 
@@ -382,29 +415,41 @@ class Relations:
         for atom in atoms_of(value) & self.context.functions.keys():
             kind, argument = self.context.functions[atom]
             self.require_defined_value(argument)
-            if kind == "log" and not (self.sign_known(argument.num) and self.sign_known(argument.den)):
+            if kind == "log" and not self.sign_known_value(argument):
                 raise CertificateError("an argument of log is not shown positive")
+
+
+def nodes(text: str) -> list[ast.AST]:
+    """All nodes of an expression, or of both sides of a relation."""
+    sides = split_relation(text)[::2] if has_relation(text) else (text,)
+    return [node for side in sides for node in ast.walk(parse(side))]
+
+
+def calls(text: str, name: str) -> bool:
+    """Whether an expression or relation calls a function."""
+    return any(isinstance(node, ast.Call) and isinstance(node.func, ast.Name) and node.func.id == name
+               for node in nodes(text))
 
 
 def partial_operations(text: str) -> list[tuple[ast.expr, bool]]:
     """(denominator, True) and (argument of log, False), wherever an expression may be undefined."""
     places: list[tuple[ast.expr, bool]] = []
-    for side in split_relation(text)[::2] if has_relation(text) else (text,):
-        for node in ast.walk(parse(side)):
-            match node:
-                case ast.BinOp(op=ast.Div(), right=below):
-                    places.append((below, True))
-                case ast.BinOp(left=below, op=ast.Pow(), right=n) if not isinstance(n, ast.Constant):
-                    places.append((below, True))
-                case ast.Call(func=ast.Name(id="log"), args=[inner]):
-                    places.append((inner, False))
+    for node in nodes(text):
+        match node:
+            case ast.BinOp(op=ast.Div(), right=below):
+                places.append((below, True))
+            case ast.BinOp(left=below, op=ast.Pow(), right=n) if not isinstance(n, ast.Constant):
+                places.append((below, True))
+            case ast.Call(func=ast.Name(id="log"), args=[inner]):
+                places.append((inner, False))
     return places
 
 
-def depends(context: Context, value: Ratio, names: set[str]) -> bool:
-    """Whether a value mentions one of the symbols, inside functions too."""
-    inner = [context.functions[atom][1] for atom in atoms_of(value) & context.functions.keys()]
-    return bool(atoms_of(value) & names) or any(depends(context, argument, names) for argument in inner)
+def symbols_of(context: Context, value: Ratio) -> set[str]:
+    """The symbols a value mentions, inside functions too."""
+    atoms = atoms_of(value)
+    inside = (symbols_of(context, context.functions[atom][1]) for atom in atoms & context.functions.keys())
+    return (atoms - context.functions.keys()).union(*inside)
 
 
 def has_relation(text: str) -> bool:
@@ -457,15 +502,18 @@ def _cut(value: Ratio, operator: str, given: Relations, proof: dict[str, Any]) -
 
 def _monotone(value: Ratio, operator: str, given: Relations, proof: dict[str, Any]) -> None:
     """value(x) >= value(start) for x >= start, when value is defined and d value/dx >= 0 from start on."""
-    context, name = given.context, proof["variable"]
+    context, name = given.context, read_name(proof["variable"])
+    if operator not in (">", ">="):
+        raise CertificateError("a value that does not decrease is at least that at the start, no more")
     start = context.read(proof["from"])
     step = symbol(name) + -start
     if not any(same(known, step) and op in (">=", ">") for known, op in given.margins):
         raise CertificateError(f"{name} >= {proof['from']} is not among the assumptions")
-    if depends(context, start, {name}):
+    if name in symbols_of(context, start):
         raise CertificateError("the start depends on the variable")
     elsewhere = given.free_of({name})  # what is assumed of x itself need not hold between start and x
     between = elsewhere.with_margins([*elsewhere.margins, (step, ">=")])
+    between.initial = {}  # there x is no value that the flow takes
     between.require_defined_value(value)
     prove(context.derivative(value, {name: number(1)}), ">=", between, proof["derivative"])
     prove(substitute(context, value, {name: start}), operator, elsewhere, proof["at_start"])
@@ -477,12 +525,13 @@ def _nonincreasing(value: Ratio, operator: str, given: Relations, proof: dict[st
     if not given.initial or set(given.initial) != set(context.flow):
         raise CertificateError("the goal names no initial values for its flow")
     # Assumptions of the final instant say nothing of earlier ones: only those of constants are kept.
-    changing = (*context.flow.values(), *given.initial.values())
-    moving = set(context.flow).union(*(atoms_of(value) for value in changing))
-    along = given.free_of(moving)
+    along = given.free_of(context.moving())
     along.assume(given.always)
-    along.require_defined(proof["function"])
+    for text in (*context.rates.values(), proof["function"]):
+        along.require_defined(text)
     function = context.read(proof["function"])
+    if symbols_of(context, function) & context.inputs():
+        raise CertificateError("the function mentions an input, whose rate is not known")
     prove(-context.derivative(function, context.flow), ">=", along, proof["decrease"])
     drop = substitute(context, function, given.initial) + -function
     prove(value, operator, given.with_margins([*given.margins, (drop, ">=")]), proof["then"])
@@ -531,7 +580,7 @@ def _combination(value: Ratio, operator: str, given: Relations, proof: dict[str,
         scale = scale * factor
     total, strict = number(0), False
     for term in proof["terms"]:
-        coefficient = Fraction(term["coefficient"])
+        coefficient = read_rational(term["coefficient"])
         product = number(coefficient)
         signs: list[str] = []
         for item in term["factors"]:
@@ -580,6 +629,8 @@ def exp_bounds(x: Fraction) -> tuple[Fraction, Fraction]:
     if x < 0:
         low, high = exp_bounds(-x)
         return 1 / high, 1 / low
+    if x > LARGEST_EXPONENT:
+        raise CertificateError("exp of a number that is too large to be computed")
     halvings = 0
     while x > Fraction(1, 2):
         x, halvings = x / 2, halvings + 1
@@ -659,7 +710,7 @@ def bounds(context: Context, value: Ratio) -> tuple[Fraction, Fraction]:
 
 def holds(context: Context, text: str, point: dict[str, Ratio]) -> bool:
     """Whether a relation holds at a point; an error where it is undefined or the enclosure cannot tell."""
-    for part, nonzero_only in partial_operations(text):
+    for part, nonzero_only in context.partial_operations(text):
         low, high = bounds(context, substitute(context, context.node(part), point))
         if not (low > 0 or (nonzero_only and high < 0)):
             raise CertificateError(f"undefined at the point: {ast.unparse(part)}")
@@ -677,11 +728,23 @@ def holds(context: Context, text: str, point: dict[str, Ratio]) -> bool:
 
 
 def read_goal(goal: dict[str, Any]) -> tuple[Context, Relations]:
-    """The goal's context and its assumptions."""
+    """The goal's context and its assumptions; every part must have the expected shape."""
+    lists, maps = ("assume", "show", "always", "indexed"), ("flow", "initial")
+    if not goal.keys() <= {*lists, *maps, "eventually"}:
+        raise CertificateError(f"a goal has no {', '.join(sorted(goal.keys() - {*lists, *maps, 'eventually'}))}")
+    values = [goal.get(key, []) for key in lists] + [list(goal.get(key, {}).values()) for key in maps]
+    if not all(isinstance(value, list) and all(isinstance(text, str) for text in value) for value in values):
+        raise CertificateError("the parts of a goal are lists and maps of texts")
+    for name in (*goal.get("indexed", []), *goal.get("flow", {}), *goal.get("initial", {})):
+        read_name(name)
     context = Context(goal.get("flow", {}), goal.get("indexed", []))
     given = Relations(context, goal.get("assume", []))
     given.always = goal.get("always", [])
-    given.initial = {name: context.read(text) for name, text in goal.get("initial", {}).items()}
+    for name, text in goal.get("initial", {}).items():
+        given.require_defined(text)
+        given.initial[name] = context.read(text)
+        if name not in context.flow or calls(text, "D") or symbols_of(context, given.initial[name]) & context.moving():
+            raise CertificateError("initial values are constants, of symbols with a rate")
     return context, given
 
 
@@ -690,7 +753,7 @@ def check_proved(goal: dict[str, Any], certificate: dict[str, Any]) -> None:
     if goal.get("eventually"):
         raise CertificateError("a claim of some later time is proved by naming that time")
     context, given = read_goal(goal)
-    point = read_point(context, certificate["example"])
+    point = read_point(certificate["example"])
     for text in (*goal.get("assume", []), *goal.get("always", [])):
         if not holds(context, text, point):
             raise CertificateError(f"the example breaks the assumption {text}")
@@ -708,11 +771,14 @@ def check_false(goal: dict[str, Any], certificate: dict[str, Any]) -> None:
         return
     if goal.get("eventually"):
         raise CertificateError("a point says nothing of later times")
-    context, _ = read_goal(goal)
-    point = read_point(context, certificate["point"])
+    context, given = read_goal(goal)
+    point = read_point(certificate["point"])
     for text in (*goal.get("assume", []), *goal.get("always", [])):
         if not holds(context, text, point):
             raise CertificateError(f"the point breaks the assumption {text}")
+    for name, value in given.initial.items():  # of all instants a point can only be the first
+        if not same(point[name], substitute(context, value, point)):
+            raise CertificateError(f"nothing says that the flow reaches the point: {name} is not at its initial value")
     outcomes = [holds(context, text, point) for text in goal["show"]]  # all of them: each must be defined
     if all(outcomes):
         raise CertificateError("the goal holds at the point")
@@ -721,41 +787,62 @@ def check_false(goal: dict[str, Any], certificate: dict[str, Any]) -> None:
 def _check_model(goal: dict[str, Any], certificate: dict[str, Any]) -> None:
     """Functions of t for the flow's symbols, each rate being a free symbol: what is assumed always holds for
     all t >= 0, and the relation shown fails for all t >= 0."""
-    time = goal["eventually"]
+    context, given = read_goal(goal)
+    time, point = read_name(goal["eventually"]), read_point(certificate["point"])
     rates = {name: rate for name, rate in goal["flow"].items() if name != time}
-    if goal["flow"].get(time) != "1" or set(certificate["functions"]) != set(rates) or len(goal["show"]) != 1:
+    functions = {name: context.read(text) for name, text in certificate["functions"].items()}
+    if goal["flow"].get(time) != "1" or functions.keys() != rates.keys() or len(goal["show"]) != 1:
         raise CertificateError("the model must give every moving symbol as a function of time")
-    context = Context({time: "1"}, [])
-    values = {name: context.read(text) for name, text in certificate["functions"].items()}
-    for name, rate in rates.items():
-        if not rate.isidentifier() or rate in values:
-            raise CertificateError("the model needs flows whose rates are free")
-        values[rate] = context.derivative(values[name], context.flow)
-    point = read_point(context, certificate["point"])
-    start = {name: substitute(context, value, {time: number(0)}) for name, value in values.items()}
-    for name, text in goal.get("initial", {}).items():
-        if name != time and not same(substitute(context, context.read(text), point), start[name]):
-            raise CertificateError(f"the model does not start at {text}")
+    if len({time, *rates, *rates.values()}) != 1 + 2 * len(rates) or not all(map(NAME.fullmatch, rates.values())):
+        raise CertificateError("the model needs flows whose rates are free, each its own")
+    if point.keys() & {time, *rates, *rates.values()} or context.indexed:
+        raise CertificateError("the point names constants only")
+    later = Relations(context, [f"{time} >= 0"])
+    values = {name: substitute(context, value, point) for name, value in functions.items()}
+    if any(symbols_of(context, value) - {time} for value in values.values()):
+        raise CertificateError("a function of the model mentions more than time and the constants of the point")
+    values |= {rate: context.derivative(values[name], {time: number(1)}) for name, rate in rates.items()}
+
+    def along(value: Ratio) -> Ratio:
+        value = substitute(context, substitute(context, value, values), point)
+        later.require_defined_value(value)
+        return value
+
+    for text in (*certificate["functions"].values(), *goal["always"], goal["show"][0]):
+        for part, nonzero_only in context.partial_operations(text):
+            if not later.sign_known_value(along(context.node(part)), nonzero_only):
+                raise CertificateError(f"not shown defined at all times: {ast.unparse(part)}")
+    for name, value in given.initial.items():
+        start = substitute(context, values.get(name, symbol(name)), {time: number(0)})
+        if not same(substitute(context, value, point), start):
+            raise CertificateError(f"the model does not start at the initial value of {name}")
     for text in goal.get("assume", []):
         if not holds(context, text, point):
             raise CertificateError(f"the model breaks the assumption {text}")
-    later = Relations(context, [f"{time} >= 0"])
-
-    def along(text: str) -> Sign:
-        value, operator = margin(context, text)
-        value = substitute(context, substitute(context, value, values), point)
-        later.require_defined_value(value)
-        return value, operator
-
     for text, proof in zip(goal["always"], certificate["always"], strict=True):
-        prove(*along(text), later, proof)
-    value, operator = along(goal["show"][0])
-    prove(-value, {">=": ">", ">": ">="}[operator], later, certificate["fails"])
+        value, operator = margin(context, text)
+        prove(along(value), operator, later, proof)
+    value, operator = margin(context, goal["show"][0])
+    prove(-along(value), {">=": ">", ">": ">="}[operator], later, certificate["fails"])
 
 
-def read_point(context: Context, point: dict[str, str]) -> dict[str, Ratio]:
+def read_name(name: Any) -> str:
+    """The name of a symbol, which no atom of this file can be mistaken for."""
+    if not isinstance(name, str) or not NAME.fullmatch(name):
+        raise CertificateError(f"{name!r} is not the name of a symbol")
+    return name
+
+
+def read_rational(text: Any) -> Fraction:
+    """A rational number 'p/q'."""
+    if not isinstance(text, str) or not RATIONAL.fullmatch(text):
+        raise CertificateError(f"{str(text)[:80]!r} is not a rational number 'p/q'")
+    return Fraction(text)
+
+
+def read_point(point: dict[str, Any]) -> dict[str, Ratio]:
     """Rational values 'p/q' of symbols."""
-    return {name: number(Fraction(text)) for name, text in point.items()}
+    return {read_name(name): number(read_rational(text)) for name, text in point.items()}
 
 
 CHECKS = {"proved": check_proved, "refuted": check_false, "violated": check_false, "gap": check_false}
@@ -771,7 +858,8 @@ def check(certificate: dict[str, Any]) -> None:
         for name in ("correction", "repair"):
             if name in certificate:
                 check_proved(certificate[name]["goal"], certificate[name])
-    except (KeyError, TypeError, ValueError, IndexError, AttributeError, ZeroDivisionError) as trouble:
+    except (KeyError, TypeError, ValueError, IndexError, AttributeError, ArithmeticError, RecursionError,
+            MemoryError) as trouble:
         raise CertificateError(f"malformed: {type(trouble).__name__} {trouble}") from None
 
 
@@ -781,13 +869,20 @@ def check_folder(folder: Path) -> list[tuple[Path, str, str | None]]:
     for path in sorted(folder.rglob("*.json")):
         verdict = "?"
         try:
-            certificate = json.loads(path.read_text(encoding="utf-8"))
+            certificate = json.loads(path.read_text(encoding="utf-8"), object_pairs_hook=_unique)
             verdict = str(certificate.get("verdict")) if isinstance(certificate, dict) else "?"
             check(certificate)
             results.append((path, verdict, None))
-        except (CertificateError, ValueError, AttributeError) as trouble:
+        except (CertificateError, ValueError, AttributeError, RecursionError, OSError) as trouble:
             results.append((path, verdict, str(trouble)))
     return results
+
+
+def _unique(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
+    """A JSON object; one that names a key twice would read differently to different readers."""
+    if len(dict(pairs)) != len(pairs):
+        raise CertificateError("a key stands twice in one object")
+    return dict(pairs)
 
 
 def main() -> int:

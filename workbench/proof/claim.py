@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import keyword
+import re
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from fractions import Fraction
@@ -80,32 +82,32 @@ def latex_name(name: str) -> str:
 
 def equal(left: Any, right: Any) -> Relation:
     """left == right."""
-    return Relation(sp.sympify(left), "==", sp.sympify(right))
+    return Relation(sp.sympify(left, strict=True), "==", sp.sympify(right, strict=True))
 
 
 def at_most(left: Any, right: Any) -> Relation:
     """left <= right."""
-    return Relation(sp.sympify(left), "<=", sp.sympify(right))
+    return Relation(sp.sympify(left, strict=True), "<=", sp.sympify(right, strict=True))
 
 
 def less(left: Any, right: Any) -> Relation:
     """left < right."""
-    return Relation(sp.sympify(left), "<", sp.sympify(right))
+    return Relation(sp.sympify(left, strict=True), "<", sp.sympify(right, strict=True))
 
 
 def at_least(left: Any, right: Any) -> Relation:
     """left >= right."""
-    return Relation(sp.sympify(left), ">=", sp.sympify(right))
+    return Relation(sp.sympify(left, strict=True), ">=", sp.sympify(right, strict=True))
 
 
 def greater(left: Any, right: Any) -> Relation:
     """left > right."""
-    return Relation(sp.sympify(left), ">", sp.sympify(right))
+    return Relation(sp.sympify(left, strict=True), ">", sp.sympify(right, strict=True))
 
 
 def differ(left: Any, right: Any) -> Relation:
     """left != right."""
-    return Relation(sp.sympify(left), "!=", sp.sympify(right))
+    return Relation(sp.sympify(left, strict=True), "!=", sp.sympify(right, strict=True))
 
 
 @dataclass(frozen=True)
@@ -132,6 +134,16 @@ class Goal:
     def __post_init__(self) -> None:
         if not self.show:
             raise ClaimError("a goal shows nothing: give at least one relation")
+        language = _Language()
+        for relation in (*self.relations(), *self.lemmas):
+            language.check(relation.left)
+            language.check(relation.right)
+        for moving, rate in self.flow.items():
+            index = moving.indices[0] if isinstance(moving, sp.Indexed) else None
+            language.check(moving, index)
+            language.check(rate, index)
+        for expr in (*self.initial.values(), *self.model.values(), *self.facts, sp.Add(self.decreasing or 0)):
+            language.check(expr)
 
     def relations(self) -> tuple[Relation, ...]:
         """All relations of the goal."""
@@ -162,6 +174,56 @@ class Goal:
             elif s.is_nonnegative:
                 known.append(at_least(s, 0))
         return tuple(known)
+
+
+class _Language:
+    """What certificates can say without loss; all expressions of one goal go through one of these.
+
+    Certificates know symbols by name only and print W[j] as W, so two symbols must not share a name, and an
+    index may stand only where its sum binds it.
+    """
+
+    def __init__(self) -> None:
+        self.names: dict[str, sp.Expr] = {}
+        self.limits: sp.Tuple | None = None
+
+    def check(self, expr: sp.Expr, index: sp.Symbol | None = None) -> None:
+        """Raise ClaimError unless certificates can state the expression exactly."""
+        if isinstance(expr, sp.Symbol):
+            self._name(str(expr), expr)
+            if expr == index:
+                raise ClaimError(f"the index {index} stands as a number in a sum: use it as an index only")
+        elif isinstance(expr, sp.Indexed):
+            if index is None or expr.indices != (index,):
+                raise ClaimError(f"{expr} stands where no sum binds its index: sum over it, with one index")
+            self._name(str(expr.base.label), expr.base)
+        elif isinstance(expr, sp.Sum):
+            if index is not None or len(expr.limits) != 1 or (self.limits or expr.limits[0]) != expr.limits[0]:
+                raise ClaimError(f"{expr}: all sums of a goal need the same one index and range, none in another")
+            self.limits = expr.limits[0]
+            self.check(expr.function, expr.limits[0][0])
+        elif isinstance(expr, sp.Pow):
+            if not expr.exp.is_Integer:
+                raise ClaimError(f"'{expr}' has no meaning in certificates: only whole powers have")
+            self.check(expr.base, index)
+        elif isinstance(expr, (sp.Add, sp.Mul, sp.log, sp.exp, D)):
+            for part in expr.args:
+                self.check(part, index)
+        elif isinstance(expr, sp.Float):
+            raise ClaimError(f"the number {expr} is not exact: write it as sympy.Rational or Fraction")
+        elif not isinstance(expr, sp.Rational) and expr != sp.E:
+            raise ClaimError(f"'{expr}' has no meaning in certificates: state the claim with + - * / **, log and exp")
+
+    def _name(self, name: str, owner: sp.Expr) -> None:
+        if not re.fullmatch(r"[A-Za-z_][A-Za-z0-9_]*", name) or keyword.iskeyword(name) or name in LANGUAGE:
+            raise ClaimError(f"symbol '{name}': certificates need names of letters, digits and underscores, "
+                             f"other than {', '.join(LANGUAGE)} and Python's own words")
+        if self.names.setdefault(name, owner) != owner:
+            raise ClaimError(f"two different symbols are named '{name}' (other assumptions, or one of them indexed): "
+                             "certificates could not tell them apart; give each its own name")
+
+
+LANGUAGE = ("Sum", "D", "log", "exp")
 
 
 def name_of(symbol: sp.Expr) -> str:

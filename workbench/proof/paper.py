@@ -78,7 +78,7 @@ def _papers_in(file: Path) -> list[Paper]:
         module = _import(file)
     except ClaimError as trouble:
         raise InputError(file, "", str(trouble)) from None
-    except Exception as trouble:
+    except (Exception, SystemExit) as trouble:  # a file that exits would end the run before anything is decided
         raise InputError(file, "", f"cannot be imported: {type(trouble).__name__}: {trouble}") from trouble
     return [value for value in vars(module).values() if isinstance(value, Paper)]
 

@@ -250,7 +250,7 @@ def _solve(target: Laurent, terms: list[Known], strict: bool, size: int) -> list
     right = np.zeros(len(rows))
     for e, c in target.items():
         right[rows[e]] = float(c)
-    limits = [(None, None) if t.sign == "==" else (0, None) for t in terms]
+    limits: list[tuple[int | None, float | None]] = [(None, None) if t.sign == "==" else (0, None) for t in terms]
     cost = np.array([1.0 + len(t.items) for t in terms])
     if strict:  # prefer strictly positive terms so much that one is used whenever one can be
         cost = cost - np.array([1e3 if t.sign == ">" else 0.0 for t in terms])

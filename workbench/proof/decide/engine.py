@@ -16,6 +16,7 @@ from workbench.proof.claim import FAILED, Claim, D, Decision, Goal, Relation, Ve
 from workbench.proof.decide.combination import find_combination
 from workbench.proof.decide.identity import find_identity
 from workbench.proof.decide.refute import find_counterexample, find_example, value_at
+from workbench.proof.derive import expand_derivatives
 from workbench.proof.text import assumptions, goal_text, relation_text, text
 
 Certificate = dict[str, Any]
@@ -26,9 +27,24 @@ def decide(claim: Claim) -> Decision:
     started = time.perf_counter()
     if claim.build is None:
         return Decision(claim, "assumed", claim.axiom or "", None, time.perf_counter() - started)
-    goal = claim.build()
+    goal = _goal(claim)
     decision = _decide_statement(claim, goal) if claim.at is None else _decide_condition(claim, goal)
     return replace(decision, seconds=time.perf_counter() - started)
+
+
+def _goal(claim: Claim) -> Goal:
+    """The claim's goal; what is wrong with it is said with the claim's id."""
+    assert claim.build is not None
+    try:
+        goal: object = claim.build()
+    except ClaimError as trouble:
+        raise ClaimError(f"claim {claim.id}: {trouble}") from None
+    except Exception as trouble:
+        what = " ".join(f"{type(trouble).__name__}: {trouble}".split())
+        raise ClaimError(f"claim {claim.id}: its goal cannot be made: {what}") from trouble
+    if not isinstance(goal, Goal):
+        raise ClaimError(f"claim {claim.id}: its function returns no Goal: end it with 'return Goal(...)'")
+    return goal
 
 
 def _decide_statement(claim: Claim, goal: Goal) -> Decision:
@@ -84,12 +100,20 @@ def _decide_condition(claim: Claim, goal: Goal) -> Decision:
 
 def pinned(goal: Goal, values: dict[Any, Fraction]) -> Goal:
     """The goal with symbols replaced by values; assumptions that become plain facts stay, to be checked."""
+    if goal.initial or goal.eventually is not None:
+        raise ClaimError("stated values decide a condition of one instant: it has no initial values or later times")
+    for s, v in values.items():
+        if (s.is_positive and v <= 0) or (s.is_nonnegative and v < 0):
+            raise ClaimError(f"{s} = {v} contradicts the sign of its symbol")
     exact = {s: sp.Rational(v.numerator, v.denominator) for s, v in values.items()}
 
     def put(relations: tuple[Relation, ...]) -> tuple[Relation, ...]:
-        return tuple(r.subs(exact) for r in relations)
+        # Derivatives first: D of a symbol that has become a number would be zero.
+        carried = (Relation(expand_derivatives(r.left, goal.flow), r.operator, expand_derivatives(r.right, goal.flow))
+                   for r in relations)
+        return tuple(r.subs(exact) for r in carried)
 
-    return replace(goal, show=put(goal.show), assume=put(goal.assume), always=put(goal.always),
+    return replace(goal, show=put(goal.show), assume=put(goal.assume), always=put(goal.always), flow={},
                    lemmas=put(goal.lemmas), facts=tuple(f.xreplace(exact) for f in goal.facts))
 
 
@@ -147,10 +171,10 @@ def _signs_of_logs(relations: tuple[Relation, ...]) -> list[Relation]:
 
 def _by_decrease(goal: Goal, shown: Relation) -> tuple[dict[str, Any], str] | None:
     """A bound from a function that does not increase along the flow."""
-    function = sp.sympify(goal.decreasing)
+    function = sp.Add(goal.decreasing)
     # As the checker will see it: assumptions of the moving symbols emptied, those that always hold appended.
-    moving = set(goal.flow) | {s for rate in goal.flow.values() for s in rate.free_symbols}
-    moving |= {s for value in goal.initial.values() for s in value.free_symbols}
+    moving = {s for s, rate in goal.flow.items() if rate != 0}
+    moving |= {s for rate in goal.flow.values() for s in rate.free_symbols} - set(goal.flow)
     given = assumptions(goal)
     kept = tuple(_EMPTY if r.margin.free_symbols & moving else r for r in given)
     decrease = find_combination(goal, at_least(-D(function), 0), (*kept, *goal.always))
@@ -182,6 +206,9 @@ def decide_all(claims: list[Claim], on_progress: Callable[[int], None] = lambda 
         for premise in claim.premises:
             if premise not in by_id:
                 raise ClaimError(f"claim {claim.id}: premise '{premise}' is no claim: state it or correct the id")
+    for claim in claims:
+        if claim.id in _closure(claim, by_id):
+            raise ClaimError(f"claim {claim.id}: rests on itself through its premises: break the circle")
     decisions: dict[str, Decision] = {}
     for claim in claims:
         decisions[claim.id] = decide(claim)
@@ -190,6 +217,12 @@ def decide_all(claims: list[Claim], on_progress: Callable[[int], None] = lambda 
 
 
 def _taint(claim: Claim, by_id: dict[str, Claim], decisions: dict[str, Decision]) -> tuple[str, ...]:
+    below = _closure(claim, by_id)
+    return tuple(c for c in by_id if c in below and decisions[c].verdict in FAILED)
+
+
+def _closure(claim: Claim, by_id: dict[str, Claim]) -> set[str]:
+    """The ids of all claims it rests on, directly or not."""
     seen: set[str] = set()
     open_ids = list(claim.premises)
     while open_ids:
@@ -197,5 +230,4 @@ def _taint(claim: Claim, by_id: dict[str, Claim], decisions: dict[str, Decision]
         if current not in seen:
             seen.add(current)
             open_ids += by_id[current].premises
-    seen.discard(claim.id)
-    return tuple(c for c in by_id if c in seen and decisions[c].verdict in FAILED)
+    return seen

@@ -135,9 +135,11 @@ def reduce_inverses(poly: Laurent, atoms: Atoms) -> Laurent:
     """Normal form modulo z s = 1: no monomial keeps z together with the leading monomial of s."""
     total = dict(poly)
     for symbol, margin in atoms.inverses.items():
-        z, size = atoms.index(symbol), len(atoms.generators)
         terms = _expand(margin, atoms)
-        lead = max(terms, key=lambda e: (sum(e), e))
+        z, size = atoms.index(symbol), len(atoms.generators)  # now that the margin's symbols have their places
+        # Invertible generators count last: k^-2 z k^2 would escape the rule otherwise. Graded, so that it ends.
+        lead = max(terms, key=lambda e: (sum(
+            n for n, g in zip(e, atoms.generators, strict=False) if g not in atoms.positive), sum(e), e))
         places = [(i, n) for i, n in enumerate(lead) if n]
         open_keys = list(total)
         while open_keys:
@@ -181,7 +183,7 @@ def trim(exponents: Exponents) -> Exponents:
 
 
 def add(a: Laurent, b: Laurent) -> Laurent:
-    """a + b."""
+    """The sum a + b."""
     total = dict(a)
     for exponents, coefficient in b.items():
         _accumulate(total, exponents, coefficient)

@@ -19,7 +19,7 @@ from workbench.proof.checker import (
     split_relation,
     substitute,
 )
-from workbench.proof.claim import Goal, Relation, Verdict, name_of
+from workbench.proof.claim import Goal, Relation, Verdict, equal, name_of
 from workbench.proof.decide.model import find_model
 from workbench.proof.derive import expand_derivatives
 from workbench.proof.text import goal_text
@@ -105,6 +105,8 @@ def sample_points(goal: Goal, seed: int) -> Iterator[Point]:
     symbols = goal.symbols()
     equations = [r for r in goal.assume if r.operator == "==" and r.left.is_Symbol
                  and not r.right.has(r.left)]
+    # Only the first instant is known to be reached, so a counterexample stands there.
+    equations += [equal(s, value) for s, value in goal.initial.items()]
     for attempt in range(TRIES):
         point: Point = {}
         for symbol in symbols:

@@ -1,0 +1,145 @@
+"""What a goal says in sympy is what its certificate says in text, or it is refused."""
+
+from fractions import Fraction
+
+import pytest
+import sympy as sp
+
+from workbench.errors import ClaimError
+from workbench.proof.claim import Claim, D, Goal, at_least, at_most, equal, greater
+from workbench.proof.decide.engine import decide, decide_all, pinned, prove_goal
+from workbench.proof.decide.refute import find_counterexample
+from workbench.proof.text import goal_text
+
+x, y, w, x_0, t = sp.symbols("x y w x_0 t", real=True)
+i, j, n, m = sp.symbols("i j n m", integer=True, positive=True)
+W, H = sp.IndexedBase("W", real=True), sp.IndexedBase("H", real=True)
+positive_x = sp.Symbol("x", positive=True)
+one_index = sp.Sum(W[j] ** 2, (j, 1, n))
+
+
+def goal_of(build):
+    with pytest.raises(ClaimError) as caught:
+        build()
+    return str(caught.value)
+
+
+REFUSED = {
+    "two symbols of one name": lambda: Goal((greater(x, 0),), (at_least(positive_x, 0),)),
+    "two symbols of one name, in the flow": lambda: Goal((equal(D(positive_x), 1),), flow={x: sp.Integer(1)}),
+    "a symbol named as an indexed one": lambda: Goal((at_least(one_index + sp.Symbol("W", real=True), 0),)),
+    "two dummies of one name": lambda: Goal((equal(sp.Dummy("a"), sp.Dummy("a")),)),
+    "a name that is an expression": lambda: Goal((equal(sp.Symbol("x + y"), x + y),)),
+    "a name that is a number": lambda: Goal((equal(sp.Symbol("1"), 1),)),
+    "a word of Python": lambda: Goal((at_least(sp.Symbol("lambda"), 0),)),
+    "a word of the language": lambda: Goal((at_least(sp.Symbol("Sum"), 0),)),
+    "a float": lambda: Goal((at_least(x, 0.1),)),
+    "a float in the flow": lambda: Goal((at_least(D(x), 0),), flow={x: sp.Float("0.5")}),
+    "a float assumed": lambda: Goal((at_least(x, 0),), (at_least(x, 0.5),)),
+    "pi, which would be any number": lambda: Goal((at_least(sp.pi, 4),)),
+    "infinity": lambda: Goal((at_most(x, sp.oo),)),
+    "not a number": lambda: Goal((at_most(x, sp.nan),)),
+    "an imaginary number": lambda: Goal((equal(sp.I * x, 0),)),
+    "a root": lambda: Goal((at_least(sp.sqrt(x), 0),)),
+    "an absolute value": lambda: Goal((at_least(sp.Abs(x), 0),)),
+    "a power of unknown exponent": lambda: Goal((at_least(positive_x**y, 0),)),
+    "a sine": lambda: Goal((at_most(sp.sin(x), 1),)),
+    "a comparison inside": lambda: Goal((at_least(sp.Piecewise((x, x > 0), (0, True)), 0),)),
+    "an index that no sum binds": lambda: Goal((at_least(W[j], 0),)),
+    "an index that another sum binds": lambda: Goal((equal(sp.Sum(W[i], (j, 1, n)), sp.Sum(W[j], (j, 1, n))),)),
+    "a neighbour": lambda: Goal((equal(sp.Sum(W[j + 1] - W[j], (j, 1, n)), 0),)),
+    "one member": lambda: Goal((equal(sp.Sum(W[1] - W[j], (j, 1, n)), 0),)),
+    "two indices": lambda: Goal((equal(sp.Sum(W[i, j], (j, 1, n)), sp.Sum(W[j, i], (j, 1, n))),)),
+    "an index as a number": lambda: Goal((equal(sp.Sum(j * W[j], (j, 1, n)), j * sp.Sum(W[j], (j, 1, n))),)),
+    "two ranges": lambda: Goal((equal(sp.Sum(W[j], (j, 1, n)), sp.Sum(W[j], (j, 1, m))),)),
+    "a sum in a sum": lambda: Goal((equal(sp.Sum(W[j] * sp.Sum(H[i], (i, 1, n)), (j, 1, n)), 0),)),
+    "two sums at once": lambda: Goal((equal(sp.Sum(W[j] * H[i], (i, 1, n), (j, 1, n)), 0),)),
+    "no relation": lambda: Goal(()),
+}
+
+
+@pytest.mark.parametrize("name", REFUSED)
+def test_what_certificates_cannot_say_is_refused_in_one_line(name):
+    message = goal_of(REFUSED[name])
+    assert "\n" not in message
+    assert len(message) < 300
+
+
+def test_text_is_never_parsed():
+    with pytest.raises(sp.SympifyError):
+        at_least("x", 0)
+
+
+def claim_of(build, identifier="a:1", **more):
+    return Claim(id=identifier, title="", kind=more.pop("kind", "condition"), statement="", recorded="proved",
+                 build=build, **more)
+
+
+def test_a_repair_does_not_freeze_what_moves():
+    """D(x) at x = 0 is the rate there, not the derivative of the number 0."""
+    goal = Goal((equal(D(x), 0),), flow={x: x + 1})
+    assert prove_goal(pinned(goal, {x: Fraction(0)})) is None
+    assert prove_goal(pinned(goal, {x: Fraction(-1)})) is not None
+    with pytest.raises(ClaimError, match="repair"):
+        decide(claim_of(lambda: goal, at={x: Fraction(0)}, repair={x: Fraction(1)}))
+
+
+def test_values_against_the_sign_of_their_symbol_are_refused():
+    goal = Goal((at_most(positive_x, 1),))
+    with pytest.raises(ClaimError, match="contradicts"):
+        pinned(goal, {positive_x: Fraction(-1)})
+    with pytest.raises(ClaimError, match="do not fit"):
+        decide(claim_of(lambda: goal, at={positive_x: Fraction(-1)}))
+
+
+def test_stated_values_must_name_every_symbol_and_meet_every_assumption():
+    with pytest.raises(ClaimError, match="'y' has no value"):
+        decide(claim_of(lambda: Goal((at_most(x, y),)), at={x: Fraction(1)}))
+    with pytest.raises(ClaimError, match="breaks the assumption"):
+        decide(claim_of(lambda: Goal((at_most(x, y),), (greater(y, 0),)), at={x: Fraction(1), y: Fraction(0)}))
+
+
+def test_a_false_repair_and_a_false_correction_are_refused():
+    with pytest.raises(ClaimError, match="repair could not be proved"):
+        decide(claim_of(lambda: Goal((at_most(x, 1),)), at={x: Fraction(2)}, repair={x: Fraction(3)}))
+    with pytest.raises(ClaimError, match="correction could not be proved"):
+        decide(claim_of(lambda: Goal((at_most(x, 1),)), kind="inequality",
+                        correction=lambda: Goal((at_most(x, 2),))))
+
+
+def test_contradictory_assumptions_prove_nothing():
+    goal = Goal((at_least(x, 5),), (greater(x, 0), greater(-x, 0)))
+    assert prove_goal(goal) is None
+
+
+def test_no_point_refutes_a_true_statement_about_a_flow():
+    """The final rate says nothing of the earlier ones; a point that the flow never reaches refutes nothing."""
+    along = {"flow": {x: w}, "initial": {x: x_0}, "decreasing": x}
+    true = Goal((at_most(x, x_0),), always=(at_most(w, 0),), **along)
+    false = Goal((at_most(x, x_0),), (at_most(w, 0),), **along)
+    assert prove_goal(true) is not None
+    assert find_counterexample(true, "refuted") is None
+    assert prove_goal(false) is None
+
+
+def test_a_start_refutes_a_false_statement_about_a_flow():
+    goal = Goal((at_most(x, x_0 - 1),), flow={x: w}, initial={x: x_0}, always=(at_most(w, 0),))
+    assert find_counterexample(goal, "refuted") is not None
+
+
+def test_premises_must_exist_and_not_run_in_a_circle():
+    goal = Goal((equal(x, x),))
+    with pytest.raises(ClaimError, match="is no claim"):
+        decide_all([claim_of(lambda: goal, premises=("a:2",))])
+    with pytest.raises(ClaimError, match="rests on itself"):
+        decide_all([claim_of(lambda: goal, premises=("a:2",)), claim_of(lambda: goal, "a:2", premises=("a:1",))])
+    with pytest.raises(ClaimError, match="used twice"):
+        decide_all([claim_of(lambda: goal), claim_of(lambda: goal)])
+
+
+def test_every_part_of_a_goal_is_in_its_text():
+    goal = Goal((at_least(one_index, sp.Rational(-1, 2)),), (greater(x, 0),), {x: w, W[j]: x * W[j]}, (at_most(w, 1),),
+                {x: x_0})
+    assert goal_text(goal) == {
+        "assume": ["x > 0"], "show": ["Sum(W**2) >= -1/2"], "indexed": ["W"], "flow": {"x": "w", "W": "x*W"},
+        "always": ["w <= 1"], "initial": {"x": "x_0"}}
