@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Annotated, Any
 
 import typer
+from rich.box import SIMPLE_HEAD
 from rich.console import Console
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn
 from rich.table import Table
@@ -152,15 +153,18 @@ def _progress() -> Iterator[Any]:
 
 def _claims_table(document: dict[str, Any], only_failed: bool = False) -> Table:
     rows = [c for c in document["claims"] if not only_failed or c["verdict"] not in ("proved", "assumed")]
-    table = Table(title="claims that do not hold as printed" if only_failed else "claims", title_justify="left")
-    for heading in ("id", "claim", "verdict", "shown by", "rests on failed"):
-        table.add_column(heading, no_wrap=heading in ("id", "verdict"))
+    table = Table(title="claims that do not hold as printed" if only_failed else "claims", title_justify="left",
+                  box=SIMPLE_HEAD, pad_edge=False, expand=True)
+    for heading, share in (("id", 0), ("claim", 5), ("verdict", 0), ("shown by", 3), ("rests on failed", 3)):
+        table.add_column(heading, no_wrap=not share, ratio=share or None)
+    papers = len({c["paper"] for c in rows})
     for c in rows:
         colour = COLOURS[c["verdict"]]
         shown = c["computed"] or c["method"]
         if c["counterexample"] and not c["computed"]:
             shown = ", ".join(f"{k} = {v}" for k, v in c["counterexample"].items())
-        table.add_row(c["id"], c["title"], f"[{colour}]{c['verdict']}[/{colour}]", shown,
+        name = c["equation"] if papers == 1 else c["id"]
+        table.add_row(name, c["title"], f"[{colour}]{c['verdict']}[/{colour}]", shown,
                       ", ".join(i.partition(":")[2] for i in c["tainted_by"]))
     return table
 
@@ -172,7 +176,7 @@ def _verdict_line(document: dict[str, Any]) -> str:
 
 
 def _metrics_table(rows: list[dict[str, Any]], title: str) -> Table:
-    table = Table(title=title, title_justify="left")
+    table = Table(title=title, title_justify="left", box=SIMPLE_HEAD, pad_edge=False)
     _columns(table, "position\nerror (mm)", "speed error\n(mm/s)", "stop\n(mm)", "RMS\n(mm)", "energy\n(MJ)",
              "step\n(µs)")
     for r in rows:
@@ -191,7 +195,7 @@ def _columns(table: Table, *headings: str) -> None:
 
 
 def _summary_table(summaries: list[Any], runs: int) -> Table:
-    table = Table(title=f"Monte Carlo, {runs} runs", title_justify="left")
+    table = Table(title=f"Monte Carlo, {runs} runs", title_justify="left", box=SIMPLE_HEAD, pad_edge=False)
     _columns(table, "position\nerror (mm)", "speed error\n(mm/s)", "mean |stop|\n(mm)", "failed\nruns")
     for s in summaries:
         table.add_row(s.controller, _range(s.position_error_min, s.position_error_max),
