@@ -177,14 +177,13 @@ def _verdict_line(document: dict[str, Any]) -> str:
 
 def _metrics_table(rows: list[dict[str, Any]], title: str) -> Table:
     table = Table(title=title, title_justify="left", box=SIMPLE_HEAD, pad_edge=False)
-    _columns(table, "position\nerror (mm)", "speed error\n(mm/s)", "stop\n(mm)", "RMS\n(mm)", "energy\n(MJ)",
-             "step\n(µs)")
+    _columns(table, "position\nerror (mm)", "speed error\n(mm/s)", "stop\n(mm)", "energy\n(MJ)", "step\n(µs)")
     for r in rows:
         table.add_row(
             r["controller"] + (" [red]failed[/red]" if r["failed"] else ""),
             _range(r["position_error_min"], r["position_error_max"]),
             _range(r["speed_error_min"], r["speed_error_max"]), _number(r["stopping_error"], 1e3),
-            _number(r["position_rms"], 1e3), _number(r["energy_J"], 1e-6, 5), _number(r["step_us_median"]))
+            _number(r["energy_J"], 1e-6, 5), _number(r["step_us_median"]))
     return table
 
 

@@ -181,7 +181,8 @@ def printed_values_table(scenario: Scenario, metrics: Sequence[Metrics],
         own = found.get(value.controller)
         measured = getattr(own, value.metric, None) if own and own.failed is None else None
         obtained = float(measured) if isinstance(measured, int | float) else None
-        label = next((label for key, label, *_ in METRICS if key == value.metric), value.metric)
+        label = next((label for key, label, *_ in METRICS if key == value.metric),
+                     value.metric.replace("_", " "))
         rows.append(SingleValueRow(f"{names.get(value.controller, value.controller)}: {label}", value.source,
                                *_compare(value.value, obtained), value.unit))
     return rows
