@@ -543,6 +543,11 @@ def _factor(given: Relations, item: dict[str, Any]) -> Sign:
     match item:
         case {"assume": int(i)}:
             return given.margins[i]
+        case {"positive": str(text)}:
+            given.require_defined(text)
+            if not given.sign_known_value(context.read(text)):
+                raise CertificateError(f"not shown positive: {text}")
+            return context.read(text), ">"
         case {"inverse": int(i)} if given.margins[i][1] == ">":
             return given.margins[i][0].inverse(), ">"
         case {"square_of": int(i)} if given.margins[i][1] == "!=":

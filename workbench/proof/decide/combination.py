@@ -25,6 +25,7 @@ from workbench.proof.decide.laurent import (
     Exponents,
     Item,
     Laurent,
+    add,
     flatten,
     goal_atoms,
     multiply,
@@ -32,12 +33,15 @@ from workbench.proof.decide.laurent import (
     reduce_inverses,
     shift,
     to_laurent,
+    unreduced,
 )
 from workbench.proof.derive import SUM
 from workbench.proof.text import text
 
 MAX_COLUMNS = 6_000
 MAX_PRODUCT = 12
+# (rounds of multiplication, products of two assumptions, monomials that z s = 1 hides), cheap ones first
+ATTEMPTS = ((1, False, False), (1, True, False), (1, False, True), (2, False, False), (2, True, False))
 SUPPORT_TOLERANCE = 1e-9
 
 
@@ -60,8 +64,8 @@ def find_combination(goal: Goal, shown: Relation, relations: tuple[Relation, ...
         known = _known(goal, relations, atoms)
     except ClaimError:
         return None
-    for rounds, pairs in ((1, False), (1, True), (2, False), (2, True)):
-        terms = _candidates(target, known, atoms, rounds, pairs)
+    for rounds, pairs, hidden in ATTEMPTS:
+        terms = _candidates(target, known, atoms, rounds, pairs, hidden)
         if len(terms) <= MAX_COLUMNS:
             chosen = _solve(target, terms, shown.strict, len(atoms.generators))
             if chosen is not None:
@@ -122,20 +126,15 @@ def _strict(exponents: Exponents, atoms: Atoms) -> bool:
 
 def _plain(generator: sp.Symbol, atoms: Atoms) -> sp.Expr:
     """The expression a generator stands for."""
-    for table, function in ((atoms.logs, sp.log), (atoms.exps, sp.exp)):
-        for argument, symbol in table.items():
-            if symbol == generator:
-                return function(argument)
-    if generator in atoms.inverses:
-        return 1 / atoms.inverses[generator]
-    return generator
+    return atoms.meanings().get(generator, generator)
 
 
 def _expression(exponents: Exponents, atoms: Atoms) -> sp.Expr:
     return sp.Mul(*(_plain(g, atoms) ** p for g, p in zip(atoms.generators, exponents, strict=False) if p))
 
 
-def _candidates(target: Laurent, known: list[Known], atoms: Atoms, rounds: int, pairs: bool) -> list[Known]:
+def _candidates(target: Laurent, known: list[Known], atoms: Atoms, rounds: int, pairs: bool,
+                hidden: bool) -> list[Known]:
     """Terms of known sign that could add up to the target."""
     pool = list(known)
     sum_place = atoms.generators.index(SUM)
@@ -149,7 +148,7 @@ def _candidates(target: Laurent, known: list[Known], atoms: Atoms, rounds: int, 
             sign = ">" if one.sign == two.sign == ">" else ">="
             value = reduce_inverses(multiply(one.value, two.value), atoms)
             pool.append(Known(one.items + two.items, value, sign))
-    support = set(target)
+    support = set(target) | (unreduced(target, atoms) if hidden else set())
     terms: dict[tuple[str, ...], Known] = {}
     for _ in range(rounds):
         fresh: list[Known] = []
@@ -158,7 +157,7 @@ def _candidates(target: Laurent, known: list[Known], atoms: Atoms, rounds: int, 
                 fresh += _scaled(base, by, atoms, terms)
             if len(terms) > MAX_COLUMNS:
                 return list(terms.values())
-        fresh += _binomial_squares(support, atoms, terms)
+        fresh += _binomial_squares(target, support, atoms, terms)
         support |= {e for term in fresh for e in term.value}
     return list(terms.values())
 
@@ -203,8 +202,9 @@ def _sum_of_squares(exponents: Exponents, atoms: Atoms) -> tuple[Item, ...] | No
     return None if items is None else ({"sum_of_squares": text(root)}, *items)
 
 
-def _binomial_squares(support: set[Exponents], atoms: Atoms, seen: dict[tuple[str, ...], Known]) -> list[Known]:
-    """c (p + q)^2 and c (p - q)^2 for monomials c p^2 and c q^2 in the support, c of known sign."""
+def _binomial_squares(target: Laurent, support: set[Exponents], atoms: Atoms,
+                      seen: dict[tuple[str, ...], Known]) -> list[Known]:
+    """c (p + r q)^2 for monomials c p^2 and c q^2 in the support, c of known sign."""
     size, sum_place = len(atoms.generators), atoms.generators.index(SUM)
     fresh = []
     wide = [e + (0,) * (size - len(e)) for e in sorted(support)]
@@ -225,18 +225,29 @@ def _binomial_squares(support: set[Exponents], atoms: Atoms, seen: dict[tuple[st
         items = _monomial(scalar, atoms)
         if items is None or min((*p, *q)) < 0:
             continue
-        for sign in (1, -1):
-            root = _expression(p, atoms) + sign * _expression(q, atoms)
+        cross = tuple(a + b + x for a, b, x in zip(p, q, c, strict=True))
+        for ratio in _ratios(target, ratio_of(one, ()), ratio_of(two, ()), ratio_of(cross, ())):
+            weight = sp.Rational(ratio.numerator, ratio.denominator)
+            root = _expression(p, atoms) + weight * _expression(q, atoms)
             square: Item = {"sum_of_squares" if over_neurons else "square": text(root)}
             key = tuple(sorted(map(str, (square, *items))))
             if key in seen:
                 continue
-            value = {ratio_of(one, ()): Fraction(1), ratio_of(two, ()): Fraction(1)}
-            cross = tuple(a + b + z for a, b, z in zip(p, q, c, strict=True))
-            value[ratio_of(cross, ())] = value.get(ratio_of(cross, ()), Fraction(0)) + 2 * sign
+            value: Laurent = {ratio_of(one, ()): Fraction(1), ratio_of(two, ()): ratio**2}
+            value = add(value, {ratio_of(cross, ()): 2 * ratio})
             seen[key] = Known((square, *items), reduce_inverses(value, atoms), ">=")
             fresh.append(seen[key])
     return fresh
+
+
+def _ratios(target: Laurent, one: Exponents, two: Exponents, cross: Exponents) -> list[Fraction]:
+    """Weights r worth trying in (p + r q)^2: +-1, and those that complete the target's own squares."""
+    found = [Fraction(1), Fraction(-1)]
+    mixed = target.get(cross, Fraction(0))
+    if mixed:
+        found += [mixed / (2 * target[one])] if target.get(one) else []
+        found += [2 * target[two] / mixed] if target.get(two) else []
+    return list(dict.fromkeys(found))
 
 
 def _solve(target: Laurent, terms: list[Known], strict: bool, size: int) -> list[tuple[Fraction, Known]] | None:

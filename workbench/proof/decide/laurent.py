@@ -30,6 +30,11 @@ class Atoms:
     strict: list[tuple[sp.Expr, int]] = field(default_factory=list)
     indexed: set[sp.Symbol] = field(default_factory=set)
 
+    def meanings(self) -> dict[sp.Symbol, sp.Expr]:
+        """What the generators for functions and inverses stand for."""
+        functions = {s: sp.log(a) for a, s in self.logs.items()} | {s: sp.exp(a) for a, s in self.exps.items()}
+        return functions | {s: 1 / known.xreplace(functions) for s, known in self.inverses.items()}
+
     def index(self, generator: sp.Symbol) -> int:
         """The generator's position, added when new."""
         if generator not in self.generators:
@@ -96,10 +101,13 @@ def to_laurent(flat: sp.Expr, atoms: Atoms) -> Laurent:
                 break
             denominator, rest = quotient, rest * _inverse_atom(margin, position, atoms)
     constant, factors = sp.factor_list(denominator)
-    for symbol, power in factors:
-        if not symbol.is_Symbol:
-            raise ClaimError(f"the denominator {symbol} is not assumed positive: state its sign in the goal")
-        rest = rest * symbol ** (-power)
+    for factor, power in factors:
+        if factor.is_Symbol:
+            rest = rest * factor ** (-power)
+        elif positive_by_terms(factor, atoms):
+            rest = rest * _inverse_of_positive(factor, atoms) ** power
+        else:
+            raise ClaimError(f"the denominator {factor} is not assumed positive: state its sign in the goal")
     return reduce_inverses(_expand(sp.expand(numerator / constant) * rest, atoms), atoms)
 
 
@@ -111,6 +119,30 @@ def _inverse_atom(margin: sp.Expr, position: int, atoms: Atoms) -> sp.Symbol:
     symbol = sp.Dummy(f"z{len(atoms.inverses)}", positive=True)
     atoms.inverses[symbol] = margin
     atoms.positive[symbol] = ({"inverse": position}, {"assume": position})
+    return symbol
+
+
+def positive_by_terms(polynomial: sp.Expr, atoms: Atoms) -> bool:
+    """Whether every term of a polynomial is non-negative and one is positive, as `checker.py` sees it at once."""
+    strict = False
+    for exponents, coefficient in _expand(polynomial, atoms).items():
+        powers = [(g, n) for g, n in zip(atoms.generators, exponents, strict=False) if n]
+        known = {*atoms.positive, *atoms.nonnegative}
+        if coefficient < 0 or any(n % 2 and g not in known for g, n in powers):
+            return False
+        strict |= all(g in atoms.positive for g, _ in powers)
+    return strict
+
+
+def _inverse_of_positive(polynomial: sp.Expr, atoms: Atoms) -> sp.Symbol:
+    """The atom 1/polynomial for a polynomial that is positive by its terms."""
+    for symbol, known in atoms.inverses.items():
+        if known == polynomial:
+            return symbol
+    plain = polynomial.xreplace(atoms.meanings())
+    symbol = sp.Dummy(f"z{len(atoms.inverses)}", positive=True)
+    atoms.inverses[symbol] = polynomial
+    atoms.positive[symbol] = ({"positive": text(1 / plain)}, {"positive": text(plain)})
     return symbol
 
 
@@ -158,6 +190,17 @@ def reduce_inverses(poly: Laurent, atoms: Atoms) -> Laurent:
                 _accumulate(total, key, coefficient if c is None else -coefficient * c)
                 open_keys.append(key)
     return total
+
+
+def unreduced(poly: Laurent, atoms: Atoms) -> set[Exponents]:
+    """Monomials that the normal form hides: every monomial times z s, term by term, since z s = 1."""
+    hidden: set[Exponents] = set()
+    for symbol, margin in atoms.inverses.items():
+        z, terms = atoms.index(symbol), _expand(margin, atoms)
+        for exponents in poly:
+            with_z = exponents if len(exponents) > z and exponents[z] else _plus(exponents, (0,) * z + (1,))
+            hidden |= {trim(_plus(with_z, e)) for e in terms}
+    return hidden
 
 
 def _pad(exponents: Exponents, length: int) -> Exponents:
