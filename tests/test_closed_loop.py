@@ -225,3 +225,14 @@ def test_every_shipped_controller_obeys_the_laws_of_the_loop(path, name):
         assert run.end_s == pytest.approx(planned, abs=scenario.simulation.plant_step_s)
     else:
         assert f"t = {run.end_s:.3f} s" in run.failed
+
+
+def test_a_controller_that_stops_at_the_limit_itself_is_counted_like_the_others():
+    """MPC never commands beyond the limit it knows; at the limit it is as saturated as a law that is cut there."""
+    scenario = short_scenario(train__max_traction_n=110e3)
+    run = simulate(scenario, "mpc")
+    per_sample = round(scenario.controllers["mpc"].period_s / scenario.simulation.plant_step_s)
+    applied = run.column("u_applied_mps2")[::per_sample] * scenario.train.mass_kg
+    at_limit = (applied >= 110e3 * (1 - 1e-9)) | (applied <= -scenario.train.max_braking_n * (1 - 1e-9))
+    assert run.totals["saturated_samples"] == np.sum(at_limit) > 0
+    assert run.column("u_mps2").max() <= 110e3 / scenario.train.mass_kg

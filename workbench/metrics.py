@@ -15,7 +15,7 @@ class Metrics:
     """One row of a comparison. Errors are measured minus desired, extrema over every plant step.
 
     energy_J: traction work at the wheel, braking not recovered; jerk_rms: of the acceleration over windows
-    of the log's spacing; saturated_fraction: of samples whose force was limited; limit_violations: plant
+    of the log's spacing; saturated_fraction: of samples whose force was at a limit; limit_violations: plant
     steps outside the position band; failed: why the run ended early, or None. Of a failed run the extrema
     hold up to its end, and what only a whole run has (RMS, stopping error, energy, jerk) is NaN, in rows None.
     step_us: a compiled law is timed in blocks of 1,000 samples, plant included; MPC call by call, plant

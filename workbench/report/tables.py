@@ -86,7 +86,7 @@ METRICS: tuple[tuple[str, str, str, _Write, bool], ...] = (
     ("stopping_error", "Stopping error", "mm", _significant(1e3), True),
     ("energy_J", "Traction energy at the wheel", "MJ", lambda v: fixed(v / 1e6, 2), True),
     ("jerk_rms", "Jerk, RMS", "m/s³", _significant(), True),
-    ("saturated_fraction", "Samples with the force limited", "%", _significant(100.0), True),
+    ("saturated_fraction", "Samples with the force at a limit", "%", _significant(100.0), True),
     ("limit_violations", "Plant steps outside the position band", "", _count, True),
     ("command_max", "Command, highest", "m/s²", _significant(), False),
     ("command_min", "Command, lowest", "m/s²", _significant(), False),

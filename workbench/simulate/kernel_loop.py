@@ -100,8 +100,9 @@ def closed_loop(first, count, per_sample, dt, state, hints, breaks, coefficients
             highest = min(limits[0], limits[2] / max(abs(v), 1e-3))
             force = min(max(wanted, -limits[1]), highest)
             acc[15] += 1.0
-            # A law that itself stops at the limit may pass it by a rounding error, which limits nothing.
-            if abs(force - wanted) > 1e-12 * abs(wanted):
+            # At a limit counts like beyond it, so that a controller which knows the limits is told alike; up to
+            # a rounding error, by which such a controller may stay below.
+            if wanted >= highest * (1.0 - 1e-9) or wanted <= -limits[1] * (1.0 - 1e-9):
                 acc[9] += 1.0
             acc[11] = max(acc[11], u)
             acc[12] = min(acc[12], u)
