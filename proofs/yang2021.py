@@ -104,7 +104,8 @@ V_estimates = sum((tilde**2 / (2 * lam) for tilde, lam in zip(tildes, lambdas, s
 V = V_2 + V_weights + V_estimates  # (38)
 
 # Before the control law is put in, u is free: (26)-(32).
-free_flow = {e_1: e_2 + law.r - xdot_d, e_2: u - a_star - b_star * x_2 - c_star * x_2**2 + f - law.rdot}
+open_rates = {x_1: x_2, x_2: plant.rates[x_2], x_d: xdot_d, xdot_d: xddot_d}
+speed_error_rate_printed = u - a_star - b_star * x_2 - c_star * x_2**2 + f - law.rdot  # the right side of (25)
 
 # --- section 2 ------------------------------------------------------------------------------------------------
 
@@ -392,8 +393,7 @@ def position_error_rate() -> Goal:
              premises=("4", "28"))
 def speed_error_rate() -> Goal:
     """D(e_2) of (23) along (4), with r of (27) and its rate (28)."""
-    along = {x_1: x_2, x_2: plant.rates[x_2], x_d: xdot_d, xdot_d: xddot_d}
-    return Goal((equal(D(law.e_2), free_flow[e_2]),), flow=along)
+    return Goal((equal(D(law.e_2), speed_error_rate_printed),), flow=open_rates)
 
 
 @paper.claim("26", "Rate of V_1", "identity",
@@ -443,8 +443,8 @@ def v2_rate() -> Goal:
              premises=("25", "31"))
 def v2_rate_plant() -> Goal:
     """D(V_2) along (4) with u free."""
-    along = {e_1: flow[e_1], e_2: in_errors(free_flow[e_2])}
-    return Goal((equal(D(V_2), V_1_rate + e_2 * in_errors(free_flow[e_2])),), (inside,), along)
+    along = {e_1: flow[e_1], e_2: in_errors(lie_derivative(law.e_2, open_rates))}
+    return Goal((equal(D(V_2), V_1_rate + e_2 * in_errors(speed_error_rate_printed)),), (inside,), along)
 
 
 # --- section 5.2: stability -----------------------------------------------------------------------------------
@@ -799,12 +799,14 @@ smallest_rate = min(2 * stated_gains[alpha], 2 * stated_gains[beta] - 1, stated_
 best_case = {**{s: v for s, v in stated_gains.items() if s != k}, **stated_davis, mu: smallest_rate,
              eps_star: least_error, W_square: Fraction(0)}
 l_numbers = l_stated.xreplace({W_star_square: W_square})
+ultimate_speed_bound = float(sp.sqrt((2 * l_numbers / mu).subs(best_case)))
 
 
 @paper.claim("49.stated", "mu is positive at the stated gains", "condition",
              r"\mu = \min[2\alpha, 2\beta-1, \chi, \lambda_i\sigma_i] > 0", "proved", premises=("51",),
              at={s: v for s, v in stated_gains.items() if s != k},
-             note=f"mu = {smallest_rate}: a time constant of {1 / smallest_rate} s, against a run of about 1,800 s.")
+             note=f"mu = {smallest_rate}: a time constant of {1 / smallest_rate} s, against a run of "
+                  f"{scenario.desired_curve().trip_time_s:.0f} s.")
 def positive_rate() -> Goal:
     """Every entry of the minimum; the last one decides."""
     return _positive_minimum()
@@ -820,7 +822,7 @@ repaired_gains = {alpha: Fraction(1, 2), beta: Fraction(1), chi: Fraction(1), mu
              at={**best_case, k: stated_gains[k]}, repair={**repaired_gains, k: stated_gains[k]},
              note="The paper prints no such condition; it is what (53) would have to give for the reported accuracy to "
                   "follow from the theorem. In the paper's favour: W* = 0 and the smallest eps* that Table 1 allows (7.error). 2l/mu is then "
-                  "the left value over mu, a bound of several m/s: the theorem says nothing about the reported "
+                  f"the left value over mu, a bound of {ultimate_speed_bound:.1f} m/s: the theorem says nothing about the reported "
                   "accuracy. The repair meets the bound for W*^2 <= 1/20, at the price of lambda_3 v^4 beyond any "
                   "usual sampling rate.")
 def bound_explains_speed_error() -> Goal:
@@ -848,6 +850,9 @@ def _command(error: sp.Expr, error_rate: sp.Expr, estimates: sp.Expr, accelerati
     return estimates + law.feedback.xreplace(put)
 
 
+barrier_at_printed = 0.142 / (float(stated_gains[k]) ** 2 - 0.142**2)
+
+
 @paper.claim("33.figures", "Figures 8 and 9 fit (33): an error of 0.142 m with an input of at most 0.48 m/s^2",
              "condition",
              r"e_1 = -0.142: u \le 0.48;\quad e_1 = 0.142: u \ge -3\ \tfrac{m}{s^2}", "violated",
@@ -857,7 +862,7 @@ def _command(error: sp.Expr, error_rate: sp.Expr, estimates: sp.Expr, accelerati
              note="The sign of the printed error is not stated. If it is negative, (33) commands several times the "
                   "largest input printed; if positive, a braking that no train has. Taken in the paper's favour: "
                   "estimates between 0 and 1 m/s^2, a desired acceleration of up to 1 m/s^2, the printed speed error of "
-                  "0.26 m/s in the helpful direction. The barrier term alone is 5.9 m/s^2 at 0.142 m.")
+                  f"0.26 m/s in the helpful direction. The barrier term alone is {barrier_at_printed:.1f} m/s^2 at 0.142 m.")
 def printed_figures_fit() -> Goal:
     """The smallest command at the negative error, the largest at the positive one."""
     behind = _command(-reach, rate_reach, sp.Integer(0), -curve_reach)
@@ -912,8 +917,8 @@ def explicit_sampling() -> Goal:
 
 @paper.claim("36.sampling.corrected", "The same with the estimate corrected before it is used", "condition",
              JURY, "proved", at={**at_cruise, period: Fraction(1, 1000)},
-             note="The order the simulation uses. It stays stable up to about 2/(sqrt(lambda_3) v^2), that is some "
-                  "18 ms at cruise speed.")
+             note="The order the simulation uses. It stays stable up to about 2/(sqrt(lambda_3) v^2), that is "
+                  f"{2000 / (float(stated_gains[lambdas[2]]) ** 0.5 * cruise**2):.1f} ms at cruise speed.")
 def corrected_sampling() -> Goal:
     """Jury's conditions when the estimate moves first."""
     return _sampled_goal(corrected=True)

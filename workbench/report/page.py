@@ -65,8 +65,8 @@ class ReportContent:
 
     claims: the document of `workbench prove --json`, where each claim may also carry `title`, `note`,
     `recorded`, `stated` and `computed`; runs and metrics: the nominal run of each controller, in the same
-    order; sweep: its rows, with sweep_seed; variants: each change with the metrics it gave; findings: plain
-    text; timings: what was done -> seconds; commands: how to get this page again.
+    order; sweep: its rows, with sweep_seed; variants: each change with the metrics it gave;
+    timings: what was done -> seconds; commands: how to get this page again.
     """
 
     scenario: Scenario
@@ -76,7 +76,6 @@ class ReportContent:
     sweep: Sequence[SweepRow] = ()
     sweep_seed: int | None = None
     variants: Sequence[tuple[Variant, Sequence[Metrics]]] = ()
-    findings: Sequence[str] = ()
     timings: Mapping[str, float] = field(default_factory=dict)
     commands: Sequence[str] = ()
 

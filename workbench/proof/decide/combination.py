@@ -67,7 +67,7 @@ def find_combination(goal: Goal, shown: Relation, relations: tuple[Relation, ...
     for rounds, pairs, hidden in ATTEMPTS:
         terms = _candidates(target, known, atoms, rounds, pairs, hidden)
         if len(terms) <= MAX_COLUMNS:
-            chosen = _solve(target, terms, shown.strict, len(atoms.generators))
+            chosen = _solve(target, terms, shown.strict)
             if chosen is not None:
                 return {"rule": "combination", "terms": [
                     {"coefficient": str(c), "factors": list(term.items)} for c, term in chosen]}
@@ -250,7 +250,7 @@ def _ratios(target: Laurent, one: Exponents, two: Exponents, cross: Exponents) -
     return list(dict.fromkeys(found))
 
 
-def _solve(target: Laurent, terms: list[Known], strict: bool, size: int) -> list[tuple[Fraction, Known]] | None:
+def _solve(target: Laurent, terms: list[Known], strict: bool) -> list[tuple[Fraction, Known]] | None:
     """Coefficients with sum c_i term_i = target, exact; c_i >= 0 except for terms that are zero."""
     rows = {e: i for i, e in enumerate(sorted({*target, *(e for t in terms for e in t.value)}))}
     entries = [(rows[e], j, float(c)) for j, t in enumerate(terms) for e, c in t.value.items()]
