@@ -108,7 +108,7 @@ def short(tmp_path):
 
 def test_help_names_every_command():
     shown = run("--help").stdout
-    for command in ("prove", "check-certificates", "compare", "sweep", "report"):
+    for command in ("prove", "new-paper", "check-certificates", "compare", "sweep", "report"):
         assert command in shown
 
 

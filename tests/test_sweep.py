@@ -13,7 +13,7 @@ from workbench.errors import InputError
 from workbench.scenario import load_scenario
 from workbench.simulate.closed_loop import Factors
 from workbench.simulate.sweep import JOURNAL_NAME, draw_factors, summarise, sweep
-from workbench.simulate.workers import run_tasks
+from workbench.workers import run_tasks
 
 RUNS, SEED = 3, 7
 

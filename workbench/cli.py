@@ -3,63 +3,84 @@
 from __future__ import annotations
 
 import sys
-from collections.abc import Iterator
-from contextlib import contextmanager
 from pathlib import Path
-from typing import Annotated, Any
+from typing import TYPE_CHECKING, Annotated
 
 import typer
-from rich.box import SIMPLE_HEAD
-from rich.console import Console
-from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn
-from rich.table import Table
 
-from workbench.errors import WorkbenchError
+from workbench.errors import InputError, WorkbenchError
 from workbench.proof.checker import check_folder
-from workbench.proof.claim import VERDICTS
-from workbench.proof.decide.engine import decide_all
-from workbench.proof.document import claims_document, write_certificates
-from workbench.proof.paper import collect_papers
-from workbench.report.build import Report, build_report, comparison_document, write_json
-from workbench.scenario import load_scenario
-from workbench.simulate.compare import compare as run_comparison
-from workbench.simulate.sweep import summarise
-from workbench.simulate.sweep import sweep as run_sweep
+from workbench.terminal import (
+    claim_card,
+    claims_table,
+    err_console,
+    metrics_table,
+    out_console,
+    print_failures,
+    print_study,
+    progress,
+    summary_table,
+    verdict_line,
+)
+
+if TYPE_CHECKING:
+    from workbench.report.build import Report, StudyReport
 
 app = typer.Typer(no_args_is_help=True, add_completion=False, pretty_exceptions_enable=False,
                   help="A control paper as one executable object: proof, simulation, comparison.")
-out_console = Console()
-err_console = Console(stderr=True)
-COLOURS = {"proved": "green", "refuted": "red", "violated": "red", "gap": "yellow", "assumed": "cyan",
-           "undecided": "magenta"}
 
 JsonFile = Annotated[Path | None, typer.Option("--json", metavar="FILE", help="Also write the result as JSON.")]
 Workers = Annotated[int | None, typer.Option(min=1, help="Processes; default: one a core.")]
 
+INTERRUPTED = 130  # with which typer ends after Ctrl-C
+
+# Each command imports what it alone needs, so that claims from the cache are shown before sympy would be imported.
+
 
 @app.command()
-def prove(paths: Annotated[list[Path] | None, typer.Argument(help="Proof files or folders; default: proofs")] = None,
+def prove(paths: Annotated[list[str] | None, typer.Argument(
+              help="Proof files or folders, and claims as in proofs/yang2021.py::24; default: proofs")] = None,
           json: JsonFile = None,
           certificates: Annotated[Path | None, typer.Option(
-              help="Where certificates go; default: 'certificates' beside each proof file.")] = None) -> None:
+              help="Where certificates go; default: 'certificates' beside each proof file.")] = None,
+          jobs: Annotated[int | None, typer.Option(min=1, help="Processes; default: one a core.")] = None,
+          cache: Annotated[bool, typer.Option(help="Take what has not changed from the cache.")] = True) -> None:
     """Decide every claim; exit 0 when each verdict is the recorded one, 1 when one differs, 2 on bad input."""
-    files = paths or [Path("proofs")]
-    papers = collect_papers(files)
-    claims = [claim for paper in papers for claim in paper.claims]
-    with _progress() as show:
-        decisions = decide_all(claims, lambda done: show("claims", done, len(claims)))
-    folder = certificates or (files[0] if files[0].is_dir() else files[0].parent) / "certificates"
-    write_certificates(decisions, folder)
-    document = claims_document(decisions, folder)
+    from workbench.json_output import write_json
+    from workbench.proof.document import claims_document, write_certificates
+    from workbench.proof.prove import prove as run_prove
+    from workbench.proof.selection import targets
+
+    found = targets(paths or ["proofs"])
+    with progress() as show:
+        proof = run_prove(found, jobs, cache, lambda done, total: show("claims", done, total))
+    single = any(target.pattern is not None for target in found)
+    folder = certificates or (found[0].path if found[0].path.is_dir() else found[0].path.parent) / "certificates"
+    write_certificates(proof.decisions, folder, whole_papers=not single)
+    document = claims_document(proof.decisions, folder)
     if json:
         write_json(json, document)
-    out_console.print(_claims_table(document))
-    out_console.print(_verdict_line(document))
-    differing = [d for d in decisions if d.verdict != d.claim.recorded]
+    for table in map(claim_card, document["claims"]) if single else [claims_table(document)]:
+        out_console.print(table)
+    out_console.print(verdict_line(document))
+    if not single:
+        out_console.print(f"{len(proof.now)} decided now, {len(proof.decisions) - len(proof.now)} from the cache")
+    differing = [d for d in proof.decisions if d.verdict != d.claim.recorded]
     for d in differing:
         err_console.print(f"[red]{d.claim.id}: decided {d.verdict}, but recorded {d.claim.recorded}[/red]")
     if differing:
         raise typer.Exit(1)
+
+
+@app.command("new-paper")
+def new_paper(name: Annotated[str, typer.Argument(help="The paper's name, as in yang2021")],
+              directory: Annotated[Path, typer.Option(help="Where the file goes.")] = Path()) -> None:
+    """Write a proof file to start from: it runs, and shows an example of each kind of claim."""
+    from workbench.proof.new_paper import write_new_paper
+
+    path = write_new_paper(name, directory)
+    out_console.print(f"written: {path}", soft_wrap=True, markup=False, highlight=False)
+    out_console.print(f"decide it: workbench prove {path}", soft_wrap=True, markup=False, highlight=False)
 
 
 @app.command("check-certificates")
@@ -78,19 +99,33 @@ def check_certificates(folder: Annotated[Path, typer.Argument(help="Folder of ce
 
 
 @app.command()
-def compare(scenario: Annotated[Path, typer.Argument(help="Scenario TOML")], json: JsonFile = None,
+def compare(scenario: Annotated[Path, typer.Argument(help="Scenario or study TOML")], json: JsonFile = None,
             variants: Annotated[bool, typer.Option(help="Also run the scenario's variants.")] = False,
             workers: Workers = None) -> None:
-    """Run all controllers of a scenario on the same train and line, and compare them."""
-    with _progress() as show:
+    """Run all controllers of a scenario on the same train and line, and compare them; or all runs of a study."""
+    from workbench.json_output import write_json
+    from workbench.report.build import comparison_document, run_study, study_document
+    from workbench.simulate.compare import compare as run_comparison
+    from workbench.studies.registry import is_study, load_study
+
+    if is_study(scenario):
+        _refuse(variants, "--variants")
+        study = load_study(scenario)
+        with progress() as show:
+            found = run_study(study, workers, show)
+        if json:
+            write_json(json, study_document(study, found))
+        print_study(found)
+        return
+    with progress() as show:
         result = run_comparison(scenario, variants, workers, lambda done, total, _: show("runs", done, total))
     document = comparison_document(result)
     if json:
         write_json(json, document)
-    out_console.print(_metrics_table(document["rows"], f"{result.scenario.name}: as stated"))
+    out_console.print(metrics_table(document["rows"], f"{result.scenario.name}: as stated"))
     for variant in document["variants"]:
-        out_console.print(_metrics_table(variant["rows"], variant["title"]))
-    _print_failures(document["rows"])
+        out_console.print(metrics_table(variant["rows"], variant["title"]))
+    print_failures(document["rows"])
 
 
 @app.command()
@@ -102,120 +137,66 @@ def sweep(scenario: Annotated[Path, typer.Argument(help="Scenario TOML")],
           resume: Annotated[bool, typer.Option(help="Go on after an interruption.")] = False,
           workers: Workers = None) -> None:
     """Monte Carlo over the scenario's uncertainty: one row a run, the same bytes for the same seed."""
-    with _progress() as show:
+    from workbench.scenario import load_scenario
+    from workbench.simulate.sweep import summarise
+    from workbench.simulate.sweep import sweep as run_sweep
+
+    with progress() as show:
         rows = run_sweep(scenario, runs, seed, controller, out=out, resume=resume, workers=workers,
                          on_progress=lambda done, total, _: show("Monte Carlo", done, total))
-    out_console.print(_summary_table(summarise(rows, load_scenario(scenario)), runs))
+    out_console.print(summary_table(summarise(rows, load_scenario(scenario)), runs))
     out_console.print(f"rows: {out / 'sweep.csv'}")
 
 
 @app.command()
-def report(scenario: Annotated[Path, typer.Argument(help="Scenario TOML")],
+def report(scenario: Annotated[Path, typer.Argument(help="Scenario or study TOML")],
            proofs: Annotated[list[Path] | None, typer.Argument(help="Proof files of the paper")] = None,
            out: Annotated[Path, typer.Option(help="Folder of the report")] = Path("out"),
            runs: Annotated[int | None, typer.Option(
                min=1, help="Monte Carlo runs; default: as the scenario states")] = None,
            seed: Annotated[int | None, typer.Option(min=0)] = None, workers: Workers = None) -> None:
     """Check the proof, run and compare the controllers, and put the whole on one page."""
-    with _progress() as show:
+    from workbench.report.build import build_report, build_study_report
+    from workbench.studies.registry import is_study
+
+    if is_study(scenario):
+        _refuse(runs is not None, "--runs")
+        _refuse(seed is not None, "--seed")
+        with progress() as show:
+            study = build_study_report(scenario, proofs or [], out, workers, show)
+        _print_study_report(study)
+        return
+    with progress() as show:
         made = build_report(scenario, proofs or [], out, runs, seed, workers, show)
     _print_report(made)
 
 
+def _refuse(given: bool, option: str) -> None:
+    if given:
+        raise InputError("", option, "is for scenarios; a study's file states its own runs: leave it out")
+
+
+def _print_study_report(made: StudyReport) -> None:
+    if made.claims:
+        out_console.print(verdict_line(made.claims))
+    print_study(made.result)
+    _print_end(made.timings, made.page)
+
+
 def _print_report(made: Report) -> None:
     if made.claims:
-        out_console.print(_claims_table(made.claims, only_failed=True))
-        out_console.print(_verdict_line(made.claims))
+        out_console.print(claims_table(made.claims, only_failed=True))
+        out_console.print(verdict_line(made.claims))
     rows = [m.row() for m in made.comparison.metrics]
-    out_console.print(_metrics_table(rows, f"{made.comparison.scenario.name}: as stated"))
-    _print_failures(rows)
-    out_console.print(_summary_table(made.summaries, max(s.runs for s in made.summaries)))
-    out_console.print("times: " + ", ".join(f"{what} {seconds:.1f} s" for what, seconds in made.timings.items()))
-    out_console.print(f"report: {made.page}", style="bold", soft_wrap=True)
+    out_console.print(metrics_table(rows, f"{made.comparison.scenario.name}: as stated"))
+    print_failures(rows)
+    out_console.print(summary_table(made.summaries, max(s.runs for s in made.summaries)))
+    _print_end(made.timings, made.page)
 
 
-@contextmanager
-def _progress() -> Iterator[Any]:
-    """A progress bar per stage on standard error; a plain line per stage where that is no terminal."""
-    columns = (TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn(), TimeElapsedColumn())
-    with Progress(*columns, console=err_console, disable=not err_console.is_terminal) as bar:
-        tasks: dict[str, Any] = {}
-
-        def show(what: str, done: int, total: int) -> None:
-            if what not in tasks:
-                tasks[what] = bar.add_task(what, total=total)
-            bar.update(tasks[what], completed=done, total=total)
-            if not err_console.is_terminal and done == total:
-                err_console.print(f"{what}: {done} done")
-
-        yield show
-
-
-def _claims_table(document: dict[str, Any], only_failed: bool = False) -> Table:
-    rows = [c for c in document["claims"] if not only_failed or c["verdict"] not in ("proved", "assumed")]
-    table = Table(title="claims that do not hold as printed" if only_failed else "claims", title_justify="left",
-                  box=SIMPLE_HEAD, pad_edge=False, expand=True)
-    for heading, share in (("id", 0), ("claim", 5), ("verdict", 0), ("shown by", 3), ("rests on failed", 3)):
-        table.add_column(heading, no_wrap=not share, ratio=share or None)
-    papers = len({c["paper"] for c in rows})
-    for c in rows:
-        colour = COLOURS[c["verdict"]]
-        shown = c["computed"] or c["method"]
-        if c["counterexample"] and not c["computed"]:
-            shown = ", ".join(f"{k} = {v}" for k, v in c["counterexample"].items())
-        name = c["equation"] if papers == 1 else c["id"]
-        table.add_row(name, c["title"], f"[{colour}]{c['verdict']}[/{colour}]", shown,
-                      ", ".join(i.partition(":")[2] for i in c["tainted_by"]))
-    return table
-
-
-def _verdict_line(document: dict[str, Any]) -> str:
-    counts = document["summary"]
-    return f"{sum(counts.values())} claims: " + ", ".join(
-        f"[{COLOURS[v]}]{counts[v]} {v}[/{COLOURS[v]}]" for v in VERDICTS if counts[v])
-
-
-def _metrics_table(rows: list[dict[str, Any]], title: str) -> Table:
-    table = Table(title=title, title_justify="left", box=SIMPLE_HEAD, pad_edge=False)
-    _columns(table, "position\nerror (mm)", "speed error\n(mm/s)", "stop\n(mm)", "energy\n(MJ)", "step\n(µs)")
-    for r in rows:
-        table.add_row(
-            r["controller"] + (" [red]failed[/red]" if r["failed"] else ""),
-            _range(r["position_error_min"], r["position_error_max"]),
-            _range(r["speed_error_min"], r["speed_error_max"]), _number(r["stopping_error"], 1e3),
-            _number(r["energy_J"], 1e-6, 5), _number(r["step_us_median"]))
-    return table
-
-
-def _columns(table: Table, *headings: str) -> None:
-    table.add_column("controller", no_wrap=True)
-    for heading in headings:
-        table.add_column(heading, justify="right", no_wrap=True)
-
-
-def _summary_table(summaries: list[Any], runs: int) -> Table:
-    table = Table(title=f"Monte Carlo, {runs} runs", title_justify="left", box=SIMPLE_HEAD, pad_edge=False)
-    _columns(table, "position\nerror (mm)", "speed error\n(mm/s)", "mean |stop|\n(mm)", "failed\nruns")
-    for s in summaries:
-        table.add_row(s.controller, _range(s.position_error_min, s.position_error_max),
-                      _range(s.speed_error_min, s.speed_error_max), _number(s.mean_abs_stopping_error, 1e3),
-                      f"{s.failed} of {s.runs}")
-    return table
-
-
-def _print_failures(rows: list[dict[str, Any]]) -> None:
-    for row in rows:
-        if row["failed"]:
-            err_console.print(f"{row['controller']}: {row['failed']}", style="red", soft_wrap=True)
-
-
-def _number(value: float | None, scale: float = 1.0, digits: int = 3) -> str:
-    return "–" if value is None else f"{value * scale:.{digits}g}"
-
-
-def _range(low: float | None, high: float | None, scale: float = 1e3) -> str:
-    """A range in thousandths of the SI unit, as the tables show errors."""
-    return "–" if low is None or high is None else rf"\[{_number(low, scale)}, {_number(high, scale)}]"
+def _print_end(timings: dict[str, float], page: Path) -> None:
+    out_console.print("times: " + ", ".join(f"{what} {seconds:.1f} s" for what, seconds in timings.items()))
+    out_console.print(f"report: {page}", style="bold", soft_wrap=True)
 
 
 def main() -> None:
@@ -225,6 +206,7 @@ def main() -> None:
     except WorkbenchError as trouble:
         err_console.print(f"workbench: {trouble}", style="red", soft_wrap=True, markup=False, highlight=False)
         sys.exit(2)
-    except KeyboardInterrupt:
-        err_console.print("workbench: interrupted; finished runs are kept", style="yellow")
-        sys.exit(130)
+    except SystemExit as end:
+        if end.code == INTERRUPTED:
+            err_console.print("workbench: interrupted; what was finished is kept", style="yellow")
+        raise

@@ -21,6 +21,10 @@ class InputError(WorkbenchError):
         # Names and values come from files, so they may hold line breaks and control characters.
         super().__init__("".join(c if c.isprintable() else " " for c in message))
 
+    def __reduce__(self) -> tuple[type[InputError], tuple[str, str, str]]:
+        # From a worker process the error comes by what it was made of.
+        return InputError, (self.where, self.key, self.problem)
+
     def within(self, where: str | Path) -> InputError:
         """The same error, naming the file it was found in."""
         return InputError(where, self.key, self.problem)

@@ -42,7 +42,22 @@ MISTAKES = {
     "an error in the goal": (HEAD + claim(body="return 1 / 0"), "a2020:1"),
     "a goal without relations": (HEAD + claim(body="return Goal(())"), "a2020:1"),
     "an unknown verdict": (HEAD + claim(recorded="true"), "true"),
+    "an unknown kind": (HEAD + claim().replace('"inequality"', '"lemma"'), "'lemma' is none of identity"),
     "an id without a number": (HEAD + claim(identifier=""), "a2020:"),
+    "an undeclared symbol": (HEAD + claim(body="return Goal((at_least(y**2, 0),))"),
+                             "line 10: NameError: name 'y' is not defined: declare it"),
+    "an undeclared symbol outside of claims": (HEAD + "V = y**2", "line 7: NameError"),
+    "an error in the correction": (HEAD + claim(body="return Goal((at_least(x, 0),))").replace(
+        "premises=()", "correction=lambda: Goal((at_least(y, 0),))"), "its correction cannot be made"),
+    "a function that certificates do not know": (HEAD + claim(body="return Goal((at_least(sp.sin(x), -1),))"),
+                                                 "state the claim with + - * / **"),
+    "one premise as text": (HEAD + claim(premises="'12'"), "write ('12',)"),
+    "a title that is none": (HEAD + claim().replace('"1", "1"', '"1", None'), "its title is no text"),
+    "a relation that is no tuple": (HEAD + claim(body="return Goal(at_least(x**2, 0))"), "no tuple of relations"),
+    "a relation of sympy": (HEAD + claim(body="return Goal((x >= 0,))"), "no tuple of relations"),
+    "a flow of text": (HEAD + claim(body="return Goal((equal(x, x),), flow={'x': 0})"), "names no symbols"),
+    "a float among stated values": (HEAD + claim().replace("premises=()", "at={x: 0.5}"), "Fraction(1, 2)"),
+    "a value too few": (HEAD + claim().replace("premises=()", "at={sp.Symbol('y'): 1}"), "a2020:1"),
 }
 
 
@@ -56,11 +71,12 @@ def test_mistake_is_said_in_one_line_and_exits_with_2(name, tmp_path, capsys):
     assert part in str(caught.value)
     assert "\n" not in str(caught.value)
     with pytest.raises(SystemExit) as left:
-        run(["prove", str(path)])
+        run(["prove", str(path), "--jobs", "1"])
     assert left.value.code == 2
     shown = capsys.readouterr().err
     assert "Traceback" not in shown
     assert part in " ".join(shown.split())
+    assert name == "no paper" or "a2020.py" in shown
 
 
 def run(arguments):
@@ -86,6 +102,6 @@ def test_a_differing_verdict_exits_with_1_and_a_right_one_with_0(tmp_path, capsy
     for recorded, code in (("refuted", 1), ("proved", 0)):
         path.write_text(HEAD + claim(recorded=recorded), encoding="utf-8")
         with pytest.raises(SystemExit) as left:
-            run(["prove", str(path)])
+            run(["prove", str(path), "--jobs", "1"])
         assert left.value.code == code
     assert "decided proved, but recorded refuted" in " ".join(capsys.readouterr().err.split())

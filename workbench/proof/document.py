@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
-from workbench.proof.claim import VERDICTS, Decision
+from workbench.errors import InputError
+from workbench.proof.verdict import VERDICTS, Decision
 
 
 def certificate_path(decision: Decision, folder: Path) -> Path:
@@ -19,20 +21,29 @@ def certificate_text(decision: Decision) -> str:
     return json.dumps(decision.certificate, indent=1, sort_keys=True, ensure_ascii=False) + "\n"
 
 
-def write_certificates(decisions: list[Decision], folder: Path) -> None:
-    """Write every certificate below a folder, and drop those of claims that are no longer made."""
+def write_certificates(decisions: Sequence[Decision], folder: Path, whole_papers: bool = True) -> None:
+    """Write every certificate below a folder, and drop those that are no longer made: of these claims, and where
+    the decisions are of whole papers, of claims that these no longer state.
+
+    Raises InputError where nothing can be written.
+    """
     wanted = {certificate_path(d, folder): certificate_text(d) for d in decisions if d.certificate}
-    for paper in {d.claim.paper for d in decisions}:
-        for stale in (folder / paper).glob("*.json"):
-            if stale not in wanted:
-                stale.unlink()
-    for path, text in wanted.items():
-        path.parent.mkdir(parents=True, exist_ok=True)
-        if not path.exists() or path.read_text(encoding="utf-8") != text:
-            path.write_text(text, encoding="utf-8")
+    found = {certificate_path(d, folder) for d in decisions}
+    if whole_papers:
+        found |= {path for paper in {d.claim.paper for d in decisions} for path in (folder / paper).glob("*.json")}
+    try:
+        for stale in found - wanted.keys():
+            stale.unlink(missing_ok=True)
+        for path, text in wanted.items():
+            path.parent.mkdir(parents=True, exist_ok=True)
+            if not path.exists() or path.read_text(encoding="utf-8") != text:
+                path.write_text(text, encoding="utf-8")
+    except OSError as trouble:
+        raise InputError(trouble.filename or folder, "", f"cannot be written ({trouble.strerror}): name another folder "
+                                                         "by --certificates") from None
 
 
-def claims_document(decisions: list[Decision], folder: Path) -> dict[str, Any]:
+def claims_document(decisions: Sequence[Decision], folder: Path) -> dict[str, Any]:
     """The document of `workbench prove --json`; other programs read it."""
     rows = []
     for d in decisions:

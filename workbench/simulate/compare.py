@@ -9,7 +9,7 @@ from pathlib import Path
 from workbench.metrics import Metrics, measure
 from workbench.scenario import Scenario, Variant, load_scenario, load_variant
 from workbench.simulate.closed_loop import Run, check_controllers, simulate
-from workbench.simulate.workers import cores, run_tasks
+from workbench.workers import cores, run_tasks
 
 Case = tuple[int, str]  # 0 is the scenario as stated, i > 0 its i-th variant
 Progress = Callable[[int, int, str], None]

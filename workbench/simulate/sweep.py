@@ -22,8 +22,8 @@ from workbench.metrics import Metrics, measure
 from workbench.scenario import Scenario, load_scenario
 from workbench.simulate.closed_loop import Factors, check_controllers, simulate
 from workbench.simulate.journal import REMEDY, Journal
-from workbench.simulate.workers import cores, run_tasks
 from workbench.track import CurveSection, GradeSection, Track
+from workbench.workers import cores, run_tasks
 
 CSV_NAME, JOURNAL_NAME = "sweep.csv", "sweep.journal.jsonl"
 # Totals and means over a whole run: they say nothing when the run ended early.

@@ -42,7 +42,7 @@ def run_tasks(function: Callable[[Any, T], R], shared: Any, tasks: Sequence[T], 
     context = multiprocessing.get_context("spawn")
     waiting = iter(tasks)
     unrecorded: set[Future[R]] = set()
-    with _single_threaded(), ProcessPoolExecutor(workers, context, _start, (function, shared)) as pool:
+    with single_threaded(), ProcessPoolExecutor(workers, context, _start, (function, shared)) as pool:
         def submit(count: int) -> None:
             unrecorded.update(pool.submit(_work, task) for task in islice(waiting, count))
 
@@ -67,7 +67,7 @@ def run_tasks(function: Callable[[Any, T], R], shared: Any, tasks: Sequence[T], 
 
 
 @contextmanager
-def _single_threaded() -> Iterator[None]:
+def single_threaded() -> Iterator[None]:
     """Workers inherit the environment: libraries read it on import, before any initializer runs."""
     before = {name: os.environ.get(name) for name in THREAD_LIMITS}
     os.environ.update(dict.fromkeys(THREAD_LIMITS, "1"))
@@ -85,10 +85,14 @@ _job: list[Any] = []
 
 
 def _start(function: Callable[..., Any], shared: Any) -> None:
-    # An interruption is the parent's to handle; a parent that was killed takes its workers along.
+    follow_parent()
+    _job[:] = [function, shared]
+
+
+def follow_parent() -> None:
+    """For a worker: an interruption is the parent's to handle, and a parent that was killed takes it along."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     threading.Thread(target=_leave_with_parent, daemon=True).start()
-    _job[:] = [function, shared]
 
 
 def _leave_with_parent() -> None:

@@ -1,0 +1,35 @@
+"""What went wrong in a proof file, in one line: where, what, and what to do about it."""
+
+from __future__ import annotations
+
+import traceback
+from pathlib import Path
+
+REMEDIES: tuple[tuple[str, str], ...] = (
+    ("SyntaxError", "correct that line"),
+    ("ModuleNotFoundError", "install it, or put it beside the proof file"),
+    ("ImportError", "correct the import"),
+    ("NameError", "declare it first, a symbol as in x = sympy.Symbol('x', real=True)"),
+    ("SympifyError", "give an expression of sympy or an exact number, no text"),
+    ("FileNotFoundError", "put the file there or correct its name"),
+    ("SystemExit", "a proof file states claims and ends nothing"),
+    ("RecursionError", "break up the expression, or the function that calls itself"),
+)
+
+
+def mistake(trouble: BaseException, file: str | Path) -> str:
+    """An exception that the code of a proof file raised, as one line: place, exception, remedy."""
+    kinds = [kind.__name__ for kind in type(trouble).__mro__]
+    remedy = next((text for name, text in REMEDIES if name in kinds), "correct the file")
+    what = f"{trouble.msg}" if isinstance(trouble, SyntaxError) else f"{trouble}"
+    return " ".join(f"{_place(trouble, Path(file))}{kinds[0]}: {what}: {remedy}".split())
+
+
+def _place(trouble: BaseException, file: Path) -> str:
+    """'line 7: ' in the proof file, with the name of the file where it is another one; empty where unknown."""
+    if isinstance(trouble, SyntaxError) and trouble.filename and trouble.lineno:
+        other = "" if Path(trouble.filename).name == file.name else f"{Path(trouble.filename).name}, "
+        return f"{other}line {trouble.lineno}: "
+    lines = [frame.lineno for frame in traceback.extract_tb(trouble.__traceback__)
+             if Path(frame.filename).name == file.name]
+    return f"line {lines[-1]}: " if lines else ""

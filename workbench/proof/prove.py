@@ -1,0 +1,90 @@
+"""Decide what is asked for: from the cache what has not changed, the rest by as many workers as wanted."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable, Sequence
+from contextlib import ExitStack
+from dataclasses import dataclass
+from functools import cache
+from pathlib import Path
+
+from workbench.errors import InputError
+from workbench.proof.kept import FileEntry, Kept, kept
+from workbench.proof.premises import below, premises_problem, with_taint
+from workbench.proof.reads import digest
+from workbench.proof.selection import NO_PAPER, Target, chosen, files_of
+from workbench.proof.team import team
+from workbench.proof.verdict import Decision, Stated
+from workbench.proof.work import Decided, Listing
+from workbench.workers import cores
+
+Progress = Callable[[int, int], None]
+
+
+@dataclass(frozen=True)
+class Proof:
+    """The claims that were asked for, decided; `now` are the ids of all that were not found in the cache."""
+
+    decisions: list[Decision]
+    now: frozenset[str]
+
+
+def prove(found: Sequence[Target], jobs: int | None = None, use_cache: bool = True,
+          on_progress: Progress = lambda done, total: None) -> Proof:
+    """Decide the claims that the targets ask for, and those that they rest on; on_progress(decided, to decide).
+
+    The result is the same for every number of jobs, the seconds apart. Raises InputError, naming file and claim,
+    for what is wrong with a proof file.
+    """
+    started_ns = time.time_ns()
+    cached = kept() if use_cache else None
+    files = files_of(found)
+    digests = cache(digest)  # many proof files read the same modules
+    entries = {file: entry for file in files if cached and (entry := cached.file(file, digests))}
+    missing = [file for file in files if file not in entries]
+    with ExitStack() as stack:
+        listings: dict[Path, Listing] = {}
+        if missing:
+            workers = stack.enter_context(team(jobs or cores(), cached))
+            listings = dict(zip(missing, workers.listings(missing), strict=True))
+        stated = {file: listings[file].claims if file in listings else tuple(d.claim for d in entries[file].decisions)
+                  for file in files}
+        claims = _well_formed(files, stated, {**entries, **listings})
+        asked = chosen(found, stated)
+        wanted = below(asked, claims)
+        tasks = [(file, claim.id) for file in missing for claim in stated[file] if claim.id in wanted]
+        known, total = len(wanted) - len(tasks), len(wanted)
+        on_progress(known, total)
+        results = workers.decided(tasks, lambda done: on_progress(known + done, total)) if tasks else []
+    decided = {claim_id: result for (_, claim_id), result in zip(tasks, results, strict=True)}
+    if cached:
+        _keep_files(cached, listings, decided, started_ns)
+    every = {d.claim.id: d for entry in entries.values() for d in entry.decisions if d.claim.id in wanted}
+    every |= {claim_id: result.decision for claim_id, result in decided.items()}
+    tainted = with_taint([every[claim_id] for claim_id in claims if claim_id in wanted])
+    return Proof([d for d in tainted if d.claim.id in asked],
+                 frozenset(claim_id for claim_id, result in decided.items() if result.now))
+
+
+def _well_formed(files: Sequence[Path], stated: dict[Path, tuple[Stated, ...]],
+                 papers: dict[Path, FileEntry | Listing]) -> dict[str, Stated]:
+    """All claims by id, in their order; raises InputError when there is no paper or the premises do not fit."""
+    if not any(papers[file].papers for file in files):
+        raise InputError(files[0], "", NO_PAPER)
+    every = [(file, claim) for file in files for claim in stated[file]]
+    problem = premises_problem([claim for _, claim in every])
+    if problem is not None:
+        raise InputError(next(file for file, claim in reversed(every) if claim.id == problem[0]), "", problem[1])
+    return {claim.id: claim for _, claim in every}
+
+
+def _keep_files(cached: Kept, listings: dict[Path, Listing], decided: dict[str, Decided], started_ns: int) -> None:
+    """Keep the proof files of which every claim is decided."""
+    for file, listing in listings.items():
+        results = [decided[claim.id] for claim in listing.claims if claim.id in decided]
+        if len(results) == len(listing.claims):
+            reads = listing.reads.union(*(result.reads for result in results))
+            cached.keep_file(file, FileEntry(listing.papers, tuple(r.decision for r in results)), reads, started_ns)
+    if listings:
+        cached.tidy()

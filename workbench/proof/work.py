@@ -1,0 +1,25 @@
+"""What passes between the process that hands out the work and those that do it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from workbench.proof.verdict import Decision, Stated
+
+
+@dataclass(frozen=True)
+class Listing:
+    """What a proof file states."""
+
+    papers: int
+    claims: tuple[Stated, ...]
+    reads: frozenset[str]
+
+
+@dataclass(frozen=True)
+class Decided:
+    """A claim decided, whether that was done now or found in the cache, and what its file has read until then."""
+
+    decision: Decision
+    now: bool
+    reads: frozenset[str]

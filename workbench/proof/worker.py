@@ -1,0 +1,85 @@
+"""What is done to a proof file where its claims are decided: in this process, or in one of several others."""
+
+from __future__ import annotations
+
+from dataclasses import fields, replace
+from functools import cache
+from pathlib import Path
+
+from workbench.errors import InputError, WorkbenchError
+from workbench.proof.checker import CertificateError, check
+from workbench.proof.claim import Claim
+from workbench.proof.decide.engine import decide
+from workbench.proof.fingerprint import fingerprint
+from workbench.proof.kept import Kept, kept
+from workbench.proof.loading import ProofFile
+from workbench.proof.paper import papers_in
+from workbench.proof.reads import watch
+from workbench.proof.verdict import Decision, Stated
+from workbench.proof.work import Decided, Listing
+
+
+class Worker:
+    """Lists and decides the claims of proof files, each file imported once."""
+
+    def __init__(self, cached: Kept | None) -> None:
+        watch()
+        # Deciders that were changed while this process imported them are nobody's: nothing is kept of them.
+        self.cached = cached if cached is None or kept() == cached else None
+        self.files: dict[Path, ProofFile] = {}
+
+    def listing(self, path: Path) -> Listing:
+        """What the file states; raises InputError when it cannot be imported."""
+        papers = papers_in(self._file(path))
+        return Listing(len(papers), tuple(_stated(c) for paper in papers for c in paper.claims), self._reads(path))
+
+    def decided(self, path: Path, claim_id: str) -> Decided:
+        """One claim of the file decided; raises InputError, naming file and claim, when it cannot be."""
+        claim = next(c for paper in papers_in(self._file(path)) for c in paper.claims if c.id == claim_id)
+        try:
+            with self._file(path).at_home():
+                decision, now = self._decision(claim)
+        except WorkbenchError as trouble:
+            named = "" if claim_id in str(trouble) else f"claim {claim_id}: "
+            raise InputError(path, "", f"{named}{trouble}") from None
+        except Exception as trouble:
+            what = " ".join(f"{type(trouble).__name__}: {trouble}".split())
+            raise InputError(path, "", f"claim {claim_id}: the deciders fail on it ({what}): "
+                                       "state it in another form, in smaller steps if it is long") from trouble
+        return Decided(replace(decision, claim=_stated(claim)), now, self._reads(path))
+
+    def _decision(self, claim: Claim) -> tuple[Decision, bool]:
+        # Each goal is made once, although the fingerprint needs it too.
+        claim = replace(claim, build=cache(claim.build) if claim.build else None,
+                        correction=cache(claim.correction) if claim.correction else None)
+        key = fingerprint(claim) if self.cached and claim.build else None
+        if self.cached is None or key is None:
+            return decide(claim), True
+        found = self.cached.claim(key)
+        if found is not None and _holds(found, claim.id):
+            return found, False
+        decision = decide(claim)
+        self.cached.keep_claim(key, replace(decision, claim=_stated(claim)))
+        return decision, True
+
+    def _file(self, path: Path) -> ProofFile:
+        return self.files.setdefault(path, ProofFile(path))
+
+    def _reads(self, path: Path) -> frozenset[str]:
+        return self._file(path).reads(self.cached.folder) if self.cached else frozenset()
+
+
+def _holds(decision: Decision, claim_id: str) -> bool:
+    """Whether a decision from the cache is of that claim and carries what its verdict must carry."""
+    certificate = decision.certificate
+    if certificate is None:
+        return decision.verdict == "undecided"
+    try:
+        check(certificate)
+    except CertificateError:
+        return False
+    return bool(certificate["verdict"] == decision.verdict and certificate.get("claim") == claim_id)
+
+
+def _stated(claim: Claim) -> Stated:
+    return Stated(**{f.name: getattr(claim, f.name) for f in fields(Stated)})
