@@ -1,8 +1,8 @@
 """Re-check certificates with exact arithmetic alone. Standard library only; knows nothing of who made them.
 
 A certificate states a goal: for all real values of its symbols, the relations in `assume` imply those in
-`show`. Expressions are Python syntax over + - * / **, log, exp, Sum(...) (over any number n of indexed
-symbols, formally) and D(...) (derivative along `flow`, which maps symbols to their rates).
+`show`. Expressions are Python syntax over + - * / **, log, exp, tanh, abs, sign, sqrt, Max, Min, Sum(...) (over
+any number n of indexed symbols, also none, formally) and D(...) (derivative along `flow`, which maps symbols to rates).
 `proved` carries a proof, `refuted`/`violated`/`gap` a point (or functions of time) where the goal fails.
 
 D holds symbols without a rate constant. Only the rule `nonincreasing` and models follow the flow through time:
@@ -10,13 +10,16 @@ D holds symbols without a rate constant. Only the rule `nonincreasing` and model
 of one later instant, and symbols that rates mention without having a rate are inputs, which may vary.
 
 What must be believed: this file, and the facts named in `fact`: log x <= x - 1 (x > 0), exp x >= 1 + x,
-exp x > 0; a function whose derivative is never positive does not increase.
+exp x > 0; abs(x)**2 = x**2, abs(x) >= 0; sqrt(x)**2 = x, sqrt(x) >= 0 (x >= 0), sqrt(x) > 0 (x > 0); a function
+whose derivative is never positive does not increase. tanh, Max and Min are read as what they stand for:
+tanh x = (exp 2x - 1)/(exp 2x + 1), Max(a, b) = (a + b + abs(a - b))/2, Min(a, b) = (a + b - abs(a - b))/2.
 """
 
 from __future__ import annotations
 
 import ast
 import json
+import math
 import re
 import sys
 from fractions import Fraction
@@ -26,8 +29,9 @@ from typing import Any
 SUM = "Sum()"  # the formal sum over the index: a product SUM * term means the sum of the terms
 FLIP = {"<=": ">=", "<": ">"}
 OPERATORS = ("<=", ">=", "==", "!=", "<", ">")
+FUNCTIONS = ("log", "exp", "tanh", "abs", "sign", "sqrt")
 NAME = re.compile(r"[A-Za-z_][A-Za-z0-9_]*")  # no atom of this file looks like that
-EXPRESSION = re.compile(r"[A-Za-z0-9_ +*/()-]*")
+EXPRESSION = re.compile(r"[A-Za-z0-9_ +*/(),-]*")
 RATIONAL = re.compile(r"-?[0-9]+(/[0-9]+)?")
 MOST_PRODUCTS, MOST_BITS, LARGEST_EXPONENT = 20_000, 200_000, 10_000  # more is refused, not computed
 
@@ -200,7 +204,13 @@ class Context:
 
     def term(self, text: str) -> Ratio:
         """The value of an expression of one index, as it stands inside Sum(...)."""
-        return self.node(parse(text))
+        return self._of_one_index(self.node(parse(text)))
+
+    def _of_one_index(self, value: Ratio) -> Ratio:
+        """The same value; refused with a sum inside a function: sqrt(Sum(V)*W) and sqrt(Sum(V*W)) are one atom here."""
+        if any(SUM in symbols_of(self, symbol(atom)) for atom in atoms_of(value) - {SUM}):
+            raise CertificateError("a sum inside a sum")
+        return value
 
     def _require_bound(self, tree: ast.AST, text: str) -> None:
         if isinstance(tree, ast.Call) and isinstance(tree.func, ast.Name) and tree.func.id == "Sum":
@@ -232,6 +242,11 @@ class Context:
                         return a * b
                     case ast.Div():
                         return a * b.inverse()
+            case ast.Call(func=ast.Name(id="Max" | "Min" as name), args=[first, *others], keywords=[]) if others:
+                extreme = self.node(first)
+                for other in others:
+                    extreme = self._extreme(extreme, self.node(other), 1 if name == "Max" else -1)
+                return extreme
             case ast.Call(func=ast.Name(id=name), args=[inner], keywords=[]):
                 return self.call(name, self.node(inner))
         raise CertificateError(f"'{ast.unparse(node)}' is not an expression of the certificate language")
@@ -251,18 +266,46 @@ class Context:
         return result if value >= 0 else result.inverse()
 
     def call(self, name: str, argument: Ratio) -> Ratio:
-        """Sum, D, log or exp of an argument."""
+        """Sum, D or one of the functions of an argument."""
         if name == "Sum":
-            return argument * symbol(SUM)
+            return self._of_one_index(argument) * symbol(SUM)
         if name == "D":
             return self.derivative(argument, self.flow)
-        if SUM in atoms_of(argument):
+        if name not in FUNCTIONS:
+            raise CertificateError(f"unknown function '{name}'")
+        if SUM in atoms_of(argument) and name != "sqrt":
             raise CertificateError(f"{name} of a sum")
         if name == "log":
             return self._log(argument)
         if name == "exp":
             return self._exp(argument)
-        raise CertificateError(f"unknown function '{name}'")
+        if name == "tanh":
+            double = self._exp(number(2) * argument)
+            return (double + number(-1)) * (double + number(1)).inverse()
+        if argument.den == constant(1) and set(argument.num) <= {()}:
+            rational = self._of_number(name, argument.num.get((), Fraction(0)))
+            if rational is not None:
+                return number(rational)
+        for atom, (kind, known) in self.functions.items():
+            if kind == name and same(known, argument):
+                return symbol(atom)
+            if kind == name != "sqrt" and same(known, -argument):  # abs is even, sign is odd
+                return symbol(atom) if name == "abs" else -symbol(atom)
+        return self._new(name, argument)
+
+    @staticmethod
+    def _of_number(name: str, value: Fraction) -> Fraction | None:
+        """abs, sign or sqrt of a number, None where that is irrational."""
+        if name != "sqrt":
+            return abs(value) if name == "abs" else Fraction((value > 0) - (value < 0))
+        if value < 0:
+            raise CertificateError("sqrt of a negative number")
+        up, down = math.isqrt(value.numerator), math.isqrt(value.denominator)
+        return Fraction(up, down) if (up * up, down * down) == (value.numerator, value.denominator) else None
+
+    def _extreme(self, a: Ratio, b: Ratio, direction: int) -> Ratio:
+        """The larger (direction 1) or smaller (-1) of two values."""
+        return (a + b + number(direction) * self.call("abs", a + -b)) * number(Fraction(1, 2))
 
     def _log(self, argument: Ratio) -> Ratio:
         if same(argument, number(1)):
@@ -278,13 +321,18 @@ class Context:
 
     def _exp(self, argument: Ratio) -> Ratio:
         factor = number(1)
-        if argument.den == constant(1):  # exp(x + c log A) = exp(x) A**c for whole c
+        if len(argument.den) == 1:
+            (below, _), = argument.den.items()
             for monomial, coefficient in list(argument.num.items()):
-                atom, power = monomial[0] if len(monomial) == 1 else ("", 0)
+                term = times_monomial(monomial, tuple((x, -n) for x, n in below))
+                atom, power = term[0] if len(term) == 1 else ("", 0)
                 kind, inner = self.functions.get(atom, ("", argument))
-                if kind == "log" and power == 1 and coefficient.denominator == 1:
+                if kind == "log" and power == 1 and coefficient.denominator == 1:  # exp(x + c log A) = exp(x) A**c
                     factor = factor * self.power(inner, number(coefficient))
-                    argument = argument + -Ratio({monomial: coefficient})
+                    argument = argument + -symbol(atom) * number(coefficient)
+                elif not term and len(argument.num) > 1:  # exp(x + q) = exp(x) exp(q)
+                    factor = factor * self._exp(number(coefficient))
+                    argument = argument + -number(coefficient)
         if argument.is_zero():
             return factor
         for atom, (kind, known) in self.functions.items():
@@ -319,10 +367,12 @@ class Context:
         if atom in self.functions:
             kind, argument = self.functions[atom]
             inner = self.derivative(argument, flow)
+            if kind not in ("log", "exp") and not inner.is_zero():
+                raise CertificateError(f"a derivative of {kind} is not taken: it is none everywhere")
             return inner * argument.inverse() if kind == "log" else inner * symbol(atom)
         return flow.get(atom, number(0))
 
-    def partial_operations(self, text: str) -> list[tuple[ast.expr, bool]]:
+    def partial_operations(self, text: str) -> list[tuple[ast.expr, str]]:
         """Where an expression or relation may be undefined; with D, every rate must be defined too."""
         rates = self.rates.values() if calls(text, "D") else ()
         return [place for part in (text, *rates) for place in partial_operations(part)]
@@ -375,7 +425,8 @@ class Relations:
         """Whether a polynomial is a product of margins known positive (or only non-zero), or obviously so."""
         known = [r.num for r, op in self.margins if r.den == constant(1) and SUM not in atoms_of(r)
                  and (op == ">" or (nonzero_only and op == "!="))]
-        known += [symbol(a).num for a, (kind, _) in self.context.functions.items() if kind == "exp"]
+        positive = self._positive_atoms()
+        known += [symbol(a).num for a in positive]
         changed = bool(poly)
         while changed and set(poly) != {()}:
             changed = False
@@ -385,27 +436,48 @@ class Relations:
                     poly, changed = quotient, True
         if set(poly) == {()}:
             return poly[()] > 0 or nonzero_only
-        return self._positive_by_terms(poly)
+        return self._positive_by_terms(poly, positive)
 
-    def _positive_by_terms(self, poly: Poly) -> bool:
+    def _positive_atoms(self) -> set[str]:
+        """The atoms of functions that are positive: every exp, and sqrt of what is positive."""
+        found: set[str] = set()
+        for atom, (kind, argument) in self.context.functions.items():  # functions inside others come first
+            if kind == "exp" or (kind == "sqrt" and (
+                    any(op == ">" and same(argument, known) for known, op in self.margins)
+                    or all(self._positive_by_terms(part, found) for part in (argument.num, argument.den)))):
+                found.add(atom)
+        return found
+
+    def _positive_by_terms(self, poly: Poly, positive_atoms: set[str], weakly: bool = False) -> bool:
         signs = {(m, op) for r, op in self.margins if r.den == constant(1) and len(r.num) == 1
                  for m, c in r.num.items() if c > 0 and len(m) == 1 and m[0][1] == 1}
         positive = {m[0][0] for m, op in signs if op == ">"}
-        positive |= {a for a, (kind, _) in self.context.functions.items() if kind == "exp"}
-        weak = positive | {m[0][0] for m, op in signs if op == ">="}
+        positive |= positive_atoms
+        weak = positive | {m[0][0] for m, op in signs if op == ">="} | {SUM}
+        weak |= {a for a, (kind, _) in self.context.functions.items() if kind in ("abs", "sqrt")}
         return (all(c > 0 and all(n % 2 == 0 or a in weak for a, n in m) for m, c in poly.items())
-                and any(all(a in positive for a, _ in m) for m in poly))
+                and (weakly or any(all(a in positive for a, _ in m) for m in poly)))
+
+    def nonnegative_known(self, value: Ratio) -> bool:
+        """Whether a value is an assumption's margin, or positive, or a sum of terms that are not negative."""
+        if any(same(value, known) and op in (">", ">=") for known, op in self.margins):
+            return True
+        return self.sign_known(value.den) and (
+            self.sign_known(value.num) or self._positive_by_terms(value.num, self._positive_atoms(), weakly=True))
 
     def sign_known_value(self, value: Ratio, nonzero_only: bool = False) -> bool:
         """The same for a rational function, where it is defined."""
         return self.sign_known(value.num, nonzero_only) and self.sign_known(value.den, nonzero_only)
 
+    def fits(self, value: Ratio, wanted: str) -> bool:
+        """Whether a value is known to be non-zero, positive or non-negative."""
+        return (self.nonnegative_known(value) if wanted == "non-negative"
+                else self.sign_known_value(value, wanted == "non-zero"))
+
     def require_defined(self, text: str) -> None:
-        """Every denominator in `text` must be non-zero and every argument of log positive, for all values."""
-        for part, nonzero_only in self.context.partial_operations(text):
-            value = self.context.node(part)
-            if not self.sign_known_value(value, nonzero_only):
-                wanted = "non-zero" if nonzero_only else "positive"
+        """Every denominator in `text` is non-zero, every argument of log positive, of sqrt non-negative, always."""
+        for part, wanted in self.context.partial_operations(text):
+            if not self.fits(self.context.node(part), wanted):
                 raise CertificateError(f"not shown {wanted}: {ast.unparse(part)}")
 
     def require_defined_value(self, value: Ratio) -> None:
@@ -417,6 +489,8 @@ class Relations:
             self.require_defined_value(argument)
             if kind == "log" and not self.sign_known_value(argument):
                 raise CertificateError("an argument of log is not shown positive")
+            if kind == "sqrt" and not self.nonnegative_known(argument):
+                raise CertificateError("an argument of sqrt is not shown non-negative")
 
 
 def nodes(text: str) -> list[ast.AST]:
@@ -431,25 +505,28 @@ def calls(text: str, name: str) -> bool:
                for node in nodes(text))
 
 
-def partial_operations(text: str) -> list[tuple[ast.expr, bool]]:
-    """(denominator, True) and (argument of log, False), wherever an expression may be undefined."""
-    places: list[tuple[ast.expr, bool]] = []
+def partial_operations(text: str) -> list[tuple[ast.expr, str]]:
+    """Denominators and arguments of log and sqrt with the sign they need for the expression to be defined."""
+    places: list[tuple[ast.expr, str]] = []
     for node in nodes(text):
         match node:
             case ast.BinOp(op=ast.Div(), right=below):
-                places.append((below, True))
+                places.append((below, "non-zero"))
             case ast.BinOp(left=below, op=ast.Pow(), right=n) if not isinstance(n, ast.Constant):
-                places.append((below, True))
+                places.append((below, "non-zero"))
             case ast.Call(func=ast.Name(id="log"), args=[inner]):
-                places.append((inner, False))
+                places.append((inner, "positive"))
+            case ast.Call(func=ast.Name(id="sqrt"), args=[inner]):
+                places.append((inner, "non-negative"))
     return places
 
 
 def symbols_of(context: Context, value: Ratio) -> set[str]:
     """The symbols a value mentions, inside functions too."""
-    atoms = atoms_of(value)
-    inside = (symbols_of(context, context.functions[atom][1]) for atom in atoms & context.functions.keys())
-    return (atoms - context.functions.keys()).union(*inside)
+    found = atoms_of(value)
+    while inside := set().union(*(atoms_of(context.functions[a][1]) for a in found & context.functions.keys())) - found:
+        found |= inside
+    return found - context.functions.keys()
 
 
 def has_relation(text: str) -> bool:
@@ -480,8 +557,8 @@ def margin(context: Context, text: str) -> Sign:
 
 def prove(value: Ratio, operator: str, given: Relations, proof: dict[str, Any]) -> None:
     """Raise CertificateError unless `proof` shows value > 0, >= 0 or == 0 under the relations given."""
-    rules = {"identity": _identity, "combination": _combination, "cut": _cut, "monotone": _monotone,
-             "nonincreasing": _nonincreasing}
+    rules = {"identity": _identity, "combination": _combination, "cut": _cut, "cases": _cases,
+             "contradiction": _contradiction, "monotone": _monotone, "nonincreasing": _nonincreasing}
     if proof.get("rule") not in rules:
         raise CertificateError(f"unknown rule '{proof.get('rule')}'")
     rules[proof["rule"]](value, operator, given, proof)
@@ -498,6 +575,35 @@ def _cut(value: Ratio, operator: str, given: Relations, proof: dict[str, Any]) -
     lemma = margin(given.context, proof["lemma"])
     prove(*lemma, given, proof["proof"])
     prove(value, operator, given.with_margins([*given.margins, lemma]), proof["then"])
+
+
+def _contradiction(value: Ratio, operator: str, given: Relations, proof: dict[str, Any]) -> None:
+    """Anything follows where the assumptions add up to 0 > 0, for there they never hold together."""
+    _combination(number(0), ">", given, proof)
+
+
+CASES = {("nonnegative", "nonpositive"): ((1, ">=", None), (-1, ">=", None)),
+         ("negative", "positive", "zero"): ((-1, ">", -1), (1, ">", 1), (1, "==", 0))}
+
+
+def _cases(value: Ratio, operator: str, given: Relations, proof: dict[str, Any]) -> None:
+    """One proof for each sign of an expression; its abs, and its sign where no case leaves it open, are then known."""
+    context, names = given.context, tuple(sorted(proof.keys() - {"rule", "of"}))
+    if names not in CASES:
+        raise CertificateError(f"{', '.join(names)} are not all the cases")
+    given.require_defined(proof["of"])
+    inspected = context.read(proof["of"])
+    for name, (direction, relation, sign) in zip(names, CASES[names], strict=True):
+        size = number(direction) * inspected
+        known: dict[str, Ratio] = {}
+        for atom, (kind, argument) in context.functions.items():
+            turned = same(argument, -inspected)
+            if kind == "abs" and (turned or same(argument, inspected)):
+                known[atom] = size
+            elif kind == "sign" and sign is not None and (turned or same(argument, inspected)):
+                known[atom] = number(-sign if turned else sign)
+        case = [(substitute(context, margin, known), op) for margin, op in given.margins]
+        prove(substitute(context, value, known), operator, given.with_margins([*case, (size, relation)]), proof[name])
 
 
 def _monotone(value: Ratio, operator: str, given: Relations, proof: dict[str, Any]) -> None:
@@ -537,6 +643,15 @@ def _nonincreasing(value: Ratio, operator: str, given: Relations, proof: dict[st
     prove(value, operator, given.with_margins([*given.margins, (drop, ">=")]), proof["then"])
 
 
+def _argument(given: Relations, text: str, wanted: str | None = None) -> Ratio:
+    """What a fact is about, read on its own, shown to be defined and of the sign that the function needs."""
+    given.require_defined(text)
+    value = given.context.read(text)
+    if wanted is not None and not given.fits(value, wanted):
+        raise CertificateError(f"not shown {wanted}: {text}")
+    return value
+
+
 def _factor(given: Relations, item: dict[str, Any]) -> Sign:
     """(value, sign) of a factor of a combination; sign is '>', '>=', '==' (zero) or 'any'."""
     context = given.context
@@ -564,14 +679,32 @@ def _factor(given: Relations, item: dict[str, Any]) -> Sign:
             given.require_defined(text)
             return context.read(text), "any"
         case {"fact": "log_tangent", "of": str(text)}:
-            given.require_defined(f"log({text})")
-            return context.read(text) + number(-1) + -context.read(f"log({text})"), ">="
+            inner = _argument(given, text, "positive")
+            return inner + number(-1) + -context.call("log", inner), ">="
         case {"fact": "exp_tangent", "of": str(text)}:
-            given.require_defined(text)
-            return context.read(f"exp({text})") + number(-1) + -context.read(text), ">="
+            inner = _argument(given, text)
+            return context.call("exp", inner) + number(-1) + -inner, ">="
         case {"fact": "exp_positive", "of": str(text)}:
-            given.require_defined(text)
-            return context.read(f"exp({text})"), ">"
+            return context.call("exp", _argument(given, text)), ">"
+        case {"fact": "enclosure", "of": str(text)}:
+            value = context.read(text)
+            if symbols_of(context, value):  # a sum is no number either: its bounds are those of one neuron
+                raise CertificateError(f"not a number: {text}")
+            if bounds(context, value)[0] < 0:
+                raise CertificateError(f"not enclosed above zero: {text}")
+            return value, ">="
+        case {"fact": "abs_square", "of": str(text)}:
+            size, inner = context.call("abs", _argument(given, text)), context.read(text)
+            return size * size + -(inner * inner), "=="
+        case {"fact": "abs_nonnegative", "of": str(text)}:
+            return context.call("abs", _argument(given, text)), ">="
+        case {"fact": "sqrt_square", "of": str(text)}:
+            root = context.call("sqrt", _argument(given, text, "non-negative"))
+            return root * root + -context.read(text), "=="
+        case {"fact": "sqrt_nonnegative", "of": str(text)}:
+            return context.call("sqrt", _argument(given, text, "non-negative")), ">="
+        case {"fact": "sqrt_positive", "of": str(text)}:
+            return context.call("sqrt", _argument(given, text, "positive")), ">"
     raise CertificateError(f"unknown factor {item}")
 
 
@@ -604,20 +737,23 @@ def _combination(value: Ratio, operator: str, given: Relations, proof: dict[str,
         raise CertificateError("the combination does not add up to the goal")
 
 
-def substitute(context: Context, value: Ratio, point: dict[str, Ratio]) -> Ratio:
-    """The value with symbols replaced, inside functions too."""
+def substitute(context: Context, value: Ratio, point: dict[str, Ratio], done: dict[str, Ratio] | None = None) -> Ratio:
+    """The value with symbols replaced, inside functions too; `done` are the functions that are replaced already."""
+    known = dict(point) if done is None else done
 
     def poly(p: Poly) -> Ratio:
         total = number(0)
         for monomial, coefficient in p.items():
             product = number(coefficient)
             for atom, power in monomial:
-                base = point.get(atom, symbol(atom))
-                if atom in context.functions:
+                if atom in context.functions and atom not in known:
                     kind, argument = context.functions[atom]
-                    inner = substitute(context, argument, point)
-                    base = context.call(kind, inner)
-                product = product * context.power(base, number(power))
+                    inner = substitute(context, argument, point, known)
+                    if SUM in symbols_of(context, inner) and (
+                            SUM not in (before := symbols_of(context, argument)) and before & context.indexed):
+                        raise CertificateError("a sum inside a sum")
+                    known[atom] = context.call(kind, inner)
+                product = product * context.power(known.get(atom, symbol(atom)), number(power))
             total = total + product
         return total
 
@@ -684,6 +820,26 @@ def _round(x: Fraction, direction: int) -> Fraction:
     return Fraction(whole + (direction > 0), scale)
 
 
+def sqrt_bounds(x: Fraction) -> tuple[Fraction, Fraction]:
+    """Rational bounds of sqrt(x), x >= 0; both are exact for the square of a rational number."""
+    if x < 0:
+        raise CertificateError("sqrt of a negative number")
+    scale = 10**40 * x.denominator
+    low = math.isqrt(x.numerator * scale * scale // x.denominator)
+    exact = low * low * x.denominator == x.numerator * scale * scale
+    return Fraction(low, scale), Fraction(low if exact else low + 1, scale)
+
+
+def abs_bounds(x: Fraction, y: Fraction) -> tuple[Fraction, Fraction]:
+    """Bounds of the absolute value of anything between x and y."""
+    return (Fraction(0) if x <= 0 <= y else min(abs(x), abs(y))), max(abs(x), abs(y))
+
+
+def sign_bounds(x: Fraction, y: Fraction) -> tuple[Fraction, Fraction]:
+    """Bounds of the sign of anything between x and y."""
+    return Fraction((x > 0) - (x < 0)), Fraction((y > 0) - (y < 0))
+
+
 def bounds(context: Context, value: Ratio) -> tuple[Fraction, Fraction]:
     """Rational bounds of a value without free symbols (n = 1 for sums)."""
 
@@ -698,8 +854,14 @@ def bounds(context: Context, value: Ratio) -> tuple[Fraction, Fraction]:
                     raise CertificateError(f"symbol '{atom}' has no value at the point")
                 kind, argument = context.functions[atom]
                 x, y = bounds(context, argument)
-                function = log_bounds if kind == "log" else exp_bounds
-                inner = function(x)[0], function(y)[1]
+                match kind:
+                    case "abs":
+                        inner = abs_bounds(x, y)
+                    case "sign":
+                        inner = sign_bounds(x, y)
+                    case _:
+                        function = {"log": log_bounds, "exp": exp_bounds, "sqrt": sqrt_bounds}[kind]
+                        inner = function(x)[0], function(y)[1]
                 for _ in range(power):
                     corners = [p * q for p in (a, b) for q in inner]
                     a, b = min(corners), max(corners)
@@ -713,12 +875,16 @@ def bounds(context: Context, value: Ratio) -> tuple[Fraction, Fraction]:
     return min(corners), max(corners)
 
 
+def _require_defined_at(context: Context, text: str, point: dict[str, Ratio]) -> None:
+    for part, wanted in context.partial_operations(text):
+        low, high = bounds(context, substitute(context, context.node(part), point))
+        if not (low > 0 or (wanted == "non-zero" and high < 0) or (wanted == "non-negative" and low == 0)):
+            raise CertificateError(f"undefined at the point: {ast.unparse(part)}")
+
+
 def holds(context: Context, text: str, point: dict[str, Ratio]) -> bool:
     """Whether a relation holds at a point; an error where it is undefined or the enclosure cannot tell."""
-    for part, nonzero_only in context.partial_operations(text):
-        low, high = bounds(context, substitute(context, context.node(part), point))
-        if not (low > 0 or (nonzero_only and high < 0)):
-            raise CertificateError(f"undefined at the point: {ast.unparse(part)}")
+    _require_defined_at(context, text, point)
     value, operator = margin(context, text)
     low, high = bounds(context, substitute(context, value, point))
     verdict = {">": (low > 0, high <= 0), ">=": (low >= 0, high < 0),
@@ -781,12 +947,40 @@ def check_false(goal: dict[str, Any], certificate: dict[str, Any]) -> None:
     for text in (*goal.get("assume", []), *goal.get("always", [])):
         if not holds(context, text, point):
             raise CertificateError(f"the point breaks the assumption {text}")
-    for name, value in given.initial.items():  # of all instants a point can only be the first
-        if not same(point[name], substitute(context, value, point)):
-            raise CertificateError(f"nothing says that the flow reaches the point: {name} is not at its initial value")
+    if "duration" in certificate:
+        _check_reached(context, given, point, certificate)
+    else:
+        for name, value in given.initial.items():  # a point alone can only be the first of all instants
+            if not same(point[name], substitute(context, value, point)):
+                raise CertificateError(f"nothing says that the flow reaches the point: {name} is not where it starts")
     outcomes = [holds(context, text, point) for text in goal["show"]]  # all of them: each must be defined
     if all(outcomes):
         raise CertificateError("the goal holds at the point")
+
+
+def _check_reached(context: Context, given: Relations, point: dict[str, Ratio], certificate: dict[str, Any]) -> None:
+    """Constant inputs move the flow to the point in a straight line, on which all that always holds does for ever."""
+    time, duration = read_name(certificate["time"]), read_rational(certificate["duration"])
+    moving = {name for name, rate in context.flow.items() if not rate.is_zero()}
+    if given.initial.keys() != context.flow.keys() or context.indexed or time in point or duration < 0:
+        raise CertificateError("a point is reached by a flow whose initial values are known, in a time of its own name")
+    held = {name: value for name, value in point.items() if name not in moving}
+    line = dict(held)
+    for name, value in given.initial.items():
+        _require_defined_at(context, context.rates[name], held)
+        rate, start = substitute(context, context.flow[name], held), substitute(context, value, held)
+        if atoms_of(rate) or atoms_of(start):
+            raise CertificateError(f"{name} does not move in a straight line between rational values")
+        if not same(start + rate * number(duration), point[name]):
+            raise CertificateError(f"the flow is not at the point after that time: {name}")
+        line[name] = start + rate * symbol(time)
+    later = Relations(context, [f"{time} >= 0"])
+    for text, proof in zip(given.always, certificate["always"], strict=True):
+        for part, wanted in context.partial_operations(text):
+            if not later.fits(substitute(context, context.node(part), line), wanted):
+                raise CertificateError(f"not shown defined at all times: {ast.unparse(part)}")
+        value, operator = margin(context, text)
+        prove(substitute(context, value, line), operator, later, proof)
 
 
 def _check_model(goal: dict[str, Any], certificate: dict[str, Any]) -> None:
@@ -814,8 +1008,8 @@ def _check_model(goal: dict[str, Any], certificate: dict[str, Any]) -> None:
         return value
 
     for text in (*certificate["functions"].values(), *goal["always"], goal["show"][0]):
-        for part, nonzero_only in context.partial_operations(text):
-            if not later.sign_known_value(along(context.node(part)), nonzero_only):
+        for part, wanted in context.partial_operations(text):
+            if not later.fits(along(context.node(part)), wanted):
                 raise CertificateError(f"not shown defined at all times: {ast.unparse(part)}")
     for name, value in given.initial.items():
         start = substitute(context, values.get(name, symbol(name)), {time: number(0)})
@@ -869,13 +1063,15 @@ def check(certificate: dict[str, Any]) -> None:
 
 
 def check_folder(folder: Path) -> list[tuple[Path, str, str | None]]:
-    """(file, verdict, reason it is invalid or None) for every certificate below a folder."""
+    """(file, verdict, reason it is invalid or None) for every <paper>/<equation>.json below a folder."""
     results: list[tuple[Path, str, str | None]] = []
     for path in sorted(folder.rglob("*.json")):
         verdict = "?"
         try:
             certificate = json.loads(path.read_text(encoding="utf-8"), object_pairs_hook=_unique)
             verdict = str(certificate.get("verdict")) if isinstance(certificate, dict) else "?"
+            if certificate.get("claim") != f"{path.resolve().parent.name}:{path.stem}":
+                raise CertificateError(f"the certificate of {certificate.get('claim')} under another claim's name")
             check(certificate)
             results.append((path, verdict, None))
         except (CertificateError, ValueError, AttributeError, RecursionError, OSError) as trouble:

@@ -7,18 +7,15 @@ import re
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from fractions import Fraction
+from numbers import Rational
 from typing import Any, Literal
 
 import sympy as sp
 
 from workbench.errors import ClaimError
+from workbench.proof.verdict import FAILED, VERDICTS, Decision, Kind, Stated, Verdict  # noqa: F401 - all records here
 
-Kind = Literal["identity", "inequality", "condition", "implication", "limit"]
-Verdict = Literal["proved", "refuted", "violated", "gap", "assumed", "undecided"]
 Operator = Literal["==", "<=", "<", ">=", ">", "!="]
-
-VERDICTS: tuple[Verdict, ...] = ("proved", "refuted", "violated", "gap", "assumed", "undecided")
-FAILED: tuple[Verdict, ...] = ("refuted", "violated", "gap")
 
 
 class D(sp.Function):
@@ -132,6 +129,7 @@ class Goal:
     model: dict[sp.Expr, sp.Expr] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
+        self._require_shape()
         if not self.show:
             raise ClaimError("a goal shows nothing: give at least one relation")
         language = _Language()
@@ -144,6 +142,18 @@ class Goal:
             language.check(rate, index)
         for expr in (*self.initial.values(), *self.model.values(), *self.facts, sp.Add(self.decreasing or 0)):
             language.check(expr)
+
+    def _require_shape(self) -> None:
+        for part in ("show", "assume", "always", "lemmas"):
+            relations = getattr(self, part)
+            if not isinstance(relations, tuple) or not all(isinstance(r, Relation) for r in relations):
+                raise ClaimError(f"the part '{part}' of a goal is no tuple of relations: write "
+                                 "(at_least(x, 0),), with equal, at_most, less, at_least, greater or differ")
+        for part in ("flow", "initial", "model"):
+            exact = {s: sp.sympify(value, strict=True) for s, value in getattr(self, part).items()}
+            if not all(isinstance(s, sp.Expr) for s in exact):
+                raise ClaimError(f"the part '{part}' of a goal names no symbols: write {{x: rate}}, no text")
+            object.__setattr__(self, part, exact)
 
     def relations(self) -> tuple[Relation, ...]:
         """All relations of the goal."""
@@ -190,9 +200,9 @@ class _Language:
     def check(self, expr: sp.Expr, index: sp.Symbol | None = None) -> None:
         """Raise ClaimError unless certificates can state the expression exactly."""
         if isinstance(expr, sp.Symbol):
-            self._name(str(expr), expr)
             if expr == index:
                 raise ClaimError(f"the index {index} stands as a number in a sum: use it as an index only")
+            self._name(str(expr), expr)
         elif isinstance(expr, sp.Indexed):
             if index is None or expr.indices != (index,):
                 raise ClaimError(f"{expr} stands where no sum binds its index: sum over it, with one index")
@@ -203,16 +213,17 @@ class _Language:
             self.limits = expr.limits[0]
             self.check(expr.function, expr.limits[0][0])
         elif isinstance(expr, sp.Pow):
-            if not expr.exp.is_Integer:
-                raise ClaimError(f"'{expr}' has no meaning in certificates: only whole powers have")
+            if not (expr.exp * 2).is_Integer:
+                raise ClaimError(f"'{expr}' has no meaning in certificates: only whole and half powers have")
             self.check(expr.base, index)
-        elif isinstance(expr, (sp.Add, sp.Mul, sp.log, sp.exp, D)):
+        elif isinstance(expr, (sp.Add, sp.Mul, D, *FUNCTIONS)):
             for part in expr.args:
                 self.check(part, index)
         elif isinstance(expr, sp.Float):
             raise ClaimError(f"the number {expr} is not exact: write it as sympy.Rational or Fraction")
         elif not isinstance(expr, sp.Rational) and expr != sp.E:
-            raise ClaimError(f"'{expr}' has no meaning in certificates: state the claim with + - * / **, log and exp")
+            raise ClaimError(f"'{expr}' has no meaning in certificates: state the claim with + - * / **, "
+                             f"{', '.join(LANGUAGE[2:])}")
 
     def _name(self, name: str, owner: sp.Expr) -> None:
         if not re.fullmatch(r"[A-Za-z_][A-Za-z0-9_]*", name) or keyword.iskeyword(name) or name in LANGUAGE:
@@ -221,9 +232,22 @@ class _Language:
         if self.names.setdefault(name, owner) != owner:
             raise ClaimError(f"two different symbols are named '{name}' (other assumptions, or one of them indexed): "
                              "certificates could not tell them apart; give each its own name")
+        if owner.assumptions0 not in (BASES if isinstance(owner, sp.IndexedBase) else SYMBOLS):
+            raise ClaimError(f"symbol '{name}': sympy knows more of it than its certificate would say; make it real, "
+                             "positive or nonnegative (indexed: real) and state the rest as an assumption")
 
 
-LANGUAGE = ("Sum", "D", "log", "exp")
+# What sympy may know of a symbol: by more it would simplify a goal into one that holds for fewer values than stated.
+SYMBOLS = [sp.Symbol("x", **known).assumptions0 for known in ({}, {"real": True}, {"positive": True},
+                                                              {"nonnegative": True})]
+BASES = [sp.IndexedBase("x", **known).assumptions0 for known in ({}, {"real": True})]
+FUNCTIONS = (sp.log, sp.exp, sp.tanh, sp.Abs, sp.sign, sp.Max, sp.Min)
+LANGUAGE = ("Sum", "D", "log", "exp", "tanh", "abs", "sign", "sqrt", "Max", "Min")
+
+
+def saturation(value: Any, low: Any, high: Any) -> sp.Expr:
+    """sat(value, low, high): value, cut off at low and high (low <= high)."""
+    return sp.Min(sp.Max(value, low), high)
 
 
 def name_of(symbol: sp.Expr) -> str:
@@ -231,62 +255,27 @@ def name_of(symbol: sp.Expr) -> str:
     return str(symbol.base.label) if isinstance(symbol, sp.Indexed) else str(symbol)
 
 
-@dataclass(frozen=True)
-class Claim:
+@dataclass(frozen=True, kw_only=True)
+class Claim(Stated):
     """One step of a paper: what is printed, in which form it is decided, and what it rests on.
 
-    id: `<paper>:<equation>`; statement: LaTeX as printed; build: makes the goal; premises: ids of claims;
-    at: stated parameters at which a condition is evaluated; correction: builds the nearest true statement;
-    repair: parameters at which a violated condition holds; axiom: a cited result that is assumed;
-    recorded: the verdict on record; reading: how a garbled place was read.
+    build: makes the goal; at: stated parameters at which a condition is evaluated; correction: builds the
+    nearest true statement; repair: parameters at which a violated condition holds; axiom: a cited result that
+    is assumed.
     """
 
-    id: str
-    title: str
-    kind: Kind
-    statement: str
-    recorded: Verdict
     build: Callable[[], Goal] | None
-    premises: tuple[str, ...] = ()
-    scope: str = "all values of the domain"
     at: dict[sp.Expr, Fraction] | None = None
     correction: Callable[[], Goal] | None = None
     corrected_statement: str | None = None
     repair: dict[sp.Expr, Fraction] | None = None
     axiom: str | None = None
-    note: str = ""
 
     def __post_init__(self) -> None:
-        paper, _, equation = self.id.partition(":")
-        if not paper or not equation:
-            raise ClaimError(f"claim id '{self.id}': write it as <paper>:<equation>")
-        if self.recorded not in VERDICTS:
-            raise ClaimError(f"claim {self.id}: recorded verdict '{self.recorded}' is none of {', '.join(VERDICTS)}")
+        super().__post_init__()
         if (self.build is None) == (self.axiom is None):
             raise ClaimError(f"claim {self.id}: give either a goal or the axiom it is assumed as")
-
-    @property
-    def paper(self) -> str:
-        """The paper's name."""
-        return self.id.partition(":")[0]
-
-    @property
-    def equation(self) -> str:
-        """The equation's number, with a suffix for a part."""
-        return self.id.partition(":")[2]
-
-
-@dataclass(frozen=True)
-class Decision:
-    """A claim decided: the verdict, the certificate that shows it, and how it was found."""
-
-    claim: Claim
-    verdict: Verdict
-    method: str
-    trust: str | None
-    seconds: float
-    certificate: dict[str, Any] | None = None
-    counterexample: dict[str, str] | None = None
-    correction: str | None = None
-    computed: str | None = None
-    tainted_by: tuple[str, ...] = ()
+        for symbol, value in (*(self.at or {}).items(), *(self.repair or {}).items()):
+            if not isinstance(symbol, sp.Expr) or not isinstance(value, Rational):
+                raise ClaimError(f"claim {self.id}: stated value {symbol} = {value}: write a symbol and an exact "
+                                 "number, as in {k: Fraction(1, 2)}")

@@ -6,8 +6,56 @@ import sympy as sp
 
 from workbench.errors import ClaimError
 from workbench.proof.claim import D
+from workbench.proof.text import text
 
 SUM = sp.Symbol("Sum_", positive=True)
+
+
+class Size(sp.Function):
+    """Absolute value that sympy leaves as it stands, so that it is the very one that certificates speak of."""
+
+    nargs = 1
+    is_real = True
+
+    def fdiff(self, argindex: int = 1) -> sp.Expr:
+        """Refuse a derivative: there is none everywhere."""
+        raise ClaimError(f"abs({text(self.args[0])}) or a Max or Min has no derivative everywhere: use it outside of D")
+
+
+class Side(sp.Function):
+    """Sign (-1, 0 or 1) that sympy leaves as it stands."""
+
+    nargs = 1
+    is_real = True
+
+    def fdiff(self, argindex: int = 1) -> sp.Expr:
+        """Refuse a derivative: there is none everywhere."""
+        raise ClaimError(f"sign({text(self.args[0])}) has no derivative everywhere: use it outside of D")
+
+
+class Summed(sp.Function):
+    """A sum whose index has been dropped: what an expression with SUM stands for, inside a root."""
+
+    nargs = 1
+
+
+def unfold(expr: sp.Expr) -> sp.Expr:
+    """tanh by exp, Max and Min by absolute values, as `checker.py` reads them; Abs and sign left unevaluated."""
+    if not expr.has(sp.tanh, sp.Abs, sp.sign, sp.Max, sp.Min):
+        return expr
+    if isinstance(expr, (sp.Max, sp.Min)):
+        direction = 1 if isinstance(expr, sp.Max) else -1
+        first, *others = (unfold(part) for part in sorted(expr.args, key=text))
+        for other in others:
+            first = (first + other + direction * Size(first - other)) / 2
+        return first
+    parts = [unfold(part) for part in expr.args]
+    if isinstance(expr, sp.tanh):
+        double = sp.exp(2 * parts[0])
+        return (double - 1) / (double + 1)
+    if isinstance(expr, sp.Abs):
+        return Size(*parts)
+    return Side(*parts) if isinstance(expr, sp.sign) else expr.func(*parts)
 
 
 def lie_derivative(expr: sp.Expr, flow: dict[sp.Expr, sp.Expr]) -> sp.Expr:
@@ -28,8 +76,11 @@ def lie_derivative(expr: sp.Expr, flow: dict[sp.Expr, sp.Expr]) -> sp.Expr:
 
 
 def expand_derivatives(expr: sp.Expr, flow: dict[sp.Expr, sp.Expr]) -> sp.Expr:
-    """The expression with every D(...) carried out."""
-    return expr.replace(D, lambda inner: lie_derivative(inner, flow))
+    """The expression with every D(...) carried out; ClaimError for one that has no derivative everywhere."""
+    def carried(inner: sp.Expr) -> sp.Expr:
+        return lie_derivative(unfold(inner), flow).replace(Size, sp.Abs).replace(Side, sp.sign)
+
+    return expr.replace(D, carried)
 
 
 def formal_sums(expr: sp.Expr) -> sp.Expr:
@@ -38,8 +89,9 @@ def formal_sums(expr: sp.Expr) -> sp.Expr:
     An expression that vanishes in this form vanishes for every number of neurons.
     Raises ClaimError for a product of sums.
     """
-    flat = expr.replace(sp.Sum, lambda term, *_: SUM * term)
-    numerator = sp.fraction(sp.together(flat))[0] if flat.has(SUM) else flat
-    if flat.has(SUM) and sp.Poly(numerator, SUM).degree() > 1:
+    flat = expr.replace(sp.Sum, lambda term, *_: SUM * term).replace(Summed, lambda term: SUM * term)
+    # The root of a sum is one number, like any other factor.
+    outside = flat.xreplace({root: sp.Dummy() for root in flat.atoms(sp.Pow) if not root.exp.is_Integer})
+    if outside.has(SUM) and sp.Poly(sp.fraction(sp.together(outside))[0], SUM).degree() > 1:
         raise ClaimError("a product of two sums over neurons cannot be decided for every number of neurons")
     return flat

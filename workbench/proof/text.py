@@ -10,11 +10,12 @@ from sympy.printing.str import StrPrinter
 from workbench.errors import ClaimError
 from workbench.proof.claim import Goal, Relation, name_of
 
-KNOWN_FUNCTIONS = ("log", "exp", "D")
+NAMES = {"log": "log", "exp": "exp", "D": "D", "tanh": "tanh", "Abs": "abs", "Size": "abs", "sign": "sign",
+         "Side": "sign", "Summed": "Sum", "Max": "Max", "Min": "Min"}
 
 
 class _Printer(StrPrinter):
-    """Python syntax over + - * / **, log, exp, Sum and D."""
+    """Python syntax over + - * / **, the functions of certificates, Sum and D."""
 
     printmethod = "_certificate_text"  # sympy classes would print themselves otherwise
 
@@ -26,9 +27,19 @@ class _Printer(StrPrinter):
 
     def _print_Function(self, expr: sp.Function) -> str:
         name = expr.func.__name__
-        if name not in KNOWN_FUNCTIONS:
-            raise ClaimError(f"'{name}' has no meaning in certificates: state the claim with log and exp")
-        return f"{name}({self._print(expr.args[0])})"
+        if name not in NAMES:
+            known = ", ".join(dict.fromkeys(NAMES.values()))
+            raise ClaimError(f"'{name}' has no meaning in certificates: state the claim with {known}")
+        arguments = sorted(map(self._print, expr.args)) if name in ("Max", "Min") else map(self._print, expr.args)
+        return f"{NAMES[name]}({', '.join(arguments)})"
+
+    _print_Max = _print_Min = _print_Abs = _print_Function
+
+    def _print_Pow(self, expr: sp.Pow, rational: bool = False) -> str:
+        if expr.exp.is_Rational and expr.exp.q == 2:
+            root = f"sqrt({self._print(expr.base)})"
+            return root if expr.exp.p == 1 else f"1/{root}" if expr.exp.p == -1 else f"{root}**({expr.exp.p})"
+        return str(super()._print_Pow(expr, rational))
 
     def _print_Exp1(self, expr: sp.Expr) -> str:
         return "exp(1)"

@@ -7,7 +7,7 @@ certificate counts when `checker.py` has re-checked it.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import replace
 from fractions import Fraction
 from itertools import combinations, combinations_with_replacement
 from typing import Any
@@ -20,13 +20,12 @@ from sympy.polys.matrices import DomainMatrix
 
 from workbench.errors import ClaimError
 from workbench.proof.claim import Goal, Relation
+from workbench.proof.decide.atoms import Atoms, Item, flatten
+from workbench.proof.decide.facts import Known, known_facts
 from workbench.proof.decide.laurent import (
-    Atoms,
     Exponents,
-    Item,
     Laurent,
     add,
-    flatten,
     goal_atoms,
     multiply,
     ratio_of,
@@ -43,28 +42,24 @@ MAX_PRODUCT = 12
 # (rounds of multiplication, products of two assumptions, monomials that z s = 1 hides), cheap ones first
 ATTEMPTS = ((1, False, False), (1, True, False), (1, False, True), (2, False, False), (2, True, False))
 SUPPORT_TOLERANCE = 1e-9
+COUNT: Exponents = (-99,)  # no monomial of any goal
 
 
-@dataclass(frozen=True)
-class Known:
-    """Something of known sign: its factor items, its value, and whether it is > 0, >= 0 or == 0."""
+def find_combination(goal: Goal, shown: Relation, relations: tuple[Relation, ...],
+                     quick: bool = False) -> dict[str, Any] | None:
+    """A proof by combination for one relation from `relations`, in the order the checker sees them, or None.
 
-    items: tuple[Item, ...]
-    value: Laurent
-    sign: str
-
-
-def find_combination(goal: Goal, shown: Relation, relations: tuple[Relation, ...]) -> dict[str, Any] | None:
-    """A proof by combination for one relation from `relations`, in the order the checker sees them, or None."""
+    quick: only the cheapest attempt.
+    """
     if shown.operator == "!=":
         return None
     atoms = goal_atoms(relations)
     try:
         target = to_laurent(flatten(shown.margin, atoms, goal.flow), atoms)
-        known = _known(goal, relations, atoms)
+        known = known_facts(goal, relations, atoms)
     except ClaimError:
         return None
-    for rounds, pairs, hidden in ATTEMPTS:
+    for rounds, pairs, hidden in ATTEMPTS[:1] if quick else ATTEMPTS:
         terms = _candidates(target, known, atoms, rounds, pairs, hidden)
         if len(terms) <= MAX_COLUMNS:
             chosen = _solve(target, terms, shown.strict)
@@ -72,32 +67,6 @@ def find_combination(goal: Goal, shown: Relation, relations: tuple[Relation, ...
                 return {"rule": "combination", "terms": [
                     {"coefficient": str(c), "factors": list(term.items)} for c, term in chosen]}
     return None
-
-
-def _known(goal: Goal, relations: tuple[Relation, ...], atoms: Atoms) -> list[Known]:
-    """Assumptions that are more than the sign of a symbol, and the tangent facts of every log and exp."""
-    known = [Known((), {(): Fraction(1)}, ">")]
-    for position, relation in enumerate(relations):
-        if relation.operator == "!=":
-            value = to_laurent(flatten(relation.margin, atoms, goal.flow), atoms)
-            known.append(Known(({"square_of": position},), reduce_inverses(multiply(value, value), atoms), ">"))
-            continue
-        if relation.margin.is_Symbol and relation.operator != "==":
-            continue
-        sign = "==" if relation.operator == "==" else ">" if relation.strict else ">="
-        value = to_laurent(flatten(relation.margin, atoms, goal.flow), atoms)
-        known.append(Known(({"assume": position},), value, sign))
-    arguments = [(argument, "exp_tangent") for argument in goal.facts]
-    for argument in list(atoms.logs):
-        arguments += [(argument, "log_tangent"), (1 / argument, "log_tangent")]
-    for argument in list(atoms.exps):
-        arguments += [(argument, "exp_tangent"), (-argument, "exp_tangent")]
-    for argument, fact in arguments:
-        fact_value = (argument - 1 - sp.log(argument) if fact == "log_tangent"
-                      else sp.exp(argument, evaluate=False) - 1 - argument)
-        value = to_laurent(flatten(fact_value, atoms, {}), atoms)
-        known.append(Known(({"fact": fact, "of": text(argument)},), value, ">="))
-    return known
 
 
 def _monomial(exponents: Exponents, atoms: Atoms) -> tuple[Item, ...] | None:
@@ -114,7 +83,7 @@ def _monomial(exponents: Exponents, atoms: Atoms) -> tuple[Item, ...] | None:
         elif generator in atoms.nonnegative and power > 0:
             items += [atoms.nonnegative[generator]] * power
         elif power % 2 == 0 and power > 0 and generator not in atoms.indexed and generator != SUM:
-            items.append({"square": text(_plain(generator, atoms) ** (power // 2))})
+            items.append({"square": text(_power(generator, power // 2, atoms))})
         else:
             return None
     return tuple(items)
@@ -124,13 +93,16 @@ def _strict(exponents: Exponents, atoms: Atoms) -> bool:
     return all(power == 0 or g in atoms.positive for g, power in zip(atoms.generators, exponents, strict=False))
 
 
-def _plain(generator: sp.Symbol, atoms: Atoms) -> sp.Expr:
-    """The expression a generator stands for."""
-    return atoms.meanings().get(generator, generator)
+def _power(generator: sp.Symbol, power: int, atoms: Atoms) -> sp.Expr:
+    """A power of what a generator stands for; sympy must not turn the square of a root or of exp into others."""
+    meaning = atoms.meanings().get(generator, generator)
+    return meaning if power == 1 else sp.Pow(meaning, power, evaluate=meaning.is_Symbol)
 
 
 def _expression(exponents: Exponents, atoms: Atoms) -> sp.Expr:
-    return sp.Mul(*(_plain(g, atoms) ** p for g, p in zip(atoms.generators, exponents, strict=False) if p))
+    powers = [_power(g, p, atoms) for g, p in zip(atoms.generators, exponents, strict=False) if p]
+    plain = all(power.is_Symbol or power.args[0].is_Symbol for power in powers)
+    return sp.Mul(*powers, evaluate=plain or len(powers) < 2)
 
 
 def _candidates(target: Laurent, known: list[Known], atoms: Atoms, rounds: int, pairs: bool,
@@ -148,7 +120,8 @@ def _candidates(target: Laurent, known: list[Known], atoms: Atoms, rounds: int, 
             sign = ">" if one.sign == two.sign == ">" else ">="
             value = reduce_inverses(multiply(one.value, two.value), atoms)
             pool.append(Known(one.items + two.items, value, sign))
-    support = set(target) | (unreduced(target, atoms) if hidden else set())
+    # Nothing to aim at: a contradiction among the assumptions themselves.
+    support = (set(target) or {e for k in known for e in k.value}) | (unreduced(target, atoms) if hidden else set())
     terms: dict[tuple[str, ...], Known] = {}
     for _ in range(rounds):
         fresh: list[Known] = []
@@ -170,7 +143,8 @@ def _scaled(base: Known, by: Exponents, atoms: Atoms, seen: dict[tuple[str, ...]
         return []
     if base.sign == "==":
         items: tuple[Item, ...] | None = ({"any": text(_expression(by, atoms))},) if by else ()
-        if any(p and g in atoms.indexed | {SUM} for g, p in zip(atoms.generators, by, strict=False)):
+        if any((p and g in atoms.indexed | {SUM}) or (p < 0 and g not in atoms.positive)
+               for g, p in zip(atoms.generators, by, strict=False)):
             return []
     elif sums:
         items = _sum_of_squares(by, atoms)
@@ -252,6 +226,9 @@ def _ratios(target: Laurent, one: Exponents, two: Exponents, cross: Exponents) -
 
 def _solve(target: Laurent, terms: list[Known], strict: bool) -> list[tuple[Fraction, Known]] | None:
     """Coefficients with sum c_i term_i = target, exact; c_i >= 0 except for terms that are zero."""
+    if not target and strict:  # a contradiction, of which any multiple would do: its strict terms count 1 together
+        counted = [replace(t, value=t.value | {COUNT: Fraction(1)}) if t.sign == ">" else t for t in terms]
+        return _solve({COUNT: Fraction(1)}, counted, False)
     rows = {e: i for i, e in enumerate(sorted({*target, *(e for t in terms for e in t.value)}))}
     entries = [(rows[e], j, float(c)) for j, t in enumerate(terms) for e, c in t.value.items()]
     if not entries:
@@ -264,9 +241,13 @@ def _solve(target: Laurent, terms: list[Known], strict: bool) -> list[tuple[Frac
     limits: list[tuple[int | None, float | None]] = [(None, None) if t.sign == "==" else (0, None) for t in terms]
     cost = np.array([1.0 + len(t.items) for t in terms])
     if strict:  # prefer strictly positive terms so much that one is used whenever one can be
+        largest = 1e3 * max(1.0, *(abs(float(c)) for c in target.values()))
         cost = cost - np.array([1e3 if t.sign == ">" else 0.0 for t in terms])
-        limits = [(low, 1e3 if low == 0 else None) for low, _ in limits]
+        limits = [(low, largest if low == 0 else None) for low, _ in limits]
     answer = linprog(cost, A_eq=matrix, b_eq=right, bounds=limits, method="highs-ds")
+    if answer.status == 3:  # equalities that add up to nothing: leave them out of the cost, which has no least value
+        free = np.array([t.sign == "==" for t in terms])
+        answer = linprog(np.where(free, 0.0, cost), A_eq=matrix, b_eq=right, bounds=limits, method="highs-ds")
     if answer.status != 0:
         return None
     support = [k for k, c in enumerate(answer.x) if abs(c) > SUPPORT_TOLERANCE]

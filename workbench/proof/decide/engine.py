@@ -11,13 +11,14 @@ from typing import Any
 import sympy as sp
 
 from workbench.errors import ClaimError
+from workbench.proof.building import built
 from workbench.proof.checker import CertificateError, check
-from workbench.proof.claim import FAILED, Claim, D, Decision, Goal, Relation, Verdict, at_least, latex, name_of
-from workbench.proof.decide.combination import find_combination
-from workbench.proof.decide.identity import find_identity
+from workbench.proof.claim import Claim, Decision, Goal, Relation, Verdict, latex, name_of
 from workbench.proof.decide.refute import find_counterexample, find_example, value_at
+from workbench.proof.decide.search import prove_relation
 from workbench.proof.derive import expand_derivatives
-from workbench.proof.text import assumptions, goal_text, relation_text, text
+from workbench.proof.premises import premises_problem, with_taint
+from workbench.proof.text import goal_text
 
 Certificate = dict[str, Any]
 
@@ -27,44 +28,31 @@ def decide(claim: Claim) -> Decision:
     started = time.perf_counter()
     if claim.build is None:
         return Decision(claim, "assumed", claim.axiom or "", None, time.perf_counter() - started)
-    goal = _goal(claim)
+    goal = built(claim, claim.build)
     decision = _decide_statement(claim, goal) if claim.at is None else _decide_condition(claim, goal)
     return replace(decision, seconds=time.perf_counter() - started)
 
 
-def _goal(claim: Claim) -> Goal:
-    """The claim's goal; what is wrong with it is said with the claim's id."""
-    assert claim.build is not None
-    try:
-        goal: object = claim.build()
-    except ClaimError as trouble:
-        raise ClaimError(f"claim {claim.id}: {trouble}") from None
-    except Exception as trouble:
-        what = " ".join(f"{type(trouble).__name__}: {trouble}".split())
-        raise ClaimError(f"claim {claim.id}: its goal cannot be made: {what}") from trouble
-    if not isinstance(goal, Goal):
-        raise ClaimError(f"claim {claim.id}: its function returns no Goal: end it with 'return Goal(...)'")
-    return goal
-
-
 def _decide_statement(claim: Claim, goal: Goal) -> Decision:
-    proof = prove_goal(goal)
+    verdict: Verdict = "gap" if claim.kind in ("implication", "limit") else "refuted"
+    certificate_or_none = find_counterexample(goal, verdict, quick=True)  # a search of a proof would be in vain
+    proof = prove_goal(goal) if certificate_or_none is None else None
     if proof is not None:
         certificate, method = proof
         return Decision(claim, "proved", method, "exact", 0.0, {"claim": claim.id, **certificate})
-    verdict: Verdict = "gap" if claim.kind in ("implication", "limit") else "refuted"
-    certificate_or_none = find_counterexample(goal, verdict)
+    certificate_or_none = certificate_or_none or find_counterexample(goal, verdict)
     if certificate_or_none is None:
         return Decision(claim, "undecided", "identity, combination and point search found nothing", None, 0.0)
     certificate = {"claim": claim.id, **certificate_or_none}
     point = certificate.get("functions", {}) | certificate["point"]
     correction = None
     if claim.correction is not None:
-        repaired = prove_goal(claim.correction())
+        nearest = built(claim, claim.correction, "correction")
+        repaired = prove_goal(nearest)
         if repaired is None:
             raise ClaimError(f"claim {claim.id}: its correction could not be proved: state a true one")
         certificate["correction"] = {k: v for k, v in repaired[0].items() if k not in ("version", "verdict")}
-        correction = claim.corrected_statement or claim.correction().show[0].latex()
+        correction = claim.corrected_statement or nearest.show[0].latex()
         check(certificate)
     return Decision(claim, verdict, "counterexample", "exact", 0.0, certificate, point, correction,
                     None if goal.eventually else value_at(goal, certificate["point"]))
@@ -123,7 +111,7 @@ def prove_goal(goal: Goal) -> tuple[Certificate, str] | None:
         return None
     proofs, methods = [], []
     for shown in goal.show:
-        found = _prove_relation(goal, shown)
+        found = prove_relation(goal, shown)
         if found is None:
             return None
         proofs.append(found[0])
@@ -140,55 +128,6 @@ def prove_goal(goal: Goal) -> tuple[Certificate, str] | None:
     return certificate, ", ".join(dict.fromkeys(methods))
 
 
-def _prove_relation(goal: Goal, shown: Relation) -> tuple[dict[str, Any], str] | None:
-    if shown.operator in ("==", ">=", "<=") and find_identity(goal, shown):
-        return {"rule": "identity"}, "identity"
-    if goal.decreasing is not None:
-        return _by_decrease(goal, shown)
-    given = assumptions(goal)
-    steps: list[tuple[Relation, dict[str, Any]]] = []
-    for lemma in (*goal.lemmas, *_signs_of_logs((shown, *given))):
-        known = tuple(r for r, _ in steps)
-        # Only what shares a symbol with the lemma is offered, so that side lemmas stay cheap; positions stay.
-        near = tuple(r if lemma.margin.free_symbols & r.margin.free_symbols else _EMPTY for r in (*given, *known))
-        proof = find_combination(goal, lemma, near)
-        if proof is not None:
-            steps.append((lemma, proof))
-    final = find_combination(goal, shown, (*given, *(r for r, _ in steps)))
-    if final is None:
-        return None
-    method = "lemmas and combination" if steps else "combination"
-    for lemma, proof in reversed(steps):
-        final = {"rule": "cut", "lemma": relation_text(lemma), "proof": proof, "then": final}
-    return final, method
-
-
-def _signs_of_logs(relations: tuple[Relation, ...]) -> list[Relation]:
-    """log A >= 0 for every logarithm in the relations: worth trying as a lemma."""
-    logs = sorted({log for r in relations for log in r.margin.atoms(sp.log)}, key=sp.default_sort_key)
-    return [at_least(log, 0) for log in logs if relations[0].margin != log]
-
-
-def _by_decrease(goal: Goal, shown: Relation) -> tuple[dict[str, Any], str] | None:
-    """A bound from a function that does not increase along the flow."""
-    function = sp.Add(goal.decreasing)
-    # As the checker will see it: assumptions of the moving symbols emptied, those that always hold appended.
-    moving = {s for s, rate in goal.flow.items() if rate != 0}
-    moving |= {s for rate in goal.flow.values() for s in rate.free_symbols} - set(goal.flow)
-    given = assumptions(goal)
-    kept = tuple(_EMPTY if r.margin.free_symbols & moving else r for r in given)
-    decrease = find_combination(goal, at_least(-D(function), 0), (*kept, *goal.always))
-    start = function.xreplace(goal.initial)
-    final = find_combination(goal, shown, (*given, at_least(start, function)))
-    if decrease is None or final is None:
-        return None
-    return {"rule": "nonincreasing", "function": text(function), "decrease": decrease, "then": final}, (
-        "a function that does not increase, and combination")
-
-
-_EMPTY = at_least(0, 0)
-
-
 def _fraction(value: Fraction) -> str:
     return str(value.numerator) if value.denominator == 1 else rf"\frac{{{value.numerator}}}{{{value.denominator}}}"
 
@@ -198,36 +137,11 @@ def decide_all(claims: list[Claim], on_progress: Callable[[int], None] = lambda 
 
     Raises ClaimError for ids used twice and for a premise that is no claim.
     """
-    by_id = {claim.id: claim for claim in claims}
-    if len(by_id) != len(claims):
-        twice = sorted({c.id for c in claims if sum(d.id == c.id for d in claims) > 1})
-        raise ClaimError(f"claim ids used twice: {', '.join(twice)}: give each claim its own id")
+    problem = premises_problem(claims)
+    if problem is not None:
+        raise ClaimError(problem[1])
+    decisions = []
     for claim in claims:
-        for premise in claim.premises:
-            if premise not in by_id:
-                raise ClaimError(f"claim {claim.id}: premise '{premise}' is no claim: state it or correct the id")
-    for claim in claims:
-        if claim.id in _closure(claim, by_id):
-            raise ClaimError(f"claim {claim.id}: rests on itself through its premises: break the circle")
-    decisions: dict[str, Decision] = {}
-    for claim in claims:
-        decisions[claim.id] = decide(claim)
+        decisions.append(decide(claim))
         on_progress(len(decisions))
-    return [replace(d, tainted_by=_taint(d.claim, by_id, decisions)) for d in decisions.values()]
-
-
-def _taint(claim: Claim, by_id: dict[str, Claim], decisions: dict[str, Decision]) -> tuple[str, ...]:
-    below = _closure(claim, by_id)
-    return tuple(c for c in by_id if c in below and decisions[c].verdict in FAILED)
-
-
-def _closure(claim: Claim, by_id: dict[str, Claim]) -> set[str]:
-    """The ids of all claims it rests on, directly or not."""
-    seen: set[str] = set()
-    open_ids = list(claim.premises)
-    while open_ids:
-        current = open_ids.pop()
-        if current not in seen:
-            seen.add(current)
-            open_ids += by_id[current].premises
-    return seen
+    return with_taint(decisions)

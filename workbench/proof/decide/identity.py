@@ -6,7 +6,7 @@ import sympy as sp
 
 from workbench.errors import ClaimError
 from workbench.proof.claim import Goal, Relation
-from workbench.proof.decide.laurent import Atoms, flatten
+from workbench.proof.decide.atoms import Atoms, flatten
 
 
 def find_identity(goal: Goal, shown: Relation) -> bool:

@@ -2,89 +2,18 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
 from fractions import Fraction
 
 import sympy as sp
 
 from workbench.errors import ClaimError
 from workbench.proof.claim import Relation
-from workbench.proof.derive import SUM, expand_derivatives, formal_sums
+from workbench.proof.decide.atoms import Atoms
+from workbench.proof.derive import SUM
 from workbench.proof.text import text
 
 Exponents = tuple[int, ...]
 Laurent = dict[Exponents, Fraction]
-Item = dict[str, object]
-
-
-@dataclass
-class Atoms:
-    """The generators of one goal; `positive` maps a generator to the factor items of it and of its inverse."""
-
-    generators: list[sp.Symbol] = field(default_factory=list)
-    positive: dict[sp.Symbol, tuple[Item, Item | None]] = field(default_factory=dict)
-    nonnegative: dict[sp.Symbol, Item] = field(default_factory=dict)
-    logs: dict[sp.Expr, sp.Symbol] = field(default_factory=dict)
-    exps: dict[sp.Expr, sp.Symbol] = field(default_factory=dict)
-    inverses: dict[sp.Symbol, sp.Expr] = field(default_factory=dict)
-    strict: list[tuple[sp.Expr, int]] = field(default_factory=list)
-    indexed: set[sp.Symbol] = field(default_factory=set)
-
-    def meanings(self) -> dict[sp.Symbol, sp.Expr]:
-        """What the generators for functions and inverses stand for."""
-        functions = {s: sp.log(a) for a, s in self.logs.items()} | {s: sp.exp(a) for a, s in self.exps.items()}
-        return functions | {s: 1 / known.xreplace(functions) for s, known in self.inverses.items()}
-
-    def index(self, generator: sp.Symbol) -> int:
-        """The generator's position, added when new."""
-        if generator not in self.generators:
-            self.generators.append(generator)
-        return self.generators.index(generator)
-
-
-def flatten(expr: sp.Expr, atoms: Atoms, flow: dict[sp.Expr, sp.Expr]) -> sp.Expr:
-    """The expression as a rational function of plain symbols; logs and exps become atoms."""
-    flat = formal_sums(expand_derivatives(expr, flow))
-    names = {i: sp.Symbol(str(i.base.label), real=True) for i in flat.atoms(sp.Indexed)}
-    atoms.indexed |= set(names.values())
-    flat = flat.xreplace(names)
-    flat = flat.replace(sp.exp, lambda inner: exp_atom(inner, atoms))
-    return flat.replace(sp.log, lambda inner: log_atom(inner, atoms))
-
-
-def log_atom(argument: sp.Expr, atoms: Atoms) -> sp.Expr:
-    """log(argument) as an atom, up to sign: log(1/A) = -log(A)."""
-    for known, symbol in atoms.logs.items():
-        if sp.cancel(known - argument) == 0:
-            return symbol
-        if sp.cancel(known * argument) == 1:
-            return -symbol
-    symbol = sp.Dummy(f"L{len(atoms.logs)}", real=True)
-    atoms.logs[argument] = symbol
-    return symbol
-
-
-def exp_atom(argument: sp.Expr, atoms: Atoms) -> sp.Expr:
-    """exp(argument) with whole multiples of logarithms pulled out: exp(x + c log A) = exp(x) A**c."""
-    factor, rest = sp.Integer(1), sp.Integer(0)
-    for term in sp.Add.make_args(sp.expand(argument, log=False)):
-        coefficient, inner = term.as_independent(sp.log, as_Add=False)
-        if isinstance(inner, sp.log) and coefficient.is_Integer:
-            factor *= inner.args[0] ** coefficient
-        else:
-            rest += term
-    if rest == 0:
-        return factor
-    for known, symbol in atoms.exps.items():
-        if sp.cancel(known - rest) == 0:
-            return factor * symbol
-        if sp.cancel(known + rest) == 0:
-            return factor / symbol
-    symbol = sp.Dummy(f"E{len(atoms.exps)}", positive=True)
-    atoms.exps[rest] = symbol
-    atoms.positive[symbol] = ({"fact": "exp_positive", "of": text(rest)},
-                              {"fact": "exp_positive", "of": text(-rest)})
-    return factor * symbol
 
 
 def to_laurent(flat: sp.Expr, atoms: Atoms) -> Laurent:

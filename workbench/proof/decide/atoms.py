@@ -1,0 +1,127 @@
+"""The atoms of a goal: its symbols, and what stands for logarithms, exponentials, roots, absolute values, signs."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+import sympy as sp
+
+from workbench.proof.derive import SUM, Side, Size, Summed, expand_derivatives, formal_sums, unfold
+from workbench.proof.text import text
+
+Item = dict[str, object]
+
+
+@dataclass
+class Atoms:
+    """The generators of one goal; `positive` maps a generator to the factor items of it and of its inverse."""
+
+    generators: list[sp.Symbol] = field(default_factory=list)
+    positive: dict[sp.Symbol, tuple[Item, Item | None]] = field(default_factory=dict)
+    nonnegative: dict[sp.Symbol, Item] = field(default_factory=dict)
+    logs: dict[sp.Expr, sp.Symbol] = field(default_factory=dict)
+    exps: dict[sp.Expr, sp.Symbol] = field(default_factory=dict)
+    squares: dict[sp.Symbol, tuple[sp.Expr, Item]] = field(default_factory=dict)  # abs or root: itself, its fact
+    sides: dict[sp.Symbol, sp.Expr] = field(default_factory=dict)
+    inverses: dict[sp.Symbol, sp.Expr] = field(default_factory=dict)
+    strict: list[tuple[sp.Expr, int]] = field(default_factory=list)
+    indexed: set[sp.Symbol] = field(default_factory=set)
+
+    def meanings(self) -> dict[sp.Symbol, sp.Expr]:
+        """What the generators for functions and inverses stand for."""
+        functions: dict[sp.Symbol, sp.Expr] = {s: itself for s, (itself, _) in self.squares.items()} | self.sides
+        functions |= {s: sp.exp(a.xreplace(functions)) for a, s in self.exps.items()}
+        functions |= {s: sp.log(a.xreplace(functions)) for a, s in self.logs.items()}
+        return functions | {s: 1 / known.xreplace(functions) for s, known in self.inverses.items()}
+
+    def index(self, generator: sp.Symbol) -> int:
+        """The generator's position, added when new."""
+        if generator not in self.generators:
+            self.generators.append(generator)
+        return self.generators.index(generator)
+
+
+def flatten(expr: sp.Expr, atoms: Atoms, flow: dict[sp.Expr, sp.Expr]) -> sp.Expr:
+    """The expression as a rational function of plain symbols; functions become atoms."""
+    flat = formal_sums(unfold(expand_derivatives(expr, flow)))
+    names = {i: sp.Symbol(str(i.base.label), real=True) for i in flat.atoms(sp.Indexed)}
+    atoms.indexed |= set(names.values())
+    flat = flat.xreplace(names)
+    flat = flat.replace(lambda e: isinstance(e, (Size, Side)) or (e.is_Pow and not e.exp.is_Integer),
+                        lambda e: square_atom(e, atoms))
+    flat = flat.xreplace({sp.E: sp.exp(1, evaluate=False)}).replace(sp.exp, lambda inner: exp_atom(inner, atoms))
+    return flat.replace(sp.log, lambda inner: log_atom(inner, atoms))
+
+
+def square_atom(itself: sp.Expr, atoms: Atoms) -> sp.Expr:
+    """abs, sign or a half power as an atom; what the squares of abs and sqrt are is a fact of the checker."""
+    itself = formal_sums(itself.xreplace(atoms.meanings()))
+    inner = itself.args[0]
+    if isinstance(itself, Side):
+        for symbol, known in atoms.sides.items():
+            for turn in (1, -1):
+                if sp.cancel(known.args[0] - turn * inner) == 0:
+                    return turn * symbol
+        symbol = sp.Dummy(f"S{len(atoms.sides)}", real=True)
+        atoms.sides[symbol] = itself
+        return symbol
+    size = isinstance(itself, Size)
+    power = 1 if size else 2 * itself.exp
+    for symbol, (known, _) in atoms.squares.items():
+        turns = (1, -1) if size else (1,)
+        before = formal_sums(known.args[0])
+        if isinstance(known, Size) == size and any(sp.cancel(before - t * inner) == 0 for t in turns):
+            return symbol**power
+    symbol = sp.Dummy(f"R{len(atoms.squares)}", nonnegative=True)
+    name, argument = "abs" if size else "sqrt", text(_with_sums(inner))
+    meaning = itself if size else sp.sqrt(_with_sums(inner))
+    atoms.squares[symbol] = (meaning, {"fact": f"{name}_square", "of": argument})
+    atoms.nonnegative[symbol] = {"fact": f"{name}_nonnegative", "of": argument}
+    return symbol**power
+
+
+def _with_sums(flat: sp.Expr) -> sp.Expr:
+    """The expression with its SUM * term as a sum that certificates can state."""
+    if not flat.has(SUM):
+        return flat
+    term = sp.expand(flat).coeff(SUM)
+    return sp.expand(flat - SUM * term) + Summed(term)
+
+
+def log_atom(argument: sp.Expr, atoms: Atoms) -> sp.Expr:
+    """log(argument) as an atom, up to sign: log(1/A) = -log(A)."""
+    for known, symbol in atoms.logs.items():
+        if sp.cancel(known - argument) == 0:
+            return symbol
+        if sp.cancel(known * argument) == 1:
+            return -symbol
+    symbol = sp.Dummy(f"L{len(atoms.logs)}", real=True)
+    atoms.logs[argument] = symbol
+    return symbol
+
+
+def exp_atom(argument: sp.Expr, atoms: Atoms) -> sp.Expr:
+    """exp(argument) with whole multiples of logarithms pulled out: exp(x + c log A) = exp(x) A**c."""
+    factor, rest = sp.Integer(1), sp.Integer(0)
+    for term in sp.Add.make_args(sp.expand(argument, log=False)):
+        coefficient, inner = term.as_independent(sp.log, as_Add=False)
+        if isinstance(inner, sp.log) and coefficient.is_Integer:
+            factor *= inner.args[0] ** coefficient
+        else:
+            rest += term
+    if rest == 0:
+        return factor
+    shift, moving = rest.as_independent(*rest.free_symbols, as_Add=True)
+    if moving != 0 and shift.is_Rational and shift != 0:
+        return factor * exp_atom(shift, atoms) * exp_atom(moving, atoms)
+    for known, symbol in atoms.exps.items():
+        if sp.cancel(known - rest) == 0:
+            return factor * symbol
+        if sp.cancel(known + rest) == 0:
+            return factor / symbol
+    symbol = sp.Dummy(f"E{len(atoms.exps)}", positive=True)
+    atoms.exps[rest] = symbol
+    plain = rest.xreplace(atoms.meanings())
+    atoms.positive[symbol] = ({"fact": "exp_positive", "of": text(plain)},
+                              {"fact": "exp_positive", "of": text(-plain)})
+    return factor * symbol

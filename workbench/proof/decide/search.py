@@ -1,0 +1,167 @@
+"""Search a proof of one relation: identity, cases of abs and sign, lemmas, combination, sums of squares."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import Any
+
+import sympy as sp
+
+from workbench.proof.claim import D, Goal, Relation, at_least, equal, greater
+from workbench.proof.decide.combination import find_combination
+from workbench.proof.decide.identity import find_identity
+from workbench.proof.decide.squares import find_squares
+from workbench.proof.derive import Side, Size, expand_derivatives, unfold
+from workbench.proof.text import assumptions, relation_text, text
+
+Proof = dict[str, Any]
+Given = tuple[Relation, ...]
+Found = tuple[Proof, str] | None
+
+MOST_CASES = 6  # expressions whose sign is split, one inside the other
+EMPTY = at_least(0, 0)
+
+
+def prove_relation(goal: Goal, shown: Relation) -> Found:
+    """A proof of one relation of the goal, to be checked, and the method that found it; None when none was found."""
+    if goal.decreasing is None or find_identity(goal, shown):
+        return search(goal, shown, assumptions(goal), goal.lemmas)
+    return _by_decrease(goal, shown)
+
+
+def search(goal: Goal, shown: Relation, given: Given, lemmas: Given = (), depth: int = 0) -> Found:
+    """A proof of a relation from the relations given, in the order in which the checker holds them.
+
+    Of the goal itself only its flow and its facts are used.
+    """
+    if shown.operator in ("==", ">=", "<=") and find_identity(goal, shown):
+        return {"rule": "identity"}, "identity"
+    inspected = _inspected((shown, *given), goal)
+    if inspected is not None and depth < MOST_CASES:
+        here, *rest = (_carried(r, goal) for r in (shown, *lemmas, *given))
+        found = _by_cases(replace(goal, flow={}), here, tuple(rest[len(lemmas):]), tuple(rest[:len(lemmas)]),
+                          *inspected, depth)
+        if found is not None:
+            return found
+    return _by_lemmas(goal, shown, given, lemmas) or _by_contradiction(goal, shown, given)
+
+
+def _by_contradiction(goal: Goal, shown: Relation, given: Given) -> Found:
+    """Where the relation fails the assumptions cannot all hold; finds what needs a division by the goal's margin."""
+    if shown.operator not in (">=", "<="):
+        return None
+    impossible = find_combination(goal, greater(0, 0), (*given, greater(-shown.margin, 0)))
+    if impossible is None:
+        return None
+    here: Proof = {"rule": "combination", "terms": [{"coefficient": "1", "factors": [{"assume": len(given)}]}]}
+    return {"rule": "cases", "of": text(shown.margin), "positive": here, "zero": here,
+            "negative": impossible | {"rule": "contradiction"}}, "contradiction"
+
+
+def _carried(relation: Relation, goal: Goal) -> Relation:
+    """The relation with derivatives carried out and abs, sign, Max and Min as Size and Side."""
+    left, right = (unfold(expand_derivatives(side, goal.flow)) for side in (relation.left, relation.right))
+    return Relation(left, relation.operator, right)
+
+
+def _inspected(relations: Given, goal: Goal) -> tuple[sp.Expr, bool] | None:
+    """The innermost expression whose abs or sign is taken, and whether its sign is; that of the goal first."""
+    for relation in relations:
+        carried = _carried(relation, goal)
+        parts = [side.atoms(Size, Side) for side in (carried.left, carried.right)]
+        inner = sorted({a for a in set().union(*parts) if not a.args[0].has(Size, Side)}, key=sp.default_sort_key)
+        if inner:
+            argument = inner[0].args[0]
+            return argument, any(isinstance(a, Side) and _turn(a.args[0], argument) for a in inner)
+    return None
+
+
+def _turn(one: sp.Expr, other: sp.Expr) -> int:
+    """1 when the expressions are equal, -1 when they are opposite, else 0."""
+    return 1 if sp.cancel(one - other) == 0 else -1 if sp.cancel(one + other) == 0 else 0
+
+
+def _by_cases(goal: Goal, shown: Relation, given: Given, lemmas: Given, argument: sp.Expr, signed: bool,
+              depth: int) -> Found:
+    """One proof for each sign of the argument."""
+    cases: dict[str, tuple[Relation, int, int | None]] = (
+        {"positive": (greater(argument, 0), 1, 1), "zero": (equal(argument, 0), 1, 0),
+         "negative": (greater(-argument, 0), -1, -1)} if signed else
+        {"nonnegative": (at_least(argument, 0), 1, None), "nonpositive": (at_least(-argument, 0), -1, None)})
+    proof: Proof = {"rule": "cases", "of": text(argument)}
+    for name, (case, direction, sign) in cases.items():
+        here, *rest = (Relation(_settled(r.left, argument, direction, sign), r.operator,
+                                _settled(r.right, argument, direction, sign)) for r in (shown, *lemmas, *given))
+        found = _search_case(goal, here, (*rest[len(lemmas):], case), tuple(rest[:len(lemmas)]), depth + 1)
+        if found is None:
+            return None
+        proof[name] = found
+    return proof, "cases and combination"
+
+
+def _settled(expr: sp.Expr, argument: sp.Expr, direction: int, sign: int | None) -> sp.Expr:
+    """The expression where the argument's abs is direction * argument and its sign, when one is given, is known."""
+    values: dict[sp.Expr, sp.Expr] = {}
+    for atom in expr.atoms(Size, Side):
+        turn = _turn(atom.args[0], argument)
+        if turn and isinstance(atom, Size):
+            values[atom] = direction * argument
+        elif turn and sign is not None:
+            values[atom] = sp.Integer(turn * sign)
+    return expr.xreplace(values)
+
+
+def _search_case(goal: Goal, shown: Relation, given: Given, lemmas: Given, depth: int) -> Proof | None:
+    """A proof of a case, or of its impossibility."""
+    impossible = find_combination(goal, greater(0, 0), given, quick=True)
+    if impossible is not None:
+        return impossible | {"rule": "contradiction"}
+    found = search(goal, shown, given, lemmas, depth)
+    return None if found is None else found[0]
+
+
+def _by_lemmas(goal: Goal, shown: Relation, given: Given, lemmas: Given) -> Found:
+    """First every lemma that can be had, then the relation from them and what is given."""
+    steps: list[tuple[Relation, Proof]] = []
+    for lemma in (*lemmas, *_signs_of_logs((shown, *given))):
+        known = tuple(r for r, _ in steps)
+        # Only what shares a symbol with the lemma is offered, so that side lemmas stay cheap; positions stay.
+        near = tuple(r if lemma.margin.free_symbols & r.margin.free_symbols else EMPTY for r in (*given, *known))
+        proof = find_combination(goal, lemma, near) or (find_squares(goal, lemma, near) if lemma in lemmas else None)
+        if proof is not None:
+            steps.append((lemma, proof))
+    final = find_combination(goal, shown, (*given, *(r for r, _ in steps)))
+    if final is None and steps:  # what does not help can still make a search too large
+        steps, final = [], find_combination(goal, shown, given)
+    method = "combination"
+    if final is None:
+        final, method = find_squares(goal, shown, given), "sum of squares"
+    if final is None:
+        return None
+    method = f"lemmas and {method}" if steps else method
+    for lemma, proof in reversed(steps):
+        final = {"rule": "cut", "lemma": relation_text(lemma), "proof": proof, "then": final}
+    return final, method
+
+
+def _signs_of_logs(relations: Given) -> list[Relation]:
+    """log A >= 0 for every logarithm in the relations: worth trying as a lemma."""
+    logs = sorted({log for r in relations for log in r.margin.atoms(sp.log)}, key=sp.default_sort_key)
+    return [at_least(log, 0) for log in logs if relations[0].margin != log]
+
+
+def _by_decrease(goal: Goal, shown: Relation) -> Found:
+    """A bound from a function that does not increase along the flow."""
+    function = sp.Add(goal.decreasing)
+    # As the checker will see it: assumptions of the moving symbols emptied, those that always hold appended.
+    moving = {s for s, rate in goal.flow.items() if rate != 0}
+    moving |= {s for rate in goal.flow.values() for s in rate.free_symbols} - set(goal.flow)
+    given = assumptions(goal)
+    kept = tuple(EMPTY if r.margin.free_symbols & moving else r for r in given)
+    decrease = search(goal, at_least(-D(function), 0), (*kept, *goal.always))
+    start = function.xreplace(goal.initial)
+    final = search(goal, shown, (*given, at_least(start, function)))
+    if decrease is None or final is None:
+        return None
+    return {"rule": "nonincreasing", "function": text(function), "decrease": decrease[0], "then": final[0]}, (
+        "a function that does not increase, and combination")
