@@ -1,4 +1,10 @@
-"""Goals evaluated without the package's checker, printer or derivatives: what the proofs are tested against."""
+"""Goals evaluated without the package's checker, printer or derivatives: what the proofs are tested against.
+
+Deciders never see this file, and it takes nothing from them: sampling, tight points, local search and exact
+evaluation are its own.
+"""
+
+from functools import reduce
 
 import mpmath
 import numpy as np
@@ -7,6 +13,7 @@ import sympy as sp
 from workbench.proof.claim import D
 
 SHARE_OF_SPECIAL = 0.3
+CLEAR = {"==": 1e-9, "<=": 1e-9, ">=": 1e-9, "<": -1e-12, ">": -1e-12, "!=": 1e-12}  # a failure not of rounding alone
 SPECIAL = np.array([0.0, 1.0, -1.0, 0.5, 2.0])
 ROUNDING = 1e-7
 ENOUGH_DIGITS, MOST_DIGITS = 400, 4_000  # what is still zero then is zero
@@ -28,7 +35,10 @@ class Evaluated:
             return self._differentiated(difference, flow), relation.operator
 
         self.shown = [margin(r) for r in goal.show]
-        self.given = [margin(r) for r in (*goal.assume, *goal.always)]
+        # What stands under D must be defined too: D(log(-x)) says nothing, though its derivative is a number.
+        logs = {self._plain(log.args[0]) for r in (*goal.show, *goal.assume, *goal.always)
+                for side in (r.left, r.right) for d in side.atoms(D) for log in d.atoms(sp.log)}
+        self.given = [margin(r) for r in (*goal.assume, *goal.always)] + [(a, ">") for a in sorted(logs, key=str)]
         self.equations = {self._plain(s): self._plain(v) for s, v in goal.initial.items()}
         self.equations |= {r.left: self._plain(r.right) for r in goal.assume
                            if r.operator == "==" and r.left.is_Symbol and not r.right.has(r.left)}
@@ -39,6 +49,7 @@ class Evaluated:
         self.given += [(s, ">=") for s in self.symbols if s.is_nonnegative and not s.is_positive]
         self.fast = sp.lambdify(self.symbols, [e for e, _ in (*self.given, *self.shown)], modules="numpy", cse=True)
         self.exact = sp.lambdify(self.symbols, [e for e, _ in (*self.given, *self.shown)], modules="mpmath")
+        self._tight, self._functions = None, {}
 
     def _plain(self, expr):
         def written_out(term, limits):
@@ -55,24 +66,37 @@ class Evaluated:
 
     def points(self, rng, count):
         """Random points as columns by symbol, of several magnitudes, that meet every assumption."""
+        columns, outcomes, good = self._settled(self._drawn(rng, count), self.equations, count)
+        return [c[good] for c in columns], [o[good] for o in outcomes]
+
+    def _drawn(self, rng, count):
         values = {}
         for symbol in self.symbols:
             drawn = rng.normal(size=count) * 10.0 ** rng.uniform(-1.5, 1.5, size=count)
             drawn = np.where(rng.random(count) < SHARE_OF_SPECIAL, rng.choice(SPECIAL, count), drawn)
             values[symbol] = np.abs(drawn) if symbol.is_nonnegative else drawn
-        for _ in self.equations:  # one may stand in the other
-            for symbol, expr in self.equations.items():
-                names = sorted(expr.free_symbols, key=str)
+        return values
+
+    def _settled(self, values, equations, count):
+        """(columns, values of what is shown, where all assumptions hold), after the equations are put in."""
+        for _ in equations:  # one may stand in the other
+            for symbol, expr in equations.items():
+                names, function = self._compiled(expr)
                 with np.errstate(all="ignore"):
-                    values[symbol] = np.broadcast_to(sp.lambdify(names, expr, modules="numpy")(
-                        *(values[n] for n in names)), count).astype(float)
+                    values[symbol] = np.broadcast_to(function(*(values[n] for n in names)), count).astype(float)
         columns = [values[s] for s in self.symbols]
         outcomes = self._evaluate(columns, count)
         good = np.ones(count, bool)
         for (_, operator), value in zip(self.given, outcomes, strict=False):
-            scale = ROUNDING if operator in ("==",) else 0.0
+            scale = ROUNDING if operator in ("==",) else 1e-12 if equations is not self.equations else 0.0
             good &= np.isfinite(value) & self._holds(operator, value, scale)
-        return [c[good] for c in columns], [o[good] for o in outcomes[len(self.given):]]
+        return columns, outcomes[len(self.given):], good
+
+    def _compiled(self, expr):
+        if expr not in self._functions:
+            names = sorted(expr.free_symbols, key=str)
+            self._functions[expr] = names, sp.lambdify(names, expr, modules="numpy")
+        return self._functions[expr]
 
     def _evaluate(self, columns, count):
         with np.errstate(all="ignore"):
@@ -103,32 +127,106 @@ class Evaluated:
             digits *= 10
         return all(verdicts[:len(self.given)]), all(verdicts[len(self.given):])
 
-    def falsifying_point(self, seed, batches=6, count=8_000):
-        """A point that meets the assumptions, where a shown relation is false to 50 digits; or None."""
+    def falsifying_point(self, seed, batches=6, count=8_000, tight=0):
+        """A point that meets the assumptions, where a shown relation is false to 50 digits; or None.
+
+        `tight` more batches put points where two symbols agree, or a relation of the goal is an equality,
+        and go downhill from there.
+        """
         rng = np.random.default_rng(seed)
-        for _ in range(batches):
-            columns, outcomes = self.points(rng, count)
-            suspects = np.zeros(len(outcomes[0]), bool)
-            for (_, operator), value in zip(self.shown, outcomes, strict=True):
-                with np.errstate(invalid="ignore"):
-                    suspects |= np.isfinite(value) & ~self._holds(operator, value, 0.0)
-            for row in np.flatnonzero(suspects)[:40]:
-                point = {str(s): sp.Rational(float(c[row])) for s, c in zip(self.symbols, columns, strict=True)}
-                try:
-                    for symbol, expr in self.equations.items():
-                        point[str(symbol)] = expr.xreplace({s: point[str(s)] for s in expr.free_symbols})
-                    assumed, shown = self.holds_at(point)
-                except (ZeroDivisionError, TypeError, ValueError):
-                    continue
-                if assumed and not shown:
-                    return point
+        for batch in range(batches + tight):
+            equations, size = self.equations, count
+            if batch >= batches:
+                size = max(count // 8, 200)
+                equations = self._tied(rng)
+            values = self._drawn(rng, size)
+            if batch >= batches and batch % 2:
+                values = self._downhill(values, equations, size, rng)
+            columns, outcomes, good = self._settled(values, equations, size)
+            found = self._confirmed(columns, outcomes, good, equations, 40 if batch < batches else 8)
+            if found is not None:
+                return found
         return None
+
+    def _confirmed(self, columns, outcomes, good, equations, most):
+        suspects, worst = np.zeros(len(good), bool), np.full(len(good), -np.inf)
+        for (_, operator), value in zip(self.shown, outcomes, strict=True):
+            with np.errstate(invalid="ignore"):
+                suspects |= np.isfinite(value) & ~self._holds(operator, value, CLEAR[operator])
+                worst = np.maximum(worst, np.nan_to_num(self._excess(operator, value), nan=-np.inf))
+        rows = np.flatnonzero(suspects & good)
+        for row in rows[np.argsort(-worst[rows], kind="stable")][:most]:
+            point = {str(s): sp.Rational(float(c[row])) for s, c in zip(self.symbols, columns, strict=True)}
+            try:
+                for _ in equations:
+                    for symbol, expr in equations.items():
+                        point[str(symbol)] = expr.xreplace({s: point[str(s)] for s in expr.free_symbols})
+                assumed, shown = self.holds_at(point)
+            except (ZeroDivisionError, TypeError, ValueError):
+                continue
+            if assumed and not shown:
+                return point
+        return None
+
+    @staticmethod
+    def _excess(operator, value):
+        """By how much a relation fails (negative: holds)."""
+        return {"==": abs(value), "!=": -abs(value)}.get(operator, value if operator in ("<", "<=") else -value)
+
+    def _tied(self, rng):
+        """The goal's equations, and one or two more that hold on a border or where symbols agree."""
+        if self._tight is None:
+            self._tight = list(self._borders())
+        fixed = dict(self.equations)
+        for _ in range(int(rng.integers(1, 4))):
+            if self._tight:
+                symbol, expr = self._tight[int(rng.integers(len(self._tight)))]
+                used = {s for e in fixed.values() for s in e.free_symbols} | fixed.keys()
+                if symbol not in used and not expr.free_symbols & fixed.keys():
+                    fixed[symbol] = expr
+        return fixed
+
+    def _borders(self):
+        """(symbol, expression) that make a relation an equality, where it is linear in the symbol; x = y; x = 0."""
+        for expr, operator in (*self.given, *self.shown):
+            for symbol in sorted(expr.free_symbols, key=str):
+                slope = sp.diff(expr, symbol)
+                if operator != "!=" and not slope.has(symbol) and slope != 0:
+                    yield symbol, -expr.xreplace({symbol: sp.Integer(0)}) / slope
+        for one in self.symbols:
+            for other in self.symbols:
+                if one != other:
+                    yield from ((one, other), (one, -other))
+            yield from ((one, sp.Integer(0)), (one, sp.Integer(1)))
+
+    def _downhill(self, values, equations, count, rng, steps=25):
+        """Random steps that are kept where they bring a shown relation nearer to failing."""
+        def height(trial):
+            _, outcomes, good = self._settled(dict(trial), equations, count)
+            excess = [np.nan_to_num(self._excess(o, v), nan=-np.inf) for (_, o), v in zip(
+                self.shown, outcomes, strict=True)]
+            return np.where(good, reduce(np.maximum, excess), -np.inf)
+
+        best = height(values)
+        for _ in range(steps):
+            moved = {}
+            for symbol, column in values.items():
+                step = 1 + rng.normal(size=count) * 10.0 ** rng.uniform(-3, 0, size=count)
+                moved[symbol] = np.where(rng.random(count) < 0.5, column * step, column)
+                if symbol.is_nonnegative:
+                    moved[symbol] = np.abs(moved[symbol])
+            reached = height(moved)
+            better = reached > best
+            best = np.where(better, reached, best)
+            values = {s: np.where(better, moved[s], c) for s, c in values.items()}
+        return values
 
 
 def model_breaks(goal, functions, point):
     """Whether functions of time meet what always holds, start where they must and break what is shown, on a grid."""
     time = goal.eventually
-    values = {s: sp.sympify(functions[str(s)], locals={str(time): time}) for s in goal.flow if s != time}
+    words = {str(s): s for s in (*goal.symbols(), time)}
+    values = {s: sp.sympify(functions[str(s)], locals=words) for s in goal.flow if s != time}
     values |= {goal.flow[s]: sp.diff(f, time) for s, f in list(values.items())}
     constants = {s: sp.Rational(str(point.get(str(s), 1))) for s in goal.symbols() if s not in (*values, time)}
 

@@ -199,6 +199,10 @@ ATTACKS = {
     "initial values that move": (
         proved("x <= y", DECREASE, example=UNRELATED | {"y": "0"}, flow={"x": "w", "y": "1"}, always=["w <= 0"],
                initial={"x": "y", "y": "0"}), "initial values are constants"),
+    "a constant that starts elsewhere": (
+        proved("x <= x0 - 5", {"rule": "nonincreasing", "function": "x - 5*c", "decrease": combination(
+            ("1", {"assume": 0})), "then": combination(("1", {"assume": 0}))}, example=UNRELATED | {"c": "0"},
+               flow={"x": "w", "c": "0"}, always=["w <= 0"], initial={"x": "x0", "c": "c + 1"}), "initial value of c"),
     "a rate that is read before the other": (
         proved("D(x) == 0", IDENTITY, example={"x": "1"}, flow={"x": "D(y)", "y": "1"}), "given by a derivative"),
     "a function that is undefined on the way": (

@@ -40,8 +40,15 @@ REFUSED = {
     "infinity": lambda: Goal((at_most(x, sp.oo),)),
     "not a number": lambda: Goal((at_most(x, sp.nan),)),
     "an imaginary number": lambda: Goal((equal(sp.I * x, 0),)),
-    "a root": lambda: Goal((at_least(sp.sqrt(x), 0),)),
-    "an absolute value": lambda: Goal((at_least(sp.Abs(x), 0),)),
+    "a third root": lambda: Goal((at_least(sp.cbrt(positive_x), 0),)),
+    "a root of a negative number": lambda: Goal((at_least(sp.sqrt(-2), 0),)),
+    "a whole part": lambda: Goal((at_least(x, sp.floor(x)),)),
+    **{f"a symbol known to be {known}": lambda known=known: Goal((at_least(sp.Symbol("x", **{known: True}), 0),))
+       for known in ("negative", "nonpositive", "integer", "nonzero", "zero", "extended_positive", "imaginary")},
+    "indexed symbols known to be positive": lambda: Goal((at_least(sp.Sum(
+        sp.IndexedBase("W", positive=True)[j], (j, 1, n)), 0),)),
+    "the number of members as a number": lambda: Goal((equal(sp.Sum(W[j] - W[j] + 1, (j, 1, n)), n),)),
+    "a function's name": lambda: Goal((at_least(sp.Symbol("sqrt"), 0),)),
     "a power of unknown exponent": lambda: Goal((at_least(positive_x**y, 0),)),
     "a sine": lambda: Goal((at_most(sp.sin(x), 1),)),
     "a comparison inside": lambda: Goal((at_least(sp.Piecewise((x, x > 0), (0, True)), 0),)),

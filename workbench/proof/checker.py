@@ -282,10 +282,9 @@ class Context:
         if name == "tanh":
             double = self._exp(number(2) * argument)
             return (double + number(-1)) * (double + number(1)).inverse()
-        if argument.den == constant(1) and set(argument.num) <= {()}:
-            rational = self._of_number(name, argument.num.get((), Fraction(0)))
-            if rational is not None:
-                return number(rational)
+        if argument.den == constant(1) and set(argument.num) <= {()} and (
+                rational := self._of_number(name, argument.num.get((), Fraction(0)))) is not None:
+            return number(rational)
         for atom, (kind, known) in self.functions.items():
             if kind == name and same(known, argument):
                 return symbol(atom)
@@ -688,10 +687,8 @@ def _factor(given: Relations, item: dict[str, Any]) -> Sign:
             return context.call("exp", _argument(given, text)), ">"
         case {"fact": "enclosure", "of": str(text)}:
             value = context.read(text)
-            if symbols_of(context, value):  # a sum is no number either: its bounds are those of one neuron
-                raise CertificateError(f"not a number: {text}")
-            if bounds(context, value)[0] < 0:
-                raise CertificateError(f"not enclosed above zero: {text}")
+            if symbols_of(context, value) or bounds(context, value)[0] < 0:  # bounds of a sum are those of one neuron
+                raise CertificateError(f"not a number that is enclosed above zero: {text}")
             return value, ">="
         case {"fact": "abs_square", "of": str(text)}:
             size, inner = context.call("abs", _argument(given, text)), context.read(text)
@@ -928,6 +925,9 @@ def check_proved(goal: dict[str, Any], certificate: dict[str, Any]) -> None:
     for text in (*goal.get("assume", []), *goal.get("always", [])):
         if not holds(context, text, point):
             raise CertificateError(f"the example breaks the assumption {text}")
+    for name, value in given.initial.items():
+        if context.flow[name].is_zero() and any(bounds(context, substitute(context, value + -symbol(name), point))):
+            raise CertificateError(f"the example breaks the initial value of {name}, which never changes")
     if not goal["show"] or len(goal["show"]) != len(certificate["proofs"]):
         raise CertificateError("one proof is needed for every relation shown")
     for text, proof in zip(goal["show"], certificate["proofs"], strict=True):

@@ -16,7 +16,8 @@ from scipy.sparse import csc_array, csr_array, hstack, vstack
 
 from workbench.proof.decide.gram import Program
 
-RESIDUAL, REFINED, TOLERANCE = 1e-5, 1e-9, 1e-11
+RESIDUAL, REFINED = 1e-5, 1e-9
+ROUGH, FINE, NEARLY = 1e-8, 1e-11, 1e-6
 MOST_STEPS = 20
 
 Vector = np.ndarray
@@ -38,23 +39,30 @@ def _right(program: Program) -> Vector:
 
 
 def centre(program: Program) -> tuple[Vector | None, float]:
-    """Unknowns with the smallest eigenvalue as large as it can be, at most 1, and that eigenvalue; None if none."""
+    """Unknowns with the smallest eigenvalue as large as it can be, at most 1, and that eigenvalue; None if none.
+
+    Only where that is nearly zero are they as accurate as can be: the last digits differ from machine to machine.
+    """
     cost = np.append(np.zeros(len(program.columns)), -1.0)
-    values, scale = _optimum(program, cost, clarabel.NonnegativeConeT(1), 1.0)
-    if values is None:
-        return None, 0.0
-    margin = min((float(np.linalg.eigvalsh(q)[0]) for q in grams(program, values)), default=1.0)
-    return values * scale, margin
+    for tolerance in (ROUGH, FINE):
+        values, scale = _optimum(program, cost, clarabel.NonnegativeConeT(1), 1.0, tolerance)
+        if values is None:
+            return None, 0.0
+        margin = min((float(np.linalg.eigvalsh(q)[0]) for q in grams(program, values)), default=1.0)
+        if abs(margin) > NEARLY or tolerance == FINE:
+            return values * scale, margin
+    return None, 0.0
 
 
 def lean(program: Program) -> Vector | None:
     """Unknowns with Gram matrices of small trace, so that what can be done without is nearly zero; None if none."""
     cost = [1.0 + len(program.blocks[k].weight.items) if k >= 0 and i == j else 0.0 for k, i, j in program.places]
-    values, scale = _optimum(program, np.array([*cost, 0.0]), clarabel.ZeroConeT(1), 0.0)
+    values, scale = _optimum(program, np.array([*cost, 0.0]), clarabel.ZeroConeT(1), 0.0, ROUGH)
     return None if values is None else values * scale
 
 
-def _optimum(program: Program, cost: Vector, cone: Any, bound: float) -> tuple[Vector | None, float]:
+def _optimum(program: Program, cost: Vector, cone: Any, bound: float,
+             tolerance: float) -> tuple[Vector | None, float]:
     """The unknowns of least cost, and a factor they lack.
 
     The last cost is that of a number t: the Gram matrices are at least t times the identity, bound - t is in the cone.
@@ -83,17 +91,18 @@ def _optimum(program: Program, cost: Vector, cone: Any, bound: float) -> tuple[V
     for independent in (False, True):
         kept = _independent(matrix) if independent else np.arange(len(right))
         bounds = np.concatenate([right[kept], np.zeros(height), [bound]])
-        values = _answer(vstack([above[kept], below]), bounds, cost, [clarabel.ZeroConeT(len(kept)), *cones])
+        values = _answer(vstack([above[kept], below]), bounds, cost, [clarabel.ZeroConeT(len(kept)), *cones],
+                         tolerance)
         if values is not None and np.abs(matrix @ values - right).max(initial=0.0) <= RESIDUAL:
             return values, scale
     return None, scale
 
 
-def _answer(matrix: csr_array, bounds: Vector, cost: Vector, cones: list[Any]) -> Vector | None:
+def _answer(matrix: csr_array, bounds: Vector, cost: Vector, cones: list[Any], tolerance: float) -> Vector | None:
     """What clarabel answers, whatever it thinks of it, without the last unknown; None when it is no number."""
     settings = clarabel.DefaultSettings()
     settings.verbose, settings.max_threads, settings.direct_solve_method, settings.max_iter = False, 1, "qdldl", 100
-    settings.tol_gap_abs = settings.tol_gap_rel = settings.tol_feas = TOLERANCE
+    settings.tol_gap_abs = settings.tol_gap_rel = settings.tol_feas = tolerance
     nothing = csc_array((len(cost), len(cost)))
     answer = clarabel.DefaultSolver(nothing, cost, matrix.tocsc(), bounds, cones, settings).solve()
     values = np.array(answer.x[:-1])
@@ -132,12 +141,9 @@ def refined(program: Program, multiples: Vector, factors: list[Vector]) -> list[
         before = size
         # The shortest step, by the equations among the rows: few, while the factors' entries are many.
         jacobian = matrix @ slope
-        normal = jacobian @ jacobian.T
-        normal[np.diag_indices_from(normal)] += 1e-14 * np.trace(normal)
-        try:
-            step = jacobian.T @ np.linalg.solve(normal, error)
-        except np.linalg.LinAlgError:
-            return None
+        eigenvalues, vectors = np.linalg.eigh(jacobian @ jacobian.T)
+        kept = eigenvalues > 1e-12 * eigenvalues[-1]
+        step = jacobian.T @ (vectors[:, kept] @ ((vectors[:, kept].T @ error) / eigenvalues[kept]))
         multiples = multiples + step[:free]
         factors = [f + step[offsets[k]:offsets[k + 1]].reshape(f.shape) for k, f in enumerate(factors)]
     return factors if size < REFINED else None

@@ -21,7 +21,7 @@ LOOKS = 30
 SAMPLES = (sp.Integer(0), sp.Rational(1, 2), sp.Integer(1), sp.Integer(100))  # of the duration; `always` goes on
 
 
-def find_path(goal: Goal, verdict: Verdict, seed: int) -> dict[str, Any] | None:
+def find_path(goal: Goal, verdict: Verdict, seed: int, quick: bool = False) -> dict[str, Any] | None:
     """A certificate with a point that the flow reaches from its initial values along a straight line, or None."""
     moving = {s for s, rate in goal.flow.items() if rate != 0}
     curved = any(rate.free_symbols & moving for rate in goal.flow.values())
@@ -33,7 +33,7 @@ def find_path(goal: Goal, verdict: Verdict, seed: int) -> dict[str, Any] | None:
     duration, time = (sp.Symbol(next(n for n in (name, f"{name}_", f"{name}__") if n not in taken), **sign)
                       for name, sign in (("duration", {"positive": True}), ("time", {"real": True})))
     record = goal_text(goal)
-    for point in _ends(goal, duration, seed):
+    for point in _ends(goal, duration, seed, quick):
         certificate = _certificate(goal, record, point, duration, time)
         if certificate is not None:
             certificate["verdict"] = verdict
@@ -53,13 +53,13 @@ def _along(goal: Goal, relation: Relation, time: sp.Expr) -> Relation:
     return Relation(left, relation.operator, right)
 
 
-def _ends(goal: Goal, duration: sp.Symbol, seed: int) -> list[Point]:
+def _ends(goal: Goal, duration: sp.Symbol, seed: int, quick: bool) -> list[Point]:
     """Points by constants, inputs and the duration at which the goal at the end of the line seems to fail."""
     held = [_along(goal, r, part * duration) for r in goal.always for part in SAMPLES]
     try:
         at_end = Goal(tuple(_along(goal, r, duration) for r in goal.show),
                       (*(_along(goal, r, duration) for r in goal.assume), *held, *_signs(goal)))
-        return list(islice(proposals(at_end, seed, break_shown=True), LOOKS))
+        return list(islice(proposals(at_end, seed, True, quick), LOOKS))
     except ClaimError:
         return []
 

@@ -10,6 +10,7 @@ from __future__ import annotations
 import random
 from collections.abc import Iterator
 from fractions import Fraction
+from functools import cache
 from itertools import count, islice
 from typing import Any
 
@@ -24,7 +25,7 @@ from workbench.proof.decide.ties import Family, families
 
 SPECIAL = (Fraction(0), Fraction(1), Fraction(-1), Fraction(1, 2), Fraction(2), Fraction(-2), Fraction(3))
 SCALES = (Fraction(1, 100), Fraction(1, 10), Fraction(1), Fraction(10), Fraction(100))
-FIRST_BLOCKS = (40, 160, 1_800)
+FIRST_BLOCKS = (40, 160, 400, 1_400)  # `quick` does without the last
 POINTS = 600
 FAMILIES, CLIMBS = 60, 8
 LOOKS = 5  # exact looks for each batch of points
@@ -38,7 +39,7 @@ def proposals(goal: Goal, seed: int, break_shown: bool, quick: bool = False) -> 
     Raises ClaimError for a derivative that does not exist everywhere.
     """
     landscape = Landscape(goal)
-    yield from _familiar(goal, landscape, seed, break_shown)
+    yield from _familiar(goal, landscape, seed, break_shown, quick)
     if quick:
         return
     chance, rng = random.Random(seed), np.random.default_rng(seed)
@@ -69,11 +70,11 @@ def _worth_a_look(landscape: Landscape, family: Family, chosen: dict[sp.Symbol, 
             yield point
 
 
-def _familiar(goal: Goal, landscape: Landscape, seed: int, break_shown: bool) -> Iterator[Point]:
+def _familiar(goal: Goal, landscape: Landscape, seed: int, break_shown: bool, quick: bool) -> Iterator[Point]:
     """Special values and a few random ones."""
     source = sample_points(goal, seed)
     names = [name_of(s) for s in goal.symbols()]
-    for block in FIRST_BLOCKS:
+    for block in FIRST_BLOCKS[:-1] if quick else FIRST_BLOCKS:
         points = list(islice(source, block))
         violation, excess = landscape.look([np.array([float(p[name]) for p in points]) for name in names])
         passes = violation == 0
@@ -89,18 +90,18 @@ def sample_points(goal: Goal, seed: int) -> Iterator[Point]:
     A symbol that an assumption sets equal to an expression of others takes that value.
     """
     rng = random.Random(seed)
-    symbols = goal.symbols()
+    symbols = [(name_of(s), bool(s.is_positive), bool(s.is_nonnegative)) for s in goal.symbols()]
     equations = [r for r in goal.assume if r.operator == "==" and r.left.is_Symbol
                  and not r.right.has(r.left)]
     # Only the first instant is known to be reached, so a counterexample stands there.
     equations += [equal(s, value) for s, value in goal.initial.items()]
     for attempt in count():
         point: Point = {}
-        for symbol in symbols:
+        for name, positive, nonnegative in symbols:
             value = rng.choice(SPECIAL) if rng.random() < 0.5 or attempt < 50 else _random(rng)
-            if symbol.is_positive or symbol.is_nonnegative:
-                value = abs(value) or (Fraction(1) if symbol.is_positive else value)
-            point[name_of(symbol)] = value
+            if nonnegative:
+                value = abs(value) or (Fraction(1) if positive else value)
+            point[name] = value
         for relation in equations:
             right = relation.right.xreplace({
                 s: sp.Rational(point[name_of(s)].numerator, point[name_of(s)].denominator)
@@ -111,4 +112,9 @@ def sample_points(goal: Goal, seed: int) -> Iterator[Point]:
 
 
 def _random(rng: random.Random) -> Fraction:
-    return Fraction(rng.randint(-100, 100), 40) * rng.choice(SCALES)
+    return _scaled(rng.randint(-100, 100), rng.choice(SCALES))
+
+
+@cache
+def _scaled(fortieths: int, scale: Fraction) -> Fraction:
+    return Fraction(fortieths, 40) * scale

@@ -9,7 +9,7 @@ by that of the kernel's complement, in which positive definite Gram matrices are
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from fractions import Fraction
 
@@ -47,17 +47,20 @@ class Solution:
     factors: list[Fraction]
 
 
-def solve(program: Program, strict: bool) -> Solution | None:
-    """An exact solution of a program, with a positive strict weight if one is asked for, or None."""
-    solution = _solve(program, strict)
+def solve(program: Program, strict: bool, kernels: Callable[[Block], Rows]) -> Solution | None:
+    """An exact solution of a program, with a positive strict weight if one is asked for, or None.
+
+    kernels gives vectors that a block's Gram matrix is known to map to zero.
+    """
+    solution = _solve(program, strict, kernels)
     if solution is None or len(solution.squares) <= FEW or len(program.columns) > MANY:
         return solution
     smaller = _without_spare(program)
-    lighter = _solve(smaller, strict) if smaller is not None else None
+    lighter = _solve(smaller, strict, kernels) if smaller is not None else None
     return lighter if lighter is not None and len(lighter.squares) < len(solution.squares) else solution
 
 
-def _solve(program: Program, strict: bool) -> Solution | None:
+def _solve(program: Program, strict: bool, kernels: Callable[[Block], Rows]) -> Solution | None:
     """The same, with all that the program has; programs of lower rank are tried depth first, the likeliest before."""
     open_programs, solved = [iter((program,))], 0
     while open_programs and solved < MOST_SOLVED:
@@ -71,7 +74,7 @@ def _solve(program: Program, strict: bool) -> Solution | None:
                 solution = _rounded(current, values, margin > INSIDE, strict)
                 if solution is not None:
                     return solution
-                open_programs.append(_restrictions(current, values))
+                open_programs.append(_restrictions(current, values, kernels))
     return None
 
 
@@ -176,8 +179,11 @@ def weighted_squares(gram: Rows) -> list[tuple[Fraction, list[Fraction]]] | None
 # --- facial reduction ------------------------------------------------------------------------------------------
 
 
-def _restrictions(program: Program, values: Vector) -> Iterator[Program]:
+def _restrictions(program: Program, values: Vector, kernels: Callable[[Block], Rows]) -> Iterator[Program]:
     """Programs in the complement of what may be the Gram matrices' kernels, likeliest first; each is smaller."""
+    known = [_on_complement(block, kernels(block)) for block in program.blocks]
+    if any(len(a.basis) < len(b.basis) for a, b in zip(known, program.blocks, strict=True)):
+        yield Program(program.target, [block for block in known if block.basis], program.multiples)
     parts = [np.linalg.eigh(gram) for gram in grams(program, values)]
     size = max((float(eigenvalues[-1]) for eigenvalues, _ in parts), default=0.0)
     seen = {tuple(len(b.basis) for b in program.blocks)}
@@ -200,32 +206,47 @@ def _complement(block: Block, factor: Vector, surety: float) -> Block | None:
     """The block on the complement of the kernel of L L^T; None when that kernel is not rational."""
     size, rank = factor.shape
     vectors = np.linalg.svd(factor, full_matrices=True)[0] if rank else np.eye(size)
-    kernel, pivots = _echelon(vectors[:, rank:].T)
+    kernel, pivots = _echelon(vectors[:, rank:].T, surety / 10)
     if len(pivots) != size - rank:
         return None
     rows = [[simplest(float(x), surety) for x in row] for row in kernel]
     if any(x is None for row in rows for x in row):
         return None
+    return _without(block, [[x for x in row if x is not None] for row in rows], pivots)
+
+
+def _on_complement(block: Block, vectors: Rows) -> Block:
+    """The block on the complement of exact vectors."""
+    if not any(map(any, vectors)):
+        return block
+    table = [[sp.QQ(*x.as_integer_ratio()) for x in row] for row in vectors]
+    reduced, pivots = DomainMatrix(table, (len(table), len(block.basis)), sp.QQ).rref()
+    rows = [[Fraction(int(x.numerator), int(x.denominator)) for x in row]
+            for row in reduced.to_list()[:len(pivots)]]
+    return _without(block, rows, list(pivots))
+
+
+def _without(block: Block, rows: Rows, pivots: list[int]) -> Block:
+    """The block on the complement of the rows of a reduced echelon form."""
     basis = []
-    for j in (j for j in range(size) if j not in pivots):
+    for j in (j for j in range(len(block.basis)) if j not in pivots):
         value = block.basis[j]
         for pivot, row in zip(pivots, rows, strict=True):
-            entry = row[j]
-            if entry:
-                value = value - block.basis[pivot] * sp.QQ(*entry.as_integer_ratio())
+            if row[j]:
+                value = value - block.basis[pivot] * sp.QQ(*row[j].as_integer_ratio())
         basis.append(value)
     return Block(block.weight, tuple(basis))
 
 
-def _echelon(rows: Vector) -> tuple[Vector, list[int]]:
-    """The reduced row echelon form of rows of full rank, and its pivot columns."""
+def _echelon(rows: Vector, nothing: float) -> tuple[Vector, list[int]]:
+    """The reduced row echelon form of rows of full rank, and its pivot columns; smaller pivots count as nothing."""
     table, pivots = rows.copy(), list[int]()
     for column in range(table.shape[1]):
         done = len(pivots)
         if done == len(table):
             break
         best = done + int(np.argmax(np.abs(table[done:, column])))
-        if abs(table[best, column]) < 1e-5:
+        if abs(table[best, column]) < nothing:
             continue
         table[[done, best]] = table[[best, done]]
         table[done] /= table[done, column]

@@ -90,6 +90,11 @@ class Situation:
         return odd, self.ring.from_dict({tuple(n // 2 if i in self.signs else n for i, n in enumerate(e)):
                                          c / self._scale(e) for e, c in value.terms()})
 
+    def coordinate(self, place: int, root: float) -> float:
+        """A generator's value from that in the coordinates of programs."""
+        number = root * 2.0 ** (self.scales[place] if self.scales else 0)
+        return number**2 if place in self.signs else number
+
     def _scale(self, exponents: tuple[int, ...]) -> Any:
         return sp.QQ(2) ** sum(s * n for s, n in zip(self.scales, exponents, strict=False))
 
@@ -127,12 +132,12 @@ class Situation:
         signed = list(self.signs)
         points[:, signed] = np.abs(points[:, signed]) + 1e-3
         for known in self.known:
-            points = points[_values(self.substituted(known.value), points)[0] > 0]
-        values, sizes = _values(self.substituted(self.target), points)
+            points = points[values_at(self.substituted(known.value), points)[0] > 0]
+        values, sizes = values_at(self.substituted(self.target), points)
         return bool(np.any(values < -1e-9 * sizes))
 
 
-def _values(polynomial: Polynomial, points: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+def values_at(polynomial: Polynomial, points: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Values at points, and the sums of the terms' sizes; both of shape (points,)."""
     values, sizes = np.zeros(len(points)), np.zeros(len(points))
     for exponents, coefficient in polynomial.terms():

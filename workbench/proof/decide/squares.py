@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from fractions import Fraction
+from functools import cache
 from itertools import combinations, combinations_with_replacement
 from math import gcd, lcm
 from typing import Any
@@ -20,10 +21,11 @@ from sympy.polys.rings import PolyRing
 
 from workbench.proof.claim import Goal, Relation
 from workbench.proof.decide.atoms import Item
-from workbench.proof.decide.gram import Program, Shape, TooLargeError, Weight, assemble, support
-from workbench.proof.decide.rounding import Solution, solve
+from workbench.proof.decide.gram import Block, Program, Shape, TooLargeError, Weight, assemble, support
+from workbench.proof.decide.rounding import Rows, Solution, solve
 from workbench.proof.decide.semialgebraic import read_situation
 from workbench.proof.decide.situation import Polynomial, Signed, Situation
+from workbench.proof.decide.zeros import kernel_vectors, rational_zeros
 
 MOST_MULTIPLIERS, MOST_STRICT, MOST_PRODUCTS, MOST_TRADED = 12, 24, 20, 100
 MOST_TERMS, MOST_WORK = 250, 5_000  # terms of a target; unknowns of all programs tried for it
@@ -46,12 +48,17 @@ def _search(goal: Goal, shown: Relation, relations: tuple[Relation, ...]) -> dic
     situation = read_situation(goal, shown, relations)
     if situation is None or situation.false_somewhere():
         return None
+    zeros = cache(lambda: rational_zeros(situation))
+
+    def kernels(block: Block) -> Rows:
+        return kernel_vectors(situation, zeros(), block)
+
     work = 0
     for multiplier, program in _programs(situation):
         work += len(program.columns)
         if work > MOST_WORK:
             return None
-        solution = solve(program, situation.strict)
+        solution = solve(program, situation.strict, kernels)
         if solution is not None:
             proof = _proof(situation, multiplier, solution, program)
             if proof is not None:

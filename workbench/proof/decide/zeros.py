@@ -10,14 +10,14 @@ from __future__ import annotations
 from fractions import Fraction
 
 import numpy as np
-import sympy as sp
 
-from workbench.proof.decide.fractions_near import simplest
+from workbench.proof.decide.gram import Block
+from workbench.proof.decide.rounding import Rows, simplest
 from workbench.proof.decide.situation import Polynomial, Situation, values_at
 
 STARTS, STEPS = 48, 30
 MOST_TERMS, MOST_PLACES = 80, 6
-SURE = 1e-3
+SURE, SINGLE = 1e-3, 1e-6
 
 Point = dict[int, Fraction]
 
@@ -32,18 +32,28 @@ def rational_zeros(situation: Situation) -> list[Point]:
     rooted = situation.rooted(target)
     if len(places) > MOST_PLACES or len(rooted) > MOST_TERMS or any(k.sign == "==" for k in situation.known):
         return []
-    points: list[Point] = []
-    for row in _minima(rooted, places):
-        numbers = [situation.coordinate(i, x) for i, x in zip(places, row, strict=True)]
-        point = [simplest(x, SURE) for x in numbers]
-        exact = {i: x for i, x in zip(places, point, strict=True) if x is not None}
-        if len(exact) == len(places) and exact not in points and value(target, exact) == 0 and all(
-                _may_hold(situation.substituted(k.value), exact) for k in situation.known):
-            points.append(exact)
-    return sorted(points, key=lambda p: tuple(p.values()))
+    near = [[simplest(situation.coordinate(i, float(x)), SURE) for i, x in zip(places, row, strict=True)]
+            for row in _minima(rooted, places)]
+    candidates = sorted({tuple(x for x in numbers if x is not None) for numbers in near if None not in numbers})
+    points = [dict(zip(places, numbers, strict=True)) for numbers in candidates]
+    return [point for point in points if value_at(target, point) == 0
+            and all(_may_hold(situation.substituted(k.value), point) for k in situation.known)]
 
 
-def value(polynomial: Polynomial, point: Point) -> Fraction | None:
+def kernel_vectors(situation: Situation, zeros: list[Point], block: Block) -> Rows:
+    """Vectors that a block's Gram matrix must map to zero, since its weight is positive at zeros of the target."""
+    found: Rows = []
+    weight = situation.substituted(block.weight.stated)
+    parts = [situation.unrooted(b) for b in block.basis]
+    for point in zeros:
+        factor = value_at(weight, point)
+        values = [value_at(root, point) for _, root in parts]
+        if factor and all(point.get(i) for i in parts[0][0]):
+            found += [[v for v in values if v is not None]] if None not in values else []
+    return found
+
+
+def value_at(polynomial: Polynomial, point: Point) -> Fraction | None:
     """The value at a point, exactly; None where the polynomial has other generators than the point has places."""
     total = Fraction(0)
     for exponents, coefficient in polynomial.terms():
@@ -58,7 +68,7 @@ def value(polynomial: Polynomial, point: Point) -> Fraction | None:
 
 def _may_hold(polynomial: Polynomial, point: Point) -> bool:
     """Whether what is known to be >= 0 is so at a point; points that leave it open are not used."""
-    number = value(polynomial, point)
+    number = value_at(polynomial, point)
     return number is not None and number >= 0
 
 
@@ -68,16 +78,22 @@ def _minima(polynomial: Polynomial, places: list[int]) -> np.ndarray:
     slopes = [polynomial.diff(g) for g in gens]
     curvatures = [[slope.diff(g) for g in gens] for slope in slopes]
     points = np.zeros((STARTS, polynomial.ring.ngens))
-    points[:, places] = np.random.default_rng(3).normal(size=(STARTS, len(places))) * np.repeat([0.3, 1, 3, 10], STARTS // 4)[:, None]
+    spread = np.resize(np.array([0.3, 1.0, 3.0, 10.0]), (STARTS, 1))
+    points[:, places] = np.random.default_rng(3).normal(size=(STARTS, len(places))) * spread
     with np.errstate(all="ignore"):
         for _ in range(STEPS):
             gradient = np.stack([values_at(s, points)[0] for s in slopes], axis=1)
             hessian = np.stack([np.stack([values_at(c, points)[0] for c in row], axis=1) for row in curvatures], axis=1)
             good = np.all(np.isfinite(hessian), axis=(1, 2)) & np.all(np.isfinite(gradient), axis=1)
             points, gradient, hessian = points[good], gradient[good], hessian[good]
-            eigenvalues, vectors = np.linalg.eigh(hessian)
-            sizes = np.maximum(np.abs(eigenvalues), 1e-12 * np.abs(eigenvalues).max(axis=1, initial=1e-30)[:, None])
-            along = np.einsum("kij,ki->kj", vectors, gradient) / sizes
-            points[:, places] -= np.einsum("kij,kj->ki", vectors, along)
+            sizes, vectors = np.linalg.eigh(hessian)
+            sizes = np.abs(sizes)
+            single = sizes.min(axis=1, initial=np.inf) > SINGLE * sizes.max(axis=1, initial=0.0)
+            sizes = np.maximum(sizes, 1e-8 * sizes.max(axis=1, initial=0.0)[:, None] + 1e-30)
+            step = np.einsum("kij,kj->ki", vectors, np.einsum("kij,ki->kj", vectors, gradient) / sizes)
+            longest = 1.0 + np.linalg.norm(points, axis=1)
+            step *= np.minimum(1.0, longest / np.maximum(np.linalg.norm(step, axis=1), 1e-30))[:, None]
+            points[:, places] -= step
         values, terms = values_at(polynomial, points)
-    return points[np.abs(values) <= 1e-9 * terms][:, places]
+    # Of minima that are not single, which ones are met is left to chance, and to the last digits of the machine.
+    return points[single & (np.abs(values) <= 1e-9 * terms)][:, places]

@@ -1,0 +1,276 @@
+"""Mutation test of the deciders: claims changed in one place; what an independent search breaks must be refuted.
+
+    python benchmarks/mutation.py [PATHS] [--count 1500] [--seed 2021] [--jobs 2] [--limit 30] [--json FILE]
+
+Mutants are drawn evenly over all claims of all papers and over all kinds of change. A falsifier that shares no code
+with the deciders (tests/proof/falsifier.py) looks for a point where a mutant's assumptions hold and its statement
+fails, confirmed to as many digits as it takes. Mutants for which it finds one are `broken`; the deciders, which do not
+see that point, should then answer `refuted`, `gap` or `violated` with a counterexample of their own, and never
+`proved`. Exit code 1 when a broken mutant is proved.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import random
+import signal
+import sys
+import time
+from collections import Counter
+from collections.abc import Iterator
+from concurrent.futures import ProcessPoolExecutor, as_completed
+from contextlib import contextmanager
+from dataclasses import asdict, dataclass
+from fractions import Fraction
+from itertools import zip_longest
+from pathlib import Path
+from typing import Any
+
+ROOT = Path(__file__).parents[1]
+sys.path.insert(0, str(ROOT / "tests" / "proof"))
+
+import sympy as sp  # noqa: E402
+from falsifier import falsified  # noqa: E402
+
+from workbench.errors import ClaimError  # noqa: E402
+from workbench.proof.building import built  # noqa: E402
+from workbench.proof.checker import CertificateError, margin, read_goal  # noqa: E402
+from workbench.proof.claim import FAILED, Claim, Goal, Kind, name_of  # noqa: E402
+from workbench.proof.decide.engine import decide, pinned, prove_goal  # noqa: E402
+from workbench.proof.mutate import KINDS, Mutation, mutations  # noqa: E402
+from workbench.proof.paper import collect_papers  # noqa: E402
+from workbench.proof.text import goal_text, relation_text  # noqa: E402
+
+WANTED_SHARE = 0.99
+
+
+@dataclass(frozen=True)
+class Task:
+    """A mutant of a claim, with what is needed to decide it in another process."""
+
+    number: int
+    claim: str
+    kind: Kind
+    at: dict[sp.Expr, Fraction] | None
+    change: str
+    place: str
+    goal: Goal
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """What the falsifier and the deciders said of one mutant."""
+
+    number: int
+    claim: str
+    change: str
+    place: str
+    broken: bool
+    witness: str
+    verdict: str
+    seconds: float
+    text: str
+
+    @property
+    def paper(self) -> str:
+        """The paper of the claim."""
+        return self.claim.partition(":")[0]
+
+
+class OutOfTimeError(BaseException):
+    """The time of one mutant is over; no `except Exception` on the way may swallow it."""
+
+
+def plan(paths: list[Path], count: int, seed: int) -> list[Task]:
+    """`count` mutants, drawn in turn from every claim and, within a claim, from every kind of change."""
+    rng = random.Random(seed)
+    claims = [claim for paper in collect_papers(paths) for claim in paper.claims if claim.build is not None]
+    rng.shuffle(claims)
+    waiting = [_Pile(claim, rng) for claim in claims[:count]]
+    tasks: list[Task] = []
+    while len(tasks) < count and waiting:
+        for pile in tuple(waiting):
+            mutation = next(pile.mutants, None)
+            if mutation is None:
+                waiting.remove(pile)
+            elif len(tasks) < count:
+                claim, goal = pile.claim, mutation[2]
+                tasks.append(Task(len(tasks), claim.id, claim.kind, _stated(claim, goal), *mutation))
+    return tasks
+
+
+def _stated(claim: Claim, goal: Goal) -> dict[sp.Expr, Fraction] | None:
+    """The claim's stated values, for the symbols as they are in the mutant."""
+    if claim.at is None:
+        return None
+    by_name = {name_of(s): s for s in goal.symbols()}
+    return {by_name.get(name_of(s), s): Fraction(value) for s, value in claim.at.items()}
+
+
+class _Pile:
+    """The mutants of a claim that say something, in random order, the kinds taking turns."""
+
+    def __init__(self, claim: Claim, rng: random.Random) -> None:
+        assert claim.build is not None
+        self.claim, goal = claim, built(claim, claim.build)
+        by_kind: dict[str, list[Mutation]] = {kind: [] for kind in KINDS}
+        for mutation in mutations(goal):
+            by_kind[mutation.kind].append(mutation)
+        turns = [pile for pile in by_kind.values() if pile]
+        rng.shuffle(turns)
+        for pile in turns:
+            rng.shuffle(pile)
+        order = (m for turn in zip_longest(*turns) for m in turn if m is not None)
+        self.mutants = ((m.kind, m.place, mutant) for m in order
+                        if (mutant := m.of(goal)) is not None and _says_something(mutant))
+
+
+def _says_something(goal: Goal) -> bool:
+    """Whether the checker can read the goal: 1/x in an assumption needs to be known defined, in every certificate."""
+    record = goal_text(goal)
+    try:
+        context, _ = read_goal(record)
+        for shown in record["show"]:
+            margin(context, shown)
+    except CertificateError:
+        return False
+    return True
+
+
+def judge(task: Task, seed: int, limit: float) -> Outcome:
+    """Falsifier and deciders on one mutant, neither knowing of the other."""
+    started = time.perf_counter()
+    goal = task.goal
+    witness: Any = None
+    with _at_most(limit):
+        witness = falsified(goal, task.at, seed + task.number)
+    verdict = "out of time"
+    claim = Claim(id=task.claim, title="a mutant", kind=task.kind, statement="", recorded="undecided",
+                  build=lambda: goal, at=task.at)
+    with _at_most(limit):
+        try:
+            verdict = decide(claim).verdict
+        except ClaimError:  # its stated values break its own assumptions: it says nothing
+            verdict = "meaningless"
+        except Exception as trouble:  # a decider that breaks is a finding, not the end of the run
+            verdict = f"{type(trouble).__name__}: {trouble}"
+    if witness is not None and verdict != "proved":  # refuted or not: would the provers have believed it?
+        with _at_most(limit):
+            verdict = "proved" if _provable(task) else verdict
+    shown = "; ".join(relation_text(r) for r in goal.show)
+    return Outcome(task.number, task.claim, task.change, task.place, witness is not None,
+                   "" if witness is None else str(witness), verdict, time.perf_counter() - started, shown)
+
+
+def _provable(task: Task) -> bool:
+    try:
+        return prove_goal(pinned(task.goal, task.at) if task.at else task.goal) is not None
+    except ClaimError:
+        return False
+
+
+@contextmanager
+def _at_most(seconds: float) -> Iterator[None]:
+    """Leave the block after some seconds of this process's work (where the system has timers)."""
+    def over(*_: object) -> None:
+        raise OutOfTimeError
+
+    if not hasattr(signal, "setitimer"):
+        yield
+        return
+    previous = signal.signal(signal.SIGPROF, over)
+    signal.setitimer(signal.ITIMER_PROF, seconds)
+    try:
+        yield
+    except OutOfTimeError:
+        pass
+    finally:
+        signal.setitimer(signal.ITIMER_PROF, 0)
+        signal.signal(signal.SIGPROF, previous)
+
+
+def run(tasks: list[Task], seed: int, jobs: int, limit: float) -> list[Outcome]:
+    """All mutants judged, with a line of progress now and then; in the order of the plan."""
+    outcomes: list[Outcome] = []
+    with ProcessPoolExecutor(jobs) as pool:
+        waiting = [pool.submit(judge, task, seed, limit) for task in tasks]
+        for done in as_completed(waiting):
+            outcomes.append(done.result())
+            if len(outcomes) % 50 == 0 or len(outcomes) == len(tasks):
+                print(f"{len(outcomes)} of {len(tasks)} mutants", file=sys.stderr, flush=True)
+    return sorted(outcomes, key=lambda o: o.number)
+
+
+def table(outcomes: list[Outcome], by: str) -> list[dict[str, Any]]:
+    """One row for each paper or kind of change, and one for all."""
+    groups: dict[str, list[Outcome]] = {}
+    for outcome in outcomes:
+        groups.setdefault(getattr(outcome, by), []).append(outcome)
+    return [_row(name, group) for name, group in (*sorted(groups.items()), ("all", outcomes))]
+
+
+def _row(name: str, group: list[Outcome]) -> dict[str, Any]:
+    broken = Counter(o.verdict for o in group if o.broken)
+    rest = Counter(o.verdict for o in group if not o.broken)
+    failed = sum(broken[v] for v in FAILED)
+    return {"group": name, "mutants": len(group), "broken": broken.total(), "broken_refuted": failed,
+            "broken_proved": broken["proved"], "broken_undecided": broken.total() - failed - broken["proved"],
+            "share": failed / broken.total() if broken.total() else None,
+            "other_proved": rest["proved"], "other_refuted": sum(rest[v] for v in FAILED),
+            "other_undecided": rest.total() - rest["proved"] - sum(rest[v] for v in FAILED)}
+
+
+def print_table(rows: list[dict[str, Any]]) -> None:
+    """The rows as text."""
+    print(f"{'':26}{'mutants':>8}{'broken':>8}{'refuted':>9}{'undecided':>11}{'proved':>8}{'share':>9}"
+          f"   not broken: {'proved':>7}{'refuted':>9}{'undecided':>11}")
+    for r in rows:
+        share = "-" if r["share"] is None else f"{100 * r['share']:.1f} %"
+        print(f"{r['group']:26}{r['mutants']:8}{r['broken']:8}{r['broken_refuted']:9}{r['broken_undecided']:11}"
+              f"{r['broken_proved']:8}{share:>9}{'':15}{r['other_proved']:7}{r['other_refuted']:9}"
+              f"{r['other_undecided']:11}")
+    print()
+
+
+def print_cases(title: str, cases: list[Outcome]) -> None:
+    """Mutants worth a look, one in two lines."""
+    print(f"{title}: {len(cases)}")
+    for o in cases:
+        print(f"  {o.claim}, {o.change} at {o.place}, {o.verdict} ({o.seconds:.1f} s): {o.text[:300]}")
+        if o.broken:
+            print(f"    false at {o.witness[:300]}")
+
+
+def main() -> int:
+    """Run the mutation test; 1 when a broken mutant is proved, else 0."""
+    parser = argparse.ArgumentParser(description=(__doc__ or "").partition("\n")[0])
+    parser.add_argument("paths", nargs="*", type=Path, default=[ROOT / "proofs"], help="proof files or folders")
+    parser.add_argument("--count", type=int, default=1500)
+    parser.add_argument("--seed", type=int, default=2021)
+    parser.add_argument("--jobs", type=int, default=2)
+    parser.add_argument("--limit", type=float, default=30.0, help="seconds to falsify, to decide and to prove a mutant")
+    parser.add_argument("--json", type=Path, help="also write tables and outcomes here")
+    arguments = parser.parse_args()
+    started = time.perf_counter()
+    tasks = plan(arguments.paths, arguments.count, arguments.seed)
+    outcomes = run(tasks, arguments.seed, arguments.jobs, arguments.limit)
+    by_paper, by_change = table(outcomes, "paper"), table(outcomes, "change")
+    print_table(by_paper)
+    print_table(by_change)
+    print_cases("broken, but not decided", [o for o in outcomes if o.broken and o.verdict not in (*FAILED, "proved")])
+    print_cases("refuted, though the falsifier found nothing",
+                [o for o in outcomes if not o.broken and o.verdict in FAILED])
+    wrong = [o for o in outcomes if o.broken and o.verdict == "proved"]
+    print_cases("BROKEN, BUT PROVED", wrong)
+    print(f"{time.perf_counter() - started:.0f} s; wanted: no broken mutant proved, "
+          f"at least {100 * WANTED_SHARE:.0f} % of the broken ones refuted")
+    if arguments.json:
+        arguments.json.write_text(json.dumps({
+            "version": 1, "count": len(tasks), "seed": arguments.seed, "papers": by_paper, "changes": by_change,
+            "outcomes": [asdict(o) for o in outcomes]}, indent=1) + "\n", encoding="utf-8")
+    return 1 if wrong else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
