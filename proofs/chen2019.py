@@ -3,8 +3,8 @@
 Y. Chen, D. Huang, T. Huang, N. Qin, Tracking Control via Iterative Learning for High-Speed Trains With Distributed
 Input Constraints, IEEE Access 7 (2019) 84591-84601.
 
-Plant, auxiliary system, law and learning rules stand once, below; derivatives are written D(...) and derived along
-the closed loop. What stands on the right of `equal` and `at_most` is what the paper prints. Only (7) ties the
+Plant, auxiliary system, law and learning rules are the expressions that are simulated (`workbench.multi_particle`,
+`workbench.controllers.chen2019`); derivatives are written D(...) and derived along the closed loop. What stands on the right of `equal` and `at_most` is what the paper prints. Only (7) ties the
 acceleration to the force, so the force is what (7) says for an acceleration that stands as a symbol: all of
 section III holds for every acceleration that solves the loop through (16) and (22); whether one does is the
 section on the loop.
@@ -17,7 +17,73 @@ from fractions import Fraction
 
 import sympy as sp
 
-from workbench.proof.claim import D, Goal, Relation, at_least, at_most, equal, greater, less, name_of, saturation
+from workbench.controllers.chen2019 import (
+    As,
+    Av,
+    Delta_u,
+    M,
+    M_hat,
+    M_tilde,
+    Theta,
+    Theta_tilde,
+    alpha,
+    alpha_dot,
+    any_gains,
+    auxiliary,
+    c_1,
+    c_2,
+    c_3,
+    c_lambda_candidates,
+    compact_force,
+    compact_parameters,
+    driven_by,
+    errors,
+    estimates,
+    eta,
+    gains,
+    gamma_a,
+    gamma_eta,
+    gamma_mass,
+    gamma_v,
+    halved,
+    lambda_1,
+    lambda_2,
+    learning_gains,
+    learning_steps,
+    limited,
+    loop_force,
+    mass_step,
+    mu,
+    mu_law,
+    mu_of,
+    phi,
+    q_sums,
+    q_values,
+    s_r,
+    squares,
+    theta,
+    tildes,
+    true_parameters,
+    v_dot,
+    v_r,
+    v_r_dot,
+    z_1,
+    z_2,
+)
+from workbench.multi_particle import (
+    basic_resistance,
+    c_0,
+    c_a,
+    c_d,
+    c_k,
+    c_v,
+    coupler_pull,
+    each_car,
+    over_cars,
+    s,
+    v,
+)
+from workbench.proof.claim import D, Goal, Relation, at_least, at_most, equal, greater, less, name_of
 from workbench.proof.derive import lie_derivative
 from workbench.proof.paper import Paper
 
@@ -32,22 +98,10 @@ half, zero = sp.Rational(1, 2), sp.Integer(0)
 
 # --- symbols ------------------------------------------------------------------------------------------------
 
-car, cars = sp.symbols("j n", integer=True, positive=True)
-
-
-def over_cars(summand: sp.Expr) -> sp.Expr:
-    """Sum over the cars j = 1..n."""
-    return sp.Sum(summand, (car, 1, cars))
-
 
 def both(one: sp.Expr, other: sp.Expr) -> tuple[Relation, Relation]:
     """Equality as two inequalities, for a proof by cases that touch."""
     return at_most(one, other), at_least(one, other)
-
-
-def each_car(names: str) -> tuple[sp.Indexed, ...]:
-    """Symbols with one value per car."""
-    return tuple(sp.IndexedBase(name, real=True)[car] for name in names.split())
 
 
 def one_car(expr: sp.Expr) -> sp.Expr:
@@ -56,40 +110,7 @@ def one_car(expr: sp.Expr) -> sp.Expr:
     return single.xreplace({s: sp.Symbol(name_of(s), real=True) for s in single.atoms(sp.Indexed)})
 
 
-s, v, v_dot, lambda_1, lambda_2, Delta_u, mu = each_car("s v v_dot lambda_1 lambda_2 Delta_u mu")
-z_1, z_2, phi, As, Av = each_car("z_1 z_2 phi As Av")
-Theta, eta, M = each_car("Theta_v eta M")
-Theta_hat, eta_hat, M_hat = each_car("Theta_v_hat eta_hat M_hat")
-Theta_tilde, eta_tilde, M_tilde = each_car("Theta_v_tilde eta_tilde M_tilde")
-theta = sp.symbols("theta_a theta_k theta_d", real=True)
-theta_hat = sp.symbols("theta_a_hat theta_k_hat theta_d_hat", real=True)
-theta_tilde = sp.symbols("theta_a_tilde theta_k_tilde theta_d_tilde", real=True)
-s_r, v_r, v_r_dot = sp.symbols("s_r v_r v_r_dot", real=True)  # the same for all cars
-c_1, c_2, c_3 = gains = sp.symbols("c_1 c_2 c_3", positive=True)
-gamma_v, gamma_a, gamma_k, gamma_d, gamma_eta, gamma_mass = sp.symbols(
-    "gamma_v gamma_a gamma_k gamma_d gamma_eta gamma_M", positive=True)
-
 # --- section II: the train (1)-(3) and its compact form (7) -------------------------------------------------
-
-c_0, c_v, c_a, c_k, c_d = davis = sp.symbols("c_0 c_v c_a c_k c_d", real=True)
-
-
-def basic_resistance(mass: sp.Expr, speed: sp.Expr, pushing_air: sp.Expr = zero) -> sp.Expr:
-    """f^b of (2); the first car pushes the air for the mass of the whole train."""
-    return -mass * (c_0 + c_v * speed) - pushing_air * c_a * speed**2
-
-
-def coupler_pull(front: tuple[sp.Expr, sp.Expr], rear: tuple[sp.Expr, sp.Expr]) -> sp.Expr:
-    """The force of (3) with which the coupler between two cars, each (s, v), pulls the rear one."""
-    return c_k * (front[0] - rear[0]) + c_d * (front[1] - rear[1])
-
-
-def compact_force(parameters: tuple[sp.Expr, ...], speed: sp.Expr, air: sp.Expr, As_j: sp.Expr,
-                  Av_j: sp.Expr) -> sp.Expr:
-    """The forces of (7) on one car besides u, for (Theta_v, theta_a, theta_k, theta_d, eta)."""
-    rolling, aerodynamic, spring, damper, rest = parameters
-    return rolling * speed + aerodynamic * air + spring * As_j + damper * Av_j + rest
-
 
 def train(n: int) -> tuple[list[sp.Expr], list[sp.Expr], dict[str, tuple[sp.Symbol, ...]]]:
     """M v' - u of a train of n cars: by (1)-(3), by (7), and the symbols of its cars."""
@@ -103,8 +124,8 @@ def train(n: int) -> tuple[list[sp.Expr], list[sp.Expr], dict[str, tuple[sp.Symb
               for j in range(n)]
     A = sp.Matrix(n, n, lambda i, j: (1 if i in (0, n - 1) else 2) if i == j else -1 if abs(i - j) == 1 else 0)
     air = [V[0] ** 2, *[zero] * (n - 1)]
-    compact = [compact_force((-c_v * masses[j], -c_a * total, -c_k, -c_d, F[j] - c_0 * masses[j]), V[j], air[j],
-                             (A * sp.Matrix(S))[j], (A * sp.Matrix(V))[j]) for j in range(n)]
+    compact = [compact_force(compact_parameters(masses[j], total, F[j]), V[j], air[j], (A * sp.Matrix(S))[j],
+                             (A * sp.Matrix(V))[j]) for j in range(n)]
     return newton, compact, cars_of
 
 
@@ -125,7 +146,7 @@ def compact_form_of_every_train() -> Goal:
     """The three kinds of rows of (7); the mass of the whole train is one number."""
     total, mass, f_a = sp.symbols("m_total m_j f_a", real=True)
     ahead, own, behind = ((sp.Symbol(f"s_{k}", real=True), sp.Symbol(f"v_{k}", real=True)) for k in "abc")
-    stated = (-c_v * mass, -c_a * total, -c_k, -c_d, f_a - c_0 * mass)
+    stated = compact_parameters(mass, total, f_a)
     front, rear = coupler_pull(ahead, own), coupler_pull(own, behind)
     first = compact_force(stated, own[1], own[1] ** 2, own[0] - behind[0], own[1] - behind[1])
     inner = compact_force(stated, own[1], zero, -ahead[0] + 2 * own[0] - behind[0],
@@ -183,8 +204,8 @@ within = (at_most(g_low, g), at_most(g, g_high))
 
 
 def _property_1(inner: sp.Expr, own: sp.Expr) -> Relation:
-    left = (weight + 1) * g - (weight * own + saturation(inner, g_low, g_high))
-    return at_most(left * (own - saturation(own, g_low, g_high)), 0)
+    left = (weight + 1) * g - (weight * own + limited(inner, g_low, g_high))
+    return at_most(left * (own - limited(own, g_low, g_high)), 0)
 
 
 @paper.claim("6", "Property 1, for the projection of any number", "inequality",
@@ -203,19 +224,11 @@ def projection_property() -> Goal:
              "proved", note="True, and of no use: h lies within the bounds, so the second bracket vanishes.")
 def projection_property_text() -> Goal:
     """With h = sat(g) put in."""
-    return Goal((_property_1(g, saturation(g, g_low, g_high)),), within)
+    return Goal((_property_1(g, limited(g, g_low, g_high)),), within)
 
 
 # --- section III: law, learning rules, Lyapunov functions ---------------------------------------------------
 
-true_parameters = (Theta, *theta, eta)
-estimates = (Theta_hat, *theta_hat, eta_hat)
-auxiliary = {lambda_1: -c_1 * lambda_1 + lambda_2, lambda_2: -c_2 * lambda_2 + c_3 * Delta_u}  # (9)
-alpha = -c_1 * (s - s_r)  # (12)
-errors = {z_1: s - s_r - lambda_1, z_2: v - v_r - alpha - lambda_2}  # (10)
-alpha_dot = lie_derivative(alpha, {s: v, s_r: v_r})
-mu_law = (-(c_2 * (v - v_r - alpha) + v_dot - v_r_dot - alpha_dot + errors[z_1]) / c_3
-          - (compact_force(estimates, v, phi, As, Av) - M_hat * v_dot))  # (16)
 u_of_7 = M * v_dot - compact_force(true_parameters, v, phi, As, Av)  # the force that (7) says
 
 
@@ -225,12 +238,7 @@ def rates_with(input_mu: sp.Expr) -> dict[sp.Expr, sp.Expr]:
     return {s: v, v: v_dot, s_r: v_r, v_r: v_r_dot, **saturated}
 
 
-# (17)-(21): the step of each estimate per iteration; q_a, q_k, q_d are the numbers z_2^T phi, z_2^T As, z_2^T Av.
-q_sums = sp.symbols("q_a q_k q_d", real=True)
-sums_named = tuple(equal(x, over_cars(z_2 * y)) for x, y in zip(q_sums, (phi, As, Av), strict=True))
-learning_gains = (gamma_v, gamma_a, gamma_k, gamma_d, gamma_eta, gamma_mass)
-driven_by = (z_2 * v, *q_sums, z_2)
-learning_steps = tuple(gain * c_3 * x for gain, x in zip(learning_gains, driven_by, strict=False))
+sums_named = tuple(equal(x, value) for x, value in zip(q_sums, q_values, strict=True))
 
 
 def V_of(z: sp.Expr) -> sp.Expr:
@@ -240,15 +248,6 @@ def V_of(z: sp.Expr) -> sp.Expr:
 
 V = V_of(z_1) + V_of(z_2)  # (23)
 J = sp.symbols("J_v J_a J_k J_d J_eta J_M", nonnegative=True)  # the integrals of (25)
-tildes = (Theta_tilde, *theta_tilde, eta_tilde, M_tilde)
-squares = (over_cars(Theta_tilde**2), *(x**2 for x in theta_tilde), over_cars(eta_tilde**2), over_cars(M_tilde**2))
-
-
-def halved(terms: tuple[sp.Expr, ...]) -> tuple[sp.Expr, ...]:
-    """Each term over twice its learning gain."""
-    return tuple(x / (2 * gain) for x, gain in zip(terms, learning_gains, strict=True))
-
-
 E = V + sp.Add(*halved(J))  # (25)
 
 
@@ -353,11 +352,6 @@ limits = (at_most(u_low, u_high),)
 room = sp.Symbol("w", positive=True)  # m + 1/c_3 - m_hat, where the estimate is below the singular one
 
 
-def mu_of(acceleration: sp.Expr, estimate: sp.Expr) -> sp.Expr:
-    """(16) of one car as a function of the acceleration; the terms without it are kappa."""
-    return kappa + (estimate - 1 / c_3) * acceleration
-
-
 @paper.claim("16.loop", "The input depends on the acceleration that it causes", "identity",
              r"\mu_{i,j} = \kappa_{i,j} + \left(\hat m_{i,j} - \tfrac{1}{c_3}\right)\dot v_{i,j}", "proved",
              scope=EACH_CAR,
@@ -366,7 +360,7 @@ def mu_of(acceleration: sp.Expr, estimate: sp.Expr) -> sp.Expr:
 def input_needs_acceleration() -> Goal:
     """(16) is affine in the acceleration when the estimates are given."""
     law, free = one_car(mu_law), one_car(v_dot)
-    stated = mu_of(free, one_car(M_hat)).xreplace({kappa: law.xreplace({free: zero})})
+    stated = mu_of(law.xreplace({free: zero}), free, one_car(M_hat))
     return Goal((equal(law, stated),))
 
 
@@ -375,13 +369,13 @@ def input_needs_acceleration() -> Goal:
              r"\mu_b)", "proved", scope=EACH_CAR, note="Not printed; 16.unique leans on it.")
 def saturation_slope() -> Goal:
     """Case by case of the two arguments."""
-    step = saturation(a, u_low, u_high) - saturation(b, u_low, u_high)
+    step = limited(a, u_low, u_high) - limited(b, u_low, u_high)
     return Goal((at_most(step**2, step * (a - b)),), limits)
 
 
 def _one_acceleration() -> Goal:
     inputs = zip((a, b), (u_a, u_b), strict=True)
-    mu_a, mu_b = (mu_of(x, mass + 1 / c_3 - room) for x in (a, b))
+    mu_a, mu_b = (mu_of(kappa, x, mass + 1 / c_3 - room) for x in (a, b))
     slope = at_most((u_a - u_b) ** 2, (u_a - u_b) * (mu_a - mu_b))
     return Goal((at_most((a - b) ** 2, 0),), (*(equal(u, mass * x - rest) for x, u in inputs), slope))
 
@@ -396,8 +390,8 @@ def _one_acceleration() -> Goal:
                   "both unsaturated), above it up to three do.")
 def acceleration_unique() -> Goal:
     """Two solutions of the loop of one car, both within the limits, agree."""
-    within_limits = [(at_least(mu_of(x, mass_hat), u_low), at_most(mu_of(x, mass_hat), u_high),
-                      equal(mass * x, mu_of(x, mass_hat) + rest)) for x in (a, b)]
+    within_limits = [(at_least(mu_of(kappa, x, mass_hat), u_low), at_most(mu_of(kappa, x, mass_hat), u_high),
+                      equal(mass * x, mu_of(kappa, x, mass_hat) + rest)) for x in (a, b)]
     return Goal((equal(a, b),), tuple(r for group in within_limits for r in group))
 
 
@@ -408,9 +402,9 @@ def acceleration_unique() -> Goal:
              note="Not in the paper: the rule by which the loop can be solved when the estimate of the mass is given.")
 def acceleration_exists() -> Goal:
     """The force of the unsaturated equation, saturated, solves the saturated one."""
-    force = saturation(mass * (kappa + rest) / room - rest, u_low, u_high)
-    law = mu_of((force + rest) / mass, mass - room + 1 / c_3)
-    return Goal(both(force, saturation(law, u_low, u_high)), limits)
+    force = loop_force(mass, kappa, rest, room, u_low, u_high)
+    law = mu_of(kappa, (force + rest) / mass, mass - room + 1 / c_3)
+    return Goal(both(force, limited(law, u_low, u_high)), limits)
 
 
 m_high = sp.Symbol("m_high", positive=True)
@@ -462,8 +456,8 @@ m_before, z_car, a_car = sp.symbols("M_hat_prev z_2 v_dot", real=True)
 def loop_with_learning() -> Goal:
     """Two accelerations that solve (7), (8), (16), (22) of one car."""
     def balance(x: sp.Expr) -> Relation:
-        estimate = saturation(m_before - gamma_mass * c_3 * z_car * x, g_low, g_high)
-        return equal(mass * x, saturation(mu_of(x, estimate), u_low, u_high) + rest)
+        estimate = limited(m_before + mass_step(z_car, x), g_low, g_high)
+        return equal(mass * x, limited(mu_of(kappa, x, estimate), u_low, u_high) + rest)
 
     return Goal(both(a, b), (balance(a), balance(b)))
 
@@ -566,8 +560,8 @@ def same_place_in_every_iteration() -> Goal:
     return Goal((at_most((tilde**2 - tilde_before**2) / (2 * gamma_eta), c_3 * z_car * tilde),))
 
 
-unbounded_step = m_before - gamma_mass * c_3 * z_car * a_car
-estimate = saturation(unbounded_step, g_low, g_high)  # (22) of one car
+unbounded_step = m_before + mass_step(z_car, a_car)
+estimate = limited(unbounded_step, g_low, g_high)  # (22) of one car
 mass_within = (at_most(g_low, mass), at_most(mass, g_high))
 mass_change = ((estimate - mass) ** 2 - (m_before - mass) ** 2) / (2 * gamma_mass)
 mass_bound = -c_3 * z_car * (estimate - mass) * a_car
@@ -579,7 +573,7 @@ mass_bound = -c_3 * z_car * (estimate - mass) * a_car
              r"\mathcal D(z_{2,i})\mathcal D(\dot v_i) - \hat M_i)(M - \mathrm{sat}(\dots))) - c_3\mathrm{tr}("
              r"\mathcal D(z_{2,i})\mathcal D(\dot v_i)\tilde M_i)", "proved",
              scope=f"{EACH_CAR}; at every instant, hence for the integrals")
-def mass_step() -> Goal:
+def mass_step_limited() -> Goal:
     """The dropped square, and (22) put in."""
     middle = (m_before - estimate) * (mass - estimate) / gamma_mass
     return Goal((at_most(mass_change, middle),
@@ -611,7 +605,7 @@ def mass_integral() -> Goal:
              note="The form in which (22) enters 35.whole and 45.gain, where it stands under a sum.")
 def saturation_form() -> Goal:
     """Complementarity of the projection on an interval."""
-    sat, p, q_ = saturation(h, g_low, g_high), sp.Max(h - g_high, 0), sp.Max(g_low - h, 0)
+    sat, p, q_ = limited(h, g_low, g_high), sp.Max(h - g_high, 0), sp.Max(g_low - h, 0)
     return Goal((*both(sat, h - p + q_), *both(p * (g_high - sat), zero), *both(q_ * (sat - g_low), zero)),
                 (at_most(g_low, g_high),))
 
@@ -936,7 +930,7 @@ minimum_z = (at_most(c_z, c_1), at_most(c_z, c_2))
 lam_1, lam_2, delta_car = sp.symbols("lambda_1 lambda_2 Delta_u", real=True)
 V_lambda = V_of(lambda_1) + V_of(lambda_2)
 c_lambda = sp.Symbol("c_lambda", real=True)
-minimum_lambda = (at_most(c_lambda, c_1 - half), at_most(c_lambda, c_2 - half - c_3 / 2))
+minimum_lambda = tuple(at_most(c_lambda, x) for x in c_lambda_candidates)
 
 
 @paper.claim("49.rate", "Rate of V_lambda", "identity",
@@ -1014,9 +1008,6 @@ def auxiliary_bound() -> Goal:
     """(50) with V_lambda(0) = 0 <= V_lambda(T)."""
     integrated_50 = at_most(V_aux, -c_lambda_positive * X + c_3 * Y / 2)
     return Goal((at_most(X, c_3 * Y / (2 * c_lambda_positive)),), (integrated_50, at_least(V_aux, 0)))
-
-
-any_gains = (c_3 / c_2) ** 2 * (1 + 1 / c_1**2)
 
 
 @paper.claim("51.any_gains", "A bound in place of (51) for all positive gains", "implication",

@@ -148,7 +148,7 @@ def plain_run(scenario, law: ControlLaw, values: dict, estimates: str, period_s:
     for n in range(steps):
         x_d, v_d, a_d = plain_desired(curve, n * dt)
         if n % per_sample == 0:
-            u = controller.step(dict(zip((str(s) for s in MEASUREMENTS), (p, v, x_d, v_d, a_d, period_s),
+            u = controller.step(dict(zip((str(s) for s in MEASUREMENTS), (n * dt, p, v, x_d, v_d, a_d, period_s),
                                          strict=True)))
             force = max(-train.max_braking_n, min(train.max_traction_n, train.mass_kg * u))
         for name, value in ({"t_s": n * dt, "s_m": p, "v_mps": v, "u_mps2": u, "force": force}

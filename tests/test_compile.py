@@ -63,7 +63,7 @@ def test_a_changed_law_is_another_kernel_and_the_same_law_the_same_one(tmp_path,
     one, same, other = (kernel_module(single_particle(), law, kernel_loop) for law in laws)
     assert one is same
     assert one is not other
-    arguments = (6.0, 0.0, 0.0, 0.0, 0.0, 0.1, *(np.zeros(0),) * 2, *(np.zeros((0, 0)),) * 2)
+    arguments = (0.0, 6.0, 0.0, 0.0, 0.0, 0.0, 0.1, *(np.zeros(0),) * 2, *(np.zeros((0, 0)),) * 2)
     assert one.control_step(*arguments) == pytest.approx(-2.0, rel=1e-15)
     assert other.control_step(*arguments) == pytest.approx(-6 / 5, rel=1e-15)
 

@@ -8,12 +8,22 @@ from numpy.polynomial import polynomial as poly
 from scenarios import BENCHMARKS, YANG
 from scipy.integrate import quad
 
-from workbench.desired_curve import DesiredCurve, davis_cruise_speed, from_acceleration, start_cruise_stop
-from workbench.errors import WorkbenchError
+from workbench.desired_curve import (
+    DesiredCurve,
+    SpeedLevels,
+    davis_cruise_speed,
+    from_acceleration,
+    speed_levels,
+    start_cruise_stop,
+)
+from workbench.errors import InputError, WorkbenchError
 from workbench.scenario import load_scenario
+from workbench.toml_input import validate_record
 
 CURVES = {
     **{path.stem: load_scenario(path).desired_curve() for path in BENCHMARKS},
+    "levels": speed_levels((0.0, 60.0, 130.0, 200.0), (12.0, 20.0, 8.0, 0.0), 0.4, 8.0, 260.0),
+    "levels from a late start to the very end": speed_levels((5.0, 50.0), (10.0, 0.0), 0.5, 10.0, 80.0),
     "short": start_cruise_stop(900.0, 15.0, 0.4, 0.5, 6.0),
     "peak below both rates": start_cruise_stop(200.0, 4.0, 0.9, 0.8, 20.0),
     "cruise of a moment": start_cruise_stop(1200.0 + 1e-6, 20.0, 0.5, 0.5, 20.0),
@@ -173,3 +183,42 @@ def test_a_jump_in_any_derivative_is_found(order):
     jumping[3:] = np.linalg.solve(rest, -np.array(at_one))
     with pytest.raises(WorkbenchError, match=f"derivative {order} jumps by 0.00{1 + (order == 2)}"):
         DesiredCurve(np.array([0.0, 1.0, 2.0]), np.array([np.zeros(6), jumping]))
+
+
+LEVELS = {"starts_s": [0.0, 60.0, 130.0, 200.0], "speeds_mps": [12.0, 20.0, 8.0, 0.0], "rate_mps2": 0.4, "ramp_s": 8.0,
+          "end_s": 260.0}
+
+
+def _levels(**changes):
+    values = LEVELS | changes
+    return validate_record(values | {"source": dict.fromkeys(values, "assumed: a test")}, SpeedLevels, "levels")
+
+
+def test_levels_are_held_between_changes_that_begin_at_their_times():
+    curve = _levels().curve()
+    # A change of v takes v / rate + ramp.
+    for start, end, speed in ((38.0, 60.0, 12.0), (88.0, 130.0, 20.0), (168.0, 200.0, 8.0), (228.0, 270.0, 0.0)):
+        _, speeds, accelerations = curve.at(np.linspace(start, end, 50))
+        assert speeds == pytest.approx(speed, abs=1e-9) and accelerations == pytest.approx(0.0, abs=1e-9)
+    assert np.all(curve.at(np.linspace(60.5, 87.5, 50))[2] > 0)
+    assert np.all(curve.at(np.linspace(130.5, 167.5, 50))[2] < 0)
+    assert np.abs(curve.at(np.linspace(0, 260, 5000))[2]).max() == pytest.approx(0.4, rel=1e-6)
+    assert curve.trip_time_s == 260.0
+    assert quad(lambda t: curve.at(np.array(t))[1], 0, 260, limit=400, points=curve.breaks_s[1:-1])[0] == pytest.approx(
+        curve.length_m, rel=1e-9)
+
+
+@pytest.mark.parametrize(("changes", "message"), [
+    ({"starts_s": [0.0, 60.0, 130.0]}, "starts_s has 3 values and speeds_mps 4"),
+    ({"starts_s": [0.0, 130.0, 60.0, 200.0]}, "starts_s does not increase"),
+    ({"starts_s": [0.0, 60.0, 130.0, 300.0]}, "starts_s does not increase up to end_s"),
+    ({"speeds_mps": [12.0, 12.0, 8.0, 0.0]}, "the same speed twice"),
+    ({"speeds_mps": [12.0, 20.0, 8.0, 4.0]}, "it ends at 4 m/s"),
+    ({"starts_s": [0.0, 30.0, 130.0, 200.0]}, "the change to 12 m/s that begins at 0 s takes until 38 s, beyond 30 s"),
+    ({"end_s": 210.0}, "the change to 0 m/s that begins at 200 s takes until 228 s, beyond 210 s"),
+    ({"speeds_mps": [12.0, 200.0, 8.0, 0.0]}, r"speeds_mps\[1\]"),
+    ({"rate_mps2": 0.0}, "rate_mps2"),
+])
+def test_levels_that_give_no_curve_say_why(changes, message):
+    with pytest.raises(InputError, match=message):
+        _levels(**changes)

@@ -17,7 +17,7 @@ from workbench.controllers.registry import LAWS
 from workbench.proof.derive import lie_derivative
 from workbench.proof.paper import collect_papers
 from workbench.simulate import kernel_loop
-from workbench.simulate.closed_loop import NOMINAL, _arrays, law_values
+from workbench.simulate.closed_loop import _arrays, law_values, setting_of
 from workbench.track import resistance_table
 from workbench.train import single_particle
 
@@ -36,7 +36,7 @@ def trajectory(step_s: float):
     scenario = short_scenario(simulation__plant_step_s=step_s, simulation__log_every_s=step_s)
     law, spec = LAWS["yang2021.rbfnn_pocrac"], scenario.controllers["rbfnn_pocrac"]
     parameters, scalars, neurons, data = law_values(law, spec, "rbfnn_pocrac")
-    arrays = _arrays(scenario, NOMINAL, np.zeros((1, 8 + len(scalars))))
+    arrays = _arrays(setting_of(scenario), step_s, law)
     kernel = kernel_module(single_particle(), law, kernel_loop, spec.estimates).closed_loop
     rows, weights = [], []
     for n in range(round((START_S + DURATION_S) / step_s)):

@@ -133,6 +133,7 @@ def test_nobodys_text_becomes_markup(page):
     assert reader.tags.count("script") == 1
     assert "img" not in reader.tags and "b>title" not in reader.tags
     assert not [name for name, _ in reader.attributes if name.startswith("on")]
+    assert '<tr class="extra">' in page
     assert "&lt;b&gt;heavy&lt;/b&gt;" in page and "<b>heavy" not in page
     assert "A &lt;tiny&gt; scenario" in page
 

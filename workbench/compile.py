@@ -6,7 +6,6 @@ import hashlib
 import importlib.util
 import inspect
 import keyword
-import os
 import sys
 import tempfile
 from collections.abc import Callable, Iterable, Sequence
@@ -15,15 +14,14 @@ from types import ModuleType
 from typing import Any, Literal
 
 import casadi as ca
-import platformdirs
 import sympy as sp
 from sympy.printing.pycode import PythonCodePrinter
 
+from workbench.cache_folder import CACHE_VARIABLE, cache_folder, writable, write_whole
 from workbench.controllers.base import MEASUREMENTS, ControlLaw, neuron, neuron_count
 from workbench.errors import CompileError
+from workbench.multi_particle import cars
 from workbench.train import Plant
-
-CACHE_VARIABLE = "WORKBENCH_CACHE"
 
 Estimates = Literal["corrected", "explicit"]
 
@@ -50,8 +48,22 @@ _printer = _Printer({"fully_qualified_modules": True})
 _TAKEN = {"math", "neurons", "neuron_data", "parameters", "scalars"}
 
 
+# A car's neighbours: where they stand in the train, and how their values are called.
+_NEIGHBOURS = {-1: ("_ahead", "max(_j - 1, 0)"), 0: ("", "_j"), 1: ("_behind", "min(_j + 1, _last)")}
+
+
+def _offset(symbol: sp.Indexed) -> int:
+    """How many places behind j the index of a symbol is; CompileError for another index."""
+    found = {number for number in _NEIGHBOURS if symbol.indices == (neuron + number,)}
+    if not found:
+        raise CompileError(f"'{symbol}' has no value there: an index is j, j - 1 or j + 1")
+    return found.pop()
+
+
 def _name(symbol: sp.Expr) -> str:
-    name = str(symbol.base.label) if isinstance(symbol, sp.Indexed) else str(symbol)
+    name = str(symbol)
+    if isinstance(symbol, sp.Indexed):
+        name = f"{symbol.base.label}{_NEIGHBOURS[_offset(symbol)][0]}"
     if not name.isidentifier() or keyword.iskeyword(name) or name in _TAKEN or name.startswith("_"):
         raise CompileError(f"symbol '{name}' cannot be the name of a variable: rename it")
     return name
@@ -61,7 +73,7 @@ def _require_known(exprs: Iterable[sp.Expr], known: Iterable[sp.Expr], where: st
     allowed = {_name(s) for s in known}
     for expr in exprs:
         for symbol in sorted(expr.free_symbols, key=str):
-            if isinstance(symbol, sp.IndexedBase) or symbol in (neuron, neuron_count):
+            if isinstance(symbol, sp.IndexedBase) or symbol in (neuron, neuron_count, cars):
                 continue
             if _name(symbol) not in allowed:
                 raise CompileError(f"{where}: symbol '{symbol}' has no value there: "
@@ -120,20 +132,26 @@ def law_source(law: ControlLaw, estimates: Estimates = "corrected") -> str:
     next_neurons = [law.next_value(s) for s in neurons]
     _require_known([*next_scalars, *next_neurons, law.command, *law.domain], known, law.id)
 
-    updates, sums_now = _take_sums([*next_scalars, *next_neurons], "_sum_now_")
-    (command,), sums_next = _take_sums([law.command], "_sum_next_")
-    at_next: dict[sp.Expr, sp.Expr] = {s.symbol: sp.Symbol(f"{_name(s.symbol)}_next") for s in scalars}
-    at_next |= {s.symbol: u for s, u in zip(neurons, updates[len(scalars):], strict=True)}
-    if estimates == "explicit":
-        at_next = {}
+    at_next: dict[sp.Expr, sp.Expr] = {}
+    sums_next: dict[sp.Sum, sp.Symbol] = {}
+    if estimates == "explicit":  # everything from the current values, so that each sum is needed once
+        (*updates, command), sums_now = _take_sums([*next_scalars, *next_neurons, law.command], "_sum_now_")
+    else:
+        updates, sums_now = _take_sums([*next_scalars, *next_neurons], "_sum_now_")
+        (command,), sums_next = _take_sums([law.command], "_sum_next_")
+        at_next |= {s.symbol: sp.Symbol(f"{_name(s.symbol)}_next") for s in scalars}
+        at_next |= {s.symbol: u for s, u in zip(neurons, updates[len(scalars):], strict=True)}
+    moved = updates[len(scalars):]
+    # Neurons that need no sum move in the pass that takes the sums, which then evaluates their outputs only once.
+    in_one = estimates == "explicit" and not any(u.free_symbols & set(sums_now.values()) for u in moved)
 
     given = zip(MEASUREMENTS, _MEASUREMENT_ARGUMENTS, strict=True)
     head = [f"    {_name(s)} = {argument}" for s, argument in given]
     head += _unpack(law.parameters, "parameters")
     body = [*head, *_unpack([s.symbol for s in scalars], "scalars")]
-    body += _neuron_loop(law, sums_now, [], {}, "_a")
+    body += _neuron_loop(law, sums_now, moved if in_one else [], {}, "_a")
     body += _assignments([f"{_name(s.symbol)}_next" for s in scalars], updates[: len(scalars)], "_b", "    ")
-    body += _neuron_loop(law, sums_next, updates[len(scalars):], at_next, "_c")
+    body += _neuron_loop(law, sums_next, [] if in_one else moved, at_next, "_c")
     body += [f"    scalars[{i}] = {_name(s.symbol)}_next" for i, s in enumerate(scalars)]
     body += _assignments(["_command"], [command.xreplace(at_next)], "_d", "    ")
     margins = [f"_margin_{i}" for i in range(len(law.domain))]
@@ -150,43 +168,88 @@ def law_source(law: ControlLaw, estimates: Estimates = "corrected") -> str:
 _MEASUREMENT_ARGUMENTS = tuple(f"_in_{i}" for i in range(len(MEASUREMENTS)))
 
 
-def plant_source(plant: Plant) -> str:
-    """Python source of `plant_rates(states..., command, disturbance, parameters)`, a tuple of derivatives."""
-    states = tuple(plant.rates)
-    rates = list(plant.rates.values())
-    _require_known(rates, (*states, plant.command, plant.disturbance, *plant.parameters), plant.source)
-    arguments = ", ".join(_name(s) for s in (*states, plant.command, plant.disturbance))
-    targets = [f"_rate_{i}" for i in range(len(rates))]
+def function_source(name: str, arguments: Sequence[sp.Symbol], parameters: Sequence[sp.Symbol],
+                    exprs: Sequence[sp.Expr]) -> str:
+    """Python source of `name(*arguments, parameters)`: the value of one expression, a tuple of those of several.
+
+    The parameters come as one array in the order given. Raises CompileError for a symbol that has no value.
+    """
+    _require_known(exprs, (*arguments, *parameters), name)
+    targets = [f"_value_{i}" for i in range(len(exprs))]
     return "\n".join([
-        f"def plant_rates({arguments}, _parameters):", *_unpack(plant.parameters, "_parameters"),
-        *_assignments(targets, rates, "_t", "    "), f"    return {', '.join(targets)}", "",
+        f"def {name}({', '.join([*map(_name, arguments), '_parameters'])}):", *_unpack(parameters, "_parameters"),
+        *_assignments(targets, exprs, "_t", "    "), f"    return {', '.join(targets)}", "",
     ])
 
 
-def cache_folder() -> Path:
-    """Folder of compiled kernels: $WORKBENCH_CACHE, else the user's cache, else a temporary one."""
-    chosen = os.environ.get(CACHE_VARIABLE) or platformdirs.user_cache_dir("workbench")
-    for folder in (Path(chosen) / "kernels", Path(tempfile.gettempdir()) / "workbench-kernels"):
-        try:
-            folder.mkdir(parents=True, exist_ok=True)
-            with tempfile.TemporaryFile(dir=folder):
-                return folder
-        except OSError:
-            continue
-    raise CompileError(f"no writable folder for compiled kernels: set {CACHE_VARIABLE} to one")
+def plant_source(plant: Plant) -> str:
+    """Python source of `plant_rates(states..., command, disturbance, parameters)`, a tuple of derivatives."""
+    arguments = (*plant.rates, plant.command, plant.disturbance)
+    return function_source("plant_rates", arguments, plant.parameters, list(plant.rates.values()))
+
+
+def cars_source(name: str, arguments: Sequence[sp.Symbol], parameters: Sequence[sp.Symbol],
+                given: Sequence[Sequence[sp.Indexed]], found: Sequence[Sequence[sp.Expr]],
+                shared: Sequence[sp.Expr] = ()) -> str:
+    """Python source of `name(*arguments, parameters, *given, *found, shared)`: expressions of every car of a train.
+
+    given: arrays of shape (rows, cars), by the symbols of their rows; found: arrays of that shape that the expressions
+    are put into, one a row; shared: one array for what no car has of its own. Sums over the cars are taken first, in
+    one pass. `x[j - 1]` is the car ahead and `x[j + 1]` the one behind; at the ends, where there is none, the car
+    itself, so that a found array must not be given at the same time where neighbours are used.
+    Raises CompileError for a symbol that has no value.
+    """
+    where = {x.base[neuron + step]: f"_given_{i}[{row}, {place}]" for i, array in enumerate(given)
+             for row, x in enumerate(array) for step, (_, place) in _NEIGHBOURS.items()}
+    flat = [x for array in found for x in array]
+    _require_known([*flat, *shared], (*arguments, *parameters, *where), name)
+    every, sums = _take_sums([*flat, *shared], "_sum_")
+    own, common, terms = every[: len(flat)], every[len(flat):], [s.function for s in sums]
+
+    def one_pass(exprs: Sequence[sp.Expr], targets: Sequence[str], prefix: str) -> list[str]:
+        used = sorted({x for e in exprs for x in e.atoms(sp.Indexed)}, key=_name)
+        return ["    for _j in range(_last + 1):", *(f"        {_name(x)} = {where[x]}" for x in used),
+                *_assignments(targets, exprs, prefix, "        ")]
+
+    arrays = [f"_{kind}_{i}" for kind, rows in (("given", given), ("found", found)) for i in range(len(rows))]
+    receiving = [*map(_name, arguments), "_parameters", *arrays, *(["_shared"] if common else [])]
+    lines = [f"def {name}({', '.join(receiving)}):", *_unpack(parameters, "_parameters"),
+             "    _last = _given_0.shape[1] - 1"]
+    if sums:
+        lines += [f"    {total} = 0.0" for total in sums.values()]
+        lines += one_pass(terms, [f"{total}_term" for total in sums.values()], "_a")
+        lines += [f"        {total} += {total}_term" for total in sums.values()]
+    lines += _assignments([f"_shared[{i}]" for i in range(len(common))], common, "_b", "    ")
+    values = [f"_value_{i}" for i in range(len(own))]
+    lines += one_pass(own, values, "_c")
+    places = [f"_found_{i}[{row}, _j]" for i, array in enumerate(found) for row in range(len(array))]
+    return "\n".join([*lines, *(f"        {place} = {value}" for place, value in zip(places, values, strict=True)), ""])
+
+
+def _kernel_folder() -> Path:
+    """Folder of compiled kernels: the cache, else a temporary one."""
+    folder = cache_folder("kernels") or writable(Path(tempfile.gettempdir()) / "workbench-kernels")
+    if folder is None:
+        raise CompileError(f"no writable folder for compiled kernels: set {CACHE_VARIABLE} to one")
+    return folder
 
 
 def kernel_module(plant: Plant, law: ControlLaw, loop: ModuleType,
                   estimates: Estimates = "corrected") -> ModuleType:
-    """The compiled module of a plant under a law, driven by the functions of `loop`; cached between runs.
+    """The compiled module of a plant under a law, driven by the functions of `loop`; cached between runs."""
+    return loop_module(f"{law.source} and {plant.source}", [plant_source(plant), law_source(law, estimates)], loop)
 
-    The source of `loop` is joined to the generated functions, and every function becomes a numba kernel.
+
+def loop_module(source: str, functions: Sequence[str], loop: ModuleType) -> ModuleType:
+    """The compiled module of generated functions, driven by what stands below the marker in `loop`; cached.
+
+    source: what the functions were generated from, in words; functions: their Python source. All of it is joined
+    into one module on disk, in which every function becomes a numba kernel.
     """
     loop_source = inspect.getsource(loop).split("# --- kernel ---")[1]
     text = "\n".join([
-        f'"""Generated from the sympy expressions of {law.source} and {plant.source}."""', "",
-        "import math", "", "from numba import njit", "",
-        plant_source(plant), law_source(law, estimates), loop_source,
+        f'"""Generated from the sympy expressions of {source}."""', "", "import math", "", "from numba import njit", "",
+        *functions, loop_source,
     ])
     # By numpy's error model a division by zero gives inf or nan, which the loop reports as a diverged law.
     text = text.replace("\ndef ", "\n@njit(cache=True, error_model='numpy')\ndef ")
@@ -194,13 +257,9 @@ def kernel_module(plant: Plant, law: ControlLaw, loop: ModuleType,
     name = f"workbench_kernel_{digest}"
     if name in sys.modules:
         return sys.modules[name]
-    path = cache_folder() / f"{name}.py"
+    path = _kernel_folder() / f"{name}.py"
     if not path.exists() or path.read_text(encoding="utf-8") != text:
-        # Written aside and renamed, so that no process ever imports half a file.
-        with tempfile.NamedTemporaryFile("w", encoding="utf-8", dir=path.parent, suffix=".tmp",
-                                         delete=False) as stream:
-            stream.write(text)
-        Path(stream.name).replace(path)
+        write_whole(path, text)
     spec = importlib.util.spec_from_file_location(name, path)
     if spec is None or spec.loader is None:
         raise CompileError(f"cannot import the generated kernel {path}: remove it and run again")

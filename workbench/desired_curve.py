@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Annotated, Literal
+from itertools import pairwise
+from typing import Annotated, Literal, Self
 
 import numpy as np
 from numpy.polynomial import polynomial as poly
 from numpy.typing import NDArray
-from pydantic import Field, Strict
+from pydantic import Field, Strict, model_validator
 
 from workbench.errors import WorkbenchError
 from workbench.toml_input import SourcedRecord
@@ -113,6 +115,28 @@ def start_cruise_stop(length_m: float, cruise_mps: float, acceleration_mps2: flo
     return from_acceleration([*start, (cruise_s, [0.0]), *stop])
 
 
+def speed_levels(starts_s: Sequence[float], speeds_mps: Sequence[float], rate_mps2: float, ramp_s: float,
+                 end_s: float) -> DesiredCurve:
+    """From standstill to each speed in turn, beginning at its start; the last one, reached before end_s, is held.
+
+    Raises WorkbenchError when a change of speed is not over before the next one begins, or the train would not
+    stand at the end.
+    """
+    pieces: list[tuple[float, list[float]]] = []
+    reached_s, speed = 0.0, 0.0
+    for start, wanted, following in zip(starts_s, speeds_mps, (*starts_s[1:], end_s), strict=True):
+        if start > reached_s:
+            pieces.append((start - reached_s, [0.0]))
+        pieces += _speed_change(wanted - speed, rate_mps2, ramp_s)
+        reached_s, speed = sum(duration for duration, _ in pieces), wanted
+        if reached_s > following:
+            raise WorkbenchError(f"desired curve: the change to {wanted:g} m/s that begins at {start:g} s takes until "
+                                 f"{reached_s:g} s, beyond {following:g} s: raise the rate or start it earlier")
+    if speed != 0:
+        raise WorkbenchError(f"desired curve: it ends at {speed:g} m/s: let the last speed be 0")
+    return from_acceleration([*pieces, (end_s - reached_s, [0.0])] if end_s > reached_s else pieces)
+
+
 # Beyond these bounds a value is a slip of the pen or of its unit, and the curve would not be computable.
 SLOWEST_MPS, FASTEST_MPS = 0.1, 150.0
 Rate = Annotated[float, Strict(), Field(ge=1e-3, le=20, allow_inf_nan=False)]
@@ -141,6 +165,35 @@ class CruiseSpeed(SourcedRecord):
     acceleration_mps2: Rate
     braking_mps2: Rate
     ramp_s: RampTime
+
+
+class SpeedLevels(SourcedRecord):
+    """A curve that goes to one speed after another, each from its own time on, and stands at its end."""
+
+    starts_s: tuple[Annotated[float, Strict(), Field(ge=0, le=1e5, allow_inf_nan=False)], ...]
+    speeds_mps: tuple[Annotated[float, Strict(), Field(ge=0, le=FASTEST_MPS, allow_inf_nan=False)], ...]
+    rate_mps2: Rate
+    ramp_s: RampTime
+    end_s: Annotated[float, Strict(), Field(gt=0, le=1e5, allow_inf_nan=False)]
+
+    @model_validator(mode="after")
+    def _a_curve_follows(self) -> Self:
+        if len(self.starts_s) != len(self.speeds_mps) or not self.starts_s:
+            raise ValueError(f"starts_s has {len(self.starts_s)} values and speeds_mps {len(self.speeds_mps)}: give "
+                             f"one start for each speed")
+        if any(after <= before for before, after in pairwise((*self.starts_s, self.end_s))):
+            raise ValueError("starts_s does not increase up to end_s: order the speeds by time")
+        if any(one == other for one, other in pairwise((0.0, *self.speeds_mps))):
+            raise ValueError("speeds_mps has the same speed twice in a row, or begins with 0: leave it out")
+        try:
+            self.curve()
+        except WorkbenchError as trouble:
+            raise ValueError(str(trouble)) from None
+        return self
+
+    def curve(self) -> DesiredCurve:
+        """The curve itself."""
+        return speed_levels(self.starts_s, self.speeds_mps, self.rate_mps2, self.ramp_s, self.end_s)
 
 
 def davis_cruise_speed(cruise_mps2: float, a: float, b: float, c: float) -> float:

@@ -56,7 +56,12 @@ class Metrics:
 
 
 def measure(run: Run, scenario: Scenario) -> Metrics:
-    """The metrics of a run."""
+    """The metrics of a scenario's run."""
+    return measure_run(run, scenario.track.length_m)
+
+
+def measure_run(run: Run, length_m: float) -> Metrics:
+    """The metrics of a run that should end after length_m."""
     total = run.totals
     whole = np.nan if run.failed else 1.0  # what only makes sense for a whole run is no number for a failed one
     samples = max(1.0, total["samples"])
@@ -69,7 +74,7 @@ def measure(run: Run, scenario: Scenario) -> Metrics:
         speed_error_min=total["speed_error_min"], speed_error_max=total["speed_error_max"],
         position_rms=whole * float(np.sqrt(total["position_error_square_sum"] / samples)),
         speed_rms=whole * float(np.sqrt(total["speed_error_square_sum"] / samples)),
-        stopping_error=whole * (run.final_position_m - scenario.track.length_m),
+        stopping_error=whole * (run.final_position_m - length_m),
         energy_J=whole * total["traction_work_j"],
         jerk_rms=whole * (float(np.sqrt(np.mean(jerk**2))) if len(jerk) else 0.0),
         saturated_fraction=total["saturated_samples"] / max(1.0, total["commands"]),

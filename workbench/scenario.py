@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from itertools import pairwise
 from pathlib import Path
 from typing import Annotated, Any, Literal, Self
 
@@ -9,6 +10,7 @@ from pydantic import BeforeValidator, Field, Strict, model_validator
 
 from workbench.desired_curve import CruiseSpeed, DavisCruise, DesiredCurve, build_curve
 from workbench.errors import InputError, WorkbenchError
+from workbench.events import Disturbance, Failure, Mode
 from workbench.toml_input import (
     Count,
     Name,
@@ -37,13 +39,7 @@ class Simulation(SourcedRecord):
     dwell_s: Annotated[float, Strict(), Field(ge=0, le=3600, allow_inf_nan=False)]
     position_band_m: Positive
     log_every_s: Interval
-
-
-class Disturbance(SourcedRecord):
-    """The unknown disturbance: a sine of time, per unit of mass."""
-
-    amplitude_mps2: Annotated[float, Strict(), Field(ge=0, le=20, allow_inf_nan=False)]
-    period_s: Annotated[float, Strict(), Field(ge=1e-2, allow_inf_nan=False)]
+    initial_position_m: Annotated[float, Strict(), Field(ge=-1e4, le=1e4, allow_inf_nan=False)] = 0.0
 
 
 class NeuronGrid(SourcedRecord):
@@ -115,7 +111,8 @@ class Variant(Record):
     controllers: tuple[Text, ...] = ()
 
 
-def _known_version(value: Any) -> Any:
+def known_version(value: Any) -> Any:
+    """The version of a file's format as it is; ValueError for one that this workbench does not read."""
     if type(value) is not int or value != 1:
         raise ValueError(f"{value!r} is not known: this workbench reads version = 1")
     return value
@@ -124,7 +121,7 @@ def _known_version(value: Any) -> Any:
 class Scenario(Record):
     """Everything a run needs, with the source of every value."""
 
-    version: Annotated[int, BeforeValidator(_known_version)]
+    version: Annotated[int, BeforeValidator(known_version)]
     name: Name
     title: Text
     paper: Text
@@ -134,6 +131,8 @@ class Scenario(Record):
     reference: Annotated[DavisCruise | CruiseSpeed, Field(discriminator="kind")]
     simulation: Simulation
     disturbance: Disturbance
+    modes: tuple[Mode, ...] = ()
+    failures: tuple[Failure, ...] = ()
     controllers: dict[Name, ControllerSpec]
     uncertainty: Uncertainty
     printed_table: PrintedTable | None = None
@@ -150,6 +149,13 @@ class Scenario(Record):
             if round(ratio) < 1 or abs(ratio - round(ratio)) > 1e-9 * ratio:
                 raise ValueError(f"controllers.{name}.period_s = {spec.period_s:g} is not a whole number of "
                                  f"plant steps of {step:g} s: choose a multiple")
+        starts = [mode.from_s for mode in self.modes]
+        if starts != sorted(set(starts)):
+            raise ValueError("modes: from_s does not increase from mode to mode: order them by time")
+        for mode, following in pairwise(self.modes):
+            if mode.from_s + mode.grade_ramp_s > following.from_s:
+                raise ValueError(f"modes: the grade that grows from {mode.from_s:g} s on is not there yet when the "
+                                 f"next mode begins at {following.from_s:g} s: shorten grade_ramp_s")
         rows = self.printed_table.rows if self.printed_table else ()
         printed = [("printed_table", row.controller) for row in rows]
         printed += [("printed_values", value.controller) for value in self.printed_values]

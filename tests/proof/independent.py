@@ -10,7 +10,7 @@ import mpmath
 import numpy as np
 import sympy as sp
 
-from workbench.proof.claim import D
+from workbench.proof.claim import D, Goal, Relation
 
 SHARE_OF_SPECIAL = 0.3
 CLEAR = {"==": 1e-9, "<=": 1e-9, ">=": 1e-9, "<": -1e-12, ">": -1e-12, "!=": 1e-12}  # a failure not of rounding alone
@@ -243,3 +243,22 @@ def model_breaks(goal, functions, point):
     return bool(starts and signs and all(holds(r, "0") for r in goal.assume)
                 and all(holds(r, at) for at in grid for r in goal.always)
                 and all(not all(holds(r, at) for r in goal.show) for at in grid))
+
+
+def path_obeys(goal, certificate):
+    """Whether the path of a certificate obeys the flow from its initial values, meets its point, and keeps what always
+    holds on a grid of times."""
+    time = sp.Symbol(certificate["time"], real=True)
+    values = {s: sp.Rational(str(certificate["point"].get(str(s), 1))) for s in (*goal.symbols(), *goal.flow)}
+    ends = {s: sp.sympify(certificate["path"][str(s)], locals={str(time): time}) for s in values
+            if str(s) in certificate["path"]}
+    on_path = values | ends
+    duration = sp.Rational(certificate["duration"])
+    obeys = all(sp.expand(sp.diff(on_path[s], time) - rate.xreplace(on_path)) == 0
+                and on_path[s].xreplace({time: sp.Integer(0)}) == goal.initial[s].xreplace(values)
+                for s, rate in goal.flow.items())
+    meets = all(f.xreplace({time: duration}) == values[s] for s, f in ends.items())
+    evaluated = Evaluated(Goal(goal.always or (Relation(sp.Integer(0), "==", sp.Integer(0)),), flow=goal.flow), neurons=1)
+    return bool(obeys and meets and duration >= 0 and all(
+        evaluated.holds_at({str(s): sp.sympify(f).xreplace({time: at}) for s, f in on_path.items()})[1]
+        for at in (sp.Integer(0), duration / 3, duration, 7 * duration, sp.Integer(1000))))

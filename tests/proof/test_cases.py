@@ -57,8 +57,8 @@ FALSE = {
     "triangle turned": Goal((at_least(sp.Abs(x + y), sp.Abs(x) + sp.Abs(y)),)),
     "a disturbance beyond the bound": Goal((at_most(-bound * z * sp.sign(z) + 2 * z * d, 0),),
                                            (at_most(sp.Abs(d), bound),)),
-    "projection of a point outside": Goal((at_most((g - saturation(g, low, high)) * (h - saturation(g, low, high)), 0),),
-                                          (at_most(low, h),)),
+    "projection of a point outside": Goal(
+        (at_most((g - saturation(g, low, high)) * (h - saturation(g, low, high)), 0),), (at_most(low, h),)),
     "the greatest of two rates": Goal((at_most(-c_1 * x**2 - c_2 * y**2, -sp.Max(c_1, c_2) * (x**2 + y**2)),)),
     "a norm from too little": Goal((at_most(sp.sqrt(x**2 + y**2), (sp.Abs(x) + sp.Abs(y)) / 2),)),
     "a smooth sign costs less than 0.27 kappa": tanh_lemma(sp.Rational(27, 100)),
@@ -83,7 +83,8 @@ def test_false_statements_are_refuted_at_a_point(name):
 
 
 def test_the_goal_is_written_with_the_functions_by_name():
-    record = goal_text(Goal((at_most(saturation(g, 0, high), sp.sqrt(x**2 + 1) * sp.tanh(x) + sp.Abs(sp.sign(x) - y)),)))
+    right = sp.sqrt(x**2 + 1) * sp.tanh(x) + sp.Abs(sp.sign(x) - y)
+    record = goal_text(Goal((at_most(saturation(g, 0, high), right),)))
     assert record["show"] == ["Min(Max(0, g), high) <= sqrt(x**2 + 1)*tanh(x) + abs(y - sign(x))"]
 
 

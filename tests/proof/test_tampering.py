@@ -17,7 +17,7 @@ from pathlib import Path
 
 import pytest
 import sympy as sp
-from independent import Evaluated, model_breaks
+from independent import Evaluated, model_breaks, path_obeys
 
 from workbench.proof.checker import CertificateError, check, check_folder
 from workbench.proof.claim import D, Goal, Relation
@@ -30,7 +30,7 @@ CERTIFICATES = PROOFS / "certificates"
 FILES = sorted(CERTIFICATES.rglob("*.json"))
 NAMES = [f"{path.parent.name}:{path.stem}" for path in FILES]
 TURNED = {" <= ": " > ", " >= ": " < ", " < ": " >= ", " > ": " <= ", " == ": " != ", " != ": " == "}
-PARTS = ("goal", "proofs", "example", "point", "functions", "always", "fails", "duration", "correction", "repair")
+PARTS = ("goal", "proofs", "example", "point", "functions", "always", "fails", "path", "duration", "correction", "repair")
 COUNTS: Counter[str] = Counter()
 
 
@@ -94,7 +94,7 @@ def missing(value, way):
     """Functions that leave one thing out, for every place below a part where something may be missing."""
     if isinstance(value, dict):
         for key, inner in sorted(value.items()):
-            if way[-1] in ("point", "example", "functions"):
+            if way[-1] in ("point", "example", "functions", "path"):
                 yield functools.partial(dropped, way=(*way, key))
             yield from missing(inner, (*way, key))
     elif isinstance(value, list):
@@ -141,7 +141,7 @@ def of_another_claim(certificate, rng):
     if like:
         other = rng.choice(like)
         yield "another's goal", certificate | {"goal": other["goal"]}
-        shown = {key: other[key] for key in ("proofs", "example", "point", "functions", "always", "fails")
+        shown = {key: other[key] for key in ("proofs", "example", "point", "functions", "path", "duration", "always", "fails")
                  if key in other}
         yield "another's proof", certificate | shown
 
@@ -212,6 +212,8 @@ def established(certificate):
     goal = goal_of(certificate["goal"])
     if "functions" in certificate:
         return model_breaks(goal, certificate["functions"], certificate["point"])
+    if "path" in certificate and not path_obeys(goal, certificate):
+        return False
     assumed, shown = Evaluated(goal, neurons=1).holds_at(certificate["point"])
     return assumed and not shown
 

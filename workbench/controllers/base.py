@@ -7,16 +7,17 @@ from typing import Literal
 
 import sympy as sp
 
-# What a law may use at a sampling instant: measurements, the desired curve, its own period.
+# What a law may use at a sampling instant: time, measurements, the desired curve, its own period.
+time = sp.Symbol("t", real=True)
 position, speed = sp.symbols("x_1 x_2", real=True)
 desired_position, desired_speed, desired_acceleration = sp.symbols("x_d xdot_d xddot_d", real=True)
 period = sp.Symbol("T_s", positive=True)
 neuron = sp.Symbol("j", integer=True, positive=True)
 neuron_count = sp.Symbol("n_h", integer=True, positive=True)
 
-MEASUREMENTS = (position, speed, desired_position, desired_speed, desired_acceleration, period)
+MEASUREMENTS = (time, position, speed, desired_position, desired_speed, desired_acceleration, period)
 
-Information = Literal["full state, model unknown", "full state, nominal model"]
+Information = Literal["full state, model unknown", "full state, nominal model", "position only, model unknown"]
 
 
 def over_neurons(summand: sp.Expr) -> sp.Expr:

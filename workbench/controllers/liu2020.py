@@ -186,7 +186,7 @@ def law(name: str, title: str, source: str, reading: Reading) -> ControlLaw:
 _LINEAR = "(12), (22), (23), (31) without networks and robust terms"
 _WHOLE = "(12), (17)-(23), (30)-(35)"
 _MENDED = f"{_WHOLE}, signs of (19), (21), (32), (35) corrected"
-_RATE = "k₃ s̃′"
+_RATE = "k₃s̃′"
 
 LAWS: dict[str, ControlLaw] = {made.id: made for made in (
     law("feedback", "feedback alone", _LINEAR, Reading(learning=False)),

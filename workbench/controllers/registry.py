@@ -7,6 +7,7 @@ from typing import Protocol
 
 import sympy as sp
 
+from workbench.controllers import mao2018_laws
 from workbench.controllers.base import ControlLaw
 from workbench.controllers.mpc import TrackingMpc
 from workbench.controllers.pid import pid
@@ -14,7 +15,8 @@ from workbench.controllers.rbf_pid import rbf_pid, rbf_pid_printed
 from workbench.controllers.yang2021 import pocrac, rbfnn_pocrac
 from workbench.scenario import ControllerSpec, Scenario
 
-LAWS: dict[str, ControlLaw] = {law.id: law for law in (rbfnn_pocrac, pocrac, pid, rbf_pid, rbf_pid_printed)}
+LAWS: dict[str, ControlLaw] = {law.id: law for law in (
+    rbfnn_pocrac, pocrac, pid, rbf_pid, rbf_pid_printed, *mao2018_laws.LAWS)}
 
 _held = sp.Symbol("u_held", real=True)
 held_command = ControlLaw(

@@ -872,16 +872,12 @@ def bounds(context: Context, value: Ratio) -> tuple[Fraction, Fraction]:
     return min(corners), max(corners)
 
 
-def _require_defined_at(context: Context, text: str, point: dict[str, Ratio]) -> None:
+def holds(context: Context, text: str, point: dict[str, Ratio]) -> bool:
+    """Whether a relation holds at a point; an error where it is undefined or the enclosure cannot tell."""
     for part, wanted in context.partial_operations(text):
         low, high = bounds(context, substitute(context, context.node(part), point))
         if not (low > 0 or (wanted == "non-zero" and high < 0) or (wanted == "non-negative" and low == 0)):
             raise CertificateError(f"undefined at the point: {ast.unparse(part)}")
-
-
-def holds(context: Context, text: str, point: dict[str, Ratio]) -> bool:
-    """Whether a relation holds at a point; an error where it is undefined or the enclosure cannot tell."""
-    _require_defined_at(context, text, point)
     value, operator = margin(context, text)
     low, high = bounds(context, substitute(context, value, point))
     verdict = {">": (low > 0, high <= 0), ">=": (low >= 0, high < 0),
@@ -947,7 +943,7 @@ def check_false(goal: dict[str, Any], certificate: dict[str, Any]) -> None:
     for text in (*goal.get("assume", []), *goal.get("always", [])):
         if not holds(context, text, point):
             raise CertificateError(f"the point breaks the assumption {text}")
-    if "duration" in certificate:
+    if "path" in certificate:
         _check_reached(context, given, point, certificate)
     else:
         for name, value in given.initial.items():  # a point alone can only be the first of all instants
@@ -959,26 +955,27 @@ def check_false(goal: dict[str, Any], certificate: dict[str, Any]) -> None:
 
 
 def _check_reached(context: Context, given: Relations, point: dict[str, Ratio], certificate: dict[str, Any]) -> None:
-    """Constant inputs move the flow to the point in a straight line, on which all that always holds does for ever."""
+    """Functions of time obey the flow from its initial values, keep what always holds for ever, and meet the point."""
     time, duration = read_name(certificate["time"]), read_rational(certificate["duration"])
-    moving = {name for name, rate in context.flow.items() if not rate.is_zero()}
+    path = {name: context.read(text) for name, text in certificate["path"].items()}
     if given.initial.keys() != context.flow.keys() or context.indexed or time in point or duration < 0:
         raise CertificateError("a point is reached by a flow whose initial values are known, in a time of its own name")
-    held = {name: value for name, value in point.items() if name not in moving}
-    line = dict(held)
-    for name, value in given.initial.items():
-        _require_defined_at(context, context.rates[name], held)
-        rate, start = substitute(context, context.flow[name], held), substitute(context, value, held)
-        if atoms_of(rate) or atoms_of(start):
-            raise CertificateError(f"{name} does not move in a straight line between rational values")
-        if not same(start + rate * number(duration), point[name]):
-            raise CertificateError(f"the flow is not at the point after that time: {name}")
-        line[name] = start + rate * symbol(time)
-    later = Relations(context, [f"{time} >= 0"])
-    for text, proof in zip(given.always, certificate["always"], strict=True):
+    moving, inputs = context.moving(), context.inputs()
+    if not moving - inputs <= path.keys() <= moving or any(symbols_of(context, f) - {time} for f in path.values()):
+        raise CertificateError("the path must give all that moves, and nothing but inputs beside, as functions of time")
+    later, line = Relations(context, [f"{time} >= 0"]), point | path
+    for text in (*certificate["path"].values(), *context.rates.values(), *given.always):
         for part, wanted in context.partial_operations(text):
             if not later.fits(substitute(context, context.node(part), line), wanted):
                 raise CertificateError(f"not shown defined at all times: {ast.unparse(part)}")
+    if not all(same(substitute(context, f, {time: number(duration)}), point[name]) for name, f in path.items()):
+        raise CertificateError("the path does not meet the point after that time")
+    for name, start in given.initial.items():
+        rate = context.derivative(line[name], {time: number(1)})
+        if not same(rate, substitute(context, context.flow[name], line)) or not same(
+                substitute(context, line[name], {time: number(0)}), substitute(context, start, point)):
+            raise CertificateError(f"the path does not obey the flow from its initial values: {name}")
+    for text, proof in zip(given.always, certificate["always"], strict=True):
         value, operator = margin(context, text)
         prove(substitute(context, value, line), operator, later, proof)
 

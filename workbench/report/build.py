@@ -1,8 +1,7 @@
-"""The main job: a paper's scenario and proof files in, a folder with its report and data out."""
+"""The main job: a paper's scenario or study and its proof files in, a folder with its report and data out."""
 
 from __future__ import annotations
 
-import json
 import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
@@ -11,13 +10,18 @@ from pathlib import Path
 from typing import Any
 
 from workbench.errors import InputError
-from workbench.proof.decide.engine import decide_all
+from workbench.json_output import write_json
 from workbench.proof.document import claims_document, write_certificates
-from workbench.proof.paper import collect_papers
+from workbench.proof.prove import prove
+from workbench.proof.selection import Target, targets
 from workbench.report.page import ReportContent, build_page
+from workbench.report.study_page import StudyContent, build_study_page, write_curves
 from workbench.scenario import load_scenario
 from workbench.simulate.compare import Comparison, compare
 from workbench.simulate.sweep import SweepSummary, summarise, sweep
+from workbench.studies.base import Study, StudyResult
+from workbench.studies.registry import load_study, study_kind
+from workbench.workers import cores
 
 # (what is being done, done, total); total 0 while it is not known
 Progress = Callable[[str, int, int], None]
@@ -25,12 +29,23 @@ Progress = Callable[[str, int, int], None]
 
 @dataclass(frozen=True)
 class Report:
-    """What a report was made of, and where its page is."""
+    """What a scenario's report was made of, and where its page is."""
 
     page: Path
     claims: dict[str, Any]
     comparison: Comparison
     summaries: list[SweepSummary]
+    timings: dict[str, float]
+
+
+@dataclass(frozen=True)
+class StudyReport:
+    """What a study's report was made of, and where its page is."""
+
+    page: Path
+    claims: dict[str, Any]
+    study: Study
+    result: StudyResult
     timings: dict[str, float]
 
 
@@ -43,17 +58,10 @@ def build_report(scenario_path: Path, proof_paths: list[Path], out: Path, runs: 
     Raises InputError for input that cannot be used, before anything is computed.
     """
     scenario = load_scenario(scenario_path)
-    papers = collect_papers(proof_paths) if proof_paths else []
+    asked = targets(proof_paths) if proof_paths else []
     _require_folder(out)
     timings: dict[str, float] = {}
-    claims: dict[str, Any] = {}
-    if papers:
-        with _timed(timings, "proof"):
-            every = [claim for paper in papers for claim in paper.claims]
-            decisions = decide_all(every, lambda done: on_progress("claims", done, len(every)))
-            write_certificates(decisions, out / "certificates")
-            claims = claims_document(decisions, out / "certificates")
-            write_json(out / "claims.json", claims)
+    claims = _decide(asked, out, workers, on_progress, timings)
     with _timed(timings, "runs and variants"):
         comparison = compare(scenario_path, workers=workers,
                              on_progress=lambda done, total, _: on_progress("runs and variants", done, total))
@@ -73,6 +81,46 @@ def build_report(scenario_path: Path, proof_paths: list[Path], out: Path, runs: 
     return Report(page, claims, comparison, summarise(rows, scenario), timings)
 
 
+def build_study_report(study_path: Path, proof_paths: list[Path], out: Path, workers: int | None = None,
+                       on_progress: Progress = lambda what, done, total: None) -> StudyReport:
+    """Decide the claims, run the study, and write report.html, claims.json, compare.json, the certificates and
+    the curves of every figure into `out`.
+
+    Raises InputError for input that cannot be used, before anything is computed.
+    """
+    study = load_study(study_path)
+    asked = targets(proof_paths) if proof_paths else []
+    _require_folder(out)
+    timings: dict[str, float] = {}
+    claims = _decide(asked, out, workers, on_progress, timings)
+    with _timed(timings, "runs"):
+        result = run_study(study, workers, on_progress)
+        write_json(out / "compare.json", study_document(study, result))
+    write_curves(result.plots, out / "curves")
+    command = f"workbench report {study_path} {' '.join(map(str, proof_paths))} --out {out}"
+    page = out / "report.html"
+    with _timed(timings, "page"):
+        text = build_study_page(StudyContent(study, result, claims, timings, (command,)))
+        page.write_text(text, encoding="utf-8")
+    return StudyReport(page, claims, study, result, timings)
+
+
+def run_study(study: Study, workers: int | None = None,
+              on_progress: Progress = lambda what, done, total: None) -> StudyResult:
+    """All runs of a study, in `workers` processes or one a core."""
+    return study_kind(study.paper).run(study, workers or cores(),
+                                       lambda done, total, _: on_progress("runs", done, total))
+
+
+def study_document(study: Study, result: StudyResult) -> dict[str, Any]:
+    """The document of `workbench compare --json` of a study."""
+    tables = [{"title": t.title, "source": t.source, "note": t.note, "header": list(t.header),
+               "rows": [list(row) for row in t.rows]} for t in result.tables]
+    failures = [{"run": run, "why": why} for run, why in result.failures]
+    return {"version": 1, "scenario": study.name, "rows": list(result.rows), "tables": tables,
+            "findings": list(result.findings), "failures": failures}
+
+
 def comparison_document(comparison: Comparison) -> dict[str, Any]:
     """The document of `workbench compare --json`."""
     return {"version": 1, "scenario": comparison.scenario.name, "rows": [m.row() for m in comparison.metrics],
@@ -80,10 +128,17 @@ def comparison_document(comparison: Comparison) -> dict[str, Any]:
                          for variant, metrics in comparison.variants]}
 
 
-def write_json(path: Path, document: dict[str, Any]) -> None:
-    """Write a document as JSON; NaN is refused."""
-    path.parent.mkdir(parents=True, exist_ok=True)
-    path.write_text(json.dumps(document, indent=1, ensure_ascii=False, allow_nan=False) + "\n", encoding="utf-8")
+def _decide(asked: list[Target], out: Path, workers: int | None, on_progress: Progress,
+            timings: dict[str, float]) -> dict[str, Any]:
+    """The document of the claims that are asked for; empty when none is."""
+    if not asked:
+        return {}
+    with _timed(timings, "proof"):
+        decisions = prove(asked, workers, on_progress=lambda *step: on_progress("claims", *step)).decisions
+        write_certificates(decisions, out / "certificates")
+        claims = claims_document(decisions, out / "certificates")
+        write_json(out / "claims.json", claims)
+    return claims
 
 
 def _require_folder(out: Path) -> None:

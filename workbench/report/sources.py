@@ -1,4 +1,4 @@
-"""Where every value of a scenario comes from: the paper, a convention, or an assumption."""
+"""Where every value of a scenario or a study comes from: the paper, a convention, or an assumption."""
 
 from __future__ import annotations
 
@@ -8,7 +8,6 @@ from dataclasses import dataclass
 from pydantic import BaseModel
 
 from workbench.report.numbers import NOTHING, exact
-from workbench.scenario import Scenario
 from workbench.toml_input import SourcedRecord
 
 
@@ -22,9 +21,9 @@ class SourcedValue:
     words: str
 
 
-def sourced_values(scenario: Scenario) -> list[SourcedValue]:
-    """All values that state a source, in the scenario's order; nested records count by their own entries."""
-    return list(_walk(scenario, ""))
+def sourced_values(record: BaseModel) -> list[SourcedValue]:
+    """All values that state a source, in the record's order; nested records count by their own entries."""
+    return list(_walk(record, ""))
 
 
 def _walk(record: BaseModel, prefix: str) -> Iterator[SourcedValue]:
@@ -42,6 +41,10 @@ def _walk(record: BaseModel, prefix: str) -> Iterator[SourcedValue]:
             for inner, entry in value.items():
                 if isinstance(entry, BaseModel):
                     yield from _walk(entry, f"{key}.{inner}.")
+        elif isinstance(value, tuple):
+            for place, entry in enumerate(value):
+                if isinstance(entry, BaseModel):
+                    yield from _walk(entry, f"{key}[{place}].")
 
 
 def stated(value: object) -> str:

@@ -9,15 +9,17 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from workbench.compile import kernel_module
+from workbench.compile import Estimates, kernel_module
 from workbench.controllers.base import ControlLaw
 from workbench.controllers.registry import LAWS, SAMPLED, SampledController, held_command
 from workbench.controllers.values import check_controllers, controller_spec, law_values
+from workbench.desired_curve import DesiredCurve
+from workbench.events import failure_rows, mode_rows
 from workbench.scenario import Scenario
 from workbench.simulate import kernel_loop
 from workbench.simulate.kernel_loop import ACCUMULATORS, DIVERGED, LEFT_DOMAIN, LOG_COLUMNS, RUNNING
-from workbench.track import resistance_table
-from workbench.train import single_particle
+from workbench.track import ResistanceTable, resistance_table
+from workbench.train import Plant, single_particle
 
 TIMED_BLOCK = 1000
 
@@ -61,6 +63,59 @@ class Run:
         return self.log[:, self.columns.index(name)]
 
 
+# A line without grade, curve or tunnel.
+LEVEL = ResistanceTable(np.zeros(1), np.zeros(1))
+UNLIMITED = (np.inf, np.inf, np.inf)
+
+
+@dataclass(frozen=True)
+class Setting:
+    """What a run happens in, in the units of its names.
+
+    davis_n: the train's Davis coefficients in N, N s/m, N s^2/m^2; terms, failures, changes: rows of `push_rows`,
+    `failure_rows` and `mode_rows`; limits: traction force (N), braking force (N), power (W). The nominal mass turns
+    commands in m/s^2 into forces; the true one is mass_kg. plant_values: of a plant's parameters beyond these.
+    """
+
+    curve: DesiredCurve
+    mass_kg: float
+    nominal_mass_kg: float
+    davis_n: tuple[float, float, float]
+    plant_step_s: float
+    end_s: float
+    log_every_s: float
+    position_band_m: float
+    initial_position_m: float = 0.0
+    limits: tuple[float, float, float] = UNLIMITED
+    line: ResistanceTable = LEVEL
+    terms: Array = field(default_factory=lambda: np.zeros((0, 7)))
+    failures: Array = field(default_factory=lambda: np.zeros((0, 7)))
+    changes: Array = field(default_factory=lambda: np.zeros((0, 5)))
+    plant_values: tuple[float, ...] = ()
+
+    def plan(self, period_s: float) -> tuple[int, int, float, int]:
+        """Steps in all, steps a sample, seconds a step, steps a row of the log."""
+        step = self.plant_step_s
+        return (round(self.end_s / step), round(period_s / step), step, max(1, round(self.log_every_s / step)))
+
+
+def setting_of(scenario: Scenario, factors: Factors = NOMINAL) -> Setting:
+    """What a scenario states of its runs, for a train and line that differ from the nominal ones by `factors`."""
+    curve, train, simulation = scenario.desired_curve(), scenario.train, scenario.simulation
+    table, of_davis = resistance_table(scenario.track), (factors.davis_a, factors.davis_b, factors.davis_c)
+    a, b, c = (value * factor for value, factor in zip(train.davis_newton, of_davis, strict=True))
+    return Setting(
+        curve=curve, mass_kg=train.mass_kg * factors.mass, nominal_mass_kg=train.mass_kg, davis_n=(a, b, c),
+        plant_step_s=simulation.plant_step_s, end_s=curve.trip_time_s + simulation.dwell_s,
+        log_every_s=simulation.log_every_s, position_band_m=simulation.position_band_m,
+        initial_position_m=simulation.initial_position_m,
+        limits=(train.max_traction_n, train.max_braking_n, train.max_power_w or np.inf),
+        line=ResistanceTable(table.position_m, table.specific_force * factors.line_resistance),
+        terms=scenario.disturbance.rows(), failures=failure_rows(scenario.failures),
+        changes=mode_rows(scenario.modes, train.mass_kg, of_davis),
+    )
+
+
 @dataclass
 class _Arrays:
     """The arrays a kernel reads and writes; built once a run."""
@@ -71,15 +126,17 @@ class _Arrays:
     coefficients: Array
     edges: Array
     values: Array
-    sine: Array
+    terms: Array
+    failures: Array
+    changes: Array
     plant: Array
     limits: Array
     acc: Array
     log: Array
 
     def before_law(self) -> tuple[Any, ...]:
-        return (self.state, self.hints, self.breaks, self.coefficients, self.edges, self.values, self.sine,
-                self.plant, self.limits)
+        return (self.state, self.hints, self.breaks, self.coefficients, self.edges, self.values, self.terms,
+                self.failures, self.changes, self.plant, self.limits)
 
 
 def simulate(scenario: Scenario, name: str, factors: Factors = NOMINAL) -> Run:
@@ -87,56 +144,69 @@ def simulate(scenario: Scenario, name: str, factors: Factors = NOMINAL) -> Run:
 
     Raises InputError when the scenario has no such controller or its values cannot be used.
     """
-    spec = controller_spec(scenario, name)
-    curve = scenario.desired_curve()
-    dt = scenario.simulation.plant_step_s
-    steps = round((curve.trip_time_s + scenario.simulation.dwell_s) / dt)
-    per_sample = round(spec.period_s / dt)
-    log_every = max(1, round(scenario.simulation.log_every_s / dt))
-    law = LAWS.get(spec.law, held_command)
-    width = len(LOG_COLUMNS) + len(law.scalar_states)
-    arrays = _arrays(scenario, factors, np.zeros((steps // log_every + 1, width)))
-    kernel = kernel_module(single_particle(), law, kernel_loop, spec.estimates).closed_loop
-    fixed = (scenario.simulation.position_band_m, scenario.train.mass_kg)
-    counters: dict[str, int] = {}
+    spec, setting = controller_spec(scenario, name), setting_of(scenario, factors)
     if spec.law in LAWS:
-        status, reached, step_us = _run_compiled(kernel, arrays, law_values(law, spec, name), fixed,
-                                                 (steps, per_sample, dt, log_every))
-    else:
-        sampled = SAMPLED[spec.law](scenario, spec, name)
-        status, reached, step_us = _run_sampled(kernel, arrays, sampled, fixed,
-                                                (steps, per_sample, dt, log_every))
-        counters = sampled.counters
+        law = LAWS[spec.law]
+        return run_law(law, law_values(law, spec, name), setting, spec.period_s, spec.estimates, name,
+                       spec.title or law.title)
+    arrays, plan = _arrays(setting, spec.period_s, held_command), setting.plan(spec.period_s)
+    sampled = SAMPLED[spec.law](scenario, spec, name)
+    kernel = kernel_module(single_particle(), held_command, kernel_loop, spec.estimates).closed_loop
+    status, reached, step_us = _run_sampled(kernel, arrays, sampled, _fixed(setting), plan)
+    return _run(name, spec.title or sampled.title, held_command, arrays, plan, (status, reached, step_us),
+                _why(status, reached * plan[2], arrays.state, held_command, spec.law), sampled.counters)
+
+
+def run_law(law: ControlLaw, values: tuple[Array, Array, Array, Array], setting: Setting, period_s: float,
+            estimates: Estimates = "corrected", name: str = "", title: str = "", plant: Plant | None = None) -> Run:
+    """Run a compiled law once; one that leaves its domain or diverges is reported failed.
+
+    values: the law's parameters, initial scalar states, initial neuron states and neuron data, as `law_values` gives
+    them; plant: of position, speed, force, opposing force, mass and Davis coefficients, in the order of
+    `single_particle`, which it is unless given; the setting's plant_values come after these.
+    """
+    arrays, plan = _arrays(setting, period_s, law), setting.plan(period_s)
+    kernel = kernel_module(plant or single_particle(), law, kernel_loop, estimates).closed_loop
+    parameters, scalars, neurons, data = values
+    # The kernel advances states in place, and the caller's values are for other runs too.
+    own = (parameters, scalars.copy(), neurons.copy(), data)
+    status, reached, step_us = _run_compiled(kernel, arrays, own, _fixed(setting), plan)
+    return _run(name or law.id, title or law.title, law, arrays, plan, (status, reached, step_us),
+                _why(status, reached * plan[2], arrays.state, law, law.id), {})
+
+
+def _fixed(setting: Setting) -> tuple[float, float]:
+    return setting.position_band_m, setting.nominal_mass_kg
+
+
+def _run(name: str, title: str, law: ControlLaw, arrays: _Arrays, plan: tuple[int, int, float, int],
+         ended: tuple[int, int, Array], failed: str | None, counters: dict[str, int]) -> Run:
+    _, per_sample, dt, log_every = plan
+    _, reached, step_us = ended
     return Run(
-        controller=name, title=spec.title or (law.title if spec.law in LAWS else sampled.title),
-        columns=(*LOG_COLUMNS, *(str(s.symbol) for s in law.scalar_states)),
+        controller=name, title=title, columns=(*LOG_COLUMNS, *(str(s.symbol) for s in law.scalar_states)),
         log=arrays.log[: max(1, min(len(arrays.log), (reached - 1) // log_every + 1))],
         totals=dict(zip(ACCUMULATORS, arrays.acc.tolist(), strict=True)),
-        final_position_m=float(arrays.state[0]), end_s=reached * dt,
-        failed=_why(status, reached * dt, arrays.state, law, spec.law), step_us=step_us,
-        period_s=spec.period_s, counters=counters,
+        final_position_m=float(arrays.state[0]), end_s=reached * dt, failed=failed, step_us=step_us,
+        period_s=per_sample * dt, counters=counters,
     )
 
 
-def _arrays(scenario: Scenario, factors: Factors, log: Array) -> _Arrays:
-    curve, train = scenario.desired_curve(), scenario.train
-    table = resistance_table(scenario.track)
-    a, b, c = train.davis_newton
+def _arrays(setting: Setting, period_s: float, law: ControlLaw) -> _Arrays:
+    steps, _, _, log_every = setting.plan(period_s)
     acc = np.zeros(len(ACCUMULATORS))
     for name in ("position_error_max", "speed_error_max", "command_max_mps2"):
         acc[ACCUMULATORS.index(name)] = -np.inf
     for name in ("position_error_min", "speed_error_min", "command_min_mps2", "speed_min_mps"):
         acc[ACCUMULATORS.index(name)] = np.inf
-    disturbance = scenario.disturbance
+    state = np.zeros(4)
+    state[0] = setting.initial_position_m
     return _Arrays(
-        state=np.zeros(4), hints=np.zeros(2, dtype=np.int64), breaks=curve.breaks_s,
-        coefficients=curve.coefficients, edges=table.position_m,
-        values=table.specific_force * factors.line_resistance,
-        sine=np.array([disturbance.amplitude_mps2, 2 * np.pi / disturbance.period_s]),
-        plant=np.array([train.mass_kg * factors.mass, a * factors.davis_a, b * factors.davis_b,
-                        c * factors.davis_c]),
-        limits=np.array([train.max_traction_n, train.max_braking_n, train.max_power_w or np.inf]),
-        acc=acc, log=log,
+        state=state, hints=np.zeros(2, dtype=np.int64), breaks=setting.curve.breaks_s,
+        coefficients=setting.curve.coefficients, edges=setting.line.position_m, values=setting.line.specific_force,
+        terms=setting.terms, failures=setting.failures, changes=setting.changes,
+        plant=np.array([setting.mass_kg, *setting.davis_n, *setting.plant_values]), limits=np.array(setting.limits), acc=acc,
+        log=np.zeros((steps // log_every + 1, len(LOG_COLUMNS) + len(law.scalar_states))),
     )
 
 
@@ -178,7 +248,9 @@ def _run_sampled(kernel: Any, arrays: _Arrays, controller: SampledController, fi
 
 
 def _why(status: int, at_s: float, state: Array, law: ControlLaw, law_id: str) -> str | None:
-    where = f"at t = {at_s:.3f} s, s = {state[0]:.3f} m, v = {state[1]:.3f} m/s"
+    # A run that diverged may be far away.
+    s, v = (f"{value:.3f}" if abs(value) < 1e6 else f"{value:.3e}" for value in state[:2])
+    where = f"at t = {at_s:.3f} s, s = {s} m, v = {v} m/s"
     if status == LEFT_DOMAIN:
         return f"{law_id} left its domain ({', '.join(f'{d} > 0' for d in law.domain)}) {where}"
     if status == DIVERGED:
@@ -186,4 +258,5 @@ def _why(status: int, at_s: float, state: Array, law: ControlLaw, law_id: str) -
     return None
 
 
-__all__ = ["NOMINAL", "Factors", "Run", "check_controllers", "law_values", "simulate"]
+__all__ = ["NOMINAL", "Factors", "Run", "Setting", "check_controllers", "law_values", "run_law", "setting_of",
+           "simulate"]

@@ -14,7 +14,8 @@ ACCUMULATORS = (
     "samples", "position_error_min", "position_error_max", "speed_error_min", "speed_error_max",
     "position_error_square_sum", "speed_error_square_sum", "traction_work_j", "braking_work_j",
     "saturated_samples", "band_violations", "command_max_mps2", "command_min_mps2", "speed_min_mps",
-    "time_of_max_position_error_s", "commands",
+    "time_of_max_position_error_s", "commands", "command_reversals", "command_variation_mps2", "last_command_mps2",
+    "last_change_mps2",
 )
 LOG_COLUMNS = ("t_s", "s_m", "v_mps", "s_desired_m", "v_desired_mps", "a_desired_mps2", "u_mps2",
                "u_applied_mps2")
@@ -53,22 +54,84 @@ def additional(position, hint, edges, values):
     return hint, values[hint]
 
 
-def rates_at(t, p, v, force, hint, edges, values, sine, plant):
-    """Section of the line, and the derivatives of position and speed under a force in N."""
+def term(t, rows, i):
+    """Term i at a time t in its window; a row: from, to (s), offset, amplitude, frequency (rad/s), phase (rad)."""
+    value = rows[i, 2]
+    if rows[i, 3] != 0.0:
+        value += rows[i, 3] * math.sin(rows[i, 4] * t + rows[i, 5])
+    return value
+
+
+def pushed(t, v, terms):
+    """Sum of the terms at time t; a row: as in `term`, then the power of the speed that it is multiplied by."""
+    total = 0.0
+    for i in range(terms.shape[0]):
+        if terms[i, 0] <= t < terms[i, 1]:
+            value = term(t, terms, i)
+            if terms[i, 6] >= 1.0:
+                value *= v
+            if terms[i, 6] >= 2.0:
+                value *= v
+            total += value
+    return total
+
+
+def applied(t, force, failures):
+    """The force of all motors: the healthy ones follow the command, failed ones do as their rows say.
+
+    A row: as in `term`, in N, then the share of the motors that failed.
+    """
+    healthy, others = 1.0, 0.0
+    for i in range(failures.shape[0]):
+        if failures[i, 0] <= t < failures[i, 1]:
+            healthy -= failures[i, 6]
+            others += term(t, failures, i)
+    return healthy * force + others
+
+
+def at_time(t, changes, plant, now):
+    """Put the plant's Davis coefficients at time t into `now`; returns its additional N per kg.
+
+    A row of `changes`: time, three Davis coefficients in N, N per kg; linear between rows, constant outside.
+    """
+    last = changes.shape[0] - 1
+    i = 0
+    while i <= last and t >= changes[i, 0]:
+        i += 1
+    if i == 0 or i > last:
+        row = changes[0 if i == 0 else last]
+        now[0], now[1], now[2], now[3] = plant[0], row[1], row[2], row[3]
+        return row[4]
+    before, after = changes[i - 1], changes[i]
+    part = (t - before[0]) / (after[0] - before[0])
+    now[0] = plant[0]
+    for k in range(1, 4):
+        now[k] = before[k] + part * (after[k] - before[k])
+    return before[4] + part * (after[4] - before[4])
+
+
+def rates_at(t, p, v, force, hint, edges, values, terms, failures, changes, plant, now):
+    """Section of the line, and the derivatives of position and speed under a commanded force in N."""
     hint, specific = additional(p, hint, edges, values)
-    # sine: amplitude (N per kg) and angular frequency (rad/s) of the scenario's unknown disturbance
-    opposing = plant[0] * (specific + sine[0] * math.sin(sine[1] * t))
-    dp, dv = plant_rates(p, v, force, opposing, plant)
+    if changes.shape[0] > 0:
+        specific += at_time(t, changes, plant, now)
+    opposing = plant[0] * (specific + pushed(t, v, terms))
+    dp, dv = plant_rates(p, v, applied(t, force, failures), opposing, now)
     return hint, dp, dv
 
 
-def closed_loop(first, count, per_sample, dt, state, hints, breaks, coefficients, edges, values, sine, plant,
-                limits, band, nominal_mass, parameters, scalars, neurons, neuron_data, acc, log, log_every):
+def closed_loop(first, count, per_sample, dt, state, hints, breaks, coefficients, edges, values, terms, failures,
+                changes, plant, limits, band, nominal_mass, parameters, scalars, neurons, neuron_data, acc, log,
+                log_every):
     """Steps first to first + count - 1; returns RUNNING, LEFT_DOMAIN or DIVERGED, and the step reached."""
     # limits: traction force (N), braking force (N), power (W); state: position, speed, held command, force
     p, v, u, force = state[0], state[1], state[2], state[3]
     curve_hint, track_hint = hints[0], hints[1]
     period = dt * per_sample
+    now = plant.copy()
+    # What happens at a stated time happens at the start of the step that begins there, and not at the end of the one
+    # before: the integrator looks no further than within its step.
+    early = 1e-9 * dt
     for n in range(first, first + count):
         t = n * dt
         curve_hint, x_d, xdot_d, xddot_d = desired(t, curve_hint, breaks, coefficients)
@@ -89,10 +152,10 @@ def closed_loop(first, count, per_sample, dt, state, hints, breaks, coefficients
             acc[10] += 1.0
         acc[13] = min(acc[13], v)
         if n % per_sample == 0:
-            if not domain_margin(p, v, x_d, xdot_d, xddot_d, period, parameters) > 0.0:
+            if not domain_margin(t, p, v, x_d, xdot_d, xddot_d, period, parameters) > 0.0:
                 state[0], state[1], state[2], state[3] = p, v, u, force
                 return 1, n
-            u = control_step(p, v, x_d, xdot_d, xddot_d, period, parameters, scalars, neurons, neuron_data)
+            u = control_step(t, p, v, x_d, xdot_d, xddot_d, period, parameters, scalars, neurons, neuron_data)
             if not math.isfinite(u):
                 state[0], state[1], state[2], state[3] = p, v, u, force
                 return 2, n
@@ -106,22 +169,34 @@ def closed_loop(first, count, per_sample, dt, state, hints, breaks, coefficients
                 acc[9] += 1.0
             acc[11] = max(acc[11], u)
             acc[12] = min(acc[12], u)
+            if acc[15] > 1.0:
+                change = u - acc[18]
+                if change * acc[19] < 0.0:
+                    acc[16] += 1.0
+                acc[17] += abs(change)
+                acc[19] = change
+            acc[18] = u
         if n % log_every == 0 and n // log_every < log.shape[0]:
             row = n // log_every
             log[row, 0], log[row, 1], log[row, 2], log[row, 3] = t, p, v, x_d
-            log[row, 4], log[row, 5], log[row, 6], log[row, 7] = xdot_d, xddot_d, u, force / nominal_mass
+            log[row, 4], log[row, 5], log[row, 6] = xdot_d, xddot_d, u
+            log[row, 7] = applied(t, force, failures) / nominal_mass
             for i in range(scalars.shape[0]):
                 log[row, 8 + i] = scalars[i]
-        track_hint, p1, v1 = rates_at(t, p, v, force, track_hint, edges, values, sine, plant)
+        t += early
+        track_hint, p1, v1 = rates_at(t, p, v, force, track_hint, edges, values, terms, failures, changes, plant, now)
         h = 0.5 * dt
-        _, p2, v2 = rates_at(t + h, p + h * p1, v + h * v1, force, track_hint, edges, values, sine, plant)
-        _, p3, v3 = rates_at(t + h, p + h * p2, v + h * v2, force, track_hint, edges, values, sine, plant)
-        _, p4, v4 = rates_at(t + dt, p + dt * p3, v + dt * v3, force, track_hint, edges, values, sine, plant)
+        _, p2, v2 = rates_at(t + h, p + h * p1, v + h * v1, force, track_hint, edges, values, terms, failures,
+                             changes, plant, now)
+        _, p3, v3 = rates_at(t + h, p + h * p2, v + h * v2, force, track_hint, edges, values, terms, failures,
+                             changes, plant, now)
+        _, p4, v4 = rates_at(t + dt - 2.0 * early, p + dt * p3, v + dt * v3, force, track_hint, edges, values, terms,
+                             failures, changes, plant, now)
         moved = dt / 6.0 * (p1 + 2.0 * p2 + 2.0 * p3 + p4)
         v = v + dt / 6.0 * (v1 + 2.0 * v2 + 2.0 * v3 + v4)
         p = p + moved
-        # The force is constant within a step, so force times distance is its exact work.
-        work = force * moved
+        # The commanded force is constant within a step, so force times distance is its exact work.
+        work = applied(t, force, failures) * moved
         if work > 0.0:
             acc[7] += work
         else:

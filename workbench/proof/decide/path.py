@@ -1,7 +1,12 @@
-"""Break a bound of a later instant: constant inputs move everything in straight lines until the bound fails."""
+"""Break a bound of a later instant: polynomials of time that obey the flow until the bound fails.
+
+Inputs are constants or polynomials. Where a rate mentions the symbol that moves, that symbol is given a polynomial and
+the rate is solved for an input or for the next symbol of the chain, so that nothing but polynomials is integrated.
+"""
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from fractions import Fraction
 from itertools import islice
 from typing import Any
@@ -15,84 +20,129 @@ from workbench.proof.decide.combination import find_combination
 from workbench.proof.decide.identity import find_identity
 from workbench.proof.decide.proposals import Point, proposals
 from workbench.proof.derive import expand_derivatives
-from workbench.proof.text import goal_text
+from workbench.proof.text import goal_text, text
 
 LOOKS = 30
 SAMPLES = (sp.Integer(0), sp.Rational(1, 2), sp.Integer(1), sp.Integer(100))  # of the duration; `always` goes on
+DEGREES = ((1, 2), (2, 3), (3, 4))  # powers of time that a curve starts with: slow starts keep several values at zero
+MOST_TERMS = 80
+
+Way = dict[sp.Expr, sp.Expr]
 
 
 def find_path(goal: Goal, verdict: Verdict, seed: int, quick: bool = False) -> dict[str, Any] | None:
-    """A certificate with a point that the flow reaches from its initial values along a straight line, or None."""
-    moving = {s for s, rate in goal.flow.items() if rate != 0}
-    curved = any(rate.free_symbols & moving for rate in goal.flow.values())
-    if not moving or set(goal.initial) != set(goal.flow) or curved:
-        return None
-    if any(isinstance(s, sp.Indexed) for s in goal.symbols()):
+    """A certificate with a point that the flow reaches from its initial values, or None."""
+    if not goal.flow or set(goal.initial) != set(goal.flow) or any(isinstance(s, sp.Indexed) for s in goal.symbols()):
         return None
     taken = {name_of(s) for s in goal.symbols()}
     duration, time = (sp.Symbol(next(n for n in (name, f"{name}_", f"{name}__") if n not in taken), **sign)
                       for name, sign in (("duration", {"positive": True}), ("time", {"real": True})))
     record = goal_text(goal)
-    for point in _ends(goal, duration, seed, quick):
-        certificate = _certificate(goal, record, point, duration, time)
-        if certificate is not None:
-            certificate["verdict"] = verdict
-            try:
-                check(certificate)
-            except CertificateError:
-                continue
-            return certificate
+    for way in islice(_ways(goal, time), 1 if quick else None):
+        for point in _ends(goal, way, duration, time, seed, quick):
+            certificate = _certificate(goal, way, point, duration, time)
+            if certificate is not None:
+                certificate |= {"version": 1, "verdict": verdict, "goal": record}
+                try:
+                    check(certificate)
+                except CertificateError:
+                    continue
+                return certificate
     return None
 
 
-def _along(goal: Goal, relation: Relation, time: sp.Expr) -> Relation:
-    """The relation some time after the start."""
-    line = {s: goal.initial[s] + rate * time for s, rate in goal.flow.items()}
-    sides = (expand_derivatives(side, goal.flow).xreplace(line) for side in (relation.left, relation.right))
-    left, right = sides
+def _ways(goal: Goal, time: sp.Symbol) -> Iterator[Way]:
+    """Polynomials of time, with free coefficients, for what moves and for inputs: constant inputs first."""
+    inputs = sorted({s for rate in goal.flow.values() for s in rate.free_symbols} - set(goal.flow), key=str)
+    seen: list[Way] = []
+    for degrees in DEGREES:
+        for varying in (False, True):
+            varied = {s: s + time * sp.Symbol(f"slope_of_{s}", real=True) for s in inputs} if varying else {}
+            try:
+                way = _way(goal, time, inputs, varied, degrees)
+            except sp.PolynomialError:  # a rate that is no polynomial of time
+                way = None
+            if way is not None and way not in seen:
+                seen.append(way)
+                yield way
+
+
+def _way(goal: Goal, time: sp.Symbol, inputs: list[sp.Symbol], varied: Way, degrees: tuple[int, ...]) -> Way | None:
+    moving = [s for s, rate in goal.flow.items() if rate != 0]
+    way, settled = dict(varied), set[sp.Expr]()
+    while len(settled) < len(moving):
+        before = len(settled)
+        # Integrating an input as a constant would leave it no freedom to bend a curve that needs it.
+        curved = any(s not in settled and goal.flow[s].has(s) for s in moving)
+        for s in moving:
+            rate = sp.expand(goal.flow[s].xreplace(way))
+            unknown = [u for u in moving if u not in way and rate.has(u)]
+            if s in settled:
+                continue
+            if s not in way and not unknown and not curved:
+                way[s] = goal.initial[s] + sp.Poly(rate, time).integrate().as_expr()
+            elif s in way:  # its curve is chosen: something in its rate has to follow
+                follower = next(iter(unknown or [u for u in inputs if u not in way and rate.has(u)]), None)
+                slope = sp.diff(rate, follower) if follower is not None and len(unknown) <= 1 else time
+                if slope.has(time, *moving) or slope == 0:
+                    return None
+                rest = rate.xreplace({follower: sp.Integer(0)})
+                way[follower] = sp.expand((sp.diff(way[s], time) - rest) / slope)
+            else:
+                continue
+            settled.add(s)
+        if len(settled) == before:
+            stuck = next(s for s in moving if s not in way)
+            curve = (sp.Symbol(f"curve_{power}_of_{stuck}", real=True) * time**power for power in degrees)
+            way[stuck] = goal.initial[stuck] + sp.Add(*curve)
+    right = all(sp.expand(sp.diff(way[s], time) - goal.flow[s].xreplace(way)) == 0
+                and sp.expand(way[s].xreplace({time: sp.Integer(0)}) - goal.initial[s]) == 0 for s in moving)
+    short = all(len(sp.Add.make_args(sp.expand(f))) <= MOST_TERMS for f in way.values())
+    return way if right and short else None
+
+
+def _along(goal: Goal, way: Way, relation: Relation) -> Relation:
+    """The relation as a function of time."""
+    left, right = (expand_derivatives(side, goal.flow).xreplace(way) for side in (relation.left, relation.right))
     return Relation(left, relation.operator, right)
 
 
-def _ends(goal: Goal, duration: sp.Symbol, seed: int, quick: bool) -> list[Point]:
-    """Points by constants, inputs and the duration at which the goal at the end of the line seems to fail."""
-    held = [_along(goal, r, part * duration) for r in goal.always for part in SAMPLES]
+def _ends(goal: Goal, way: Way, duration: sp.Symbol, time: sp.Symbol, seed: int, quick: bool) -> list[Point]:
+    """Points by constants, coefficients and the duration at which the goal at the end of the way seems to fail."""
+    ends = {time: duration}
+    held = [_along(goal, way, r).subs({time: part * duration}) for r in goal.always for part in SAMPLES]
+    # Symbols that no relation mentions need values all the same.
+    used = {s for f in way.values() for s in f.free_symbols} - {time}
+    mentioned = tuple(at_least(s**2, 0) for s in sorted(used, key=str))
     try:
-        at_end = Goal(tuple(_along(goal, r, duration) for r in goal.show),
-                      (*(_along(goal, r, duration) for r in goal.assume), *held, *_signs(goal)))
+        at_end = Goal(tuple(_along(goal, way, r).subs(ends) for r in goal.show),
+                      (*(_along(goal, way, r).subs(ends) for r in goal.assume), *held, *mentioned))
         return list(islice(proposals(at_end, seed, True, quick), LOOKS))
     except ClaimError:
         return []
 
 
-def _signs(goal: Goal) -> tuple[Relation, ...]:
-    """What keeps symbols in the goal that its relations do not mention: they need values all the same."""
-    unseen = {s for e in (*goal.flow.values(), *goal.initial.values()) for s in e.free_symbols}
-    return tuple(at_least(s**2, 0) for s in sorted(unseen, key=str))
-
-
-def _certificate(goal: Goal, record: dict[str, Any], point: Point, duration: sp.Symbol,
-                 time: sp.Symbol) -> dict[str, Any] | None:
-    """The certificate for constants, inputs and a duration; None without a proof of what must always hold."""
-    lasting = point[str(duration)]
-    constants = {s: sp.Rational(point[str(s)].numerator, point[str(s)].denominator)
-                 for s in goal.symbols() if str(s) in point}
-    ends = dict(point)
-    del ends[str(duration)]
-    for s, rate in goal.flow.items():
-        end = (goal.initial[s] + rate * sp.Rational(lasting.numerator, lasting.denominator)).xreplace(constants)
-        if not end.is_Rational:
-            return None
-        ends[str(s)] = Fraction(int(end.p), int(end.q))
-    later = (at_least(time, 0),)
+def _certificate(goal: Goal, way: Way, point: Point, duration: sp.Symbol, time: sp.Symbol) -> dict[str, Any] | None:
+    """The certificate for constants, coefficients and a duration; None without a proof of what must always hold."""
+    chosen = {sp.Symbol(name): sp.Rational(v.numerator, v.denominator) for name, v in point.items()}
+    values = {s: chosen[sp.Symbol(s.name)] for f in (*way.values(), *goal.symbols()) for s in f.free_symbols
+              if isinstance(s, sp.Symbol) and sp.Symbol(s.name) in chosen}
+    path = {s: sp.expand(f.xreplace(values)) for s, f in way.items()}
+    lasting = chosen[sp.Symbol(duration.name)]
+    ends = {name_of(s): f.xreplace({time: lasting}) for s, f in path.items()}
+    ends |= {name_of(s): values[s] for s in goal.symbols() if s in values and s not in path}
+    if not all(value.is_Rational for value in ends.values()):
+        return None
     proofs = []
     for relation in goal.always:
-        along = _along(goal, relation, time).subs(constants)
+        along = _along(goal, path, relation).subs(values)
         if along.operator in ("==", "<=", ">=") and find_identity(Goal((along,)), along):
             proofs.append({"rule": "identity"})
             continue
-        found = find_combination(Goal((along,)), along, later)
+        found = find_combination(Goal((along,)), along, (at_least(time, 0),))
         if found is None:
             return None
         proofs.append(found)
-    return {"version": 1, "verdict": "", "goal": record, "point": {name: str(v) for name, v in ends.items()},
-            "duration": str(lasting), "time": str(time), "always": proofs}
+    exact = {name: str(Fraction(int(value.p), int(value.q))) for name, value in ends.items()}
+    return {"point": exact, "path": {name_of(s): text(f) for s, f in path.items()}, "time": str(time),
+            "duration": str(lasting), "always": proofs}

@@ -1,0 +1,50 @@
+"""A plot of a study as SVG text."""
+
+from __future__ import annotations
+
+import numpy as np
+from matplotlib.figure import Figure
+
+from workbench.report.svg import FAINT, PALETTE, drawing, svg, thin
+from workbench.studies.base import Plot
+
+UNDERNEATH = ("desired", "printed")
+LINES = ("-", "--", ":", "-.")
+# So few points are samples rather than a course: they are marked.
+FEW = 60
+# A legend line of the figure's width holds about so many letters.
+LETTERS = 120
+
+
+def study_plot(plot: Plot, name: str) -> str:
+    """All curves of a plot on one pair of axes, thinned to what can be seen; `name` tells it from other figures."""
+    with drawing(name):
+        labels = [curve.label for curve in plot.curves]
+        columns = max(1, min(len(labels), LETTERS // (max(map(len, labels), default=0) + 8)))
+        rows = -(-len(labels) // columns)
+        figure = Figure(figsize=(9, 3.3 + 0.17 * rows), layout="constrained")
+        axes = figure.subplots()
+        drawn = 0
+        for curve in plot.curves:
+            x, y = thin(curve.x, curve.y)
+            if curve.label.startswith(UNDERNEATH):
+                axes.plot(x, y, color=FAINT, linewidth=4.5, label=curve.label, solid_capstyle="butt", zorder=1)
+                continue
+            axes.plot(x, y, LINES[drawn // len(PALETTE) % len(LINES)], color=PALETTE[drawn % len(PALETTE)],
+                      label=curve.label, marker="o" if len(curve.x) <= FEW else None, markersize=3)
+            drawn += 1
+        axes.set(xlabel=plot.x_label, ylabel=plot.y_label)
+        axes.margins(x=0.01)
+        if plot.log_y and any((curve.y > 0).any() for curve in plot.curves):
+            axes.set_yscale("log", nonpositive="mask")
+        if plot.log_x:
+            axes.set_xscale("log", nonpositive="mask")
+        if len(labels) > 1:
+            figure.legend(loc="outside upper left", ncols=columns)
+        return svg(figure, f"{plot.title}: {plot.y_label} against {plot.x_label}; {_ranges(plot)}")
+
+
+def _ranges(plot: Plot) -> str:
+    """What who cannot see the figure should know of its curves."""
+    return "; ".join(f"{curve.label or 'the curve'} from {np.min(curve.y):.3g} to {np.max(curve.y):.3g}"
+                     for curve in plot.curves)

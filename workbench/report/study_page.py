@@ -1,0 +1,101 @@
+"""A study's findings, tables, curves, claims and sources on one self-contained page."""
+
+from __future__ import annotations
+
+import csv
+import re
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+from markupsafe import Markup
+
+from workbench.errors import InputError
+from workbench.report import headline
+from workbench.report.claims import claim_views
+from workbench.report.numbers import NOTHING
+from workbench.report.sources import sourced_values
+from workbench.report.study_figures import study_plot
+from workbench.report.template import PageFigure, render
+from workbench.studies.base import Plot, ResultTable, Study, StudyResult
+
+_NUMBER = re.compile(r"[-+−±≤≥<>~≈\[(]*\s*[\d∞]")
+WORDY = 18  # a cell of more letters is words, and may be broken
+
+
+@dataclass(frozen=True)
+class StudyContent:
+    """All that a study's page shows; claims: the document of `workbench prove --json`, empty without a proof."""
+
+    study: Study
+    result: StudyResult
+    claims: Mapping[str, Any] = field(default_factory=dict)
+    timings: Mapping[str, float] = field(default_factory=dict)
+    commands: Sequence[str] = ()
+
+
+@dataclass(frozen=True)
+class TableView:
+    """A table ready to show: `kinds` says of every column whether it holds numbers, short texts or words."""
+
+    anchor: str
+    table: ResultTable
+    caption: str
+    kinds: tuple[str, ...]
+
+
+def build_study_page(content: StudyContent) -> str:
+    """The page as HTML: styles, figures and formulas within it, no reference to anything outside."""
+    study, result = content.study, content.result
+    sources = sourced_values(study)
+    lines = [headline.proof_line(claim_views(content.claims)), *result.findings, headline.sources_line(sources)]
+    return render(
+        "study.html.j2", content.claims, sources, subject=study, headline=[line for line in lines if line],
+        settings={"study": study.name}, commands=content.commands, timings=content.timings,
+        tables=[_table(number, table) for number, table in enumerate(result.tables, start=1)],
+        figures=[_figure(number, plot) for number, plot in enumerate(result.plots, start=1)],
+        failures=result.failures)
+
+
+def write_curves(plots: Sequence[Plot], folder: Path) -> None:
+    """One CSV a plot: curve, x, y, every point as it was computed; those of an earlier report are taken away.
+
+    Raises InputError where they cannot be written.
+    """
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+        for old in folder.glob("[0-9][0-9]-*.csv"):
+            old.unlink()
+        for number, plot in enumerate(plots, start=1):
+            words = re.sub(r"[^a-z0-9]+", "-", plot.title.lower()).strip("-")[:60]
+            with (folder / f"{number:02d}-{words}.csv").open("w", encoding="utf-8", newline="") as stream:
+                rows = csv.writer(stream, lineterminator="\n")
+                rows.writerow(("curve", plot.x_label, plot.y_label))
+                for curve in plot.curves:
+                    rows.writerows((curve.label, f"{x:.10g}", f"{y:.10g}")
+                                   for x, y in zip(curve.x, curve.y, strict=True))
+    except OSError as trouble:
+        raise InputError(folder, "", f"cannot be written ({trouble.strerror}): name another folder") from None
+
+
+def _caption(title: str, source: str, note: str) -> str:
+    return f"{title} ({source}). {note}".strip()
+
+
+def _figure(number: int, plot: Plot) -> PageFigure:
+    name = f"figure-{number}"
+    return PageFigure(name, Markup(study_plot(plot, name)), _caption(plot.title, plot.source, plot.note))
+
+
+def _table(number: int, table: ResultTable) -> TableView:
+    columns = list(zip(*table.rows, strict=True)) if table.rows else [() for _ in table.header]
+    return TableView(f"table-{number}", table, _caption(table.title, table.source, table.note),
+                     tuple(map(_kind, columns)))
+
+
+def _kind(cells: Sequence[str]) -> str:
+    """`number` for a column of numbers, `words` for one of sentences, else `text`."""
+    if max(map(len, cells), default=0) > WORDY:
+        return "words"
+    return "number" if all(_NUMBER.match(cell) for cell in cells if cell not in ("", NOTHING)) else "text"

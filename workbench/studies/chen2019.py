@@ -1,0 +1,62 @@
+"""The study of chen2019: six cars that learn from trip to trip, by every rule of sampling, and what it depends on."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from workbench.simulate.cars_trials import CarsRun
+from workbench.studies.base import Progress, StudyKind, StudyResult
+from workbench.studies.chen2019_findings import all_findings
+from workbench.studies.chen2019_found import Found, difference, outcome, position_error, speed_error
+from workbench.studies.chen2019_plots import all_plots
+from workbench.studies.chen2019_record import ChenStudy
+from workbench.studies.chen2019_runs import STATED, changed, cost, run_number, title
+from workbench.studies.chen2019_tables import all_tables
+from workbench.workers import run_tasks
+
+
+def run(study: ChenStudy, workers: int, on_progress: Progress) -> StudyResult:
+    """All runs of the study in `workers` processes; a run that ends early is told and stops no other."""
+    asked = range(STATED, len(study.changes))
+    runs: dict[int, CarsRun] = {}
+    steps = len(asked) + 1
+
+    def record(result: tuple[int, CarsRun]) -> None:
+        runs[result[0]] = result[1]
+        on_progress(len(runs), steps, title(study, result[0]))
+
+    # The longest first, so that no process is left alone with one.
+    run_tasks(run_number, study, sorted(asked, key=lambda i: -changed(study, i).samples), workers, record)
+    # By itself, so that nothing else takes time from what is measured.
+    found = Found(study, {i: runs[i] for i in asked}, cost(study))
+    on_progress(steps, steps, "cost of a sample")
+    return StudyResult(
+        rows=tuple(_row(study, i, runs[i]) for i in asked), tables=all_tables(found), plots=all_plots(found),
+        findings=tuple(all_findings(found)),
+        failures=tuple((title(study, i), str(runs[i].failed)) for i in asked if runs[i].failed is not None))
+
+
+def _row(study: ChenStudy, number: int, done: CarsRun) -> dict[str, Any]:
+    """A run as data, of its last finished trial; SI units, over all cars."""
+    of = changed(study, number)
+    row: dict[str, Any] = {"controller": f"chen2019.{of.sampling.acceleration}", "run": title(study, number),
+                           "memory": of.sampling.memory, "period_s": of.sampling.period_s, "trials": len(done.totals)}
+    if done.failed is None:
+        whole, samples = of.reference.trip_time_s * of.train.cars, of.samples * of.train.cars
+        row |= {f"{name}_error_{end}": float(values[-1].min() if end == "min" else values[-1].max())
+                for name in ("position", "speed") for end in ("min", "max")
+                for values in (done.of_cars(f"{name}_error_{end}"),)}
+        row |= {f"{name}_rms": float(np.sqrt(done.total(f"{name}_error_square_s")[-1] / whole))
+                for name in ("position", "speed")}
+        row |= {"stopping_error": float(done.total("stopping_error_m")[-1]),
+                "energy_J": float(done.total("traction_work_j")[-1]),
+                "saturated_fraction": float(done.of_cars("saturated_samples")[-1].sum() / samples),
+                "difference_max_N": float(difference(done)[-1]),
+                "position_error_first": float(position_error(done)[0]),
+                "speed_error_first": float(speed_error(done)[0])}
+    return row | {"outcome": outcome(done), "step_us_median": float(np.median(done.step_us)), "failed": done.failed}
+
+
+KIND = StudyKind(ChenStudy, run)

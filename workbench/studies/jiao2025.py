@@ -1,0 +1,69 @@
+"""The study of jiao2025: laws that learn from trial to trial, in every reading of its units."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from workbench.simulate.trials import TrialRun, run_trials
+from workbench.studies.base import Progress, StudyKind, StudyResult
+from workbench.studies.jiao2025_cases import Case, JiaoStudy, cases, plan
+from workbench.studies.jiao2025_findings import all_findings
+from workbench.studies.jiao2025_found import Found, mse, outcome, peak, rises
+from workbench.studies.jiao2025_plots import all_plots
+from workbench.studies.jiao2025_tables import all_tables
+from workbench.workers import run_tasks
+
+
+def run(study: JiaoStudy, workers: int, on_progress: Progress) -> StudyResult:
+    """All runs of the study in `workers` processes; a run that diverges is told and stops no other."""
+    asked = list(dict.fromkeys(cases(study)))
+    runs: dict[Case, TrialRun] = {}
+
+    def record(result: tuple[Case, TrialRun]) -> None:
+        runs[result[0]] = result[1]
+        on_progress(len(runs), len(asked), name_of(study, result[0]))
+
+    run_tasks(_run_case, study, asked, workers, record)
+    found = Found(study, runs)
+    return StudyResult(
+        rows=tuple(_row(study, case, runs[case]) for case in asked), tables=all_tables(found), plots=all_plots(found),
+        findings=tuple(all_findings(found)),
+        failures=tuple((name_of(study, case), str(runs[case].failed)) for case in asked
+                       if runs[case].failed is not None and case.unit_mps2 is None))
+
+
+def _run_case(study: JiaoStudy, case: Case) -> tuple[Case, TrialRun]:
+    return case, run_trials(plan(study, case))
+
+
+def name_of(study: JiaoStudy, case: Case) -> str:
+    """A run in words: law, reading, and what is not as stated."""
+    words = [case.law, case.reading]
+    if case.opposed:
+        words.append("resistance against the motion")
+    if case.variant >= 0:
+        words.append(study.variants[case.variant].title)
+    if case.unit_mps2 is not None:
+        words.append(f"unit of u {case.unit_mps2:.3g} m/s^2")
+    if case.seed != study.trials.seed:
+        words.append(f"seed {case.seed}")
+    return ", ".join(words)
+
+
+def _row(study: JiaoStudy, case: Case, done: TrialRun) -> dict[str, Any]:
+    """A run as data; speeds in m/s, squared errors in m^2/s^2."""
+    trials = (*study.trials.compared, study.trials.count)
+    shown = {f"mse_{trial}": float(mse(done)[trial]) if trial < len(done.rows) else None for trial in trials}
+    last = done.rows[-1] if done.failed is None else None
+    trial, ratio = peak(done) if len(done.rows) else (None, None)
+    return {
+        "controller": case.law, "reading": case.reading, "seed": case.seed,
+        "variant": study.variants[case.variant].title if case.variant >= 0 else None, "unit_mps2": case.unit_mps2,
+        "resistance_opposed": case.opposed, "mse_0": float(mse(done)[0]) if len(done.rows) else None, **shown,
+        "peak_trial": trial, "peak_over_first": ratio, "trials_worse": rises(done),
+        "largest_speed_error": None if last is None else float(done.column("largest_error")[-1]),
+        "outcome": outcome(done), "step_us_median": done.step_us, "failed": done.failed,
+    }
+
+
+KIND = StudyKind(JiaoStudy, run)

@@ -1,0 +1,54 @@
+"""The study of liu2020: output feedback with neural observers, its ten columns of gains and three disturbances."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from workbench.studies.base import Progress, StudyKind, StudyResult
+from workbench.studies.liu2020_cases import Found, cases, title_of
+from workbench.studies.liu2020_findings import all_findings
+from workbench.studies.liu2020_plots import all_plots
+from workbench.studies.liu2020_record import LiuStudy
+from workbench.studies.liu2020_runs import Case, Outcome, run_case
+from workbench.studies.liu2020_tables import all_tables
+from workbench.workers import run_tasks
+
+ROW = ("position_m_min", "position_m_max", "speed_mps_min", "speed_mps_max", "position_m", "speed_mps", "s_tilde_m",
+       "v_tilde_mps", "energy_J", "energy_both_J", "input_n_min", "input_n_max", "reversals")
+# The names of `workbench compare`, where it has one.
+NAMES = {"position_m_min": "position_error_min", "position_m_max": "position_error_max",
+         "speed_mps_min": "speed_error_min", "speed_mps_max": "speed_error_max", "position_m": "position_rms",
+         "speed_mps": "speed_rms", "s_tilde_m": "s_tilde_rms", "v_tilde_mps": "v_tilde_rms"}
+
+
+def run(study: LiuStudy, workers: int, on_progress: Progress) -> StudyResult:
+    """All runs of the study in `workers` processes; a run that diverges is told and stops no other."""
+    asked = cases(study)
+    outcomes: dict[Case, Outcome] = {}
+
+    def record(outcome: Outcome) -> None:
+        outcomes[outcome.case] = outcome
+        on_progress(len(outcomes), len(asked), title_of(study, outcome.case))
+
+    run_tasks(run_case, study, asked, workers, record)
+    found = Found(study, outcomes)
+    return StudyResult(
+        rows=tuple(_row(study, outcomes[case]) for case in asked), tables=all_tables(found), plots=all_plots(found),
+        findings=all_findings(found),
+        failures=tuple((title_of(study, case), str(outcomes[case].failed)) for case in asked if outcomes[case].failed))
+
+
+def _row(study: LiuStudy, outcome: Outcome) -> dict[str, Any]:
+    """A run as data, SI units; inputs in N."""
+    case = outcome.case
+    return {
+        "controller": case.law, "column": case.column, "disturbance": case.disturbance,
+        "change": study.changes[case.change].title if case.change >= 0 else None,
+        "leak_rate_per_s": case.leak_rate_per_s,
+        **{NAMES.get(name, name): outcome.numbers.get(name) for name in ROW},
+        "largest_position_error": outcome.largest_position_error_m, "end_s": outcome.end_s,
+        "step_us_median": outcome.step_us, "failed": outcome.failed,
+    }
+
+
+KIND = StudyKind(LiuStudy, run)

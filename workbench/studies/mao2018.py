@@ -1,0 +1,62 @@
+"""The study of mao2018: five cases under the laws as printed and with their signs corrected."""
+
+from __future__ import annotations
+
+from workbench.controllers.mao2018_laws import KINDS
+from workbench.studies.base import Progress, StudyKind, StudyResult
+from workbench.studies.mao2018_findings import findings
+from workbench.studies.mao2018_found import Found
+from workbench.studies.mao2018_plots import all_plots
+from workbench.studies.mao2018_record import CaseData, MaoStudy
+from workbench.studies.mao2018_runs import Asked, Obtained, Signs, obtain
+from workbench.studies.mao2018_tables import all_tables
+from workbench.workers import run_tasks
+
+
+def variants(case: CaseData) -> tuple[Signs, ...]:
+    """The signs that a case's runs have mended: none, each but one, all."""
+    if case.law == "healthy":
+        return ((),)
+    wrong = KINDS[case.law][-1]
+    return tuple(dict.fromkeys(((), *(tuple(sign for sign in wrong if sign != left) for left in wrong), wrong)))
+
+
+def plan(study: MaoStudy) -> list[Asked]:
+    """All runs: every case in every tuning, the sampling periods, the changes of assumed values."""
+    runs = [Asked(number, tuning, mended) for tuning in study.tunings
+            for number, case in enumerate(study.cases, start=1) for mended in variants(case)]
+    of = study.sampling
+    runs += [Asked(of.case, of.tuning, variants(study.cases[of.case - 1])[-1], 0, period, r_2, of.end_s)
+             for r_2 in of.r_2_per_s for period in of.periods_s]
+    for number, change in enumerate(study.sensitivity, start=1):
+        for case in change.cases:
+            every = variants(study.cases[case - 1])
+            chosen = {"corrected": every[-1:], "printed": every[:1], "both": (every[0], every[-1])}[change.laws]
+            runs += [Asked(case, change.tuning, mended, number) for mended in dict.fromkeys(chosen)]
+    return runs
+
+
+def run(study: MaoStudy, workers: int, on_progress: Progress) -> StudyResult:
+    """All runs of the study in `workers` processes; a run that diverges is told and stops no other."""
+    asked = plan(study)
+    found: dict[Asked, Obtained] = {}
+
+    def record(result: Obtained) -> None:
+        found[result.asked] = result
+        on_progress(len(found), len(asked), result.name)
+
+    # The longest first, so that no process is left alone with one.
+    run_tasks(obtain, study, sorted(asked, key=lambda one: _steps(study, one), reverse=True), workers, record)
+    everything = Found(study, {one: found[one] for one in asked})
+    return StudyResult(
+        rows=tuple(found[one].row for one in asked), tables=all_tables(everything), plots=all_plots(everything),
+        findings=findings(everything),
+        failures=tuple((found[one].name, found[one].failed or "") for one in asked if found[one].failed))
+
+
+def _steps(study: MaoStudy, asked: Asked) -> float:
+    period = asked.period_s or study.tunings[asked.tuning].period_s
+    return (asked.end_s or study.horizon.end_s) / period
+
+
+KIND = StudyKind(MaoStudy, run)
