@@ -26,7 +26,7 @@ def phi(v):
     return np.concatenate([[v[0] ** 2], np.zeros(len(v) - 1)])
 
 
-def run(plan):
+def run(plan):  # noqa: PLR0915 - one trial after the other, from top to bottom
     """Positions, speeds, inputs, Delta u at all samples of the last trial, and the learned estimates at its end."""
     g, (m, _, low, high, m_low, m_high) = plan.values, plan.cars
     n, dt, samples = len(m), plan.period_s, len(plan.reference)
@@ -57,8 +57,6 @@ def run(plan):
             steps = (g["gamma_v"] * c3 * z2 * v, g["gamma_eta"] * c3 * z2, None, g["gamma_a"] * c3 * z2 @ phi(v),
                      g["gamma_k"] * c3 * z2 @ A @ s, g["gamma_d"] * c3 * z2 @ A @ v)
             now = [x[k] + step for x, step in zip(old, steps, strict=True) if step is not None]
-            hat_v, hat_eta, hat_a, hat_k, hat_d = now
-
             def command(a, mass_hat, z1=z1, s=s, v=v, alpha=alpha, alpha_dot=alpha_dot, v_r=v_r, a_r=a_r, hat=now):
                 return (-(c2 * (v - v_r - alpha) + a - a_r - alpha_dot + z1) / c3
                         - (hat[0] * v + hat[2] * phi(v) + hat[3] * A @ s + hat[4] * A @ v + hat[1] - mass_hat * a))

@@ -258,7 +258,8 @@ def path_obeys(goal, certificate):
                 and on_path[s].xreplace({time: sp.Integer(0)}) == goal.initial[s].xreplace(values)
                 for s, rate in goal.flow.items())
     meets = all(f.xreplace({time: duration}) == values[s] for s, f in ends.items())
-    evaluated = Evaluated(Goal(goal.always or (Relation(sp.Integer(0), "==", sp.Integer(0)),), flow=goal.flow), neurons=1)
+    nothing = Relation(sp.Integer(0), "==", sp.Integer(0))
+    evaluated = Evaluated(Goal(goal.always or (nothing,), flow=goal.flow), neurons=1)
     return bool(obeys and meets and duration >= 0 and all(
         evaluated.holds_at({str(s): sp.sympify(f).xreplace({time: at}) for s, f in on_path.items()})[1]
         for at in (sp.Integer(0), duration / 3, duration, 7 * duration, sp.Integer(1000))))

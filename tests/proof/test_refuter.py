@@ -103,8 +103,9 @@ def corrupted_path(**changes):
 
 @pytest.mark.parametrize("changes", [
     {"duration": "-1"}, {"duration": "1000"}, {"time": "V"}, {"time": "rate"}, {"always": []}, {"path": {}},
-    {"path": {"t": "time", "V": "V_0"}}, {"path": {"t": "time", "V": "time + 1"}}, {"path": {"t": "time", "V": "time**2"}},
-    {"path": {"t": "time", "V": "1/(1 - time)"}}, {"path": {"t": "time", "V": "time", "mu": "time"}},
+    {"path": {"t": "time", "V": "V_0"}}, {"path": {"t": "time", "V": "time + 1"}},
+    {"path": {"t": "time", "V": "time**2"}}, {"path": {"t": "time", "V": "1/(1 - time)"}},
+    {"path": {"t": "time", "V": "time", "mu": "time"}},
     {"point": {"V": "12345"}}, {"point": {"t": "12345"}}, {"point": {"rate": "12345"}},
     {"goal": {"flow": {"t": "1", "V": "rate*V"}}}, {"goal": {"flow": {"t": "1", "V": "rate*t"}}},
     {"goal": {"initial": {"t": "0"}}}, {"goal": {"always": ["rate <= bound", "t >= 0", "V <= V_0 + 1000000"]}},

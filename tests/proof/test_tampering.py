@@ -30,7 +30,8 @@ CERTIFICATES = PROOFS / "certificates"
 FILES = sorted(CERTIFICATES.rglob("*.json"))
 NAMES = [f"{path.parent.name}:{path.stem}" for path in FILES]
 TURNED = {" <= ": " > ", " >= ": " < ", " < ": " >= ", " > ": " <= ", " == ": " != ", " != ": " == "}
-PARTS = ("goal", "proofs", "example", "point", "functions", "always", "fails", "path", "duration", "correction", "repair")
+SHOWN_BY = ("proofs", "example", "point", "functions", "path", "duration", "always", "fails")
+PARTS = ("goal", *SHOWN_BY, "correction", "repair")
 COUNTS: Counter[str] = Counter()
 
 
@@ -141,9 +142,7 @@ def of_another_claim(certificate, rng):
     if like:
         other = rng.choice(like)
         yield "another's goal", certificate | {"goal": other["goal"]}
-        shown = {key: other[key] for key in ("proofs", "example", "point", "functions", "path", "duration", "always", "fails")
-                 if key in other}
-        yield "another's proof", certificate | shown
+        yield "another's proof", certificate | {key: other[key] for key in SHOWN_BY if key in other}
 
 
 def turned(text):

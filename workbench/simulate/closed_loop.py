@@ -205,7 +205,8 @@ def _arrays(setting: Setting, period_s: float, law: ControlLaw) -> _Arrays:
         state=state, hints=np.zeros(2, dtype=np.int64), breaks=setting.curve.breaks_s,
         coefficients=setting.curve.coefficients, edges=setting.line.position_m, values=setting.line.specific_force,
         terms=setting.terms, failures=setting.failures, changes=setting.changes,
-        plant=np.array([setting.mass_kg, *setting.davis_n, *setting.plant_values]), limits=np.array(setting.limits), acc=acc,
+        plant=np.array([setting.mass_kg, *setting.davis_n, *setting.plant_values]),
+        limits=np.array(setting.limits), acc=acc,
         log=np.zeros((steps // log_every + 1, len(LOG_COLUMNS) + len(law.scalar_states))),
     )
 

@@ -56,7 +56,8 @@ def _learning(found: Found) -> Iterator[str]:
     yield (f"Learning works{'' if run.failed is None else ' until then'}: over {len(run.totals)} of {last} iterations "
            f"the largest errors of all cars go {_ends(run)}, "
            f"{'in every single step' if up == 0 else f'rising in {up} steps'}; |Δu| goes "
-           f"{number(d[0] / 1e3)} → {number(d[-1] / 1e3)} kN. That is what the paper says of its Figures 1-9; it prints "
+           f"{number(d[0] / 1e3)} → {number(d[-1] / 1e3)} kN. That is what the paper says of its Figures 1-9; it "
+           f"prints "
            "no numbers.")
 
 
@@ -88,7 +89,8 @@ def _acceleration(found: Found) -> Iterator[str]:
     words = []
     for values, name in (({"sampling__acceleration": "sampled"}, "that of the sample before"),
                          ({"sampling__acceleration": "filtered", "sampling__filter_s": 0.01}, "filtered with 0.01 s"),
-                         ({"sampling__acceleration": "filtered"}, f"filtered with {found.study.sampling.filter_s:g} s")):
+                         ({"sampling__acceleration": "filtered"}, f"filtered with "
+                                                                  f"{found.study.sampling.filter_s:g} s")):
         run = found.find(**values)
         if run is not None and len(run.totals):
             words.append(f"{name}: {_ends(run)} ({outcome(run)})")
@@ -101,13 +103,15 @@ def _gains(found: Found) -> Iterator[str]:
     sampled = found.find(gains__c_1=1.0, sampling__acceleration="sampled")
     if exact is not None and sampled is not None and len(sampled.totals) and len(found.stated.totals):
         yield (f"The stated c_1 = {found.study.gains.c_1:g} breaks the paper's own condition c_λ > 0 (claim 49.stated) "
-               f"and is why the errors begin at {number(float(position_error(found.stated)[0]))} m: with c_1 = 1 and the "
+               f"and is why the errors begin at {number(float(position_error(found.stated)[0]))} m: with c_1 = 1 "
+               f"and the "
                f"acceleration of the sample before they go {_ends(sampled)}. With the solution of the loop that run "
                f"{_did(exact)}.")
     for values, name in (({"gains__c_3": 0.01}, "c_3 = 1/100"),):
         run = found.find(**values)
         if run is not None and len(run.totals):
-            yield (f"{name}, which makes the loop unique up to 100 kg above the mass (claim 16.stated): {_ends(run)}; it "
+            yield (f"{name}, which makes the loop unique up to 100 kg above the mass (claim 16.stated): "
+                   f"{_ends(run)}; it "
                    "begins better, since the feedback 1/c_3 is stronger, and learns more slowly, since every learning "
                    "gain is multiplied by c_3.")
 
@@ -125,7 +129,8 @@ def _trailers(found: Found) -> Iterator[str]:
     ref = study.reference
     motors, trailers = found.limits_of_cars
     need = needed_force(study, ref.cruise_mps, ref.acceleration_mps2)
-    text = (f"The assumed reference asks for {number(need / 1e3)} of {number(len(motors) * study.train.traction_n / 1e3)} "
+    text = (f"The assumed reference asks for {number(need / 1e3)} of "
+            f"{number(len(motors) * study.train.traction_n / 1e3)} "
             f"kN at {ref.cruise_mps:g} m/s, so the train as a whole can follow it")
     if not trailers:
         yield f"{text}."
@@ -134,7 +139,8 @@ def _trailers(found: Found) -> Iterator[str]:
     text += (f"; no trailer can by itself, which needs {number(alone)} N forwards even at cruise (claim A2). The "
              "couplers give it")
     if len(run.totals):
-        text += (f", stretched by up to {number(1e3 * float(run.total('coupler_stretch_m')[-1]))} mm in the last trial; "
+        text += (f", stretched by up to {number(1e3 * float(run.total('coupler_stretch_m')[-1]))} mm in the last "
+                 f"trial; "
                  f"what is left of |Δu| then, {number(float(difference(run)[-1] / 1e3))} kN, and of the speed error "
                  "stands where the reference changes its acceleration")
     yield f"{text}."
@@ -159,7 +165,8 @@ def _energy(found: Found) -> Iterator[str]:
 def _place(found: Found) -> Iterator[str]:
     time, place = (found.find(line__seen_by=by) for by in ("reference", "train"))
     if time is not None and place is not None and time.failed is None and place.failed is None:
-        yield (f"Slopes act where the train is, while (31) takes them for a function of time alone (claim 31.place). With "
+        yield (f"Slopes act where the train is, while (31) takes them for a function of time alone (claim "
+               f"31.place). With "
                f"{found.study.line.slope_permille:g} ‰ as a function of time: {_ends(time)}; where the car is: "
                f"{_ends(place)}. The law learns all the same, since the places of two trials at the same time come "
                "together.")
@@ -173,9 +180,11 @@ def _assumed(found: Found) -> Iterator[str]:
     firsts = [float(position_error(run)[0]) for run in runs]
     lasts = [float(position_error(run)[-1]) for run in runs]
     speeds = [float(speed_error(run)[-1]) for run in runs]
-    text = (f"Other assumed references, slopes, coefficients and initial auxiliary states leave largest position errors "
+    text = (f"Other assumed references, slopes, coefficients and initial auxiliary states leave largest position "
+            f"errors "
             f"of {number(min(firsts))} to {number(max(firsts))} m in the first trial and {number(min(lasts))} to "
-            f"{number(max(lasts))} m in the last, speed errors of {number(min(speeds))} to {number(max(speeds))} m/s in "
+            f"{number(max(lasts))} m in the last, speed errors of {number(min(speeds))} to {number(max(speeds))} "
+            f"m/s in "
             "the last")
     if early:
         text += "; " + "; ".join(f"{name}: {outcome(run)}" for name, run in early)

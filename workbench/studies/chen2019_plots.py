@@ -32,7 +32,8 @@ def all_plots(found: Found) -> tuple[Plot, ...]:
 
 def _shown(found: Found) -> list[tuple[int, int]]:
     """Place among the paper's two iterations, and trial, for those that ran to their end."""
-    return [(min(place, 1), trial) for place, trial in enumerate(found.study.trials.shown) if trial in found.stated.logs]
+    shown = enumerate(found.study.trials.shown)
+    return [(min(place, 1), trial) for place, trial in shown if trial in found.stated.logs]
 
 
 def _figure(kind: str, place: int) -> str:

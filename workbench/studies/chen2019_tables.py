@@ -134,7 +134,8 @@ def _runs_table(found: Found, name: str, source: str, group: str, note: str) -> 
 def rules(found: Found) -> ResultTable:
     """How the continuous law is sampled."""
     return _runs_table(
-        found, "How the law is sampled", "the paper states neither step nor rule; claims 16.loop to 16.sampled", "rules",
+        found, "How the law is sampled", "the paper states neither step nor rule; claims 16.loop to "
+                                         "16.sampled", "rules",
         "As stated: every millisecond, the acceleration that solves the loop (claim 16.exists), an estimate corrected "
         "by the error to which its sample led.")
 
@@ -221,4 +222,5 @@ def cost(found: Found) -> ResultTable:
         ("Cars", "µs a sample", "µs a sample and car", f"{study.trials.count} trials of "
          f"{study.reference.trip_time_s:g} s (s)", "Memory of the estimates (MB)"), tuple(rows),
         f"Train and law together, one core, compiling left out. The time grows as the number of cars to the power "
-        f"{fixed(exponent(found.cost), 2)}. The stated run itself: {number(float(np.median(run.step_us)))} µs a sample.")
+        f"{fixed(exponent(found.cost), 2)}. The stated run itself: {number(float(np.median(run.step_us)))} µs a "
+        f"sample.")

@@ -82,12 +82,11 @@ def _way(goal: Goal, time: sp.Symbol, inputs: list[sp.Symbol], varied: Way, degr
             if s not in way and not unknown and not curved:
                 way[s] = goal.initial[s] + sp.Poly(rate, time).integrate().as_expr()
             elif s in way:  # its curve is chosen: something in its rate has to follow
-                follower = next(iter(unknown or [u for u in inputs if u not in way and rate.has(u)]), None)
-                slope = sp.diff(rate, follower) if follower is not None and len(unknown) <= 1 else time
-                if slope.has(time, *moving) or slope == 0:
+                follower = _follower(rate, unknown or [u for u in inputs if u not in way], time)
+                if follower is None or len(unknown) > 1:
                     return None
                 rest = rate.xreplace({follower: sp.Integer(0)})
-                way[follower] = sp.expand((sp.diff(way[s], time) - rest) / slope)
+                way[follower] = sp.expand((sp.diff(way[s], time) - rest) / sp.diff(rate, follower))
             else:
                 continue
             settled.add(s)
@@ -99,6 +98,12 @@ def _way(goal: Goal, time: sp.Symbol, inputs: list[sp.Symbol], varied: Way, degr
                 and sp.expand(way[s].xreplace({time: sp.Integer(0)}) - goal.initial[s]) == 0 for s in moving)
     short = all(len(sp.Add.make_args(sp.expand(f))) <= MOST_TERMS for f in way.values())
     return way if right and short else None
+
+
+def _follower(rate: sp.Expr, candidates: list[sp.Symbol], time: sp.Symbol) -> sp.Symbol | None:
+    """A symbol for which a rate can be solved without dividing by what changes."""
+    slopes = {u: sp.diff(rate, u) for u in candidates}
+    return next((u for u, slope in slopes.items() if slope != 0 and not slope.has(time, u)), None)
 
 
 def _along(goal: Goal, way: Way, relation: Relation) -> Relation:
