@@ -27,7 +27,7 @@ def phi(v):
 
 
 def run(plan):  # noqa: PLR0915 - one trial after the other, from top to bottom
-    """Positions, speeds, inputs, Delta u at all samples of the last trial, and the learned estimates at its end."""
+    """Positions, speeds, inputs, Delta u at all samples of the last trial, and the estimates before and after it."""
     g, (m, _, low, high, m_low, m_high) = plan.values, plan.cars
     n, dt, samples = len(m), plan.period_s, len(plan.reference)
     A, one = coupled(n), np.ones(n)
@@ -97,4 +97,15 @@ def run(plan):  # noqa: PLR0915 - one trial after the other, from top to bottom
                 k3 = rates(x + h / 2 * k2)
                 x = x + h / 6 * (k1 + 2 * k2 + 2 * k3 + rates(x + h * k3))
             s, v, l1, l2 = x
-    return *(np.array(x) for x in zip(*history, strict=True)), (theta_v, eta, mass, theta_a, theta_k, theta_d)
+    return *(np.array(x) for x in zip(*history, strict=True)), old, (theta_v, eta, mass, theta_a, theta_k, theta_d)
+
+
+def energy(plan, estimates):
+    """The integrals of (25) over the trip, for constant coefficients and no additional resistance."""
+    g, m = plan.values, plan.cars[0]
+    theta_v, eta, mass, theta_a, theta_k, theta_d = estimates
+    total = (np.sum((theta_v + g["c_v"] * m) ** 2) / g["gamma_v"] + np.sum((theta_a + g["c_a"] * m.sum()) ** 2)
+             / g["gamma_a"] + np.sum((theta_k + g["c_k"]) ** 2) / g["gamma_k"]
+             + np.sum((theta_d + g["c_d"]) ** 2) / g["gamma_d"] + np.sum((eta + g["c_0"] * m) ** 2) / g["gamma_eta"]
+             + np.sum((mass - m) ** 2) / g["gamma_M"])
+    return plan.period_s * total / 2

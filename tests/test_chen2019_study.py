@@ -102,7 +102,7 @@ def fast_plan(study, **values):
 def test_compiled_trips_are_those_of_plain_vectors(study, values):
     made = fast_plan(study, **values)
     done = run_cars(made)
-    s, v, u, delta, estimates = plain_cars.run(made)
+    s, v, u, delta, before, estimates = plain_cars.run(made)
     assert done.failed is None
     assert np.ptp(u, axis=0).min() > 1e2
     assert (u == made.cars[3]).any()
@@ -115,6 +115,9 @@ def test_compiled_trips_are_those_of_plain_vectors(study, values):
     errors = s - made.reference[:, :1]
     assert position_error(done)[-1] == pytest.approx(np.abs(errors).max(), rel=1e-6)
     assert done.total("position_error_square_s")[-1] == pytest.approx(np.sum(errors**2) * 1e-3, rel=1e-6)
+    if not values:
+        energies = [plain_cars.energy(made, x) for x in (before, estimates)]
+        assert done.total("cef_change")[-1] == pytest.approx(energies[1] - energies[0], rel=1e-4)
 
 
 def test_a_step_of_half_the_length_gives_the_same_trip(short):

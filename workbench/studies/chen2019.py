@@ -16,6 +16,11 @@ from workbench.studies.chen2019_runs import STATED, changed, cost, run_number, t
 from workbench.studies.chen2019_tables import all_tables
 from workbench.workers import run_tasks
 
+# What a run that failed has no numbers for.
+NUMBERS = ("position_error_min", "position_error_max", "speed_error_min", "speed_error_max", "position_rms",
+           "speed_rms", "stopping_error", "energy_J", "saturated_fraction", "difference_max_N", "position_error_first",
+           "speed_error_first")
+
 
 def run(study: ChenStudy, workers: int, on_progress: Progress) -> StudyResult:
     """All runs of the study in `workers` processes; a run that ends early is told and stops no other."""
@@ -43,6 +48,7 @@ def _row(study: ChenStudy, number: int, done: CarsRun) -> dict[str, Any]:
     of = changed(study, number)
     row: dict[str, Any] = {"controller": f"chen2019.{of.sampling.acceleration}", "run": title(study, number),
                            "memory": of.sampling.memory, "period_s": of.sampling.period_s, "trials": len(done.totals)}
+    row |= dict.fromkeys(NUMBERS)
     if done.failed is None:
         whole, samples = of.reference.trip_time_s * of.train.cars, of.samples * of.train.cars
         row |= {f"{name}_error_{end}": float(values[-1].min() if end == "min" else values[-1].max())

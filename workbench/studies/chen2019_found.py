@@ -44,7 +44,7 @@ class Found:
         return next((self.runs[i] for i, change in enumerate(self.study.changes) if change.set == wanted), None)
 
     @property
-    def limits_of_cars(self) -> tuple[list[int], list[int]]:
+    def motors_and_trailers(self) -> tuple[list[int], list[int]]:
         """Motor cars and trailers, counted from 0."""
         motors = [car for car in range(self.study.train.cars) if self.study.train.has_motor(car)]
         return motors, [car for car in range(self.study.train.cars) if car not in motors]
@@ -87,6 +87,13 @@ def outcome(run: CarsRun) -> str:
     if turns:
         return f"grows again from trial {min(turns)} on"
     return "falls" if rises(position_error(run)) + rises(speed_error(run)) == 0 else "falls, not in every trial"
+
+
+def largest_speed_error_at(found: Found, trial: int) -> tuple[float, float]:
+    """Time (s) of the largest speed error of a logged trial, and the acceleration (m/s^2) of the reference then."""
+    errors = np.abs(found.stated.log(trial, "speed_error_mps")).max(axis=1)
+    time_s = float(np.argmax(errors)) * found.study.sampling.log_every_s
+    return time_s, float(found.study.reference.curve().at(np.array([time_s]))[2][0])
 
 
 def needed_force(study: ChenStudy, speed_mps: float, acceleration_mps2: float) -> float:

@@ -12,6 +12,7 @@ from workbench.studies.chen2019_found import (
     allowed_change,
     cef_change,
     difference,
+    grows_from,
     outcome,
     position_error,
     speed_error,
@@ -20,7 +21,6 @@ from workbench.studies.chen2019_runs import STATED, title
 
 # The paper's figures by what they show: for its first and its last iteration.
 FIGURES = {"profile": (1, 2), "errors": (3, 4), "input": (6, 7), "difference": (8, 9)}
-# Of displacements that lie upon each other, what can be told apart.
 FIGURE_5 = "paper, Figure 5"
 
 
@@ -44,8 +44,8 @@ def _times(found: Found, rows: int) -> np.ndarray:
     return np.arange(rows) * found.study.sampling.log_every_s
 
 
-def _cars(found: Found, trial: int, column: str, scale: float = 1.0) -> list[Curve]:
-    values = scale * found.stated.log(trial, column)
+def _cars(found: Found, trial: int, column: str, scale: float = 1.0, run: CarsRun | None = None) -> list[Curve]:
+    values = scale * (run or found.stated).log(trial, column)
     return [Curve(f"car {car + 1}", _times(found, len(values)), values[:, car]) for car in range(values.shape[1])]
 
 
@@ -98,10 +98,18 @@ def inputs(found: Found) -> list[Plot]:
 
 
 def differences(found: Found) -> list[Plot]:
-    """The difference between actual and unsaturated inputs of all cars."""
-    return [Plot(f"Difference of the inputs, trial {trial}", _figure("difference", place), "t (s)", "Δu = u − μ (kN)",
-                 tuple(_cars(found, trial, "difference_n", 1e-3)),
-                 f"The largest within every {found.study.sampling.log_every_s:g} s.") for place, trial in _shown(found)]
+    """The difference between actual and unsaturated inputs of all cars, as stated and where the rules let it grow."""
+    label, note = "Δu = u − μ (kN)", f"The largest within every {found.study.sampling.log_every_s:g} s."
+    plots = [Plot(f"Difference of the inputs, trial {trial}", _figure("difference", place), "t (s)", label,
+                  tuple(_cars(found, trial, "difference_n", 1e-3)), note) for place, trial in _shown(found)]
+    for change, run in found.group("rules"):
+        last = max(run.logs, default=0)
+        if change.set.get("sampling.memory") == "same_sample" and last and grows_from(difference(run)) is not None:
+            words = outcome(run)
+            plots.append(Plot(
+                f"Difference of the inputs, trial {last}: {change.title}", "beside paper, Figure 9", "t (s)", label,
+                tuple(_cars(found, last, "difference_n", 1e-3, run)), f"{note} It {words}."))
+    return plots
 
 
 def energy(found: Found) -> list[Plot]:

@@ -78,9 +78,10 @@ def plan(study: ChenStudy) -> CarsPlan:
 
 
 def run_number(study: ChenStudy, number: int) -> tuple[int, CarsRun]:
-    """Run the stated study or one of its changes, whose log is left out."""
+    """Run the stated study or one of its changes; those about what else is assumed leave no log."""
     made = plan(changed(study, number))
-    return number, run_cars(made if number == STATED else replace(made, kept=()))
+    logged = number == STATED or study.changes[number].group == "rules"
+    return number, run_cars(made if logged else replace(made, kept=()))
 
 
 def cost(study: ChenStudy) -> tuple[CostPoint, ...]:

@@ -63,7 +63,8 @@ def kilonewtons(newtons: float) -> str:
 
 def ended(run: Obtained) -> str:
     """When a run diverged, or a dash."""
-    return f"diverged at {run.row['end_s']:.4g} s" if run.failed else "—"
+    end = run.row["end_s"]
+    return f"diverged at {end:.{3 if end < 10 else 1}f} s" if run.failed else "—"
 
 
 def largest(run: Obtained) -> float:
