@@ -118,9 +118,12 @@ class Evaluated:
         while None in verdicts:
             with mpmath.workdps(digits):
                 values = self.exact(*(mpmath.mpf(v.numerator) / v.denominator for v in numbers))
+            with mpmath.workdps(digits + 60):  # what is only rounding, however large, is another number here
+                again = self.exact(*(mpmath.mpf(v.numerator) / v.denominator for v in numbers))
                 zero = mpmath.mpf(10) ** (-digits // 2)
                 for place, ((_, operator), value) in enumerate(zip(given, values, strict=True)):
-                    if abs(value) >= zero or (value == 0 and digits > ENOUGH_DIGITS):
+                    settled = abs(value) >= zero and abs(value - again[place]) <= abs(value) / 1000
+                    if settled or (value == 0 and digits > ENOUGH_DIGITS):
                         verdicts[place] = self._holds(operator, value, 0)
                     elif digits > MOST_DIGITS:
                         verdicts[place] = self._holds(operator, mpmath.mpf(0), 0)
