@@ -29,6 +29,18 @@ def additional_specific_resistance() -> sp.Expr:
     return sp.Rational(str(STANDARD_GRAVITY_MPS2)) * per_kilonewton / 1000
 
 
+def roeckl_specific_resistance() -> sp.Expr:
+    """The same with Roeckl's resistance of curves, 650/(R - 55) N/kN from R = 300 m on and 500/(R - 30) below.
+
+    The handbook form for standard gauge, R in m (for example D. Wende, Fahrdynamik des Schienenverkehrs, 2003).
+    The two branches do not meet: at R = 300 m they give 2.65 and 1.85 N/kN.
+    """
+    wide = 650 * curvature_per_m / (1 - 55 * curvature_per_m)
+    sharp = 500 * curvature_per_m / (1 - 30 * curvature_per_m)
+    curve = sp.Piecewise((wide, curvature_per_m <= sp.Rational(1, 300)), (sharp, True))
+    return sp.Rational(str(STANDARD_GRAVITY_MPS2)) * (grade_permille + curve + tunnel_n_per_kn) / 1000
+
+
 class Section(Record):
     """A stretch of line from start_m to end_m."""
 
@@ -68,20 +80,38 @@ class TunnelSection(Section):
     resistance_n_per_kn: NonNegative
 
 
+class SpeedSection(Section):
+    """Speed limit in m/s, from start_m to end_m."""
+
+    speed_mps: Annotated[float, Strict(), Field(gt=0, le=200, allow_inf_nan=False)]
+
+
 class Track(SourcedRecord):
-    """A line: grade and curve cover it without gap or overlap; tunnels may leave gaps (open air)."""
+    """A line: grade and curve cover it without gap or overlap; tunnels may leave gaps (open air).
+
+    speed_limit, where given, covers it too. stops_m: where trains may stop, ends included; without it, the ends alone.
+    """
 
     name: Text
     length_m: Annotated[float, Strict(), Field(gt=0, le=1e8, allow_inf_nan=False)]
     grade: tuple[GradeSection, ...]
     curve: tuple[CurveSection, ...]
     tunnel: tuple[TunnelSection, ...] = ()
+    speed_limit: tuple[SpeedSection, ...] = ()
+    stops_m: tuple[NonNegative, ...] = ()
 
     @model_validator(mode="after")
     def _sections_cover_the_line(self) -> Self:
         _require_cover("grade", self.grade, self.length_m)
         _require_cover("curve", self.curve, self.length_m)
         _require_order("tunnel", self.tunnel, self.length_m)
+        if "speed_limit" in self.model_fields_set:
+            _require_cover("speed_limit", self.speed_limit, self.length_m)
+        if "stops_m" in self.model_fields_set:
+            ends = (self.stops_m[0], self.stops_m[-1]) if self.stops_m else ()
+            if ends != (0.0, self.length_m) or any(b <= a for a, b in pairwise(self.stops_m)):
+                raise ValueError(f"stops_m: must increase from 0 to length_m = {self.length_m:g}: sort them, "
+                                 "and name both ends")
         return self
 
 
@@ -153,4 +183,5 @@ def load_track(path: Path) -> Track:
 
 
 __all__ = ["STANDARD_GRAVITY_MPS2", "CurveSection", "GradeSection", "Number", "ResistanceTable", "Section",
-           "Track", "TunnelSection", "additional_specific_resistance", "load_track", "resistance_table"]
+           "SpeedSection", "Track", "TunnelSection", "additional_specific_resistance", "load_track", "resistance_table",
+           "roeckl_specific_resistance"]
