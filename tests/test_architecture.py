@@ -20,7 +20,7 @@ FLOORS = (
     ("train", "multi_particle", "track", "desired_curve", "events"),
     ("scenario", "controllers.base"),  # what a scenario states, and what a law is
     ("compile",),  # expressions to code; it must know what a law is
-    ("controllers",),  # the laws themselves, MPC among them, which is compiled and reads its scenario
+    ("controllers", "mpc"),  # the laws themselves, and MPC, which is compiled and reads its scenario
     ("simulate", "proof", "optimal", "gains"),
     ("metrics",),  # numbers of a run
     ("simulate.sweep", "simulate.compare", "studies"),  # many runs, each as its numbers

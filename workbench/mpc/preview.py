@@ -1,0 +1,40 @@
+"""What lies ahead of a train, a row a sample: the desired state, the command it needs, speed limit and disturbance."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from workbench.compile import numeric
+from workbench.desired_curve import DesiredCurve
+from workbench.mpc.problem import Array, Problem
+from workbench.track import ResistanceTable
+from workbench.train import a_star, b_star, c_star, davis_resistance, x_2
+
+COLUMNS = ("p_m", "v_mps", "F_mps2", "u_mps2", "speed_limit_mps", "f_mps2")
+# Davis resistance per unit of mass of (v, a, b, c).
+resistance = numeric((x_2, a_star, b_star, c_star), davis_resistance(x_2, a_star, b_star, c_star))
+
+
+def preview(problem: Problem, curve: DesiredCurve, duration_s: float, speed_limit_mps: float = math.inf,
+            line: ResistanceTable | None = None) -> Array:
+    """Rows (COLUMNS) for every sample of a run of duration_s, and of the horizon beyond it.
+
+    line: the line's force (N/kg), where the controller is told it; met at the desired position. The force is what the
+    model needs to stay on the curve, and the command what makes it through the actuator.
+    """
+    steps = math.ceil(duration_s / problem.period_s) + problem.horizon + 2
+    position, speed, acceleration = curve.at(np.arange(steps + 1, dtype=np.float64) * problem.period_s)
+    told = np.zeros(steps + 1)
+    if line is not None:
+        section = np.clip(np.searchsorted(line.position_m, position, side="right") - 1, 0, len(line.position_m) - 1)
+        told = -line.specific_force[section]
+    needed = acceleration + resistance(speed, *problem.davis) - told
+    if problem.actuator == "lag":
+        kept = math.exp(-problem.period_s / problem.lag_s)
+        force, command = needed, (np.append(needed[1:], needed[-1]) - kept * needed) / (1 - kept)
+    else:
+        force, command = np.concatenate((needed[:1], needed[:-1])), needed
+    rows = np.stack((position, speed, force, command, np.full(steps + 1, speed_limit_mps), told), axis=1)
+    return np.ascontiguousarray(rows[:steps])

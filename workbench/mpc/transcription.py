@@ -1,0 +1,155 @@
+"""The tracking problem as a nonlinear program for casadi's solvers: what the compiled solver is held against.
+
+Multiple shooting with one slack a soft row and stage; unknowns and constraints in the order of the stages, which
+solvers that exploit the structure need. Other costs than tracking come in by `stage_cost`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+import casadi as ca
+import numpy as np
+
+from workbench.compile import casadi_function
+from workbench.errors import SolverError
+from workbench.mpc import model as of
+from workbench.mpc.problem import Array, Problem
+from workbench.mpc.solution import Solution
+from workbench.mpc.terminal import Lqr, lqr
+
+# The solvers that are offered, each with its options: name -> (plugin, options). The tests hold each to the closed-loop
+# cost of ipopt.
+QUIET: dict[str, Any] = {"print_time": False, "error_on_fail": False, "calc_lam_p": False, "calc_multipliers": False}
+SOLVERS: dict[str, tuple[str, dict[str, Any]]] = {
+    "ipopt": ("ipopt", {"ipopt": {
+        "print_level": 0, "sb": "yes", "tol": 1e-8, "warm_start_init_point": "yes", "mu_init": 1e-2}}),
+    "fatrop": ("fatrop", {"structure_detection": "auto", "fatrop": {"print_level": 0, "tol": 1e-8}}),
+    "sqp": ("sqpmethod", {"qpsol": "qrqp", "print_header": False, "print_iteration": False, "print_status": False,
+                          "max_iter": 50, "qpsol_options": {"print_iter": False, "print_header": False,
+                                                            "print_info": False, "error_on_fail": False}}),
+}
+
+StageCost = Callable[[Any, Any, Any], Any]
+
+
+class CasadiMpc:
+    """A problem solved by one of SOLVERS, from sample to sample with the solution before, shifted, as its start.
+
+    stage_cost: of (state, command, row of `preview`), casadi to casadi; the tracking cost unless given. terminal: of
+    (state, row); the LQR's cost unless given. Raises SolverError for a solver that is not offered.
+    """
+
+    def __init__(self, problem: Problem, ahead: Array, solver: str = "ipopt", stage_cost: StageCost | None = None,
+                 terminal: Callable[[Any, Any], Any] | None = None, beyond: Lqr | None = None) -> None:
+        if solver not in SOLVERS:
+            raise SolverError(f"unknown solver '{solver}': choose one of {', '.join(SOLVERS)}")
+        self.problem, self.ahead, self.horizon = problem, ahead, problem.horizon
+        self.lqr = beyond or lqr(problem)
+        self._stage_cost = stage_cost or tracking_cost(problem)
+        self._terminal = terminal or self._lqr_cost
+        self._rows = problem.rows(ahead)
+        self._step = of.model(problem.actuator).casadi_step()
+        self._soft = casadi_function("soft", (*of.STATE, of.p_r, of.p_band, of.v_limit, of.P_limit), of.soft_rows)
+        self._build(solver)
+        self.cost = 0.0
+        self.forget()
+
+    def _lqr_cost(self, x: Any, row: Any) -> Any:
+        error = x - row[:3]
+        return ca.bilin(self.lqr.cost, error, error)
+
+    def _build(self, solver: str) -> None:
+        """Unknowns in the order x_0, u_0, x_1, u_1, s_1, ... x_N; the state at the start is a parameter."""
+        N, soft = self.horizon, len(self._rows)
+        given = ca.SX.sym("given", 3 + 6 * (N + 1))
+        window = ca.reshape(given[3:], 6, N + 1)
+        states = [ca.SX.sym(f"x_{k}", 3) for k in range(N + 1)]
+        commands = [ca.SX.sym(f"u_{k}") for k in range(N)]
+        slacks = [ca.SX.sym(f"s_{k}", soft if k else 0) for k in range(N)]
+        cost, constraints, equal = self._terminal(states[N], window[:, N]), [], []
+        for k in range(N):
+            x, u, row = states[k], commands[k], window[:, k]
+            constraints.append(states[k + 1] - self._step(x[0], x[1], x[2], u, row[5], *self.problem.parameters))
+            cost += self._stage_cost(x, u, row)
+            if k == 0:
+                constraints.append(x - given[:3])
+            elif soft:
+                exceeded, price = self._softened(x, row, slacks[k])
+                constraints.append(exceeded)
+                cost += price
+            equal += [True] * (6 if k == 0 else 3) + [False] * (soft if k else 0)
+        every = ca.vertcat(*(part for k in range(N) for part in (states[k], commands[k], slacks[k])), states[N])
+        self._bounds: dict[str, Any] = {
+            "lbx": self._each(-np.inf, self.problem.lowest_command_mps2, 0.0),
+            "ubx": self._each(np.inf, self.problem.highest_command_mps2, np.inf),
+            "ubg": 0.0, "lbg": np.where(equal, 0.0, -np.inf),
+        }
+        plugin, options = SOLVERS[solver]
+        options = QUIET | options | ({"equality": equal} if plugin == "fatrop" else {})
+        try:
+            nlp = {"x": every, "p": given, "f": cost, "g": ca.vertcat(*constraints)}
+            self._solver = ca.nlpsol("mpc", plugin, nlp, options)
+        except RuntimeError as trouble:
+            raise SolverError(f"casadi's '{plugin}' cannot take this problem: choose another of {', '.join(SOLVERS)} "
+                              f"({str(trouble).splitlines()[-1][:80]})") from None
+        self._read = ca.Function("read", [every], [ca.vertcat(*commands), ca.horzcat(*states)])
+
+    def _softened(self, x: Any, row: Any, s: Any) -> tuple[Any, Any]:
+        """The soft rows of a stage less their slack, and what the slack costs."""
+        limits = np.where(np.isfinite(self.problem.limits()), self.problem.limits(), 0.0)
+        h = self._soft(x[0], x[1], x[2], row[0], limits[2], row[4], limits[3])
+        rows = [int(i) for i in self._rows]
+        price = [self.problem.price[i][0] * s[n] + self.problem.price[i][1] * s[n] ** 2 for n, i in enumerate(rows)]
+        return h[rows] - s, sum(price)
+
+    def _each(self, state: float, command: float, slack: float) -> Array:
+        """The unknowns, all of a kind at one value."""
+        return self._stacked(np.full((self.horizon + 1, 3), state), np.full(self.horizon, command), slack)
+
+    def _stacked(self, states: Array, plan: Array, slack: float = 0.0) -> Array:
+        """The unknowns of a plan."""
+        parts = [np.concatenate([states[k], plan[k : k + 1], np.full(len(self._rows) if k else 0, slack)])
+                 for k in range(self.horizon)]
+        return np.concatenate([*parts, states[self.horizon]])
+
+    def forget(self) -> None:
+        """Drop the warm start; the next program starts from the desired states and commands."""
+        self._last: tuple[Array, Array] | None = None
+        self._sample = -1
+
+    def solve(self, sample: int, state: Array, disturbance: float = 0.0) -> Solution:
+        """The plan from a state at a sample; never raises: what the solver says is in `why`."""
+        N = self.horizon
+        window = self.ahead[sample : sample + N + 1].copy()
+        window[:, 5] += disturbance
+        window[:, 2:4] -= disturbance
+        window[:, 4] = np.where(np.isfinite(window[:, 4]), window[:, 4], 0.0)
+        U, X = window[:N, 3], window[:, :3].copy()
+        if self._last is not None and sample == self._sample + 1:
+            plan, states = self._last
+            U, X[:-1] = np.append(plan[1:], plan[-1]), states[1:]
+        X[0], self._sample, self._last = state, sample, None
+        try:
+            answer = self._solver(x0=self._stacked(X, U), p=np.concatenate([state, window.ravel()]), **self._bounds)
+            stats = self._solver.stats()
+        except RuntimeError as trouble:
+            return Solution(U, solved=False, why=str(trouble).splitlines()[-1])
+        plan, states = (np.asarray(a) for a in self._read(answer["x"]))
+        plan, self.cost = plan.ravel(), float(answer["f"])
+        if not (stats["success"] and np.isfinite(plan).all()):
+            return Solution(plan, solved=False, why=str(stats["return_status"]))
+        self._last = plan, states.T
+        return Solution(plan, solved=True, programs=int(stats.get("iter_count", 1)))
+
+
+def tracking_cost(problem: Problem) -> StageCost:
+    """The weighted squares of a problem, as a stage cost."""
+    w = problem.weights
+
+    def cost(x: Any, u: Any, row: Any) -> Any:
+        return (w.position * (x[0] - row[0]) ** 2 + w.speed * (x[1] - row[1]) ** 2 + w.force * (x[2] - row[2]) ** 2
+                + w.command * (u - row[3]) ** 2 + w.change * (u - x[2]) ** 2)
+
+    return cost
