@@ -16,7 +16,9 @@ from workbench.optimal.along_line import AlongLine, Array, steps
 from workbench.optimal.course import Course
 from workbench.optimal.line_checks import (
     FASTEST_MPS,
+    LONGEST_TRAIN_M,
     SHARPEST_RADIUS_M,
+    SHORTEST_TRAIN_M,
     STEEPEST_PERMILLE,
     require_starts,
     require_stops,
@@ -43,9 +45,8 @@ KNEE_PER_M = 1 / 300
 # fraction of the largest resistance of curves on the run. The clothoid itself is followed ten times closer.
 CURVE_TOLERANCE = 1e-3
 
-# Borders that lie closer become one. A train shorter than a metre is none (its length is in another unit).
+# Borders that lie closer become one.
 SHORTEST_SECTION_M = 1e-3
-SHORTEST_TRAIN_M, LONGEST_TRAIN_M = 1.0, 10_000.0
 
 
 @dataclass(frozen=True)

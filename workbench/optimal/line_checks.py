@@ -12,6 +12,8 @@ STEEPEST_PERMILLE = 100.0
 FASTEST_MPS = 200.0
 LONGEST_M = 1e8
 NEAREST_STOPS_M = 1.0
+# A train shorter than a metre is none: its length is in another unit.
+SHORTEST_TRAIN_M, LONGEST_TRAIN_M = 1.0, 1e4
 
 
 def require_stops(key: str, stops_m: Sequence[float]) -> None:
