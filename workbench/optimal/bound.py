@@ -1,0 +1,238 @@
+"""A proven lower bound on the energy of every run of a course, not only of those on a mesh.
+
+Let J be the energy, u the force at the wheel, c(u) its cost, G the line's force and b half the squared speed. For any
+time price mu >= 0 and any piecewise linear p(s), every run that arrives within T obeys
+
+    J >= integral of min over v and u of [ c(u) - p u + mu / v + p r(v) - p' inertia v^2 / 2 ] + p G  ds
+         + inertia [p b] at the ends and at jumps of p  -  mu T
+
+because what was added to J is not positive: mu times the time that is left, and p times the equation of motion, which
+is zero, integrated by parts. For each v the bracket is concave in s on a cell, where p is linear, so its minimum over v
+and u is concave too and lies above its chord: the ends of each cell are all that need be looked at. Nothing is assumed
+of the run, and no convexity: the limits of force, power and speed enter as they are.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from itertools import pairwise
+
+import numpy as np
+from numpy.typing import NDArray
+
+from workbench.errors import WorkbenchError
+from workbench.optimal.course import Array, Course
+from workbench.optimal.force_pieces import ForcePiece, force_pieces
+from workbench.optimal.vehicle import Vehicle
+
+# Of 1 / v, 1, v and v^2.
+Coefficients = tuple[Array, Array, Array, Array]
+# Ranges of speed on each of which one of several limits of the force is used.
+ACCELERATION_RANGES = 30
+
+
+@dataclass(frozen=True)
+class Certificate:
+    """What proves a bound: position_m shape (n + 1,); left, right: shape (n,), p at both ends of each cell (J/m per N).
+
+    time_price_w: mu. Raises WorkbenchError when a value is not finite or mu is negative.
+    """
+
+    position_m: Array
+    left: Array
+    right: Array
+    time_price_w: float
+
+    def __post_init__(self) -> None:
+        values = (self.position_m, self.left, self.right, np.array([self.time_price_w]))
+        if not all(np.all(np.isfinite(v)) for v in values) or self.time_price_w < 0:
+            raise WorkbenchError("certificate of a bound: its values must be finite and its time price not negative: "
+                                 "solve again")
+
+
+@dataclass(frozen=True)
+class Terms:
+    """One minimisation: of inverse / v + constant + slope v + square v^2 for v from low to high, each shape (m,).
+
+    cell: which cell it belongs to; its value is the least over all terms of a cell's end. end: 0 left, 1 right.
+    """
+
+    cell: Array
+    end: Array
+    low: Array
+    high: Array
+    inverse: Array
+    constant: Array
+    slope: Array
+    square: Array
+
+
+def lower_bound(vehicle: Vehicle, course: Course, certificate: Certificate, trip_time_s: float,
+                start_mps: float = 0.0, end_mps: float = 0.0) -> float:
+    """The bound in J, auxiliaries left out; -inf where the certificate proves nothing."""
+    terms = bound_terms(vehicle, course, certificate)
+    ends = np.full((2, len(certificate.left)), np.inf)
+    np.minimum.at(ends, (terms.end.astype(int), terms.cell.astype(int)), minima(terms))
+    step = np.diff(certificate.position_m)
+    return float(step @ ends.mean(axis=0)) + fixed_part(vehicle, course, certificate, trip_time_s, start_mps, end_mps)
+
+
+def fixed_part(vehicle: Vehicle, course: Course, certificate: Certificate, trip_time_s: float, start_mps: float,
+               end_mps: float) -> float:
+    """What needs no minimisation: the line's force, the ends, the jumps of p at the worst speed there, and mu T."""
+    p_left, p_right, inertia = certificate.left, certificate.right, vehicle.inertia_kg
+    x, fine = certificate.position_m, course.split(certificate.position_m[1:-1])
+    owner = _owner(x, fine.position_m)
+    width = np.diff(x)[owner]
+    p = [p_left[owner] + (p_right - p_left)[owner] * (ends - x[owner]) / width
+         for ends in (fine.position_m[:-1], fine.position_m[1:])]
+    g, step = fine.force_n, np.diff(fine.position_m)
+    line = step @ ((p[0] * g[:, 0] + p[1] * g[:, 1]) / 3 + (p[0] * g[:, 1] + p[1] * g[:, 0]) / 6)
+    limit = np.full(len(p_left), np.inf)
+    np.minimum.at(limit, owner, fine.limit_mps)
+    top = np.minimum(limit[1:], limit[:-1]) ** 2 / 2
+    top[np.isin(x[1:-1], course.stops_m)] = 0.0
+    jumps = np.minimum(p_right[:-1] - p_left[1:], 0.0) @ top
+    ends = p_right[-1] * end_mps**2 / 2 - p_left[0] * start_mps**2 / 2
+    return float(line + inertia * (jumps + ends) - certificate.time_price_w * trip_time_s)
+
+
+def bound_terms(vehicle: Vehicle, course: Course, certificate: Certificate) -> Terms:
+    """Every minimisation that the bound needs: for both ends of each cell, on each range of speeds."""
+    cells = _cells(vehicle, course, certificate)
+    slope = (certificate.right - certificate.left) / np.diff(certificate.position_m)
+    # p times a drag that changes along the cell bends: below its chord by a quarter of the product at most.
+    bend = np.maximum((certificate.right - certificate.left) * (cells.drag[1] - cells.drag[0]), 0.0) / 4
+    a, b_1, c = vehicle.davis_n
+    middle = (certificate.left + certificate.right) / 2
+    found = []
+    for low, high, traction, brake in _speed_edges(vehicle, float(cells.limit_mps.max())):
+        inside = np.flatnonzero(cells.limit_mps > low)
+        ways = [_cheapest(vehicle, cells, p, middle, (low + high) / 2, traction, brake)
+                for p in (certificate.left, certificate.right)]
+        for end, (p, way) in enumerate(zip((certificate.left, certificate.right), ways, strict=True)):
+            square = p * (c + cells.drag[end]) - bend - vehicle.inertia_kg * slope / 2 + way[3]
+            found.append(np.stack([
+                inside.astype(float), np.full(len(inside), float(end)), np.full(len(inside), low),
+                np.minimum(high, cells.limit_mps[inside]), (certificate.time_price_w + way[0])[inside],
+                (p * a + way[1])[inside], (p * b_1 + way[2])[inside], square[inside]]))
+    return Terms(*np.concatenate(found, axis=1))
+
+
+@dataclass(frozen=True)
+class _Cells:
+    """On each cell: the speed limit, the drag at both ends, and the extremes of the line's force and of the drag."""
+
+    limit_mps: Array
+    drag: Array
+    least_force: Array
+    most_force: Array
+
+
+def _cells(vehicle: Vehicle, course: Course, certificate: Certificate) -> _Cells:
+    x, fine = certificate.position_m, course.split(certificate.position_m[1:-1])
+    owner, count = _owner(x, fine.position_m), len(certificate.left)
+    limit, least, most = np.zeros(count), np.full(count, np.inf), np.full(count, -np.inf)
+    np.maximum.at(limit, owner, fine.limit_mps)
+    np.minimum.at(least, owner, fine.force_n.min(axis=1))
+    np.maximum.at(most, owner, fine.force_n.max(axis=1))
+    first = np.searchsorted(fine.position_m, x[:-1])
+    last = np.searchsorted(fine.position_m, x[1:]) - 1
+    return _Cells(limit, np.stack((fine.drag[first, 0], fine.drag[last, 1])), least, most)
+
+
+def _cheapest(vehicle: Vehicle, cells: _Cells, p: Array, middle: Array, speed: float, traction: ForcePiece,
+              brake: ForcePiece) -> Coefficients:
+    """The least of c(u) - p u from below, as (inverse, constant, slope, square) of the speed, on each cell.
+
+    Each of several limits alone gives a bound; the one taken on a cell is the best in its middle, the same for both of
+    its ends. Without limits of the acceleration the first of each is the only one.
+    """
+    pull = np.maximum(p - 1 / vehicle.traction_efficiency, 0.0)
+    regain = np.maximum(vehicle.regenerative_efficiency - p, 0.0)
+    rub = np.maximum(-p, 0.0)
+    zero = np.zeros_like(p)
+    a, b_1, c = vehicle.davis_n
+    drag = cells.drag.min(axis=0), cells.drag.max(axis=0)
+    most = (zero - pull * traction.inverse_w, zero - pull * traction.constant_n,
+            zero - pull * traction.slope_n_s_per_m, zero)
+    least = (zero - regain * brake.inverse_w, zero - regain * brake.constant_n - rub * vehicle.friction_brake_n,
+             zero - regain * brake.slope_n_s_per_m, zero)
+    if np.isfinite(vehicle.max_acceleration_mps2):
+        top = (vehicle.inertia_kg * vehicle.max_acceleration_mps2 + a + cells.most_force, b_1, c + drag[1])
+        # Where the force for it is traction's at every speed, so that the product with `pull` is concave.
+        lower = (top[0] >= 0) & (top[0] + top[1] * speed + top[2] * speed**2 < traction.at(speed))
+        most = _choose(lower, (zero, -pull * top[0], -pull * top[1], -pull * top[2]), most)
+    if np.isfinite(vehicle.max_deceleration_mps2):
+        low = (a + cells.least_force - vehicle.inertia_kg * vehicle.max_deceleration_mps2, b_1, c + drag[0])
+        # Holds where the force for the hardest braking is a brake's at every speed, so that the product is concave.
+        limit = float(cells.limit_mps.max())
+        brakes = low[0] + low[1] * limit + low[2] * limit**2 < 0
+        hardest = -(low[0] + low[1] * speed + low[2] * speed**2)
+        mid_regain = np.maximum(vehicle.regenerative_efficiency - middle, 0.0)
+        mid_rub = np.maximum(-middle, 0.0)
+        electric = brake.at(speed)
+        losses = (mid_regain * electric + mid_rub * vehicle.friction_brake_n, mid_regain * hardest,
+                  vehicle.regenerative_efficiency * electric + mid_rub * hardest)
+        least = _choose(brakes & (losses[1] < np.minimum(losses[0], losses[2])),
+                        (zero, regain * low[0], regain * low[1], regain * low[2]),
+                        _choose(brakes & (losses[2] < losses[0]), _mixed(vehicle, brake, rub, low), least))
+    return most[0] + least[0], most[1] + least[1], most[2] + least[2], most[3] + least[3]
+
+
+def _mixed(vehicle: Vehicle, brake: ForcePiece, rub: Array,
+           low: tuple[Array, float, Array]) -> Coefficients:
+    """All that the electric brake returns, and the hardest braking at the price of friction."""
+    regain = vehicle.regenerative_efficiency
+    return (np.full_like(rub, -regain * brake.inverse_w), rub * low[0] - regain * brake.constant_n,
+            rub * low[1] - regain * brake.slope_n_s_per_m, rub * low[2])
+
+
+def _choose(where: NDArray[np.bool_], one: Coefficients, other: Coefficients) -> Coefficients:
+    inverse, constant, slope, square = (np.where(where, first, second)
+                                        for first, second in zip(one, other, strict=True))
+    return inverse, constant, slope, square
+
+
+def _owner(x: Array, fine: Array) -> NDArray[np.intp]:
+    """The cell of x in which each cell of `fine` lies."""
+    return np.searchsorted(x, (fine[1:] + fine[:-1]) / 2) - 1
+
+
+def _speed_edges(vehicle: Vehicle, top_mps: float) -> list[tuple[float, float, ForcePiece, ForcePiece]]:
+    """Ranges of speed on which both force limits are one piece each."""
+    traction, brake = force_pieces(vehicle.traction, top_mps), force_pieces(vehicle.regenerative, top_mps)
+    edges = {0.0, top_mps, *(p.high_mps for p in (*traction, *brake))}
+    if np.isfinite(min(vehicle.max_acceleration_mps2, vehicle.max_deceleration_mps2)):
+        edges |= set(np.linspace(0.0, top_mps, ACCELERATION_RANGES + 1).tolist())
+    found = []
+    for low, high in pairwise(sorted(edges)):
+        middle = (low + high) / 2
+        found.append((low, high, next(p for p in traction if p.low_mps <= middle <= p.high_mps),
+                      next(p for p in brake if p.low_mps <= middle <= p.high_mps)))
+    return found
+
+
+def minima(terms: Terms) -> Array:
+    """The least value of each term on its range: at an end, or where the derivative passes zero upwards."""
+    a, b, c, d = terms.inverse, terms.constant, terms.slope, terms.square
+
+    def value(v: Array) -> Array:
+        with np.errstate(divide="ignore", invalid="ignore"):
+            first = np.where(v > 0, a / v, np.where(a > 0, np.inf, np.where(a < 0, -np.inf, 0.0)))
+        return np.asarray(first + b + c * v + d * v * v)
+
+    least = np.minimum(value(terms.low), value(terms.high))
+    # The curvature 2 a / v^3 + 2 d changes its sign at one speed at most; on either side the derivative is monotone.
+    with np.errstate(divide="ignore", invalid="ignore"):
+        turn = np.where(a * d < 0, np.cbrt(-a / d), terms.low)
+    turn = np.clip(turn, terms.low, terms.high)
+    for low, high in ((terms.low, turn), (turn, terms.high)):
+        one, two = low.copy(), high.copy()
+        for _ in range(60):
+            middle = (one + two) / 2
+            with np.errstate(divide="ignore", invalid="ignore"):
+                falls = -a / middle**2 + c + 2 * d * middle < 0
+            one, two = np.where(falls, middle, one), np.where(falls, two, middle)
+        least = np.minimum(least, value((one + two) / 2))
+    return least

@@ -1,0 +1,103 @@
+"""A run as half the squared speed over position, linear between its nodes: exact in time, its forces by Newton."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.polynomial.legendre import leggauss
+
+from workbench.optimal.course import Array, Course
+from workbench.optimal.vehicle import ForceLimit, Vehicle
+
+_NODES, _WEIGHTS = leggauss(3)
+# Points of the quadrature within a cell, from 0 to 1, and their weights.
+WITHIN, WEIGHT = (_NODES + 1) / 2, _WEIGHTS / 2
+
+
+@dataclass(frozen=True)
+class Profile:
+    """position_m, half_square: shape (n + 1,); the acceleration is constant on each of the n cells.
+
+    course: has every position as a border, so that on a cell limits are constant and forces linear.
+    """
+
+    course: Course
+    half_square: Array
+
+    @property
+    def position_m(self) -> Array:
+        """Borders of the cells."""
+        return self.course.position_m
+
+    @property
+    def speed_mps(self) -> Array:
+        """Speed at each node."""
+        return np.sqrt(2 * self.half_square)
+
+    @property
+    def acceleration_mps2(self) -> Array:
+        """Acceleration on each cell."""
+        return np.diff(self.half_square) / np.diff(self.position_m)
+
+    @property
+    def time_s(self) -> Array:
+        """Time at which each node is reached, shape (n + 1,); infinite beyond a cell that stands still."""
+        speed = self.speed_mps
+        with np.errstate(divide="ignore"):
+            step = 2 * np.diff(self.position_m) / (speed[1:] + speed[:-1])
+        return np.insert(np.cumsum(step), 0, 0.0)
+
+    @property
+    def trip_time_s(self) -> float:
+        """Time of the whole run."""
+        return float(self.time_s[-1])
+
+
+@dataclass(frozen=True)
+class Forces:
+    """Forces in N at the points of the quadrature, shape (n, 3): traction, electric and friction brake, all >= 0.
+
+    excess_n: by how much the needed force passes what traction or both brakes can give.
+    """
+
+    speed_mps: Array
+    traction_n: Array
+    regenerative_n: Array
+    friction_n: Array
+    excess_n: Array
+
+
+def largest_force(limit: ForceLimit, speed_mps: Array) -> Array:
+    """`limit.at` for an array of speeds in m/s."""
+    with np.errstate(divide="ignore", invalid="ignore"):
+        force = np.where(speed_mps * limit.force_n <= limit.power_w, limit.force_n, limit.power_w / speed_mps)
+    if limit.table:
+        speeds, forces = zip(*limit.table, strict=True)
+        force = np.minimum(force, np.interp(speed_mps, speeds, forces))
+    return np.asarray(force, dtype=float)
+
+
+def forces(vehicle: Vehicle, profile: Profile) -> Forces:
+    """What the run needs at the wheel; what electric braking cannot give is left to friction."""
+    course, b = profile.course, profile.half_square
+    along = b[:-1, None] + WITHIN * np.diff(b)[:, None]
+    speed = np.sqrt(2 * along)
+    a, b_1, c = vehicle.davis_n
+    line = course.force_n[:, :1] + WITHIN * (course.force_n[:, 1:] - course.force_n[:, :1])
+    drag = course.drag[:, :1] + WITHIN * (course.drag[:, 1:] - course.drag[:, :1])
+    needed = vehicle.inertia_kg * profile.acceleration_mps2[:, None] + a + b_1 * speed + (c + drag) * speed**2 + line
+    traction, braking = np.maximum(needed, 0.0), np.maximum(-needed, 0.0)
+    regenerative = np.minimum(braking, largest_force(vehicle.regenerative, speed))
+    friction = braking - regenerative
+    excess = np.maximum(np.maximum(traction - largest_force(vehicle.traction, speed),
+                                   friction - vehicle.friction_brake_n), 0.0)
+    return Forces(speed, traction, regenerative, friction, excess)
+
+
+def energy_j(vehicle: Vehicle, profile: Profile) -> float:
+    """Energy at the supply for the run, with auxiliaries: exact but for the quadrature of order 6 in a cell."""
+    found = forces(vehicle, profile)
+    step = np.diff(profile.position_m)
+    supplied = found.traction_n / vehicle.traction_efficiency - vehicle.regenerative_efficiency * found.regenerative_n
+    return float(step @ (supplied @ WEIGHT)) + vehicle.auxiliary_w * profile.trip_time_s

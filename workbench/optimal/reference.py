@@ -1,0 +1,146 @@
+"""The energy-optimal run of a train on a course: planned, made drivable, bounded from below, and checked."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from workbench.errors import InputError
+from workbench.optimal.adjoint import certificate_from
+from workbench.optimal.bound import Certificate, lower_bound
+from workbench.optimal.course import Course
+from workbench.optimal.envelope import InfeasibleRunError, drivable, fastest
+from workbench.optimal.grid import graded_grid
+from workbench.optimal.profile import Profile, energy_j
+from workbench.optimal.refine import refined
+from workbench.optimal.regimes import binding
+from workbench.optimal.socp import NoPlanError, Plan, solve_socp
+from workbench.optimal.vehicle import Vehicle
+from workbench.optimal.verify import Check, check
+
+INTERVALS = 500
+# Cells of the driven run on each interval of the plan, and of the fastest run in all.
+PARTS, FASTEST_CELLS = 8, 4000
+# A run whose energy is proven to lie within this share above the least possible one is called optimal.
+OPTIMAL_GAP = 0.01
+# Share of the trip time by which a drivable run may be late before the plan itself is made again for less time.
+LATE = 2e-5
+# Slower than this on average is no train.
+SLOWEST_MEAN_MPS = 0.5
+
+
+@dataclass(frozen=True)
+class Reference:
+    """A run, its energy at the supply in J, and a proven lower bound on the energy of every run in the same time.
+
+    solver: what planned it; solve_s: its time. least_time_s: of the fastest run. status: 'optimal' where the gap is at
+    most 1 per cent, else 'feasible'.
+    """
+
+    vehicle: Vehicle
+    profile: Profile
+    energy_j: float
+    lower_bound_j: float
+    certificate: Certificate
+    asked_time_s: float
+    least_time_s: float
+    solver: str
+    solve_s: float
+    check: Check
+
+    @property
+    def gap(self) -> float:
+        """How much of the energy could still be saved at most, as a share of it; absolute where it is not positive."""
+        excess = self.energy_j - self.lower_bound_j
+        return excess / abs(self.energy_j) if self.energy_j else excess
+
+    @property
+    def status(self) -> str:
+        """'optimal' or 'feasible'."""
+        return "optimal" if self.gap <= OPTIMAL_GAP else "feasible"
+
+
+def find_reference(vehicle: Vehicle, course: Course, trip_time_s: float, start_mps: float = 0.0, end_mps: float = 0.0,
+                   intervals: int = INTERVALS) -> Reference:
+    """The run of least energy that arrives within trip_time_s.
+
+    Raises InputError for a time that is no time, InfeasibleRunError where no run meets the request.
+    """
+    if not (math.isfinite(trip_time_s) and trip_time_s > 0):
+        raise InputError("", "time", f"{trip_time_s:g} s is no trip time: give a positive number of seconds")
+    if course.length_m / trip_time_s < SLOWEST_MEAN_MPS:
+        raise InputError("", "time", f"{trip_time_s:g} s for {course.length_m:.0f} m is less than {SLOWEST_MEAN_MPS:g} "
+                         "m/s on average: is it in seconds?")
+    quickest = least_time(vehicle, course, start_mps, end_mps)
+    if trip_time_s < quickest.trip_time_s:
+        raise InfeasibleRunError(
+            f"{trip_time_s:g} s is too short: the least feasible trip time is {quickest.trip_time_s:.1f} s, "
+            f"{binding(vehicle, quickest)}: allow more time", quickest.trip_time_s)
+    plan, profile, solve_s = _planned(vehicle, course, trip_time_s, start_mps, end_mps, intervals, quickest)
+    bound, certificate = -math.inf, None
+    if plan is not None:
+        certificate = certificate_from(plan)
+        bound = lower_bound(vehicle, course, certificate, trip_time_s, start_mps, end_mps)
+    still = Certificate(course.position_m[[0, -1]], np.zeros(1), np.zeros(1), 0.0)
+    if certificate is None:
+        certificate = still
+        bound = lower_bound(vehicle, course, certificate, trip_time_s, start_mps, end_mps)
+    bound += vehicle.auxiliary_w * quickest.trip_time_s
+    return Reference(vehicle, profile, energy_j(vehicle, profile), bound, certificate, trip_time_s,
+                     quickest.trip_time_s, "clarabel", solve_s, check(vehicle, profile))
+
+
+def least_time(vehicle: Vehicle, course: Course, start_mps: float = 0.0, end_mps: float = 0.0) -> Profile:
+    """The fastest run, on a fine mesh; raises InfeasibleRunError where the train cannot drive the course."""
+    fine = graded_grid(course, FASTEST_CELLS)
+    return fastest(vehicle, course.split(fine.position_m[1:-1]), start_mps, end_mps)
+
+
+def _planned(vehicle: Vehicle, course: Course, trip_time_s: float, start_mps: float, end_mps: float, intervals: int,
+             quickest: Profile) -> tuple[Plan | None, Profile, float]:
+    """The plan, a drivable run that arrives in time, and the solver's time; no plan where none was found."""
+    grid = graded_grid(course, intervals)
+    wanted, spent, plan = trip_time_s, 0.0, None
+    profile = quickest
+    for _ in range(3):
+        try:
+            plan = solve_socp(vehicle, grid, wanted, start_mps, end_mps)
+        except NoPlanError:
+            break
+        spent += plan.solve_s
+        profile = refined(vehicle, plan, PARTS, start_mps, end_mps)
+        late = profile.trip_time_s - trip_time_s
+        if late <= LATE * trip_time_s:
+            break
+        wanted -= late
+    return plan, _in_time(vehicle, profile, quickest, trip_time_s, start_mps, end_mps), spent
+
+
+def _in_time(vehicle: Vehicle, profile: Profile, quickest: Profile, trip_time_s: float, start_mps: float,
+             end_mps: float) -> Profile:
+    """The run itself if it is in time, else the least mixture with the fastest one that is."""
+    if profile.trip_time_s <= trip_time_s:
+        return profile
+    fast = np.interp(profile.position_m, quickest.position_m, quickest.half_square)
+    low, high, best = 0.0, 1.0, quickest
+    for _ in range(40):
+        share = _secant(low, high, profile, best, trip_time_s) if low == 0.0 else (low + high) / 2
+        mixed = drivable(vehicle, profile.course, profile.half_square + share * (fast - profile.half_square),
+                         start_mps, end_mps)
+        if mixed.trip_time_s <= trip_time_s:
+            high, best = share, mixed
+            if trip_time_s - mixed.trip_time_s <= 1e-6 * trip_time_s:
+                break
+        else:
+            low = share
+        if high - low < 1e-9:
+            break
+    return best
+
+
+def _secant(low: float, high: float, slow: Profile, fast: Profile, trip_time_s: float) -> float:
+    """A share that is a little more than the line between both runs asks for."""
+    late, early = slow.trip_time_s - trip_time_s, trip_time_s - fast.trip_time_s
+    return low + (high - low) * min(0.5, 1.2 * late / (late + early))

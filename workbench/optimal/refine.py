@@ -1,0 +1,77 @@
+"""From a plan on a mesh to a run on a finer one that every point of the line allows.
+
+On an interval the plan knows a mean force. Driving with constant acceleration instead would need some traction and some
+braking where the plan coasts, and more than the limit where it is at its limit. So the finer run follows the motion
+under the plan's force, or under the limit itself, and meets the plan's speed at every node.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from workbench.optimal.course import Array
+from workbench.optimal.envelope import drivable
+from workbench.optimal.profile import Profile, largest_force
+from workbench.optimal.socp import Plan
+from workbench.optimal.vehicle import Vehicle
+
+# From this share of its limit on, a mean force is taken for the limit itself.
+NEAR_LIMIT = 0.96
+
+
+def refined(vehicle: Vehicle, plan: Plan, parts: int, start_mps: float = 0.0, end_mps: float = 0.0) -> Profile:
+    """The run on `parts` cells an interval; raises InfeasibleRunError when the train cannot drive it."""
+    s, step = plan.grid.position_m, plan.grid.step_m
+    inner = [s[1:-1], *(s[:-1] + step * k / parts for k in range(1, parts))]
+    # The borders of the line's force are nodes of the split course too.
+    course = plan.grid.course.split(np.concatenate(inner))
+    target = _target(vehicle, plan, course.position_m, course.force_n, course.drag)
+    return drivable(vehicle, course, target, start_mps, end_mps)
+
+
+def _target(vehicle: Vehicle, plan: Plan, x: Array, line: Array, drag: Array) -> Array:
+    """Half the squared speed at x: cell by cell through all intervals at once, then drawn to the plan's nodes."""
+    s, b_plan = plan.grid.position_m, plan.half_square
+    owner = np.searchsorted(s, (x[1:] + x[:-1]) / 2) - 1
+    first = np.searchsorted(x, s)
+    count = np.diff(first)
+    b = np.empty(len(x))
+    b[first] = b_plan
+    reached = b_plan[:-1].copy()
+    rows: list[tuple[NDArray[np.intp], Array]] = []
+    for k in range(int(count.max())):
+        live = np.flatnonzero(count > k)
+        cell = first[live] + k
+        width = x[cell + 1] - x[cell]
+        slope = _slope(vehicle, plan, live, reached[live], line[cell, 0], drag[cell, 0])
+        middle = np.maximum(reached[live] + width / 2 * slope, 0.0)
+        slope = _slope(vehicle, plan, live, middle, line[cell].mean(axis=1), drag[cell].mean(axis=1))
+        reached[live] += width * slope
+        rows.append((cell + 1, reached[live].copy()))
+    for node, value in rows:
+        b[node] = value
+    missed = b_plan[1:] - reached
+    share = (x[1:] - s[owner]) / (s[owner + 1] - s[owner])
+    b[1:] += missed[owner] * share
+    # Near a standstill the correction may be as large as b itself: there the plan's straight line serves.
+    straight = np.interp(x, s, b_plan)
+    poor = np.append(False, (np.abs(missed) > 0.2 * np.maximum(b_plan[1:], b_plan[:-1]))[owner]) | (b <= 0)
+    return np.where(poor, straight, b)
+
+
+def _slope(vehicle: Vehicle, plan: Plan, interval: NDArray[np.intp], b: Array, line: Array, drag: Array) -> Array:
+    """db/ds under the plan's force on the given intervals, or under the limit where the plan is at it."""
+    v = np.sqrt(2 * np.maximum(b, 0.0))
+    ends = plan.half_square
+    mean_speed = np.sqrt(ends[interval] + ends[interval + 1])
+    planned = plan.force_n[interval]
+    a, b_1, c = vehicle.davis_n
+    most = largest_force(vehicle.traction, mean_speed)
+    least = -largest_force(vehicle.regenerative, mean_speed) - vehicle.friction_brake_n
+    pull = planned * largest_force(vehicle.traction, v) / np.maximum(most, 1e-9)
+    brake_now = -largest_force(vehicle.regenerative, v) - vehicle.friction_brake_n
+    brake = planned * brake_now / np.minimum(least, -1e-9)
+    force = np.where(planned > NEAR_LIMIT * most, pull,
+                     np.where(planned < NEAR_LIMIT * least, brake, planned))
+    return np.asarray((force - a - b_1 * v - (c + drag) * v * v - line) / vehicle.inertia_kg)

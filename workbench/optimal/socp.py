@@ -1,0 +1,144 @@
+"""The best run as a second-order-cone program in position: fast, convex, and its dual gives the bound.
+
+Half the squared speed b is the state, so that motion is linear in it: inertia db/ds = force - resistance. With constant
+acceleration on an interval of length h the time is exactly 2 h / (v_k + v_k+1), at a start from standstill too. Relaxed
+are v <= sqrt(2 b) and the time from below; both are tight where the trip time binds. A limit of power is force h <=
+power x time.
+"""
+
+from __future__ import annotations
+
+import time
+import warnings
+from dataclasses import dataclass
+from itertools import pairwise
+
+import cvxpy as cp
+import numpy as np
+
+from workbench.errors import SolverError
+from workbench.optimal.course import Array
+from workbench.optimal.force_pieces import force_pieces
+from workbench.optimal.grid import Grid
+from workbench.optimal.vehicle import ForceLimit, Vehicle
+
+# Accuracy asked of clarabel; what it returns is checked again by everything that follows.
+SETTINGS = {"tol_gap_abs": 1e-10, "tol_gap_rel": 1e-9, "tol_feas": 1e-9}
+
+
+@dataclass(frozen=True)
+class Plan:
+    """A solved program on a grid of n intervals.
+
+    half_square: shape (n + 1,), b in m^2/s^2. force_n: shape (n,), mean force at the wheel. adjoint: shape (n,),
+    J/m per N: what a newton of resistance on the interval costs; time_price_w: what a second less costs. energy_j: at
+    the supply, without auxiliaries.
+    """
+
+    grid: Grid
+    half_square: Array
+    force_n: Array
+    adjoint: Array
+    time_price_w: float
+    energy_j: float
+    solve_s: float
+    status: str
+
+
+class NoPlanError(SolverError):
+    """The cone program has no solution; the message names the solver's status."""
+
+
+def solve_socp(vehicle: Vehicle, grid: Grid, trip_time_s: float, start_mps: float = 0.0,
+               end_mps: float = 0.0) -> Plan:
+    """The run of least energy within trip_time_s; raises NoPlanError when clarabel finds none or is inaccurate."""
+    h, n = grid.step_m, len(grid.limit_mps)
+    inertia, (a, b_1, c) = vehicle.inertia_kg, vehicle.davis_n
+    # Scales: variables are around one.
+    speed = float(grid.limit_mps.max())
+    force = max(vehicle.traction.at(0.0), vehicle.braking_n)
+    mean_time = trip_time_s / n
+    half = speed**2
+
+    b, v, tau = cp.Variable(n + 1), cp.Variable(n + 1), cp.Variable(n)
+    pull, brake, grip = cp.Variable(n, nonneg=True), cp.Variable(n, nonneg=True), cp.Variable(n, nonneg=True)
+    b_mean, v_mean = (b[1:] + b[:-1]) / 2, (v[1:] + v[:-1]) / 2
+    motion = (cp.multiply(inertia * half / (2 * h * force), b[1:] - b[:-1]) - pull + brake + grip
+              + (a + grid.force_n) / force + cp.multiply((grid.drag + c) * half / force, b_mean)
+              + b_1 * speed / force * v_mean == 0)
+    fixed = grid.stands.copy()
+    fixed[[0, -1]] = True
+    value = np.zeros(n + 1)
+    value[0], value[-1] = (start_mps / speed) ** 2, (end_mps / speed) ** 2
+    top = (grid.node_limit_mps / speed) ** 2
+    free = ~fixed
+    duration = cp.sum(tau) <= n
+    rules = [motion, b[fixed] == value[fixed], v[fixed] == np.sqrt(value[fixed]), b[free] <= top[free], duration,
+             # v^2 <= b and tau (v_k + v_k+1) >= 2 h, in units of the scales
+             cp.SOC(b[free] + 1, cp.vstack([2 * v[free], b[free] - 1])),
+             cp.SOC(tau + 2 * v_mean, cp.vstack([tau - 2 * v_mean, 2 * np.sqrt(2 * h / (mean_time * speed))])),
+             grip <= vehicle.friction_brake_n / force]
+    rules += _force_rules(pull, vehicle.traction, grid, v_mean, tau, (force, speed, mean_time))
+    rules += _force_rules(brake, vehicle.regenerative, grid, v_mean, tau, (force, speed, mean_time))
+    if b_1 > 0:  # else the resistance would fall with a speed that the relaxation lets go
+        rules.append(v[free] >= cp.multiply(1 / np.sqrt(top[free]), b[free]))
+    for limit, sign in ((vehicle.max_acceleration_mps2, 1), (vehicle.max_deceleration_mps2, -1)):
+        if np.isfinite(limit):
+            rules.append(sign * (b[1:] - b[:-1]) <= 2 * limit * h / half)
+    used = cp.sum(cp.multiply(h, pull)) / vehicle.traction_efficiency
+    returned = vehicle.regenerative_efficiency * cp.sum(cp.multiply(h, brake))
+    problem = cp.Problem(cp.Minimize((used - returned) / grid.course.length_m), rules)
+    started = time.perf_counter()
+    try:
+        with warnings.catch_warnings():
+            warnings.filterwarnings("ignore", "Solution may be inaccurate")
+            problem.solve(cp.CLARABEL, ignore_dpp=True, canon_backend="SCIPY", **SETTINGS)
+    except cp.SolverError as trouble:
+        raise NoPlanError(f"clarabel fails on the cone program of {n} intervals ({trouble}): try other intervals"
+                          ) from None
+    # An inaccurate solution may serve: nothing that follows takes the solver's word for it.
+    if problem.status not in (cp.OPTIMAL, cp.OPTIMAL_INACCURATE):
+        raise NoPlanError(f"clarabel says '{problem.status}' of the cone program of {n} intervals for "
+                          f"{trip_time_s:g} s: allow more time or other intervals")
+    stats = problem.solver_stats
+    work = force * grid.course.length_m
+    half_square = np.where(fixed, value, np.maximum(b.value, 0.0)) * half / 2
+    return Plan(grid, half_square, (pull.value - brake.value - grip.value) * force,
+                motion.dual_value * work / (force * h), float(duration.dual_value) * work / mean_time,
+                float(problem.value) * work, float(stats.solve_time or time.perf_counter() - started),
+                str(problem.status))
+
+
+def _force_rules(force: cp.Variable, limit: ForceLimit, grid: Grid, v_mean: cp.Expression, tau: cp.Variable,
+                 scales: tuple[float, float, float]) -> list[cp.Constraint]:
+    """Limits of one force in scaled units; a table by the lines of its upper concave hull, a relaxation."""
+    unit, speed, mean_time = scales
+    rules = [force <= limit.force_n / unit]
+    if np.isfinite(limit.power_w) and limit.force_n > 0:
+        rules.append(cp.multiply(grid.step_m * unit / (limit.power_w * mean_time), force) <= tau)
+    for constant, slope in _hull_lines(limit, speed):
+        rules.append(force <= constant / unit + slope * speed / unit * v_mean)
+    return rules
+
+
+def _hull_lines(limit: ForceLimit, top_mps: float) -> list[tuple[float, float]]:
+    """Falling lines (constant in N, slope) of the upper concave hull of the table, over 0 to top_mps."""
+    if not limit.table:
+        return []
+    pieces = force_pieces(ForceLimit(limit.force_n, table=limit.table), top_mps)
+    points = [(0.0, pieces[0].at(0.0)), *((piece.high_mps, piece.at(piece.high_mps)) for piece in pieces)]
+    hull: list[tuple[float, float]] = []
+    for point in points:
+        while len(hull) > 1 and _turns_left(hull[-2], hull[-1], point):
+            hull.pop()
+        hull.append(point)
+    lines = []
+    for (x, y), (z, w) in pairwise(hull):
+        slope = (w - y) / (z - x)
+        # A line that rises with the speed would bind a speed that the relaxation lets go: its end holds instead.
+        lines.append((y - slope * x, slope) if slope < 0 else (max(y, w), 0.0))
+    return lines
+
+
+def _turns_left(one: tuple[float, float], two: tuple[float, float], three: tuple[float, float]) -> bool:
+    return (two[0] - one[0]) * (three[1] - one[1]) >= (two[1] - one[1]) * (three[0] - one[0])

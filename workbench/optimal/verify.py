@@ -1,0 +1,106 @@
+"""A second opinion on a run: its force, as a function of time alone, drives the train in a fine simulation.
+
+The simulation shares no formula with the plan but the train's and the line's numbers: it integrates position and speed
+over time by RK4, and energy as power. If mesh, time or force of the plan were wrong, the train would arrive elsewhere.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from numba import njit
+
+from workbench.optimal.course import Array
+from workbench.optimal.envelope import device_limits
+from workbench.optimal.profile import Profile
+from workbench.optimal.vehicle import Vehicle
+
+
+@dataclass(frozen=True)
+class Check:
+    """What the simulation says of a run.
+
+    energy_j: at the supply, with auxiliaries. position_drift_m, speed_drift_mps: largest distance from the plan.
+    force_excess: the largest force beyond traction or both brakes, as a share of the limit there. speed_excess_mps:
+    above the speed limit.
+    """
+
+    energy_j: float
+    position_drift_m: float
+    speed_drift_mps: float
+    force_excess: float
+    speed_excess_mps: float
+
+
+@njit(cache=True)
+def _drive(time: Array, position: Array, speed: Array, acceleration: Array, limit: Array, line: Array, drag: Array,
+           numbers: Array, limits: tuple[Array, Array], tables: tuple[Array, Array],
+           step_s: float) -> tuple[float, float, float, float, float]:
+    """Energy without auxiliaries, position and speed drift, force and speed excess; arrays as those of a profile."""
+    inertia, a, b, c, friction, efficiency, regain = numbers
+    s, v = position[0], speed[0]
+    energy, off_s, off_v, over_force, over_speed = 0.0, 0.0, 0.0, 0.0, 0.0
+    slope = np.empty((4, 2))
+    cell = 0
+    for k in range(len(acceleration)):
+        steps = max(1, int(np.ceil((time[k + 1] - time[k]) / step_s)))
+        dt = (time[k + 1] - time[k]) / steps
+        for i in range(steps):
+            for stage in range(4):
+                ahead = 0.0 if stage == 0 else (1.0 if stage == 3 else 0.5)
+                ds = slope[stage - 1, 0] * ahead * dt if stage else 0.0
+                dv = slope[stage - 1, 1] * ahead * dt if stage else 0.0
+                # The command: what the plan needs at this time, from the plan's own position and speed.
+                t = (i + ahead) * dt
+                v_plan = speed[k] + acceleration[k] * t
+                s_plan = position[k] + (speed[k] + acceleration[k] * t / 2) * t
+                share = min(max((s_plan - position[k]) / (position[k + 1] - position[k]), 0.0), 1.0)
+                u = (inertia * acceleration[k] + a + b * v_plan
+                     + (c + drag[k, 0] + share * (drag[k, 1] - drag[k, 0])) * v_plan * v_plan
+                     + line[k, 0] + share * (line[k, 1] - line[k, 0]))
+                # The train: where it really is.
+                at, fast = s + ds, v + dv
+                cell = min(cell, len(acceleration) - 1)
+                while cell < len(acceleration) - 1 and at > position[cell + 1]:
+                    cell += 1
+                while cell > 0 and at < position[cell]:
+                    cell -= 1
+                share = min(max((at - position[cell]) / (position[cell + 1] - position[cell]), 0.0), 1.0)
+                resistance = (a + b * fast + (c + drag[cell, 0] + share * (drag[cell, 1] - drag[cell, 0])) * fast * fast
+                              + line[cell, 0] + share * (line[cell, 1] - line[cell, 0]))
+                slope[stage, 0], slope[stage, 1] = fast, (u - resistance) / inertia
+                weight = dt / 6 if stage in (0, 3) else dt / 3
+                pull = max(fast, 0.0)
+                most = limits[0][0] if pull * limits[0][0] <= limits[0][1] else limits[0][1] / pull
+                brake = limits[1][0] if pull * limits[1][0] <= limits[1][1] else limits[1][1] / pull
+                if len(tables[0]):
+                    most = min(most, np.interp(pull, tables[0][:, 0], tables[0][:, 1]))
+                if len(tables[1]):
+                    brake = min(brake, np.interp(pull, tables[1][:, 0], tables[1][:, 1]))
+                energy += weight * fast * (u / efficiency if u > 0 else regain * max(u, -brake))
+                if u > 0:
+                    over_force = max(over_force, u / most - 1.0)
+                else:
+                    over_force = max(over_force, -u / (brake + friction) - 1.0)
+            s += dt / 6 * (slope[0, 0] + 2 * slope[1, 0] + 2 * slope[2, 0] + slope[3, 0])
+            v += dt / 6 * (slope[0, 1] + 2 * slope[1, 1] + 2 * slope[2, 1] + slope[3, 1])
+            t = (i + 1) * dt
+            off_s = max(off_s, abs(s - position[k] - (speed[k] + acceleration[k] * t / 2) * t))
+            off_v = max(off_v, abs(v - speed[k] - acceleration[k] * t))
+            over_speed = max(over_speed, v - limit[cell])
+    return energy, off_s, off_v, over_force, over_speed
+
+
+def check(vehicle: Vehicle, profile: Profile, step_s: float = 0.05) -> Check:
+    """Drive the run's force over time in steps of at most step_s, aligned with its cells."""
+    numbers = np.array([vehicle.inertia_kg, *vehicle.davis_n, vehicle.friction_brake_n, vehicle.traction_efficiency,
+                        vehicle.regenerative_efficiency])
+    limits, tables = device_limits(vehicle)
+    course = profile.course
+    energy, off_s, off_v, force, speed = _drive(
+        profile.time_s, profile.position_m, profile.speed_mps, profile.acceleration_mps2, course.limit_mps,
+        course.force_n, course.drag, numbers, limits, tables, step_s)
+    return Check(energy + vehicle.auxiliary_w * profile.trip_time_s, off_s, off_v, max(force, 0.0),
+                 max(speed, 0.0) if math.isfinite(speed) else math.inf)
