@@ -1,0 +1,1 @@
+"""Gains and certificates: searched by semidefinite programs, confirmed in exact arithmetic."""

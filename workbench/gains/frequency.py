@@ -1,0 +1,60 @@
+"""Linear parts in the frequency domain, by python-control: a second opinion on what semidefinite programs say."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+import control
+import numpy as np
+import sympy as sp
+from numpy.typing import NDArray
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Linear:
+    """x' = A x + B w, y = C x + D w in floats; A of shape (states, states)."""
+
+    A: Array
+    B: Array
+    C: Array
+    D: Array
+
+
+def linear(rates: Mapping[sp.Expr, sp.Expr], inputs: Sequence[sp.Symbol], outputs: Sequence[sp.Expr],
+           values: Mapping[sp.Expr, sp.Expr]) -> Linear:
+    """The matrices of linear rates and outputs with numbers put in; ValueError where they are not linear in numbers."""
+    states = list(rates)
+    numbers = {s: sp.sympify(v, strict=True) for s, v in values.items()}
+    rows = ([sp.sympify(e, strict=True).xreplace(numbers) for e in exprs] for exprs in (rates.values(), outputs))
+    parts = [sp.Matrix(len(exprs), len(by), [sp.diff(e, s) for e in exprs for s in by])
+             for exprs in rows for by in (states, list(inputs))]
+    if any(part.free_symbols for part in parts):
+        raise ValueError("the rates are not linear in the states with numbers: give a value to every other symbol")
+    A, B, C, D = (np.array(part.tolist(), dtype=float).reshape(part.shape) for part in parts)
+    return Linear(A, B, C, D)
+
+
+def system(of: Linear) -> control.StateSpace:
+    """The system as python-control knows it."""
+    return control.ss(of.A, of.B, of.C, of.D)
+
+
+def h_infinity_norm(of: Linear) -> float:
+    """The largest gain over all frequencies, which is the least L2 gain; infinite for an unstable system."""
+    if abscissa(of) >= 0:
+        return float("inf")
+    return float(control.norm(system(of), p="inf", tol=1e-8))
+
+
+def abscissa(of: Linear) -> float:
+    """The largest real part of a pole, 1/s: no decay rate beyond its negative can be proved."""
+    return float(np.linalg.eigvals(of.A).real.max())
+
+
+def margins(of: Linear) -> tuple[float, float, float]:
+    """Gain margin, phase margin (degrees) and the crossover of the latter (rad/s) of a loop opened at its input."""
+    gain, phase, _, crossover = control.margin(system(of))
+    return float(gain), float(phase), float(crossover)
