@@ -24,7 +24,7 @@ from workbench.mpc.terminal import Lqr, lqr
 QUIET: dict[str, Any] = {"print_time": False, "error_on_fail": False, "calc_lam_p": False, "calc_multipliers": False}
 SOLVERS: dict[str, tuple[str, dict[str, Any]]] = {
     "ipopt": ("ipopt", {"ipopt": {
-        "print_level": 0, "sb": "yes", "tol": 1e-8, "warm_start_init_point": "yes", "mu_init": 1e-2}}),
+        "print_level": 0, "sb": "yes", "tol": 1e-8}}),
     "fatrop": ("fatrop", {"structure_detection": "auto", "fatrop": {"print_level": 0, "tol": 1e-8}}),
     "sqp": ("sqpmethod", {"qpsol": "qrqp", "print_header": False, "print_iteration": False, "print_status": False,
                           "max_iter": 50, "qpsol_options": {"print_iter": False, "print_header": False,
@@ -120,28 +120,45 @@ class CasadiMpc:
         self._sample = -1
 
     def solve(self, sample: int, state: Array, disturbance: float = 0.0) -> Solution:
-        """The plan from a state at a sample; never raises: what the solver says is in `why`."""
+        """The plan from a state at a sample; never raises: what the solver says is in `why`.
+
+        Where the plan before is a start from which the solver does not arrive, it starts again from the desired run.
+        """
         N = self.horizon
         window = self.ahead[sample : sample + N + 1].copy()
+        # The train does not care where it is, but solvers do: their smallest step is relative to the unknowns.
+        origin = np.array([window[0, 0], 0.0, 0.0])
+        window[:, 0] -= origin[0]
+        state = state - origin
         window[:, 5] += disturbance
         window[:, 2:4] -= disturbance
         window[:, 4] = np.where(np.isfinite(window[:, 4]), window[:, 4], 0.0)
-        U, X = window[:N, 3], window[:, :3].copy()
+        starts = [(window[:N, 3], window[:, :3].copy())]
         if self._last is not None and sample == self._sample + 1:
             plan, states = self._last
-            U, X[:-1] = np.append(plan[1:], plan[-1]), states[1:]
-        X[0], self._sample, self._last = state, sample, None
+            starts.insert(0, (np.append(plan[1:], plan[-1]), np.concatenate([states[1:] - origin, window[N:, :3]])))
+        self._sample, self._last = sample, None
+        for tried, (plan, states) in enumerate(starts, start=1):
+            states[0] = state
+            solution = self._solve_from(states, plan, np.concatenate([state, window.ravel()]), tried)
+            if solution.solved:
+                self._last = solution.plan, self._states + origin
+                break
+        return solution
+
+    def _solve_from(self, states: Array, plan: Array, given: Array, tried: int) -> Solution:
+        """One call of the solver, from a plan and its states."""
         try:
-            answer = self._solver(x0=self._stacked(X, U), p=np.concatenate([state, window.ravel()]), **self._bounds)
+            answer = self._solver(x0=self._stacked(states, plan), p=given, **self._bounds)
             stats = self._solver.stats()
         except RuntimeError as trouble:
-            return Solution(U, solved=False, why=str(trouble).splitlines()[-1])
+            return Solution(plan, solved=False, programs=tried, why=str(trouble).splitlines()[-1])
         plan, states = (np.asarray(a) for a in self._read(answer["x"]))
         plan, self.cost = plan.ravel(), float(answer["f"])
         if not (stats["success"] and np.isfinite(plan).all()):
-            return Solution(plan, solved=False, why=str(stats["return_status"]))
-        self._last = plan, states.T
-        return Solution(plan, solved=True, programs=int(stats.get("iter_count", 1)))
+            return Solution(plan, solved=False, programs=tried, why=str(stats["return_status"]))
+        self._states = states.T
+        return Solution(plan, solved=True, programs=tried)
 
 
 def tracking_cost(problem: Problem) -> StageCost:
