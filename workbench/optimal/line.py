@@ -17,6 +17,7 @@ from workbench.optimal.course import Course
 from workbench.optimal.line_checks import (
     FASTEST_MPS,
     LONGEST_TRAIN_M,
+    SAME_PLACE_M,
     SHARPEST_RADIUS_M,
     SHORTEST_TRAIN_M,
     STEEPEST_PERMILLE,
@@ -195,11 +196,17 @@ def _curve_profile(line: Line, force: Callable[[float], float]) -> tuple[AlongLi
 
 def _tunnel_profile(line: Line, inside: Sequence[float]) -> AlongLine:
     """A value inside each tunnel and nothing outside."""
-    levels = {0.0: 0.0}
+    starts, values = [0.0], [0.0]
     for tunnel, value in zip(line.tunnels, inside, strict=True):
-        levels |= {tunnel.start_m: value, tunnel.start_m + tunnel.length_m: 0.0}
-    starts = [x for x in levels if x < line.length_m]
-    return steps(starts, [levels[x] for x in starts], line.length_m)
+        if tunnel.start_m - starts[-1] > SAME_PLACE_M:
+            starts.append(tunnel.start_m)
+            values.append(0.0)
+        values[-1] = value
+        starts.append(tunnel.start_m + tunnel.length_m)
+        values.append(0.0)
+    if line.length_m - starts[-1] <= SAME_PLACE_M:
+        starts, values = starts[:-1], values[:-1]
+    return steps(starts, values, line.length_m)
 
 
 def _tunnel_drag(vehicle: Vehicle, cross_section_m2: float | None) -> float:

@@ -12,6 +12,8 @@ STEEPEST_PERMILLE = 100.0
 FASTEST_MPS = 200.0
 LONGEST_M = 1e8
 NEAREST_STOPS_M = 1.0
+# The end of a tunnel is a sum of two rounded numbers.
+SAME_PLACE_M = 1e-6
 # A train shorter than a metre is none: its length is in another unit.
 SHORTEST_TRAIN_M, LONGEST_TRAIN_M = 1.0, 1e4
 
@@ -53,10 +55,10 @@ def require_tunnels(key: str, tunnels: Sequence[tuple[float, float, float | None
     reached = 0.0
     for number, (start, length, area, resistance) in enumerate(tunnels):
         where, end = f"{key}[{number}]", start + length
-        if not (start >= 0 and length > 0 and end <= length_m):
+        if not (start >= 0 and length > SAME_PLACE_M and end <= length_m + SAME_PLACE_M):
             raise InputError("", where, f"from {start:g} m to {end:g} m does not lie within the line of "
                              f"{length_m:g} m: correct position or length")
-        if start < reached:
+        if start < reached - SAME_PLACE_M:
             raise InputError("", where, f"begins at {start:g} m within the tunnel before it, which ends at "
                              f"{reached:g} m: let them not overlap")
         reached = end

@@ -1,0 +1,90 @@
+"""The line and the vehicle of an optimal run, from whatever file holds them."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from workbench import track as tracks
+from workbench.errors import InputError
+from workbench.optimal import ttobench
+from workbench.optimal.line import Line, Tunnel
+from workbench.optimal.train_file import TrainFile, vehicle
+from workbench.optimal.vehicle import Vehicle
+from workbench.toml_input import load_record, read_toml
+
+Notes = tuple[str, ...]
+
+
+def load_line(path: Path) -> tuple[Line, Notes]:
+    """A line from a TOML file of this project or a JSON track of TTOBench, and notes on what was assumed.
+
+    Raises InputError naming file, key and remedy.
+    """
+    if _is_json(path):
+        return ttobench.load_track(path)
+    _require_kind(path, "grade", "mass_kg", "a line")
+    try:
+        return from_track(tracks.load_track(path))
+    except InputError as trouble:
+        raise trouble if trouble.where else trouble.within(path) from None
+
+
+def load_vehicle(path: Path) -> tuple[Vehicle, Notes]:
+    """A vehicle from a TOML file of this project or a JSON train of TTOBench, and notes on what was assumed.
+
+    Raises InputError naming file, key and remedy.
+    """
+    if _is_json(path):
+        return ttobench.load_train(path)
+    _require_kind(path, "mass_kg", "grade", "a train")
+    train = load_record(path, TrainFile)
+    try:
+        return vehicle(train, path.stem), _assumed(train)
+    except InputError as trouble:
+        raise trouble.within(path) from None
+
+
+def notes_together(line: Line, train: Vehicle) -> Notes:
+    """Notes on what a line says and the train does not know how to meet."""
+    if any(tunnel.cross_section_m2 for tunnel in line.tunnels) and not train.tunnel_drag:
+        return (f"line '{line.name}' has tunnels but train '{train.name}' does not say what they add to its "
+                "resistance: nothing is added",)
+    return ()
+
+
+def from_track(track: tracks.Track) -> tuple[Line, Notes]:
+    """A line of this project's own format, with the curve resistance 600/R of yang2021, and notes."""
+    notes = () if track.speed_limit else (f"line '{track.name}' states no speed limit: the train's own holds",)
+    return Line(
+        name=track.name, length_m=track.length_m, stops_m=track.stops_m or (0.0, track.length_m),
+        limits=tuple((s.start_m, s.speed_mps) for s in track.speed_limit) or ((0.0, float("inf")),),
+        grades=tuple((s.start_m, s.grade_permille) for s in track.grade),
+        curves=tuple((s.start_m, 1 / s.radius_m, 1 / s.radius_m) for s in track.curve),
+        tunnels=tuple(Tunnel(s.start_m, s.end_m - s.start_m, None, s.resistance_n_per_kn) for s in track.tunnel),
+        curve_rule="yang2021",
+    ), notes
+
+
+def _assumed(train: TrainFile) -> Notes:
+    stated = train.model_fields_set
+    return tuple(note for key, note in (
+        ("traction_efficiency", "no traction_efficiency: 100 % assumed"),
+        ("regenerative_force_n", "no regenerative_force_n: nothing is returned when braking"),
+        ("length_m", "no length_m: the train is taken as a point"),
+    ) if key not in stated)
+
+
+def _is_json(path: Path) -> bool:
+    if path.suffix.lower() not in (".json", ".toml"):
+        raise InputError(path, "", "is neither .toml (this project's format) nor .json (TTOBench): name such a file")
+    return path.suffix.lower() == ".json"
+
+
+def _require_kind(path: Path, own: str, other: str, what: str) -> None:
+    data = read_toml(path)
+    if own in data:
+        return
+    if "controllers" in data or data.get("kind") == "study":
+        raise InputError(path, own, f"is missing: this is a scenario or a study, name {what}'s own file")
+    if other in data:
+        raise InputError(path, own, f"is missing: this is not {what}'s file, name one that is")
