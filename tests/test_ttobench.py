@@ -173,7 +173,7 @@ def _curves(*rows: object) -> dict:
 
 
 NEST: list = []
-for _ in range(200):
+for _ in range(60):
     NEST = [NEST]
 
 TRACK_MISTAKES = {
@@ -282,8 +282,8 @@ def mutated(draw, original: dict) -> dict:
                 continue
             match draw(st.sampled_from(["change", "scale", "remove", "rename"])):
                 case "change":
-                    place[key] = draw(JUNK)
-                case "scale" if type(place[key]) in (int, float):
+                    place[key] = copy.deepcopy(draw(JUNK))
+                case "scale" if type(place[key]) is float or (type(place[key]) is int and abs(place[key]) < 2**53):
                     place[key] = place[key] * draw(st.sampled_from([-1, 0, 1e-3, 1e3, 1e300, 0.999]))
                 case "rename" if isinstance(place, dict):
                     place[draw(st.text(max_size=5))] = place.pop(key)
