@@ -6,8 +6,7 @@ from dataclasses import dataclass
 from typing import Protocol
 
 from workbench.mpc.problem import Array
-
-SOLVED, FAILED = "solved", "failed"
+from workbench.mpc.terminal import Lqr
 
 
 @dataclass(frozen=True)
@@ -30,6 +29,7 @@ class Tracker(Protocol):
     """A solver of a problem along a run; it keeps what it learned from one sample to warm-start the next."""
 
     horizon: int
+    lqr: Lqr
 
     def solve(self, sample: int, state: Array, disturbance: float = 0.0) -> Solution:
         """The plan from a state (p, v, F) at a sample, under a constant disturbance in m/s^2 beside what is told."""

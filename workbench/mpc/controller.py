@@ -1,0 +1,142 @@
+"""The MPC family as controllers of a scenario: called once a sample, they answer with a command and count troubles."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+
+from workbench.errors import InputError
+from workbench.mpc.economic import Prices, economic_mpc
+from workbench.mpc.fallback import Fallback
+from workbench.mpc.linear import LinearMpc
+from workbench.mpc.nonlinear import NonlinearMpc
+from workbench.mpc.offset_free import Observer
+from workbench.mpc.preview import preview
+from workbench.mpc.problem import Array, Problem, Weights
+from workbench.mpc.solution import Tracker
+from workbench.mpc.tube import TubeMpc, tube
+from workbench.scenario import ControllerSpec, Scenario
+from workbench.track import resistance_table
+
+# A train is nowhere near these, so a measurement beyond them is no measurement.
+FARTHEST_M, FASTEST_MPS = 1e9, 1e4
+
+Values = dict[str, float]
+
+
+def _linear(problem: Problem, ahead: Array, values: Values) -> LinearMpc:
+    del values
+    return LinearMpc(problem, ahead)
+
+
+def _nonlinear(problem: Problem, ahead: Array, values: Values) -> NonlinearMpc:
+    del values
+    return NonlinearMpc(problem, ahead)
+
+
+def _economic(problem: Problem, ahead: Array, values: Values) -> Tracker:
+    prices = Prices(values["energy_price"], values["time_price"], values["regenerated"])
+    return economic_mpc(problem, ahead, prices)
+
+
+def _tube(problem: Problem, ahead: Array, values: Values) -> TubeMpc:
+    return TubeMpc(problem, ahead, tube(problem, ahead, values["disturbance_mps2"], problem.band_m))
+
+
+@dataclass(frozen=True)
+class Kind:
+    """One of the family: what it is called, what it knows, how it solves, and the parameters beside COMMON."""
+
+    title: str
+    information: str
+    tracker: Callable[[Problem, Array, Values], Tracker]
+    parameters: tuple[str, ...] = ()
+    told_grades: bool = False
+
+
+COMMON = ("horizon", "position_weight", "speed_weight", "command_weight", "change_weight", "band_price")
+OPTIONAL = {"deadline_s": math.inf}
+KINDS: dict[str, Kind] = {
+    "mpc.linear": Kind("linear MPC", "full state, nominal model", _linear),
+    "mpc.nonlinear": Kind("nonlinear MPC", "full state, nominal model", _nonlinear),
+    "mpc.offset_free": Kind("offset-free nonlinear MPC", "full state, nominal model", _nonlinear, ("observer_gain",)),
+    "mpc.told": Kind("offset-free nonlinear MPC, told the grades", "full state, nominal model, the line", _nonlinear,
+                     ("observer_gain",), told_grades=True),
+    "mpc.economic": Kind("economic MPC", "full state, nominal model, the line", _economic,
+                         ("observer_gain", "energy_price", "time_price", "regenerated"), told_grades=True),
+    "mpc.tube": Kind("tube MPC", "full state, nominal model, bound of the disturbance", _tube, ("disturbance_mps2",)),
+}
+
+
+class MpcController:
+    """One of KINDS on a scenario's train; raises InputError for parameters that are missing, unknown or unfit.
+
+    `command` never raises and never answers NaN; `counters` and `explain` say what went otherwise than planned.
+    """
+
+    def __init__(self, scenario: Scenario, spec: ControllerSpec, name: str) -> None:
+        kind, where = KINDS[spec.law], f"controllers.{name}.parameters"
+        values = _checked(spec.parameters, kind, where)
+        train, curve = scenario.train, scenario.desired_curve()
+        try:
+            price = (values["band_price"], 0.0)
+            self.problem = Problem(
+                horizon=_whole(values["horizon"]),
+                period_s=spec.period_s, davis=(train.davis_a_mps2, train.davis_b_per_s, train.davis_c_per_m),
+                lowest_command_mps2=-train.max_braking_n / train.mass_kg,
+                highest_command_mps2=train.max_traction_n / train.mass_kg,
+                weights=Weights(position=values["position_weight"], speed=values["speed_weight"],
+                                command=values["command_weight"], change=values["change_weight"]),
+                power_w_per_kg=train.max_power_w / train.mass_kg if train.max_power_w else math.inf,
+                band_m=scenario.simulation.position_band_m, price=(price,) * 4,
+                terminal_speed_mps=float(curve.at(np.linspace(0, curve.trip_time_s, 100))[1].max()))
+            duration = curve.trip_time_s + scenario.simulation.dwell_s
+            line = resistance_table(scenario.track) if kind.told_grades else None
+            self.ahead = preview(self.problem, curve, duration, line=line)
+            tracker = kind.tracker(self.problem, self.ahead, values)
+            self._observer = Observer(self.problem, self.ahead, values.get("observer_gain", 0.0))
+        except InputError as trouble:
+            raise InputError("", f"{where}: {trouble.key}", trouble.problem) from None
+        limits = (self.problem.lowest_command_mps2, self.problem.highest_command_mps2)
+        self._fallback = Fallback(tracker, tracker.lqr, self.ahead, limits, values["deadline_s"])
+        self.title, self.information, self.counters = kind.title, kind.information, self._fallback.counters
+        self.tracker, self.explain = tracker, self._fallback.explain
+        self._last_sample, self._sample = len(self.ahead) - self.problem.horizon - 1, -1
+
+    def command(self, time_s: float, position_m: float, speed_mps: float) -> float:
+        """The command u = F/m in m/s^2 for the sample at time_s."""
+        good = math.isfinite(time_s) and abs(position_m) < FARTHEST_M and abs(speed_mps) < FASTEST_MPS
+        k = round(time_s / self.problem.period_s) if math.isfinite(time_s) else self._sample + 1
+        k = self._sample = min(max(k, 0), self._last_sample)
+        if good:
+            disturbance = self._observer.correct(speed_mps)
+            state = np.array([position_m, speed_mps, self._observer.force])
+            answer = self._fallback.command(k, state, disturbance)
+        else:
+            answer = self._fallback.command(k, None, self._observer.disturbance)
+        self._observer.predict(k, speed_mps if good else None, answer)
+        return answer
+
+
+def _whole(horizon: float) -> int:
+    """The horizon as a number of samples; InputError where it is none."""
+    if not (math.isfinite(horizon) and horizon == int(horizon)):
+        raise InputError("", "horizon", f"{horizon:g} is no whole number: give the number of samples predicted")
+    return int(horizon)
+
+
+def _checked(given: Values, kind: Kind, where: str) -> Values:
+    wanted = (*COMMON, *kind.parameters)
+    for key in wanted:
+        if key not in given:
+            raise InputError("", where, f"'{key}' is missing: add it")
+    for key in given:
+        if key not in (*wanted, *OPTIONAL):
+            raise InputError("", where, f"unknown '{key}': choose among {', '.join((*wanted, *OPTIONAL))}")
+    values = OPTIONAL | given
+    if not values["deadline_s"] > 0:
+        raise InputError("", where, f"deadline_s = {values['deadline_s']:g} must be positive: leave it out for none")
+    return values

@@ -1,0 +1,63 @@
+"""Economic MPC: traction energy against time, within the limits; the desired run only says how late the train is."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import casadi as ca
+
+from workbench.errors import InputError
+from workbench.mpc.problem import Array, Problem
+from workbench.mpc.terminal import Lqr, lqr
+from workbench.mpc.transcription import CasadiMpc, tracking_cost
+
+# Below this force (m/s^2) driving and braking are blended, so that the cost has derivatives.
+BLEND_MPS2 = 1e-2
+SLOWEST_MPS = 1.0
+
+
+@dataclass(frozen=True)
+class Prices:
+    """What a run costs: energy (1/(J/kg)), time (1/s), and the share of braking energy that is returned.
+
+    Raises InputError for prices that are negative or a share outside 0 to 1.
+    """
+
+    energy: float = 1.0
+    time: float = 1.0
+    regenerated: float = 0.0
+
+    def __post_init__(self) -> None:
+        if not (self.energy >= 0 and self.time >= 0 and 0 <= self.regenerated <= 1):
+            raise InputError("", "prices", f"energy {self.energy:g} and time {self.time:g} must not be negative, and "
+                             f"what is regenerated, {self.regenerated:g}, be a share: correct them")
+
+
+def power(force: Any, speed: Any, regenerated: float) -> Any:
+    """Power drawn per unit of mass, W/kg: driving costs it all, braking returns a share; smooth."""
+    driving = (force + ca.sqrt(force**2 + BLEND_MPS2**2)) / 2
+    return (driving + regenerated * (force - driving)) * speed
+
+
+def economic_mpc(problem: Problem, ahead: Array, prices: Prices, solver: str = "fatrop",
+                 beyond: Lqr | None = None) -> CasadiMpc:
+    """A solver of the economic problem.
+
+    A stage costs its energy and the squares of the tracking problem, whose weights are to be small: they say how far
+    from the desired run the train may be led by prices. The end of the horizon costs its lateness against the desired
+    run, and is paid for the kinetic energy it has beyond the desired one.
+    """
+    tracking, after = tracking_cost(problem), beyond or lqr(problem)
+
+    def stage(x: Any, u: Any, row: Any) -> Any:
+        force = u if problem.actuator == "direct" else x[2]
+        return prices.energy * problem.period_s * power(force, x[1], prices.regenerated) + tracking(x, u, row)
+
+    def end(x: Any, row: Any) -> Any:
+        late_s = (row[0] - x[0]) / ca.fmax(row[1], SLOWEST_MPS)
+        kinetic = (x[1] ** 2 - row[1] ** 2) / 2
+        error = x - row[:3]
+        return prices.time * late_s - prices.energy * kinetic + ca.bilin(after.cost, error, error)
+
+    return CasadiMpc(problem, ahead, solver, stage, end, after)

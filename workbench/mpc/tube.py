@@ -1,0 +1,220 @@
+"""A tube around a nominal run: how far a bounded disturbance can push a train that is held to it by a feedback.
+
+x - xbar = (e1, e2), u - ubar = -K (x - xbar), held for a period: e1' = e2, e2' = slope e2 + u - ubar + w, |w| <= W.
+This is exact: the square term of the resistance differs by -(b + c (v + vbar)) e2, a slope between known ends, so its
+distance from the middle counts as disturbance too. The set that e cannot leave is the minimal robust positively
+invariant set, the sum of (A - B K)^i D over i; what is needed of it are its extents, which are sums of absolute values.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+
+import control
+import numpy as np
+from scipy.linalg import expm
+
+from workbench.errors import InputError
+from workbench.mpc.kernels import kernels
+from workbench.mpc.linear import LinearMpc
+from workbench.mpc.problem import Array, Problem
+from workbench.mpc.solution import Solution
+
+GRID = 40
+# A sum is cut where its last term, as often as a geometric sum repeats it, is below this share of it.
+REST = 1e-9
+MOST_TERMS = 100_000
+# The answer bends by at most slope (below 0.1/s) times itself, so that trapezoids of a 40th of a period miss less.
+ROUNDED_UP = 1 + 1e-5
+
+
+@dataclass(frozen=True)
+class Premise:
+    """One thing that the guarantee rests on, and whether it holds."""
+
+    statement: str
+    value: float
+    limit: float
+
+    @property
+    def holds(self) -> bool:
+        """Whether the value is below its limit."""
+        return self.value < self.limit
+
+
+@dataclass(frozen=True)
+class Tube:
+    """The invariant set's extents, at and between samples, and the premises of the guarantee.
+
+    gain: shape (2,), K; position_m, speed_mps, command_mps2: largest |e1|, |e2|, |u - ubar|; disturbance_mps2: W, and
+    total_mps2: W with what the changing slope adds. A_K: the closed loop of one period.
+    """
+
+    gain: Array
+    position_m: float
+    speed_mps: float
+    command_mps2: float
+    disturbance_mps2: float
+    total_mps2: float
+    A_K: Array
+    premises: tuple[Premise, ...]
+
+    @property
+    def holds(self) -> bool:
+        """Whether every premise does."""
+        return all(premise.holds for premise in self.premises)
+
+    def report(self) -> list[str]:
+        """A line a premise, with its numbers."""
+        return [f"{'holds' if p.holds else 'FAILS'}: {p.statement}: {p.value:.4g} < {p.limit:.4g}"
+                for p in self.premises]
+
+
+def held(slope_per_s: float, time_s: float) -> tuple[Array, Array]:
+    """exp(A t), shape (2, 2), and what a unit of command held for t adds, shape (2,)."""
+    big = expm(time_s * np.array([[0.0, 1.0, 0.0], [0.0, slope_per_s, 1.0], [0.0, 0.0, 0.0]]))
+    return big[:2, :2], big[:2, 2]
+
+
+def feedback(problem: Problem, slope_per_s: float) -> Array:
+    """K, shape (2,): the LQR of the errors for the problem's weights of position, speed and command."""
+    A, B = held(slope_per_s, problem.period_s)
+    w = problem.weights
+    gain, _, _ = control.dlqr(A, B.reshape(2, 1), np.diag([w.position, w.speed]), np.array([[w.command]]))
+    return np.asarray(gain).ravel()
+
+
+def extents(slope_per_s: float, period_s: float, gain: Array) -> tuple[Array, Array]:
+    """Largest |e1|, |e2|, |K e| per m/s^2 of disturbance, whatever its course, and A_K; inf where A_K is not stable.
+
+    The disturbance may change at any instant, so each extent is an integral of the absolute answer to an impulse, by
+    trapezoids. ROUNDED_UP is more than these and the cut sums can miss.
+    """
+    A, B = held(slope_per_s, period_s)
+    A_K = A - np.outer(B, gain)
+    radius = float(np.abs(np.linalg.eigvals(A_K)).max())
+    if radius >= 1 - 1e-4:  # a feedback that slow is none
+        return np.full(3, math.inf), A_K
+    times = np.linspace(0.0, period_s, GRID + 1)
+    impulses = np.array([held(slope_per_s, period_s - t)[0][:, 1] for t in times])  # what acts at t, at the end
+    trapezoid = np.full(GRID + 1, period_s / GRID)
+    trapezoid[[0, -1]] /= 2
+    # Rows: the directions e1, e2 at every time of the grid within a period, and K e at the sample.
+    within = [held(slope_per_s, t) for t in times[:-1]]
+    rows = np.concatenate([*(phi - np.outer(gamma, gain) for phi, gamma in within), gain[np.newaxis]])
+    total, power = np.zeros(len(rows)), np.eye(2)
+    for _ in range(MOST_TERMS):
+        term = np.abs(rows @ power @ impulses.T) @ trapezoid
+        total += term
+        power = A_K @ power
+        if (term <= REST * (1 - radius) * np.maximum(total, 1e-300)).all():
+            break
+    # What acts since the last sample, at a time within the period.
+    for n in range(1, GRID):
+        early = np.array([held(slope_per_s, times[n] - t)[0][:, 1] for t in times[: n + 1]])
+        width = np.full(n + 1, period_s / GRID)
+        width[[0, -1]] /= 2
+        total[2 * n : 2 * n + 2] += width @ np.abs(early)
+    # Between two times of the grid e1 moves by at most the largest speed.
+    speed = float(total[1:-1:2].max())
+    position = float(total[0:-1:2].max()) + speed * period_s / GRID / 2
+    return ROUNDED_UP * np.array([position, speed, float(total[-1])]), A_K
+
+
+def tube(problem: Problem, ahead: Array, disturbance_mps2: float, band_m: float = 0.2, start: float = 0.0,
+         gain: Array | None = None) -> Tube:
+    """The tube of a problem along a desired run, for |w| <= disturbance_mps2 and |e1| < band_m.
+
+    The disturbance holds everything the nominal model lacks: grades, curves, wrong mass and resistance, wind.
+    start: distance of the train from the desired run at the start, m, which the nominal run may start with.
+    Raises InputError for a bound that is not positive.
+    """
+    if not 0 < disturbance_mps2 < math.inf:
+        raise InputError("", "disturbance_mps2", f"{disturbance_mps2:g} must be positive and finite: give its bound")
+    _, b, c = problem.davis
+    fastest = float(ahead[:, 1].max())
+    least, most = -(b + 2 * c * (fastest + 1.0)), -b
+    middle, spread = (least + most) / 2, (most - least) / 2
+    K = feedback(problem, middle) if gain is None else gain
+    each, A_K = extents(middle, problem.period_s, K)
+    # The slope's distance from the middle pushes by spread |e2|, and e2 by what pushes: a loop of gain spread each[1].
+    loop = spread * each[1]
+    total = disturbance_mps2 / (1 - loop) if loop < 1 else math.inf
+    position, speed, command = (float(x) for x in each * total) if math.isfinite(total) else (math.inf,) * 3
+    commands = ahead[:, 3]
+    at_power = problem.power_w_per_kg / np.maximum(ahead[:, 1] + speed, 1e-3)
+    radius = float(np.abs(np.linalg.eigvals(A_K)).max())
+    premises = (
+        Premise("the feedback is stable: spectral radius of A - B K", radius, 1.0),
+        Premise("the changing slope of the resistance is small: its loop gain", loop, 1.0),
+        Premise("speeds stay where the slopes were taken, 1 m/s above the fastest: largest |e2|, m/s", speed, 1.0),
+        Premise("the tube fits into the band: largest |e1|, m", position, band_m),
+        Premise("driving leaves room for the feedback: highest command with it, m/s^2",
+                float((commands + command).max()), problem.highest_command_mps2),
+        Premise("braking leaves room for the feedback: lowest command with it, m/s^2, negated",
+                -float((commands - command).min()), -problem.lowest_command_mps2),
+        Premise("the power limit leaves room for the feedback: highest excess over it, m/s^2",
+                float((commands + command - at_power).max()), 0.0),
+        Premise("the run starts within what the tube leaves of the band, m", abs(start), band_m - position),
+    )
+    return Tube(K, position, speed, command, disturbance_mps2, total, A_K, premises)
+
+
+class TubeMpc:
+    """MPC of the nominal train within limits that are tightened by the tube, and the feedback that holds to it.
+
+    The nominal run knows nothing of disturbances, so it can be known before the real one: `nominal_run` is it.
+    """
+
+    def __init__(self, problem: Problem, ahead: Array, around: Tube) -> None:
+        room = max(problem.band_m - around.position_m, 1e-6)
+        low = problem.lowest_command_mps2 + around.command_mps2
+        high = problem.highest_command_mps2 - around.command_mps2
+        if not low < 0 < high:
+            raise InputError("", "disturbance_mps2", f"{around.disturbance_mps2:g} leaves no command to the nominal "
+                             "run: give a smaller bound or stronger limits")
+        self.around, self.horizon = around, problem.horizon
+        tightened = replace(problem, band_m=room, lowest_command_mps2=low, highest_command_mps2=high)
+        self.nominal = LinearMpc(tightened, ahead)
+        self.lqr = self.nominal.lqr
+        self._follow, self._parameters = kernels(problem.actuator).follow, problem.parameters
+        self._limits = problem.lowest_command_mps2, problem.highest_command_mps2
+        self._state: Array | None = None
+        self._sample = -1
+
+    def forget(self) -> None:
+        """Start the nominal run anew, from what is measured next."""
+        self._state = None
+        self.nominal.forget()
+
+    def solve(self, sample: int, state: Array, disturbance: float = 0.0) -> Solution:
+        """The nominal plan, with the feedback from the measured state in its first command.
+
+        The tube is there for disturbances, so that an estimate of one is not used.
+        """
+        del disturbance
+        if self._state is None or sample != self._sample + 1:
+            self.nominal.forget()
+            self._state = np.array(state, dtype=float)
+        answer = self.nominal.solve(sample, self._state)
+        plan = answer.plan.copy()
+        x, e = self._state, state[:2] - self._state[:2]
+        self._state, self._sample = self.follow(x, float(plan[0])), sample
+        plan[0] = np.clip(plan[0] - self.around.gain @ e, *self._limits)
+        return replace(answer, plan=plan)
+
+    def follow(self, x: Array, command: float) -> Array:
+        """The nominal state one period later."""
+        return np.array(self._follow(x[0], x[1], x[2], command, 0.0, self._parameters))
+
+    def nominal_run(self, state: Array, samples: int) -> Array:
+        """Errors of the nominal run from the desired one, and its commands: shape (samples, 3)."""
+        self.forget()
+        rows, x = [], np.array(state, dtype=float)
+        for k in range(samples):
+            u = float(self.nominal.solve(k, x).plan[0])
+            rows.append([*(x[:2] - self.nominal.ahead[k, :2]), u])
+            x = self.follow(x, u)
+        self.forget()
+        return np.array(rows)
