@@ -70,11 +70,16 @@ class Terms:
 def lower_bound(vehicle: Vehicle, course: Course, certificate: Certificate, trip_time_s: float,
                 start_mps: float = 0.0, end_mps: float = 0.0) -> float:
     """The bound in J, auxiliaries left out; -inf where the certificate proves nothing."""
+    return (float(cell_bounds(vehicle, course, certificate).sum())
+            + fixed_part(vehicle, course, certificate, trip_time_s, start_mps, end_mps))
+
+
+def cell_bounds(vehicle: Vehicle, course: Course, certificate: Certificate) -> Array:
+    """What each cell adds to the bound without the line's force, J: its length times the mean of the least values."""
     terms = bound_terms(vehicle, course, certificate)
     ends = np.full((2, len(certificate.left)), np.inf)
     np.minimum.at(ends, (terms.end.astype(int), terms.cell.astype(int)), minima(terms))
-    step = np.diff(certificate.position_m)
-    return float(step @ ends.mean(axis=0)) + fixed_part(vehicle, course, certificate, trip_time_s, start_mps, end_mps)
+    return np.asarray(np.diff(certificate.position_m) * ends.mean(axis=0))
 
 
 def fixed_part(vehicle: Vehicle, course: Course, certificate: Certificate, trip_time_s: float, start_mps: float,

@@ -13,6 +13,8 @@ from workbench.optimal.course import Array, Course
 # Distances over which a stop and a change of the limit ask for shorter intervals, and how many they ask for.
 STOP_REACH_M, STOP_WEIGHT = 2500.0, 0.5
 CHANGE_REACH_M, CHANGE_WEIGHT = 1500.0, 0.15
+# Between two borders that every mesh has.
+LEAST_INTERVALS = 3
 
 
 @dataclass(frozen=True)
@@ -88,7 +90,7 @@ def graded_grid(course: Course, intervals: int) -> Grid:
     nodes = [kept[:1]]
     for low, high in pairwise(kept):
         first, last = np.interp([low, high], sample, share)
-        count = max(1, round(last - first))
+        count = max(LEAST_INTERVALS, round(last - first))
         nodes.append(np.append(np.interp(np.linspace(first, last, count + 1)[1:-1], share, sample), high))
     return grid_on(course, _with_force_borders(course, np.concatenate(nodes), kept))
 

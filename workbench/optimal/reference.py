@@ -8,11 +8,12 @@ from dataclasses import dataclass
 import numpy as np
 
 from workbench.errors import InputError
+from workbench.optimal.adapt import finer_grid
 from workbench.optimal.adjoint import certificate_from
 from workbench.optimal.bound import Certificate, lower_bound
 from workbench.optimal.course import Course
 from workbench.optimal.envelope import InfeasibleRunError, drivable, fastest
-from workbench.optimal.grid import graded_grid
+from workbench.optimal.grid import Grid, graded_grid
 from workbench.optimal.profile import Profile, energy_j
 from workbench.optimal.refine import refined
 from workbench.optimal.regimes import binding
@@ -20,7 +21,8 @@ from workbench.optimal.socp import NoPlanError, Plan, solve_socp
 from workbench.optimal.vehicle import Vehicle
 from workbench.optimal.verify import Check, check
 
-INTERVALS = 500
+INTERVALS, STOP_INTERVALS = 500, 100
+ROUNDS, GAP_WANTED = 5, 5e-4
 # Cells of the driven run on each interval of the plan, and of the fastest run in all.
 PARTS, FASTEST_CELLS = 8, 4000
 # A run whose energy is proven to lie within this share above the least possible one is called optimal.
@@ -53,8 +55,7 @@ class Reference:
     @property
     def gap(self) -> float:
         """How much of the energy could still be saved at most, as a share of it; absolute where it is not positive."""
-        excess = self.energy_j - self.lower_bound_j
-        return excess / abs(self.energy_j) if self.energy_j else excess
+        return _gap(self.energy_j, self.lower_bound_j)
 
     @property
     def status(self) -> str:
@@ -63,8 +64,10 @@ class Reference:
 
 
 def find_reference(vehicle: Vehicle, course: Course, trip_time_s: float, start_mps: float = 0.0, end_mps: float = 0.0,
-                   intervals: int = INTERVALS) -> Reference:
-    """The run of least energy that arrives within trip_time_s.
+                   intervals: int | None = None) -> Reference:
+    """The run of least energy that arrives within trip_time_s, on about so many intervals.
+
+    Where no number is given the mesh is refined, up to ROUNDS times, until the gap is at most GAP_WANTED.
 
     Raises InputError for a time that is no time, InfeasibleRunError where no run meets the request.
     """
@@ -78,18 +81,24 @@ def find_reference(vehicle: Vehicle, course: Course, trip_time_s: float, start_m
         raise InfeasibleRunError(
             f"{trip_time_s:g} s is too short: the least feasible trip time is {quickest.trip_time_s:.1f} s, "
             f"{binding(vehicle, quickest)}: allow more time", quickest.trip_time_s)
-    plan, profile, solve_s = _planned(vehicle, course, trip_time_s, start_mps, end_mps, intervals, quickest)
-    bound, certificate = -math.inf, None
-    if plan is not None:
-        certificate = certificate_from(plan)
+    nothing = Certificate(course.position_m[[0, -1]], np.zeros(1), np.zeros(1), 0.0)
+    best = _Found(quickest, lower_bound(vehicle, course, nothing, trip_time_s, start_mps, end_mps), nothing, 0.0)
+    grid = graded_grid(course, intervals or INTERVALS + STOP_INTERVALS * len(course.stops_m))
+    for _ in range(1 if intervals else ROUNDS):
+        found = _planned(vehicle, grid, trip_time_s, start_mps, end_mps, quickest)
+        if found is None:
+            break
+        plan, profile, solve_s = found
+        certificate = certificate_from(vehicle, plan)
         bound = lower_bound(vehicle, course, certificate, trip_time_s, start_mps, end_mps)
-    still = Certificate(course.position_m[[0, -1]], np.zeros(1), np.zeros(1), 0.0)
-    if certificate is None:
-        certificate = still
-        bound = lower_bound(vehicle, course, certificate, trip_time_s, start_mps, end_mps)
-    bound += vehicle.auxiliary_w * quickest.trip_time_s
-    return Reference(vehicle, profile, energy_j(vehicle, profile), bound, certificate, trip_time_s,
-                     quickest.trip_time_s, "clarabel", solve_s, check(vehicle, profile))
+        best = best.improved(vehicle, profile, bound, certificate, solve_s)
+        if best.gap(vehicle) <= GAP_WANTED:
+            break
+        grid = finer_grid(vehicle, plan, certificate)
+    energy = energy_j(vehicle, best.profile)
+    return Reference(vehicle, best.profile, energy, best.bound_j + vehicle.auxiliary_w * quickest.trip_time_s,
+                     best.certificate, trip_time_s, quickest.trip_time_s, "clarabel", best.solve_s,
+                     check(vehicle, best.profile))
 
 
 def least_time(vehicle: Vehicle, course: Course, start_mps: float = 0.0, end_mps: float = 0.0) -> Profile:
@@ -98,12 +107,34 @@ def least_time(vehicle: Vehicle, course: Course, start_mps: float = 0.0, end_mps
     return fastest(vehicle, course.split(fine.position_m[1:-1]), start_mps, end_mps)
 
 
-def _planned(vehicle: Vehicle, course: Course, trip_time_s: float, start_mps: float, end_mps: float, intervals: int,
-             quickest: Profile) -> tuple[Plan | None, Profile, float]:
-    """The plan, a drivable run that arrives in time, and the solver's time; no plan where none was found."""
-    grid = graded_grid(course, intervals)
-    wanted, spent, plan = trip_time_s, 0.0, None
-    profile = quickest
+@dataclass(frozen=True)
+class _Found:
+    """The best run so far, and the best bound, which need not come from the same mesh."""
+
+    profile: Profile
+    bound_j: float
+    certificate: Certificate
+    solve_s: float
+
+    def gap(self, vehicle: Vehicle) -> float:
+        return _gap(energy_j(vehicle, self.profile), self.bound_j)
+
+    def improved(self, vehicle: Vehicle, profile: Profile, bound: float, certificate: Certificate,
+                 solve_s: float) -> _Found:
+        less = energy_j(vehicle, profile) < energy_j(vehicle, self.profile)
+        return _Found(profile if less else self.profile, max(bound, self.bound_j),
+                      certificate if bound > self.bound_j else self.certificate, self.solve_s + solve_s)
+
+
+def _gap(energy: float, bound: float) -> float:
+    return (energy - bound) / abs(energy) if energy else energy - bound
+
+
+def _planned(vehicle: Vehicle, grid: Grid, trip_time_s: float, start_mps: float, end_mps: float,
+             quickest: Profile) -> tuple[Plan, Profile, float] | None:
+    """The plan, a drivable run that arrives in time, and the solver's time; None where the solver found none."""
+    wanted, spent = trip_time_s, 0.0
+    plan: Plan | None = None
     for _ in range(3):
         try:
             plan = solve_socp(vehicle, grid, wanted, start_mps, end_mps)
@@ -115,6 +146,8 @@ def _planned(vehicle: Vehicle, course: Course, trip_time_s: float, start_mps: fl
         if late <= LATE * trip_time_s:
             break
         wanted -= late
+    if plan is None:
+        return None
     return plan, _in_time(vehicle, profile, quickest, trip_time_s, start_mps, end_mps), spent
 
 

@@ -18,14 +18,19 @@ from workbench.optimal.vehicle import Vehicle
 
 # From this share of its limit on, a mean force is taken for the limit itself.
 NEAR_LIMIT = 0.96
+# Points closer than this are one.
+SLIVER_M = 1e-6
 
 
 def refined(vehicle: Vehicle, plan: Plan, parts: int, start_mps: float = 0.0, end_mps: float = 0.0) -> Profile:
     """The run on `parts` cells an interval; raises InfeasibleRunError when the train cannot drive it."""
     s, step = plan.grid.position_m, plan.grid.step_m
-    inner = [s[1:-1], *(s[:-1] + step * k / parts for k in range(1, parts))]
-    # The borders of the line's force are nodes of the split course too.
-    course = plan.grid.course.split(np.concatenate(inner))
+    inner = np.concatenate([s[:-1] + step * k / parts for k in range(1, parts)])
+    # The borders of the line's force are nodes of the split course too; a point beside one would make a sliver.
+    borders = plan.grid.course.position_m
+    after = np.clip(np.searchsorted(borders, inner), 1, len(borders) - 1)
+    apart = np.minimum(inner - borders[after - 1], borders[after] - inner) > SLIVER_M
+    course = plan.grid.course.split(np.concatenate((s[1:-1], inner[apart])))
     target = _target(vehicle, plan, course.position_m, course.force_n, course.drag)
     return drivable(vehicle, course, target, start_mps, end_mps)
 

@@ -82,9 +82,10 @@ def solve_socp(vehicle: Vehicle, grid: Grid, trip_time_s: float, start_mps: floa
     rules += _force_rules(brake, vehicle.regenerative, grid, v_mean, tau, (force, speed, mean_time))
     if b_1 > 0:  # else the resistance would fall with a speed that the relaxation lets go
         rules.append(v[free] >= cp.multiply(1 / np.sqrt(top[free]), b[free]))
-    for limit, sign in ((vehicle.max_acceleration_mps2, 1), (vehicle.max_deceleration_mps2, -1)):
-        if np.isfinite(limit):
-            rules.append(sign * (b[1:] - b[:-1]) <= 2 * limit * h / half)
+    comfort = [(sign, sign * (b[1:] - b[:-1]) <= 2 * limit * h / half)
+               for limit, sign in ((vehicle.max_acceleration_mps2, 1), (vehicle.max_deceleration_mps2, -1))
+               if np.isfinite(limit)]
+    rules += [rule for _, rule in comfort]
     used = cp.sum(cp.multiply(h, pull)) / vehicle.traction_efficiency
     returned = vehicle.regenerative_efficiency * cp.sum(cp.multiply(h, brake))
     problem = cp.Problem(cp.Minimize((used - returned) / grid.course.length_m), rules)
@@ -102,9 +103,13 @@ def solve_socp(vehicle: Vehicle, grid: Grid, trip_time_s: float, start_mps: floa
                           f"{trip_time_s:g} s: allow more time or other intervals")
     stats = problem.solver_stats
     work = force * grid.course.length_m
+    # Limits of the acceleration act on db/ds itself: they belong to the price of what changes b.
+    adjoint = motion.dual_value * work / (force * h)
+    for sign, rule in comfort:
+        adjoint = adjoint + sign * rule.dual_value * 2 * work / (half * inertia)
     half_square = np.where(fixed, value, np.maximum(b.value, 0.0)) * half / 2
     return Plan(grid, half_square, (pull.value - brake.value - grip.value) * force,
-                motion.dual_value * work / (force * h), float(duration.dual_value) * work / mean_time,
+                adjoint, float(duration.dual_value) * work / mean_time,
                 float(problem.value) * work, float(stats.solve_time or time.perf_counter() - started),
                 str(problem.status))
 

@@ -1,0 +1,47 @@
+"""A finer mesh where a plan and its bound lie apart."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from workbench.optimal.bound import Certificate, cell_bounds
+from workbench.optimal.course import Array
+from workbench.optimal.grid import Grid, grid_on
+from workbench.optimal.socp import Plan
+from workbench.optimal.vehicle import Vehicle
+
+# Intervals that a finer mesh has more, as a share.
+GROWTH = 0.7
+_GAUSS = (0.5 - np.sqrt(3) / 6, 0.5 + np.sqrt(3) / 6)
+
+
+def slack(vehicle: Vehicle, plan: Plan, certificate: Certificate) -> Array:
+    """By how much each interval's part of the plan's own cost lies above its part of the bound, J, shape (n,)."""
+    grid, x = plan.grid, certificate.position_m
+    h = np.diff(x)
+    owner = np.searchsorted(grid.position_m, (x[1:] + x[:-1]) / 2) - 1
+    b = np.interp(x, grid.position_m, plan.half_square)
+    u = plan.force_n[owner]
+    cost = np.where(u > 0, u / vehicle.traction_efficiency,
+                    vehicle.regenerative_efficiency * np.maximum(u, -vehicle.regenerative.force_n))
+    a, b_1, c = vehicle.davis_n
+    own = np.zeros(len(h))
+    for share in _GAUSS:
+        half_square = np.maximum(b[:-1] + share * np.diff(b), 1e-12)
+        v = np.sqrt(2 * half_square)
+        p = certificate.left + share * (certificate.right - certificate.left)
+        resistance = a + b_1 * v + (c + grid.drag[owner]) * v * v
+        own += h / 2 * (cost + certificate.time_price_w / v + p * (resistance - u)
+                        - vehicle.inertia_kg * (certificate.right - certificate.left) / h * half_square)
+    above = np.maximum(own - cell_bounds(vehicle, grid.course, certificate), 0.0)
+    return np.asarray(np.bincount(owner, weights=above, minlength=len(plan.force_n)), dtype=float)
+
+
+def finer_grid(vehicle: Vehicle, plan: Plan, certificate: Certificate) -> Grid:
+    """The plan's mesh with intervals divided in proportion to the root of their slack, GROWTH more in all."""
+    s, count = plan.grid.position_m, len(plan.force_n)
+    weight = np.sqrt(slack(vehicle, plan, certificate))
+    weight /= max(float(weight.sum()), 1e-300)
+    parts = np.maximum(1, np.round(0.3 + GROWTH * count * weight)).astype(int)
+    nodes = [s[:1], *(np.linspace(s[k], s[k + 1], parts[k] + 1)[1:] for k in range(count))]
+    return grid_on(plan.grid.course, np.concatenate(nodes))
