@@ -113,8 +113,9 @@ def course(line: Line, vehicle: Vehicle, from_m: float = 0.0, to_m: float | None
     """The course of a vehicle from one position of its front to another, to line.length_m where none is given.
 
     Grade, curve and tunnel forces and tunnel drag are means over [front - vehicle.length_m, front], the speed limit is
-    the least there and the vehicle's own; behind the line's start its first values hold. Exact but for clothoids, whose
-    force differs by less than CURVE_TOLERANCE of the largest curve force of the run. stops_m: where to stop on the way.
+    the least there and the vehicle's own; behind the line's start its first values hold. Exact, to a millimetre of
+    position, but for clothoids: their force differs by less than CURVE_TOLERANCE of the largest curve force of the run.
+    stops_m: where to stop on the way.
     Raises InputError for positions that are no run on this line, and where no speed limit is known.
     """
     to_m = line.length_m if to_m is None else to_m

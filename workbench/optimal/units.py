@@ -79,37 +79,37 @@ class Quantity(Record):
 
 
 class Length(Quantity):
-    """A length."""
+    """A length, m or km."""
 
     KNOWN = LENGTH
 
 
 class Speed(Quantity):
-    """A speed."""
+    """A speed, m/s or km/h."""
 
     KNOWN = SPEED
 
 
 class Acceleration(Quantity):
-    """An acceleration."""
+    """An acceleration, m/s^2."""
 
     KNOWN = ACCELERATION
 
 
 class Mass(Quantity):
-    """A mass."""
+    """A mass, kg or t."""
 
     KNOWN = MASS
 
 
 class Force(Quantity):
-    """A force."""
+    """A force, N or kN."""
 
     KNOWN = FORCE
 
 
 class Power(Quantity):
-    """A power."""
+    """A power, W, kW or MW."""
 
     KNOWN = POWER
 
