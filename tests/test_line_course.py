@@ -10,7 +10,7 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 from workbench.errors import InputError
-from workbench.optimal.line import CURVE_TOLERANCE, RULES, Line, Tunnel, course
+from workbench.optimal.line import RULES, Line, Tunnel, course
 from workbench.optimal.vehicle import ForceLimit, Vehicle
 
 TRAIN = Vehicle("train", 2e5, (2000.0, 30.0, 5.0), ForceLimit(2e5), friction_brake_n=2e5, length_m=150.0,
@@ -94,7 +94,13 @@ def test_clothoids_are_followed_within_the_stated_tolerance(rule, length):
     rounding = 3 * largest / points if length else 1e-9
     for front in fronts:
         expected = plain_mean(bent, front, length, points) if length else plain_force(bent, front)
-        assert at(found, front) == pytest.approx(expected, abs=CURVE_TOLERANCE * largest + rounding)
+        assert at(found, front) == pytest.approx(expected, abs=1e-3 * largest + rounding)
+
+
+@pytest.mark.parametrize("front", [0.0, 20.0, 60.0, 149.0, 151.0, 400.0])
+def test_behind_the_start_the_first_curvature_holds(front):
+    eased = line(curves=((0.0, 1 / 400, 1 / 1000), (500.0, 1 / 1000, 1 / 1000)), curve_rule="yang2021")
+    assert at(course(eased, TRAIN), front) == pytest.approx(plain_mean(eased, front, 150.0), rel=1e-3)
 
 
 def test_the_magnitude_of_a_curvature_that_changes_sign_resists():
