@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any
@@ -18,6 +18,7 @@ from workbench.gains.lmi import Answer, Array, Refusal, Scaled, inner_duals, int
 from workbench.gains.problem import Block, Exponents, Family, Poly, Problem, affine, families_of, states_of
 
 TOLERANCES = tuple(10.0 ** (-n / 2) for n in range(2, 24))
+FACE = 1e-5  # entries of a dual below this part of the largest are zero
 BACKOFF = 1e-4  # by how much of itself an optimal value is given up for an interior answer
 
 
@@ -68,7 +69,7 @@ def search(problem: Problem, backoff: float = BACKOFF) -> Found:
     data = scaled(families, scales, units)
     answer, bound, goal = _numbers(problem, data, units, backoff)
     if isinstance(answer, Refusal):
-        raise _refused(problem, data, answer, scales, units)
+        raise _refused(problem, data, answer, scales)
     for tolerance in TOLERANCES:
         values = tuple(simplest(float(u) * float(unit), tolerance) for u, unit in zip(
             answer.unknowns, units, strict=False))
@@ -83,6 +84,24 @@ def search(problem: Problem, backoff: float = BACKOFF) -> Found:
                          time.perf_counter() - started)
     raise SolverError(f"{problem.id}: no rounding of clarabel's answer (margin {answer.margin:.1e}) can be proved: "
                       "rescale the problem (scales) or loosen a condition")
+
+
+def confirm(problem: Problem, values: Mapping[sp.Symbol, Fraction] | None = None) -> dict[str, Any]:
+    """The certificate that given values of the unknowns meet the conditions, by exact squares alone, without a solver.
+
+    Raises SolverError naming the family that does not hold, or whose Gram matrix is not determined by its terms.
+    """
+    exact = tuple((values or {})[u] for u in problem.unknowns)
+    proofs = []
+    for family in families_of(problem):
+        poly = {e: c for e, c in family.at(exact).items() if c}
+        gram = _projected(family.blocks[0].basis, poly, None) if family.determined else None
+        squares = squares_of(gram) if gram is not None else None
+        if squares is None:
+            raise SolverError(f"{problem.id}: {family.name}: is no sum of squares at the given values: correct them")
+        proofs.append([(-1, pivot, dict(zip(family.blocks[0].basis, row, strict=True))) for pivot, row in squares])
+    put = {u: rational(v) for u, v in zip(problem.unknowns, exact, strict=True)}
+    return proved_certificate(problem, put, states_of(problem), proofs)
 
 
 def largest(make: Callable[[Fraction], Problem], low: Fraction, high: Fraction,
@@ -201,8 +220,7 @@ def _projected(basis: tuple[Exponents, ...], poly: Poly, start: Matrix | None) -
     return gram
 
 
-def _refused(problem: Problem, data: Scaled, refusal: Refusal, scales: list[Fraction],
-             units: list[Fraction]) -> WorkbenchError:
+def _refused(problem: Problem, data: Scaled, refusal: Refusal, scales: list[Fraction]) -> WorkbenchError:
     """Infeasible with the families at fault; SolverError where the answer lies on the border of what holds."""
     if refusal.margin > -1e-6:
         return SolverError(f"{problem.id}: the conditions can be met on the border at best (margin "
@@ -215,5 +233,12 @@ def _refused(problem: Problem, data: Scaled, refusal: Refusal, scales: list[Frac
     certificate = None
     if all(f.determined for f in data.families):
         inner = inner_duals(data, refusal.margin)
-        certificate = infeasible_certificate(problem, data, inner, scales) if inner is not None else None
+        for duals in ([inner] if inner is not None else []) + [_on_a_face(refusal.duals)]:
+            certificate = certificate or infeasible_certificate(problem, data, duals, scales)
     return Infeasible(problem, shares, certificate, refusal.margin)
+
+
+def _on_a_face(duals: list[Array]) -> list[Array]:
+    """The matrices without what is zero to the solver's precision, for a proof at the border of the cones."""
+    top = max(float(np.abs(z).max(initial=0.0)) for z in duals)
+    return [np.where(np.abs(z) < FACE * top, 0.0, z) for z in duals]
