@@ -103,8 +103,15 @@ class MpcController:
         limits = (self.problem.lowest_command_mps2, self.problem.highest_command_mps2)
         self._fallback = Fallback(tracker, tracker.lqr, self.ahead, limits, values["deadline_s"])
         self.title, self.information, self.counters = kind.title, kind.information, self._fallback.counters
-        self.tracker, self.explain = tracker, self._fallback.explain
+        self.tracker = tracker
+        if isinstance(tracker, TubeMpc):
+            self.counters["premises_failed"] = sum(not premise.holds for premise in tracker.around.premises)
         self._last_sample, self._sample = len(self.ahead) - self.problem.horizon - 1, -1
+
+    def explain(self) -> list[str]:
+        """A line for everything that went otherwise than planned, and for every premise of a tube that fails."""
+        premises = self.tracker.around.report() if isinstance(self.tracker, TubeMpc) else []
+        return [line for line in premises if line.startswith("FAILS")] + self._fallback.explain()
 
     def command(self, time_s: float, position_m: float, speed_mps: float) -> float:
         """The command u = F/m in m/s^2 for the sample at time_s."""

@@ -7,14 +7,19 @@ from typing import Any
 
 import casadi as ca
 
-from workbench.errors import InputError
+from workbench.errors import InputError, SolverError
 from workbench.mpc.problem import Array, Problem
 from workbench.mpc.terminal import Lqr, lqr
 from workbench.mpc.transcription import CasadiMpc, tracking_cost
 
+# The programs are not convex where braking returns nothing: sqpmethod, with either of its solvers, finds no answer at
+# some samples.
+SOLVERS = ("ipopt", "fatrop")
+
 # Below this force (m/s^2) driving and braking are blended, so that the cost has derivatives.
 BLEND_MPS2 = 1e-2
-SLOWEST_MPS = 1.0
+# Where the desired run is slower, being early is worth less and less: a train that stands at its stop gains nothing.
+SLOWEST_MPS = 5.0
 
 
 @dataclass(frozen=True)
@@ -46,8 +51,11 @@ def economic_mpc(problem: Problem, ahead: Array, prices: Prices, solver: str = "
 
     A stage costs its energy and the squares of the tracking problem, whose weights are to be small: they say how far
     from the desired run the train may be led by prices. The end of the horizon costs its lateness against the desired
-    run, and is paid for the kinetic energy it has beyond the desired one.
+    run, and is paid for the kinetic energy it has beyond the desired one. Raises SolverError for a solver that is not
+    offered.
     """
+    if solver not in SOLVERS:
+        raise SolverError(f"no economic MPC with '{solver}': choose one of {', '.join(SOLVERS)}")
     tracking, after = tracking_cost(problem), beyond or lqr(problem)
 
     def stage(x: Any, u: Any, row: Any) -> Any:
@@ -55,7 +63,7 @@ def economic_mpc(problem: Problem, ahead: Array, prices: Prices, solver: str = "
         return prices.energy * problem.period_s * power(force, x[1], prices.regenerated) + tracking(x, u, row)
 
     def end(x: Any, row: Any) -> Any:
-        late_s = (row[0] - x[0]) / ca.fmax(row[1], SLOWEST_MPS)
+        late_s = (row[0] - x[0]) * row[1] / (row[1] ** 2 + SLOWEST_MPS**2)
         kinetic = (x[1] ** 2 - row[1] ** 2) / 2
         error = x - row[:3]
         return prices.time * late_s - prices.energy * kinetic + ca.bilin(after.cost, error, error)

@@ -138,12 +138,12 @@ def tube(problem: Problem, ahead: Array, disturbance_mps2: float, band_m: float 
     middle, spread = (least + most) / 2, (most - least) / 2
     K = feedback(problem, middle) if gain is None else gain
     each, A_K = extents(middle, problem.period_s, K)
-    # The slope's distance from the middle pushes by spread |e2|, and e2 by what pushes: a loop of gain spread each[1].
+    # The slope's distance from the middle pushes by spread |e2|, and what pushes moves e2: a loop of this gain.
     loop = spread * each[1]
     total = disturbance_mps2 / (1 - loop) if loop < 1 else math.inf
     position, speed, command = (float(x) for x in each * total) if math.isfinite(total) else (math.inf,) * 3
     commands = ahead[:, 3]
-    at_power = problem.power_w_per_kg / np.maximum(ahead[:, 1] + speed, 1e-3)
+    drawn = (commands + command) * (ahead[:, 1] + speed)
     radius = float(np.abs(np.linalg.eigvals(A_K)).max())
     premises = (
         Premise("the feedback is stable: spectral radius of A - B K", radius, 1.0),
@@ -154,8 +154,8 @@ def tube(problem: Problem, ahead: Array, disturbance_mps2: float, band_m: float 
                 float((commands + command).max()), problem.highest_command_mps2),
         Premise("braking leaves room for the feedback: lowest command with it, m/s^2, negated",
                 -float((commands - command).min()), -problem.lowest_command_mps2),
-        Premise("the power limit leaves room for the feedback: highest excess over it, m/s^2",
-                float((commands + command - at_power).max()), 0.0),
+        Premise("the power limit leaves room for the feedback: highest power with it, W/kg", float(drawn.max()),
+                problem.power_w_per_kg),
         Premise("the run starts within what the tube leaves of the band, m", abs(start), band_m - position),
     )
     return Tube(K, position, speed, command, disturbance_mps2, total, A_K, premises)
