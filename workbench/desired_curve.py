@@ -37,14 +37,20 @@ class DesiredCurve:
             raise WorkbenchError("desired curve: its breaks do not increase or a coefficient is not finite: "
                                  "give times in increasing order and finite values")
         for order, unit in enumerate(("m", "m/s", "m/s^2")):
-            rows = [poly.polyder(row, order) if order else row for row in self.coefficients]
-            left = np.array([poly.polyval(h, row) for h, row in zip(ends, rows, strict=True)])
+            left = self._derivative(order, ends)
             # The train stands where the curve ends, so that only its position may differ from zero there.
-            right = np.array([*(row[0] for row in rows[1:]), left[-1] if order == 0 else 0.0])
+            right = np.append(self._derivative(order, np.zeros(len(ends)))[1:], left[-1] if order == 0 else 0.0)
             jump = np.abs(left - right).max(initial=0.0)
             if not jump <= 1e-9 * max(1.0, float(np.abs(self.coefficients[:, order]).max())):
                 raise WorkbenchError(f"desired curve: derivative {order} jumps by {jump:g} {unit} at a break"
                                      f": give a curve with continuous acceleration")
+
+    def _derivative(self, order: int, local_s: NDArray[np.float64]) -> NDArray[np.float64]:
+        """The derivative of each piece at its own local time."""
+        value = np.zeros(len(self.coefficients))
+        for i in range(DEGREE, order - 1, -1):
+            value = value * local_s + self.coefficients[:, i] * math.perm(i, order)
+        return value
 
     @property
     def trip_time_s(self) -> float:

@@ -104,7 +104,7 @@ def fixed_part(vehicle: Vehicle, course: Course, certificate: Certificate, trip_
 
 def bound_terms(vehicle: Vehicle, course: Course, certificate: Certificate) -> Terms:
     """Every minimisation that the bound needs: for both ends of each cell, on each range of speeds."""
-    cells = _cells(vehicle, course, certificate)
+    cells = _cells(course, certificate)
     slope = (certificate.right - certificate.left) / np.diff(certificate.position_m)
     # p times a drag that changes along the cell bends: below its chord by a quarter of the product at most.
     bend = np.maximum((certificate.right - certificate.left) * (cells.drag[1] - cells.drag[0]), 0.0) / 4
@@ -134,7 +134,12 @@ class _Cells:
     most_force: Array
 
 
-def _cells(vehicle: Vehicle, course: Course, certificate: Certificate) -> _Cells:
+def cell_limits(course: Course, certificate: Certificate) -> Array:
+    """The speed limit of each cell in m/s."""
+    return _cells(course, certificate).limit_mps
+
+
+def _cells(course: Course, certificate: Certificate) -> _Cells:
     x, fine = certificate.position_m, course.split(certificate.position_m[1:-1])
     owner, count = _owner(x, fine.position_m), len(certificate.left)
     limit, least, most = np.zeros(count), np.full(count, np.inf), np.full(count, -np.inf)

@@ -60,3 +60,11 @@ class Course:
             return low + share * (high - low)
 
         return Course(borders, self.limit_mps[section], cut(self.force_n), cut(self.drag), self.stops_m)
+
+    def cut(self, from_m: float, to_m: float) -> Course:
+        """The part of the course from one position to another, which must lie inside it."""
+        whole = self.split(np.array([from_m, to_m]))
+        inside = (whole.position_m[:-1] >= from_m) & (whole.position_m[1:] <= to_m)
+        ends = np.flatnonzero(inside)
+        return Course(whole.position_m[ends[0]:ends[-1] + 2], whole.limit_mps[inside], whole.force_n[inside],
+                      whole.drag[inside], tuple(stop for stop in self.stops_m if from_m < stop < to_m))

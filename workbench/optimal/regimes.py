@@ -24,6 +24,12 @@ def regimes(vehicle: Vehicle, profile: Profile) -> NDArray[np.str_]:
     return np.asarray(named)
 
 
+def time_shares(vehicle: Vehicle, profile: Profile) -> dict[str, float]:
+    """Share of the run's time in each regime."""
+    names, step = regimes(vehicle, profile), np.diff(profile.time_s)
+    return {name: float(step[names == name].sum() / step.sum()) for name in REGIMES}
+
+
 def binding(vehicle: Vehicle, profile: Profile) -> str:
     """In words: the shares of a run's time at the speed limit, at full traction and at full brakes."""
     found = forces(vehicle, profile)

@@ -17,6 +17,9 @@ from workbench.optimal.envelope import device_limits
 from workbench.optimal.profile import Profile
 from workbench.optimal.vehicle import Vehicle
 
+# As near to a border of the line as this, a train may be on either side of it.
+TOUCHING_M = 1e-3
+
 
 @dataclass(frozen=True)
 class Check:
@@ -63,9 +66,11 @@ def _drive(time: Array, position: Array, speed: Array, acceleration: Array, limi
                 # The train: where it really is.
                 at, fast = s + ds, v + dv
                 cell = min(cell, len(acceleration) - 1)
-                while cell < len(acceleration) - 1 and at > position[cell + 1]:
+                if position[k] - TOUCHING_M <= at <= position[k + 1] + TOUCHING_M:
+                    cell = k  # at a border the plan's own side, so that rounding does not decide
+                while cell < len(acceleration) - 1 and at > position[cell + 1] + TOUCHING_M:
                     cell += 1
-                while cell > 0 and at < position[cell]:
+                while cell > 0 and at < position[cell] - TOUCHING_M:
                     cell -= 1
                 share = min(max((at - position[cell]) / (position[cell + 1] - position[cell]), 0.0), 1.0)
                 resistance = (a + b * fast + (c + drag[cell, 0] + share * (drag[cell, 1] - drag[cell, 0])) * fast * fast

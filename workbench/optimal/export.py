@@ -1,0 +1,69 @@
+"""A reference for other programs: JSON document, CSV, and python-control's time series."""
+
+from __future__ import annotations
+
+import csv
+from pathlib import Path
+from typing import Any
+
+import control
+import numpy as np
+
+from workbench.errors import InputError
+from workbench.optimal.course import Array, Course
+from workbench.optimal.reference import Reference
+from workbench.optimal.smooth import SmoothReference, SmoothRun, needed_force
+from workbench.optimal.vehicle import Vehicle
+
+COLUMNS = ("t_s", "s_m", "v_mps", "a_mps2", "u_N")
+MOST_ROWS = 2_000_000
+
+
+def reference_document(found: Reference, smooth: SmoothReference | None) -> dict[str, Any]:
+    """The result as data, SI units: of the optimal run, and of the smooth one that tracks it."""
+    check = found.check
+    document: dict[str, Any] = {
+        "version": 1, "energy_J": found.energy_j, "lower_bound_J": found.lower_bound_j, "gap": found.gap,
+        "trip_time_s": found.profile.trip_time_s, "solver": found.solver, "solve_s": found.solve_s,
+        "status": found.status, "least_trip_time_s": found.least_time_s,
+        "check": {"energy_J": check.energy_j, "position_drift_m": check.position_drift_m,
+                  "speed_drift_mps": check.speed_drift_mps, "force_excess": check.force_excess,
+                  "speed_excess_mps": check.speed_excess_mps}}
+    if smooth is not None:
+        document["smooth"] = {"energy_J": smooth.energy_j, "trip_time_s": smooth.run.trip_time_s,
+                              "window_s": smooth.window_s, "max_jerk_mps3": smooth.max_jerk_mps3,
+                              "force_excess": smooth.force_excess, "speed_excess_mps": smooth.speed_excess_mps}
+    return document
+
+
+def samples(vehicle: Vehicle, course: Course, run: SmoothRun, every_s: float) -> Array:
+    """Rows of COLUMNS, shape (n, 5), every `every_s` seconds and at the end; u is the force at the wheel.
+
+    Raises InputError for a step that is none or asks for more than MOST_ROWS rows.
+    """
+    if not every_s > 0 or run.trip_time_s / every_s > MOST_ROWS:
+        raise InputError("", "every", f"{every_s:g} s does not give between one and {MOST_ROWS} rows: choose another "
+                         "step")
+    time = np.append(np.arange(0.0, run.trip_time_s - 1e-9 * every_s, every_s), run.trip_time_s)
+    s, v, a = run.at(time)
+    # A train that stands is held by its brakes.
+    force = np.where((v > 1e-9) | (np.abs(a) > 1e-9), needed_force(vehicle, course, s, v, a), 0.0)
+    return np.column_stack((time, s, v, a, force))
+
+
+def write_csv(path: Path, rows: Array) -> None:
+    """The rows under their header; raises InputError where the file cannot be written."""
+    try:
+        path.parent.mkdir(parents=True, exist_ok=True)
+        with path.open("w", newline="", encoding="utf-8") as file:
+            writer = csv.writer(file)
+            writer.writerow(COLUMNS)
+            writer.writerows([f"{value:.9g}" for value in row] for row in rows.tolist())
+    except OSError as trouble:
+        raise InputError(path, "", f"cannot be written ({trouble.strerror}): choose another file") from None
+
+
+def time_response(rows: Array) -> control.TimeResponseData:
+    """The rows as python-control's time series: position, speed and acceleration as outputs, the force as input."""
+    return control.TimeResponseData(rows[:, 0], rows[:, 1:4].T, None, rows[:, 4:5].T, issiso=False,
+                                    output_labels=list(COLUMNS[1:4]), input_labels=[COLUMNS[4]])

@@ -1,0 +1,136 @@
+"""What `workbench reference` does: reads, solves, writes, and says it in a few lines."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import Path
+
+from workbench.errors import InputError
+from workbench.json_output import write_json
+from workbench.optimal.bound_document import write_certificate
+from workbench.optimal.course import Course
+from workbench.optimal.envelope import InfeasibleRunError
+from workbench.optimal.export import reference_document, samples, write_csv
+from workbench.optimal.files import load_line, load_vehicle, notes_together
+from workbench.optimal.line import Line, course
+from workbench.optimal.reference import Reference, find_reference, least_time
+from workbench.optimal.regimes import time_shares
+from workbench.optimal.smooth import SmoothReference, smooth_reference
+from workbench.optimal.vehicle import Vehicle
+from workbench.report.reference_figure import save_figure
+
+KWH_J = 3.6e6
+FIGURES = (".svg", ".png", ".pdf")
+
+
+@dataclass(frozen=True)
+class Request:
+    """The command's arguments, in SI units."""
+
+    track: Path
+    train: Path
+    trip_time_s: float | None
+    serve_stops: bool
+    dwell_s: float
+    from_m: float
+    to_m: float | None
+    start_mps: float
+    end_mps: float
+    intervals: int | None
+    window_s: float
+    max_jerk_mps3: float | None
+    json: Path | None
+    csv: Path | None
+    every_s: float
+    figure: Path | None
+    certificate: Path | None
+
+
+def reference_run(asked: Request) -> Iterator[str]:
+    """Lines for the reader as they come; raises InputError and InfeasibleRunError before anything is written."""
+    line, notes = load_line(asked.track)
+    vehicle, more = load_vehicle(asked.train)
+    if asked.figure and asked.figure.suffix.lower() not in FIGURES:
+        raise InputError(asked.figure, "figure", f"end the name in one of {', '.join(FIGURES)}")
+    for name, value in (("--dwell", asked.dwell_s), ("--from-speed", asked.start_mps), ("--to-speed", asked.end_mps)):
+        if not 0 <= value < 1e5:
+            raise InputError("", name, f"{value:g} is not usable: give 0 or more")
+    to_m = line.length_m if asked.to_m is None else asked.to_m
+    stops = line.stops_between(asked.from_m, to_m) if asked.serve_stops else ()
+    run = course(line, vehicle, asked.from_m, to_m, stops)
+    dwell = asked.dwell_s * len(stops)
+    if asked.trip_time_s is None:
+        least = least_time(vehicle, run, asked.start_mps, asked.end_mps).trip_time_s + dwell
+        raise InputError("", "--time", f"is missing: give a trip time of {least:.1f} s or more, the least feasible "
+                         f"one{_with_stops(stops, asked.dwell_s)}")
+    found, smooth = _solve(asked, vehicle, run, dwell)
+    for note in (*notes, *more, *notes_together(line, vehicle)):
+        yield f"note: {note}"
+    yield from _summary(asked, line, vehicle, found, smooth, stops)
+    yield from _written(asked, vehicle, run, found, smooth)
+
+
+def _solve(asked: Request, vehicle: Vehicle, run: Course, dwell_s: float) -> tuple[Reference, SmoothReference]:
+    assert asked.trip_time_s is not None
+    ends = asked.start_mps, asked.end_mps
+    running = asked.trip_time_s - dwell_s
+    if running <= 0:
+        raise InputError("", "--time", f"{asked.trip_time_s:g} s is less than the {dwell_s:g} s of waiting at stops: "
+                         "allow more time or a shorter --dwell")
+    try:
+        found = find_reference(vehicle, run, running, *ends, asked.intervals)
+    except InfeasibleRunError as trouble:
+        if trouble.least_time_s is None or not dwell_s:
+            raise
+        raise InfeasibleRunError(f"{trouble}; waiting at stops adds {dwell_s:g} s", trouble.least_time_s) from None
+    try:
+        smooth = smooth_reference(vehicle, run, asked.trip_time_s, asked.window_s, asked.max_jerk_mps3, asked.dwell_s,
+                                  *ends, asked.intervals)
+    except InfeasibleRunError as trouble:
+        raise InfeasibleRunError(f"the run itself is feasible, its smooth reference is not: {trouble}; or choose a "
+                                 "shorter --window", trouble.least_time_s) from None
+    return found, smooth
+
+
+def _with_stops(stops: tuple[float, ...], dwell_s: float) -> str:
+    return f" with {len(stops)} stops of {dwell_s:g} s" if stops else ""
+
+
+def _summary(asked: Request, line: Line, vehicle: Vehicle, found: Reference, smooth: SmoothReference,
+             stops: tuple[float, ...]) -> Iterator[str]:
+    length = found.profile.course.length_m
+    yield (f"{vehicle.name} on {line.name}: {length / 1e3:.3f} km in {asked.trip_time_s:g} s"
+           f"{_with_stops(stops, asked.dwell_s)}; the least feasible is "
+           f"{found.least_time_s + asked.dwell_s * len(stops):.1f} s")
+    yield (f"energy        {found.energy_j / KWH_J:.3f} kWh, any run takes at least "
+           f"{found.lower_bound_j / KWH_J:.3f} kWh: gap {100 * found.gap:.3f} %, {found.status}")
+    yield (f"solved        by {found.solver} in {1e3 * found.solve_s:.0f} ms, "
+           f"{len(found.profile.half_square) - 1} cells in the driven run")
+    shares = ", ".join(f"{what} {100 * share:.0f} %" for what, share in time_shares(vehicle, found.profile).items())
+    yield f"regimes       {shares} of the time"
+    check = found.check
+    yield (f"simulated     {check.energy_j / KWH_J:.3f} kWh; drift {check.position_drift_m:.2g} m, "
+           f"{check.speed_drift_mps:.2g} m/s; forces at most {100 * check.force_excess:.2g} % beyond their limits, "
+           f"speed {check.speed_excess_mps:.2g} m/s")
+    yield (f"smooth        {smooth.energy_j / KWH_J:.3f} kWh with acceleration averaged over {smooth.window_s:.3g} s: "
+           f"jerk up to {smooth.max_jerk_mps3:.3g} m/s^3, forces {100 * smooth.force_excess:.2g} %, speed "
+           f"{smooth.speed_excess_mps:.2g} m/s beyond their limits")
+
+
+def _written(asked: Request, vehicle: Vehicle, run: Course, found: Reference,
+             smooth: SmoothReference) -> Iterator[str]:
+    table = asked.csv or (asked.json.with_suffix(".csv") if asked.json else None)
+    if table:
+        write_csv(table, samples(vehicle, run, smooth.run, asked.every_s))
+        yield f"reference: {table}"
+    if asked.json:
+        write_json(asked.json, reference_document(found, smooth) | {"csv": str(table)})
+        yield f"result: {asked.json}"
+    if asked.certificate:
+        proven = write_certificate(asked.certificate, vehicle, run, found, asked.start_mps, asked.end_mps)
+        yield f"certificate: {asked.certificate} proves {proven / KWH_J:.6g} kWh in exact arithmetic"
+    if asked.figure:
+        save_figure(asked.figure, vehicle, found.profile, f"{vehicle.name}, {run.length_m / 1e3:.3f} km in "
+                    f"{found.profile.trip_time_s:.0f} s, {found.energy_j / KWH_J:.2f} kWh")
+        yield f"figure: {asked.figure}"

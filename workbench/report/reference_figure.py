@@ -1,0 +1,71 @@
+"""An energy-optimal run over its line: speed under the limits with its regimes, and the line's force below."""
+
+from __future__ import annotations
+
+from itertools import pairwise
+from pathlib import Path
+
+import matplotlib as mpl
+import numpy as np
+from matplotlib.figure import Figure
+from matplotlib.patches import Patch
+from numpy.typing import NDArray
+
+from workbench.errors import InputError
+from workbench.optimal.profile import Profile
+from workbench.optimal.regimes import REGIMES, regimes
+from workbench.optimal.vehicle import Vehicle
+from workbench.report.numbers import number
+from workbench.report.svg import FAINT, INK, PALETTE, Array, drawing, svg, thin
+
+# Away from a page there are no page colours.
+PAPER_GREY = "#9a9a9a"
+COLOURS = dict(zip(REGIMES, (PALETTE[0], PALETTE[4], PALETTE[2], PALETTE[1]), strict=True))
+
+
+def reference_figure(vehicle: Vehicle, profile: Profile, title: str, faint: str = FAINT) -> Figure:
+    """Speed, limit and shaded regimes over position; below, the line's force as an equivalent grade in per mille."""
+    x = profile.position_m / 1e3
+    figure = Figure(figsize=(9, 5), layout="constrained")
+    above, below = figure.subplots(2, 1, sharex=True, height_ratios=(3, 1))
+    for name, (first, last) in stretches(regimes(vehicle, profile), x):
+        above.axvspan(first, last, color=COLOURS[name], alpha=0.22, linewidth=0)
+    above.stairs(profile.course.limit_mps * 3.6, x, baseline=None, color=faint, linewidth=1.6)
+    above.plot(*thin(x, profile.speed_mps * 3.6, 800), color=INK, linewidth=1.4)
+    above.set(ylabel="speed (km/h)", ylim=(0, None), title=title)
+    above.legend(handles=[Patch(color=COLOURS[name], alpha=0.22, label=name) for name in REGIMES], ncols=4,
+                 loc="lower center")
+    # N/kN of weight is the per mille of a grade.
+    weight = vehicle.mass_kg * 9.80665e-3
+    ends = profile.course.force_n / weight
+    below.fill_between(np.repeat(x, 2)[1:-1], ends.ravel(), color=faint, alpha=0.5, linewidth=0)
+    below.axhline(0, color=INK, linewidth=0.6)
+    below.set(xlabel="position (km)", ylabel="grade and\ncurves (‰)", xlim=(float(x[0]), float(x[-1])))
+    return figure
+
+
+def stretches(names: NDArray[np.str_], edges: Array) -> list[tuple[str, tuple[float, float]]]:
+    """Runs of equal names with the edges they span."""
+    change = np.flatnonzero(names[1:] != names[:-1]) + 1
+    borders = [0, *change.tolist(), len(names)]
+    return [(str(names[a]), (float(edges[a]), float(edges[b]))) for a, b in pairwise(borders)]
+
+
+def reference_svg(vehicle: Vehicle, profile: Profile, title: str) -> str:
+    """The figure as SVG for a page."""
+    with drawing("reference"):
+        return svg(reference_figure(vehicle, profile, title),
+                   f"Speed of the energy-optimal run over {number((profile.position_m[-1]) / 1e3)} km under the speed "
+                   "limits, with the regimes traction, cruise, coast and brake shaded; grade and curves below")
+
+
+def save_figure(path: Path, vehicle: Vehicle, profile: Profile, title: str) -> None:
+    """Write the figure in the format of the file's ending; raises InputError where it cannot be written."""
+    grey = dict.fromkeys(("axes.edgecolor", "grid.color", "xtick.color", "ytick.color"), PAPER_GREY)
+    with drawing("reference"), mpl.rc_context(grey):
+        figure = reference_figure(vehicle, profile, title, PAPER_GREY)
+        try:
+            path.parent.mkdir(parents=True, exist_ok=True)
+            figure.savefig(path, dpi=150)
+        except OSError as trouble:
+            raise InputError(path, "", f"cannot be written ({trouble.strerror}): choose another file") from None
