@@ -75,7 +75,7 @@ def _solve(asked: Request, vehicle: Vehicle, run: Course, dwell_s: float) -> tup
     assert asked.trip_time_s is not None
     ends = asked.start_mps, asked.end_mps
     running = asked.trip_time_s - dwell_s
-    if running <= 0:
+    if dwell_s and running <= 0:
         raise InputError("", "--time", f"{asked.trip_time_s:g} s is less than the {dwell_s:g} s of waiting at stops: "
                          "allow more time or a shorter --dwell")
     try:

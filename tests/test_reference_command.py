@@ -1,0 +1,104 @@
+"""`workbench reference` as newcomers and other programs meet it: outputs, exit codes, one-line errors."""
+
+import csv
+import json
+from pathlib import Path
+
+import pytest
+from scenarios import YANG
+from typer.testing import CliRunner
+
+from workbench.cli import app
+from workbench.errors import WorkbenchError
+from workbench.optimal.bound_checker import main as check_bounds
+from workbench.optimal.files import load_vehicle
+
+BENCHMARKS = YANG.parent
+LINES = sorted((BENCHMARKS / "lines").glob("*.toml"))
+TRAINS = sorted((BENCHMARKS / "trains").glob("*.toml"))
+HILLS, TRAIN = BENCHMARKS / "lines" / "hills.toml", BENCHMARKS / "trains" / "yang2021.toml"
+KEYS = {"version", "energy_J", "lower_bound_J", "gap", "trip_time_s", "solver", "solve_s", "status"}
+
+
+def said(*arguments: object) -> str:
+    """What the command prints; its error is raised as the command line's own main would catch it."""
+    result = CliRunner().invoke(app, ["reference", *map(str, arguments)])
+    if result.exception is not None and not isinstance(result.exception, SystemExit):
+        raise result.exception
+    assert result.exit_code == 0, result.output
+    return result.output
+
+
+def least_time(line: Path, train: Path) -> float:
+    with pytest.raises(WorkbenchError, match="least feasible one") as trouble:
+        said(line, train)
+    return float(str(trouble.value).partition("a trip time of ")[2].partition(" s")[0])
+
+
+@pytest.mark.parametrize("train", TRAINS, ids=lambda path: path.stem)
+@pytest.mark.parametrize("line", LINES, ids=lambda path: path.stem)
+def test_every_bundled_train_runs_on_every_bundled_line(line: Path, train: Path, tmp_path: Path) -> None:
+    time = 1.15 * least_time(line, train)
+    said(line, train, "--time", time, "--json", tmp_path / "r.json")
+    document = json.loads((tmp_path / "r.json").read_text(encoding="utf-8"))
+    assert document.keys() >= KEYS
+    assert document["trip_time_s"] <= time
+    assert document["lower_bound_J"] <= document["energy_J"]
+    assert document["gap"] <= 1e-3, "say in the line's or train's file why the bound is looser"
+    assert document["status"] == "optimal"
+    assert document["check"]["energy_J"] == pytest.approx(document["energy_J"], rel=1e-3)
+    with (tmp_path / "r.csv").open(encoding="utf-8") as file:
+        rows = list(csv.DictReader(file))
+    assert list(rows[0]) == ["t_s", "s_m", "v_mps", "a_mps2", "u_N"]
+    assert float(rows[-1]["t_s"]) <= time
+    assert float(rows[-1]["v_mps"]) == pytest.approx(0.0, abs=1e-6)
+
+
+def test_all_outputs_of_one_run(tmp_path: Path) -> None:
+    text = said(HILLS, TRAIN, "--time", 2600, "--json", tmp_path / "a.json", "--csv", tmp_path / "b.csv", "--every", 2,
+                "--figure", tmp_path / "c.svg", "--certificate", tmp_path / "d.json", "--intervals", 200)
+    assert {path.name for path in tmp_path.iterdir()} == {"a.json", "b.csv", "c.svg", "d.json"}
+    assert "gap" in text and "proves" in text
+    assert (tmp_path / "c.svg").read_text(encoding="utf-8").startswith("<?xml")
+    assert check_bounds([str(tmp_path / "d.json")]) == 0
+    proven = json.loads((tmp_path / "d.json").read_text(encoding="utf-8"))["lower_bound_J"]
+    stated = json.loads((tmp_path / "a.json").read_text(encoding="utf-8"))["lower_bound_J"]
+    auxiliaries = load_vehicle(TRAIN)[0].auxiliary_w * 2600
+    assert stated - auxiliaries == pytest.approx(proven, rel=1e-6)
+
+
+def test_stops_on_the_way_take_their_time(tmp_path: Path) -> None:
+    line = BENCHMARKS / "lines" / "metro.toml"
+    text = line.read_text(encoding="utf-8")
+    assert "stops_m" in text, "the metro line must have stops for this test"
+    train = BENCHMARKS / "trains" / "jiao2025.toml"
+    energies = []
+    for option in ((), ("--stops", "--dwell", 20)):
+        said(line, train, "--time", 3 * least_time(line, train) + 100, "--json", tmp_path / "r.json", *option)
+        energies.append(json.loads((tmp_path / "r.json").read_text(encoding="utf-8"))["energy_J"])
+    assert energies[0] < energies[1]
+
+
+@pytest.mark.parametrize(("arguments", "message"), [
+    ((HILLS, TRAIN, "--time", 60), "60 s is too short: the least feasible trip time is .* allow more time"),
+    ((HILLS, TRAIN, "--time", "nan"), "time: nan s is no trip time"),
+    ((HILLS, TRAIN, "--time", -5), "time: -5 s is no trip time"),
+    ((HILLS, TRAIN, "--time", 1e9), "is it in seconds"),
+    ((HILLS, TRAIN), "--time: is missing: give a trip time of"),
+    ((TRAIN, HILLS, "--time", 2600), "yang2021.toml: grade: is missing: this is not a line's file"),
+    ((HILLS, YANG, "--time", 2600), "yang2021.toml: mass_kg: is missing: this is a scenario"),
+    ((HILLS, "nowhere.toml", "--time", 2600), "nowhere.toml: no such file"),
+    ((HILLS, "nowhere.txt", "--time", 2600), "neither .toml .* nor .json"),
+    ((HILLS, TRAIN, "--time", 2600, "--from-m", 9e9), "is no run of a metre or more"),
+    ((HILLS, TRAIN, "--time", 2600, "--from-speed", 300), "the run cannot start at 300 m/s"),
+    ((HILLS, TRAIN, "--time", 2600, "--to-speed", 300), "the run cannot end at 300 m/s"),
+    ((HILLS, TRAIN, "--time", 2600, "--to-speed", "nan"), "--to-speed: nan is not usable"),
+    ((HILLS, TRAIN, "--time", 2600, "--window", 0), "must be positive"),
+    ((HILLS, TRAIN, "--time", 2600, "--max-jerk", -1), "must be positive"),
+    ((HILLS, TRAIN, "--time", 2600, "--figure", "x.gif"), "figure: end the name in one of"),
+    ((HILLS, TRAIN, "--time", 2600, "--json", "/proc/nothing/r.json"), "cannot be written"),
+], ids=str)
+def test_mistakes_are_one_line_with_a_remedy(arguments: tuple[object, ...], message: str) -> None:
+    with pytest.raises(WorkbenchError, match=message) as trouble:
+        said(*arguments)
+    assert "\n" not in str(trouble.value)
