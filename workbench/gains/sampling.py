@@ -84,9 +84,10 @@ def stability_certificate(claim: str, matrix: Array) -> dict[str, Any]:
     states = sp.symbols(f"x_1:{size + 1}", real=True)
     after = {s: sum((rational_of(c) * x for c, x in zip(row, states, strict=True)), sp.Integer(0))
              for s, row in zip(states, exact, strict=True)}
-    # Each deviation in units in which the map's rows and columns are of one size.
-    weights = np.diag(matrix_balance(matrix, permute=False)[1]) ** -2.0
-    P = solve_discrete_lyapunov(matrix.T, np.diag(weights))
+    # Solved in units in which the map's rows and columns are of one size, and turned back.
+    balanced, (sizes, _) = matrix_balance(matrix, permute=False, separate=True)
+    P = solve_discrete_lyapunov(balanced.T, np.eye(size)) / np.outer(sizes, sizes)
+    weights = sizes**-2.0
     for tolerance in (1e-6, 1e-9, 1e-12):
         rounded = [[simplest(float(x), tolerance) if x else sp.Integer(0) for x in row] for row in (P + P.T) / 2]
         V = sum((rational_of(rounded[i][j]) * states[i] * states[j] for i in range(size) for j in range(size)),
