@@ -46,7 +46,9 @@ def test_every_law_says_where_it_comes_from_and_what_it_knows(law_id):
 @pytest.mark.parametrize("law_id", SAMPLED)
 def test_every_sampled_controller_says_what_it_is_and_what_it_knows(law_id):
     assert SAMPLED[law_id].title.strip()
-    assert SAMPLED[law_id].information in ("full state, model unknown", "full state, nominal model")
+    assert SAMPLED[law_id].information in (
+        "full state, nominal model", "full state, nominal model, the line",
+        "full state, nominal model, bound of the disturbance")
 
 
 def test_every_error_says_when_it_is_raised():

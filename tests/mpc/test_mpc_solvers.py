@@ -94,7 +94,8 @@ def independent_program(mpc, problem, ahead, sample, state):
                  + w.change * (u[k] - x[k, 2]) ** 2 + sum(p[0] * s[k, i] + p[1] * s[k, i] ** 2
                                                           for i, p in enumerate(problem.price)))
         if k:
-            power = base[1] * x[k, 2] + base[2] * x[k, 1] - base[1] * base[2]
+            F = min(base[2], problem.power_w_per_kg / max(base[1], 1e-3))
+            power = base[1] * x[k, 2] + F * x[k, 1] - base[1] * F
             constraints += [power - problem.power_w_per_kg <= s[k, 0], e[0] - problem.band_m <= s[k, 1],
                             -e[0] - problem.band_m <= s[k, 2]]
     cp.Problem(cp.Minimize(cost), constraints).solve(

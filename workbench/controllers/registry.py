@@ -13,7 +13,7 @@ from workbench.controllers.mpc import TrackingMpc
 from workbench.controllers.pid import pid
 from workbench.controllers.rbf_pid import rbf_pid, rbf_pid_printed
 from workbench.controllers.yang2021 import pocrac, rbfnn_pocrac
-from workbench.mpc.controller import KINDS, MpcController
+from workbench.mpc.controller import KINDS
 from workbench.scenario import ControllerSpec, Scenario
 
 LAWS: dict[str, ControlLaw] = {law.id: law for law in (
@@ -40,5 +40,5 @@ class SampledController(Protocol):
 
 SAMPLED: dict[str, Callable[[Scenario, ControllerSpec, str], SampledController]] = {
     "mpc.tracking": TrackingMpc,
-    **dict.fromkeys(KINDS, MpcController),
+    **KINDS,
 }

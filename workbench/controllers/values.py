@@ -66,9 +66,17 @@ def controller_spec(scenario: Scenario, name: str) -> ControllerSpec:
         raise InputError("", "controllers", f"there is no '{name}': choose one of {choice}")
     spec = scenario.controllers[name]
     if spec.law not in LAWS and spec.law not in SAMPLED:
-        choice = ", ".join([*LAWS, *SAMPLED])
-        raise InputError("", f"controllers.{name}.law", f"unknown '{spec.law}': choose one of {choice}")
+        raise InputError("", f"controllers.{name}.law", f"unknown '{spec.law}': choose one of {_laws()}")
     return spec
+
+
+def _laws() -> str:
+    """All laws, those of a paper or family with its name once: `mpc.linear | nonlinear`."""
+    families: dict[str, list[str]] = {}
+    for law in (*LAWS, *SAMPLED):
+        family, dot, own = law.partition(".")
+        families.setdefault(family + dot, []).append(own)
+    return ", ".join(family + " | ".join(members) for family, members in families.items())
 
 
 def _check_controller(scenario: Scenario, name: str) -> None:

@@ -56,6 +56,10 @@ class Kind:
     parameters: tuple[str, ...] = ()
     told_grades: bool = False
 
+    def __call__(self, scenario: Scenario, spec: ControllerSpec, name: str) -> MpcController:
+        """A controller of this kind."""
+        return MpcController(scenario, spec, name)
+
 
 COMMON = ("horizon", "position_weight", "speed_weight", "command_weight", "change_weight", "band_price")
 OPTIONAL = {"deadline_s": math.inf}

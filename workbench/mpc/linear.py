@@ -33,12 +33,19 @@ class LinearMpc:
             following = self._x[min(k + 1, steps - 1)]
             module.linearise_at(self._x[k], self._u[k], ahead[k, 5], problem.parameters, self._jac[k], self._gap[k],
                                 following)
-            module.soften_at(self._x[k], ahead[k, 0], limits[2], ahead[k, 4], limits[3], self._h[k], self._g[k])
+            near = self._at_the_limit(self._x[k])
+            module.soften_at(near, ahead[k, 0], limits[2], ahead[k, 4], limits[3], self._h[k], self._g[k])
+            self._h[k] += self._g[k] @ (self._x[k] - near)
         # How one period answers a disturbance is how it answers a push of the command's size on the speed.
         self._answer = self._to_disturbance()
         self._fixed = (problem.weights.array(), self.lqr.upper(), limits, problem.rows(ahead), np.array(problem.price))
         self._memory, self._work, self._plan = memory(N), workspace(N), np.zeros(N)
         self.forget()
+
+    def _at_the_limit(self, x: Array) -> Array:
+        """A state with no more force than its power allows: where the power limit is linearised, if it binds at all."""
+        allowed = self.problem.power_w_per_kg / max(float(x[1]), 1e-3)
+        return np.array([x[0], x[1], min(float(x[2]), allowed)])
 
     def _to_disturbance(self) -> Array:
         """Shape (steps, 3): change of the following state per m/s^2 of disturbance."""
