@@ -8,6 +8,7 @@ from scipy.integrate import solve_ivp
 from workbench.compile import kernel_module
 from workbench.controllers.registry import LAWS, held_command
 from workbench.metrics import measure
+from workbench.sensing import PERFECT
 from workbench.simulate import kernel_loop
 from workbench.simulate.closed_loop import simulate
 from workbench.simulate.kernel_loop import ACCUMULATORS, DIVERGED, LOG_COLUMNS
@@ -25,8 +26,8 @@ def held(command_mps2, dt, steps, limits=(1e9, 1e9, np.inf)):
     status, reached = kernel(
         0, steps, 1, dt, state, np.zeros(2, dtype=np.int64), np.array([0.0, 1.0]), standstill, np.zeros(1),
         np.array([LINE]), np.array([[0.0, np.inf, 0.0, SINE[0], SINE[1], 0.0, 0.0]]),
-        np.zeros((0, 7)), np.zeros((0, 5)), np.array([MASS, *DAVIS]), np.array(limits), 0.2, MASS,
-        np.array([command_mps2]), np.zeros(0), np.zeros((0, 0)), np.zeros((0, 0)), acc,
+        np.zeros((0, 7)), np.zeros((0, 5)), np.array([MASS, *DAVIS]), np.array(limits), PERFECT.arrays(steps, dt),
+        0.2, MASS, np.array([command_mps2]), np.zeros(0), np.zeros((0, 0)), np.zeros((0, 0)), acc,
         np.zeros((1, len(LOG_COLUMNS))), 10**9)
     return state[0], state[1], dict(zip(ACCUMULATORS, acc, strict=True)), status, reached
 

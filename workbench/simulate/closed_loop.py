@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import time
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 import numpy as np
@@ -16,6 +16,7 @@ from workbench.controllers.values import check_controllers, controller_spec, law
 from workbench.desired_curve import DesiredCurve
 from workbench.events import failure_rows, mode_rows
 from workbench.scenario import Scenario
+from workbench.sensing import PERFECT, Sensing
 from workbench.simulate import kernel_loop
 from workbench.simulate.kernel_loop import ACCUMULATORS, DIVERGED, LEFT_DOMAIN, LOG_COLUMNS, RUNNING
 from workbench.track import ResistanceTable, resistance_table
@@ -92,6 +93,7 @@ class Setting:
     failures: Array = field(default_factory=lambda: np.zeros((0, 7)))
     changes: Array = field(default_factory=lambda: np.zeros((0, 5)))
     plant_values: tuple[float, ...] = ()
+    sensing: Sensing = PERFECT
 
     def plan(self, period_s: float) -> tuple[int, int, float, int]:
         """Steps in all, steps a sample, seconds a step, steps a row of the log."""
@@ -131,12 +133,13 @@ class _Arrays:
     changes: Array
     plant: Array
     limits: Array
+    sensing: tuple[Array, Array, Array]
     acc: Array
     log: Array
 
     def before_law(self) -> tuple[Any, ...]:
         return (self.state, self.hints, self.breaks, self.coefficients, self.edges, self.values, self.terms,
-                self.failures, self.changes, self.plant, self.limits)
+                self.failures, self.changes, self.plant, self.limits, self.sensing)
 
 
 def simulate(scenario: Scenario, name: str, factors: Factors = NOMINAL) -> Run:
@@ -149,10 +152,13 @@ def simulate(scenario: Scenario, name: str, factors: Factors = NOMINAL) -> Run:
         law = LAWS[spec.law]
         return run_law(law, law_values(law, spec, name), setting, spec.period_s, spec.estimates, name,
                        spec.title or law.title)
-    arrays, plan = _arrays(setting, spec.period_s, held_command), setting.plan(spec.period_s)
+    # The kernel holds what it is told; noise and delays lie between it and the controller.
+    plan = setting.plan(spec.period_s)
+    arrays, sensing = _arrays(replace(setting, sensing=PERFECT), spec.period_s, held_command), setting.sensing
     sampled = SAMPLED[spec.law](scenario, spec, name)
     kernel = kernel_module(single_particle(), held_command, kernel_loop, spec.estimates).closed_loop
-    status, reached, step_us = _run_sampled(kernel, arrays, sampled, _fixed(setting), plan)
+    between = sensing.arrays(-(-plan[0] // plan[1]), spec.period_s)
+    status, reached, step_us = _run_sampled(kernel, arrays, sampled, _fixed(setting), plan, between)
     return _run(name, spec.title or sampled.title, held_command, arrays, plan, (status, reached, step_us),
                 _why(status, reached * plan[2], arrays.state, held_command, spec.law), sampled.counters)
 
@@ -206,7 +212,8 @@ def _arrays(setting: Setting, period_s: float, law: ControlLaw) -> _Arrays:
         coefficients=setting.curve.coefficients, edges=setting.line.position_m, values=setting.line.specific_force,
         terms=setting.terms, failures=setting.failures, changes=setting.changes,
         plant=np.array([setting.mass_kg, *setting.davis_n, *setting.plant_values]),
-        limits=np.array(setting.limits), acc=acc,
+        limits=np.array(setting.limits),
+        sensing=setting.sensing.arrays(-(-steps // max(1, round(period_s / setting.plant_step_s))), period_s), acc=acc,
         log=np.zeros((steps // log_every + 1, len(LOG_COLUMNS) + len(law.scalar_states))),
     )
 
@@ -230,7 +237,7 @@ def _run_compiled(kernel: Any, arrays: _Arrays, law: tuple[Array, Array, Array, 
 
 
 def _run_sampled(kernel: Any, arrays: _Arrays, controller: SampledController, fixed: tuple[float, float],
-                 plan: tuple[int, int, float, int]) -> tuple[int, int, Array]:
+                 plan: tuple[int, int, float, int], sensing: tuple[Array, Array, Array]) -> tuple[int, int, Array]:
     """One call of the controller a sample; the kernel integrates the plant between them."""
     steps, per_sample, dt, log_every = plan
     command = np.zeros(1)
@@ -239,8 +246,10 @@ def _run_sampled(kernel: Any, arrays: _Arrays, controller: SampledController, fi
     first, status = 0, RUNNING
     for sample in range(len(step_us)):
         before = time.perf_counter()
-        command[0] = controller.command(first * dt, arrays.state[0], arrays.state[1])
+        told = kernel_loop.measured(sample, arrays.state[0], arrays.state[1], sensing)
+        asked = controller.command(first * dt, *told)
         step_us[sample] = (time.perf_counter() - before) * 1e6
+        command[0] = kernel_loop.delayed(sample, asked, sensing[2])
         status, first = kernel(first, min(per_sample, steps - first), per_sample, dt, *before_law, *fixed,
                                command, *empty, arrays.acc, arrays.log, log_every)
         if status != RUNNING:

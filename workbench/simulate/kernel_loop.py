@@ -120,9 +120,36 @@ def rates_at(t, p, v, force, hint, edges, values, terms, failures, changes, plan
     return hint, dp, dv
 
 
+def measured(sample, p, v, sensing):
+    """Position and speed as the law is told them: with the noise of the sample, some samples late.
+
+    sensing: noise, a row a sample and none for no noise; the last measurements, as many rows as they are late and one;
+    the last commands, likewise.
+    """
+    noise, past = sensing[0], sensing[1]
+    if noise.shape[0] > 0:
+        p += noise[sample % noise.shape[0], 0]
+        v += noise[sample % noise.shape[0], 1]
+    late = past.shape[0] - 1
+    if late == 0:
+        return p, v
+    past[sample % (late + 1), 0], past[sample % (late + 1), 1] = p, v
+    told = max(sample - late, 0) % (late + 1)
+    return past[told, 0], past[told, 1]
+
+
+def delayed(sample, u, commands):
+    """The command that reaches the motors, as many samples late as `commands` has rows beyond the first; 0 before."""
+    late = commands.shape[0] - 1
+    if late == 0:
+        return u
+    commands[sample % (late + 1)] = u
+    return commands[(sample - late) % (late + 1)] if sample >= late else 0.0
+
+
 def closed_loop(first, count, per_sample, dt, state, hints, breaks, coefficients, edges, values, terms, failures,
-                changes, plant, limits, band, nominal_mass, parameters, scalars, neurons, neuron_data, acc, log,
-                log_every):
+                changes, plant, limits, sensing, band, nominal_mass, parameters, scalars, neurons, neuron_data, acc,
+                log, log_every):
     """Steps first to first + count - 1; returns RUNNING, LEFT_DOMAIN or DIVERGED, and the step reached."""
     # limits: traction force (N), braking force (N), power (W); state: position, speed, held command, force
     p, v, u, force = state[0], state[1], state[2], state[3]
@@ -152,13 +179,16 @@ def closed_loop(first, count, per_sample, dt, state, hints, breaks, coefficients
             acc[10] += 1.0
         acc[13] = min(acc[13], v)
         if n % per_sample == 0:
-            if not domain_margin(t, p, v, x_d, xdot_d, xddot_d, period, parameters) > 0.0:
+            sample = n // per_sample
+            p_told, v_told = measured(sample, p, v, sensing)
+            if not domain_margin(t, p_told, v_told, x_d, xdot_d, xddot_d, period, parameters) > 0.0:
                 state[0], state[1], state[2], state[3] = p, v, u, force
                 return 1, n
-            u = control_step(t, p, v, x_d, xdot_d, xddot_d, period, parameters, scalars, neurons, neuron_data)
+            u = control_step(t, p_told, v_told, x_d, xdot_d, xddot_d, period, parameters, scalars, neurons, neuron_data)
             if not math.isfinite(u):
                 state[0], state[1], state[2], state[3] = p, v, u, force
                 return 2, n
+            u = delayed(sample, u, sensing[2])
             wanted = nominal_mass * u
             highest = min(limits[0], limits[2] / max(abs(v), 1e-3))
             force = min(max(wanted, -limits[1]), highest)
