@@ -27,6 +27,8 @@ from workbench.optimal.vehicle import Vehicle
 
 # Of 1 / v, 1, v and v^2.
 Coefficients = tuple[Array, Array, Array, Array]
+# A tunnel's drag is linear along a cell up to this share.
+DRAG_TOLERANCE = 1e-9
 # Ranges of speed on each of which one of several limits of the force is used.
 ACCELERATION_RANGES = 30
 
@@ -69,7 +71,10 @@ class Terms:
 
 def lower_bound(vehicle: Vehicle, course: Course, certificate: Certificate, trip_time_s: float,
                 start_mps: float = 0.0, end_mps: float = 0.0) -> float:
-    """The bound in J, auxiliaries left out; -inf where the certificate proves nothing."""
+    """The bound in J, auxiliaries left out; -inf where the certificate proves nothing.
+
+    Raises WorkbenchError where a cell crosses a change of the tunnels' drag, so that it is no line there.
+    """
     return (float(cell_bounds(vehicle, course, certificate).sum())
             + fixed_part(vehicle, course, certificate, trip_time_s, start_mps, end_mps))
 
@@ -93,9 +98,8 @@ def fixed_part(vehicle: Vehicle, course: Course, certificate: Certificate, trip_
          for ends in (fine.position_m[:-1], fine.position_m[1:])]
     g, step = fine.force_n, np.diff(fine.position_m)
     line = step @ ((p[0] * g[:, 0] + p[1] * g[:, 1]) / 3 + (p[0] * g[:, 1] + p[1] * g[:, 0]) / 6)
-    limit = np.full(len(p_left), np.inf)
-    np.minimum.at(limit, owner, fine.limit_mps)
-    top = np.minimum(limit[1:], limit[:-1]) ** 2 / 2
+    jump = np.searchsorted(fine.position_m, x[1:-1])
+    top = np.minimum(fine.limit_mps[jump], fine.limit_mps[jump - 1]) ** 2 / 2
     top[np.isin(x[1:-1], course.stops_m)] = 0.0
     jumps = np.minimum(p_right[:-1] - p_left[1:], 0.0) @ top
     ends = p_right[-1] * end_mps**2 / 2 - p_left[0] * start_mps**2 / 2
@@ -148,7 +152,14 @@ def _cells(course: Course, certificate: Certificate) -> _Cells:
     np.maximum.at(most, owner, fine.force_n.max(axis=1))
     first = np.searchsorted(fine.position_m, x[:-1])
     last = np.searchsorted(fine.position_m, x[1:]) - 1
-    return _Cells(limit, np.stack((fine.drag[first, 0], fine.drag[last, 1])), least, most)
+    drag = np.stack((fine.drag[first, 0], fine.drag[last, 1]))
+    share = (fine.position_m[:-1] - x[owner]) / np.diff(x)[owner], (fine.position_m[1:] - x[owner]) / np.diff(x)[owner]
+    for end in (0, 1):
+        chord = drag[0, owner] + share[end] * (drag[1] - drag[0])[owner]
+        if np.any(np.abs(fine.drag[:, end] - chord) > DRAG_TOLERANCE * (1e-3 + chord)):
+            raise WorkbenchError("certificate of a bound: a cell crosses a change of the tunnels' drag: give the "
+                                 "change a border")
+    return _Cells(limit, drag, least, most)
 
 
 def _cheapest(vehicle: Vehicle, cells: _Cells, p: Array, middle: Array, speed: float, traction: ForcePiece,

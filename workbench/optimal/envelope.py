@@ -14,6 +14,8 @@ from workbench.optimal.course import Array, Course
 from workbench.optimal.profile import Profile
 from workbench.optimal.vehicle import Vehicle
 
+# By this share more than a run's last speed is aimed at where full traction leads to it, for the steps' error.
+RUN_UP = 1e-5
 NO_TABLE = np.zeros((0, 2))
 
 
@@ -67,10 +69,29 @@ def _pass(target: Array, start: float, step: Array, line: Array, drag: Array, st
     return b, -1
 
 
+@njit(cache=True)
+def _run_up(target: Array, top: Array, end: float, step: Array, line: Array, drag: Array, numbers: Array,
+            limits: tuple[Array, Array], tables: tuple[Array, Array]) -> Array:
+    """The target, raised at the end to what full traction needs in order to reach `end`; below top everywhere."""
+    raised = target.copy()
+    b = end * (1.0 + RUN_UP)
+    for k in range(len(step) - 1, -1, -1):
+        raised[k + 1] = min(max(raised[k + 1], b), top[k + 1])
+        first = _slope(b, 1.0, line[k, 1], drag[k, 1], numbers, limits, tables)
+        middle = max(b - step[k] / 2 * first, 0.0)
+        slope = _slope(middle, 1.0, (line[k, 0] + line[k, 1]) / 2, (drag[k, 0] + drag[k, 1]) / 2, numbers, limits,
+                       tables)
+        b -= step[k] * slope
+        if b <= 0.0 or (b <= raised[k] and slope > 0.0):
+            break
+    return raised
+
+
 def drivable(vehicle: Vehicle, course: Course, target: Array, start_mps: float = 0.0, end_mps: float = 0.0) -> Profile:
     """The largest run below `target` (half the squared speed at each border of the course).
 
-    Raises InfeasibleRunError naming the place where traction does not climb or the brakes do not hold.
+    A target too low to reach end_mps is raised there. Raises InfeasibleRunError naming the place where traction does
+    not climb or the brakes do not hold.
     """
     numbers = np.array([vehicle.inertia_kg, *vehicle.davis_n, vehicle.friction_brake_n, vehicle.max_acceleration_mps2,
                         vehicle.max_deceleration_mps2])
@@ -80,6 +101,9 @@ def drivable(vehicle: Vehicle, course: Course, target: Array, start_mps: float =
     stands = np.isin(course.position_m, course.stops_m)
     top[stands] = 0.0
     stands[[0, -1]] = start_mps == 0, end_mps == 0
+    if end_mps > 0:
+        most = np.where(stands, 0.0, _top(course))
+        top = _run_up(top, most, end_mps**2 / 2, step, course.force_n, course.drag, numbers, limits, tables)
     forward, stuck = _pass(top, start_mps**2 / 2, step, course.force_n, course.drag, stands, 1.0, numbers, limits,
                            tables)
     if stuck >= 0:

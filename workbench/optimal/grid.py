@@ -42,7 +42,7 @@ class Grid:
 def kept_borders(course: Course) -> Array:
     """Positions that every mesh of the course has: its ends, its stops, and where the limit or the drag changes."""
     limit_changes = np.diff(course.limit_mps) != 0
-    drag_changes = np.any(np.diff(course.drag, axis=0) != 0, axis=1)
+    drag_changes = np.any(np.diff(course.drag, axis=0) != 0, axis=1) | (course.drag[:-1, 1] != course.drag[1:, 0])
     inner = course.position_m[1:-1]
     return np.unique(np.concatenate((course.position_m[[0, -1]], inner[limit_changes | drag_changes], course.stops_m)))
 

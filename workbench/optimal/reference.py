@@ -13,7 +13,7 @@ from workbench.optimal.adjoint import certificate_from
 from workbench.optimal.bound import Certificate, lower_bound
 from workbench.optimal.course import Course
 from workbench.optimal.envelope import InfeasibleRunError, drivable, fastest
-from workbench.optimal.grid import Grid, graded_grid
+from workbench.optimal.grid import Grid, graded_grid, kept_borders
 from workbench.optimal.profile import Profile, energy_j
 from workbench.optimal.refine import refined
 from workbench.optimal.regimes import binding
@@ -81,7 +81,8 @@ def find_reference(vehicle: Vehicle, course: Course, trip_time_s: float, start_m
         raise InfeasibleRunError(
             f"{trip_time_s:g} s is too short: the least feasible trip time is {quickest.trip_time_s:.1f} s, "
             f"{binding(vehicle, quickest)}: allow more time", quickest.trip_time_s)
-    nothing = Certificate(course.position_m[[0, -1]], np.zeros(1), np.zeros(1), 0.0)
+    borders = kept_borders(course)
+    nothing = Certificate(borders, np.zeros(len(borders) - 1), np.zeros(len(borders) - 1), 0.0)
     best = _Found(quickest, lower_bound(vehicle, course, nothing, trip_time_s, start_mps, end_mps), nothing, 0.0)
     grid = graded_grid(course, intervals or INTERVALS + STOP_INTERVALS * len(course.stops_m))
     for _ in range(1 if intervals else ROUNDS):
