@@ -16,8 +16,8 @@ Array = NDArray[np.float64]
 class Sensing:
     """What stands between train and controller: noise of position and speed, late measurements, late commands.
 
-    position_noise_m, speed_noise_mps: standard deviations of what is added to each sample, drawn from `seed`; delays are
-    rounded to whole samples. Raises WorkbenchError for a value that is negative or not finite.
+    position_noise_m, speed_noise_mps: standard deviations of what is added to each sample, drawn from `seed`; the
+    delays are rounded to whole samples. Raises WorkbenchError for a value that is negative or not finite.
     """
 
     position_noise_m: float = 0.0
