@@ -201,6 +201,32 @@ def reference(track: Annotated[Path, typer.Argument(help="Line: TOML of this pro
         out_console.print(line, soft_wrap=True, highlight=False, markup=False)
 
 
+@app.command()
+def gains(paper: Annotated[str, typer.Argument(help="A paper's name, or its TOML file")], json: JsonFile = None,
+          proofs: Annotated[Path | None, typer.Option(
+              help="Folder of the proof files; default: proofs, beside the file's folder.")] = None,
+          certificates: Annotated[Path | None, typer.Option(
+              help="Also write the certificates below this folder.")] = None,
+          runs: Annotated[bool, typer.Option(help="Simulate the found gains beside the stated ones.")] = True,
+          workers: Workers = None) -> None:
+    """Which conditions the stated gains meet, what can be proved of them, and gains that are proved to do better."""
+    from workbench.gains.certificate import write_certificates
+    from workbench.gains.registry import file_of, gains_of
+    from workbench.json_output import write_json
+    from workbench.report.gains import gains_document, gains_result
+    from workbench.studies.gain_effects import effects
+
+    path = file_of(paper)
+    found = gains_of(path, proofs)
+    if certificates:
+        write_certificates(found.certificates, certificates)
+    with progress() as show:
+        done = effects(path, found, workers, lambda at, total, _: show("runs", at, total)) if runs else ()
+    if json:
+        write_json(json, gains_document(found, done))
+    print_study(gains_result(found, done))
+
+
 def _refuse(given: bool, option: str) -> None:
     if given:
         raise InputError("", option, "is for scenarios; a study's file states its own runs: leave it out")

@@ -175,6 +175,8 @@ def report(stated: Stated) -> GainReport:
     vertices = [(a, a * at_length, 1 - at_length) for a in train.range]
     exact = exact_bound(vertices, Fraction(1), length)
     least, theta = best_contraction_at(train, length)
+    above = Fraction(int(theta * 10**12) + 1, 10**12)
+    shrinks = exact_bound([(a, a * least, 1 - least) for a in train.range], above**2, length) is not None
     share, difference = best_difference(train)
     theta_difference = float(difference.values[contraction]) ** 0.5
     quantities += [
@@ -184,8 +186,8 @@ def report(stated: Stated) -> GainReport:
                  float(at_length) if exact else float(every), "jiao2025:horizon.step",
                  note=f"{length} steps in fractions; claim intro.small has {2 / length / (length + 1):.3g}"),
         Quantity(f"least norm of (14) over {length} samples", "", None, theta, "jiao2025:horizon.step",
-                 note=f"at g = {float(least):.3g}, in floats: 1 - {1 - theta:.2g}, half of an error in "
-                      f"{np.log(2) / (1 - theta):.2g} trials"),
+                 note=f"at g = {float(least):.3g}, {'in fractions' if shrinks else 'in floats'}: 1 - {1 - theta:.2g}, "
+                      f"half of an error in {np.log(2) / (1 - theta):.2g} trials"),
         Quantity("contraction per trial of (18) with K_d on the difference", "", None, theta_difference,
                  difference.problem.id, norm([Filter(float(a), float(b), float(d)) for a, b, d in inverse_vertices(
                      train, share)], length), f"for every length; check: the recursion over {length} samples"),
@@ -193,7 +195,7 @@ def report(stated: Stated) -> GainReport:
     # (14) with whatever constant estimate: its largest g is b rho/(2 sqrt(lambda)) (claim intro.gain).
     weight = simplest(float((train.b * rho / (2 * CAUTION * every)) ** 2), 1e-3)
     at_truth = simplest(float(train.b**2 * (rho / (CAUTION * every) - 1)), 1e-3)
-    K_p, K_d = (simplest(float(k), 1e-6) for k in difference_gains(train, share))
+    K_p, K_d = difference_gains(train, share)
     estimate = {"learning.kept_estimate": "derivative"}
     sets = (
         GainSet("monotone", "largest step of (14) that never gets worse, estimate kept at dv(k+1)/du(k)",

@@ -186,8 +186,9 @@ def report(stated: Stated) -> GainReport:
     sets = []
     for label, objective, rate, column in (
             ("same_decay", "least noise at the decay rate proved for the last column", rates[-1], columns[-1]),
-            ("same_noise", "largest decay rate at the noise gain of Value 5",
-             simplest(noise_gain(_column(gains, 5)) / float(NEAR) / 1.03, 1e-2), 5)):
+            *((f"same_noise_{column}", f"largest decay rate at the noise gain of Value {column}",
+               simplest(noise_gain(_column(gains, column)) / float(NEAR) / 1.03, 1e-2), column)
+              for column in (5, columns[-1]))):
         found, more = _found(stated, label, objective, rate, column, certificates)
         sets.append(found)
         quantities += more

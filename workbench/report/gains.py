@@ -1,0 +1,92 @@
+"""What is known of a paper's gains as tables and as a document: conditions, what is proved, found gains, their runs."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from fractions import Fraction
+from typing import Any
+
+from workbench.gains.result import GainReport, GainSet
+from workbench.report.numbers import exact, number
+from workbench.studies.base import ResultTable, StudyResult
+from workbench.studies.gain_effects import Effect
+
+LONG = 12  # characters of a fraction that is shown as it is
+
+
+def gains_result(report: GainReport, effects: Sequence[Effect]) -> StudyResult:
+    """The tables that `workbench gains` prints, its notes as findings."""
+    tables = [_conditions(report), _quantities(report), _found(report)]
+    if effects:
+        tables += _effects(effects)
+    return StudyResult(
+        rows=tuple({"controller": e.gains, "setting": e.setting, **e.numbers, "failed": e.failed} for e in effects),
+        tables=tuple(tables), plots=(), findings=report.notes,
+        failures=tuple((f"{e.gains}, {e.setting}", e.failed) for e in effects if e.failed))
+
+
+def gains_document(report: GainReport, effects: Sequence[Effect]) -> dict[str, Any]:
+    """The document of `workbench gains --json`; numbers in SI units, gains as exact fractions and as floats."""
+    return {
+        "version": 1, "paper": report.paper,
+        "conditions": [{"name": c.name, "statement": c.statement, "computed": c.computed, "met": c.met,
+                        "certificate": c.certificate or None, "note": c.note} for c in report.conditions],
+        "quantities": [{"name": q.name, "unit": q.unit, "papers": q.papers, "proved": q.proved, "check": q.check,
+                        "certificate": q.certificate, "note": q.note} for q in report.quantities],
+        "found": [{"name": s.name, "objective": s.objective, "values": {k: float(v) for k, v in s.values.items()},
+                   "exact": {k: str(v) for k, v in s.values.items()}, "proved": s.proved,
+                   "certificate": s.certificate, "changes": dict(s.changes), "note": s.note} for s in report.found],
+        "effects": [{"gains": e.gains, "setting": e.setting, **e.numbers, "failed": e.failed} for e in effects],
+        "certificates": [str(c["claim"]) for c in report.certificates], "notes": list(report.notes),
+        "search_s": dict(report.seconds)}
+
+
+def _conditions(report: GainReport) -> ResultTable:
+    return ResultTable("conditions at the stated gains", "the paper's own, and what its conclusions need",
+                       ("condition", "states", "value", "met"), tuple(
+                           (c.name, c.statement, c.computed, "yes" if c.met else "no") for c in report.conditions))
+
+
+def _quantities(report: GainReport) -> ResultTable:
+    return ResultTable("what is proved", "certificates by the semidefinite program, re-checked exactly",
+                       ("quantity", "by the paper", "proved", "check", "remark"), tuple(
+                           (q.name + (f" ({q.unit})" if q.unit else ""), number(q.papers), _seven(q.proved),
+                            _seven(q.check), q.note) for q in report.quantities))
+
+
+def _seven(value: float | None) -> str:
+    """Near 1 the digits after it are what counts."""
+    return number(value, 9) if value is not None and 0 < abs(1 - value) < 1e-3 else number(value)
+
+
+def _found(report: GainReport) -> ResultTable:
+    return ResultTable("gains found", "best for an objective under what is proved",
+                       ("name", "objective", "gains", "proved"), tuple(
+                           (s.name, s.objective, gains_text(s), s.proved) for s in report.found))
+
+
+def gains_text(found: GainSet) -> str:
+    """Gains as fractions where these are short, else as decimals."""
+    return ", ".join(f"{name} = {_value(value)}" for name, value in found.values.items())
+
+
+def _value(value: Fraction) -> str:
+    text = str(value)
+    return exact(float(value)) if value.denominator == 1 else text if len(text) <= LONG else number(float(value), 4)
+
+
+def _effects(effects: Sequence[Effect]) -> list[ResultTable]:
+    """A table for each setting, the stated gains first; a failed run has dashes."""
+    tables = []
+    for setting in dict.fromkeys(e.setting for e in effects):
+        own = [e for e in effects if e.setting == setting]
+        names = list(dict.fromkeys(name for e in own for name in e.numbers))
+        rows = tuple((e.gains, *(_shown(e.numbers.get(name)) for name in names), "failed" if e.failed else "to the end")
+                     for e in own)
+        tables.append(ResultTable(f"simulated: {setting}", "the paper's own, SI units", (
+            "gains", *(name.replace("_", " ") for name in names), "run"), rows))
+    return tables
+
+
+def _shown(value: float | str | None) -> str:
+    return value if isinstance(value, str) else number(value)
