@@ -7,6 +7,8 @@ from pathlib import Path
 from workbench import track as tracks
 from workbench.errors import InputError
 from workbench.optimal import ttobench
+from workbench.optimal.car_train import CarTrain
+from workbench.optimal.cars_file import car_train
 from workbench.optimal.line import Line, Tunnel
 from workbench.optimal.train_file import TrainFile, vehicle
 from workbench.optimal.vehicle import Vehicle
@@ -40,6 +42,19 @@ def load_vehicle(path: Path) -> tuple[Vehicle, Notes]:
     train = load_record(path, TrainFile)
     try:
         return vehicle(train, path.stem), _assumed(train)
+    except InputError as trouble:
+        raise trouble.within(path) from None
+
+
+def load_cars(path: Path) -> CarTrain | None:
+    """The cars of a train's file, None where it states none; raises InputError naming file, key and remedy."""
+    if _is_json(path):
+        return None
+    train = load_record(path, TrainFile)
+    if train.cars is None:
+        return None
+    try:
+        return car_train(train.cars, vehicle(train, path.stem))
     except InputError as trouble:
         raise trouble.within(path) from None
 

@@ -7,6 +7,7 @@ from typing import Annotated, Self
 
 from pydantic import Field, Strict, model_validator
 
+from workbench.optimal.cars_file import CarsTable
 from workbench.optimal.plausible import plausible
 from workbench.optimal.vehicle import ForceLimit, Vehicle
 from workbench.toml_input import NonNegative, Positive, Record
@@ -27,7 +28,7 @@ class TrainFile(Train):
 
     max_braking_n is what all brakes give at standstill, regenerative_force_n the part of it that is electric; the
     remainder returns nothing. max_power_w limits traction. traction_curve: the largest force between its points (a
-    motor's, adhesion), constant beyond them, beside max_traction_n and max_power_w.
+    motor's, adhesion), constant beyond them, beside max_traction_n and max_power_w. cars: of a train of several cars.
     """
 
     length_m: Positive | None = None
@@ -41,6 +42,7 @@ class TrainFile(Train):
     regenerative_power_w: Positive | None = None
     regenerative_efficiency: Efficiency = 0.0
     auxiliary_w: NonNegative = 0.0
+    cars: CarsTable | None = None
 
     @model_validator(mode="after")
     def _brakes_fit_together(self) -> Self:

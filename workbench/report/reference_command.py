@@ -6,19 +6,24 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
+import numpy as np
+
 from workbench.errors import InputError
 from workbench.json_output import write_json
 from workbench.optimal.bound_document import write_certificate
+from workbench.optimal.cars_document import cars_document, write_cars_csv
 from workbench.optimal.course import Course
 from workbench.optimal.envelope import InfeasibleRunError
 from workbench.optimal.export import reference_document, samples, write_csv
-from workbench.optimal.files import load_line, load_vehicle, notes_together
+from workbench.optimal.files import load_cars, load_line, load_vehicle, notes_together
 from workbench.optimal.line import Line, course
+from workbench.optimal.multi_car import CarsRun, car_course, run_cars
 from workbench.optimal.reference import Reference, find_reference, least_time
 from workbench.optimal.regimes import time_shares
 from workbench.optimal.smooth import SmoothReference, smooth_reference
 from workbench.optimal.vehicle import Vehicle
-from workbench.report.reference_figure import save_figure
+from workbench.report.cars_figure import couplers_figure
+from workbench.report.reference_figure import save_figure, saved
 
 KWH_J = 3.6e6
 FIGURES = (".svg", ".png", ".pdf")
@@ -51,6 +56,7 @@ def reference_run(asked: Request) -> Iterator[str]:
     """Lines for the reader as they come; raises InputError and InfeasibleRunError before anything is written."""
     line, notes = load_line(asked.track)
     vehicle, more = load_vehicle(asked.train)
+    train = load_cars(asked.train)
     if asked.figure and asked.figure.suffix.lower() not in FIGURES:
         raise InputError(asked.figure, "figure", f"end the name in one of {', '.join(FIGURES)}")
     for name, value in (("--dwell", asked.dwell_s), ("--from-speed", asked.start_mps), ("--to-speed", asked.end_mps)):
@@ -65,10 +71,13 @@ def reference_run(asked: Request) -> Iterator[str]:
         raise InputError("", "--time", f"is missing: give a trip time of {least:.1f} s or more, the least feasible "
                          f"one{_with_stops(stops, asked.dwell_s)}")
     found, smooth = _solve(asked, vehicle, run, dwell)
+    cars = run_cars(train, run, car_course(line, train), smooth.run) if train else None
     for note in (*notes, *more, *notes_together(line, vehicle)):
         yield f"note: {note}"
     yield from _summary(asked, line, vehicle, found, smooth, stops)
-    yield from _written(asked, vehicle, run, found, smooth)
+    if cars:
+        yield from _of_cars(cars)
+    yield from _written(asked, vehicle, run, found, smooth, cars)
 
 
 def _solve(asked: Request, vehicle: Vehicle, run: Course, dwell_s: float) -> tuple[Reference, SmoothReference]:
@@ -118,14 +127,31 @@ def _summary(asked: Request, line: Line, vehicle: Vehicle, found: Reference, smo
            f"{smooth.speed_excess_mps:.2g} m/s beyond their limits")
 
 
-def _written(asked: Request, vehicle: Vehicle, run: Course, found: Reference,
-             smooth: SmoothReference) -> Iterator[str]:
+def _of_cars(cars: CarsRun) -> Iterator[str]:
+    planned, works = float(np.abs(cars.planned_coupler_n).max()), cars.works
+    yield (f"cars          {cars.train.cars} by {cars.rule}: {cars.energy_j / KWH_J:.3f} kWh simulated, dampers take "
+           f"{works['damper_j'] / KWH_J:.2g} kWh; the bound is that of the train as one body: resistance and line take "
+           f"{100 * (works['resistance_j'] / cars.one_body_j - 1):+.2g} % beside it; balance open by "
+           f"{cars.residual_j:.2g} J")
+    yield (f"couplers      carry up to {cars.peak_coupler_n.max() / 1e3:.4g} kN ({planned / 1e3:.4g} kN between cars "
+           f"that keep together) and stretch up to {cars.stretch_m:.2g} m; drift {cars.position_drift_m:.2g} m, "
+           f"{cars.speed_drift_mps:.2g} m/s; forces at most {100 * cars.force_excess:.2g} % beyond a car's limits")
+
+
+def _written(asked: Request, vehicle: Vehicle, run: Course, found: Reference, smooth: SmoothReference,
+             cars: CarsRun | None) -> Iterator[str]:
     table = asked.csv or (asked.json.with_suffix(".csv") if asked.json else None)
     if table:
         write_csv(table, samples(vehicle, run, smooth.run, asked.every_s))
         yield f"reference: {table}"
+    more = {}
+    if table and cars:
+        of_cars = table.with_name(f"{table.stem}_cars.csv")
+        write_cars_csv(of_cars, cars, asked.every_s)
+        more = {"cars": cars_document(cars) | {"csv": str(of_cars)}}
+        yield f"cars: {of_cars}"
     if asked.json:
-        write_json(asked.json, reference_document(found, smooth) | {"csv": str(table)})
+        write_json(asked.json, reference_document(found, smooth) | {"csv": str(table)} | more)
         yield f"result: {asked.json}"
     if asked.certificate:
         proven = write_certificate(asked.certificate, vehicle, run, found, asked.start_mps, asked.end_mps)
@@ -134,3 +160,7 @@ def _written(asked: Request, vehicle: Vehicle, run: Course, found: Reference,
         save_figure(asked.figure, vehicle, found.profile, f"{vehicle.name}, {run.length_m / 1e3:.3f} km in "
                     f"{found.profile.trip_time_s:.0f} s, {found.energy_j / KWH_J:.2f} kWh")
         yield f"figure: {asked.figure}"
+    if asked.figure and cars:
+        couplers = asked.figure.with_name(f"{asked.figure.stem}_couplers{asked.figure.suffix}")
+        saved(couplers, lambda faint: couplers_figure(cars, faint))
+        yield f"figure: {couplers}"

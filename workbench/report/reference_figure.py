@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from itertools import pairwise
 from pathlib import Path
 
@@ -61,9 +62,14 @@ def reference_svg(vehicle: Vehicle, profile: Profile, title: str) -> str:
 
 def save_figure(path: Path, vehicle: Vehicle, profile: Profile, title: str) -> None:
     """Write the figure in the format of the file's ending; raises InputError where it cannot be written."""
+    saved(path, lambda faint: reference_figure(vehicle, profile, title, faint))
+
+
+def saved(path: Path, make: Callable[[str], Figure]) -> None:
+    """Write what `make` draws with a faint colour that shows away from a page; raises InputError where it cannot."""
     grey = dict.fromkeys(("axes.edgecolor", "grid.color", "xtick.color", "ytick.color"), PAPER_GREY)
     with drawing("reference"), mpl.rc_context(grey):
-        figure = reference_figure(vehicle, profile, title, PAPER_GREY)
+        figure = make(PAPER_GREY)
         try:
             path.parent.mkdir(parents=True, exist_ok=True)
             figure.savefig(path, dpi=150)
