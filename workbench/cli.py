@@ -211,13 +211,13 @@ def gains(paper: Annotated[str, typer.Argument(help="A paper's name, or its TOML
           workers: Workers = None) -> None:
     """Which conditions the stated gains meet, what can be proved of them, and gains that are proved to do better."""
     from workbench.gains.certificate import write_certificates
-    from workbench.gains.registry import file_of, gains_of
+    from workbench.gains.registry import file_of
     from workbench.json_output import write_json
     from workbench.report.gains import gains_document, gains_result
-    from workbench.studies.gain_effects import effects
+    from workbench.studies.gain_effects import checked_gains, effects
 
     path = file_of(paper)
-    found = gains_of(path, proofs)
+    found = checked_gains(path, proofs)
     if certificates:
         write_certificates(found.certificates, certificates)
     with progress() as show:

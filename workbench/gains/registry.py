@@ -5,7 +5,7 @@ from __future__ import annotations
 from importlib import import_module
 from pathlib import Path
 
-from workbench.errors import InputError
+from workbench.errors import InputError, WorkbenchError
 from workbench.gains.result import GainReport
 from workbench.gains.stated import Stated
 
@@ -27,8 +27,15 @@ def gains_of(path: Path, proofs: Path | None = None) -> GainReport:
     proofs: the folder with the paper's proof file, `proofs` beside the file's folder unless given.
     """
     stated = Stated(path, proofs)
-    paper = stated.entry("paper")
+    paper = str(stated.entry("paper"))
     if paper not in PAPERS:
         raise InputError(path, "paper", f"gains are known of {', '.join(PAPERS)}, not of '{paper}': name one of them")
-    found: GainReport = import_module(PAPERS[paper]).report(stated)
+    try:
+        found: GainReport = import_module(PAPERS[paper]).report(stated)
+    except WorkbenchError:
+        raise
+    except Exception as trouble:  # a file may be well formed and still leave nothing to search
+        what = " ".join(f"{type(trouble).__name__}: {trouble}".split())
+        raise InputError(path, "", f"the search of gains fails on its numbers ({what}): take those of the paper's own "
+                                   "file as a model") from trouble
     return found

@@ -12,9 +12,10 @@ import numpy as np
 
 from workbench.controllers import mao2018_leakage
 from workbench.controllers.mao2018_laws import KINDS, failure_law, train
+from workbench.gains.registry import gains_of
 from workbench.gains.result import GainReport
 from workbench.metrics import measure, measure_run
-from workbench.scenario import Variant, load_variant
+from workbench.scenario import Variant, load_scenario, load_variant
 from workbench.simulate.cars_trials import run_cars
 from workbench.simulate.closed_loop import run_law, simulate
 from workbench.simulate.trials import run_trials
@@ -28,7 +29,7 @@ from workbench.studies.liu2020_runs import Case as LiuCase
 from workbench.studies.liu2020_runs import run_case
 from workbench.studies.mao2018_numbers import initial, parameters, setting_of
 from workbench.studies.mao2018_record import MaoStudy
-from workbench.studies.registry import load_study
+from workbench.studies.registry import is_study, load_study
 from workbench.workers import cores, run_tasks
 
 Row = dict[str, float | str | None]
@@ -55,6 +56,15 @@ class Effect:
     setting: str
     numbers: Row
     failed: str | None
+
+
+def checked_gains(path: Path, proofs: Path | None = None) -> GainReport:
+    """The gains of a paper's file, once the file is known to be whole; InputError naming file, key and remedy."""
+    if is_study(path):
+        load_study(path)
+    else:
+        load_scenario(path)
+    return gains_of(path, proofs)
 
 
 def effects(path: Path, report: GainReport, workers: int | None = None,
