@@ -14,11 +14,12 @@ from fractions import Fraction
 import numpy as np
 from numpy.typing import NDArray
 from scipy.signal import lfilter
-from scipy.sparse.linalg import LinearOperator, svds
+from scipy.sparse.linalg import ArpackNoConvergence, LinearOperator, svds
 
 from workbench.gains.exact import simplest
 
 Array = NDArray[np.float64]
+MOST_RESTARTS = 500
 
 
 @dataclass(frozen=True)
@@ -37,8 +38,8 @@ def fixed_gain(a: float, g: float | Array) -> Filter:
 
 def step(p: Array, theta_squared: Array, vertex: Filter) -> Array:
     """The least p_k for p_{k+1} = p, infinite where there is none; arrays of one shape."""
-    room = theta_squared - vertex.d**2 - p * vertex.b**2
     with np.errstate(divide="ignore", invalid="ignore"):
+        room = theta_squared - vertex.d**2 - p * vertex.b**2
         found = 1 + p * vertex.a**2 + (p * vertex.a * vertex.b - vertex.d) ** 2 / room
     return np.where((room > 0) & np.isfinite(p), found, np.inf)
 
@@ -70,8 +71,11 @@ def norms(vertices: Sequence[Filter], length: int) -> Array:
     return high
 
 
-def lanczos_norm(of: Filter, length: int) -> float:
-    """The same norm by Lanczos on the map and its transpose, each applied as a filter: no bound, but independent."""
+def lanczos_norm(of: Filter, length: int) -> float | None:
+    """The same norm by Lanczos on the map and its transpose, each applied as a filter: no bound, but independent.
+
+    None where it does not converge, because the largest singular values are next to equal.
+    """
     numerator, denominator = np.array([of.d, -of.d * of.a - of.b]), np.array([1.0, -of.a])
 
     def forward(x: Array) -> Array:
@@ -79,7 +83,11 @@ def lanczos_norm(of: Filter, length: int) -> float:
 
     operator = LinearOperator((length, length), matvec=forward, rmatvec=lambda x: forward(np.ravel(x)[::-1])[::-1],
                               dtype=float)
-    return float(svds(operator, k=1, return_singular_vectors=False, v0=np.ones(length), maxiter=20 * length)[0])
+    try:
+        found = svds(operator, k=1, return_singular_vectors=False, v0=np.ones(length), maxiter=MOST_RESTARTS)
+    except ArpackNoConvergence:
+        return None
+    return float(found[0])
 
 
 def dense_norm(of: Filter, length: int) -> float:
