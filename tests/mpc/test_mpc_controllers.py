@@ -136,7 +136,8 @@ class _Scripted:
         if way == "raises":
             raise RuntimeError("lots of text\nout of iterations")
         plan = np.array([0.1, 0.2, 0.3, 0.4]) + sample
-        return Solution(plan * math.nan if way == "nan" else plan / 10, solved=way in ("good", "nan"), why="no reason")
+        return Solution(plan * math.nan if way == "nan" else plan / 10, solved=way in ("good", "nan", "unconverged"),
+                        why="" if way == "good" else "no reason")
 
 
 def answers(script, bad=()):
@@ -160,6 +161,13 @@ def test_a_failed_or_late_solution_is_answered_by_the_shifted_plan_then_by_the_l
     assert any(line.startswith(f"{name}: 5") for line in lines)
     assert any("5 times" in line for line in lines)
     assert all("\n" not in line for line in lines)
+
+
+def test_a_plan_that_is_not_converged_is_used_and_counted():
+    made, commands, _, _ = answers([("unconverged", 0.0), ("good", 0.0)])
+    assert commands == pytest.approx([0.01, 0.11])
+    assert {k: v for k, v in made.counters.items() if v} == {"qp": 2, "unconverged": 1}
+    assert len(made.explain()) == 2
 
 
 def test_without_plan_and_measurement_what_the_curve_needs_answers():

@@ -17,6 +17,7 @@ from workbench.mpc.kernels import kernels
 from workbench.mpc.linear import LinearMpc
 from workbench.mpc.model import ACTUATORS
 from workbench.mpc.nonlinear import NonlinearMpc
+from workbench.mpc.problem import Weights
 from workbench.mpc.transcription import SOLVERS, CasadiMpc
 
 MAKERS = {"compiled": NonlinearMpc, **{name: functools.partial(CasadiMpc, solver=name) for name in SOLVERS}}
@@ -77,8 +78,8 @@ def test_what_is_not_offered_is_wrong(program, options, monkeypatch):
     assert cost > 2 * right or not all(s.solved for s in solutions)
 
 
-def independent_program(mpc, problem, ahead, sample, state):
-    """The linear program of a sample from its matrices, by cvxpy with clarabel."""
+def independent_program(mpc, problem, ahead, sample, state, plan=None):
+    """The linear program of a sample from its matrices, by cvxpy with clarabel; of a plan its cost, and the least."""
     N, w = problem.horizon, problem.weights
     x, u, s = cp.Variable((N + 1, 3)), cp.Variable(N), cp.Variable((N, 4))
     rows = ahead[sample : sample + N + 1]
@@ -98,9 +99,14 @@ def independent_program(mpc, problem, ahead, sample, state):
             power = base[1] * x[k, 2] + F * x[k, 1] - base[1] * F
             constraints += [power - problem.power_w_per_kg <= s[k, 0], e[0] - problem.band_m <= s[k, 1],
                             -e[0] - problem.band_m <= s[k, 2]]
-    cp.Problem(cp.Minimize(cost), constraints).solve(
-        solver=cp.CLARABEL, tol_gap_abs=1e-11, tol_gap_rel=1e-11, tol_feas=1e-11)
-    return u.value
+    asked = cp.Problem(cp.Minimize(cost), constraints)
+    asked.solve(solver=cp.CLARABEL, tol_gap_abs=1e-11, tol_gap_rel=1e-11, tol_feas=1e-11)
+    if plan is None:
+        return u.value
+    least = asked.value
+    asked = cp.Problem(cp.Minimize(cost), [*constraints, u == np.clip(plan, -1.0 + 1e-9, 1.0 - 1e-9)])
+    asked.solve(solver=cp.CLARABEL)
+    return asked.value, least
 
 
 @functools.cache
@@ -110,7 +116,7 @@ def banded(squares):
     return problem, ahead, LinearMpc(problem, ahead)
 
 
-@settings(max_examples=40, deadline=None)
+@settings(max_examples=20, deadline=None)
 @given(st.integers(0, 100), st.tuples(st.floats(-8, 8), st.floats(-3, 3), st.floats(-1, 1)),
        st.sampled_from([0.0, 20.0]))
 def test_linear_programs_are_solved_as_an_outside_solver_does(sample, error, squares):
@@ -120,6 +126,24 @@ def test_linear_programs_are_solved_as_an_outside_solver_does(sample, error, squ
     solution = mpc.solve(sample, state)
     assert solution.solved
     assert solution.plan == pytest.approx(independent_program(mpc, problem, ahead, sample, state), abs=2e-5)
+
+
+EXPONENT = st.floats(-3, 4)
+
+
+@settings(max_examples=20, deadline=None)
+@given(st.tuples(EXPONENT, EXPONENT, st.floats(-1, 2)), st.tuples(st.floats(0, 4), st.floats(0, 4)), st.floats(-1, 1),
+       st.integers(0, 100), st.tuples(st.floats(-50, 50), st.floats(-3, 3), st.floats(-1, 1)))
+def test_weights_prices_and_errors_of_all_sizes_are_solved(weights, prices, band, sample, error):
+    price = ((10 ** prices[0], 0.0), (10 ** prices[1], 1.0), (10 ** prices[1], 1.0), (1.0, 0.0))
+    weights = Weights(*(10**x for x in weights))
+    problem, ahead = problem_of(8, band_m=10**band, price=price, weights=weights)
+    mpc = LinearMpc(problem, ahead)
+    state = ahead[sample, :3] + error
+    solution = mpc.solve(sample, state)
+    assert solution.solved
+    cost, least = independent_program(mpc, problem, ahead, sample, state, solution.plan)
+    assert cost <= least * (1 + 1e-5) + 1e-5
 
 
 @settings(max_examples=25, deadline=None)

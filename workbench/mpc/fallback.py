@@ -14,10 +14,11 @@ from workbench.mpc.solution import Solution, Tracker
 from workbench.mpc.terminal import Lqr
 
 # What a run counts. A solution that came too late, as one that failed, is answered by the others.
-COUNTERS = ("qp", "qp_failed", "late", "shifted_plan", "lqr", "feedforward", "bad_measurement")
+COUNTERS = ("qp", "qp_failed", "unconverged", "late", "shifted_plan", "lqr", "feedforward", "bad_measurement")
 MEANING = {
     "qp": "samples at which the solver was asked",
     "qp_failed": "it answered no plan that may be used",
+    "unconverged": "its plan keeps model and limits, but the iteration had not come to rest",
     "late": "its plan came after the deadline",
     "shifted_plan": "the last feasible plan answered, as many samples on as it is old",
     "lqr": "no plan was left, so the LQR answered, within the limits",
@@ -79,6 +80,9 @@ class Fallback:
         late = self._clock() - before > self._deadline_s
         if solution.solved and np.isfinite(solution.plan).all():
             if not late:
+                if solution.why:
+                    self.counters["unconverged"] += 1
+                    self.trouble[solution.why] += 1
                 return solution.plan
             self.counters["late"] += 1
             self.trouble["a solution after the deadline"] += 1

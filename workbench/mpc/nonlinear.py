@@ -9,7 +9,7 @@ from workbench.mpc.problem import Array, Problem
 from workbench.mpc.solution import Solution
 from workbench.mpc.terminal import Lqr, lqr
 
-MOST_PASSES, MOST_INTERIOR = 8, 60
+MOST_PASSES, MOST_INTERIOR = 8, 100
 
 
 class NonlinearMpc:
@@ -58,8 +58,10 @@ class NonlinearMpc:
             state, self._window, *self._fixed, self._memory, self._work, self._base, self._plan, self.most_programs,
             MOST_PASSES, MOST_INTERIOR, self._close)
         self.cost = cost
-        good = np.isfinite(cost) and (status == 0 or (status == 1 and self.most_programs == 1))
-        why = "" if good else f"no convergence in {programs} programs" if status == 1 else "a program was not solved"
+        good = bool(np.isfinite(cost)) and status != 2
+        # A plan that is not converged obeys the model and the limits all the same, and costs less than its start.
+        why = "" if good and (status == 0 or self.most_programs == 1) else (
+            f"no convergence in {programs} programs" if good else "a program was not solved")
         if not good:
             self.forget()
-        return Solution(self._plan.copy(), bool(good), programs, interior, passes, why)
+        return Solution(self._plan.copy(), good, programs, interior, passes, why)

@@ -93,7 +93,7 @@ def active_set(cross, jac, gap, start, Q0, q0, R, r, low, high, rows, price, h, 
     """
     Q, q, kept = work
     N = R.shape[0]
-    stiff = 1e7
+    stiff = 1e7 * max(R[0], Q0[1, 0], Q0[1, 3])
     for passed in range(1, most_passes + 1):
         copy_cost(Q0, q0, Q, q)
         for k in range(1, N):
@@ -117,7 +117,7 @@ def active_set(cross, jac, gap, start, Q0, q0, R, r, low, high, rows, price, h, 
                 elif du[k] < low[k] - 1e-10:
                     fixed[k] = -1
                     moved = True
-            elif fixed[k] * slope[k] > 1e-10:
+            elif fixed[k] * slope[k] > 1e-10 * kept[k, 3]:
                 fixed[k] = 0
                 moved = True
         for k in range(1, N):
@@ -151,23 +151,26 @@ def interior_point(cross, jac, gap, start, Q0, q0, R0, r0, low, high, rows, pric
                    slope, most_iterations, state, pull):
     """The same program by a primal-dual interior point method; the number of iterations, or -1 if they ran out.
 
-    Leaves the active set that the answer shows, for the next program to start from.
+    What must stay positive, distances and multipliers alike, is moved by steps of its own, never a difference, so that
+    it keeps its digits. Leaves the active set that the answer shows.
     """
     Q, q, kept = work
     N = R0.shape[0]
     m = rows.shape[0]
     R, r = R0.copy(), r0.copy()
     ddx, ddu, no_gap, nowhere = dx.copy(), du.copy(), gap * 0.0, start * 0.0
-    over, under = R0 * 0.0, R0 * 0.0
-    slack, force = pull * 0.0, pull * 0.0
-    s_step, f_step = pull * 0.0, pull * 0.0
-    value = pull * 0.0
+    # Of commands: distance to the bounds and multipliers; of rows: slack, room, and multipliers of both.
+    above, beneath, over, under = R0 * 0.0, R0 * 0.0, R0 * 0.0, R0 * 0.0
+    slack, room, force, rest = pull * 0.0, pull * 0.0, pull * 0.0, pull * 0.0
+    s_step, f_step, t_step = pull * 0.0, pull * 0.0, pull * 0.0
+    unit = R0[0]
     for i in range(3):
         dx[0, i] = start[i]
     for k in range(N):
         width = high[k] - low[k]
         du[k] = min(max(du[k], low[k] + 0.05 * width), high[k] - 0.05 * width)
-        over[k], under[k] = 0.1 / (high[k] - du[k]), 0.1 / (du[k] - low[k])
+        above[k], beneath[k] = high[k] - du[k], du[k] - low[k]
+        over[k], under[k] = 0.1 * unit / above[k], 0.1 * unit / beneath[k]
         fixed[k] = 0
         for i in range(3):
             dx[k + 1, i] = (jac[k, 4 * i] * dx[k, 0] + jac[k, 4 * i + 1] * dx[k, 1] + jac[k, 4 * i + 2] * dx[k, 2]
@@ -175,34 +178,36 @@ def interior_point(cross, jac, gap, start, Q0, q0, R0, r0, low, high, rows, pric
     for k in range(1, N):
         for n in range(m):
             i = rows[n]
-            value[k, i] = h[k, i] + g[k, i, 0] * dx[k, 0] + g[k, i, 1] * dx[k, 1] + g[k, i, 2] * dx[k, 2]
-            slack[k, i] = max(value[k, i], 0.0) + 0.1
+            value = h[k, i] + g[k, i, 0] * dx[k, 0] + g[k, i, 1] * dx[k, 1] + g[k, i, 2] * dx[k, 2]
+            slack[k, i] = max(value, 0.0) + 0.1
+            room[k, i] = slack[k, i] - value
             force[k, i] = 0.5 * (price[i, 0] + 2.0 * price[i, 1] * slack[k, i])
+            rest[k, i] = force[k, i]
     pairs = 2.0 * N + 2.0 * m * (N - 1)
     wrong, share = 1.0, 1.0
     for iteration in range(most_iterations):
         mean = 0.0
         for k in range(N):
-            mean += over[k] * (high[k] - du[k]) + under[k] * (du[k] - low[k])
+            mean += over[k] * above[k] + under[k] * beneath[k]
         for k in range(1, N):
             for n in range(m):
                 i = rows[n]
-                room = slack[k, i] - value[k, i]
-                rest = price[i, 0] + 2.0 * price[i, 1] * slack[k, i] - force[k, i]
-                mean += force[k, i] * room + rest * slack[k, i]
+                mean += force[k, i] * room[k, i] + rest[k, i] * slack[k, i]
         mean /= pairs
-        if mean < 1e-11 and wrong < 1e-9:
+        # Where rounding stops the steps before the aim, a mean product that is small enough is an answer too.
+        stuck = (share < 1e-3 or iteration == most_iterations - 1) and mean < 1e-8 * unit
+        if (mean < 1e-12 * unit or stuck) and wrong < 1e-10:
             for k in range(N):
-                fixed[k] = 1 if over[k] > high[k] - du[k] else (-1 if under[k] > du[k] - low[k] else 0)
+                fixed[k] = 1 if over[k] > unit * above[k] else (-1 if under[k] > unit * beneath[k] else 0)
             for k in range(1, N):
                 for n in range(m):
                     i = rows[n]
-                    room = slack[k, i] - value[k, i]
-                    rest = price[i, 0] + 2.0 * price[i, 1] * slack[k, i] - force[k, i]
-                    state[k, i] = 0 if room > force[k, i] else (2 if slack[k, i] > rest else 1)
+                    exceeded = unit * slack[k, i] > rest[k, i]
+                    state[k, i] = 0 if unit * room[k, i] > force[k, i] else (2 if exceeded else 1)
                     pull[k, i] = force[k, i]
             return iteration
-        aim = mean * (0.05 if share > 0.9 else 0.3)
+        # Short steps mean that some products are far below the others: then what is small is raised first.
+        aim = mean * (0.05 if share > 0.9 else (0.3 if share > 0.1 else 2.0))
         copy_cost(Q0, q0, Q, q)
         for k in range(N + 1):
             d0, d1, d2 = dx[k, 0], dx[k, 1], dx[k, 2]
@@ -211,54 +216,48 @@ def interior_point(cross, jac, gap, start, Q0, q0, R0, r0, low, high, rows, pric
             q[k, 2] += Q0[k, 2] * d0 + Q0[k, 4] * d1 + Q0[k, 5] * d2
             if k < N:
                 q[k, 2] += cross * du[k]
-                above, beneath = high[k] - du[k], du[k] - low[k]
-                R[k] = R0[k] + over[k] / above + under[k] / beneath
-                r[k] = r0[k] + R0[k] * du[k] + cross * d2 + aim / above - aim / beneath
+                R[k] = R0[k] + over[k] / above[k] + under[k] / beneath[k]
+                r[k] = r0[k] + R0[k] * du[k] + cross * d2 + aim / above[k] - aim / beneath[k]
         for k in range(1, N):
             for n in range(m):
                 i = rows[n]
-                f, s = force[k, i], slack[k, i]
-                room = s - value[k, i]
-                curve = 2.0 * price[i, 1]
-                rest = price[i, 0] + curve * s - f
-                per = f / room
-                D = rest + s * curve + s * per
-                r1 = (aim - f * room) / room
-                r2 = aim - rest * s
-                add_row(Q, q, k, g[k, i, 0], g[k, i, 1], g[k, i, 2], per * (rest + s * curve) / D,
-                        f + r1 - per * (r2 + s * r1) / D)
+                f, s, t, e = force[k, i], slack[k, i], room[k, i], rest[k, i]
+                curve, per = 2.0 * price[i, 1], f / t
+                D = e + s * curve + s * per
+                r1 = aim / t - f
+                add_row(Q, q, k, g[k, i, 0], g[k, i, 1], g[k, i, 2], per * (e + s * curve) / D,
+                        f + r1 - per * (aim - e * s + s * r1) / D)
         riccati(cross, jac, no_gap, nowhere, Q, q, R, r, fixed, bound, kept, ddx, ddu, slope)
         share = 1.0
         for k in range(N):
-            above, beneath, step = high[k] - du[k], du[k] - low[k], ddu[k]
-            o = (aim - over[k] * above + over[k] * step) / above
-            w = (aim - under[k] * beneath - under[k] * step) / beneath
-            for have, change in ((above, -step), (beneath, step), (over[k], o), (under[k], w)):
+            step = ddu[k]
+            o = aim / above[k] - over[k] + over[k] * step / above[k]
+            w = aim / beneath[k] - under[k] - under[k] * step / beneath[k]
+            for have, change in ((above[k], -step), (beneath[k], step), (over[k], o), (under[k], w)):
                 if have + share * change < 0.005 * have:
                     share = -0.995 * have / change
         for k in range(1, N):
             for n in range(m):
                 i = rows[n]
-                f, s = force[k, i], slack[k, i]
-                room = s - value[k, i]
-                curve = 2.0 * price[i, 1]
-                rest = price[i, 0] + curve * s - f
-                per = f / room
-                r1 = (aim - f * room) / room
+                f, s, t, e = force[k, i], slack[k, i], room[k, i], rest[k, i]
+                curve, per = 2.0 * price[i, 1], f / t
+                r1 = aim / t - f
                 move = g[k, i, 0] * ddx[k, 0] + g[k, i, 1] * ddx[k, 1] + g[k, i, 2] * ddx[k, 2]
-                ds = (aim - rest * s + s * r1 + s * per * move) / (rest + s * curve + s * per)
+                ds = (aim - e * s + s * r1 + s * per * move) / (e + s * curve + s * per)
                 df = r1 - per * (ds - move)
-                s_step[k, i], f_step[k, i] = ds, df
-                for have, change in ((room, ds - move), (s, ds), (f, df), (rest, curve * ds - df)):
+                s_step[k, i], f_step[k, i], t_step[k, i] = ds, df, ds - move
+                for have, change in ((t, ds - move), (s, ds), (f, df), (e, curve * ds - df)):
                     if have + share * change < 0.005 * have:
                         share = -0.995 * have / change
         wrong *= 1.0 - share
         for k in range(N):
-            above, beneath, step = high[k] - du[k], du[k] - low[k], ddu[k]
-            o = (aim - over[k] * above + over[k] * step) / above
-            w = (aim - under[k] * beneath - under[k] * step) / beneath
+            step = ddu[k]
+            o = aim / above[k] - over[k] + over[k] * step / above[k]
+            w = aim / beneath[k] - under[k] - under[k] * step / beneath[k]
             over[k] += share * o
             under[k] += share * w
+            above[k] -= share * step
+            beneath[k] += share * step
             du[k] += share * step
             for i in range(3):
                 dx[k + 1, i] += share * ddx[k + 1, i]
@@ -266,6 +265,7 @@ def interior_point(cross, jac, gap, start, Q0, q0, R0, r0, low, high, rows, pric
             for n in range(m):
                 i = rows[n]
                 slack[k, i] += share * s_step[k, i]
+                room[k, i] += share * t_step[k, i]
                 force[k, i] += share * f_step[k, i]
-                value[k, i] = h[k, i] + g[k, i, 0] * dx[k, 0] + g[k, i, 1] * dx[k, 1] + g[k, i, 2] * dx[k, 2]
+                rest[k, i] += share * (2.0 * price[i, 1] * s_step[k, i] - f_step[k, i])
     return -1

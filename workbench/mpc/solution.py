@@ -11,10 +11,10 @@ from workbench.mpc.terminal import Lqr
 
 @dataclass(frozen=True)
 class Solution:
-    """plan: commands of the horizon (m/s^2), shape (N,). solved: whether the solver vouches for them.
+    """plan: commands of the horizon (m/s^2), shape (N,). solved: whether they may be used.
 
     programs: quadratic programs solved; interior: those of them by the interior point method; passes: passes of
-    Riccati's recursion in all; why: the solver's words where it failed.
+    Riccati's recursion in all; why: the solver's words where it failed, or answered less than it should.
     """
 
     plan: Array

@@ -96,7 +96,14 @@ def solve_program(weights, jac, gap, start, rows, price, h, g, memory, work, mos
         fixed[:] = 0
         state[:] = 0
         return 2, most_passes + most_iterations
-    return 1, most_passes + steps
+    # The set that it found mostly is the answer's; then a few passes take away what was left of the interior.
+    near_x, near_u, near_pull = dx.copy(), du.copy(), pull.copy()
+    near_fixed, near_state = fixed.copy(), state.copy()
+    polished = active_set(cross, jac, gap, start, Q0, q0, R, r, low, high, rows, price, h, g, fixed, bound, state, pull,
+                          scratch, dx, du, slope, most_passes // 2)
+    if polished < 0:
+        dx[:], du[:], pull[:], fixed[:], state[:] = near_x, near_u, near_pull, near_fixed, near_state
+    return 1, most_passes + steps + most_passes // 2
 
 
 def solve_linear(measured, base_x, base_u, jac, gap, h, g, ahead, weights, terminal, limits, rows, price, memory,
