@@ -149,6 +149,21 @@ def sweep(scenario: Annotated[Path, typer.Argument(help="Scenario TOML")],
 
 
 @app.command()
+def tune(contest: Annotated[Path, typer.Argument(help="Contest TOML: budget, ranges and objective are in it")],
+         controller: Annotated[list[str] | None, typer.Option(help="Only this one; may be repeated.")] = None,
+         write: Annotated[bool, typer.Option("--write", help="Put what was found into the file.")] = False,
+         workers: Workers = None) -> None:
+    """Tune controllers for a contest: the same budget, optimiser and seed for every one."""
+    from workbench.contest.command import tune_run
+
+    with progress() as show:
+        lines = list(tune_run(contest, controller or [], write, workers, lambda done, total, _: show("tuning", done,
+                                                                                                      total)))
+    for line in lines:
+        out_console.print(line, soft_wrap=True, highlight=False, markup=False)
+
+
+@app.command()
 def report(scenario: Annotated[Path, typer.Argument(help="Scenario or study TOML")],
            proofs: Annotated[list[Path] | None, typer.Argument(help="Proof files of the paper")] = None,
            out: Annotated[Path, typer.Option(help="Folder of the report")] = Path("out"),

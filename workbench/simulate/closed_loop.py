@@ -147,7 +147,12 @@ def simulate(scenario: Scenario, name: str, factors: Factors = NOMINAL) -> Run:
 
     Raises InputError when the scenario has no such controller or its values cannot be used.
     """
-    spec, setting = controller_spec(scenario, name), setting_of(scenario, factors)
+    return simulate_in(scenario, name, setting_of(scenario, factors))
+
+
+def simulate_in(scenario: Scenario, name: str, setting: Setting) -> Run:
+    """`simulate` in a setting that may differ from what the scenario states, which is what controllers know."""
+    spec = controller_spec(scenario, name)
     if spec.law in LAWS:
         law = LAWS[spec.law]
         return run_law(law, law_values(law, spec, name), setting, spec.period_s, spec.estimates, name,

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Annotated, Any, Literal, TypeVar
 
 import numpy as np
@@ -130,7 +131,9 @@ class StudyKind:
     """What a paper's module offers: the record of its file, and run(study, workers, on_progress) -> StudyResult.
 
     workers: processes to use, at least one. A run that fails is told in the result and raises nothing.
+    located(study, path): of studies that name other files, the study with them found from its own path.
     """
 
     record: type[Study]
     run: Callable[[Any, int, Progress], StudyResult]
+    located: Callable[[Any, Path], Any] | None = None

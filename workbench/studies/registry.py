@@ -13,6 +13,7 @@ from workbench.toml_input import read_toml, validate_record
 STUDIES: dict[str, str] = {
     "chen2019": "workbench.studies.chen2019",
     "jiao2025": "workbench.studies.jiao2025",
+    "contest": "workbench.contest.study",
     "liu2020": "workbench.studies.liu2020",
     "mao2018": "workbench.studies.mao2018",
 }
@@ -44,4 +45,5 @@ def load_study(path: Path) -> Study:
         kind = study_kind(paper)
     except InputError as trouble:
         raise trouble.within(path) from None
-    return validate_record(data, kind.record, path)
+    study = validate_record(data, kind.record, path)
+    return kind.located(study, path) if kind.located else study

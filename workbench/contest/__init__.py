@@ -1,0 +1,1 @@
+"""A fair fight: the same train, line, sensors, seeds and tuning budget for every controller."""

@@ -1,0 +1,148 @@
+"""The runs of a contest: every controller, as stated and as tuned, under every condition, with paired seeds."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from workbench.contest.record import Condition, Contest
+from workbench.events import Failure
+from workbench.metrics import measure
+from workbench.scenario import Scenario
+from workbench.sensing import Sensing
+from workbench.simulate.closed_loop import Factors, Run, setting_of, simulate_in
+from workbench.track import Track
+from workbench.workers import run_tasks
+
+TUNED = "+"
+# What is compared, in SI units, the less the better; each a number of a whole run.
+METRICS = ("position_rms", "speed_rms", "largest_position_error", "stopping_error", "energy_J", "jerk_rms",
+           "saturated_fraction", "band_share", "switchings_per_s")
+
+
+@dataclass(frozen=True)
+class Entry:
+    """A controller of the scenario, as stated or as tuned: then its name ends in TUNED."""
+
+    controller: str
+    tuned: bool
+
+    @property
+    def name(self) -> str:
+        """As in tables."""
+        return f"{self.controller}{TUNED}" if self.tuned else self.controller
+
+
+@dataclass(frozen=True)
+class Match:
+    """One run: condition, number of its seed, entry -> METRICS (None where the run failed), and why it failed.
+
+    step_us: median time of a control step; counters: of the controller.
+    """
+
+    condition: str
+    draw: int
+    entry: str
+    values: dict[str, float | None]
+    failed: str | None
+    step_us: float
+    counters: dict[str, int]
+
+
+Task = tuple[str, int, Entry]
+
+
+def entries(contest: Contest, scenario: Scenario) -> tuple[Entry, ...]:
+    """Every controller as stated, and again with the parameters that tuning found, where there are any."""
+    return tuple(Entry(name, tuned) for name in scenario.controllers for tuned in (False, True)
+                 if not tuned or name in contest.tuning.found)
+
+
+def with_parameters(scenario: Scenario, name: str, parameters: dict[str, float]) -> Scenario:
+    """The scenario with other parameters of one controller."""
+    spec = scenario.controllers[name]
+    changed = spec.model_copy(update={"parameters": spec.parameters | parameters})
+    return scenario.model_copy(update={"controllers": scenario.controllers | {name: changed}})
+
+
+def run_match(scenario: Scenario, name: str, condition: Condition, draw: int, seed: int) -> Run:
+    """One run; factors and noise depend on seed and draw alone, so that they are the same for every controller."""
+    sequence = np.random.SeedSequence(seed, spawn_key=(draw,))
+    generator = np.random.default_rng(sequence)
+    factors = 1 + condition.spread * generator.uniform(-1.0, 1.0, 5)
+    noise_seed = int(generator.integers(2**31))
+    train = scenario.train
+    limited = train.model_copy(update={"max_traction_n": train.max_traction_n * condition.force_share,
+                                       "max_braking_n": train.max_braking_n * condition.force_share})
+    failures = scenario.failures
+    if condition.failed_share:
+        failures += (Failure.model_construct(
+            from_s=condition.failure_from_s, to_s=None, omega_rad_s=0.0, phase_rad=0.0,
+            failed_share=condition.failed_share, offset_n=condition.failure_n, amplitude_n=0.0),)
+    world = scenario.model_copy(update={"train": limited, "failures": failures})
+    if condition.level:
+        world = world.model_copy(update={"track": _levelled(world)})
+    setting = setting_of(world, Factors(*(float(factor) for factor in factors)))
+    sensing = Sensing(condition.position_noise_m, condition.speed_noise_mps, condition.measurement_delay_s,
+                      condition.command_delay_s, noise_seed)
+    return simulate_in(world, name, replace(setting, sensing=sensing))
+
+
+def _levelled(scenario: Scenario) -> Track:
+    track = scenario.track
+    flat = tuple(section.model_copy(update={"grade_permille": 0.0}) for section in track.grade)
+    straight = tuple(section.model_copy(update={"radius_m": math.inf}) for section in track.curve)
+    return track.model_copy(update={"grade": flat, "curve": straight, "tunnel": ()})
+
+
+def match_values(run: Run, scenario: Scenario) -> dict[str, float | None]:
+    """METRICS of a run; None each where it failed."""
+    if run.failed is not None:
+        return dict.fromkeys(METRICS)
+    found = measure(run, scenario)
+    force = run.column("u_applied_mps2")
+    signs = np.sign(np.where(np.abs(force) < 1e-3, 0.0, force))
+    pulling = signs[signs != 0]
+    values = {
+        "position_rms": found.position_rms, "speed_rms": found.speed_rms,
+        "largest_position_error": found.largest_position_error, "stopping_error": abs(found.stopping_error),
+        "energy_J": found.energy_J, "jerk_rms": found.jerk_rms, "saturated_fraction": found.saturated_fraction,
+        "band_share": found.limit_violations / max(1.0, run.totals["samples"]),
+        "switchings_per_s": float(np.count_nonzero(np.diff(pulling))) / run.end_s}
+    return {key: float(value) for key, value in values.items()}
+
+
+def one_match(shared: tuple[Contest, Scenario], task: Task) -> Match:
+    """The match of one task."""
+    (contest, scenario), (condition, draw, entry) = shared, task
+    if entry.tuned:
+        scenario = with_parameters(scenario, entry.controller, dict(contest.tuning.found[entry.controller]))
+    run = run_match(scenario, entry.controller, contest.conditions[condition], draw, contest.seed)
+    return Match(condition, draw, entry.name, match_values(run, scenario), run.failed,
+                 float(np.median(run.step_us)) if len(run.step_us) else 0.0, run.counters)
+
+
+def all_matches(contest: Contest, scenario: Scenario, workers: int,
+                on_progress: Callable[[int, int, str], None]) -> tuple[Match, ...]:
+    """Every match, ordered by condition, draw and entry; a condition without chance is run once."""
+    tasks: list[Task] = [(name, draw, entry) for name, condition in contest.conditions.items()
+                         for draw in range(contest.seeds if condition.random else 1)
+                         for entry in entries(contest, scenario)]
+    found: dict[tuple[str, int, str], Match] = {}
+
+    def record(match: Match) -> None:
+        found[match.condition, match.draw, match.entry] = match
+        on_progress(len(found), len(tasks), f"{match.entry}: {contest.conditions[match.condition].title}")
+
+    run_tasks(one_match, (contest, scenario), tasks, workers, record)
+    return tuple(found[condition, draw, entry.name] for condition, draw, entry in tasks)
+
+
+def of(matches: Sequence[Match], condition: str, entry: str) -> list[Match]:
+    """The matches of one entry under one condition, by draw."""
+    return [match for match in matches if match.condition == condition and match.entry == entry]
+
+

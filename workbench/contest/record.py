@@ -1,0 +1,107 @@
+"""What a contest's file states: the scenario, the conditions, seeds, tuning, each value with its source."""
+
+from __future__ import annotations
+
+from typing import Annotated, Any, Self
+
+from pydantic import Field, Strict, model_validator
+
+from workbench.studies.base import Study
+from workbench.toml_input import Count, Name, NonNegative, Positive, SourcedRecord, Text
+
+Seed = Annotated[int, Strict(), Field(ge=0)]
+Spread = Annotated[float, Strict(), Field(ge=0, lt=1, allow_inf_nan=False)]
+Share = Annotated[float, Strict(), Field(gt=0, le=1, allow_inf_nan=False)]
+
+
+class Condition(SourcedRecord):
+    """One way in which the world differs from what controllers know; all else is the scenario's.
+
+    spread: mass, Davis coefficients and the line's resistance are drawn from 1 - spread to 1 + spread; level: the line
+    has no grades. failed_share of the motors give failure_n (in all) from failure_from_s on. Noise and delays are those
+    of `sensing.py`; force_share: of traction and braking limits that is left, known to the controllers.
+    """
+
+    title: Text
+    spread: Spread = 0.0
+    level: Annotated[bool, Strict()] = False
+    failed_share: Annotated[float, Strict(), Field(ge=0, lt=1, allow_inf_nan=False)] = 0.0
+    failure_n: float = 0.0
+    failure_from_s: NonNegative = 0.0
+    position_noise_m: NonNegative = 0.0
+    speed_noise_mps: NonNegative = 0.0
+    measurement_delay_s: NonNegative = 0.0
+    command_delay_s: NonNegative = 0.0
+    force_share: Share = 1.0
+
+    @property
+    def random(self) -> bool:
+        """Whether a run depends on its seed."""
+        return bool(self.spread or self.position_noise_m or self.speed_noise_mps)
+
+
+class Objective(SourcedRecord):
+    """What tuning minimises: the sum of each root mean square over its unit; a failed run costs `failed`."""
+
+    position_m: Positive
+    speed_mps: Positive
+    jerk_mps3: Positive
+    failed: Positive
+
+
+class Tuning(SourcedRecord):
+    """The budget that every controller gets: runs, seed of the search, condition and draws of the runs.
+
+    ranges: per controller, the parameters that are searched and from where to where, logarithmically.
+    found: per controller, what `workbench tune` found within this budget; the command is its source.
+    """
+
+    runs: Count
+    seed: Seed
+    condition: Name
+    draws: Count
+    objective: Objective
+    ranges: dict[Name, dict[str, tuple[Positive, Positive]]]
+    found: dict[Name, dict[str, Positive]] = Field(default_factory=dict)
+
+    @model_validator(mode="before")
+    @classmethod
+    def _found_has_its_source(cls, data: Any) -> Any:
+        if isinstance(data, dict) and "found" in data and isinstance(data.get("source"), dict):
+            return data | {"source": {"found": "convention: found by workbench tune"} | data["source"]}
+        return data
+
+    @model_validator(mode="after")
+    def _ranges_go_up(self) -> Self:
+        for name, ranges in self.ranges.items():
+            for key, (low, high) in ranges.items():
+                if not low < high:
+                    raise ValueError(f"ranges.{name}.{key}: {low:g} to {high:g} is no range: let it go up")
+        for name, found in self.found.items():
+            if name not in self.ranges or found.keys() != self.ranges[name].keys():
+                raise ValueError(f"found.{name}: its parameters are not those of ranges.{name}: run 'workbench tune'")
+        return self
+
+
+class Contest(Study):
+    """A contest: its scenario's file (relative to this one), seeds, conditions and tuning."""
+
+    scenario: Text
+    seeds: Count
+    seed: Seed
+    resamples: Count
+    confidence: Annotated[float, Strict(), Field(gt=0.5, lt=1, allow_inf_nan=False)]
+    source: dict[str, Text]
+    conditions: dict[Name, Condition]
+    tuning: Tuning
+
+    @model_validator(mode="after")
+    def _names_exist(self) -> Self:
+        if not self.conditions:
+            raise ValueError("conditions: none given: add a [conditions.<name>] table")
+        if self.tuning.condition not in self.conditions:
+            raise ValueError(f"tuning.condition: '{self.tuning.condition}' is no condition: choose one of "
+                             f"{', '.join(self.conditions)}")
+        return self
+
+

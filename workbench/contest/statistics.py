@@ -1,0 +1,55 @@
+"""Paired bootstrap: which differences between controllers are more than chance."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Interval:
+    """A mean with its bootstrap interval."""
+
+    mean: float
+    low: float
+    high: float
+
+
+def resampled(draws: int, resamples: int, seed: int) -> NDArray[np.intp]:
+    """Indices of the draws with replacement, shape (resamples, draws): the same for every metric and controller."""
+    return np.random.default_rng(seed).integers(0, draws, (resamples, draws))
+
+
+def mean_interval(values: Array, chosen: NDArray[np.intp], confidence: float) -> Interval:
+    """The mean over the draws and its percentile interval; one draw has no width."""
+    means = values[chosen].mean(axis=1)
+    low, high = np.quantile(means, [(1 - confidence) / 2, (1 + confidence) / 2])
+    return Interval(float(values.mean()), float(low), float(high))
+
+
+def winners(values: Sequence[Array | None], chosen: NDArray[np.intp], confidence: float) -> list[int]:
+    """Numbers of the controllers that are not worse than the best by more than chance; the best alone has won.
+
+    values: per controller its metric by draw, the less the better, or None where a run failed: such a controller
+    neither wins nor ties. A difference counts when the interval of the paired difference leaves out zero.
+    """
+    able = [i for i, value in enumerate(values) if value is not None]
+    if not able:
+        return []
+    means = {i: float(np.mean(values[i])) for i in able}  # type: ignore[arg-type]
+    best = min(able, key=lambda i: means[i])
+    reference = values[best]
+    assert reference is not None
+    tied = []
+    for i in able:
+        value = values[i]
+        assert value is not None
+        difference = mean_interval(value - reference, chosen, confidence)
+        if i == best or not difference.low > 0:
+            tied.append(i)
+    return tied

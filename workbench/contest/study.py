@@ -1,0 +1,139 @@
+"""A contest as a study: run, compared, told."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from workbench.contest.energy import best_run
+from workbench.contest.matches import METRICS, all_matches, of, run_match
+from workbench.contest.record import Contest
+from workbench.contest.tables import HEADINGS, Told, all_tables
+from workbench.controllers.values import check_controllers
+from workbench.errors import InputError
+from workbench.report.numbers import number
+from workbench.scenario import load_scenario
+from workbench.studies.base import Curve, Plot, Progress, StudyKind, StudyResult
+
+
+def located(contest: Contest, path: Path) -> Contest:
+    """The contest with its scenario's path; raises InputError where the scenario or a name in it is wrong."""
+    scenario = load_scenario(path.parent / contest.scenario)
+    check_controllers(scenario, path.parent / contest.scenario)
+    for name, ranges in contest.tuning.ranges.items():
+        if name not in scenario.controllers:
+            raise InputError(path, f"tuning.ranges.{name}", "is no controller of the scenario: choose one of "
+                             f"{', '.join(scenario.controllers)}")
+        for key in ranges:
+            if key not in scenario.controllers[name].parameters:
+                raise InputError(path, f"tuning.ranges.{name}.{key}", "is no parameter of this controller: choose "
+                                 f"among {', '.join(scenario.controllers[name].parameters)}")
+    return contest.model_copy(update={"scenario": str(path.parent / contest.scenario)})
+
+
+def run(contest: Contest, workers: int, on_progress: Progress) -> StudyResult:
+    """All matches, their tables, figures and findings."""
+    scenario = load_scenario(Path(contest.scenario))
+    matches = all_matches(contest, scenario, workers, on_progress)
+    best = best_run(scenario)
+    told = Told(contest, scenario, matches, best.lower_bound_j if best else None)
+    failures = tuple((f"{match.entry}, {contest.conditions[match.condition].title}, draw {match.draw}", match.failed)
+                     for match in matches if match.failed is not None)
+    return StudyResult(rows=tuple(_rows(told)), tables=tuple(all_tables(told)), plots=tuple(_plots(told)),
+                       findings=tuple(_findings(told)), failures=failures)
+
+
+def _rows(told: Told) -> Iterator[dict[str, Any]]:
+    """A row per condition and entry; the keys of a comparison where they make sense."""
+    for name in told.contest.conditions:
+        for entry in told.entries:
+            matches = of(told.matches, name, entry.name)
+            row: dict[str, Any] = {"controller": entry.name, "condition": name, "runs": len(matches)}
+            for metric in METRICS:
+                values = [match.values[metric] for match in matches if match.values[metric] is not None]
+                row[metric] = float(np.mean(np.array(values, dtype=float))) if len(values) == len(matches) else None
+            failed = [match.failed for match in matches if match.failed is not None]
+            yield row | {"failed_runs": len(failed), "failed": failed[0] if failed else None,
+                         "lower_bound_J": told.lower_bound_j}
+
+
+def _plots(told: Told) -> Iterator[Plot]:
+    """Position errors of all that finish the first condition, and largest errors by condition."""
+    first = next(iter(told.contest.conditions))
+    curves = []
+    for name in told.scenario.controllers:
+        done = run_match(told.scenario, name, told.contest.conditions[first], 0, told.contest.seed)
+        if done.failed is None:
+            time, error = done.column("t_s"), done.column("s_m") - done.column("s_desired_m")
+            keep = slice(None, None, max(1, len(time) // 1500))
+            curves.append(Curve(name, time[keep], error[keep]))
+    if curves:
+        yield Plot("Position errors", f"condition: {told.contest.conditions[first].title}", "time (s)",
+                   "position error (m)", tuple(curves))
+    curve = told.scenario.desired_curve()
+    time = np.linspace(0.0, curve.trip_time_s, 1000)
+    yield Plot("The desired curve", "the scenario", "time (s)", "speed (m/s)",
+               (Curve("desired", time, curve.at(time)[1]),))
+    places = np.arange(len(told.contest.conditions), dtype=float)
+    lines = []
+    for i, entry in enumerate(told.entries):
+        means = [told.values(name, "position_rms")[i] for name in told.contest.conditions]
+        able = [(place, float(value.mean())) for place, value in zip(places, means, strict=True) if value is not None]
+        if able:
+            lines.append(Curve(entry.name, np.array([x for x, _ in able]), np.array([y for _, y in able])))
+    if lines:
+        names = ", ".join(f"{k} {condition.title}" for k, condition in enumerate(told.contest.conditions.values()))
+        yield Plot("Position RMS by condition", "all runs", f"condition ({names})", "position RMS (m)", tuple(lines),
+                   log_y=True)
+
+
+def _findings(told: Told) -> Iterator[str]:
+    """Plainly who wins where, from the tables."""
+    wins: dict[str, Counter[str]] = {metric: Counter() for metric in METRICS}
+    for condition in told.contest.conditions:
+        for metric in METRICS:
+            found = told.winners(condition, metric)
+            wins[metric].update(found if len(found) == 1 else ())
+    count = len(told.contest.conditions)
+    for metric in METRICS:
+        if wins[metric]:
+            words = ", ".join(f"{name} in {n}" for name, n in wins[metric].most_common())
+            yield f"{HEADINGS[metric]}, alone best of {count} conditions: {words}."
+        else:
+            yield f"{HEADINGS[metric]}: no controller is alone best in any condition."
+    for name, stated in told.contest.conditions.items():
+        failed = Counter(match.entry for match in told.matches if match.condition == name and match.failed)
+        if failed:
+            words = ", ".join(f"{entry} {n}" for entry, n in failed.most_common())
+            runs = told.contest.seeds if stated.random else 1
+            yield f"Runs that fail, {stated.title}: {words}, of {runs} each."
+    if told.lower_bound_j:
+        first = next(iter(told.contest.conditions))
+        energies = [(entry.name, value.mean()) for entry, value in zip(
+            told.entries, told.values(first, "energy_J"), strict=True) if value is not None]
+        if energies:
+            name, least = min(energies, key=lambda pair: pair[1])
+            yield (f"The least energy of any run of the nominal train in the same time is "
+                   f"{number(told.lower_bound_j / 3.6e6)} kWh; the least of the contestants, {name}, takes "
+                   f"{number(least / 3.6e6)} kWh, {number(100 * (least / told.lower_bound_j - 1))} % more: all track "
+                   "the same desired curve.")
+    for entry in told.entries:
+        if entry.tuned:
+            yield from _gain(told, entry.controller, entry.name)
+
+
+def _gain(told: Told, controller: str, tuned: str) -> Iterator[str]:
+    condition = told.contest.tuning.condition
+    names = [entry.name for entry in told.entries]
+    before, after = (told.values(condition, "position_rms")[names.index(name)] for name in (controller, tuned))
+    if before is not None and after is not None:
+        yield (f"Tuning of {controller} ({told.contest.tuning.runs} runs): position RMS "
+               f"{number(float(before.mean()))} m → {number(float(after.mean()))} m under "
+               f"{told.contest.conditions[condition].title}.")
+
+
+KIND = StudyKind(Contest, run, located)

@@ -1,0 +1,139 @@
+"""The tables of a contest: every condition, who wins where, and what a control step costs."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from workbench.contest.matches import METRICS, Entry, Match, entries, of
+from workbench.contest.record import Contest
+from workbench.contest.statistics import mean_interval, resampled, winners
+from workbench.controllers.registry import LAWS
+from workbench.mpc.controller import KINDS
+from workbench.report.numbers import number
+from workbench.scenario import Scenario
+from workbench.studies.base import ResultTable
+
+HEADINGS = {"position_rms": "position RMS (m)", "speed_rms": "speed RMS (m/s)",
+            "largest_position_error": "largest |position error| (m)", "stopping_error": "|stopping error| (m)",
+            "energy_J": "energy (kWh)", "jerk_rms": "jerk RMS (m/s³)", "saturated_fraction": "saturated",
+            "band_share": "beyond the band", "switchings_per_s": "traction/brake changes (1/s)"}
+UNITS = {"energy_J": 3.6e6}
+
+
+@dataclass(frozen=True)
+class Told:
+    """A contest with its matches."""
+
+    contest: Contest
+    scenario: Scenario
+    matches: tuple[Match, ...]
+    lower_bound_j: float | None
+
+    @property
+    def entries(self) -> tuple[Entry, ...]:
+        """Who takes part."""
+        return entries(self.contest, self.scenario)
+
+    def chosen(self, condition: str) -> NDArray[np.intp]:
+        """The bootstrap's draws of a condition."""
+        random = self.contest.conditions[condition].random
+        return resampled(self.contest.seeds if random else 1, self.contest.resamples, self.contest.seed)
+
+    def values(self, condition: str, metric: str) -> list[NDArray[np.float64] | None]:
+        """A metric by entry and draw; None for an entry with a failed run."""
+        found = []
+        for entry in self.entries:
+            row = [match.values[metric] for match in of(self.matches, condition, entry.name)]
+            found.append(None if None in row else np.array(row, dtype=float))
+        return found
+
+    def winners(self, condition: str, metric: str) -> list[str]:
+        """Names of the entries that are not worse than the best by more than chance."""
+        chosen = self.chosen(condition)
+        return [self.entries[i].name for i in winners(self.values(condition, metric), chosen, self.contest.confidence)]
+
+
+def information(scenario: Scenario, controller: str) -> str:
+    """What a controller may know."""
+    law = scenario.controllers[controller].law
+    if law in LAWS:
+        return LAWS[law].information
+    return KINDS[law].information if law in KINDS else "full state, nominal model"
+
+
+def condition_table(told: Told, condition: str) -> ResultTable:
+    """A row per entry: means with their intervals, failed runs."""
+    stated = told.contest.conditions[condition]
+    chosen, rows = told.chosen(condition), []
+    best = {metric: told.winners(condition, metric) for metric in METRICS}
+    columns = {metric: told.values(condition, metric) for metric in METRICS}
+    for i, entry in enumerate(told.entries):
+        matches = of(told.matches, condition, entry.name)
+        failed = sum(match.failed is not None for match in matches)
+        cells = [entry.name]
+        for metric in METRICS:
+            value = columns[metric][i]
+            cells.append("—" if value is None else _interval(metric, value, chosen, told.contest.confidence)
+                         + (" ●" if entry.name in best[metric] else ""))
+        rows.append((*cells, f"{failed} of {len(matches)}"))
+    runs = told.contest.seeds if stated.random else 1
+    return ResultTable(
+        stated.title, f"{runs} run{'s' if runs > 1 else ''} each, the same draws for all",
+        ("controller", *(HEADINGS[metric] for metric in METRICS), "failed"), tuple(rows),
+        f"Means, in brackets their {100 * told.contest.confidence:g} % bootstrap interval. ● the best, and every one "
+        "whose paired difference from it may be chance. A controller with a failed run is not ranked.")
+
+
+def _interval(metric: str, values: NDArray[np.float64], chosen: NDArray[np.intp], confidence: float) -> str:
+    found = mean_interval(values / UNITS.get(metric, 1.0), chosen, confidence)
+    if len(values) == 1:
+        return number(found.mean)
+    return f"{number(found.mean)} [{number(found.low)}, {number(found.high)}]"
+
+
+def winners_table(told: Told) -> ResultTable:
+    """Who wins where: a row per condition, a column per metric."""
+    rows = []
+    for name, condition in told.contest.conditions.items():
+        cells = []
+        for metric in METRICS:
+            found = told.winners(name, metric)
+            cells.append("none finishes" if not found else found[0] if len(found) == 1 else
+                         "all tie" if len(found) == len(told.entries) else f"tie: {', '.join(found)}")
+        rows.append((condition.title, *cells))
+    return ResultTable("Who wins where", "the tables below", ("condition", *(HEADINGS[m] for m in METRICS)),
+                       tuple(rows), "A difference inside its interval is no win: then all that may be best are named. "
+                       "A trailing + marks the tuned parameters.")
+
+
+def contestants_table(told: Told) -> ResultTable:
+    """What each controller knows, its period, what a step costs, what tuning found."""
+    rows = []
+    for entry in told.entries:
+        spec = told.scenario.controllers[entry.controller]
+        steps = [match.step_us for match in told.matches if match.entry == entry.name]
+        counters: dict[str, int] = {}
+        for match in told.matches:
+            if match.entry == entry.name:
+                for key, count in match.counters.items():
+                    counters[key] = counters.get(key, 0) + count
+        parameters = told.contest.tuning.found[entry.controller] if entry.tuned else {}
+        rows.append((entry.name, spec.title or spec.law, information(told.scenario, entry.controller),
+                     f"{1e3 * spec.period_s:g}", number(float(np.median(steps))),
+                     ", ".join(f"{key} {count}" for key, count in sorted(counters.items()) if count) or "—",
+                     ", ".join(f"{key} = {value:g}" for key, value in parameters.items()) or "as stated"))
+    return ResultTable("The contestants", "the contest's file", (
+        "controller", "law", "is told", "period (ms)", "µs a step", "counted in all runs", "parameters"), tuple(rows),
+        "µs a step: a compiled law in blocks with the plant, MPC call by call without it.")
+
+
+def all_tables(told: Told) -> Iterator[ResultTable]:
+    """In the order of the page."""
+    yield winners_table(told)
+    yield contestants_table(told)
+    for condition in told.contest.conditions:
+        yield condition_table(told, condition)
