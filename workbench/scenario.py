@@ -8,6 +8,7 @@ from typing import Annotated, Any, Literal, Self
 
 from pydantic import BeforeValidator, Field, Strict, model_validator
 
+from workbench.curve_table import TableCurve
 from workbench.desired_curve import CruiseSpeed, DavisCruise, DesiredCurve, build_curve
 from workbench.errors import InputError, WorkbenchError
 from workbench.events import Disturbance, Failure, Mode
@@ -128,7 +129,7 @@ class Scenario(Record):
     citation: Text
     track: Track
     train: Train
-    reference: Annotated[DavisCruise | CruiseSpeed, Field(discriminator="kind")]
+    reference: Annotated[DavisCruise | CruiseSpeed | TableCurve, Field(discriminator="kind")]
     simulation: Simulation
     disturbance: Disturbance
     modes: tuple[Mode, ...] = ()
@@ -168,6 +169,8 @@ class Scenario(Record):
 
     def desired_curve(self) -> DesiredCurve:
         """The desired curve over the whole line, for the nominal train."""
+        if isinstance(self.reference, TableCurve):
+            return self.reference.curve(self.track.length_m)
         train = self.train
         davis = (train.davis_a_mps2, train.davis_b_per_s, train.davis_c_per_m)
         return build_curve(self.reference, self.track.length_m, davis)
@@ -197,6 +200,8 @@ def _build(path: Path, data: dict[str, Any]) -> Scenario:
     if not isinstance(line, str):
         raise InputError(path, "track", "name the line's TOML file, relative to this one")
     scenario = validate_record(data | {"track": load_track(path.parent / line)}, Scenario, path)
+    if isinstance(scenario.reference, TableCurve):
+        scenario = scenario.model_copy(update={"reference": scenario.reference.read(path.parent)})
     try:
         curve = scenario.desired_curve()
     except WorkbenchError as trouble:

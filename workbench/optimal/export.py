@@ -58,7 +58,7 @@ def write_csv(path: Path, rows: Array) -> None:
         with path.open("w", newline="", encoding="utf-8") as file:
             writer = csv.writer(file)
             writer.writerow(COLUMNS)
-            writer.writerows([f"{value:.9g}" for value in row] for row in rows.tolist())
+            writer.writerows([f"{value:.12g}" for value in row] for row in rows.tolist())
     except OSError as trouble:
         raise InputError(path, "", f"cannot be written ({trouble.strerror}): choose another file") from None
 

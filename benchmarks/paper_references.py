@@ -1,0 +1,48 @@
+"""The papers' energy-optimal references: writes their tables by the rules beside them, and runs each main controller.
+
+python benchmarks/paper_references.py [--write] [PAPER ...]
+"""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+
+from workbench.curve_table import read_rows
+from workbench.optimal.curve_request import requested_curve
+from workbench.optimal.export import write_csv
+from workbench.studies.tracking import Tracked, track
+
+BENCHMARKS = Path(__file__).parent
+KWH_J = 3.6e6
+
+
+def line(found: Tracked, which: str) -> str:
+    """A row of the table."""
+    position = [" " * 8 if x is None else f"{x:8.3g}" for x in (found.largest_position_m, found.position_rms_m)]
+    return (f"{found.paper:9} {which:8} {found.trip_time_s:7.1f} s {found.length_m / 1e3:8.3f} km  "
+            f"{' '.join(position)} m  "
+            f"{found.largest_speed_mps:8.3g} {found.speed_rms_mps:8.3g} m/s {found.energy_j / KWH_J:9.2f} kWh  "
+            f"{found.controller}{': ' + found.failed if found.failed else ''}")
+
+
+def main(arguments: list[str]) -> None:
+    """Write the tables where asked, then print errors and energy on the own and on the optimal reference."""
+    papers = [a for a in arguments if not a.startswith("-")] or sorted(
+        path.stem for path in BENCHMARKS.glob("references/*.toml"))
+    if "--write" in arguments:
+        for paper in papers:
+            made = requested_curve(BENCHMARKS / "references" / f"{paper}.toml")
+            write_csv(BENCHMARKS / "references" / f"{paper}.csv", made.rows)
+            best = made.reference.optimal
+            print(f"{paper:9} {made.reference.energy_j / KWH_J:.3f} kWh at the supply, the run below it "
+                  f"{best.energy_j / KWH_J:.3f}, at least {best.lower_bound_j / KWH_J:.3f}: gap {100 * best.gap:.3f} %")
+    print("paper     reference  time    distance  position largest, rms    speed largest, rms      traction work")
+    for paper in papers:
+        rows = read_rows(BENCHMARKS / "references" / f"{paper}.csv")
+        print(line(track(BENCHMARKS / f"{paper}.toml"), "own"), flush=True)
+        print(line(track(BENCHMARKS / f"{paper}.toml", rows), "optimal"), flush=True)
+
+
+if __name__ == "__main__":
+    main(sys.argv[1:])
