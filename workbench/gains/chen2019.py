@@ -7,6 +7,7 @@ of (54) and (55) that hold at the stated gains, where those of the paper are neg
 
 from __future__ import annotations
 
+from fractions import Fraction
 from typing import Any
 
 import sympy as sp
@@ -56,7 +57,8 @@ def gain_problem(name: str, which: str, values: Values) -> Problem:
         sizes = {delta_u: one * two / three, lam_2: one, P_11: 1 / one, P_12: 1 / (one * two), P_22: 1 / (two * one**2)}
     else:
         slow = simplest(float(one * two) ** -0.5, 0.1)
-        sizes = {delta_u: (one + two) / three, lam_1: slow, P_11: one, P_12: one / (one + two), P_22: 1 / (one + two)}
+        sizes = {delta_u: (one + two) / three, lam_1: slow, lam_2: max(Fraction(1), one * slow), P_11: one,
+                 P_12: one / (one + two), P_22: 1 / (one + two)}
     return Problem(
         f"chen2019:{name}", (P_11, P_12, P_22, GAIN), {
             "storage": at_least(STORAGE, 0),

@@ -214,6 +214,8 @@ def report(stated: Stated) -> GainReport:
                 "mao2018:leakage.rate", changes),
     ), (*certificates, *sampled), (
         "k_1 and k_2 are not stated in the paper; those of the study's file stand for them.",
+        "No best adaptation gains are offered: the bound of the mean is free of them, V_2(0) and E_0 fall as they "
+        "grow, and what limits them, the sign terms and rho_hat when sampled, is not in the linearised loop.",
         "The bounds are between switches of modes and failures, each of which adds a finite amount to V_2 (46); "
         "estimates of failures shared by all modes need one mass in all of them (claim 45).",
         "The sign terms of (43) are left out of the linearised loop: sampled, they chatter at any period.",
