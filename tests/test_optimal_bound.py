@@ -136,8 +136,8 @@ def test_minima_are_the_least_values(inverse, constant, slope, square, low, widt
     assert least <= sampled.min() + 1e-9 * scale
     best = int(np.argmin(sampled))
     near = minimize_scalar(lambda x: inverse / x + constant + slope * x + square * x * x,
-                           bounds=(max(v[best] * 0.99, low, 1e-6), min(max(v[best] * 1.01, 1e-3), high)), method="bounded",
-                           options={"xatol": 1e-10})
+                           bounds=(max(v[best] * 0.99, low, 1e-6), min(max(v[best] * 1.01, 1e-3), high)),
+                           method="bounded", options={"xatol": 1e-10})
     assert least >= min(float(near.fun), sampled.min()) - 1e-6 * scale
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import sys
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, Literal
 
 import typer
 
@@ -198,6 +198,8 @@ def reference(track: Annotated[Path, typer.Argument(help="Line: TOML of this pro
               to_speed: Annotated[float, typer.Option(metavar="MPS", help="Speed at the end in m/s.")] = 0.0,
               intervals: Annotated[int | None, typer.Option(
                   min=10, max=100_000, help="Of the plan's mesh; default: as many as the gap asks for.")] = None,
+              solver: Annotated[Literal["auto", "socp", "nlp"], typer.Option(
+                  help="Cone program, nonlinear program, or what the gap asks for.")] = "auto",
               window: Annotated[float, typer.Option(metavar="S", help="Over which acceleration is smoothed.")] = 1.0,
               max_jerk: Annotated[float | None, typer.Option(metavar="MPS3", help="Limit of the jerk.")] = None,
               json: JsonFile = None,
@@ -211,7 +213,7 @@ def reference(track: Annotated[Path, typer.Argument(help="Line: TOML of this pro
     from workbench.report.reference_command import Request, reference_run
 
     done = reference_run(Request(track, train, time, stops, dwell, from_m, to_m, from_speed, to_speed, intervals,
-                                 window, max_jerk, json, csv, every, figure, certificate))
+                                 window, max_jerk, json, csv, every, figure, certificate, solver))
     for line in done:
         out_console.print(line, soft_wrap=True, highlight=False, markup=False)
 

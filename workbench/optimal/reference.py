@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass
+from typing import Literal
 
 import numpy as np
 
@@ -21,8 +23,11 @@ from workbench.optimal.socp import NoPlanError, Plan, solve_socp
 from workbench.optimal.vehicle import Vehicle
 from workbench.optimal.verify import Check, check
 
+Solver = Literal["auto", "socp", "nlp"]
 INTERVALS, STOP_INTERVALS = 500, 100
 ROUNDS, GAP_WANTED = 5, 5e-4
+# A round that leaves more than this share of the gap is the last; `auto` turns to the nonlinear program above this gap.
+NO_GAIN, GAP_OF_CONES = 0.9, 1e-3
 # Cells of the driven run on each interval of the plan, and of the fastest run in all.
 PARTS, FASTEST_CELLS = 8, 4000
 # A run whose energy is proven to lie within this share above the least possible one is called optimal.
@@ -64,10 +69,11 @@ class Reference:
 
 
 def find_reference(vehicle: Vehicle, course: Course, trip_time_s: float, start_mps: float = 0.0, end_mps: float = 0.0,
-                   intervals: int | None = None) -> Reference:
+                   intervals: int | None = None, solver: Solver = "auto") -> Reference:
     """The run of least energy that arrives within trip_time_s, on about so many intervals.
 
-    Where no number is given the mesh is refined, up to ROUNDS times, until the gap is at most GAP_WANTED.
+    Where no number is given the mesh is refined, up to ROUNDS times, until the gap is at most GAP_WANTED. `auto` plans
+    by the cone program, and by the nonlinear one too where that leaves more than GAP_OF_CONES.
 
     Raises InputError for a time that is no time, InfeasibleRunError where no run meets the request.
     """
@@ -83,22 +89,17 @@ def find_reference(vehicle: Vehicle, course: Course, trip_time_s: float, start_m
             f"{binding(vehicle, quickest)}: allow more time", quickest.trip_time_s)
     borders = kept_borders(course)
     nothing = Certificate(borders, np.zeros(len(borders) - 1), np.zeros(len(borders) - 1), 0.0)
-    best = _Found(quickest, lower_bound(vehicle, course, nothing, trip_time_s, start_mps, end_mps), nothing, 0.0)
+    best = _Found(quickest, lower_bound(vehicle, course, nothing, trip_time_s, start_mps, end_mps), nothing, 0.0,
+                  "the fastest run")
+    asked = _Asked(vehicle, trip_time_s, start_mps, end_mps, quickest)
     grid = graded_grid(course, intervals or INTERVALS + STOP_INTERVALS * len(course.stops_m))
-    for _ in range(1 if intervals else ROUNDS):
-        found = _planned(vehicle, grid, trip_time_s, start_mps, end_mps, quickest)
-        if found is None:
-            break
-        plan, profile, solve_s = found
-        certificate = certificate_from(vehicle, plan)
-        bound = lower_bound(vehicle, course, certificate, trip_time_s, start_mps, end_mps)
-        best = best.improved(vehicle, profile, bound, certificate, solve_s)
-        if best.gap(vehicle) <= GAP_WANTED:
-            break
-        grid = finer_grid(vehicle, plan, certificate)
+    if solver != "nlp":
+        best = _rounds(asked, _cone_plan, grid, best, 1 if intervals else ROUNDS)
+    if solver == "nlp" or (solver == "auto" and best.gap(vehicle) > GAP_OF_CONES):
+        best = _rounds(asked, _nonlinear_plan, grid, best, 1)
     energy = energy_j(vehicle, best.profile)
     return Reference(vehicle, best.profile, energy, best.bound_j + vehicle.auxiliary_w * quickest.trip_time_s,
-                     best.certificate, trip_time_s, quickest.trip_time_s, "clarabel", best.solve_s,
+                     best.certificate, trip_time_s, quickest.trip_time_s, best.solver, best.solve_s,
                      check(vehicle, best.profile))
 
 
@@ -109,47 +110,102 @@ def least_time(vehicle: Vehicle, course: Course, start_mps: float = 0.0, end_mps
 
 
 @dataclass(frozen=True)
+class _Asked:
+    """What every plan must meet, and the run that arrives first."""
+
+    vehicle: Vehicle
+    trip_time_s: float
+    start_mps: float
+    end_mps: float
+    quickest: Profile
+
+
+@dataclass(frozen=True)
 class _Found:
-    """The best run so far, and the best bound, which need not come from the same mesh."""
+    """The best run so far with what planned it, and the best bound, which need not come from the same mesh."""
 
     profile: Profile
     bound_j: float
     certificate: Certificate
     solve_s: float
+    solver: str
 
     def gap(self, vehicle: Vehicle) -> float:
         return _gap(energy_j(vehicle, self.profile), self.bound_j)
 
-    def improved(self, vehicle: Vehicle, profile: Profile, bound: float, certificate: Certificate,
-                 solve_s: float) -> _Found:
+    def improved(self, vehicle: Vehicle, profile: Profile, bound: float, certificate: Certificate, solve_s: float,
+                 solver: str) -> _Found:
         less = energy_j(vehicle, profile) < energy_j(vehicle, self.profile)
         return _Found(profile if less else self.profile, max(bound, self.bound_j),
-                      certificate if bound > self.bound_j else self.certificate, self.solve_s + solve_s)
+                      certificate if bound > self.bound_j else self.certificate, self.solve_s + solve_s,
+                      solver if less else self.solver)
+
+
+# Of a request, a mesh, a trip time and a first guess: a plan and its solver's name.
+_Planner = Callable[["_Asked", Grid, float, Profile], tuple[Plan, str]]
 
 
 def _gap(energy: float, bound: float) -> float:
     return (energy - bound) / abs(energy) if energy else energy - bound
 
 
-def _planned(vehicle: Vehicle, grid: Grid, trip_time_s: float, start_mps: float, end_mps: float,
-             quickest: Profile) -> tuple[Plan, Profile, float] | None:
-    """The plan, a drivable run that arrives in time, and the solver's time; None where the solver found none."""
-    wanted, spent = trip_time_s, 0.0
+def _rounds(asked: _Asked, planner: _Planner, grid: Grid, best: _Found, rounds: int) -> _Found:
+    """The best after planning on finer and finer meshes, until the gap is small or finer meshes do not help."""
+    vehicle, course = asked.vehicle, grid.course
+    for number in range(rounds):
+        before = best.gap(vehicle)
+        found = _planned(asked, planner, grid, best.profile)
+        if found is None:
+            break
+        plan, profile, solve_s, solver = found
+        certificate = certificate_from(vehicle, plan)
+        bound = lower_bound(vehicle, course, certificate, asked.trip_time_s, asked.start_mps, asked.end_mps)
+        best = best.improved(vehicle, profile, bound, certificate, solve_s, solver)
+        if best.gap(vehicle) <= GAP_WANTED or (number and best.gap(vehicle) > NO_GAIN * before):
+            break
+        if number + 1 < rounds:
+            grid = finer_grid(vehicle, plan, certificate)
+    return best
+
+
+def _cone_plan(asked: _Asked, grid: Grid, trip_time_s: float, _: Profile) -> tuple[Plan, str]:
+    return solve_socp(asked.vehicle, grid, trip_time_s, asked.start_mps, asked.end_mps), "clarabel"
+
+
+def _nonlinear_plan(asked: _Asked, grid: Grid, trip_time_s: float, guess: Profile) -> tuple[Plan, str]:
+    from workbench.optimal.nlp import ATTEMPTS, solve_nlp  # noqa: PLC0415 - casadi, which most runs do not need
+
+    trouble = ""
+    for name, from_best in ATTEMPTS:
+        run = guess if from_best else asked.quickest
+        start = np.interp(grid.position_m, run.position_m, run.half_square)
+        try:
+            return solve_nlp(asked.vehicle, grid, trip_time_s, start, asked.start_mps, asked.end_mps, name), name
+        except NoPlanError as error:
+            trouble = str(error)
+    raise NoPlanError(trouble)
+
+
+def _planned(asked: _Asked, planner: _Planner, grid: Grid,
+             guess: Profile) -> tuple[Plan, Profile, float, str] | None:
+    """The plan, a drivable run that arrives in time, the solver's time and name; None where the solver found none."""
+    wanted, spent = asked.trip_time_s, 0.0
     plan: Plan | None = None
     for _ in range(3):
         try:
-            plan = solve_socp(vehicle, grid, wanted, start_mps, end_mps)
+            plan, solver = planner(asked, grid, wanted, guess)
         except NoPlanError:
             break
         spent += plan.solve_s
-        profile = refined(vehicle, plan, PARTS, start_mps, end_mps)
-        late = profile.trip_time_s - trip_time_s
-        if late <= LATE * trip_time_s:
+        profile = refined(asked.vehicle, plan, PARTS, asked.start_mps, asked.end_mps)
+        late = profile.trip_time_s - asked.trip_time_s
+        if late <= LATE * asked.trip_time_s:
             break
         wanted -= late
     if plan is None:
         return None
-    return plan, _in_time(vehicle, profile, quickest, trip_time_s, start_mps, end_mps), spent
+    in_time = _in_time(asked.vehicle, profile, asked.quickest, asked.trip_time_s, asked.start_mps, asked.end_mps)
+    return plan, in_time, spent, solver
 
 
 def _in_time(vehicle: Vehicle, profile: Profile, quickest: Profile, trip_time_s: float, start_mps: float,

@@ -17,7 +17,7 @@ from workbench.errors import InputError
 from workbench.optimal.course import Array, Course
 from workbench.optimal.envelope import InfeasibleRunError
 from workbench.optimal.profile import Profile, largest_force
-from workbench.optimal.reference import Reference, find_reference
+from workbench.optimal.reference import Reference, Solver, find_reference
 from workbench.optimal.vehicle import Vehicle
 
 WINDOW_S = 1.0
@@ -116,7 +116,7 @@ class SmoothReference:
 
 def smooth_reference(vehicle: Vehicle, course: Course, trip_time_s: float, window_s: float = WINDOW_S,
                      max_jerk_mps3: float | None = None, dwell_s: float = 0.0, start_mps: float = 0.0,
-                     end_mps: float = 0.0, intervals: int | None = None) -> SmoothReference:
+                     end_mps: float = 0.0, intervals: int | None = None, solver: Solver = "auto") -> SmoothReference:
     """A smooth run within trip_time_s, which includes dwell_s at each inner stop.
 
     A run that begins or ends at a speed keeps it for half a window there. With a limit of the jerk the window is made
@@ -134,7 +134,7 @@ def smooth_reference(vehicle: Vehicle, course: Course, trip_time_s: float, windo
         start, end = course.position_m[[0, -1]]
         if start_mps or end_mps:
             lowered = lowered.cut(start + start_mps * window_s / 2, end - end_mps * window_s / 2)
-        optimal = find_reference(vehicle, lowered, spare, start_mps, end_mps, intervals)
+        optimal = find_reference(vehicle, lowered, spare, start_mps, end_mps, intervals, solver)
         run = smoothed(optimal.profile, window_s, wait)
         jerk = float(np.abs(run.jerk_mps3).max())
         if max_jerk_mps3 is None or jerk <= max_jerk_mps3:

@@ -18,7 +18,7 @@ from workbench.optimal.export import reference_document, samples, write_csv
 from workbench.optimal.files import load_cars, load_line, load_vehicle, notes_together
 from workbench.optimal.line import Line, course
 from workbench.optimal.multi_car import CarsRun, car_course, run_cars
-from workbench.optimal.reference import Reference, find_reference, least_time
+from workbench.optimal.reference import Reference, Solver, find_reference, least_time
 from workbench.optimal.regimes import time_shares
 from workbench.optimal.smooth import SmoothReference, smooth_reference
 from workbench.optimal.vehicle import Vehicle
@@ -50,6 +50,7 @@ class Request:
     every_s: float
     figure: Path | None
     certificate: Path | None
+    solver: Solver = "auto"
 
 
 def reference_run(asked: Request) -> Iterator[str]:
@@ -88,14 +89,14 @@ def _solve(asked: Request, vehicle: Vehicle, run: Course, dwell_s: float) -> tup
         raise InputError("", "--time", f"{asked.trip_time_s:g} s is less than the {dwell_s:g} s of waiting at stops: "
                          "allow more time or a shorter --dwell")
     try:
-        found = find_reference(vehicle, run, running, *ends, asked.intervals)
+        found = find_reference(vehicle, run, running, *ends, asked.intervals, asked.solver)
     except InfeasibleRunError as trouble:
         if trouble.least_time_s is None or not dwell_s:
             raise
         raise InfeasibleRunError(f"{trouble}; waiting at stops adds {dwell_s:g} s", trouble.least_time_s) from None
     try:
         smooth = smooth_reference(vehicle, run, asked.trip_time_s, asked.window_s, asked.max_jerk_mps3, asked.dwell_s,
-                                  *ends, asked.intervals)
+                                  *ends, asked.intervals, asked.solver)
     except InfeasibleRunError as trouble:
         raise InfeasibleRunError(f"the run itself is feasible, its smooth reference is not: {trouble}; or choose a "
                                  "shorter --window", trouble.least_time_s) from None
