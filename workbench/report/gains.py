@@ -12,6 +12,8 @@ from workbench.studies.base import ResultTable, StudyResult
 from workbench.studies.gain_effects import Effect
 
 LONG = 12  # characters of a fraction that is shown as it is
+APART = 1.02  # by what factor numbers differ that are said to
+NOT_ERRORS = {"energy_J", "command_max", "bound_used", "mse_0", "reversals"}  # less of these is not better tracking
 
 
 def gains_result(report: GainReport, effects: Sequence[Effect]) -> StudyResult:
@@ -21,7 +23,7 @@ def gains_result(report: GainReport, effects: Sequence[Effect]) -> StudyResult:
         tables += _effects(effects)
     return StudyResult(
         rows=tuple({"controller": e.gains, "setting": e.setting, **e.numbers, "failed": e.failed} for e in effects),
-        tables=tuple(tables), plots=(), findings=report.notes,
+        tables=tuple(tables), plots=(), findings=(*compared(effects), *report.notes),
         failures=tuple((f"{e.gains}, {e.setting}", e.failed) for e in effects if e.failed))
 
 
@@ -37,7 +39,8 @@ def gains_document(report: GainReport, effects: Sequence[Effect]) -> dict[str, A
                    "exact": {k: str(v) for k, v in s.values.items()}, "proved": s.proved,
                    "certificate": s.certificate, "changes": dict(s.changes), "note": s.note} for s in report.found],
         "effects": [{"gains": e.gains, "setting": e.setting, **e.numbers, "failed": e.failed} for e in effects],
-        "certificates": [str(c["claim"]) for c in report.certificates], "notes": list(report.notes),
+        "compared": compared(effects), "certificates": [str(c["claim"]) for c in report.certificates],
+        "notes": list(report.notes),
         "search_s": dict(report.seconds)}
 
 
@@ -86,6 +89,30 @@ def _effects(effects: Sequence[Effect]) -> list[ResultTable]:
         tables.append(ResultTable(f"simulated: {setting}", "the paper's own, SI units", (
             "gains", *(name.replace("_", " ") for name in names), "run"), rows))
     return tables
+
+
+def compared(effects: Sequence[Effect]) -> list[str]:
+    """For every run with found gains, a sentence in which numbers it is better and worse than with the stated ones."""
+    sentences = []
+    for e in effects:
+        stated = next((o for o in effects if o.gains == "stated" and o.setting == e.setting), None)
+        if stated is None or e is stated or e.gains == "stated":
+            continue
+        name = f"Simulated, '{e.gains}' against the stated gains, {e.setting}"
+        if e.failed or stated.failed:
+            ends = [which for which, run in (("the found", e), ("the stated", stated)) if run.failed]
+            sentences.append(f"{name}: {' and '.join(ends)} gains do not come to the end.")
+            continue
+        sides: dict[str, list[str]] = {"better": [], "worse": []}
+        for key, value in e.numbers.items():
+            other = stated.numbers.get(key)
+            if key in NOT_ERRORS or not isinstance(value, int | float) or not isinstance(other, int | float):
+                continue
+            if abs(value) * APART < abs(other) or abs(other) * APART < abs(value):
+                sides["better" if abs(value) < abs(other) else "worse"].append(key.replace("_", " "))
+        words = [f"{side} in {', '.join(keys)}" for side, keys in sides.items() if keys]
+        sentences.append(f"{name}: {'; '.join(words) or 'no difference to speak of'}.")
+    return sentences
 
 
 def _shown(value: float | str | None) -> str:

@@ -1,0 +1,53 @@
+"""Found gains in simulation: what the tables and sentences say of them is what the runs gave."""
+
+import json
+from pathlib import Path
+
+import pytest
+
+from workbench.report.gains import compared, gains_document, gains_result
+from workbench.studies.gain_effects import Effect, checked_gains, effects
+
+FILE = Path(__file__).parents[2] / "benchmarks" / "jiao2025.toml"
+
+
+@pytest.fixture(scope="module")
+def done():
+    report = checked_gains(FILE)
+    return report, effects(FILE, report, workers=1)
+
+
+def of(done, gains, law):
+    return next(e for e in done[1] if e.gains == gains and law in e.setting)
+
+
+def test_a_step_that_is_proved_monotone_gets_worse_in_no_trial_and_learns_more_slowly(done):
+    stated, found = of(done, "stated", "fixed_estimate"), of(done, "monotone", "fixed_estimate")
+    assert found.numbers["trials_worse"] == 0 < stated.numbers["trials_worse"]
+    assert found.numbers["mse_150"] > stated.numbers["mse_150"]
+    sentence = next(s for s in compared(done[1]) if "'monotone'" in s)
+    assert "better in trials worse" in sentence
+    assert "worse in mse 50, mse 100, mse 150" in sentence
+
+
+def test_the_contracting_law_is_far_ahead_of_any_step_of_14(done):
+    found = of(done, "difference", "pd_difference")
+    assert found.numbers["mse_50"] < 1e-4 * of(done, "stated", "icfdl").numbers["mse_50"]
+
+
+def test_document_and_tables_hold_every_run(done):
+    report, runs = done
+    document = json.loads(json.dumps(gains_document(report, runs), allow_nan=False))
+    assert len(document["effects"]) == len(runs)
+    assert {s["name"] for s in document["found"]} == {s.name for s in report.found}
+    result = gains_result(report, runs)
+    assert sum(len(t.rows) for t in result.tables if t.title.startswith("simulated")) == len(runs)
+    assert [why for _, why in result.failures] == [e.failed for e in runs if e.failed]
+
+
+def test_a_run_that_fails_is_said_and_not_compared():
+    runs = [Effect("stated", "as it is", {"position_rms": 1.0}, None), Effect("new", "as it is", {}, "left its domain"),
+            Effect("other", "as it is", {"position_rms": 1.005}, None)]
+    first, second = compared(runs)
+    assert "the found gains do not come to the end" in first
+    assert "no difference to speak of" in second
