@@ -1,5 +1,6 @@
 """The papers' energy-optimal references: made by their rules, the same work of less energy, and followed."""
 
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -9,7 +10,10 @@ from workbench.curve_table import curve_through, read_rows
 from workbench.errors import InputError
 from workbench.optimal.curve_request import requested_curve
 from workbench.scenario import load_scenario, load_variant
+from workbench.simulate.cars_trials import run_cars
 from workbench.simulate.closed_loop import simulate
+from workbench.studies import chen2019_runs
+from workbench.studies.registry import load_study
 from workbench.studies.tracking import track
 
 BENCHMARKS = Path(__file__).parent.parent / "benchmarks"
@@ -75,3 +79,17 @@ def test_what_is_wrong_with_a_rule_is_said_in_one_line(tmp_path, old, new, key):
     with pytest.raises(InputError, match=key) as trouble:
         requested_curve(path)
     assert "\n" not in str(trouble.value)
+
+
+def test_the_cars_of_chen2019_learn_the_optimal_reference():
+    study = load_study(BENCHMARKS / "chen2019.toml")
+    curve = curve_through(read_rows(BENCHMARKS / "references" / "chen2019.csv"))
+    times = np.arange(study.samples, dtype=float) * study.sampling.period_s
+    plan = replace(chen2019_runs.plan(study), reference=np.stack(curve.at(times), axis=1), trials=3, kept=())
+    run = run_cars(plan)
+    assert run.failed is None
+    errors = run.total("position_error_square_s")
+    assert errors[2] < errors[1] < errors[0]
+    # Less work than on the reference of the same way and time that the study assumes.
+    own = run_cars(replace(chen2019_runs.plan(study), trials=3, kept=()))
+    assert run.total("traction_work_j")[2] < 0.8 * own.total("traction_work_j")[2]

@@ -20,8 +20,9 @@ def cars_document(cars: CarsRun) -> dict[str, Any]:
         "peak_coupler_N": cars.peak_coupler_n.tolist(),
         "planned_peak_coupler_N": np.abs(cars.planned_coupler_n).max(axis=0).tolist(),
         "stretch_m": cars.stretch_m, "apart_m": cars.apart_m, "position_drift_m": cars.position_drift_m,
-        "speed_drift_mps": cars.speed_drift_mps, "force_excess": cars.force_excess, "wheel_J": cars.works["wheel_j"],
-        "resistance_J": cars.works["resistance_j"], "one_body_resistance_J": cars.one_body_j,
+        "speed_drift_mps": cars.speed_drift_mps, "correction_N": cars.correction_n, "force_excess": cars.force_excess,
+        "wheel_J": cars.works["wheel_j"], "resistance_J": cars.works["resistance_j"],
+        "one_body_resistance_J": cars.one_body_j,
         "damper_J": cars.works["damper_j"], "stored_J": cars.stored_j, "balance_residual_J": cars.residual_j,
         "cruise": _cruise(cars),
     }

@@ -30,29 +30,60 @@ def line_forces(state, behind, border, force, pushed):
         pushed[0, j] = -(force[low, 0] + share * (force[low, 1] - force[low, 0]))
 
 
-def drive(forces, electric, substeps, dt, start, values, prices, cars, behind, border, force, log, pulled, power,
-          works, peaks):
+def correction(offset, rate, along, gains, motors, wanted, held, given):
+    """What each car adds so that the mean of the cars keeps to the plan; returns the whole of it, N.
+
+    offset, rate: of the mean, m and m/s; along: total of the planned forces. Motor cars alone add where the whole
+    drives, all cars where it brakes.
+    """
+    whole = -(gains[0] * offset + gains[1] * rate)
+    driving = 0.0
+    for j in range(motors.shape[0]):
+        driving += motors[j]
+    for j in range(motors.shape[0]):
+        part = motors[j] / driving if along + whole > 0.0 else 1.0 / motors.shape[0]
+        held[0, j] = wanted[j] + part * whole
+        given[j] = part * whole
+    return whole
+
+
+def drive(plan, forces, electric, substeps, dt, gains, motors, start, values, prices, cars, behind, border, force, log,
+          used, pulled, power, works, peaks):
     """Drive with forces and their electric parts, (rows, 1, cars), linear between rows of `substeps` steps dt each.
 
-    Fills log, (rows, 2, cars): position and speed; pulled, (rows, 1, cars): the pull of each car's front coupler;
-    works by WORKS; peaks: the largest |pull| of each. power: room for (4, cars). Returns the rows reached; fewer than
-    all where the train ran away.
+    plan: position and speed of every row, which gains (N/m, N s/m) of the cars' mean keep, corrected at every step.
+
+    Fills log, (rows, 2, cars): position and speed; used and pulled, (rows, 1, cars): force with its correction, and
+    pull of the front coupler; works by WORKS; peaks: the largest |pull| of each and, last, the largest correction.
+    power: room for (4, cars). Returns the rows reached; fewer than all where the train ran away.
     """
     rows, count = forces.shape[0], cars.shape[1]
     state, middle = start.copy(), start.copy()
     k1, k2, k3, k4 = start.copy(), start.copy(), start.copy(), start.copy()
     pushed, held, returned, pull = start[:1] * 0.0, start[:1] * 0.0, start[:1] * 0.0, start[:1] * 0.0
     steps = (rows - 1) * substeps
+    wanted, given = start[0] * 0.0, start[0] * 0.0
     for k in range(steps + 1):
         row, part = k // substeps, k % substeps
         after = min(row + 1, rows - 1)
         for stage in range(4):
             share = (part + (0.0 if stage == 0 else (1.0 if stage == 3 else 0.5))) / substeps
             for j in range(count):
-                held[0, j] = forces[row, 0, j] + share * (forces[after, 0, j] - forces[row, 0, j])
+                wanted[j] = forces[row, 0, j] + share * (forces[after, 0, j] - forces[row, 0, j])
+                held[0, j] = wanted[j] + given[j]
                 if stage == 0:
                     returned[0, j] = electric[row, 0, j] + share * (electric[after, 0, j] - electric[row, 0, j])
             if stage == 0:
+                offset, rate, along = 0.0, 0.0, 0.0
+                for j in range(count):
+                    offset += state[0, j] / count
+                    rate += state[1, j] / count
+                    along += wanted[j]
+                change = plan[after, 1] - plan[row, 1]
+                offset -= plan[row, 0] + part * dt * (plan[row, 1] + change * share / 2)
+                rate -= plan[row, 1] + change * share
+                whole = correction(offset, rate, along, gains, motors, wanted, held, given)
+                peaks[count] = max(peaks[count], abs(whole))
                 line_forces(state, behind, border, force, pushed)
                 pulls(values, state, pull)
                 powers(prices, state, cars, pushed, held, returned, power)
@@ -64,7 +95,7 @@ def drive(forces, electric, substeps, dt, start, values, prices, cars, behind, b
                         works[w] += weight * power[w, j]
                     if part == 0:
                         log[row, 0, j], log[row, 1, j] = state[0, j], state[1, j]
-                        pulled[row, 0, j] = pull[0, j]
+                        used[row, 0, j], pulled[row, 0, j] = held[0, j], pull[0, j]
                     # Not `>`, so that nan counts too.
                     if not abs(state[1, j]) < 1e3:
                         return row

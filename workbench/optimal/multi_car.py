@@ -3,16 +3,19 @@
 Forces between cars cancel in their sum. So a run that is planned for the train as one body, with the line's forces
 averaged over it and the sums of the cars' limits, is a run of the cars too as long as they keep together, and
 `share_forces` says what each of them does. Couplers are springs, and the cars do not quite keep together: how far they
-part, what the couplers carry and what energy that takes is simulated with the cars' own equations (chen2019 (1)-(3)),
-driven by the shared forces as functions of time alone.
+part, what the couplers carry and what energy that takes is simulated with the cars' own equations (chen2019 (1)-(3)).
+They are driven by the shared forces over time and by a weak correction that keeps their mean to the plan: beyond a
+summit a force over time alone holds no train, because whoever is late is pulled back and whoever is early runs ahead.
 
 What the bound of the run says of the cars: it is proven for the train as one body. Of the cars it is known that
 
     work at the wheels = gain of kinetic and coupler energy + work of resistance and line + loss in the dampers,
 
-where the dampers only take. That resistance and line take no less than of one body is not proven: the first car meets
-the air at its own speed, and each car the line at its own place. `resistance_j` beside `one_body_j` says how far that
-is off in the run at hand; the balance's residual says how exact the simulation is.
+where the dampers only take. The line's work depends on where each car starts and ends alone, and rolling resistance,
+linear in the speed, takes no less of cars that move differently than of their mean. That the air takes no less, which
+the first car meets at its own speed, and that limits met by each car on its own do not allow a cheaper run, is not
+proven. `resistance_j` beside `one_body_j` says how far the run at hand is off; the residual of the balance says how
+exact the simulation is.
 """
 
 from __future__ import annotations
@@ -38,6 +41,8 @@ from workbench.optimal.smooth import SmoothRun, needed_force
 
 # Between two rows of the forces, and steps of the simulation in each: 5 ms, where couplers swing with up to 2 Hz.
 ROW_S, SUBSTEPS = 0.05, 10
+# Within so long the correction takes the mean of the cars back to the plan, critically damped.
+RETURN_S = 10.0
 _electric = of_cars.each_car("u_electric")[0]
 _prices = sp.symbols("eta_traction eta_regenerative", positive=True)
 
@@ -46,13 +51,14 @@ _prices = sp.symbols("eta_traction eta_regenerative", positive=True)
 class CarsRun:
     """What the simulated cars did.
 
-    time_s: shape (rows,); force_n, position_m, speed_mps: shape (rows, cars), of each car, its place counted as that of
-    the first; coupler_n, planned_coupler_n: shape (rows, cars - 1), positive where pulled, simulated and for cars that
-    keep together. peak_coupler_n: shape (cars - 1,), of every step. energy_j: at the supply, with auxiliaries;
-    works: by WORKS; stored_j: gain of kinetic and coupler energy; residual_j: what the balance leaves open;
-    one_body_j: work of resistance and line on the train as one body. position_drift_m, speed_drift_mps: of the mean
-    of the cars from the plan, at most. force_excess: largest force of a car beyond its limit, as a share; stretch_m:
-    longest way that two neighbours part or close up; apart_m: of first and last together.
+    time_s: shape (rows,); force_n, position_m, speed_mps: shape (rows, cars), of each car, the correction included, and
+    its place counted as that of the first; coupler_n, planned_coupler_n: shape (rows, cars - 1), positive where pulled,
+    simulated and for cars that keep together. peak_coupler_n: shape (cars - 1,), of every step. energy_j: at the
+    supply, with auxiliaries; works: by WORKS; stored_j: gain of kinetic and coupler energy; residual_j: what the
+    balance leaves open; one_body_j: work of resistance and line on the train as one body. position_drift_m,
+    speed_drift_mps: of the mean of the cars from the plan, at most. correction_n: largest correction of all cars
+    together. force_excess: largest force of a car beyond its limit there, as a share of the largest that a car has;
+    stretch_m: longest way that two neighbours part or close up; apart_m: of first and last together.
     """
 
     train: CarTrain
@@ -71,6 +77,7 @@ class CarsRun:
     one_body_j: float
     position_drift_m: float
     speed_drift_mps: float
+    correction_n: float
     force_excess: float
     stretch_m: float
     apart_m: float
@@ -114,21 +121,21 @@ def run_cars(train: CarTrain, of_train: Course, of_car: Course, run: SmoothRun,
     planned = (np.cumsum(shares.force_n, axis=1) + q)[:, :-1]
     stretch = np.append(0.0, np.cumsum(planned[0] / train.coupler_n_per_m))
     start = np.stack((s[0] - stretch + stretch.mean(), np.full(train.cars, v[0])))
-    log, pulled, works, peaks = _simulated(train, of_car, shares, start, time)
+    log, used, pulled, works, peaks = _simulated(train, of_car, shares, start, np.stack((s, v), axis=1), time)
     places, speeds = log[:, 0], log[:, 1]
     kept = dict(zip(WORKS, works.tolist(), strict=True))
     stored = _stored(train, places[-1], speeds[-1]) - _stored(train, places[0], speeds[0])
     most = car_limits(train, np.abs(speeds))
-    over = np.where(shares.force_n > 0, shares.force_n - most.traction_n,
-                    -shares.force_n - most.electric_n - most.friction_n)
-    size = np.where(shares.force_n > 0, most.traction_n, most.electric_n + most.friction_n)
+    over = np.where(used > 0, used - most.traction_n, -used - most.electric_n - most.friction_n)
+    still = car_limits(train, np.zeros(1))
+    size = float(max(still.traction_n.max(), (still.electric_n + still.friction_n).max()))
     alone = (total - train.vehicle.inertia_kg * a) * v
     return CarsRun(
-        train, rule, time, shares.force_n, places, speeds, pulled[:, 0, 1:], planned, peaks[1:],
+        train, rule, time, used, places, speeds, pulled[:, 0, 1:], planned, peaks[1:-1],
         kept["supply_j"] + train.vehicle.auxiliary_w * run.trip_time_s, kept, stored,
         kept["wheel_j"] - stored - kept["resistance_j"] - kept["damper_j"], float(np.trapezoid(alone, time)),
-        float(np.abs(places.mean(axis=1) - s).max()), float(np.abs(speeds.mean(axis=1) - v).max()),
-        max(0.0, float(np.max(over / np.maximum(size, 1.0)))),
+        float(np.abs(places.mean(axis=1) - s).max()), float(np.abs(speeds.mean(axis=1) - v).max()), float(peaks[-1]),
+        max(0.0, float(over.max()) / size),
         float(np.abs(np.diff(places, axis=1)).max(initial=0.0)), float(np.abs(places[:, -1] - places[:, 0]).max()))
 
 
@@ -140,21 +147,23 @@ def line_force(of_car: Course, front_m: Array) -> Array:
     return np.asarray(force[k, 0] + share * (force[k, 1] - force[k, 0]))
 
 
-def _simulated(train: CarTrain, of_car: Course, shares: Shares, start: Array,
-               time: Array) -> tuple[Array, Array, Array, Array]:
+def _simulated(train: CarTrain, of_car: Course, shares: Shares, start: Array, plan: Array,
+               time: Array) -> tuple[Array, Array, Array, Array, Array]:
+    """Positions and speeds, forces, pulls, works and peaks, as `cars_loop.drive` fills them."""
     rows, cars = shares.force_n.shape
-    log, pulled = np.zeros((rows, 2, cars)), np.zeros((rows, 1, cars))
-    works, peaks = np.zeros(len(WORKS)), np.zeros(cars)
+    log, used, pulled = np.zeros((rows, 2, cars)), np.zeros((rows, 1, cars)), np.zeros((rows, 1, cars))
+    works, peaks = np.zeros(len(WORKS)), np.zeros(cars + 1)
+    gains = train.vehicle.inertia_kg * np.array([1 / RETURN_S**2, 2 / RETURN_S])
     numbers = np.array([train.values()[str(x)] for x in VALUES])
     prices = np.array([*numbers, train.vehicle.traction_efficiency, train.vehicle.regenerative_efficiency])
     reached = _kernel().drive(
-        shares.force_n[:, None], shares.electric_n[:, None], SUBSTEPS, (time[1] - time[0]) / SUBSTEPS, start, numbers,
-        prices, train.data(), train.behind_first_m, of_car.position_m, of_car.force_n, log, pulled,
-        np.zeros((len(WORKS), cars)), works, peaks)
+        plan, shares.force_n[:, None], shares.electric_n[:, None], SUBSTEPS, (time[1] - time[0]) / SUBSTEPS, gains,
+        np.array(train.motors, dtype=float), start, numbers, prices, train.data(), train.behind_first_m,
+        of_car.position_m, of_car.force_n, log, used, pulled, np.zeros((len(WORKS), cars)), works, peaks)
     if reached < rows:
         raise SolverError(f"cars: the simulated train runs away at {time[reached]:.1f} s: its couplers are too stiff "
                           f"for steps of {1e3 * ROW_S / SUBSTEPS:g} ms: soften them")
-    return log, pulled, works, peaks
+    return log, used[:, 0], pulled, works, peaks
 
 
 def _stored(train: CarTrain, places: Array, speeds: Array) -> float:

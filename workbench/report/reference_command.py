@@ -136,7 +136,8 @@ def _of_cars(cars: CarsRun) -> Iterator[str]:
            f"{cars.residual_j:.2g} J")
     yield (f"couplers      carry up to {cars.peak_coupler_n.max() / 1e3:.4g} kN ({planned / 1e3:.4g} kN between cars "
            f"that keep together) and stretch up to {cars.stretch_m:.2g} m; drift {cars.position_drift_m:.2g} m, "
-           f"{cars.speed_drift_mps:.2g} m/s; forces at most {100 * cars.force_excess:.2g} % beyond a car's limits")
+           f"{cars.speed_drift_mps:.2g} m/s under corrections up to {cars.correction_n:.2g} N; forces at most "
+           f"{100 * cars.force_excess:.2g} % beyond a car's limits")
 
 
 def _written(asked: Request, vehicle: Vehicle, run: Course, found: Reference, smooth: SmoothReference,
