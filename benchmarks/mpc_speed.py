@@ -185,8 +185,8 @@ def measured(horizon: int, load: str, peer: bool) -> list[dict[str, Any]]:
     def measure(name: str, answer: Callable[[int, Array], float]) -> None:
         cost, taken, _ = closed_loop(problem, ahead, answer)
         rows.append({"solver": name, "horizon": horizon, "load": load, "cost": cost,
-                     "median_us": float(np.median(taken)), "p99_us": float(np.percentile(taken, 99)),
-                     "first_us": float(taken[0])})
+                     "median_us": float(np.median(taken)), "mean_us": float(np.mean(taken)),
+                     "p99_us": float(np.percentile(taken, 99)), "first_us": float(taken[0])})
 
     if peer:
         measure("do-mpc", do_mpc_controller(problem, ahead))
@@ -232,10 +232,12 @@ def main() -> None:
         reference = next(row for row in rows if row["solver"] == "casadi ipopt")["cost"]
         slow = min((row["median_us"] for row in rows if row["solver"].startswith("do-mpc")), default=np.nan)
         print(f"\n{load} run, horizon {horizon}: closed loop of {STEPS} steps, microseconds a step\n"
-              f"{'solver':26s} {'median':>9s} {'p99':>9s} {'do-mpc /':>9s} {'cost':>12s} {'against ipopt':>14s}")
+              f"{'solver':26s} {'median':>9s} {'mean':>9s} {'p99':>9s} {'do-mpc /':>9s} {'cost':>12s} "
+              f"{'against ipopt':>14s}")
         for row in rows:
             row["ratio"], row["cost_off"] = slow / row["median_us"], row["cost"] / reference - 1
-            print(f"{row['solver']:26s} {row['median_us']:9.1f} {row['p99_us']:9.1f} {row['ratio']:9.1f} "
+            print(f"{row['solver']:26s} {row['median_us']:9.1f} {row['mean_us']:9.1f} {row['p99_us']:9.1f} "
+                  f"{row['ratio']:9.1f} "
                   f"{row['cost']:12.4f} {row['cost_off']:+14.1e}")
             short += [f"{row['solver']}, {load}, horizon {horizon}: {words}" for words in shortcomings(row, peer)]
     print("\ngrowth with the horizon, microseconds a step\n" + "horizon  nonlinear median / p99    linear median / p99")

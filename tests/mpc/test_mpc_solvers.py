@@ -196,6 +196,26 @@ def test_the_nonlinear_plan_cannot_be_improved_by_a_search_that_knows_no_derivat
     assert found.fun >= mpc.cost - 1e-7
 
 
+EVERY = {**MAKERS, "linear": LinearMpc}
+
+
+@pytest.mark.parametrize("bad", [np.nan, np.inf, 1e200])
+@pytest.mark.parametrize("name", EVERY)
+def test_a_state_that_is_no_number_is_an_answer_not_to_be_used_and_then_forgotten(name, bad, capfd):
+    problem, ahead = problem_of(10)
+    mpc, twin = EVERY[name](problem, ahead), EVERY[name](problem, ahead)
+    mpc.solve(30, ahead[30, :3])
+    solution = mpc.solve(31, np.array([bad, 1.0, 0.0]))
+    assert not (solution.solved and not np.isfinite(solution.plan).all())
+    if not np.isfinite(bad):
+        assert not solution.solved
+        assert solution.why
+    good = mpc.solve(32, ahead[32, :3] + [0.1, 0.0, 0.0])
+    assert good.solved
+    assert good.plan == pytest.approx(twin.solve(32, ahead[32, :3] + [0.1, 0.0, 0.0]).plan, abs=1e-4)
+    assert capfd.readouterr().out == ""
+
+
 def test_one_iteration_a_sample_loses_little():
     problem, ahead = problem_of(20, "lag", "power, a little")
     full, _, _ = closed_loop(problem, ahead, NonlinearMpc(problem, ahead), STEPS)

@@ -87,6 +87,11 @@ def solve_program(weights, jac, gap, start, rows, price, h, g, memory, work, mos
     scratch = (Q, q, kept)
     passes = active_set(cross, jac, gap, start, Q0, q0, R, r, low, high, rows, price, h, g, fixed, bound, state, pull,
                         scratch, dx, du, slope, most_passes)
+    total = 0.0
+    for k in range(du.shape[0]):
+        total += abs(du[k])
+    if not total < math.inf:  # a number that is none breaks no sign, so that it must be looked for
+        return 2, most_passes
     if passes > 0:
         return 0, passes
     du[:] = 0.0
@@ -138,7 +143,7 @@ def solve_nonlinear(measured, ahead, parameters, weights, terminal, limits, rows
     Q0, q0, R, r, low, high = work[:6]
     du = work[12]
     N = plan.shape[0]
-    nowhere = x[0] * 0.0
+    nowhere = measured * 0.0
     for k in range(N):
         plan[k] = min(max(plan[k], limits[0]), limits[1])
     roll_out(measured, plan, ahead, parameters, x)

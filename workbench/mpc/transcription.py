@@ -6,6 +6,7 @@ solvers that exploit the structure need. Other costs than tracking come in by `s
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from typing import Any
 
@@ -26,12 +27,15 @@ _QRQP = {"print_iter": False, "print_header": False, "print_info": False, "error
 # cost of ipopt. Not offered, as measured on a loop in which power binds: sqpmethod with daqp or with fatrop for its
 # programs costs 4.6 times as much; with osqp 35 of 120 programs fail.
 SOLVERS: dict[str, tuple[str, dict[str, Any]]] = {
-    "ipopt": ("ipopt", {"ipopt": {"print_level": 0, "sb": "yes", "tol": 1e-8}}),
-    "fatrop": ("fatrop", {"structure_detection": "auto", "fatrop": {"print_level": 0, "tol": 1e-8}}),
+    "ipopt": ("ipopt", {"ipopt": {"print_level": 0, "sb": "yes", "tol": 1e-8, "max_iter": 200}}),
+    "fatrop": ("fatrop", {"structure_detection": "auto", "fatrop": {"print_level": 0, "tol": 1e-8, "max_iter": 200}}),
     "sqp_qrqp": ("sqpmethod", _SQP | {"qpsol": "qrqp", "qpsol_options": _QRQP}),
     "sqp_piqp": ("sqpmethod", _SQP | {"qpsol": "piqp", "qpsol_options": {
         "piqp": {"verbose": False}, "error_on_fail": False}}),
 }
+
+# Beyond this, in m, m/s and m/s^2, nothing is a train's.
+LARGEST_STATE = 1e9
 
 StageCost = Callable[[Any, Any, Any], Any]
 
@@ -128,6 +132,10 @@ class CasadiMpc:
         """
         N = self.horizon
         window = self.ahead[sample : sample + N + 1].copy()
+        if not (np.abs(state) < LARGEST_STATE).all() or not math.isfinite(disturbance):
+            # Some of the solvers never return from such numbers.
+            self.forget()
+            return Solution(window[:N, 3], solved=False, why="the state is no train's")
         # The train does not care where it is, but solvers do: their smallest step is relative to the unknowns.
         origin = np.array([window[0, 0], 0.0, 0.0])
         window[:, 0] -= origin[0]
