@@ -3,10 +3,14 @@
 import json
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 from workbench.report.gains import compared, gains_document, gains_result
+from workbench.simulate.trials import run_trials
+from workbench.studies import jiao2025_cases as cases
 from workbench.studies.gain_effects import Effect, checked_gains, effects
+from workbench.studies.registry import load_study
 
 FILE = Path(__file__).parents[2] / "benchmarks" / "jiao2025.toml"
 
@@ -18,7 +22,7 @@ def done():
 
 
 def of(done, gains, law):
-    return next(e for e in done[1] if e.gains == gains and law in e.setting)
+    return next(e for e in done[1] if e.gains == gains and e.setting.startswith(f"jiao2025.{law}, "))
 
 
 def test_a_step_that_is_proved_monotone_gets_worse_in_no_trial_and_learns_more_slowly(done):
@@ -33,6 +37,21 @@ def test_a_step_that_is_proved_monotone_gets_worse_in_no_trial_and_learns_more_s
 def test_the_contracting_law_is_far_ahead_of_any_step_of_14(done):
     found = of(done, "difference", "pd_difference")
     assert found.numbers["mse_50"] < 1e-4 * of(done, "stated", "icfdl").numbers["mse_50"]
+
+
+def test_where_trials_repeat_the_law_contracts_as_fast_as_is_certified(done):
+    """From trial to trial by the certified factor, by that of the recursion once the speeds are in their range."""
+    report = done[0]
+    found = next(s for s in report.found if s.name == "difference")
+    certified = next(q for q in report.quantities if q.certificate == "jiao2025:difference")
+    study = load_study(FILE)
+    repeated = {"line.seen_by": "desired", "trials.shortest_length_k": 1999}
+    changed = cases.changed(study, cases.Change(title="test", set={**found.changes, **repeated}))
+    mse = run_trials(cases.plan(changed, cases.Case("kN", "jiao2025.pd_difference", 0))).column("mse")[:13]
+    ratios = np.sqrt(mse[1:] / mse[:-1])
+    assert ratios.max() <= certified.proved
+    assert ratios[mse[:-1] < 1].max() <= certified.check
+    assert ratios[-1] > 0.9 * certified.check  # and hardly faster, so that the bound says something
 
 
 def test_document_and_tables_hold_every_run(done):

@@ -210,6 +210,7 @@ def report(stated: Stated) -> GainReport:
     return GainReport("jiao2025", tuple(conditions), tuple(quantities), sets,
                       (found.certificate, difference.certificate, horizon_step()), (
         "A fixed gain of (14) that is monotone hardly learns (claim intro.tradeoff): no rho, lambda or unit helps.",
-        "The maps are those of full trials with the same f_a; trials that end early and resistances that change are "
-        "left to the simulation. The range of a is that of speeds between zero and the highest desired one.",
+        "The maps are those of full trials with the same f_a; trials that end early and resistances that change, which "
+        "leave errors that no gains remove, are left to the simulation. The range of a is that of speeds between zero "
+        "and the highest desired one, which the first trials may leave.",
     ), {found.problem.id: found.seconds, difference.problem.id: difference.seconds})

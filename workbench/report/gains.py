@@ -111,6 +111,9 @@ def compared(effects: Sequence[Effect]) -> list[str]:
             if abs(value) * APART < abs(other) or abs(other) * APART < abs(value):
                 sides["better" if abs(value) < abs(other) else "worse"].append(key.replace("_", " "))
         words = [f"{side} in {', '.join(keys)}" for side, keys in sides.items() if keys]
+        if e.numbers.get("outcome") != stated.numbers.get("outcome"):
+            words.append(f"outcome '{e.numbers['outcome']}' where the stated gains have "
+                         f"'{stated.numbers['outcome']}'")
         sentences.append(f"{name}: {'; '.join(words) or 'no difference to speak of'}.")
     return sentences
 

@@ -214,6 +214,7 @@ def _mao(path: Path, task: Task) -> tuple[Row, str | None]:
 _LAWS = {"monotone": "jiao2025.fixed_estimate", "monotone_any": "jiao2025.icfdl",
          "difference": "jiao2025.pd_difference"}
 _READING = "kN"
+_REPEATED = {"line.seen_by": "desired", "trials.shortest_length_k": 1999}  # what the certified maps suppose
 
 
 def _jiao_tasks(report: GainReport) -> list[Task]:
@@ -222,6 +223,10 @@ def _jiao_tasks(report: GainReport) -> list[Task]:
         law = _LAWS[found.name]
         setting = f"{law}, u in {_READING}"
         tasks += [Task("stated", setting, {}, {"law": law}), Task(found.name, setting, found.changes, {"law": law})]
+    difference = {"law": _LAWS["difference"]}
+    setting = f"{difference['law']}, u in {_READING}, full trials with the same resistance"
+    tasks += [Task(name, setting, {**changes, **_REPEATED}, difference)
+              for name, changes in (("stated", {}), ("difference", _of(report, "difference")))]
     return [*tasks, Task("stated", f"jiao2025.pd, u in {_READING}", {}, {"law": "jiao2025.pd"})]
 
 
