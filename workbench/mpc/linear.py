@@ -41,6 +41,10 @@ class LinearMpc:
         self._fixed = (problem.weights.array(), self.lqr.upper(), limits, problem.rows(ahead), np.array(problem.price))
         self._memory, self._work, self._plan = memory(N), workspace(N), np.zeros(N)
         self.forget()
+        # Loads the compiled functions, so that the first sample is no slower than the others.
+        self._shift(*self._memory)
+        self.solve(0, ahead[0, :3].copy())
+        self.forget()
 
     def _at_the_limit(self, x: Array) -> Array:
         """A state with no more force than its power allows: where the power limit is linearised, if it binds at all."""

@@ -33,6 +33,13 @@ class NonlinearMpc:
         self._window, self._plan = ahead[: N + 1].copy(), np.zeros(N)
         self.cost = 0.0
         self.forget()
+        self._load()
+
+    def _load(self) -> None:
+        """Load the compiled functions, so that the first sample is no slower than the others."""
+        self._shift(*self._memory)
+        self.solve(0, self.ahead[0, :3].copy())
+        self.forget()
 
     def forget(self) -> None:
         """Drop the plan and the active set; the next program starts from the commands that the curve needs."""
