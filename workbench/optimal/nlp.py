@@ -81,7 +81,7 @@ def solve_nlp(vehicle: Vehicle, grid: Grid, trip_time_s: float, guess: Array, st
     if not stats["success"] or not violation <= FEASIBLE:
         raise NoPlanError(f"{solver} says '{status}' of the nonlinear program and breaks a constraint by "
                           f"{violation:.2g}: try other intervals")
-    return _plan(grid, program, x, np.array(answer["lam_g"]).ravel(), float(answer["f"]), seconds, status)
+    return _plan(vehicle, grid, program, x, np.array(answer["lam_g"]).ravel(), float(answer["f"]), seconds, status)
 
 
 def _program(vehicle: Vehicle, grid: Grid, trip_time_s: float, start_mps: float, end_mps: float) -> _Program:
@@ -177,7 +177,7 @@ def _options(solver: NlpSolver, program: _Program) -> dict[str, Any]:
         "fatrop": {"print_level": 0, "tol": 1e-9, "max_iter": ITERATIONS}}
 
 
-def _plan(grid: Grid, program: _Program, x: Array, duals: Array, cost: float, seconds: float,
+def _plan(vehicle: Vehicle, grid: Grid, program: _Program, x: Array, duals: Array, cost: float, seconds: float,
           status: str) -> Plan:
     per_stage, n = program.rows
     stages = x[:-STATES].reshape(n, STATES + CONTROLS)
@@ -188,6 +188,10 @@ def _plan(grid: Grid, program: _Program, x: Array, duals: Array, cost: float, se
     still[[0, -1]] |= speed[[0, -1]] < 1e-6
     half_square = np.where(still, 0.0, speed**2 / 2)
     work = scales.work_j
-    adjoint = rows[:, 2] * work / (scales.force_n * grid.step_m)
+    price = rows[:, 2]
+    if np.isfinite(min(vehicle.max_acceleration_mps2, vehicle.max_deceleration_mps2)):
+        # Limits of the acceleration, in the last row, act on db/ds itself: they belong to the price of what changes b.
+        price = price + rows[:, -1] * scales.force_n / vehicle.inertia_kg
+    adjoint = price * work / (scales.force_n * grid.step_m)
     return Plan(grid, half_square, (stages[:, 3] - stages[:, 4] - stages[:, 5]) * scales.force_n, adjoint,
                 max(float(duals[-1]), 0.0) * work / scales.time_s, cost * work, seconds, status)

@@ -26,7 +26,8 @@ from workbench.optimal.verify import Check, check
 Solver = Literal["auto", "socp", "nlp"]
 INTERVALS, STOP_INTERVALS = 500, 100
 ROUNDS, GAP_WANTED = 5, 5e-4
-# A round that leaves more than this share of the gap is the last; `auto` turns to the nonlinear program above this gap.
+# A round that leaves more than this share of a gap above OPTIMAL_GAP is the last. Above the other gap `auto` turns to
+# the nonlinear program.
 NO_GAIN, GAP_OF_CONES = 0.9, 1e-3
 # Cells of the driven run on each interval of the plan, and of the fastest run in all.
 PARTS, FASTEST_CELLS = 8, 4000
@@ -161,7 +162,8 @@ def _rounds(asked: _Asked, planner: _Planner, grid: Grid, best: _Found, rounds: 
         certificate = certificate_from(vehicle, plan)
         bound = lower_bound(vehicle, course, certificate, asked.trip_time_s, asked.start_mps, asked.end_mps)
         best = best.improved(vehicle, profile, bound, certificate, solve_s, solver)
-        if best.gap(vehicle) <= GAP_WANTED or (number and best.gap(vehicle) > NO_GAIN * before):
+        if best.gap(vehicle) <= GAP_WANTED or (
+                number and best.gap(vehicle) > max(NO_GAIN * before, OPTIMAL_GAP)):
             break
         if number + 1 < rounds:
             grid = finer_grid(vehicle, plan, certificate)
