@@ -108,14 +108,15 @@ def short(tmp_path):
 
 def test_help_names_every_command():
     shown = run("--help").stdout
-    for command in ("prove", "new-paper", "check-certificates", "compare", "sweep", "report"):
+    for command in ("prove", "new-paper", "check-certificates", "compare", "sweep", "tune", "report", "reference",
+                    "gains"):
         assert command in shown
 
 
 def test_the_example_of_the_readme_is_decided(tmp_path):
-    code = re.findall(r"```python\n(.*?)```", (ROOT / "README.md").read_text(), re.DOTALL)
-    assert len(code) == 1
-    (tmp_path / "my_paper.py").write_text(code[0])
+    section = (ROOT / "README.md").read_text().partition("## State your own claim")[2].partition("\n## ")[0]
+    (code,) = re.findall(r"```python\n(.*?)```", section, re.DOTALL)
+    (tmp_path / "my_paper.py").write_text(code)
     result = run("prove", "my_paper.py", "--json", "out.json", folder=tmp_path)
     assert result.returncode == 0, result.stderr
     document = json.loads((tmp_path / "out.json").read_text())

@@ -27,7 +27,8 @@ def reference_document(found: Reference, smooth: SmoothReference | None) -> dict
         "trip_time_s": found.profile.trip_time_s, "solver": found.solver, "solve_s": found.solve_s,
         "status": found.status, "least_trip_time_s": found.least_time_s,
         "check": {"energy_J": check.energy_j, "position_drift_m": check.position_drift_m,
-                  "speed_drift_mps": check.speed_drift_mps, "force_excess": check.force_excess,
+                  "speed_drift_mps": check.speed_drift_mps, "correction_N": check.correction_n,
+                  "force_excess": check.force_excess,
                   "speed_excess_mps": check.speed_excess_mps}}
     if smooth is not None:
         document["smooth"] = {"energy_J": smooth.energy_j, "trip_time_s": smooth.run.trip_time_s,

@@ -121,8 +121,8 @@ def _summary(asked: Request, line: Line, vehicle: Vehicle, found: Reference, smo
     yield f"regimes       {shares} of the time"
     check = found.check
     yield (f"simulated     {check.energy_j / KWH_J:.3f} kWh; drift {check.position_drift_m:.2g} m, "
-           f"{check.speed_drift_mps:.2g} m/s; forces at most {100 * check.force_excess:.2g} % beyond their limits, "
-           f"speed {check.speed_excess_mps:.2g} m/s")
+           f"{check.speed_drift_mps:.2g} m/s under corrections up to {check.correction_n:.2g} N; forces at most "
+           f"{100 * check.force_excess:.2g} % beyond their limits, speed {check.speed_excess_mps:.2g} m/s")
     yield (f"smooth        {smooth.energy_j / KWH_J:.3f} kWh with acceleration averaged over {smooth.window_s:.3g} s: "
            f"jerk up to {smooth.max_jerk_mps3:.3g} m/s^3, forces {100 * smooth.force_excess:.2g} %, speed "
            f"{smooth.speed_excess_mps:.2g} m/s beyond their limits")
