@@ -140,6 +140,20 @@ def test_an_optimal_status_with_wrong_numbers_is_found_out(monkeypatch):
         search(decay_problem(OSCILLATOR, "1/10"))
 
 
+def test_a_refusal_with_a_wrong_dual_is_found_out(monkeypatch):
+    honest = cp.Problem.solve
+
+    def spoiled(self, **options):
+        honest(self, **options)
+        for constraint in self.constraints:
+            if isinstance(constraint, cp.constraints.PSD):
+                constraint.dual_variables[0].save_value(constraint.dual_value + np.array([[0.1, 0.0], [0.0, -0.05]]))
+
+    monkeypatch.setattr(cp.Problem, "solve", spoiled)
+    with pytest.raises(SolverError, match="dual leaves a residual"):
+        search(decay_problem({x: y, y: -x + y / 10}, "1/10"))
+
+
 MISTAKES = [
     ({"a": at_least(p * q * x**2, 0)}, (), "product or power"),
     ({"a": at_least(p * x**2 + sp.Float(0.5), 0)}, (), "exact numbers"),

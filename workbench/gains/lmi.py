@@ -119,7 +119,11 @@ def interior(data: Scaled, slope: Array | None = None, most: float | None = None
     if float(t.value) > BORDER:
         return _checked(data, unknowns, grams, float(t.value))
     duals = [_symmetric(np.asarray(cone.dual_value)) for cone in cones]
-    return Refusal(float(t.value), duals, _dual_residual(data, duals))
+    residual = _dual_residual(data, duals)
+    if residual > RESIDUAL * max(1.0, *(float(np.abs(z).max()) for z in duals)):
+        raise SolverError(f"clarabel: says that there is no answer, but its dual leaves a residual of {residual:.1e}: "
+                          "rescale the problem")
+    return Refusal(float(t.value), duals, residual)
 
 
 def least(data: Scaled, slope: Array) -> float:
