@@ -40,7 +40,7 @@ def scenario(contest: Contest) -> Scenario:
 def small(contest: Contest, conditions: tuple[str, ...], seeds: int = 2) -> Contest:
     """Few seeds and conditions, nothing tuned."""
     tuning = contest.tuning.model_copy(update={"found": {}})
-    return contest.model_copy(update={"seeds": seeds, "tuning": tuning, "resamples": 200,
+    return contest.model_copy(update={"seeds": seeds, "tuning": tuning, "resamples": 200, "entrants": {}, "absent": {},
                                       "conditions": {name: contest.conditions[name] for name in conditions}})
 
 
@@ -138,7 +138,7 @@ def test_tuning_never_makes_worse_keeps_its_budget_and_repeats_itself(
 
 def test_a_small_contest_is_told_whole(contest: Contest, scenario: Scenario, tmp_path: Path,
                                        monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("workbench.contest.study.load_scenario", lambda _: scenario)
+    monkeypatch.setattr("workbench.contest.study.entered", lambda _: scenario)
     few = small(contest, ("nominal", "late_command"))
     result = KIND.run(few, 1, lambda *_: None)
     assert {row["controller"] for row in result.rows} == set(QUICK)
@@ -166,16 +166,23 @@ def test_no_run_takes_less_than_the_bound(contest: Contest, scenario: Scenario) 
 
 def test_mistakes_in_a_contest_are_one_line(contest: Contest, tmp_path: Path) -> None:
     text = COMMON.read_text(encoding="utf-8").replace("common_run.toml", str(YANG.parent / "common_run.toml"))
+    text = text.partition(BEGIN)[0]
     for before, after, message in (
             ("[tuning.ranges.pid]", "[tuning.ranges.nobody]", "is no controller of the scenario"),
             ("K_p = [0.075, 7.5]", "K_q = [0.075, 7.5]", "is no parameter of this controller"),
             ("K_p = [0.075, 7.5]", "K_p = [7.5, 0.075]", "is no range"),
             ('condition = "ten"', 'condition = "calm"', "is no condition"),
             ("spread = 0.1", "spread = 1.5", "less than 1"),
+            ("rho = 0.245", "rho = -0.245", "must be positive"),
+            ("trials = 20.0", "trials = 2.5", "is no whole number"),
+            ("neurons = 15.0", "neurones = 15.0", "'neurons' is missing"),
+            ('law = "chen2019.one_car"', 'law = "chen2019.cars"', "unknown 'chen2019.cars'"),
+            ("entrants.liu2020", "entrants.pid", "is a controller of the scenario already"),
+            ("period_s = 0.1", "period_s = 0.007", "is not a whole number of plant steps"),
             ("failed_share = 0.0625", "failed_share = -1.0", "greater than or equal to 0")):
         assert before in text
         path = tmp_path / "broken.toml"
-        path.write_text(text.replace(before, after, 1), encoding="utf-8")
+        path.write_text(text.replace(before, after, 2 if before.startswith("entrants") else 1), encoding="utf-8")
         with pytest.raises(WorkbenchError, match=message) as trouble:
             load_study(path)
         assert "\n" not in str(trouble.value)

@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 from pathlib import Path
 
+from workbench.contest.entrants import entered
 from workbench.contest.record import Contest
 from workbench.contest.tune import tune_all
 from workbench.errors import InputError
-from workbench.scenario import load_scenario
 from workbench.studies.registry import load_study
 from workbench.workers import cores
 
@@ -24,7 +24,7 @@ def tune_run(path: Path, names: list[str], write: bool, workers: int | None,
     contest = load_study(path)
     if not isinstance(contest, Contest):
         raise InputError(path, "paper", "this study is no contest: name a file with paper = \"contest\"")
-    scenario = load_scenario(Path(contest.scenario))
+    scenario = entered(contest)
     chosen = names or list(contest.tuning.ranges)
     for name in chosen:
         if name not in contest.tuning.ranges:

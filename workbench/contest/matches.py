@@ -8,12 +8,14 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from workbench.contest.entrant import Played
+from workbench.contest.entrants import learns, play
 from workbench.contest.record import Condition, Contest
 from workbench.events import Failure
 from workbench.metrics import measure
 from workbench.scenario import Scenario
 from workbench.sensing import Sensing
-from workbench.simulate.closed_loop import Factors, Run, setting_of, simulate_in
+from workbench.simulate.closed_loop import Factors, Run, setting_of
 from workbench.track import Track
 from workbench.workers import run_tasks
 
@@ -40,7 +42,7 @@ class Entry:
 class Match:
     """One run: condition, number of its seed, entry -> METRICS (None where the run failed), and why it failed.
 
-    step_us: median time of a control step; counters: of the controller.
+    step_us: median time of a control step; counters: of the controller; trials: of `Played`, of a law that learns.
     """
 
     condition: str
@@ -50,6 +52,7 @@ class Match:
     failed: str | None
     step_us: float
     counters: dict[str, int]
+    trials: tuple[tuple[float, float], ...] = ()
 
 
 Task = tuple[str, int, Entry]
@@ -61,14 +64,33 @@ def entries(contest: Contest, scenario: Scenario) -> tuple[Entry, ...]:
                  if not tuned or name in contest.tuning.found)
 
 
-def with_parameters(scenario: Scenario, name: str, parameters: dict[str, float]) -> Scenario:
-    """The scenario with other parameters of one controller."""
+def tunable(scenario: Scenario, name: str) -> dict[str, float]:
+    """What `with_parameters` can change of a controller, with its stated values."""
     spec = scenario.controllers[name]
-    changed = spec.model_copy(update={"parameters": spec.parameters | parameters})
+    return spec.initial | spec.parameters
+
+
+def draws_of(contest: Contest, scenario: Scenario, condition: str, entry: Entry) -> int:
+    """How many runs an entry has under a condition: one where nothing is drawn."""
+    few = contest.learner_seeds if learns(scenario, entry.controller) else None
+    return min(contest.seeds, few or contest.seeds) if contest.conditions[condition].random else 1
+
+
+def with_parameters(scenario: Scenario, name: str, parameters: dict[str, float]) -> Scenario:
+    """The scenario with other parameters, or initial values where it has such, of one controller."""
+    spec = scenario.controllers[name]
+    started = {key: value for key, value in parameters.items() if key in spec.initial}
+    others = {key: value for key, value in parameters.items() if key not in started}
+    changed = spec.model_copy(update={"parameters": spec.parameters | others, "initial": spec.initial | started})
     return scenario.model_copy(update={"controllers": scenario.controllers | {name: changed}})
 
 
 def run_match(scenario: Scenario, name: str, condition: Condition, draw: int, seed: int) -> Run:
+    """The run of `play_match`, without what came before it."""
+    return play_match(scenario, name, condition, draw, seed).run
+
+
+def play_match(scenario: Scenario, name: str, condition: Condition, draw: int, seed: int) -> Played:
     """One run; factors and noise depend on seed and draw alone, so that they are the same for every controller."""
     sequence = np.random.SeedSequence(seed, spawn_key=(draw,))
     generator = np.random.default_rng(sequence)
@@ -88,7 +110,7 @@ def run_match(scenario: Scenario, name: str, condition: Condition, draw: int, se
     setting = setting_of(world, Factors(*(float(factor) for factor in factors)))
     sensing = Sensing(condition.position_noise_m, condition.speed_noise_mps, condition.measurement_delay_s,
                       condition.command_delay_s, noise_seed)
-    return simulate_in(world, name, replace(setting, sensing=sensing))
+    return play(world, name, replace(setting, sensing=sensing))
 
 
 def _levelled(scenario: Scenario) -> Track:
@@ -120,17 +142,18 @@ def one_match(shared: tuple[Contest, Scenario], task: Task) -> Match:
     (contest, scenario), (condition, draw, entry) = shared, task
     if entry.tuned:
         scenario = with_parameters(scenario, entry.controller, dict(contest.tuning.found[entry.controller]))
-    run = run_match(scenario, entry.controller, contest.conditions[condition], draw, contest.seed)
+    played = play_match(scenario, entry.controller, contest.conditions[condition], draw, contest.seed)
+    run = played.run
     return Match(condition, draw, entry.name, match_values(run, scenario), run.failed,
-                 float(np.median(run.step_us)) if len(run.step_us) else 0.0, run.counters)
+                 float(np.median(run.step_us)) if len(run.step_us) else 0.0, run.counters,
+                 played.trials)
 
 
 def all_matches(contest: Contest, scenario: Scenario, workers: int,
                 on_progress: Callable[[int, int, str], None]) -> tuple[Match, ...]:
     """Every match, ordered by condition, draw and entry; a condition without chance is run once."""
-    tasks: list[Task] = [(name, draw, entry) for name, condition in contest.conditions.items()
-                         for draw in range(contest.seeds if condition.random else 1)
-                         for entry in entries(contest, scenario)]
+    tasks: list[Task] = [(name, draw, entry) for name in contest.conditions for draw in range(contest.seeds)
+                         for entry in entries(contest, scenario) if draw < draws_of(contest, scenario, name, entry)]
     found: dict[tuple[str, int, str], Match] = {}
 
     def record(match: Match) -> None:
@@ -144,5 +167,3 @@ def all_matches(contest: Contest, scenario: Scenario, workers: int,
 def of(matches: Sequence[Match], condition: str, entry: str) -> list[Match]:
     """The matches of one entry under one condition, by draw."""
     return [match for match in matches if match.condition == condition and match.entry == entry]
-
-

@@ -6,6 +6,7 @@ from typing import Annotated, Any, Self
 
 from pydantic import Field, Strict, model_validator
 
+from workbench.scenario import ControllerSpec
 from workbench.studies.base import Study
 from workbench.toml_input import Count, Name, NonNegative, Positive, SourcedRecord, Text
 
@@ -52,7 +53,8 @@ class Objective(SourcedRecord):
 class Tuning(SourcedRecord):
     """The budget that every controller gets: runs, seed of the search, condition and draws of the runs.
 
-    ranges: per controller, the parameters that are searched and from where to where, logarithmically.
+    ranges: per controller, the parameters (or initial values) that are searched and from where to where,
+    logarithmically.
     found: per controller, what `workbench tune` found within this budget; the command is its source.
     """
 
@@ -84,7 +86,12 @@ class Tuning(SourcedRecord):
 
 
 class Contest(Study):
-    """A contest: its scenario's file (relative to this one), seeds, conditions and tuning."""
+    """A contest: its scenario's file (relative to this one), seeds, conditions and tuning.
+
+    learner_seeds: of a law that learns from trial to trial, whose every run is many; its differences from others are
+    taken over these draws. entrants: who takes part beside the scenario's controllers; absent: laws that do not, and
+    why.
+    """
 
     scenario: Text
     seeds: Count
@@ -94,6 +101,9 @@ class Contest(Study):
     source: dict[str, Text]
     conditions: dict[Name, Condition]
     tuning: Tuning
+    learner_seeds: Count | None = None
+    entrants: dict[Name, ControllerSpec] = Field(default_factory=dict)
+    absent: dict[Name, Text] = Field(default_factory=dict)
 
     @model_validator(mode="after")
     def _names_exist(self) -> Self:

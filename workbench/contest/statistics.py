@@ -25,9 +25,14 @@ def resampled(draws: int, resamples: int, seed: int) -> NDArray[np.intp]:
     return np.random.default_rng(seed).integers(0, draws, (resamples, draws))
 
 
+def _fitting(chosen: NDArray[np.intp], draws: int) -> NDArray[np.intp]:
+    """The resampling, or one of the first draws where there are fewer."""
+    return chosen if chosen.shape[1] == draws else resampled(draws, len(chosen), draws)
+
+
 def mean_interval(values: Array, chosen: NDArray[np.intp], confidence: float) -> Interval:
     """The mean over the draws and its percentile interval; one draw has no width."""
-    means = values[chosen].mean(axis=1)
+    means = values[_fitting(chosen, len(values))].mean(axis=1)
     low, high = np.quantile(means, [(1 - confidence) / 2, (1 + confidence) / 2])
     return Interval(float(values.mean()), float(low), float(high))
 
@@ -36,7 +41,8 @@ def winners(values: Sequence[Array | None], chosen: NDArray[np.intp], confidence
     """Numbers of the controllers that are not worse than the best by more than chance; the best alone has won.
 
     values: per controller its metric by draw, the less the better, or None where a run failed: such a controller
-    neither wins nor ties. A difference counts when the interval of the paired difference leaves out zero.
+    neither wins nor ties. Of two with unlike numbers of draws the first ones of both are compared. A difference counts
+    when the interval of the paired difference leaves out zero.
     """
     able = [i for i, value in enumerate(values) if value is not None]
     if not able:
@@ -49,7 +55,8 @@ def winners(values: Sequence[Array | None], chosen: NDArray[np.intp], confidence
     for i in able:
         value = values[i]
         assert value is not None
-        difference = mean_interval(value - reference, chosen, confidence)
+        both = min(len(value), len(reference))
+        difference = mean_interval(value[:both] - reference[:both], chosen, confidence)
         if i == best or not difference.low > 0:
             tied.append(i)
     return tied

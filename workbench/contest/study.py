@@ -10,10 +10,11 @@ from typing import Any
 import numpy as np
 
 from workbench.contest.energy import best_run
-from workbench.contest.matches import METRICS, all_matches, of, run_match
+from workbench.contest.entrants import check_entrants, entered, learns
+from workbench.contest.learning import learning_findings, learning_plot, learning_tables
+from workbench.contest.matches import METRICS, all_matches, of, run_match, tunable
 from workbench.contest.record import Contest
 from workbench.contest.tables import HEADINGS, Told, all_tables
-from workbench.controllers.values import check_controllers
 from workbench.errors import InputError
 from workbench.report.numbers import number
 from workbench.scenario import load_scenario
@@ -22,29 +23,34 @@ from workbench.studies.base import Curve, Plot, Progress, StudyKind, StudyResult
 
 def located(contest: Contest, path: Path) -> Contest:
     """The contest with its scenario's path; raises InputError where the scenario or a name in it is wrong."""
-    scenario = load_scenario(path.parent / contest.scenario)
-    check_controllers(scenario, path.parent / contest.scenario)
+    contest = contest.model_copy(update={"scenario": str(path.parent / contest.scenario)})
+    check_entrants(contest, load_scenario(Path(contest.scenario)), path)
+    scenario = entered(contest)
     for name, ranges in contest.tuning.ranges.items():
         if name not in scenario.controllers:
             raise InputError(path, f"tuning.ranges.{name}", "is no controller of the scenario: choose one of "
                              f"{', '.join(scenario.controllers)}")
         for key in ranges:
-            if key not in scenario.controllers[name].parameters:
+            if key not in tunable(scenario, name):
                 raise InputError(path, f"tuning.ranges.{name}.{key}", "is no parameter of this controller: choose "
-                                 f"among {', '.join(scenario.controllers[name].parameters)}")
-    return contest.model_copy(update={"scenario": str(path.parent / contest.scenario)})
+                                 f"among {', '.join(tunable(scenario, name))}")
+    return contest
 
 
 def run(contest: Contest, workers: int, on_progress: Progress) -> StudyResult:
     """All matches, their tables, figures and findings."""
-    scenario = load_scenario(Path(contest.scenario))
+    scenario = entered(contest)
     matches = all_matches(contest, scenario, workers, on_progress)
     best = best_run(scenario)
     told = Told(contest, scenario, matches, best.lower_bound_j if best else None)
-    failures = tuple((f"{match.entry}, {contest.conditions[match.condition].title}, draw {match.draw}", match.failed)
-                     for match in matches if match.failed is not None)
-    return StudyResult(rows=tuple(_rows(told)), tables=tuple(all_tables(told)), plots=tuple(_plots(told)),
-                       findings=tuple(_findings(told)), failures=failures)
+    first: dict[str, str] = {}  # of an entry's failed runs under a condition the first; the findings say how many
+    for match in matches:
+        if match.failed is not None:
+            first.setdefault(f"{match.entry}, {contest.conditions[match.condition].title}", match.failed)
+    failures = tuple(first.items())
+    return StudyResult(rows=tuple(_rows(told)), tables=(*all_tables(told), *learning_tables(told)),
+                       plots=(*_plots(told), *learning_plot(told)),
+                       findings=(*_findings(told), *learning_findings(told)), failures=failures)
 
 
 def _rows(told: Told) -> Iterator[dict[str, Any]]:
@@ -66,6 +72,8 @@ def _plots(told: Told) -> Iterator[Plot]:
     first = next(iter(told.contest.conditions))
     curves = []
     for name in told.scenario.controllers:
+        if learns(told.scenario, name):
+            continue
         done = run_match(told.scenario, name, told.contest.conditions[first], 0, told.contest.seed)
         if done.failed is None:
             time, error = done.column("t_s"), done.column("s_m") - done.column("s_desired_m")
@@ -110,7 +118,7 @@ def _findings(told: Told) -> Iterator[str]:
         if failed:
             words = ", ".join(f"{entry} {n}" for entry, n in failed.most_common())
             runs = told.contest.seeds if stated.random else 1
-            yield f"Runs that fail, {stated.title}: {words}, of {runs} each."
+            yield f"Runs that fail, {stated.title}: {words}, of {runs} run{'s' if runs > 1 else ''} of each law."
     if told.lower_bound_j:
         first = next(iter(told.contest.conditions))
         energies = [(entry.name, value.mean()) for entry, value in zip(

@@ -8,11 +8,10 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from workbench.contest.entrants import information
 from workbench.contest.matches import METRICS, Entry, Match, entries, of
 from workbench.contest.record import Contest
 from workbench.contest.statistics import mean_interval, resampled, winners
-from workbench.controllers.registry import LAWS
-from workbench.mpc.controller import KINDS
 from workbench.report.numbers import number
 from workbench.scenario import Scenario
 from workbench.studies.base import ResultTable
@@ -57,14 +56,6 @@ class Told:
         return [self.entries[i].name for i in winners(self.values(condition, metric), chosen, self.contest.confidence)]
 
 
-def information(scenario: Scenario, controller: str) -> str:
-    """What a controller may know."""
-    law = scenario.controllers[controller].law
-    if law in LAWS:
-        return LAWS[law].information
-    return KINDS[law].information if law in KINDS else "full state, nominal model"
-
-
 def condition_table(told: Told, condition: str) -> ResultTable:
     """A row per entry: means with their intervals, failed runs."""
     stated = told.contest.conditions[condition]
@@ -81,8 +72,10 @@ def condition_table(told: Told, condition: str) -> ResultTable:
                          + (" ●" if entry.name in best[metric] else ""))
         rows.append((*cells, f"{failed} of {len(matches)}"))
     runs = told.contest.seeds if stated.random else 1
+    fewer = told.contest.learner_seeds
+    learn = f", {fewer} of laws that learn" if fewer and runs > fewer else ""
     return ResultTable(
-        stated.title, f"{runs} run{'s' if runs > 1 else ''} each, the same draws for all",
+        stated.title, f"{runs} run{'s' if runs > 1 else ''} each{learn}, the same draws for all",
         ("controller", *(HEADINGS[metric] for metric in METRICS), "failed"), tuple(rows),
         f"Means, in brackets their {100 * told.contest.confidence:g} % bootstrap interval. ● the best, and every one "
         "whose paired difference from it may be chance. A controller with a failed run is not ranked.")
@@ -131,9 +124,45 @@ def contestants_table(told: Told) -> ResultTable:
         "µs a step: a compiled law in blocks with the plant, MPC call by call without it.")
 
 
+# A run that ends farther from the end of the line has not made the trip, so its energy is not held against the bound.
+ARRIVED_M = 5.0
+
+
+def energy_table(told: Told) -> Iterator[ResultTable]:
+    """Every entry's energy under the first condition against the certified lower bound of any run in that time."""
+    if told.lower_bound_j is None:
+        return
+    condition = next(iter(told.contest.conditions))
+    rows = []
+    for entry, energy, miss in zip(told.entries, told.values(condition, "energy_J"),
+                                   told.values(condition, "stopping_error"), strict=True):
+        if energy is None or miss is None:
+            rows.append((entry.name, "—", "—", "fails"))
+            continue
+        above = 100 * (float(energy.mean()) / told.lower_bound_j - 1)
+        arrived = float(miss.max()) <= ARRIVED_M
+        rows.append((entry.name, number(float(energy.mean()) / UNITS["energy_J"]), number(above) if arrived else "—",
+                     "arrives" if arrived else f"misses the end by {number(float(miss.max()))} m"))
+    yield ResultTable(
+        "Energy against the certified lower bound", f"condition: {told.contest.conditions[condition].title}",
+        ("controller", "energy (kWh)", "above the bound (%)", "the trip"), tuple(rows),
+        f"No run of the nominal train over this line in the desired curve's time takes less than "
+        f"{number(told.lower_bound_j / UNITS['energy_J'])} kWh of traction; all track the same curve, so most of the "
+        "difference is the curve's.")
+
+
+def absent_table(told: Told) -> Iterator[ResultTable]:
+    """Who does not take part, and why."""
+    if told.contest.absent:
+        yield ResultTable("Who does not take part", "the contest's file", ("law", "because"),
+                          tuple(told.contest.absent.items()))
+
+
 def all_tables(told: Told) -> Iterator[ResultTable]:
     """In the order of the page."""
     yield winners_table(told)
     yield contestants_table(told)
     for condition in told.contest.conditions:
         yield condition_table(told, condition)
+    yield from energy_table(told)
+    yield from absent_table(told)

@@ -9,7 +9,7 @@ import numpy as np
 from scipy.optimize import minimize
 from scipy.stats import qmc
 
-from workbench.contest.matches import match_values, run_match, with_parameters
+from workbench.contest.matches import match_values, run_match, tunable, with_parameters
 from workbench.contest.record import Contest, Objective
 from workbench.errors import InputError
 from workbench.scenario import Scenario
@@ -45,7 +45,7 @@ def tune(contest: Contest, scenario: Scenario, name: str) -> tuple[dict[str, flo
     ranges = budget.ranges[name]
     keys = list(ranges)
     for key in keys:
-        if key not in scenario.controllers[name].parameters:
+        if key not in tunable(scenario, name):
             raise InputError("", f"tuning.ranges.{name}.{key}", "is no parameter of this controller: remove it")
     low, high = (np.log([ranges[key][end] for key in keys]) for end in (0, 1))
     draws = budget.draws if condition.random else 1
@@ -69,7 +69,7 @@ def tune(contest: Contest, scenario: Scenario, name: str) -> tuple[dict[str, flo
             best = total, point.copy()
         return total
 
-    stated = np.log([scenario.controllers[name].parameters[key] for key in keys])
+    stated = np.log([tunable(scenario, name)[key] for key in keys])
     first = cost(np.clip(stated, low, high))
     points = qmc.Sobol(len(keys), scramble=True, rng=np.random.default_rng(budget.seed))
     count = int(SPREAD_SHARE * left)

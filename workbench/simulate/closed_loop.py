@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import time
 from dataclasses import dataclass, field, replace
+from types import ModuleType
 from typing import Any
 
 import numpy as np
@@ -150,18 +151,21 @@ def simulate(scenario: Scenario, name: str, factors: Factors = NOMINAL) -> Run:
     return simulate_in(scenario, name, setting_of(scenario, factors))
 
 
-def simulate_in(scenario: Scenario, name: str, setting: Setting) -> Run:
-    """`simulate` in a setting that may differ from what the scenario states, which is what controllers know."""
+def simulate_in(scenario: Scenario, name: str, setting: Setting, plant: Plant | None = None) -> Run:
+    """`simulate` in a setting, and with a plant, that may differ from the scenario's, which are what controllers know.
+
+    plant: as in `run_law`; the setting's plant_values belong to it.
+    """
     spec = controller_spec(scenario, name)
     if spec.law in LAWS:
         law = LAWS[spec.law]
         return run_law(law, law_values(law, spec, name), setting, spec.period_s, spec.estimates, name,
-                       spec.title or law.title)
+                       spec.title or law.title, plant)
     # The kernel holds what it is told; noise and delays lie between it and the controller.
     plan = setting.plan(spec.period_s)
     arrays, sensing = _arrays(replace(setting, sensing=PERFECT), spec.period_s, held_command), setting.sensing
     sampled = SAMPLED[spec.law](scenario, spec, name)
-    kernel = kernel_module(single_particle(), held_command, kernel_loop, spec.estimates).closed_loop
+    kernel = kernel_module(plant or single_particle(), held_command, kernel_loop, spec.estimates).closed_loop
     between = sensing.arrays(-(-plan[0] // plan[1]), spec.period_s)
     status, reached, step_us = _run_sampled(kernel, arrays, sampled, _fixed(setting), plan, between)
     return _run(name, spec.title or sampled.title, held_command, arrays, plan, (status, reached, step_us),
@@ -169,15 +173,17 @@ def simulate_in(scenario: Scenario, name: str, setting: Setting) -> Run:
 
 
 def run_law(law: ControlLaw, values: tuple[Array, Array, Array, Array], setting: Setting, period_s: float,
-            estimates: Estimates = "corrected", name: str = "", title: str = "", plant: Plant | None = None) -> Run:
+            estimates: Estimates = "corrected", name: str = "", title: str = "", plant: Plant | None = None,
+            module: ModuleType | None = None) -> Run:
     """Run a compiled law once; one that leaves its domain or diverges is reported failed.
 
     values: the law's parameters, initial scalar states, initial neuron states and neuron data, as `law_values` gives
     them; plant: of position, speed, force, opposing force, mass and Davis coefficients, in the order of
-    `single_particle`, which it is unless given; the setting's plant_values come after these.
+    `single_particle`, which it is unless given; the setting's plant_values come after these. module: compiled already,
+    of a law that is more than its expressions; it may write into the neuron data.
     """
     arrays, plan = _arrays(setting, period_s, law), setting.plan(period_s)
-    kernel = kernel_module(plant or single_particle(), law, kernel_loop, estimates).closed_loop
+    kernel = (module or kernel_module(plant or single_particle(), law, kernel_loop, estimates)).closed_loop
     parameters, scalars, neurons, data = values
     # The kernel advances states in place, and the caller's values are for other runs too.
     own = (parameters, scalars.copy(), neurons.copy(), data)

@@ -78,8 +78,8 @@ class TrialRun:
 
 
 @cache
-def _kernel(law_id: str, opposed: bool) -> ModuleType:
-    """The compiled loop of a law with the train."""
+def trial_kernel(law_id: str, opposed: bool) -> ModuleType:
+    """The compiled loop of a law with the train, and its `learn_trial`."""
     law = TRIAL_LAWS[law_id]
     speed = paper.step_speed_opposed if opposed else paper.step_speed
     return loop_module(f"{law.source} and jiao2025 (1)-(3), (17)", [
@@ -99,7 +99,7 @@ def run_trials(plan: TrialPlan) -> TrialRun:
     lengths = np.asarray(plan.lengths, dtype=np.int64)
     rows = np.zeros((len(lengths), len(TRIAL_COLUMNS)))
     samples = np.zeros((len(plan.kept), whole + 1, len(SAMPLE_COLUMNS)))
-    kernel = _kernel(plan.law, plan.opposed).trials
+    kernel = trial_kernel(plan.law, plan.opposed).trials
     arguments = (
         plan.first_input, plan.first_estimate, plan.k_per_sample, plan.desired, plan.desired_positions,
         SEEN_BY.index(plan.seen_by), plan.edges, plan.additional_n,

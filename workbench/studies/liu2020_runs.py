@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
@@ -139,11 +140,15 @@ def setting_of(study: LiuStudy, disturbance: str) -> Setting:
 
 
 def centers(study: LiuStudy) -> Array:
-    """Centres of both networks, shape (3 + 6, neurons): z_1 and z_2 on the desired curve, evenly in position; u = 0."""
-    curve, scale = desired_curve(study), scales(study)
+    """Centres of both networks on the study's desired curve."""
+    return centers_along(desired_curve(study), scales(study), study.networks.neurons)
+
+
+def centers_along(curve: DesiredCurve, scale: Mapping[str, float], neurons: int) -> Array:
+    """Centres of both networks, shape (3 + 6, neurons): z_1 and z_2 on a desired curve, evenly in position; u = 0."""
     time = np.linspace(0.0, curve.trip_time_s, 100_001)
     position, speed, acceleration = curve.at(time)
-    wanted = np.linspace(0.0, curve.length_m, study.networks.neurons)
+    wanted = np.linspace(0.0, curve.length_m, neurons)
     index = np.clip(np.searchsorted(position, wanted - 1e-9 * curve.length_m), 0, len(time) - 1)
     s, v, a = wanted / scale["s_scale"], speed[index] / scale["v_scale"], acceleration[index] / scale["a_scale"]
     return np.array([s, v, np.zeros_like(s), s, v, v, s, v, a])

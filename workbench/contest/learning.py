@@ -1,0 +1,133 @@
+"""At which trip a law that learns overtakes the others, if it does."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+from numpy.typing import NDArray
+
+from workbench.contest.entrants import learns
+from workbench.contest.matches import of
+from workbench.contest.statistics import mean_interval, resampled
+from workbench.contest.tables import Told
+from workbench.report.numbers import number
+from workbench.studies.base import Curve, Plot, ResultTable
+
+# Of `Played.trials`: column, heading, metric of a whole run.
+ERRORS = ((0, "position RMS", "position_rms", "m"), (1, "speed RMS", "speed_rms", "m/s"))
+
+
+def overtakes(trials: NDArray[np.float64], rival: NDArray[np.float64], resamples: int, seed: int,
+              confidence: float) -> int | None:
+    """The first trip, from 1, from which on a learner's error is below a rival's by more than chance, else None.
+
+    trials: of the learner, shape (draws, trips); rival: by draw, of which the first ones are compared.
+    """
+    draws = min(len(trials), len(rival))
+    chosen, found = resampled(draws, resamples, seed), None
+    for trip in range(trials.shape[1] - 1, -1, -1):
+        if not mean_interval(trials[:draws, trip] - rival[:draws], chosen, confidence).high < 0:
+            break
+        found = trip + 1
+    return found
+
+
+def learners(told: Told) -> list[str]:
+    """Names of the entries that learn from trip to trip."""
+    return [entry.name for entry in told.entries if learns(told.scenario, entry.controller)]
+
+
+def _trials(told: Told, condition: str, name: str, column: int) -> NDArray[np.float64] | None:
+    """(draws, trips) of a learner; None where a run failed."""
+    matches = of(told.matches, condition, name)
+    if any(match.failed is not None for match in matches):
+        return None
+    return np.array([[trial[column] for trial in match.trials] for match in matches])
+
+
+def _rivals(told: Told) -> list[str]:
+    return [entry.name for entry in told.entries if entry.controller.startswith("mpc")]
+
+
+def learning_tables(told: Told) -> Iterator[ResultTable]:
+    """One for each error: a row per learner and condition, a column per MPC."""
+    rivals = _rivals(told)
+    if not learners(told) or not rivals:
+        return
+    names = [entry.name for entry in told.entries]
+    for column, heading, metric, unit in ERRORS:
+        rows = []
+        for learner in learners(told):
+            for condition, stated in told.contest.conditions.items():
+                trials = _trials(told, condition, learner, column)
+                if trials is None:
+                    rows.append((learner, stated.title, "a run fails", *("—" for _ in rivals)))
+                    continue
+                values = dict(zip(names, told.values(condition, metric), strict=True))
+                change = f"{number(float(trials[:, 0].mean()))} → {number(float(trials[:, -1].mean()))}"
+                rows.append((learner, stated.title, f"{change}, {trials.shape[1]} trips",
+                             *(_cell(told, trials, values[rival]) for rival in rivals)))
+        yield ResultTable(
+            f"When learning overtakes MPC: {heading}", "the learners' trips",
+            ("learner", "condition", f"first → last trip ({unit})", *rivals), tuple(rows),
+            "The trip from which on the learner is ahead by more than chance; no: not within its trips, and how many "
+            "times MPC's error its last trip has. All trips of a run have the same train, line and disturbance.")
+
+
+def _cell(told: Told, trials: NDArray[np.float64], rival: NDArray[np.float64] | None) -> str:
+    if rival is None:
+        return "MPC fails"
+    contest = told.contest
+    found = overtakes(trials, rival, contest.resamples, contest.seed, contest.confidence)
+    if found is not None:
+        return f"trip {found}"
+    return f"no, {number(float(trials[:, -1].mean() / rival[: len(trials)].mean()))}×"
+
+
+def learning_findings(told: Told) -> Iterator[str]:
+    """A sentence per learner: against how many MPCs and where it gets ahead."""
+    rivals, names = _rivals(told), [entry.name for entry in told.entries]
+    for learner in learners(told):
+        if not rivals:
+            return
+        for column, heading, metric, _ in ERRORS:
+            trips, met, failed = [], 0, 0
+            for condition in told.contest.conditions:
+                trials = _trials(told, condition, learner, column)
+                if trials is None:
+                    failed += 1
+                    continue
+                values = dict(zip(names, told.values(condition, metric), strict=True))
+                for rival in rivals:
+                    value = values[rival]
+                    if value is not None:
+                        met += 1
+                        trips.append(overtakes(trials, value, told.contest.resamples, told.contest.seed,
+                                               told.contest.confidence))
+            ahead = sorted(trip for trip in trips if trip is not None)
+            words = f"overtakes an MPC in {len(ahead)} of {met} pairings" if ahead else (
+                f"overtakes no MPC within its trips, in none of {met} pairings")
+            when = f", after {ahead[0]} to {ahead[-1]} trips" if ahead else ""
+            lost = f"; its runs fail in {failed} conditions" if failed else ""
+            yield f"{learner} {words} in {heading}{when}{lost}."
+
+
+def learning_plot(told: Told) -> Iterator[Plot]:
+    """Learning curves of the first condition; the best and the worst MPC as level lines."""
+    condition = next(iter(told.contest.conditions))
+    curves = []
+    for learner in learners(told):
+        trials = _trials(told, condition, learner, 0)
+        if trials is not None:
+            curves.append(Curve(learner, np.arange(1.0, trials.shape[1] + 1), trials.mean(axis=0)))
+    names = [entry.name for entry in told.entries]
+    values = dict(zip(names, told.values(condition, "position_rms"), strict=True))
+    means = {name: float(value.mean()) for name in _rivals(told) if (value := values[name]) is not None}
+    if curves and means:
+        last = max(float(curve.x[-1]) for curve in curves)
+        for name in sorted({min(means, key=lambda n: means[n]), max(means, key=lambda n: means[n])}):
+            curves.append(Curve(name, np.array([1.0, last]), np.full(2, means[name])))
+    if curves:
+        yield Plot("Learning from trip to trip", f"condition: {told.contest.conditions[condition].title}", "trip",
+                   "position RMS (m)", tuple(curves), log_y=True)
