@@ -18,6 +18,7 @@ from dataclasses import dataclass
 from itertools import pairwise
 
 import numpy as np
+from numba import njit
 from numpy.typing import NDArray
 
 from workbench.errors import WorkbenchError
@@ -236,24 +237,46 @@ def _speed_edges(vehicle: Vehicle, top_mps: float) -> list[tuple[float, float, F
 
 def minima(terms: Terms) -> Array:
     """The least value of each term on its range: at an end, or where the derivative passes zero upwards."""
-    a, b, c, d = terms.inverse, terms.constant, terms.slope, terms.square
+    return np.asarray(_minima(terms.low, terms.high, terms.inverse, terms.constant, terms.slope, terms.square))
 
-    def value(v: Array) -> Array:
-        with np.errstate(divide="ignore", invalid="ignore"):
-            first = np.where(v > 0, a / v, np.where(a > 0, np.inf, np.where(a < 0, -np.inf, 0.0)))
-        return np.asarray(first + b + c * v + d * v * v)
 
-    least = np.minimum(value(terms.low), value(terms.high))
-    # The curvature 2 a / v^3 + 2 d changes its sign at one speed at most; on either side the derivative is monotone.
-    with np.errstate(divide="ignore", invalid="ignore"):
-        turn = np.where(a * d < 0, np.cbrt(-a / d), terms.low)
-    turn = np.clip(turn, terms.low, terms.high)
-    for low, high in ((terms.low, turn), (turn, terms.high)):
-        one, two = low.copy(), high.copy()
-        for _ in range(60):
-            middle = (one + two) / 2
-            with np.errstate(divide="ignore", invalid="ignore"):
-                falls = -a / middle**2 + c + 2 * d * middle < 0
-            one, two = np.where(falls, middle, one), np.where(falls, two, middle)
-        least = np.minimum(least, value((one + two) / 2))
-    return least
+@njit(cache=True)
+def _value(v: float, a: float, b: float, c: float, d: float) -> float:
+    first = 0.0
+    if v > 0.0:
+        first = a / v
+    elif a != 0.0:
+        first = np.inf if a > 0.0 else -np.inf
+    return first + b + c * v + d * v * v
+
+
+@njit(cache=True)
+def _falls(v: float, a: float, c: float, d: float) -> bool:
+    """Whether a / v + c v + d v^2 falls at v."""
+    return bool((c + 2.0 * d * v) * v * v < a) if a != 0.0 else bool(c + 2.0 * d * v < 0.0)
+
+
+@njit(cache=True)
+def _minima(lows: Array, highs: Array, inverse: Array, constant: Array, slope: Array, square: Array) -> Array:
+    found = np.empty(len(lows))
+    for k in range(len(lows)):
+        low, high, a, b, c, d = lows[k], highs[k], inverse[k], constant[k], slope[k], square[k]
+        least = min(_value(low, a, b, c, d), _value(high, a, b, c, d))
+        # The curvature 2 a / v^3 + 2 d changes its sign once at most: the derivative is monotone on either side.
+        turn = min(max(np.cbrt(-a / d), low), high) if a * d < 0.0 else low
+        for side in range(2):
+            one, two = (low, turn) if side == 0 else (turn, high)
+            if not (two > one and _falls(one, a, c, d) and not _falls(two, a, c, d)):
+                least = min(least, _value(two, a, b, c, d))
+                continue
+            for _ in range(60):
+                middle = (one + two) / 2
+                if middle <= one or middle >= two:
+                    break
+                if _falls(middle, a, c, d):
+                    one = middle
+                else:
+                    two = middle
+            least = min(least, _value((one + two) / 2, a, b, c, d))
+        found[k] = least
+    return found
