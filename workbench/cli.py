@@ -169,7 +169,9 @@ def report(scenario: Annotated[Path, typer.Argument(help="Scenario or study TOML
            out: Annotated[Path, typer.Option(help="Folder of the report")] = Path("out"),
            runs: Annotated[int | None, typer.Option(
                min=1, help="Monte Carlo runs; default: as the scenario states")] = None,
-           seed: Annotated[int | None, typer.Option(min=0)] = None, workers: Workers = None) -> None:
+           seed: Annotated[int | None, typer.Option(min=0)] = None, gains: Annotated[bool, typer.Option(
+               help="Also what is proved of the paper's gains, and better ones.")] = True,
+           workers: Workers = None) -> None:
     """Check the proof, run and compare the controllers, and put the whole on one page."""
     from workbench.report.build import build_report, build_study_report
     from workbench.studies.registry import is_study
@@ -178,11 +180,11 @@ def report(scenario: Annotated[Path, typer.Argument(help="Scenario or study TOML
         _refuse(runs is not None, "--runs")
         _refuse(seed is not None, "--seed")
         with progress() as show:
-            study = build_study_report(scenario, proofs or [], out, workers, show)
+            study = build_study_report(scenario, proofs or [], out, workers, show, gains)
         _print_study_report(study)
         return
     with progress() as show:
-        made = build_report(scenario, proofs or [], out, runs, seed, workers, show)
+        made = build_report(scenario, proofs or [], out, runs, seed, workers, show, gains)
     _print_report(made)
 
 

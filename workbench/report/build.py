@@ -10,17 +10,21 @@ from pathlib import Path
 from typing import Any
 
 from workbench.errors import InputError
+from workbench.gains.registry import PAPERS
 from workbench.json_output import write_json
 from workbench.proof.document import claims_document, write_certificates
 from workbench.proof.prove import prove
 from workbench.proof.selection import Target, targets
+from workbench.report.gains import gains_document, gains_result
 from workbench.report.page import ReportContent, build_page
 from workbench.report.study_page import StudyContent, build_study_page, write_curves
 from workbench.scenario import load_scenario
 from workbench.simulate.compare import Comparison, compare
 from workbench.simulate.sweep import SweepSummary, summarise, sweep
 from workbench.studies.base import Study, StudyResult
+from workbench.studies.gain_effects import checked_gains, effects
 from workbench.studies.registry import load_study, study_kind
+from workbench.toml_input import read_toml
 from workbench.workers import cores
 
 # (what is being done, done, total); total 0 while it is not known
@@ -51,7 +55,7 @@ class StudyReport:
 
 def build_report(scenario_path: Path, proof_paths: list[Path], out: Path, runs: int | None = None,
                  seed: int | None = None, workers: int | None = None,
-                 on_progress: Progress = lambda what, done, total: None) -> Report:
+                 on_progress: Progress = lambda what, done, total: None, with_gains: bool = False) -> Report:
     """Decide the claims, run and compare the controllers, and write report.html, claims.json, compare.json,
     the certificates and the Monte Carlo table into `out`.
 
@@ -71,10 +75,12 @@ def build_report(scenario_path: Path, proof_paths: list[Path], out: Path, runs: 
     with _timed(timings, "Monte Carlo"):
         rows = sweep(scenario_path, runs, seed, out=out / "monte_carlo", workers=workers,
                      on_progress=lambda done, total, _: on_progress("Monte Carlo", done, total))
+    found = _gains(scenario_path, asked, out, workers, on_progress, timings) if with_gains else None
     command = f"workbench report {scenario_path} {' '.join(map(str, proof_paths))} --out {out} --runs {runs}"
     content = ReportContent(
         scenario=scenario, claims=claims, runs=comparison.runs, metrics=comparison.metrics, sweep=rows,
-        sweep_seed=seed, variants=comparison.variants, timings=timings, commands=(command,))
+        sweep_seed=seed, variants=comparison.variants, timings=timings, commands=(command,),
+        gains=found)
     page = out / "report.html"
     with _timed(timings, "page"):
         page.write_text(build_page(content), encoding="utf-8")
@@ -82,7 +88,8 @@ def build_report(scenario_path: Path, proof_paths: list[Path], out: Path, runs: 
 
 
 def build_study_report(study_path: Path, proof_paths: list[Path], out: Path, workers: int | None = None,
-                       on_progress: Progress = lambda what, done, total: None) -> StudyReport:
+                       on_progress: Progress = lambda what, done, total: None,
+                       with_gains: bool = False) -> StudyReport:
     """Decide the claims, run the study, and write report.html, claims.json, compare.json, the certificates and
     the curves of every figure into `out`.
 
@@ -97,10 +104,11 @@ def build_study_report(study_path: Path, proof_paths: list[Path], out: Path, wor
         result = run_study(study, workers, on_progress)
         write_json(out / "compare.json", study_document(study, result))
     write_curves(result.plots, out / "curves")
+    found = _gains(study_path, asked, out, workers, on_progress, timings) if with_gains else None
     command = f"workbench report {study_path} {' '.join(map(str, proof_paths))} --out {out}"
     page = out / "report.html"
     with _timed(timings, "page"):
-        text = build_study_page(StudyContent(study, result, claims, timings, (command,)))
+        text = build_study_page(StudyContent(study, result, claims, timings, (command,), found))
         page.write_text(text, encoding="utf-8")
     return StudyReport(page, claims, study, result, timings)
 
@@ -139,6 +147,18 @@ def _decide(asked: list[Target], out: Path, workers: int | None, on_progress: Pr
         claims = claims_document(decisions, out / "certificates")
         write_json(out / "claims.json", claims)
     return claims
+
+
+def _gains(path: Path, asked: list[Target], out: Path, workers: int | None, on_progress: Progress,
+           timings: dict[str, float]) -> StudyResult | None:
+    """What is known of the paper's gains, and gains.json in `out`; none for a file of which no gains are known."""
+    if not asked or str(read_toml(path).get("paper")) not in PAPERS:
+        return None
+    with _timed(timings, "gains"):
+        report = checked_gains(path, asked[0].path.parent)
+        done = effects(path, report, workers, lambda at, total, _: on_progress("runs of gains", at, total))
+        write_json(out / "gains.json", gains_document(report, done))
+    return gains_result(report, done)
 
 
 def _require_folder(out: Path) -> None:

@@ -13,10 +13,12 @@ from workbench.report import figures, headline, tables
 from workbench.report.claims import claim_views
 from workbench.report.numbers import length
 from workbench.report.sources import sourced_values
+from workbench.report.table_view import gains_view
 from workbench.report.template import PageFigure, render
 from workbench.scenario import Scenario, Variant
 from workbench.simulate.closed_loop import Run
 from workbench.simulate.sweep import SweepRow, summarise
+from workbench.studies.base import StudyResult
 
 
 @dataclass(frozen=True)
@@ -26,7 +28,7 @@ class ReportContent:
     claims: the document of `workbench prove --json`, where each claim may also carry `title`, `note`,
     `recorded`, `stated` and `computed`; runs and metrics: the nominal run of each controller, in the same
     order; sweep: its rows, with sweep_seed; variants: each change with the metrics it gave;
-    timings: what was done -> seconds; commands: how to get this page again.
+    timings: what was done -> seconds; commands: how to get this page again; gains: what `workbench gains` finds.
     """
 
     scenario: Scenario
@@ -38,6 +40,7 @@ class ReportContent:
     variants: Sequence[tuple[Variant, Sequence[Metrics]]] = ()
     timings: Mapping[str, float] = field(default_factory=dict)
     commands: Sequence[str] = ()
+    gains: StudyResult | None = None
 
 
 def build_page(content: ReportContent) -> str:
@@ -59,7 +62,8 @@ def build_page(content: ReportContent) -> str:
         "page.html.j2", content.claims, sources, subject=scenario, headline=[line for line in lines if line],
         settings={"scenario": scenario.name}
         | ({"Monte Carlo runs a controller": runs_each, "seed": seed} if compared else {}),
-        commands=content.commands, timings=content.timings, content=content, scenario=scenario, names=names,
+        commands=content.commands, timings=content.timings, gains=gains_view(content.gains),
+        content=content, scenario=scenario, names=names,
         figures=_figures(content, names), spread=_spread(content, names),
         nominal=tables.nominal_table(content.metrics),
         information=[tables.information(scenario, m.controller) for m in content.metrics],

@@ -14,35 +14,24 @@ from markupsafe import Markup
 from workbench.errors import InputError
 from workbench.report import headline
 from workbench.report.claims import claim_views
-from workbench.report.numbers import NOTHING
 from workbench.report.sources import sourced_values
 from workbench.report.study_figures import study_plot
+from workbench.report.table_view import caption, gains_view, table_views
 from workbench.report.template import PageFigure, render
-from workbench.studies.base import Plot, ResultTable, Study, StudyResult
-
-_NUMBER = re.compile(r"[-+−±≤≥<>~≈\[(]*\s*[\d∞]")
-WORDY = 18  # a cell of more letters is words, and may be broken
+from workbench.studies.base import Plot, Study, StudyResult
 
 
 @dataclass(frozen=True)
 class StudyContent:
-    """All that a study's page shows; claims: the document of `workbench prove --json`, empty without a proof."""
+    """All that a study's page shows; claims: the document of `workbench prove --json`, empty without a proof;
+    gains: what `workbench gains` finds."""
 
     study: Study
     result: StudyResult
     claims: Mapping[str, Any] = field(default_factory=dict)
     timings: Mapping[str, float] = field(default_factory=dict)
     commands: Sequence[str] = ()
-
-
-@dataclass(frozen=True)
-class TableView:
-    """A table ready to show: `kinds` says of every column whether it holds numbers, short texts or words."""
-
-    anchor: str
-    table: ResultTable
-    caption: str
-    kinds: tuple[str, ...]
+    gains: StudyResult | None = None
 
 
 def build_study_page(content: StudyContent) -> str:
@@ -53,7 +42,7 @@ def build_study_page(content: StudyContent) -> str:
     return render(
         "study.html.j2", content.claims, sources, subject=study, headline=[line for line in lines if line],
         settings={"study": study.name}, commands=content.commands, timings=content.timings,
-        tables=[_table(number, table) for number, table in enumerate(result.tables, start=1)],
+        tables=table_views(result.tables), gains=gains_view(content.gains),
         figures=[_figure(number, plot) for number, plot in enumerate(result.plots, start=1)],
         failures=result.failures)
 
@@ -79,23 +68,6 @@ def write_curves(plots: Sequence[Plot], folder: Path) -> None:
         raise InputError(folder, "", f"cannot be written ({trouble.strerror}): name another folder") from None
 
 
-def _caption(title: str, source: str, note: str) -> str:
-    return f"{title} ({source}). {note}".strip()
-
-
 def _figure(number: int, plot: Plot) -> PageFigure:
     name = f"figure-{number}"
-    return PageFigure(name, Markup(study_plot(plot, name)), _caption(plot.title, plot.source, plot.note))
-
-
-def _table(number: int, table: ResultTable) -> TableView:
-    columns = list(zip(*table.rows, strict=True)) if table.rows else [() for _ in table.header]
-    return TableView(f"table-{number}", table, _caption(table.title, table.source, table.note),
-                     tuple(map(_kind, columns)))
-
-
-def _kind(cells: Sequence[str]) -> str:
-    """`number` for a column of numbers, `words` for one of sentences, else `text`."""
-    if max(map(len, cells), default=0) > WORDY:
-        return "words"
-    return "number" if all(_NUMBER.match(cell) for cell in cells if cell not in ("", NOTHING)) else "text"
+    return PageFigure(name, Markup(study_plot(plot, name)), caption(plot.title, plot.source, plot.note))
