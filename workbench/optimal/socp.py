@@ -61,11 +61,17 @@ def solve_socp(vehicle: Vehicle, grid: Grid, trip_time_s: float, start_mps: floa
     half = speed**2
 
     b, v, tau = cp.Variable(n + 1), cp.Variable(n + 1), cp.Variable(n)
-    pull, brake, grip = cp.Variable(n, nonneg=True), cp.Variable(n, nonneg=True), cp.Variable(n, nonneg=True)
+    pull = cp.Variable(n, nonneg=True)
+    # A brake that the train does not have costs time all the same.
+    brake, grip = (cp.Variable(n, nonneg=True) if most > 0 else cp.Constant(np.zeros(n))
+                   for most in (vehicle.regenerative.force_n, vehicle.friction_brake_n))
     b_mean, v_mean = (b[1:] + b[:-1]) / 2, (v[1:] + v[:-1]) / 2
-    motion = (cp.multiply(inertia * half / (2 * h * force), b[1:] - b[:-1]) - pull + brake + grip
-              + (a + grid.force_n) / force + cp.multiply((grid.drag + c) * half / force, b_mean)
-              + b_1 * speed / force * v_mean == 0)
+    # Newton's law, in units between force and work: as force its numbers would be large on short intervals.
+    row = np.sqrt(h / h.mean())
+    motion = (cp.multiply(row * inertia * half / (2 * h * force), b[1:] - b[:-1])
+              + cp.multiply(row, brake + grip - pull) + row * (a + grid.force_n) / force
+              + cp.multiply(row * (grid.drag + c) * half / force, b_mean)
+              + cp.multiply(row * b_1 * speed / force, v_mean) == 0)
     fixed = grid.stands.copy()
     fixed[[0, -1]] = True
     value = np.zeros(n + 1)
@@ -77,9 +83,10 @@ def solve_socp(vehicle: Vehicle, grid: Grid, trip_time_s: float, start_mps: floa
              # v^2 <= b and tau (v_k + v_k+1) >= 2 h, in units of the scales
              cp.SOC(b[free] + 1, cp.vstack([2 * v[free], b[free] - 1])),
              cp.SOC(tau + 2 * v_mean, cp.vstack([tau - 2 * v_mean, 2 * np.sqrt(2 * h / (mean_time * speed))])),
-             grip <= vehicle.friction_brake_n / force]
+             *([grip <= vehicle.friction_brake_n / force] if vehicle.friction_brake_n > 0 else [])]
     rules += _force_rules(pull, vehicle.traction, grid, v_mean, tau, (force, speed, mean_time))
-    rules += _force_rules(brake, vehicle.regenerative, grid, v_mean, tau, (force, speed, mean_time))
+    if vehicle.regenerative.force_n > 0:
+        rules += _force_rules(brake, vehicle.regenerative, grid, v_mean, tau, (force, speed, mean_time))
     if b_1 > 0:  # else the resistance would fall with a speed that the relaxation lets go
         rules.append(v[free] >= cp.multiply(1 / np.sqrt(top[free]), b[free]))
     comfort = [(sign, sign * (b[1:] - b[:-1]) <= 2 * limit * h / half)
@@ -104,7 +111,7 @@ def solve_socp(vehicle: Vehicle, grid: Grid, trip_time_s: float, start_mps: floa
     stats = problem.solver_stats
     work = force * grid.course.length_m
     # Limits of the acceleration act on db/ds itself: they belong to the price of what changes b.
-    adjoint = motion.dual_value * work / (force * h)
+    adjoint = row * motion.dual_value * work / (force * h)
     for sign, rule in comfort:
         adjoint = adjoint + sign * rule.dual_value * 2 * work / (half * inertia)
     half_square = np.where(fixed, value, np.maximum(b.value, 0.0)) * half / 2
@@ -119,7 +126,7 @@ def _force_rules(force: cp.Variable, limit: ForceLimit, grid: Grid, v_mean: cp.E
     """Limits of one force in scaled units; a table by the lines of its upper concave hull, a relaxation."""
     unit, speed, mean_time = scales
     rules = [force <= limit.force_n / unit]
-    if np.isfinite(limit.power_w) and limit.force_n > 0:
+    if np.isfinite(limit.power_w):
         rules.append(cp.multiply(grid.step_m * unit / (limit.power_w * mean_time), force) <= tau)
     for constant, slope in _hull_lines(limit, speed):
         rules.append(force <= constant / unit + slope * speed / unit * v_mean)
