@@ -170,3 +170,26 @@ def test_figures_are_small_and_the_same_every_time():
     plot = Plot("noise", "paper", "x", "y", tuple(Curve(f"{i}", x, np.sin(99 * i * x)) for i in range(9)), log_y=True)
     assert study_plot(plot, "a") == study_plot(plot, "a")
     assert len(study_plot(plot, "a")) < 300_000
+
+
+def test_what_is_known_of_gains_stands_on_the_page(tiny, tmp_path, monkeypatch):
+    from workbench.gains.result import Condition, GainReport
+    from workbench.proof.new_paper import write_new_paper
+    from workbench.report import build
+    from workbench.studies.gain_effects import Effect
+
+    paper = tmp_path / "tiny2026.py"
+    write_new_paper("tiny2026", tmp_path)
+    found = GainReport("tiny2026", (Condition("k < 2 & more", "the paper's <own>", "k = 3", False, "", ""),), (), (),
+                       (), ("A remark.",), {})
+    monkeypatch.setitem(build.PAPERS, "tiny2026", "workbench.gains.tiny")
+    monkeypatch.setattr(build, "checked_gains", lambda path, proofs: found)
+    monkeypatch.setattr(build, "effects", lambda *_: (Effect("stated", "alone", {"rms": 2.0}, None),
+                                                      Effect("found", "alone", {"rms": 1.0}, None)))
+    with_them, without = (build_study_report(tiny, [paper], tmp_path / name, 1, with_gains=wanted)
+                          for name, wanted in (("with", True), ("without", False)))
+    text = with_them.page.read_text(encoding="utf-8")
+    assert 'id="gains"' in text and "k &lt; 2 &amp; more" in text and "better in rms" in text
+    assert 'id="gains"' not in without.page.read_text(encoding="utf-8")
+    assert json.loads((tmp_path / "with" / "gains.json").read_text(encoding="utf-8"))["conditions"][0]["met"] is False
+    assert not (tmp_path / "without" / "gains.json").exists()
