@@ -77,6 +77,10 @@ def _slope(vehicle: Vehicle, plan: Plan, interval: NDArray[np.intp], b: Array, l
     pull = planned * largest_force(vehicle.traction, v) / np.maximum(most, 1e-9)
     brake_now = -largest_force(vehicle.regenerative, v) - vehicle.friction_brake_n
     brake = planned * brake_now / np.minimum(least, -1e-9)
+    # At the limit of the electric brake too: what it cannot give friction would have to.
+    electric, electric_now = (largest_force(vehicle.regenerative, speed) for speed in (mean_speed, v))
+    regenerating = (planned < -NEAR_LIMIT * electric) & (planned > -electric / NEAR_LIMIT)
     force = np.where(planned > NEAR_LIMIT * most, pull,
-                     np.where(planned < NEAR_LIMIT * least, brake, planned))
+                     np.where(planned < NEAR_LIMIT * least, brake,
+                              np.where(regenerating, planned * electric_now / np.maximum(electric, 1e-9), planned)))
     return np.asarray((force - a - b_1 * v - (c + drag) * v * v - line) / vehicle.inertia_kg)
