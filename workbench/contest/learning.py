@@ -106,11 +106,13 @@ def learning_findings(told: Told) -> Iterator[str]:
                         trips.append(overtakes(trials, value, told.contest.resamples, told.contest.seed,
                                                told.contest.confidence))
             ahead = sorted(trip for trip in trips if trip is not None)
-            words = f"overtakes an MPC in {len(ahead)} of {met} pairings" if ahead else (
-                f"overtakes no MPC within its trips, in none of {met} pairings")
-            when = f", after {ahead[0]} to {ahead[-1]} trips" if ahead else ""
+            words = f"is ahead of an MPC in {len(ahead)} of {met} pairings" if ahead else (
+                f"overtakes no MPC within its trips in any of {met} pairings")
+            when = f", from trip {ahead[0]} to {ahead[-1]} on" if ahead else ""
             lost = f"; its runs fail in {failed} conditions" if failed else ""
-            yield f"{learner} {words} in {heading}{when}{lost}."
+            first = sum(trip == 1 for trip in ahead)
+            known = f", in {first} of them before it has learned anything" if first else ""
+            yield f"{learner} {words} of condition and MPC in {heading}{when}{known}{lost}."
 
 
 def learning_plot(told: Told) -> Iterator[Plot]:

@@ -121,8 +121,9 @@ def _findings(told: Told) -> Iterator[str]:
             yield f"Runs that fail, {stated.title}: {words}, of {runs} run{'s' if runs > 1 else ''} of each law."
     if told.lower_bound_j:
         first = next(iter(told.contest.conditions))
-        energies = [(entry.name, value.mean()) for entry, value in zip(
-            told.entries, told.values(first, "energy_J"), strict=True) if value is not None]
+        energies = [(entry.name, value.mean()) for entry, value, arrived in zip(
+            told.entries, told.values(first, "energy_J"), told.arrives(first), strict=True)
+            if value is not None and arrived]
         if energies:
             name, least = min(energies, key=lambda pair: pair[1])
             yield (f"The least energy of any run of the nominal train in the same time is "

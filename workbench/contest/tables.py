@@ -21,6 +21,10 @@ HEADINGS = {"position_rms": "position RMS (m)", "speed_rms": "speed RMS (m/s)",
             "energy_J": "energy (kWh)", "jerk_rms": "jerk RMS (m/s³)", "saturated_fraction": "saturated",
             "band_share": "beyond the band", "switchings_per_s": "traction/brake changes (1/s)"}
 UNITS = {"energy_J": 3.6e6}
+# A run that ends farther from the end of the line has not made the trip: what it saves is no merit.
+ARRIVED_M = 5.0
+# So many are named where nobody is alone the best.
+NAMED = 4
 
 
 @dataclass(frozen=True)
@@ -50,10 +54,16 @@ class Told:
             found.append(None if None in row else np.array(row, dtype=float))
         return found
 
+    def arrives(self, condition: str) -> list[bool]:
+        """By entry: whether every run ends within ARRIVED_M of the end of the line."""
+        return [value is not None and bool(value.max() <= ARRIVED_M)
+                for value in self.values(condition, "stopping_error")]
+
     def winners(self, condition: str, metric: str) -> list[str]:
-        """Names of the entries that are not worse than the best by more than chance."""
-        chosen = self.chosen(condition)
-        return [self.entries[i].name for i in winners(self.values(condition, metric), chosen, self.contest.confidence)]
+        """Names of the entries that are not worse than the best by more than chance, among those that arrive."""
+        ranked = [value if arrived else None for value, arrived in zip(
+            self.values(condition, metric), self.arrives(condition), strict=True)]
+        return [self.entries[i].name for i in winners(ranked, self.chosen(condition), self.contest.confidence)]
 
 
 def condition_table(told: Told, condition: str) -> ResultTable:
@@ -78,7 +88,8 @@ def condition_table(told: Told, condition: str) -> ResultTable:
         stated.title, f"{runs} run{'s' if runs > 1 else ''} each{learn}, the same draws for all",
         ("controller", *(HEADINGS[metric] for metric in METRICS), "failed"), tuple(rows),
         f"Means, in brackets their {100 * told.contest.confidence:g} % bootstrap interval. ● the best, and every one "
-        "whose paired difference from it may be chance. A controller with a failed run is not ranked.")
+        "whose paired difference from it may be chance. A controller with a run that fails, or that misses the end by "
+        f"more than {ARRIVED_M:g} m, is not ranked.")
 
 
 def _interval(metric: str, values: NDArray[np.float64], chosen: NDArray[np.intp], confidence: float) -> str:
@@ -95,12 +106,13 @@ def winners_table(told: Told) -> ResultTable:
         cells = []
         for metric in METRICS:
             found = told.winners(name, metric)
-            cells.append("none finishes" if not found else found[0] if len(found) == 1 else
-                         "all tie" if len(found) == len(told.entries) else f"tie: {', '.join(found)}")
+            cells.append("none arrives" if not found else found[0] if len(found) == 1 else
+                         f"tie: {', '.join(found)}" if len(found) <= NAMED else f"tie of {len(found)}")
         rows.append((condition.title, *cells))
-    return ResultTable("Who wins where", "the tables below", ("condition", *(HEADINGS[m] for m in METRICS)),
-                       tuple(rows), "A difference inside its interval is no win: then all that may be best are named. "
-                       "A trailing + marks the tuned parameters.")
+    return ResultTable(
+        "Who wins where", "the tables below", ("condition", *(HEADINGS[m] for m in METRICS)), tuple(rows),
+        "A difference inside its interval is no win: then all that may be best are named or counted. Ranked are those "
+        f"whose runs all end within {ARRIVED_M:g} m of the end of the line. A trailing + marks the tuned parameters.")
 
 
 def contestants_table(told: Told) -> ResultTable:
@@ -124,23 +136,19 @@ def contestants_table(told: Told) -> ResultTable:
         "µs a step: a compiled law in blocks with the plant, MPC call by call without it.")
 
 
-# A run that ends farther from the end of the line has not made the trip, so its energy is not held against the bound.
-ARRIVED_M = 5.0
-
-
 def energy_table(told: Told) -> Iterator[ResultTable]:
     """Every entry's energy under the first condition against the certified lower bound of any run in that time."""
     if told.lower_bound_j is None:
         return
     condition = next(iter(told.contest.conditions))
     rows = []
-    for entry, energy, miss in zip(told.entries, told.values(condition, "energy_J"),
-                                   told.values(condition, "stopping_error"), strict=True):
+    for entry, energy, miss, arrived in zip(
+            told.entries, told.values(condition, "energy_J"), told.values(condition, "stopping_error"),
+            told.arrives(condition), strict=True):
         if energy is None or miss is None:
             rows.append((entry.name, "—", "—", "fails"))
             continue
         above = 100 * (float(energy.mean()) / told.lower_bound_j - 1)
-        arrived = float(miss.max()) <= ARRIVED_M
         rows.append((entry.name, number(float(energy.mean()) / UNITS["energy_J"]), number(above) if arrived else "—",
                      "arrives" if arrived else f"misses the end by {number(float(miss.max()))} m"))
     yield ResultTable(

@@ -26,8 +26,8 @@ SLOPE_SEEN = ("nowhere", "reference", "train")
 MEMORY_RULES = ("same_sample", "next_sample")
 # A command beyond it is no longer one: the limits of a car are some 10^4 N.
 MOST_COMMAND_N = 1e9
-_SLOPE = (of_train.grade, of_train.wave, of_train.gravity, of_train.own)
-_VARIATION = (*of_train.coefficients, of_train.swing, of_train.beat)
+SLOPE_VALUES = (of_train.grade, of_train.wave, of_train.gravity, of_train.own)
+VARIATION_VALUES = (*of_train.coefficients, of_train.swing, of_train.beat)
 
 
 @dataclass(frozen=True)
@@ -91,8 +91,8 @@ def _kernel(acceleration: str) -> ModuleType:
     sample = law.control_sample(acceleration)
     pushed = (of_train.f_a,)
     return loop_module("chen2019 (1)-(3), (8)-(22)", [
-        function_source("coefficients_at", (of_train.time,), _VARIATION, of_train.varied),
-        cars_source("additional_forces", (of_train.common_place,), _SLOPE, (law.CAR_STATE, law.CAR_DATA),
+        function_source("coefficients_at", (of_train.time,), VARIATION_VALUES, of_train.varied),
+        cars_source("additional_forces", (of_train.common_place,), SLOPE_VALUES, (law.CAR_STATE, law.CAR_DATA),
                     ((of_train.slope_force,),)),
         cars_source("control", law.CONTROL_SCALARS, law.VALUES,
                     (law.CAR_STATE, law.CAR_DATA, pushed, (law.v_dot_used,), law.memory_prev, law.memory_old),
@@ -117,7 +117,7 @@ def run_cars(plan: CarsPlan) -> CarsRun:
     start[:2] = plan.reference[0, :2, None]  # Assumption 3
     start[2:] = np.array(plan.start)[:, None]
     values = np.array([plan.values[str(x)] for x in law.VALUES])
-    slope = np.array([*(plan.slope_values[str(x)] for x in _SLOPE[:-1]), float(plan.slope == "train")])
+    slope = np.array([*(plan.slope_values[str(x)] for x in SLOPE_VALUES[:-1]), float(plan.slope == "train")])
     variation = np.array([*values[: len(of_train.coefficients)], plan.variation["swing"], plan.variation["beat"]])
     held = np.zeros((len(COMPUTED), count))
     kernel = _kernel(plan.acceleration).trial

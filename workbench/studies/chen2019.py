@@ -8,6 +8,7 @@ import numpy as np
 
 from workbench.simulate.cars_trials import CarsRun
 from workbench.studies.base import Progress, StudyKind, StudyResult
+from workbench.studies.chen2019_beside import beside_findings, beside_tables, growth, run_beside
 from workbench.studies.chen2019_findings import all_findings
 from workbench.studies.chen2019_found import Found, difference, outcome, position_error, speed_error
 from workbench.studies.chen2019_plots import all_plots
@@ -36,10 +37,12 @@ def run(study: ChenStudy, workers: int, on_progress: Progress) -> StudyResult:
     run_tasks(run_number, study, sorted(asked, key=lambda i: -changed(study, i).samples), workers, record)
     # By itself, so that nothing else takes time from what is measured.
     found = Found(study, {i: runs[i] for i in asked}, cost(study))
+    trip, longer = (run_beside(study), growth(study)) if study.mpc else (None, ())
     on_progress(steps, steps, "cost of a sample")
     return StudyResult(
-        rows=tuple(_row(study, i, runs[i]) for i in asked), tables=all_tables(found), plots=all_plots(found),
-        findings=tuple(all_findings(found)),
+        rows=tuple(_row(study, i, runs[i]) for i in asked),
+        tables=(*all_tables(found), *beside_tables(found, trip, longer)), plots=all_plots(found),
+        findings=(*all_findings(found), *beside_findings(found, trip)),
         failures=tuple((title(study, i), str(runs[i].failed)) for i in asked if runs[i].failed is not None))
 
 

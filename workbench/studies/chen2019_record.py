@@ -9,6 +9,7 @@ from pydantic import Field, Strict, model_validator
 from workbench.desired_curve import DesiredCurve, start_cruise_stop
 from workbench.errors import WorkbenchError
 from workbench.studies.base import Study, with_values
+from workbench.studies.beside_mpc import MpcData
 from workbench.toml_input import Positive, Record, SourcedRecord, Text
 
 Mass = Annotated[float, Strict(), Field(ge=1e3, le=2e5, allow_inf_nan=False)]
@@ -163,6 +164,7 @@ class ChenStudy(Study):
     variation: Variation
     cost: Cost
     changes: tuple[Change, ...] = ()
+    mpc: MpcData | None = None
 
     @property
     def samples(self) -> int:

@@ -6,6 +6,7 @@ from typing import Any
 
 from workbench.simulate.trials import TrialRun, run_trials
 from workbench.studies.base import Progress, StudyKind, StudyResult
+from workbench.studies.jiao2025_beside import Beside, beside_findings, beside_table, beside_tasks, run_one
 from workbench.studies.jiao2025_cases import Case, JiaoStudy, cases, plan
 from workbench.studies.jiao2025_findings import all_findings
 from workbench.studies.jiao2025_found import Found, mse, outcome, peak, rises
@@ -16,18 +17,26 @@ from workbench.workers import run_tasks
 
 def run(study: JiaoStudy, workers: int, on_progress: Progress) -> StudyResult:
     """All runs of the study in `workers` processes; a run that diverges is told and stops no other."""
-    asked = list(dict.fromkeys(cases(study)))
+    asked, more = list(dict.fromkeys(cases(study))), beside_tasks(study)
     runs: dict[Case, TrialRun] = {}
 
     def record(result: tuple[Case, TrialRun]) -> None:
         runs[result[0]] = result[1]
-        on_progress(len(runs), len(asked), name_of(study, result[0]))
+        on_progress(len(runs), len(asked) + len(more), name_of(study, result[0]))
 
     run_tasks(_run_case, study, asked, workers, record)
-    found = Found(study, runs)
+    beside: dict[tuple[str, str], Beside] = {}
+
+    def keep(one: Beside) -> None:
+        beside[one.reading, one.kind] = one
+        on_progress(len(asked) + len(beside), len(asked) + len(more), f"{one.kind}, {one.reading}")
+
+    run_tasks(run_one, study, more, workers, keep)
+    of_mpc, found = [beside[task] for task in more], Found(study, runs)
     return StudyResult(
-        rows=tuple(_row(study, case, runs[case]) for case in asked), tables=all_tables(found), plots=all_plots(found),
-        findings=tuple(all_findings(found)),
+        rows=tuple(_row(study, case, runs[case]) for case in asked),
+        tables=(*all_tables(found), *beside_table(found, of_mpc)), plots=all_plots(found),
+        findings=(*all_findings(found), *beside_findings(found, of_mpc)),
         failures=tuple((name_of(study, case), str(runs[case].failed)) for case in asked
                        if runs[case].failed is not None and case.unit_mps2 is None))
 

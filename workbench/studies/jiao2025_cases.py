@@ -16,6 +16,7 @@ from workbench.controllers import jiao2025 as paper
 from workbench.controllers.jiao2025 import TRIAL_LAWS
 from workbench.simulate.trials import Array, TrialPlan
 from workbench.studies.base import Study
+from workbench.studies.beside_mpc import MpcData
 from workbench.toml_input import Name, Number, Positive, Record, SourcedRecord, Text
 
 GRAVITY = 9.80665
@@ -169,6 +170,7 @@ class JiaoStudy(Study):
     shown: tuple[Shown, ...]
     unit_sweep: UnitSweep
     variants: tuple[Change, ...] = ()
+    mpc: MpcData | None = None
 
     @model_validator(mode="after")
     def _names_are_known(self) -> Self:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from workbench.studies.base import Progress, StudyKind, StudyResult
+from workbench.studies.liu2020_beside import Beside, Task, beside_findings, beside_table, beside_tasks, run_one
 from workbench.studies.liu2020_cases import Found, cases, title_of
 from workbench.studies.liu2020_findings import all_findings
 from workbench.studies.liu2020_plots import all_plots
@@ -23,18 +24,27 @@ NAMES = {"position_m_min": "position_error_min", "position_m_max": "position_err
 
 def run(study: LiuStudy, workers: int, on_progress: Progress) -> StudyResult:
     """All runs of the study in `workers` processes; a run that diverges is told and stops no other."""
-    asked = cases(study)
+    asked, more = cases(study), beside_tasks(study)
     outcomes: dict[Case, Outcome] = {}
 
     def record(outcome: Outcome) -> None:
         outcomes[outcome.case] = outcome
-        on_progress(len(outcomes), len(asked), title_of(study, outcome.case))
+        on_progress(len(outcomes), len(asked) + len(more), title_of(study, outcome.case))
 
     run_tasks(run_case, study, asked, workers, record)
+    beside: dict[Task, Beside] = {}
+
+    def keep(one: Beside) -> None:
+        beside[one[0]] = one
+        on_progress(len(asked) + len(beside), len(asked) + len(more), f"{one[0].title}, {one[0].disturbance}")
+
+    run_tasks(run_one, study, more, workers, keep)
+    of_mpc = [beside[task] for task in more]
     found = Found(study, outcomes)
     return StudyResult(
-        rows=tuple(_row(study, outcomes[case]) for case in asked), tables=all_tables(found), plots=all_plots(found),
-        findings=all_findings(found),
+        rows=tuple(_row(study, outcomes[case]) for case in asked),
+        tables=(*all_tables(found), *beside_table(study, of_mpc)), plots=all_plots(found),
+        findings=(*all_findings(found), *beside_findings(study, of_mpc)),
         failures=tuple((title_of(study, case), str(outcomes[case].failed)) for case in asked if outcomes[case].failed))
 
 

@@ -11,6 +11,7 @@ from pydantic import Field, Strict, model_validator
 from workbench.controllers.liu2020 import LAWS
 from workbench.desired_curve import RampTime
 from workbench.studies.base import Study, with_values
+from workbench.studies.beside_mpc import MpcData
 from workbench.toml_input import NonNegative, Number, Positive, Record, SourcedRecord, Text
 
 COLUMNS = 10
@@ -214,6 +215,7 @@ class LiuStudy(Study):
     figure_ranges: FigureRanges
     runs: Runs
     changes: tuple[Change, ...] = ()
+    mpc: MpcData | None = None
 
     @model_validator(mode="after")
     def _parts_fit_together(self) -> Self:

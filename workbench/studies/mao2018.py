@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from workbench.controllers.mao2018_laws import KINDS
 from workbench.studies.base import Progress, StudyKind, StudyResult
+from workbench.studies.mao2018_beside import Beside, beside_findings, beside_table, beside_tasks, run_one
 from workbench.studies.mao2018_findings import findings
 from workbench.studies.mao2018_found import Found
 from workbench.studies.mao2018_plots import all_plots
@@ -43,14 +44,24 @@ def run(study: MaoStudy, workers: int, on_progress: Progress) -> StudyResult:
 
     def record(result: Obtained) -> None:
         found[result.asked] = result
-        on_progress(len(found), len(asked), result.name)
+        on_progress(len(found), len(asked) + len(beside_tasks(study)), result.name)
 
     # The longest first, so that no process is left alone with one.
     run_tasks(obtain, study, sorted(asked, key=lambda one: _steps(study, one), reverse=True), workers, record)
+    beside: dict[tuple[int, str], Beside] = {}
+    more = beside_tasks(study)
+
+    def keep(one: Beside) -> None:
+        beside[one.case, one.kind] = one
+        on_progress(len(asked) + len(beside), len(asked) + len(more), f"case {one.case}, {one.kind}")
+
+    run_tasks(run_one, study, more, workers, keep)
+    of_mpc = [beside[task] for task in more]
     everything = Found(study, {one: found[one] for one in asked})
     return StudyResult(
-        rows=tuple(found[one].row for one in asked), tables=all_tables(everything), plots=all_plots(everything),
-        findings=findings(everything),
+        rows=tuple(found[one].row for one in asked),
+        tables=(*all_tables(everything), *beside_table(everything, of_mpc)), plots=all_plots(everything),
+        findings=(*findings(everything), *beside_findings(everything, of_mpc)),
         failures=tuple((found[one].name, found[one].failed or "") for one in asked if found[one].failed))
 
 

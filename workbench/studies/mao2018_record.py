@@ -13,6 +13,7 @@ from workbench.errors import InputError
 from workbench.events import Term
 from workbench.scenario import Interval
 from workbench.studies.base import Study
+from workbench.studies.beside_mpc import MpcData
 from workbench.toml_input import (
     Count,
     Name,
@@ -184,6 +185,7 @@ class MaoStudy(Study):
     horizon: Horizon
     sampling: SamplingData
     sensitivity: tuple[Change, ...] = ()
+    mpc: MpcData | None = None
 
     @model_validator(mode="after")
     def _parts_fit_together(self) -> Self:
