@@ -1,0 +1,211 @@
+"""Laws that need runs of their own in a contest: they know what they are said to know, and trips count."""
+
+import json
+import math
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from scenarios import YANG
+
+from workbench.contest import chen2019
+from workbench.contest.entrants import ENTRANTS, check_entrants, entered, learns, play
+from workbench.contest.learning import learners, learning_tables, overtakes
+from workbench.contest.matches import Entry, all_matches, draws_of, play_match, with_parameters
+from workbench.contest.record import Condition, Contest
+from workbench.contest.statistics import resampled, winners
+from workbench.contest.study import KIND
+from workbench.contest.tables import ARRIVED_M, Told, energy_table
+from workbench.controllers.registry import held_command
+from workbench.report.study_page import StudyContent, build_study_page
+from workbench.scenario import Scenario, load_scenario
+from workbench.sensing import Sensing
+from workbench.simulate.closed_loop import Setting, run_law, setting_of
+from workbench.studies.registry import load_study
+
+COMMON = YANG.parent / "common.toml"
+SHORT_S = 40.0
+
+
+@pytest.fixture(scope="module")
+def contest() -> Contest:
+    found = load_study(COMMON)
+    assert isinstance(found, Contest)
+    return found
+
+
+@pytest.fixture(scope="module")
+def scenario(contest: Contest) -> Scenario:
+    """With few trips a run."""
+    whole = entered(contest)
+    for name, spec in contest.entrants.items():
+        if "trials" in spec.parameters:
+            whole = with_parameters(whole, name, {"trials": 3.0})
+    return whole
+
+
+def short(scenario: Scenario, **sensing: float) -> Setting:
+    return replace(setting_of(scenario), end_s=SHORT_S, sensing=Sensing(**sensing, seed=3))  # type: ignore[arg-type]
+
+
+def few(contest: Contest, conditions: tuple[str, ...], seeds: int = 2) -> Contest:
+    tuning = contest.tuning.model_copy(update={"found": {}})
+    return contest.model_copy(update={"seeds": seeds, "learner_seeds": 1, "tuning": tuning, "resamples": 100,
+                                      "conditions": {name: contest.conditions[name] for name in conditions}})
+
+
+def only(scenario: Scenario, *names: str) -> Scenario:
+    return scenario.model_copy(update={"controllers": {name: scenario.controllers[name] for name in names}})
+
+
+def test_the_common_line_is_driven_by_every_paper(scenario: Scenario) -> None:
+    laws = {spec.law.partition(".")[0] for spec in scenario.controllers.values()}
+    assert laws >= {"yang2021", "mao2018", "liu2020", "jiao2025", "chen2019", "pid", "rbf_pid", "mpc"}
+
+
+# A law that is told the position alone does not change with the noise of the speed, and so on.
+@pytest.mark.parametrize("law", ENTRANTS)
+def test_an_entrant_uses_no_more_than_it_is_said_to_be_told(law: str, contest: Contest, scenario: Scenario) -> None:
+    name = next(n for n, spec in contest.entrants.items() if spec.law.partition(".")[0] == law.partition(".")[0])
+    given_ = scenario.controllers[name].parameters
+    wanted = {key: given_.get(key, 1.0) for key in ENTRANTS[law].parameters}
+    spec = scenario.controllers[name].model_copy(update={"law": law, "parameters": wanted})
+    of = scenario.model_copy(update={"controllers": {name: spec}})
+    plain, at_speed, at_place = (play(of, name, short(of, **noise)).run.log[:, :8] for noise in (
+        {}, {"speed_noise_mps": 0.02}, {"position_noise_m": 0.02}))
+    told = ENTRANTS[law].information
+    uses_speed, uses_place = not np.array_equal(plain, at_speed), not np.array_equal(plain, at_place)
+    assert (uses_speed, uses_place) == ("position only" not in told, "speed only" not in told)
+
+
+def test_the_first_trip_of_jiao2025_is_that_of_a_constant_command(scenario: Scenario) -> None:
+    spec = scenario.controllers["jiao2025"]
+    setting = short(scenario)
+    held = np.array([spec.parameters["unit_mps2"] * spec.parameters["first_input"]])
+    empty = np.zeros(0), np.zeros((0, 0)), np.zeros((0, 0))
+    run = run_law(held_command, (held, *empty), setting, spec.period_s)
+    position = math.sqrt(run.totals["position_error_square_sum"] / run.totals["samples"])
+    assert play(scenario, "jiao2025", setting).trials[0][0] == pytest.approx(position, rel=1e-12)
+
+
+def test_a_second_trip_of_jiao2025_moves_inputs_as_14_says(scenario: Scenario) -> None:
+    """In trial 1 the estimate is still the first one, so that u(k,1) - u(k,0) = rho phi/(lambda + phi^2) e(k+1,0)."""
+    of = with_parameters(scenario, "jiao2025", {"trials": 1.0})
+    p = of.controllers["jiao2025"].parameters
+    setting = replace(short(of), log_every_s=0.1)
+    first = run_law(held_command, (np.array([p["unit_mps2"] * p["first_input"]]), np.zeros(0), np.zeros((0, 0)),
+                                   np.zeros((0, 0))), setting, 0.1)
+    error = setting.curve.at(first.column("t_s"))[1] - first.column("v_mps")
+    gain = p["rho"] * p["first_estimate"] / (p["lamda"] + p["first_estimate"] ** 2)
+    wanted = p["unit_mps2"] * (p["first_input"] + gain * error[1:])
+    assert play(of, "jiao2025", setting).run.column("u_mps2")[:-1] == pytest.approx(wanted, rel=1e-9)
+
+
+def test_one_car_of_chen2019_without_learning_is_a_plain_backstepping_law(scenario: Scenario) -> None:
+    """(9), (10), (12), (16) typed again; with next to no learning gains and mass bounds that meet."""
+    name, mass = "chen2019", 5e4
+    still = {key: 1e-12 for key in scenario.controllers[name].parameters if key.startswith("gamma")}
+    of = with_parameters(scenario, name, still | {"trials": 1.0, "m_low_kg": mass, "m_high_kg": mass})
+    p = of.controllers[name].parameters
+    setting = replace(short(of), log_every_s=0.005, end_s=10.0)
+    log = play(of, name, setting).run
+    t, s, v, u = (log.column(key) for key in ("t_s", "s_m", "v_mps", "u_mps2"))
+    x, xdot, xddot = setting.curve.at(t)
+    lam1 = lam2 = accel = 0.0
+    c1, c2, c3, T = p["c_1"], p["c_2"], p["c_3"], 0.005
+    most = mass / of.train.mass_kg * np.array([-of.train.max_braking_n, of.train.max_traction_n])
+    for k in range(len(t)):
+        if k:
+            accel += (1 - math.exp(-T / p["tau"])) * ((v[k] - v[k - 1]) / T - accel)
+        alpha, alpha_dot = -c1 * (s[k] - x[k]), -c1 * (v[k] - xdot[k])
+        z1 = s[k] - x[k] - lam1
+        mu = -(c2 * (v[k] - xdot[k] - alpha) + accel - xddot[k] - alpha_dot + z1) / c3 + mass * accel
+        assert u[k] == pytest.approx(mu / mass, rel=1e-6, abs=1e-6)
+        lost = float(np.clip(mu, *most)) - mu
+        lam1, lam2 = lam1 + T * (lam2 - c1 * lam1), lam2 + T * (c3 * lost - c2 * lam2)
+
+
+def test_trips_are_learned_from(contest: Contest, scenario: Scenario) -> None:
+    found = play_match(scenario, "chen2019", contest.conditions["nominal"], 0, contest.seed)
+    errors = [position for position, _ in found.trials]
+    assert len(errors) == 3 and errors[2] < errors[1] < errors[0]
+    assert learns(scenario, "chen2019") and not learns(scenario, "liu2020")
+
+
+def test_results_with_learners_are_the_same_bytes(contest: Contest, scenario: Scenario) -> None:
+    small, of = few(contest, ("noise",)), only(scenario, "liu2020", "jiao2025", "chen2019")
+    runs = [all_matches(small, of, workers, lambda *_: None) for workers in (1, 2)]
+    plain = [json.dumps([(m.draw, m.entry, m.values, m.failed, m.trials) for m in run]) for run in runs]
+    assert plain[0] == plain[1]
+    assert [m.entry for m in runs[0]] == ["liu2020", "jiao2025", "chen2019", "liu2020"]  # learners drive one draw
+    assert draws_of(small, of, "noise", Entry("jiao2025", False)) == 1
+
+
+@settings(max_examples=60, deadline=None)
+@given(st.integers(2, 30), st.integers(1, 12), st.integers(0, 5), st.floats(0.5, 2.0))
+def test_the_trip_of_overtaking_is_the_first_that_stays_ahead(draws: int, trips: int, seed: int, rival: float) -> None:
+    generator = np.random.default_rng(seed)
+    common = generator.normal(0.0, 5.0, draws)  # paired draws share what makes runs hard
+    falling = np.linspace(3.0, 0.01, trips)
+    trials = common[:, None] + falling
+    ahead = [i + 1 for i, error in enumerate(falling) if error < rival]
+    assert overtakes(trials, common + rival, 200, seed, 0.95) == (ahead[0] if ahead else None)
+    back = np.column_stack((trials, common + 10.0))  # worse again in the last trip
+    assert overtakes(back, common + rival, 200, seed, 0.95) is None
+
+
+def test_unlike_numbers_of_draws_are_compared_over_the_common_ones() -> None:
+    hard = np.arange(40.0)
+    chosen = resampled(40, 300, 1)
+    # Ahead by 1 in each of the first draws; the longer array's mean, of harder draws, says nothing about it.
+    assert winners([hard, hard[:10] - 1.0], chosen, 0.95) == [1]
+    assert set(winners([hard, hard[:10]], chosen, 0.95)) == {0, 1}
+
+
+def test_who_misses_the_end_of_the_line_is_not_ranked_and_all_of_it_is_told(
+        contest: Contest, scenario: Scenario, monkeypatch: pytest.MonkeyPatch) -> None:
+    of = only(scenario, "pid", "mpc_offset_free", "liu2020", "jiao2025", "chen2019")
+    monkeypatch.setattr("workbench.contest.study.entered", lambda _: of)
+    small = few(contest, ("nominal",), seeds=1)
+    result = KIND.run(small, 1, lambda *_: None)
+    rows = {row["controller"]: row for row in result.rows}
+    assert rows["jiao2025"]["stopping_error"] > ARRIVED_M
+    tables = {table.title: table for table in result.tables}
+    assert "jiao2025" not in "".join(tables["Who wins where"].rows[0])
+    assert {row[0] for row in tables["Who does not take part"].rows} == set(contest.absent)
+    energy = {row[0]: row for row in tables["Energy against the certified lower bound"].rows}
+    assert energy["jiao2025"][2] == "—" and float(energy["mpc_offset_free"][2]) > 0
+    learned = tables["When learning overtakes MPC: position RMS"]
+    assert [row[0] for row in learned.rows] == ["jiao2025", "chen2019"]
+    for row in learned.rows:
+        assert row[3].startswith(("no, ", "trip "))
+    assert sum("MPC" in finding for finding in result.findings) == 4
+    page = build_study_page(StudyContent(small, result))
+    assert "Learning from trip to trip" in page and "position only, model unknown" in page
+
+
+def test_a_learner_that_fails_is_told_with_its_trip(contest: Contest, scenario: Scenario) -> None:
+    wild = with_parameters(scenario, "jiao2025", {"unit_mps2": 5e4, "lamda": 1e-9, "trials": 4.0})
+    unlimited = replace(setting_of(wild), limits=(math.inf, math.inf, math.inf))
+    found = play(wild, "jiao2025", unlimited)
+    assert found.run.failed is not None and found.run.failed.startswith(f"trial {len(found.trials)}: ")
+    condition = Condition(title="none", source={"title": "convention: a test"})
+    values = play_match(scenario, "chen2019", condition, 0, 1)
+    assert len(values.trials) == 3
+
+
+def test_the_contest_of_yang2021_reads_and_its_entrants_fit() -> None:
+    found = load_study(YANG.parent / "yang2021_contest.toml")
+    assert isinstance(found, Contest)
+    check_entrants(found, load_scenario(Path(found.scenario)), YANG)
+    of = entered(found)
+    assert {"mpc", "mpc_offset_free", "mpc_tube", "rbfnn_pocrac"} <= set(of.controllers)
+    told = Told(found, of, (), None)
+    assert not list(learning_tables(told)) and not learners(told) and not list(energy_table(told))
+
+
+def test_the_room_of_a_sample_is_what_its_source_says() -> None:
+    assert chen2019.STEP.count(f"- {chen2019.ROOM}") == 1
