@@ -9,6 +9,7 @@ from workbench.optimal.course import Array
 from workbench.optimal.grid import Grid, grid_on
 from workbench.optimal.socp import Plan
 from workbench.optimal.vehicle import Vehicle
+from workbench.train import davis_resistance
 
 # Intervals that a finer mesh has more, as a share.
 GROWTH = 0.7
@@ -30,7 +31,7 @@ def slack(vehicle: Vehicle, plan: Plan, certificate: Certificate) -> Array:
         half_square = np.maximum(b[:-1] + share * np.diff(b), 1e-12)
         v = np.sqrt(2 * half_square)
         p = certificate.left + share * (certificate.right - certificate.left)
-        resistance = a + b_1 * v + (c + grid.drag[owner]) * v * v
+        resistance = davis_resistance(v, a, b_1, c + grid.drag[owner])
         own += h / 2 * (cost + certificate.time_price_w / v + p * (resistance - u)
                         - vehicle.inertia_kg * (certificate.right - certificate.left) / h * half_square)
     above = np.maximum(own - cell_bounds(vehicle, grid.course, certificate), 0.0)

@@ -9,6 +9,7 @@ from numpy.polynomial.legendre import leggauss
 
 from workbench.optimal.course import Array, Course
 from workbench.optimal.vehicle import ForceLimit, Vehicle
+from workbench.train import davis_resistance
 
 _NODES, _WEIGHTS = leggauss(3)
 # Points of the quadrature within a cell, from 0 to 1, and their weights.
@@ -86,7 +87,7 @@ def forces(vehicle: Vehicle, profile: Profile) -> Forces:
     a, b_1, c = vehicle.davis_n
     line = course.force_n[:, :1] + WITHIN * (course.force_n[:, 1:] - course.force_n[:, :1])
     drag = course.drag[:, :1] + WITHIN * (course.drag[:, 1:] - course.drag[:, :1])
-    needed = vehicle.inertia_kg * profile.acceleration_mps2[:, None] + a + b_1 * speed + (c + drag) * speed**2 + line
+    needed = vehicle.inertia_kg * profile.acceleration_mps2[:, None] + davis_resistance(speed, a, b_1, c + drag) + line
     traction, braking = np.maximum(needed, 0.0), np.maximum(-needed, 0.0)
     regenerative = np.minimum(braking, largest_force(vehicle.regenerative, speed))
     friction = braking - regenerative

@@ -15,6 +15,7 @@ from workbench.optimal.envelope import drivable
 from workbench.optimal.profile import Profile, largest_force
 from workbench.optimal.socp import Plan
 from workbench.optimal.vehicle import Vehicle
+from workbench.train import davis_resistance
 
 # From this share of its limit on, a mean force is taken for the limit itself.
 NEAR_LIMIT = 0.96
@@ -83,4 +84,4 @@ def _slope(vehicle: Vehicle, plan: Plan, interval: NDArray[np.intp], b: Array, l
     force = np.where(planned > NEAR_LIMIT * most, pull,
                      np.where(planned < NEAR_LIMIT * least, brake,
                               np.where(regenerating, planned * electric_now / np.maximum(electric, 1e-9), planned)))
-    return np.asarray((force - a - b_1 * v - (c + drag) * v * v - line) / vehicle.inertia_kg)
+    return np.asarray((force - davis_resistance(v, a, b_1, c + drag) - line) / vehicle.inertia_kg)

@@ -19,6 +19,7 @@ from workbench.optimal.envelope import InfeasibleRunError
 from workbench.optimal.profile import Profile, largest_force
 from workbench.optimal.reference import Reference, Solver, find_reference
 from workbench.optimal.vehicle import Vehicle
+from workbench.train import davis_resistance
 
 WINDOW_S = 1.0
 # Times a window is made longer until the jerk keeps its limit.
@@ -183,4 +184,4 @@ def needed_force(vehicle: Vehicle, course: Course, s: Array, v: Array, a: Array)
     line = course.force_n[k, 0] + share * (course.force_n[k, 1] - course.force_n[k, 0])
     drag = course.drag[k, 0] + share * (course.drag[k, 1] - course.drag[k, 0])
     a_0, b_1, c = vehicle.davis_n
-    return np.asarray(vehicle.inertia_kg * a + a_0 + b_1 * v + (c + drag) * v * v + line)
+    return np.asarray(vehicle.inertia_kg * a + davis_resistance(v, a_0, b_1, c + drag) + line)

@@ -18,6 +18,7 @@ from workbench.optimal.regimes import REGIMES, regimes
 from workbench.optimal.vehicle import Vehicle
 from workbench.report.numbers import number
 from workbench.report.svg import FAINT, INK, PALETTE, Array, drawing, svg, thin
+from workbench.track import STANDARD_GRAVITY_MPS2
 
 # Away from a page there are no page colours.
 PAPER_GREY = "#9a9a9a"
@@ -37,7 +38,7 @@ def reference_figure(vehicle: Vehicle, profile: Profile, title: str, faint: str 
     above.legend(handles=[Patch(color=COLOURS[name], alpha=0.22, label=name) for name in REGIMES], ncols=4,
                  loc="lower center")
     # N/kN of weight is the per mille of a grade.
-    weight = vehicle.mass_kg * 9.80665e-3
+    weight = vehicle.mass_kg * STANDARD_GRAVITY_MPS2 / 1000
     ends = profile.course.force_n / weight
     below.fill_between(np.repeat(x, 2)[1:-1], ends.ravel(), color=faint, alpha=0.5, linewidth=0)
     below.axhline(0, color=INK, linewidth=0.6)
