@@ -186,8 +186,8 @@ def test_mistakes_in_a_contest_are_one_line(contest: Contest, tmp_path: Path) ->
         with pytest.raises(WorkbenchError, match=message) as trouble:
             load_study(path)
         assert "\n" not in str(trouble.value)
-    with pytest.raises(InputError, match="is no contest"):
-        list(tune_run(YANG.parent / "jiao2025.toml", [], False, 1, lambda *_: None))
+    with pytest.raises(InputError, match="paper: there is no study of"):
+        list(tune_run(YANG.parent / "common_run.toml", [], False, 1, lambda *_: None))
 
 
 def test_found_parameters_are_written_and_take_part(contest: Contest, scenario: Scenario, tmp_path: Path) -> None:

@@ -149,11 +149,11 @@ def sweep(scenario: Annotated[Path, typer.Argument(help="Scenario TOML")],
 
 
 @app.command()
-def tune(contest: Annotated[Path, typer.Argument(help="Contest TOML: budget, ranges and objective are in it")],
+def tune(contest: Annotated[Path, typer.Argument(help="Contest or study TOML: budget, ranges, objective are in it")],
          controller: Annotated[list[str] | None, typer.Option(help="Only this one; may be repeated.")] = None,
          write: Annotated[bool, typer.Option("--write", help="Put what was found into the file.")] = False,
          workers: Workers = None) -> None:
-    """Tune controllers for a contest: the same budget, optimiser and seed for every one."""
+    """Tune the controllers of a contest or study: the same budget, optimiser and seed for every one."""
     from workbench.contest.command import tune_run
 
     with progress() as show:

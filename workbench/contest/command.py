@@ -5,11 +5,8 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 from pathlib import Path
 
-from workbench.contest.entrants import entered
-from workbench.contest.record import Contest
-from workbench.contest.tune import tune_all
 from workbench.errors import InputError
-from workbench.studies.registry import load_study
+from workbench.studies.registry import load_study, study_kind
 from workbench.workers import cores
 
 BEGIN, END = "# --- found by workbench tune: begin ---", "# --- found by workbench tune: end ---"
@@ -17,24 +14,24 @@ BEGIN, END = "# --- found by workbench tune: begin ---", "# --- found by workben
 
 def tune_run(path: Path, names: list[str], write: bool, workers: int | None,
              on_progress: Callable[[int, int, str], None]) -> Iterator[str]:
-    """Lines for the reader; with `write` the found parameters replace those in the contest's file.
+    """Lines for the reader; with `write` the found parameters replace those in the file.
 
-    Raises InputError for a file that is no contest and names without ranges.
+    Raises InputError for a study without tuning and names without ranges.
     """
-    contest = load_study(path)
-    if not isinstance(contest, Contest):
-        raise InputError(path, "paper", "this study is no contest: name a file with paper = \"contest\"")
-    scenario = entered(contest)
-    chosen = names or list(contest.tuning.ranges)
+    study = load_study(path)
+    tune, budget = study_kind(study.paper).tune, getattr(study, "tuning", None)
+    if tune is None or budget is None:
+        raise InputError(path, "tuning", "is missing: state budget, objective and ranges in this table")
+    chosen = list(dict.fromkeys(names)) or list(budget.ranges)
     for name in chosen:
-        if name not in contest.tuning.ranges:
+        if name not in budget.ranges:
             raise InputError(path, f"tuning.ranges.{name}", "is missing: name a controller with ranges, or add them")
-    found = tune_all(contest, scenario, chosen, workers or cores(), on_progress)
+    found = tune(study, chosen, workers or cores(), on_progress)
     for name, (values, cost, stated) in found.items():
         words = ", ".join(f"{key} = {value:g}" for key, value in values.items())
         yield f"{name}: cost {stated:.4g} as stated, {cost:.4g} tuned: {words}"
     if write:
-        tables = contest.tuning.found | {name: values for name, (values, _, _) in found.items()}
+        tables = budget.found | {name: values for name, (values, _, _) in found.items()}
         _write(path, tables)
         yield f"written: {path}"
 

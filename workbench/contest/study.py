@@ -14,7 +14,9 @@ from workbench.contest.entrants import check_entrants, entered, learns
 from workbench.contest.learning import learning_findings, learning_plot, learning_tables
 from workbench.contest.matches import METRICS, all_matches, of, run_match, tunable
 from workbench.contest.record import Contest
+from workbench.contest.search import Tuned
 from workbench.contest.tables import HEADINGS, Told, all_tables
+from workbench.contest.tune import tune_all
 from workbench.errors import InputError
 from workbench.report.numbers import number
 from workbench.scenario import load_scenario
@@ -145,4 +147,8 @@ def _gain(told: Told, controller: str, tuned: str) -> Iterator[str]:
                f"{told.contest.conditions[condition].title}.")
 
 
-KIND = StudyKind(Contest, run, located)
+def _tuned(contest: Contest, names: list[str], workers: int, on_progress: Progress) -> dict[str, Tuned]:
+    return tune_all(contest, entered(contest), names, workers, on_progress)
+
+
+KIND = StudyKind(Contest, run, located, _tuned)

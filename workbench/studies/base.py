@@ -132,8 +132,11 @@ class StudyKind:
 
     workers: processes to use, at least one. A run that fails is told in the result and raises nothing.
     located(study, path): of studies that name other files, the study with them found from its own path.
+    tune(study, names, workers, on_progress): of studies whose file has a [tuning] table, for each name the parameters
+    that were found, their cost and that of the stated ones.
     """
 
     record: type[Study]
     run: Callable[[Any, int, Progress], StudyResult]
     located: Callable[[Any, Path], Any] | None = None
+    tune: Callable[[Any, list[str], int, Progress], dict[str, tuple[dict[str, float], float, float]]] | None = None
