@@ -13,10 +13,10 @@ from scenarios import YANG
 
 from workbench.contest import chen2019
 from workbench.contest.entrants import ENTRANTS, check_entrants, entered, learns, play
-from workbench.contest.learning import learners, learning_tables, overtakes
+from workbench.contest.learning import learners, learning_tables
 from workbench.contest.matches import Entry, all_matches, draws_of, play_match, with_parameters
 from workbench.contest.record import Condition, Contest
-from workbench.contest.statistics import resampled, winners
+from workbench.contest.statistics import overtakes, resampled, winners
 from workbench.contest.study import KIND
 from workbench.contest.tables import ARRIVED_M, Told, energy_table
 from workbench.controllers.registry import held_command

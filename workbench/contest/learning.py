@@ -9,28 +9,13 @@ from numpy.typing import NDArray
 
 from workbench.contest.entrants import learns
 from workbench.contest.matches import of
-from workbench.contest.statistics import mean_interval, resampled
+from workbench.contest.statistics import overtakes
 from workbench.contest.tables import Told
 from workbench.report.numbers import number
 from workbench.studies.base import Curve, Plot, ResultTable
 
 # Of `Played.trials`: column, heading, metric of a whole run.
 ERRORS = ((0, "position RMS", "position_rms", "m"), (1, "speed RMS", "speed_rms", "m/s"))
-
-
-def overtakes(trials: NDArray[np.float64], rival: NDArray[np.float64], resamples: int, seed: int,
-              confidence: float) -> int | None:
-    """The first trip, from 1, from which on a learner's error is below a rival's by more than chance, else None.
-
-    trials: of the learner, shape (draws, trips); rival: by draw, of which the first ones are compared.
-    """
-    draws = min(len(trials), len(rival))
-    chosen, found = resampled(draws, resamples, seed), None
-    for trip in range(trials.shape[1] - 1, -1, -1):
-        if not mean_interval(trials[:draws, trip] - rival[:draws], chosen, confidence).high < 0:
-            break
-        found = trip + 1
-    return found
 
 
 def learners(told: Told) -> list[str]:

@@ -2,15 +2,15 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Any, Self
+from typing import Annotated, Self
 
 from pydantic import Field, Strict, model_validator
 
 from workbench.scenario import ControllerSpec
 from workbench.studies.base import Study
+from workbench.studies.tuning_record import Searched, Seed
 from workbench.toml_input import Count, Name, NonNegative, Positive, SourcedRecord, Text
 
-Seed = Annotated[int, Strict(), Field(ge=0)]
 Spread = Annotated[float, Strict(), Field(ge=0, lt=1, allow_inf_nan=False)]
 Share = Annotated[float, Strict(), Field(gt=0, le=1, allow_inf_nan=False)]
 
@@ -50,39 +50,15 @@ class Objective(SourcedRecord):
     failed: Positive
 
 
-class Tuning(SourcedRecord):
+class Tuning(Searched):
     """The budget that every controller gets: runs, seed of the search, condition and draws of the runs.
 
-    ranges: per controller, the parameters (or initial values) that are searched and from where to where,
-    logarithmically.
-    found: per controller, what `workbench tune` found within this budget; the command is its source.
+    ranges: of initial values too.
     """
 
-    runs: Count
-    seed: Seed
     condition: Name
     draws: Count
     objective: Objective
-    ranges: dict[Name, dict[str, tuple[Positive, Positive]]]
-    found: dict[Name, dict[str, Positive]] = Field(default_factory=dict)
-
-    @model_validator(mode="before")
-    @classmethod
-    def _found_has_its_source(cls, data: Any) -> Any:
-        if isinstance(data, dict) and "found" in data and isinstance(data.get("source"), dict):
-            return data | {"source": {"found": "convention: found by workbench tune"} | data["source"]}
-        return data
-
-    @model_validator(mode="after")
-    def _ranges_go_up(self) -> Self:
-        for name, ranges in self.ranges.items():
-            for key, (low, high) in ranges.items():
-                if not low < high:
-                    raise ValueError(f"ranges.{name}.{key}: {low:g} to {high:g} is no range: let it go up")
-        for name, found in self.found.items():
-            if name not in self.ranges or found.keys() != self.ranges[name].keys():
-                raise ValueError(f"found.{name}: its parameters are not those of ranges.{name}: run 'workbench tune'")
-        return self
 
 
 class Contest(Study):
