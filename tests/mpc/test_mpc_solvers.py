@@ -86,8 +86,8 @@ def independent_program(mpc, problem, ahead, sample, state, plan=None):
     cost = cp.quad_form(x[N] - rows[N, :3], cp.psd_wrap(mpc.lqr.cost))
     constraints = [x[0] == state, s >= 0, u >= problem.lowest_command_mps2, u <= problem.highest_command_mps2]
     for k in range(N):
-        jac, gap = mpc._jac[sample + k].reshape(3, 4), mpc._gap[sample + k]
-        base, desired = mpc._x[sample + k], rows[k]
+        jac, gap = mpc.along.jac[sample + k].reshape(3, 4), mpc.along.gap[sample + k]
+        base, desired = mpc.along.x[sample + k], rows[k]
         following = rows[k + 1, :3] + gap + jac[:, :3] @ (x[k] - base) + jac[:, 3] * (u[k] - desired[3])
         constraints.append(x[k + 1] == following)
         e = x[k] - desired[:3]
@@ -156,8 +156,8 @@ def test_the_interior_point_method_alone_finds_the_same_plan(sample, error):
     alone, N = np.zeros(12), 12
     window = slice(sample, sample + N + 1)
     how, _ = kernels("lag").solve_linear(
-        state, mpc._x[window], mpc._u[sample : sample + N], mpc._jac[sample : sample + N],
-        mpc._gap[sample : sample + N], mpc._h[window], mpc._g[window], ahead[window], *mpc._fixed,
+        state, mpc.along.x[window], mpc.along.u[sample : sample + N], mpc.along.jac[sample : sample + N],
+        mpc.along.gap[sample : sample + N], mpc.along.h[window], mpc.along.g[window], ahead[window], *mpc._fixed,
         memory_of.memory(N), memory_of.workspace(N), alone, 0, 60)
     assert how == 1
     assert alone == pytest.approx(expected, abs=1e-5)

@@ -17,6 +17,7 @@ import sympy as sp
 from workbench import multi_particle as of_train
 from workbench.compile import cars_source, function_source, loop_module, plant_source
 from workbench.contest.entrant import Entrant, Played, trial_errors
+from workbench.contest.inlined import inlined
 from workbench.controllers import chen2019 as law
 from workbench.controllers.registry import held_command
 from workbench.scenario import ControllerSpec, Scenario
@@ -76,13 +77,14 @@ PARAMETERS = (*LAW, *CAR, "tau", "trials")
 @cache
 def _learner() -> ModuleType:
     sample, plant = law.control_sample("filtered"), single_particle()
-    return loop_module(f"chen2019 (8)-(22) for one car and {plant.source}", [
+    return inlined(loop_module(f"chen2019 (8)-(22) for one car and {plant.source}", [
         plant_source(plant),
         cars_source("control", law.CONTROL_SCALARS, law.VALUES,
                     (law.CAR_STATE, law.CAR_DATA, (of_train.f_a,), (law.v_dot_used,), law.memory_prev, law.memory_old),
                     (tuple(sample.computed[name] for name in COMPUTED), sample.kept), sample.shared),
         function_source("followed", (law.v_dot_used, _v_now, _v_last), law.VALUES, [_followed]),
-        function_source("auxiliary", (law.lambda_1, law.lambda_2, law.Delta_u), law.VALUES, _euler), STEP], kernel_loop)
+        function_source("auxiliary", (law.lambda_1, law.lambda_2, law.Delta_u), law.VALUES, _euler),
+        STEP], kernel_loop), "control", "followed", "auxiliary", "control_step")
 
 
 def _values(scenario: Scenario, spec: ControllerSpec) -> Array:

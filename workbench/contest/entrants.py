@@ -7,13 +7,14 @@ from pathlib import Path
 
 from workbench.contest import chen2019, jiao2025, liu2020
 from workbench.contest.entrant import Entrant, Played
+from workbench.contest.inlined import law_loop
 from workbench.contest.record import Contest
 from workbench.controllers.registry import LAWS, SAMPLED
-from workbench.controllers.values import check_controllers
+from workbench.controllers.values import check_controllers, law_values
 from workbench.errors import InputError
 from workbench.mpc.controller import KINDS
 from workbench.scenario import Scenario, load_scenario
-from workbench.simulate.closed_loop import Setting, simulate_in
+from workbench.simulate.closed_loop import Setting, run_law, simulate_in
 
 ENTRANTS: dict[str, Entrant] = {**liu2020.ENTRANTS, **jiao2025.ENTRANTS, **chen2019.ENTRANTS}
 
@@ -51,6 +52,10 @@ def check_entrants(contest: Contest, scenario: Scenario, path: Path) -> None:
 def play(scenario: Scenario, name: str, setting: Setting) -> Played:
     """Run a contestant in a setting that may differ from what the scenario states, which is what it knows."""
     spec = scenario.controllers[name]
+    if spec.law in LAWS:
+        law = LAWS[spec.law]
+        return Played(run_law(law, law_values(law, spec, name), setting, spec.period_s, spec.estimates, name,
+                              spec.title or law.title, module=law_loop(law, spec.estimates)))
     if spec.law not in ENTRANTS:
         return Played(simulate_in(scenario, name, setting))
     found = ENTRANTS[spec.law].play(scenario, spec, setting)

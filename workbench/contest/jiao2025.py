@@ -15,6 +15,7 @@ import numpy as np
 
 from workbench.compile import loop_module, plant_source
 from workbench.contest.entrant import Entrant, Played, trial_errors
+from workbench.contest.inlined import inlined
 from workbench.controllers.jiao2025 import TRIAL_LAWS
 from workbench.controllers.registry import held_command
 from workbench.scenario import ControllerSpec, Scenario
@@ -40,7 +41,7 @@ OWN = ("unit_mps2", "first_input", "trials")
 @cache
 def _player() -> ModuleType:
     plant = single_particle()
-    return loop_module(f"a table of commands and {plant.source}", [plant_source(plant), PLAYBACK], kernel_loop)
+    return inlined(loop_module(f"a table of commands and {plant.source}", [plant_source(plant), PLAYBACK], kernel_loop))
 
 
 def _play(scenario: Scenario, spec: ControllerSpec, setting: Setting) -> Played:

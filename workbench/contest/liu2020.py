@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from workbench.contest.entrant import Entrant, Played
+from workbench.contest.inlined import law_loop
 from workbench.controllers.liu2020 import LAWS
 from workbench.scenario import ControllerSpec, Scenario
 from workbench.simulate.closed_loop import Setting, run_law
@@ -33,7 +34,8 @@ def values_of(scenario: Scenario, spec: ControllerSpec) -> tuple[Array, Array, A
 
 def _play(scenario: Scenario, spec: ControllerSpec, setting: Setting) -> Played:
     law = LAWS[spec.law]
-    return Played(run_law(law, values_of(scenario, spec), setting, spec.period_s, "explicit", title=law.title))
+    return Played(run_law(law, values_of(scenario, spec), setting, spec.period_s, "explicit", title=law.title,
+                          module=law_loop(law, "explicit")))
 
 
 ENTRANTS = {f"liu2020.{name}": Entrant(

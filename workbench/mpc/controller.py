@@ -119,6 +119,7 @@ class MpcController:
 
     def command(self, time_s: float, position_m: float, speed_mps: float) -> float:
         """The command u = F/m in m/s^2 for the sample at time_s."""
+        position_m, speed_mps = float(position_m), float(speed_mps)  # numpy's scalars are slow to count with
         good = math.isfinite(time_s) and abs(position_m) < FARTHEST_M and abs(speed_mps) < FASTEST_MPS
         k = round(time_s / self.problem.period_s) if math.isfinite(time_s) else self._sample + 1
         k = self._sample = min(max(k, 0), self._last_sample)

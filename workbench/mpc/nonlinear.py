@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 
 from workbench.mpc.kernels import base, kernels, memory, workspace
@@ -65,7 +67,7 @@ class NonlinearMpc:
             state, self._window, *self._fixed, self._memory, self._work, self._base, self._plan, self.most_programs,
             MOST_PASSES, MOST_INTERIOR, self._close)
         self.cost = cost
-        good = bool(np.isfinite(cost)) and status != 2
+        good = math.isfinite(cost) and status != 2
         # A plan that is not converged obeys the model and the limits all the same, and costs less than its start.
         why = "" if good and (status == 0 or self.most_programs == 1) else (
             f"no convergence in {programs} programs" if good else "a program was not solved")

@@ -8,8 +8,6 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 
-import numpy as np
-
 from workbench.errors import InputError
 from workbench.mpc.kernels import kernels
 from workbench.mpc.problem import Array, Problem
@@ -38,7 +36,7 @@ class Observer:
         if self._expected_speed is not None:
             surprise = (speed_mps - self._expected_speed) / self._period_s
             moved = self.disturbance + self._gain * surprise
-            self.disturbance = float(np.clip(moved, -self._largest, self._largest))
+            self.disturbance = min(max(moved, -self._largest), self._largest)
         return self.disturbance
 
     def predict(self, sample: int, speed_mps: float | None, command: float) -> None:

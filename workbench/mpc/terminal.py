@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import lru_cache
 
 import casadi as ca
 import control
@@ -40,8 +41,12 @@ def linearised(problem: Problem, speed_mps: float) -> tuple[Array, Array]:
     return np.asarray(at[0]), np.asarray(at[1])
 
 
+@lru_cache(maxsize=64)
 def lqr(problem: Problem) -> Lqr:
-    """The LQR of a problem; raises InputError where its weights are too far apart for one."""
+    """The LQR of a problem, kept for the next controller of the same one; its arrays are not to be written to.
+
+    Raises InputError where the weights are too far apart for one.
+    """
     A, B = linearised(problem, problem.terminal_speed_mps)
     w = problem.weights
     q, r = np.diag([w.position, w.speed, w.force + w.change]), np.array([[w.command + w.change]])

@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, replace
+from functools import lru_cache
 
 import control
 import numpy as np
@@ -91,6 +92,14 @@ def extents(slope_per_s: float, period_s: float, gain: Array) -> tuple[Array, Ar
     The disturbance may change at any instant, so each extent is an integral of the absolute answer to an impulse, by
     trapezoids. ROUNDED_UP is more than these and the cut sums can miss.
     """
+    found, A_K = _extents(slope_per_s, period_s, tuple(gain.tolist()))
+    return found.copy(), A_K.copy()
+
+
+# Thousands of matrix exponentials, the same for every run of a controller.
+@lru_cache(maxsize=64)
+def _extents(slope_per_s: float, period_s: float, feedback_gain: tuple[float, ...]) -> tuple[Array, Array]:
+    gain = np.array(feedback_gain)
     A, B = held(slope_per_s, period_s)
     A_K = A - np.outer(B, gain)
     radius = float(np.abs(np.linalg.eigvals(A_K)).max())
