@@ -70,6 +70,7 @@ def domain_margin(_t, _p, _v, _x_d, _v_d, _a_d, _period, parameters):
     return math.inf
 """
 CAR = ("car_mass_kg", "m_low_kg", "m_high_kg")
+PUT_IN = ("control", "followed", "auxiliary", "control_step")
 LAW = tuple(str(symbol) for symbol in (*law.gains, *law.learning_gains))
 PARAMETERS = (*LAW, *CAR, "tau", "trials")
 
@@ -77,14 +78,14 @@ PARAMETERS = (*LAW, *CAR, "tau", "trials")
 @cache
 def _learner() -> ModuleType:
     sample, plant = law.control_sample("filtered"), single_particle()
-    return inlined(loop_module(f"chen2019 (8)-(22) for one car and {plant.source}", [
+    return loop_module(f"chen2019 (8)-(22) for one car and {plant.source}", [
         plant_source(plant),
         cars_source("control", law.CONTROL_SCALARS, law.VALUES,
                     (law.CAR_STATE, law.CAR_DATA, (of_train.f_a,), (law.v_dot_used,), law.memory_prev, law.memory_old),
                     (tuple(sample.computed[name] for name in COMPUTED), sample.kept), sample.shared),
         function_source("followed", (law.v_dot_used, _v_now, _v_last), law.VALUES, [_followed]),
         function_source("auxiliary", (law.lambda_1, law.lambda_2, law.Delta_u), law.VALUES, _euler),
-        STEP], kernel_loop), "control", "followed", "auxiliary", "control_step")
+        STEP], kernel_loop)
 
 
 def _values(scenario: Scenario, spec: ControllerSpec) -> Array:
@@ -111,7 +112,7 @@ def _play(scenario: Scenario, spec: ControllerSpec, setting: Setting) -> Played:
     for trial in range(1, int(given["trials"]) + 1):
         noisy = replace(setting, sensing=replace(setting.sensing, seed=setting.sensing.seed + trial - 1))
         run = run_law(held_command, (values, np.zeros(4), np.zeros((0, 0)), memory), noisy, spec.period_s,
-                      title=ENTRANTS[spec.law].title, module=_learner())
+                      title=ENTRANTS[spec.law].title, module=inlined(_learner(), setting, *PUT_IN))
         found = trial_errors(run, scenario.track.length_m)
         if found is None:
             return Played(replace(run, failed=f"trial {trial}: {run.failed}"), tuple(errors))

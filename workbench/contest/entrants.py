@@ -55,7 +55,7 @@ def play(scenario: Scenario, name: str, setting: Setting) -> Played:
     if spec.law in LAWS:
         law = LAWS[spec.law]
         return Played(run_law(law, law_values(law, spec, name), setting, spec.period_s, spec.estimates, name,
-                              spec.title or law.title, module=law_loop(law, spec.estimates)))
+                              spec.title or law.title, module=law_loop(law, setting, spec.estimates)))
     if spec.law not in ENTRANTS:
         return Played(simulate_in(scenario, name, setting))
     found = ENTRANTS[spec.law].play(scenario, spec, setting)
@@ -70,6 +70,12 @@ def information(scenario: Scenario, name: str) -> str:
     if law in LAWS:
         return LAWS[law].information
     return KINDS[law].information if law in KINDS else "full state, nominal model"
+
+
+def follows_curve(scenario: Scenario, name: str) -> bool:
+    """Whether a contestant tracks the desired curve; if not, errors from it say nothing about it."""
+    law = scenario.controllers[name].law
+    return KINDS[law].follows_curve if law in KINDS else True
 
 
 def learns(scenario: Scenario, name: str) -> bool:

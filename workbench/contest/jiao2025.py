@@ -41,7 +41,7 @@ OWN = ("unit_mps2", "first_input", "trials")
 @cache
 def _player() -> ModuleType:
     plant = single_particle()
-    return inlined(loop_module(f"a table of commands and {plant.source}", [plant_source(plant), PLAYBACK], kernel_loop))
+    return loop_module(f"a table of commands and {plant.source}", [plant_source(plant), PLAYBACK], kernel_loop)
 
 
 def _play(scenario: Scenario, spec: ControllerSpec, setting: Setting) -> Played:
@@ -69,7 +69,7 @@ def _play(scenario: Scenario, spec: ControllerSpec, setting: Setting) -> Played:
         table[0, :length], table[0, length] = unit * u, unit * u[-1]
         noisy = replace(setting, sensing=replace(setting.sensing, seed=setting.sensing.seed + trial))
         run = run_law(held_command, (np.zeros(1), np.zeros(0), np.zeros((0, 0)), table), noisy, spec.period_s,
-                      title=law.title, module=_player())
+                      title=law.title, module=inlined(_player(), setting, "control_step"))
         found = trial_errors(run, scenario.track.length_m)
         if found is None:
             return Played(replace(run, failed=f"trial {trial}: {run.failed}"), tuple(errors))

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 import numpy as np
 from numpy.typing import NDArray
 
-from workbench.contest.entrants import learns
+from workbench.contest.entrants import follows_curve, learns
 from workbench.contest.matches import of
 from workbench.contest.statistics import overtakes
 from workbench.contest.tables import Told
@@ -32,7 +32,8 @@ def _trials(told: Told, condition: str, name: str, column: int) -> NDArray[np.fl
 
 
 def _rivals(told: Told) -> list[str]:
-    return [entry.name for entry in told.entries if entry.controller.startswith("mpc")]
+    return [entry.name for entry in told.entries
+            if entry.controller.startswith("mpc") and follows_curve(told.scenario, entry.controller)]
 
 
 def learning_tables(told: Told) -> Iterator[ResultTable]:

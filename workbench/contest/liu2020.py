@@ -35,7 +35,7 @@ def values_of(scenario: Scenario, spec: ControllerSpec) -> tuple[Array, Array, A
 def _play(scenario: Scenario, spec: ControllerSpec, setting: Setting) -> Played:
     law = LAWS[spec.law]
     return Played(run_law(law, values_of(scenario, spec), setting, spec.period_s, "explicit", title=law.title,
-                          module=law_loop(law, "explicit")))
+                          module=law_loop(law, setting, "explicit")))
 
 
 ENTRANTS = {f"liu2020.{name}": Entrant(

@@ -7,9 +7,10 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
+from numpy.typing import NDArray
 
 from workbench.contest.entrant import Played
-from workbench.contest.entrants import learns, play
+from workbench.contest.entrants import play
 from workbench.contest.record import Condition, Contest
 from workbench.events import Failure
 from workbench.metrics import measure
@@ -19,10 +20,15 @@ from workbench.simulate.closed_loop import Factors, Run, setting_of
 from workbench.track import Track
 from workbench.workers import run_tasks
 
+Array = NDArray[np.float64]
+
 TUNED = "+"
 # What is compared, in SI units, the less the better; each a number of a whole run.
 METRICS = ("position_rms", "speed_rms", "largest_position_error", "stopping_error", "energy_J", "jerk_rms",
-           "saturated_fraction", "band_share", "switchings_per_s")
+           "saturated_fraction", "band_share", "switchings_per_s", "late_s", "overspeed_mps")
+# What is an error from the desired curve: says nothing about who follows none.
+OF_CURVE = ("position_rms", "speed_rms", "largest_position_error", "band_share")
+STANDING_MPS = 0.1
 
 
 @dataclass(frozen=True)
@@ -42,7 +48,8 @@ class Entry:
 class Match:
     """One run: condition, number of its seed, entry -> METRICS (None where the run failed), and why it failed.
 
-    step_us: median time of a control step; counters: of the controller; trials: of `Played`, of a law that learns.
+    step_us, step_p99_us: median and 99th percentile of the time of a control step; counters: of the controller; trials:
+    of `Played`, of a law that learns.
     """
 
     condition: str
@@ -51,6 +58,7 @@ class Match:
     values: dict[str, float | None]
     failed: str | None
     step_us: float
+    step_p99_us: float
     counters: dict[str, int]
     trials: tuple[tuple[float, float], ...] = ()
 
@@ -70,10 +78,9 @@ def tunable(scenario: Scenario, name: str) -> dict[str, float]:
     return spec.initial | spec.parameters
 
 
-def draws_of(contest: Contest, scenario: Scenario, condition: str, entry: Entry) -> int:
-    """How many runs an entry has under a condition: one where nothing is drawn."""
-    few = contest.learner_seeds if learns(scenario, entry.controller) else None
-    return min(contest.seeds, few or contest.seeds) if contest.conditions[condition].random else 1
+def draws_of(contest: Contest, condition: str) -> int:
+    """How many runs every entry has under a condition: one where nothing is drawn."""
+    return contest.seeds if contest.conditions[condition].random else 1
 
 
 def with_parameters(scenario: Scenario, name: str, parameters: dict[str, float]) -> Scenario:
@@ -133,8 +140,26 @@ def match_values(run: Run, scenario: Scenario) -> dict[str, float | None]:
         "largest_position_error": found.largest_position_error, "stopping_error": abs(found.stopping_error),
         "energy_J": found.energy_J, "jerk_rms": found.jerk_rms, "saturated_fraction": found.saturated_fraction,
         "band_share": found.limit_violations / max(1.0, run.totals["samples"]),
-        "switchings_per_s": float(np.count_nonzero(np.diff(pulling))) / run.end_s}
+        "switchings_per_s": float(np.count_nonzero(np.diff(pulling))) / run.end_s,
+        "late_s": _late(run, scenario),
+        "overspeed_mps": overspeed(run.column("s_m"), run.column("v_mps"), scenario.track)}
     return {key: float(value) for key, value in values.items()}
+
+
+def _late(run: Run, scenario: Scenario) -> float:
+    """How long after the desired arrival the train still moves, as far as the run goes; 0 where it stands by then."""
+    moving = np.abs(run.column("v_mps")) > STANDING_MPS
+    last = float(run.column("t_s")[moving][-1]) if moving.any() else 0.0
+    return max(0.0, last - scenario.desired_curve().trip_time_s)
+
+
+def overspeed(position: Array, speed: Array, track: Track) -> float:
+    """The largest excess over the line's speed limits, m/s; 0 without any."""
+    allowed = np.full(len(position), np.inf)
+    for section in track.speed_limit:
+        here = (position >= section.start_m) & (position < section.end_m)
+        allowed[here] = section.speed_mps
+    return float(max(0.0, np.max(speed - allowed)))
 
 
 def one_match(shared: tuple[Contest, Scenario], task: Task) -> Match:
@@ -144,16 +169,16 @@ def one_match(shared: tuple[Contest, Scenario], task: Task) -> Match:
         scenario = with_parameters(scenario, entry.controller, dict(contest.tuning.found[entry.controller]))
     played = play_match(scenario, entry.controller, contest.conditions[condition], draw, contest.seed)
     run = played.run
+    middle, slow = np.percentile(run.step_us, (50, 99)).tolist() if len(run.step_us) else (0.0, 0.0)
     return Match(condition, draw, entry.name, match_values(run, scenario), run.failed,
-                 float(np.median(run.step_us)) if len(run.step_us) else 0.0, run.counters,
-                 played.trials)
+                 middle, slow, run.counters, played.trials)
 
 
 def all_matches(contest: Contest, scenario: Scenario, workers: int,
                 on_progress: Callable[[int, int, str], None]) -> tuple[Match, ...]:
     """Every match, ordered by condition, draw and entry; a condition without chance is run once."""
-    tasks: list[Task] = [(name, draw, entry) for name in contest.conditions for draw in range(contest.seeds)
-                         for entry in entries(contest, scenario) if draw < draws_of(contest, scenario, name, entry)]
+    tasks: list[Task] = [(name, draw, entry) for name in contest.conditions for draw in range(draws_of(contest, name))
+                         for entry in entries(contest, scenario)]
     found: dict[tuple[str, int, str], Match] = {}
 
     def record(match: Match) -> None:

@@ -50,23 +50,33 @@ class Objective(SourcedRecord):
     failed: Positive
 
 
+class WithoutCurve(SourcedRecord):
+    """What tuning minimises for who follows no curve: the sum of each over its unit; a failed run costs `failed`."""
+
+    energy_j: Positive
+    stopping_m: Positive
+    late_s: Positive
+    overspeed_mps: Positive
+    jerk_mps3: Positive
+    failed: Positive
+
+
 class Tuning(Searched):
     """The budget that every controller gets: runs, seed of the search, condition and draws of the runs.
 
-    ranges: of initial values too.
+    ranges: of initial values too. without_curve: the objective of who follows no curve, needed where there is one.
     """
 
     condition: Name
     draws: Count
     objective: Objective
+    without_curve: WithoutCurve | None = None
 
 
 class Contest(Study):
     """A contest: its scenario's file (relative to this one), seeds, conditions and tuning.
 
-    learner_seeds: of a law that learns from trial to trial, whose every run is many; its differences from others are
-    taken over these draws. entrants: who takes part beside the scenario's controllers; absent: laws that do not, and
-    why.
+    entrants: who takes part beside the scenario's controllers; absent: laws that do not, and why.
     """
 
     scenario: Text
@@ -77,7 +87,6 @@ class Contest(Study):
     source: dict[str, Text]
     conditions: dict[Name, Condition]
     tuning: Tuning
-    learner_seeds: Count | None = None
     entrants: dict[Name, ControllerSpec] = Field(default_factory=dict)
     absent: dict[Name, Text] = Field(default_factory=dict)
 

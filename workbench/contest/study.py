@@ -10,9 +10,9 @@ from typing import Any
 import numpy as np
 
 from workbench.contest.energy import best_run
-from workbench.contest.entrants import check_entrants, entered, learns
+from workbench.contest.entrants import check_entrants, entered, follows_curve, learns
 from workbench.contest.learning import learning_findings, learning_plot, learning_tables
-from workbench.contest.matches import METRICS, all_matches, of, run_match, tunable
+from workbench.contest.matches import METRICS, all_matches, draws_of, of, overspeed, run_match, tunable
 from workbench.contest.record import Contest
 from workbench.contest.search import Tuned
 from workbench.contest.tables import HEADINGS, Told, all_tables
@@ -32,6 +32,9 @@ def located(contest: Contest, path: Path) -> Contest:
         if name not in scenario.controllers:
             raise InputError(path, f"tuning.ranges.{name}", "is no controller of the scenario: choose one of "
                              f"{', '.join(scenario.controllers)}")
+        if not follows_curve(scenario, name) and contest.tuning.without_curve is None:
+            raise InputError(path, "tuning.without_curve", f"is missing: state what '{name}', which follows no curve, "
+                             "is tuned for")
         for key in ranges:
             if key not in tunable(scenario, name):
                 raise InputError(path, f"tuning.ranges.{name}.{key}", "is no parameter of this controller: choose "
@@ -70,9 +73,9 @@ def _rows(told: Told) -> Iterator[dict[str, Any]]:
 
 
 def _plots(told: Told) -> Iterator[Plot]:
-    """Position errors of all that finish the first condition, and largest errors by condition."""
+    """Position errors of all that finish the first condition and follow the curve, and errors by condition."""
     first = next(iter(told.contest.conditions))
-    curves = []
+    curves, speeds = [], []
     for name in told.scenario.controllers:
         if learns(told.scenario, name):
             continue
@@ -80,17 +83,22 @@ def _plots(told: Told) -> Iterator[Plot]:
         if done.failed is None:
             time, error = done.column("t_s"), done.column("s_m") - done.column("s_desired_m")
             keep = slice(None, None, max(1, len(time) // 1500))
-            curves.append(Curve(name, time[keep], error[keep]))
+            if follows_curve(told.scenario, name):
+                curves.append(Curve(name, time[keep], error[keep]))
+            else:
+                speeds.append(Curve(name, time[keep], done.column("v_mps")[keep]))
     if curves:
         yield Plot("Position errors", f"condition: {told.contest.conditions[first].title}", "time (s)",
                    "position error (m)", tuple(curves))
     curve = told.scenario.desired_curve()
     time = np.linspace(0.0, curve.trip_time_s, 1000)
     yield Plot("The desired curve", "the scenario", "time (s)", "speed (m/s)",
-               (Curve("desired", time, curve.at(time)[1]),))
+               (Curve("desired", time, curve.at(time)[1]), *speeds))
     places = np.arange(len(told.contest.conditions), dtype=float)
     lines = []
     for i, entry in enumerate(told.entries):
+        if not told.judged(entry, "position_rms"):
+            continue
         means = [told.values(name, "position_rms")[i] for name in told.contest.conditions]
         able = [(place, float(value.mean())) for place, value in zip(places, means, strict=True) if value is not None]
         if able:
@@ -103,13 +111,13 @@ def _plots(told: Told) -> Iterator[Plot]:
 
 def _findings(told: Told) -> Iterator[str]:
     """Plainly who wins where, from the tables."""
-    wins: dict[str, Counter[str]] = {metric: Counter() for metric in METRICS}
+    wins: dict[str, Counter[str]] = {metric: Counter() for metric in told.metrics}
     for condition in told.contest.conditions:
-        for metric in METRICS:
+        for metric in told.metrics:
             found = told.winners(condition, metric)
             wins[metric].update(found if len(found) == 1 else ())
     count = len(told.contest.conditions)
-    for metric in METRICS:
+    for metric in told.metrics:
         if wins[metric]:
             words = ", ".join(f"{name} in {n}" for name, n in wins[metric].most_common())
             yield f"{HEADINGS[metric]}, alone best of {count} conditions: {words}."
@@ -119,7 +127,7 @@ def _findings(told: Told) -> Iterator[str]:
         failed = Counter(match.entry for match in told.matches if match.condition == name and match.failed)
         if failed:
             words = ", ".join(f"{entry} {n}" for entry, n in failed.most_common())
-            runs = told.contest.seeds if stated.random else 1
+            runs = draws_of(told.contest, name)
             yield f"Runs that fail, {stated.title}: {words}, of {runs} run{'s' if runs > 1 else ''} of each law."
     if told.lower_bound_j:
         first = next(iter(told.contest.conditions))
@@ -130,11 +138,44 @@ def _findings(told: Told) -> Iterator[str]:
             name, least = min(energies, key=lambda pair: pair[1])
             yield (f"The least energy of any run of the nominal train in the same time is "
                    f"{number(told.lower_bound_j / 3.6e6)} kWh; the least of the contestants, {name}, takes "
-                   f"{number(least / 3.6e6)} kWh, {number(100 * (least / told.lower_bound_j - 1))} % more: all track "
-                   "the same desired curve.")
+                   f"{number(least / 3.6e6)} kWh, {number(100 * (least / told.lower_bound_j - 1))} % more.")
+    yield from _without_curve(told)
+    yield from _limits_of_the_curve(told)
     for entry in told.entries:
         if entry.tuned:
             yield from _gain(told, entry.controller, entry.name)
+
+
+def _without_curve(told: Told) -> Iterator[str]:
+    """What who follows no curve makes of its freedom: energy, stop and arrival over all conditions."""
+    band = told.scenario.simulation.position_band_m
+    for i, entry in enumerate(told.entries):
+        if told.judged(entry, "position_rms"):
+            continue
+        within, ahead, counted = 0, 0, len(told.contest.conditions)
+        for name in told.contest.conditions:
+            energy, miss, arrived = (told.values(name, "energy_J"), told.values(name, "stopping_error")[i],
+                                     told.arrives(name))
+            within += miss is not None and bool(miss.max() <= band)
+            others = [float(value.mean()) for other, value, comes in zip(told.entries, energy, arrived, strict=True)
+                      if value is not None and comes and told.judged(other, "position_rms")]
+            own = energy[i]
+            ahead += own is not None and arrived[i] and all(float(own.mean()) < value for value in others)
+        late = [value for name in told.contest.conditions if (value := told.values(name, "late_s")[i]) is not None]
+        worst = f", at most {number(max(float(value.max()) for value in late))} s late" if late else ""
+        yield (f"{entry.name}, which follows no curve, takes on average less energy than every one that does and "
+               f"arrives in {ahead} of {counted} conditions; all its runs end within {band:g} m of the stop in "
+               f"{within} of them{worst}.")
+
+
+def _limits_of_the_curve(told: Told) -> Iterator[str]:
+    """Whether the desired curve itself keeps the line's speed limits."""
+    curve = told.scenario.desired_curve()
+    position, speed, _ = curve.at(np.linspace(0.0, curve.trip_time_s, 20_001))
+    excess = overspeed(position, speed, told.scenario.track)
+    if excess > 0:
+        yield (f"The desired curve itself is up to {number(excess)} m/s faster than the line's speed limits, so who "
+               "tracks it is too.")
 
 
 def _gain(told: Told, controller: str, tuned: str) -> Iterator[str]:

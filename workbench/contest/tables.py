@@ -8,8 +8,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from workbench.contest.entrants import information
-from workbench.contest.matches import METRICS, Entry, Match, entries, of
+from workbench.contest.effort import mpc_table
+from workbench.contest.entrants import follows_curve, information
+from workbench.contest.matches import METRICS, OF_CURVE, Entry, Match, entries, of
 from workbench.contest.record import Contest
 from workbench.contest.statistics import mean_interval, resampled, winners
 from workbench.report.numbers import number
@@ -19,7 +20,8 @@ from workbench.studies.base import ResultTable
 HEADINGS = {"position_rms": "position RMS (m)", "speed_rms": "speed RMS (m/s)",
             "largest_position_error": "largest |position error| (m)", "stopping_error": "|stopping error| (m)",
             "energy_J": "energy (kWh)", "jerk_rms": "jerk RMS (m/s³)", "saturated_fraction": "saturated",
-            "band_share": "beyond the band", "switchings_per_s": "traction/brake changes (1/s)"}
+            "band_share": "beyond the band", "switchings_per_s": "traction/brake changes (1/s)",
+            "late_s": "still moving after the arrival time (s)", "overspeed_mps": "beyond the speed limits (m/s)"}
 UNITS = {"energy_J": 3.6e6}
 # A run that ends farther from the end of the line has not made the trip: what it saves is no merit.
 ARRIVED_M = 5.0
@@ -41,6 +43,15 @@ class Told:
         """Who takes part."""
         return entries(self.contest, self.scenario)
 
+    @property
+    def metrics(self) -> tuple[str, ...]:
+        """METRICS, without what this line knows none of."""
+        return tuple(name for name in METRICS if name != "overspeed_mps" or self.scenario.track.speed_limit)
+
+    def judged(self, entry: Entry, metric: str) -> bool:
+        """Whether a metric says anything about an entry: errors from the curve do not where none is followed."""
+        return metric not in OF_CURVE or follows_curve(self.scenario, entry.controller)
+
     def chosen(self, condition: str) -> NDArray[np.intp]:
         """The bootstrap's draws of a condition."""
         random = self.contest.conditions[condition].random
@@ -60,9 +71,12 @@ class Told:
                 for value in self.values(condition, "stopping_error")]
 
     def winners(self, condition: str, metric: str) -> list[str]:
-        """Names of the entries that are not worse than the best by more than chance, among those that arrive."""
-        ranked = [value if arrived else None for value, arrived in zip(
-            self.values(condition, metric), self.arrives(condition), strict=True)]
+        """Names of the entries that are not worse than the best by more than chance, among those that arrive.
+
+        Who is not judged by the metric is left out.
+        """
+        ranked = [value if arrived and self.judged(entry, metric) else None for entry, value, arrived in zip(
+            self.entries, self.values(condition, metric), self.arrives(condition), strict=True)]
         return [self.entries[i].name for i in winners(ranked, self.chosen(condition), self.contest.confidence)]
 
 
@@ -70,26 +84,24 @@ def condition_table(told: Told, condition: str) -> ResultTable:
     """A row per entry: means with their intervals, failed runs."""
     stated = told.contest.conditions[condition]
     chosen, rows = told.chosen(condition), []
-    best = {metric: told.winners(condition, metric) for metric in METRICS}
-    columns = {metric: told.values(condition, metric) for metric in METRICS}
+    best = {metric: told.winners(condition, metric) for metric in told.metrics}
+    columns = {metric: told.values(condition, metric) for metric in told.metrics}
     for i, entry in enumerate(told.entries):
         matches = of(told.matches, condition, entry.name)
         failed = sum(match.failed is not None for match in matches)
         cells = [entry.name]
-        for metric in METRICS:
+        for metric in told.metrics:
             value = columns[metric][i]
-            cells.append("—" if value is None else _interval(metric, value, chosen, told.contest.confidence)
-                         + (" ●" if entry.name in best[metric] else ""))
+            mark = " ●" if entry.name in best[metric] else "" if told.judged(entry, metric) else " (follows no curve)"
+            cells.append("—" if value is None else _interval(metric, value, chosen, told.contest.confidence) + mark)
         rows.append((*cells, f"{failed} of {len(matches)}"))
     runs = told.contest.seeds if stated.random else 1
-    fewer = told.contest.learner_seeds
-    learn = f", {fewer} of laws that learn" if fewer and runs > fewer else ""
     return ResultTable(
-        stated.title, f"{runs} run{'s' if runs > 1 else ''} each{learn}, the same draws for all",
-        ("controller", *(HEADINGS[metric] for metric in METRICS), "failed"), tuple(rows),
+        stated.title, f"{runs} run{'s' if runs > 1 else ''} each, the same draws for all",
+        ("controller", *(HEADINGS[metric] for metric in told.metrics), "failed"), tuple(rows),
         f"Means, in brackets their {100 * told.contest.confidence:g} % bootstrap interval. ● the best, and every one "
         "whose paired difference from it may be chance. A controller with a run that fails, or that misses the end by "
-        f"more than {ARRIVED_M:g} m, is not ranked.")
+        f"more than {ARRIVED_M:g} m, is not ranked; nor is one by errors from a curve that it does not follow.")
 
 
 def _interval(metric: str, values: NDArray[np.float64], chosen: NDArray[np.intp], confidence: float) -> str:
@@ -104,13 +116,13 @@ def winners_table(told: Told) -> ResultTable:
     rows = []
     for name, condition in told.contest.conditions.items():
         cells = []
-        for metric in METRICS:
+        for metric in told.metrics:
             found = told.winners(name, metric)
             cells.append("none arrives" if not found else found[0] if len(found) == 1 else
                          f"tie: {', '.join(found)}" if len(found) <= NAMED else f"tie of {len(found)}")
         rows.append((condition.title, *cells))
     return ResultTable(
-        "Who wins where", "the tables below", ("condition", *(HEADINGS[m] for m in METRICS)), tuple(rows),
+        "Who wins where", "the tables below", ("condition", *(HEADINGS[m] for m in told.metrics)), tuple(rows),
         "A difference inside its interval is no win: then all that may be best are named or counted. Ranked are those "
         f"whose runs all end within {ARRIVED_M:g} m of the end of the line. A trailing + marks the tuned parameters.")
 
@@ -121,18 +133,12 @@ def contestants_table(told: Told) -> ResultTable:
     for entry in told.entries:
         spec = told.scenario.controllers[entry.controller]
         steps = [match.step_us for match in told.matches if match.entry == entry.name]
-        counters: dict[str, int] = {}
-        for match in told.matches:
-            if match.entry == entry.name:
-                for key, count in match.counters.items():
-                    counters[key] = counters.get(key, 0) + count
         parameters = told.contest.tuning.found[entry.controller] if entry.tuned else {}
         rows.append((entry.name, spec.title or spec.law, information(told.scenario, entry.controller),
                      f"{1e3 * spec.period_s:g}", number(float(np.median(steps))),
-                     ", ".join(f"{key} {count}" for key, count in sorted(counters.items()) if count) or "—",
                      ", ".join(f"{key} = {value:g}" for key, value in parameters.items()) or "as stated"))
     return ResultTable("The contestants", "the contest's file", (
-        "controller", "law", "is told", "period (ms)", "µs a step", "counted in all runs", "parameters"), tuple(rows),
+        "controller", "law", "is told", "period (ms)", "µs a step", "parameters"), tuple(rows),
         "µs a step: a compiled law in blocks with the plant, MPC call by call without it.")
 
 
@@ -142,21 +148,22 @@ def energy_table(told: Told) -> Iterator[ResultTable]:
         return
     condition = next(iter(told.contest.conditions))
     rows = []
-    for entry, energy, miss, arrived in zip(
+    for entry, energy, miss, late, arrived in zip(
             told.entries, told.values(condition, "energy_J"), told.values(condition, "stopping_error"),
-            told.arrives(condition), strict=True):
-        if energy is None or miss is None:
-            rows.append((entry.name, "—", "—", "fails"))
+            told.values(condition, "late_s"), told.arrives(condition), strict=True):
+        if energy is None or miss is None or late is None:
+            rows.append((entry.name, "—", "—", "—", "fails"))
             continue
         above = 100 * (float(energy.mean()) / told.lower_bound_j - 1)
         rows.append((entry.name, number(float(energy.mean()) / UNITS["energy_J"]), number(above) if arrived else "—",
+                     number(float(late.mean())),
                      "arrives" if arrived else f"misses the end by {number(float(miss.max()))} m"))
     yield ResultTable(
         "Energy against the certified lower bound", f"condition: {told.contest.conditions[condition].title}",
-        ("controller", "energy (kWh)", "above the bound (%)", "the trip"), tuple(rows),
+        ("controller", "energy (kWh)", "above the bound (%)", HEADINGS["late_s"], "the trip"), tuple(rows),
         f"No run of the nominal train over this line in the desired curve's time takes less than "
-        f"{number(told.lower_bound_j / UNITS['energy_J'])} kWh of traction; all track the same curve, so most of the "
-        "difference is the curve's.")
+        f"{number(told.lower_bound_j / UNITS['energy_J'])} kWh of traction. Who tracks the curve pays for the "
+        "curve; a run that takes longer than the curve is not held by the bound.")
 
 
 def absent_table(told: Told) -> Iterator[ResultTable]:
@@ -170,6 +177,7 @@ def all_tables(told: Told) -> Iterator[ResultTable]:
     """In the order of the page."""
     yield winners_table(told)
     yield contestants_table(told)
+    yield from mpc_table(told)
     for condition in told.contest.conditions:
         yield condition_table(told, condition)
     yield from energy_table(told)

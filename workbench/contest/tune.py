@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
+from workbench.contest.entrants import follows_curve
 from workbench.contest.matches import match_values, run_match, tunable, with_parameters
-from workbench.contest.record import Contest, Objective
+from workbench.contest.record import Contest, Objective, WithoutCurve
 from workbench.contest.search import Tuned, score, search
 from workbench.errors import InputError
 from workbench.scenario import Scenario
@@ -15,8 +16,11 @@ from workbench.workers import run_tasks
 DRAWS_FROM = 1_000_000
 
 
-def objective(values: dict[str, float | None], goal: Objective) -> float:
+def objective(values: dict[str, float | None], goal: Objective | WithoutCurve) -> float:
     """The cost of one run."""
+    if isinstance(goal, WithoutCurve):
+        return score(values, {"energy_J": goal.energy_j, "stopping_error": goal.stopping_m, "late_s": goal.late_s,
+                              "overspeed_mps": goal.overspeed_mps, "jerk_rms": goal.jerk_mps3}, goal.failed)
     units = {"position_rms": goal.position_m, "speed_rms": goal.speed_mps, "jerk_rms": goal.jerk_mps3}
     return score(values, units, goal.failed)
 
@@ -35,6 +39,10 @@ def tune(contest: Contest, scenario: Scenario, name: str) -> Tuned:
     for key in ranges:
         if key not in tunable(scenario, name):
             raise InputError("", f"tuning.ranges.{name}.{key}", "is no parameter of this controller: remove it")
+    goal = budget.objective if follows_curve(scenario, name) else budget.without_curve
+    if goal is None:
+        raise InputError("", "tuning.without_curve", f"is missing: state what '{name}', which follows no curve, is "
+                         "tuned for")
     draws = budget.draws if condition.random else 1
 
     def cost(parameters: dict[str, float]) -> float:
@@ -42,11 +50,11 @@ def tune(contest: Contest, scenario: Scenario, name: str) -> Tuned:
         total = 0.0
         for draw in range(draws):
             run = run_match(changed, name, condition, DRAWS_FROM + draw, budget.seed)
-            total += objective(match_values(run, changed), budget.objective) / draws
+            total += objective(match_values(run, changed), goal) / draws
         return total
 
     return search(cost, tunable(scenario, name), ranges, budget.runs // draws, budget.seed,
-                  3 * budget.objective.failed)
+                  3 * goal.failed)
 
 
 def tune_all(contest: Contest, scenario: Scenario, names: list[str], workers: int,

@@ -48,13 +48,18 @@ def _tube(problem: Problem, ahead: Array, values: Values) -> TubeMpc:
 
 @dataclass(frozen=True)
 class Kind:
-    """One of the family: what it is called, what it knows, how it solves, and the parameters beside COMMON."""
+    """One of the family: what it is called, what it knows, how it solves, and the parameters beside COMMON.
+
+    told_grades: and curves and tunnels. follows_curve: within the band; one that does not keeps the line's speed limits
+    instead, and takes from the curve when and where it is to arrive.
+    """
 
     title: str
     information: str
     tracker: Callable[[Problem, Array, Values], Tracker]
     parameters: tuple[str, ...] = ()
     told_grades: bool = False
+    follows_curve: bool = True
 
     def __call__(self, scenario: Scenario, spec: ControllerSpec, name: str) -> MpcController:
         """A controller of this kind."""
@@ -70,7 +75,8 @@ KINDS: dict[str, Kind] = {
     "mpc.told": Kind("offset-free nonlinear MPC, told the grades", "full state, nominal model, the line", _nonlinear,
                      ("observer_gain",), told_grades=True),
     "mpc.economic": Kind("economic MPC", "full state, nominal model, the line", _economic,
-                         ("observer_gain", "energy_price", "time_price", "regenerated"), told_grades=True),
+                         ("observer_gain", "energy_price", "time_price", "regenerated"), told_grades=True,
+                         follows_curve=False),
     "mpc.tube": Kind("tube MPC", "full state, nominal model, bound of the disturbance", _tube, ("disturbance_mps2",)),
 }
 
@@ -95,11 +101,12 @@ class MpcController:
                 weights=Weights(position=values["position_weight"], speed=values["speed_weight"],
                                 command=values["command_weight"], change=values["change_weight"]),
                 power_w_per_kg=train.max_power_w / train.mass_kg if train.max_power_w else math.inf,
-                band_m=scenario.simulation.position_band_m, price=(price,) * 4,
+                band_m=scenario.simulation.position_band_m if kind.follows_curve else math.inf, price=(price,) * 4,
                 terminal_speed_mps=float(curve.at(np.linspace(0, curve.trip_time_s, 100))[1].max()))
             duration = curve.trip_time_s + scenario.simulation.dwell_s
             line = resistance_table(scenario.track) if kind.told_grades else None
-            self.ahead = preview(self.problem, curve, duration, line=line)
+            kept = () if kind.follows_curve else scenario.track.speed_limit
+            self.ahead = preview(self.problem, curve, duration, line=line, limits=kept)
             tracker = kind.tracker(self.problem, self.ahead, values)
             self._observer = Observer(self.problem, self.ahead, values.get("observer_gain", 0.0))
         except InputError as trouble:

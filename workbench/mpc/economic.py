@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import lru_cache
 from typing import Any
 
 import casadi as ca
@@ -10,7 +11,7 @@ import casadi as ca
 from workbench.errors import InputError, SolverError
 from workbench.mpc.problem import Array, Problem
 from workbench.mpc.terminal import Lqr, lqr
-from workbench.mpc.transcription import CasadiMpc, tracking_cost
+from workbench.mpc.transcription import CasadiMpc, StageCost, StageEnd, tracking_cost
 
 # The programs are not convex where braking returns nothing: sqpmethod, with either of its solvers, finds no answer at
 # some samples.
@@ -56,7 +57,14 @@ def economic_mpc(problem: Problem, ahead: Array, prices: Prices, solver: str = "
     """
     if solver not in SOLVERS:
         raise SolverError(f"no economic MPC with '{solver}': choose one of {', '.join(SOLVERS)}")
-    tracking, after = tracking_cost(problem), beyond or lqr(problem)
+    after = beyond or lqr(problem)
+    stage, end = _known_costs(problem, prices) if beyond is None else costs(problem, prices, after)
+    return CasadiMpc(problem, ahead, solver, stage, end, after)
+
+
+def costs(problem: Problem, prices: Prices, after: Lqr) -> tuple[StageCost, StageEnd]:
+    """What a stage and the end of the horizon cost."""
+    tracking = tracking_cost(problem)
 
     def stage(x: Any, u: Any, row: Any) -> Any:
         force = u if problem.actuator == "direct" else x[2]
@@ -68,4 +76,10 @@ def economic_mpc(problem: Problem, ahead: Array, prices: Prices, solver: str = "
         error = x - row[:3]
         return prices.time * late_s - prices.energy * kinetic + ca.bilin(after.cost, error, error)
 
-    return CasadiMpc(problem, ahead, solver, stage, end, after)
+    return stage, end
+
+
+@lru_cache(maxsize=8)
+def _known_costs(problem: Problem, prices: Prices) -> tuple[StageCost, StageEnd]:
+    """The same functions for the same prices, so that their program is known again."""
+    return costs(problem, prices, lqr(problem))

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 
 import numpy as np
 
 from workbench.compile import numeric
 from workbench.desired_curve import DesiredCurve
 from workbench.mpc.problem import Array, Problem
-from workbench.track import ResistanceTable
+from workbench.track import ResistanceTable, SpeedSection
 from workbench.train import a_star, b_star, c_star, davis_resistance, x_2
 
 COLUMNS = ("p_m", "v_mps", "F_mps2", "u_mps2", "speed_limit_mps", "f_mps2")
@@ -18,11 +19,12 @@ resistance = numeric((x_2, a_star, b_star, c_star), davis_resistance(x_2, a_star
 
 
 def preview(problem: Problem, curve: DesiredCurve, duration_s: float, speed_limit_mps: float = math.inf,
-            line: ResistanceTable | None = None) -> Array:
+            line: ResistanceTable | None = None, limits: Sequence[SpeedSection] = ()) -> Array:
     """Rows (COLUMNS) for every sample of a run of duration_s, and of the horizon beyond it.
 
     line: the line's force (N/kg), where the controller is told it; met at the desired position. The force is what the
-    model needs to stay on the curve, and the command what makes it through the actuator.
+    model needs to stay on the curve, and the command what makes it through the actuator. limits: of the speed along
+    the line, met at the desired position too.
     """
     steps = math.ceil(duration_s / problem.period_s) + problem.horizon + 2
     position, speed, acceleration = curve.at(np.arange(steps + 1, dtype=np.float64) * problem.period_s)
@@ -36,5 +38,8 @@ def preview(problem: Problem, curve: DesiredCurve, duration_s: float, speed_limi
         force, command = needed, (np.append(needed[1:], needed[-1]) - kept * needed) / (1 - kept)
     else:
         force, command = np.concatenate((needed[:1], needed[:-1])), needed
-    rows = np.stack((position, speed, force, command, np.full(steps + 1, speed_limit_mps), told), axis=1)
+    allowed = np.full(steps + 1, speed_limit_mps)
+    for limit in limits:
+        allowed[(position >= limit.start_m) & (position <= limit.end_m)] = limit.speed_mps
+    rows = np.stack((position, speed, force, command, allowed, told), axis=1)
     return np.ascontiguousarray(rows[:steps])

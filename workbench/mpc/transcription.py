@@ -7,7 +7,9 @@ solvers that exploit the structure need. Other costs than tracking come in by `s
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from functools import lru_cache
 from typing import Any
 
 import casadi as ca
@@ -38,6 +40,7 @@ SOLVERS: dict[str, tuple[str, dict[str, Any]]] = {
 LARGEST_STATE = 1e9
 
 StageCost = Callable[[Any, Any, Any], Any]
+StageEnd = Callable[[Any, Any], Any]
 
 
 class CasadiMpc:
@@ -48,77 +51,17 @@ class CasadiMpc:
     """
 
     def __init__(self, problem: Problem, ahead: Array, solver: str = "ipopt", stage_cost: StageCost | None = None,
-                 terminal: Callable[[Any, Any], Any] | None = None, beyond: Lqr | None = None) -> None:
+                 terminal: StageEnd | None = None, beyond: Lqr | None = None) -> None:
         if solver not in SOLVERS:
             raise SolverError(f"unknown solver '{solver}': choose one of {', '.join(SOLVERS)}")
         self.problem, self.ahead, self.horizon = problem, ahead, problem.horizon
         self.lqr = beyond or lqr(problem)
-        self._stage_cost = stage_cost or tracking_cost(problem)
-        self._terminal = terminal or self._lqr_cost
         self._rows = problem.rows(ahead)
-        self._step = of.model(problem.actuator).casadi_step()
-        self._soft = casadi_function("soft", (*of.STATE, of.p_r, of.p_band, of.v_limit, of.P_limit), of.soft_rows)
-        self._build(solver)
+        program = _program(problem, tuple(self._rows.tolist()), solver, stage_cost or tracking_cost(problem),
+                           terminal or lqr_cost(self.lqr))
+        self._solver, self._read, self._bounds = program.solver, program.read, program.bounds
         self.cost = 0.0
         self.forget()
-
-    def _lqr_cost(self, x: Any, row: Any) -> Any:
-        error = x - row[:3]
-        return ca.bilin(self.lqr.cost, error, error)
-
-    def _build(self, solver: str) -> None:
-        """Unknowns in the order x_0, u_0, x_1, u_1, s_1, ... x_N; the state at the start is a parameter."""
-        N, soft = self.horizon, len(self._rows)
-        given = ca.SX.sym("given", 3 + 6 * (N + 1))
-        window = ca.reshape(given[3:], 6, N + 1)
-        states = [ca.SX.sym(f"x_{k}", 3) for k in range(N + 1)]
-        commands = [ca.SX.sym(f"u_{k}") for k in range(N)]
-        slacks = [ca.SX.sym(f"s_{k}", soft if k else 0) for k in range(N)]
-        cost, constraints, equal = self._terminal(states[N], window[:, N]), [], []
-        for k in range(N):
-            x, u, row = states[k], commands[k], window[:, k]
-            constraints.append(states[k + 1] - self._step(x[0], x[1], x[2], u, row[5], *self.problem.parameters))
-            cost += self._stage_cost(x, u, row)
-            if k == 0:
-                constraints.append(x - given[:3])
-            elif soft:
-                exceeded, price = self._softened(x, row, slacks[k])
-                constraints.append(exceeded)
-                cost += price
-            equal += [True] * (6 if k == 0 else 3) + [False] * (soft if k else 0)
-        every = ca.vertcat(*(part for k in range(N) for part in (states[k], commands[k], slacks[k])), states[N])
-        self._bounds: dict[str, Any] = {
-            "lbx": self._each(-np.inf, self.problem.lowest_command_mps2, 0.0),
-            "ubx": self._each(np.inf, self.problem.highest_command_mps2, np.inf),
-            "ubg": 0.0, "lbg": np.where(equal, 0.0, -np.inf),
-        }
-        plugin, options = SOLVERS[solver]
-        options = QUIET | options | ({"equality": equal} if plugin == "fatrop" else {})
-        try:
-            nlp = {"x": every, "p": given, "f": cost, "g": ca.vertcat(*constraints)}
-            self._solver = ca.nlpsol("mpc", plugin, nlp, options)
-        except RuntimeError as trouble:
-            raise SolverError(f"casadi's '{plugin}' cannot take this problem: choose another of {', '.join(SOLVERS)} "
-                              f"({str(trouble).splitlines()[-1][:80]})") from None
-        self._read = ca.Function("read", [every], [ca.vertcat(*commands), ca.horzcat(*states)])
-
-    def _softened(self, x: Any, row: Any, s: Any) -> tuple[Any, Any]:
-        """The soft rows of a stage less their slack, and what the slack costs."""
-        limits = np.where(np.isfinite(self.problem.limits()), self.problem.limits(), 0.0)
-        h = self._soft(x[0], x[1], x[2], row[0], limits[2], row[4], limits[3])
-        rows = [int(i) for i in self._rows]
-        price = [self.problem.price[i][0] * s[n] + self.problem.price[i][1] * s[n] ** 2 for n, i in enumerate(rows)]
-        return h[rows] - s, sum(price)
-
-    def _each(self, state: float, command: float, slack: float) -> Array:
-        """The unknowns, all of a kind at one value."""
-        return self._stacked(np.full((self.horizon + 1, 3), state), np.full(self.horizon, command), slack)
-
-    def _stacked(self, states: Array, plan: Array, slack: float = 0.0) -> Array:
-        """The unknowns of a plan."""
-        parts = [np.concatenate([states[k], plan[k : k + 1], np.full(len(self._rows) if k else 0, slack)])
-                 for k in range(self.horizon)]
-        return np.concatenate([*parts, states[self.horizon]])
 
     def forget(self) -> None:
         """Drop the warm start; the next program starts from the desired states and commands."""
@@ -159,7 +102,7 @@ class CasadiMpc:
     def _solve_from(self, states: Array, plan: Array, given: Array, tried: int) -> Solution:
         """One call of the solver, from a plan and its states."""
         try:
-            answer = self._solver(x0=self._stacked(states, plan), p=given, **self._bounds)
+            answer = self._solver(x0=_stacked(states, plan, len(self._rows)), p=given, **self._bounds)
             stats = self._solver.stats()
         except RuntimeError as trouble:
             return Solution(plan, solved=False, programs=tried, why=str(trouble).splitlines()[-1])
@@ -169,6 +112,84 @@ class CasadiMpc:
             return Solution(plan, solved=False, programs=tried, why=str(stats["return_status"]))
         self._states = states.T
         return Solution(plan, solved=True, programs=tried)
+
+
+@dataclass(frozen=True)
+class Program:
+    """A program as casadi solves it: its solver, commands and states of its unknowns, and their bounds."""
+
+    solver: Any
+    read: Any
+    bounds: Mapping[str, Any]
+
+
+@lru_cache(maxsize=8)
+def _program(problem: Problem, rows: tuple[int, ...], solver: str, stage_cost: StageCost,
+             terminal: StageEnd) -> Program:
+    """Unknowns in the order x_0, u_0, x_1, u_1, s_1, ... x_N; the state at the start is a parameter.
+
+    Kept, since it takes longer than a run; it remembers nothing of the programs that it solved.
+    """
+    N, soft = problem.horizon, len(rows)
+    step = of.model(problem.actuator).casadi_step()
+    given = ca.SX.sym("given", 3 + 6 * (N + 1))
+    window = ca.reshape(given[3:], 6, N + 1)
+    states = [ca.SX.sym(f"x_{k}", 3) for k in range(N + 1)]
+    commands = [ca.SX.sym(f"u_{k}") for k in range(N)]
+    slacks = [ca.SX.sym(f"s_{k}", soft if k else 0) for k in range(N)]
+    cost, constraints, equal = terminal(states[N], window[:, N]), [], []
+    for k in range(N):
+        x, u, row = states[k], commands[k], window[:, k]
+        constraints.append(states[k + 1] - step(x[0], x[1], x[2], u, row[5], *problem.parameters))
+        cost += stage_cost(x, u, row)
+        if k == 0:
+            constraints.append(x - given[:3])
+        elif soft:
+            exceeded, price = _softened(problem, rows, x, row, slacks[k])
+            constraints.append(exceeded)
+            cost += price
+        equal += [True] * (6 if k == 0 else 3) + [False] * (soft if k else 0)
+    every = ca.vertcat(*(part for k in range(N) for part in (states[k], commands[k], slacks[k])), states[N])
+
+    def each(state: float, command: float, slack: float) -> Array:
+        return _stacked(np.full((N + 1, 3), state), np.full(N, command), soft, slack)
+
+    bounds = {"lbx": each(-np.inf, problem.lowest_command_mps2, 0.0),
+              "ubx": each(np.inf, problem.highest_command_mps2, np.inf),
+              "ubg": 0.0, "lbg": np.where(equal, 0.0, -np.inf)}
+    plugin, options = SOLVERS[solver]
+    options = QUIET | options | ({"equality": equal} if plugin == "fatrop" else {})
+    try:
+        nlp = {"x": every, "p": given, "f": cost, "g": ca.vertcat(*constraints)}
+        made = ca.nlpsol("mpc", plugin, nlp, options)
+    except RuntimeError as trouble:
+        raise SolverError(f"casadi's '{plugin}' cannot take this problem: choose another of {', '.join(SOLVERS)} "
+                          f"({str(trouble).splitlines()[-1][:80]})") from None
+    return Program(made, ca.Function("read", [every], [ca.vertcat(*commands), ca.horzcat(*states)]), bounds)
+
+
+def _softened(problem: Problem, rows: tuple[int, ...], x: Any, row: Any, s: Any) -> tuple[Any, Any]:
+    """The soft rows of a stage less their slack, and what the slack costs."""
+    soft = casadi_function("soft", (*of.STATE, of.p_r, of.p_band, of.v_limit, of.P_limit), of.soft_rows)
+    limits = np.where(np.isfinite(problem.limits()), problem.limits(), 0.0)
+    h = soft(x[0], x[1], x[2], row[0], limits[2], row[4], limits[3])
+    price = [problem.price[i][0] * s[n] + problem.price[i][1] * s[n] ** 2 for n, i in enumerate(rows)]
+    return h[list(rows)] - s, sum(price)
+
+
+def _stacked(states: Array, plan: Array, soft: int, slack: float = 0.0) -> Array:
+    """The unknowns of a plan; soft: slacks a stage."""
+    parts = [np.concatenate([states[k], plan[k : k + 1], np.full(soft if k else 0, slack)]) for k in range(len(plan))]
+    return np.concatenate([*parts, states[-1]])
+
+
+def lqr_cost(beyond: Lqr) -> StageEnd:
+    """The cost beyond the horizon, as a terminal cost."""
+    def cost(x: Any, row: Any) -> Any:
+        error = x - row[:3]
+        return ca.bilin(beyond.cost, error, error)
+
+    return cost
 
 
 def tracking_cost(problem: Problem) -> StageCost:

@@ -1,0 +1,47 @@
+"""What MPC takes and needs: time a step against its period, and how often something else had to answer."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterator
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from workbench.mpc.controller import KINDS
+from workbench.report.numbers import number
+from workbench.studies.base import ResultTable
+
+if TYPE_CHECKING:
+    from workbench.contest.tables import Told
+
+# Of `mpc.fallback`: what is shown of its counters, in the order of a sample's fate.
+SHOWN = {"qp_failed": "no plan", "late": "too late", "shifted_plan": "last plan, shifted", "lqr": "LQR",
+         "feedforward": "feedforward"}
+
+
+def mpc_table(told: Told) -> Iterator[ResultTable]:
+    """A row per MPC over all its runs; none without MPC."""
+    rows = []
+    for entry in told.entries:
+        spec = told.scenario.controllers[entry.controller]
+        if spec.law not in KINDS:
+            continue
+        matches = [match for match in told.matches if match.entry == entry.name]
+        if not matches:
+            continue
+        counters = Counter[str]()
+        for match in matches:
+            counters.update(match.counters)
+        middle, slow = (float(np.median([getattr(match, name) for match in matches]))
+                        for name in ("step_us", "step_p99_us"))
+        rows.append((entry.name, f"{1e3 * spec.period_s:g}", number(middle), number(slow),
+                     number(100 * slow / (1e6 * spec.period_s)), f"{counters['qp']}",
+                     *(f"{counters[key]}" for key in SHOWN)))
+    if rows:
+        yield ResultTable(
+            "What MPC takes, and who answered instead", "samples of all runs", (
+                "controller", "period (ms)", "median step (µs)", "99th percentile (µs)",
+                "99th percentile / period (%)", "samples asked", *SHOWN.values()), tuple(rows),
+            "Times: the medians over the runs of each run's median and 99th percentile, call by call; they differ from "
+            "run to run and are no part of what repeats. No deadline is set unless a controller's parameters do.")
