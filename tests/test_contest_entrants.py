@@ -14,7 +14,7 @@ from scenarios import YANG
 from workbench.contest import chen2019
 from workbench.contest.entrants import ENTRANTS, check_entrants, entered, learns, play
 from workbench.contest.learning import learners, learning_tables
-from workbench.contest.matches import Entry, all_matches, draws_of, play_match, with_parameters
+from workbench.contest.matches import all_matches, draws_of, play_match, with_parameters
 from workbench.contest.record import Condition, Contest
 from workbench.contest.statistics import overtakes, resampled, winners
 from workbench.contest.study import KIND
@@ -53,7 +53,7 @@ def short(scenario: Scenario, **sensing: float) -> Setting:
 
 def few(contest: Contest, conditions: tuple[str, ...], seeds: int = 2) -> Contest:
     tuning = contest.tuning.model_copy(update={"found": {}})
-    return contest.model_copy(update={"seeds": seeds, "learner_seeds": 1, "tuning": tuning, "resamples": 100,
+    return contest.model_copy(update={"seeds": seeds, "tuning": tuning, "resamples": 100,
                                       "conditions": {name: contest.conditions[name] for name in conditions}})
 
 
@@ -140,8 +140,9 @@ def test_results_with_learners_are_the_same_bytes(contest: Contest, scenario: Sc
     runs = [all_matches(small, of, workers, lambda *_: None) for workers in (1, 2)]
     plain = [json.dumps([(m.draw, m.entry, m.values, m.failed, m.trials) for m in run]) for run in runs]
     assert plain[0] == plain[1]
-    assert [m.entry for m in runs[0]] == ["liu2020", "jiao2025", "chen2019", "liu2020"]  # learners drive one draw
-    assert draws_of(small, of, "noise", Entry("jiao2025", False)) == 1
+    assert [m.entry for m in runs[0]] == 2 * ["liu2020", "jiao2025", "chen2019"]  # learners drive all draws too
+    assert draws_of(small, "noise") == 2 and draws_of(small.model_copy(update={
+        "conditions": {"noise": Condition(title="none", source={"title": "convention: a test"})}}), "noise") == 1
 
 
 @settings(max_examples=60, deadline=None)

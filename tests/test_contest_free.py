@@ -1,0 +1,226 @@
+"""Who follows no curve is judged by what it is for; and what is computed once a process changes no bit of a run."""
+
+import json
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+from hypothesis import HealthCheck, given, settings
+from hypothesis import strategies as st
+from scenarios import YANG
+
+from workbench.compile import kernel_module
+from workbench.contest.effort import mpc_table
+from workbench.contest.energy import best_run
+from workbench.contest.entrants import entered, follows_curve, play
+from workbench.contest.inlined import COUNTED, MOST_ROWS, inlined, law_loop
+from workbench.contest.learning import learning_tables
+from workbench.contest.matches import (
+    OF_CURVE,
+    STANDING_MPS,
+    Match,
+    all_matches,
+    match_values,
+    overspeed,
+    run_match,
+    with_parameters,
+)
+from workbench.contest.record import Contest, WithoutCurve
+from workbench.contest.study import KIND, located
+from workbench.contest.tables import Told, condition_table, winners_table
+from workbench.contest.tune import objective, tune
+from workbench.controllers.registry import LAWS
+from workbench.controllers.values import law_values
+from workbench.errors import CompileError, InputError
+from workbench.mpc import linear, terminal, transcription, tube
+from workbench.mpc.controller import KINDS
+from workbench.scenario import Scenario
+from workbench.sensing import Sensing
+from workbench.simulate import kernel_loop
+from workbench.simulate.closed_loop import Setting, run_law, setting_of, simulate_in
+from workbench.studies.registry import load_study
+from workbench.train import single_particle
+
+COMMON = YANG.parent / "common.toml"
+FREE = "mpc_economic"
+KEPT = (terminal.lqr, tube._extents, linear._linearised, transcription._program)
+
+
+@pytest.fixture(scope="module")
+def contest() -> Contest:
+    found = load_study(COMMON)
+    assert isinstance(found, Contest)
+    return found
+
+
+@pytest.fixture(scope="module")
+def scenario(contest: Contest) -> Scenario:
+    return entered(contest)
+
+
+def only(scenario: Scenario, *names: str) -> Scenario:
+    return scenario.model_copy(update={"controllers": {name: scenario.controllers[name] for name in names}})
+
+
+def few(contest: Contest, *conditions: str, seeds: int = 1) -> Contest:
+    tuning = contest.tuning.model_copy(update={"found": {}})
+    return contest.model_copy(update={"seeds": seeds, "tuning": tuning, "resamples": 50, "entrants": {}, "absent": {},
+                                      "conditions": {name: contest.conditions[name] for name in conditions}})
+
+
+def short(scenario: Scenario, end_s: float = 30.0, **sensing: float) -> Setting:
+    return replace(setting_of(scenario), end_s=end_s, sensing=Sensing(**sensing, seed=3))  # type: ignore[arg-type]
+
+
+def world(scenario: Scenario, contest: Contest, *, failing: bool, pushed: int) -> Setting:
+    setting = short(scenario, speed_noise_mps=0.01)
+    failures = np.array([[10.0, np.inf, 5e3, 0.0, 0.0, 0.0, 0.1]]) if failing else setting.failures
+    return replace(setting, terms=np.repeat(setting.terms[:1], pushed, axis=0), failures=failures)
+
+
+# Each compiles two loops, so that every law would take minutes here.
+@pytest.mark.parametrize(("name", "failing", "pushed"), [
+    ("pid", False, 1), ("rbfnn_pocrac", True, MOST_ROWS + 1), ("mao2018_corrected", True, 0)])
+def test_a_loop_made_for_a_setting_has_the_bits_of_the_plain_one(
+        contest: Contest, scenario: Scenario, name: str, failing: bool, pushed: int) -> None:
+    setting = world(scenario, contest, failing=failing, pushed=pushed)
+    plain, made = simulate_in(scenario, name, setting), play(scenario, name, setting).run
+    assert plain.log.tobytes() == made.log.tobytes()
+    assert plain.totals == made.totals and plain.failed == made.failed
+
+
+def test_a_loop_is_made_for_as_many_rows_as_the_setting_has(scenario: Scenario) -> None:
+    setting, law = short(scenario), LAWS["pid"]
+    calm = replace(setting, terms=setting.terms[:0])
+    assert law_loop(law, setting) is law_loop(law, short(scenario, end_s=20.0))
+    assert law_loop(law, setting) is not law_loop(law, calm)
+    assert all(len(getattr(calm, name)) <= MOST_ROWS for name in COUNTED)
+    # The one for a calm setting counts no disturbance: given one, it would not feel it.
+    spec = scenario.controllers["pid"]
+    values = law_values(law, spec, "pid")
+    runs = [run_law(law, values, setting, spec.period_s, module=law_loop(law, s)).log for s in (setting, calm)]
+    assert not np.array_equal(*runs)
+    with pytest.raises(CompileError, match="no function 'nonsense'"):
+        inlined(kernel_module(single_particle(), law, kernel_loop), setting, "nonsense")
+
+
+@pytest.mark.parametrize("law", KINDS)
+def test_an_mpc_is_computed_once_and_runs_the_same_whatever_ran_before(
+        law: str, contest: Contest, scenario: Scenario) -> None:
+    name = next(n for n, spec in scenario.controllers.items() if spec.law == law)
+
+    def run(condition: str, draw: int) -> bytes:
+        stated = contest.conditions[condition]
+        changed = scenario.model_copy(update={"simulation": scenario.simulation.model_copy(update={"dwell_s": 1.0})})
+        return run_match(changed, name, stated, draw, contest.seed).log[:600].tobytes()
+
+    for kept in KEPT:
+        kept.cache_clear()
+    first, other = run("noise", 0), run("weak", 1)
+    misses = [kept.cache_info().misses for kept in KEPT]
+    again = run("noise", 0), run("weak", 1)
+    assert [kept.cache_info().misses for kept in KEPT] == misses, "computed again for the same train"
+    assert again == (first, other)
+    for kept in KEPT:
+        kept.cache_clear()
+    assert run("weak", 1) == other
+
+
+def test_economic_results_are_the_same_bytes_with_any_number_of_processes(contest: Contest, scenario: Scenario) -> None:
+    small, of = few(contest, "noise", seeds=2), only(scenario, FREE, "mpc_tube")
+    runs = [all_matches(small, of, workers, lambda *_: None) for workers in (1, 2)]
+    plain = [json.dumps([(m.draw, m.entry, m.values, m.failed, m.counters) for m in run]) for run in runs]
+    assert plain[0] == plain[1]
+
+
+def test_economic_mpc_saves_energy_stops_and_keeps_the_limits_without_following(
+        contest: Contest, scenario: Scenario) -> None:
+    nominal = contest.conditions["nominal"]
+    free, tied = (match_values(run_match(scenario, name, nominal, 0, contest.seed), scenario)
+                  for name in (FREE, "mpc_told"))
+    best = best_run(scenario)
+    assert best is not None
+    assert best.lower_bound_j < free["energy_J"] < tied["energy_J"]  # type: ignore[operator]
+    assert free["stopping_error"] < scenario.simulation.position_band_m  # type: ignore[operator]
+    assert free["late_s"] == 0.0
+    assert free["position_rms"] > 5 * tied["position_rms"]  # type: ignore[operator]
+    assert free["overspeed_mps"] < tied["overspeed_mps"]  # type: ignore[operator]
+
+
+def test_who_follows_no_curve_is_not_ranked_by_errors_from_it(
+        contest: Contest, scenario: Scenario, monkeypatch: pytest.MonkeyPatch) -> None:
+    of = only(scenario, "pid", FREE, "mpc_offset_free", "chen2019")
+    of = with_parameters(of, "chen2019", {"trials": 2.0})
+    monkeypatch.setattr("workbench.contest.study.entered", lambda _: of)
+    small = few(contest, "nominal")
+    told = Told(small, of, all_matches(small, of, 1, lambda *_: None), None)
+    assert [follows_curve(of, name) for name in of.controllers] == [True, False, True, True]
+    # Errors from the curve made the least of all, it would still not be their winner; energy is its own.
+    favoured = tuple(replace(m, values=m.values | dict.fromkeys(OF_CURVE, 0.0)) if m.entry == FREE else m
+                     for m in told.matches)
+    flattered = replace(told, matches=favoured)
+    for metric in told.metrics:
+        assert (FREE in flattered.winners("nominal", metric)) <= (metric not in OF_CURVE)
+    assert told.winners("nominal", "energy_J") == [FREE]
+    row = next(row for row in condition_table(told, "nominal").rows if row[0] == FREE)
+    marked = [metric for metric, cell in zip(told.metrics, row[1:-1], strict=True) if "follows no curve" in cell]
+    assert tuple(marked) == tuple(m for m in told.metrics if m in OF_CURVE)
+    assert len(winners_table(told).rows[0]) == 1 + len(told.metrics)
+    for table in learning_tables(told):
+        assert FREE not in table.header and "mpc_offset_free" in table.header
+    findings = KIND.run(small, 1, lambda *_: None).findings
+    assert any(finding.startswith(f"{FREE}, which follows no curve") for finding in findings)
+    assert any("desired curve itself" in finding for finding in findings)
+
+
+def test_steps_are_told_beside_their_period_with_who_answered_instead(contest: Contest, scenario: Scenario) -> None:
+    small, of = few(contest, "nominal"), only(scenario, "pid", "mpc_linear")
+    counters = {"qp": 400, "qp_failed": 3, "late": 2, "shifted_plan": 4, "lqr": 1, "feedforward": 0}
+    values = dict.fromkeys(Told(small, of, (), None).metrics, 0.0)
+    matches = tuple(Match("nominal", draw, name, dict(values), None, 10.0 * (draw + 1), 500.0 * (draw + 1), counters)
+                    for draw in range(3) for name in of.controllers)
+    (table,) = mpc_table(Told(small, of, matches, None))
+    assert len(table.rows) == 1  # no other than MPC
+    name, period, middle, slow, share, asked, *rest = table.rows[0]
+    assert (name, period, middle, slow) == ("mpc_linear", "100", "20.0", "1000")
+    assert float(share) == pytest.approx(1.0)  # 1 ms of 100 ms
+    assert asked == "1200" and rest == ["9", "6", "12", "3", "0"]
+
+
+@settings(max_examples=50, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
+@given(places=st.lists(st.tuples(st.floats(0.0, 5400.0), st.floats(0.0, 30.0)), min_size=1, max_size=20))
+def test_excess_over_the_limits_is_found_place_by_place(scenario: Scenario, places: list[tuple[float, float]]) -> None:
+    track = scenario.track
+    worst = 0.0
+    for place, speed in places:
+        for section in track.speed_limit:
+            if section.start_m <= place < section.end_m:
+                worst = max(worst, speed - section.speed_mps)
+    position, speeds = (np.array(column) for column in zip(*places, strict=True))
+    assert overspeed(position, speeds, track) == worst
+    assert overspeed(position, speeds, track.model_copy(update={"speed_limit": ()})) == 0.0
+
+
+def test_late_is_how_long_a_train_moves_beyond_its_time(contest: Contest, scenario: Scenario) -> None:
+    run = run_match(scenario, "pid", contest.conditions["nominal"], 0, contest.seed)
+    trip = scenario.desired_curve().trip_time_s
+    log, v = run.log.copy(), run.columns.index("v_mps")
+    log[:, v] = np.where(run.column("t_s") <= trip + 2.0, 2 * STANDING_MPS, 0.0)
+    assert match_values(replace(run, log=log), scenario)["late_s"] == pytest.approx(2.0, abs=0.11)
+    log[:, v] = np.where(run.column("t_s") <= trip - 9.0, 2 * STANDING_MPS, 0.0)
+    assert match_values(replace(run, log=log), scenario)["late_s"] == 0.0
+
+
+def test_it_is_tuned_for_what_it_is_for(contest: Contest, scenario: Scenario) -> None:
+    goal = contest.tuning.without_curve
+    assert isinstance(goal, WithoutCurve)
+    values = {"energy_J": goal.energy_j, "stopping_error": goal.stopping_m, "late_s": goal.late_s,
+              "overspeed_mps": goal.overspeed_mps, "jerk_rms": goal.jerk_mps3, "position_rms": 1e9}
+    assert objective(values, goal) == pytest.approx(5.0)  # type: ignore[arg-type]
+    assert objective(dict.fromkeys(values), goal) == 5 * goal.failed
+    without = contest.tuning.model_copy(update={"without_curve": None})
+    with pytest.raises(InputError, match="which follows no curve"):
+        tune(contest.model_copy(update={"tuning": without}), scenario, FREE)
+    with pytest.raises(InputError, match="which follows no curve"):
+        located(contest.model_copy(update={"tuning": without, "scenario": Path(contest.scenario).name}), COMMON)
