@@ -11,6 +11,7 @@ from scenarios import YANG
 from scipy.integrate import solve_ivp
 
 from workbench.controllers import chen2019 as chen_law
+from workbench.controllers import mao2018_laws as mao_laws
 from workbench.simulate.held_cars_loop import HELD_COLUMNS
 from workbench.studies import (
     chen2019_beside,
@@ -39,7 +40,7 @@ def test_offset_free_mpc_forgets_a_failed_motor_and_linear_mpc_does_not() -> Non
     of = known(mao.mpc, setting.curve, setting.mass_kg, (a, b, c), setting.end_s)
     offset = {}
     for kind in KINDS_BESIDE:
-        run = run_beside(of, kind, setting, mao2018_beside.laws.train)
+        run = run_beside(of, kind, setting, mao_laws.train)
         time, error = run.column("t_s"), run.column("s_m") - run.column("s_desired_m")
         offset[kind] = np.abs(error[(time > 700) & (time < 790)]).max()
     # 200 kN of one motor, less its share of what the others give: 0.5 m/s^2 that the linear one must lean against.

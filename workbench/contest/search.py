@@ -51,7 +51,9 @@ def search(cost: Callable[[dict[str, float]], float], stated: Mapping[str, float
             best = found, point.copy()
         return found
 
-    first = tried(np.clip(np.log([stated[key] for key in keys]), low, high))
+    with np.errstate(divide="ignore"):  # a stated 0 is below every range
+        first = np.clip(np.log([stated[key] for key in keys]), low, high)
+    first_cost = tried(first)
     points = qmc.Sobol(len(keys), scramble=True, rng=np.random.default_rng(seed))
     count = int(SPREAD_SHARE * left)
     try:
@@ -65,7 +67,7 @@ def search(cost: Callable[[dict[str, float]], float], stated: Mapping[str, float
         pass
     assert best[1] is not None
     found = {key: float(f"{value:.4g}") for key, value in zip(keys, np.exp(best[1]).tolist(), strict=True)}
-    return found, best[0], first
+    return found, best[0], first_cost
 
 
 def _simplex(point: np.ndarray, low: np.ndarray, high: np.ndarray) -> np.ndarray:

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 from typing import Annotated, Any
 
+import numpy as np
 from pydantic import Field, Strict
 
 from workbench.desired_curve import DesiredCurve
@@ -13,6 +14,7 @@ from workbench.mpc.controller import KINDS, MpcController
 from workbench.report.numbers import NOTHING, number
 from workbench.scenario import ControllerSpec, Interval, Scenario, Simulation
 from workbench.simulate.closed_loop import Run, Setting, simulate_in
+from workbench.studies.base import Array, Curve, Plot
 from workbench.toml_input import NonNegative, Positive, SourcedRecord
 from workbench.train import Plant, Train
 
@@ -21,6 +23,10 @@ KINDS_BESIDE = ("mpc.linear", "mpc.offset_free")
 HEADER = ("position RMS (m)", "speed RMS (m/s)", "largest |position error| (m)", "stopping error (m)", "energy (kWh)",
           "jerk RMS (m/s³)", "saturated", "µs a step")
 JOULE_PER_KWH = 3.6e6
+# Whose speed errs by more (RMS) does not follow: a train that stands still has no jerk.
+FOLLOWS_MPS = 1.0
+# Points of a curve that is shown.
+DRAWN = 1500
 
 
 class MpcData(SourcedRecord):
@@ -96,13 +102,43 @@ def cells(row: Mapping[str, Any]) -> tuple[str, ...]:
         row["jerk_rms"], row["saturated_fraction"], row["step_us_median"])))
 
 
+def follows(row: Mapping[str, Any]) -> bool:
+    """Whether a run follows the desired curve at all; else its comfort says nothing."""
+    return row["failed"] is None and row["speed_rms"] <= FOLLOWS_MPS
+
+
 def best_words(rows: Sequence[tuple[str, Mapping[str, Any]]], metric: str, what: str) -> str:
-    """Who has the smallest of a metric among (name, row), and the next one behind it, in a sentence's words."""
-    able = sorted((abs(row[metric]), name) for name, row in rows if row["failed"] is None)
+    """Who has the smallest of a metric among (name, row), and the next one behind it, in a sentence's words.
+
+    In jerk those that do not follow the desired curve are left out.
+    """
+    able = sorted((abs(row[metric]), name) for name, row in rows
+                  if row["failed"] is None and (metric != "jerk_rms" or follows(row)))
     if not able:
         return "no run ends"
     words = f"{able[0][1]} has the smallest {what}, {number(able[0][0])}"
     return words + (f", then {able[1][1]} with {number(able[1][0])}" if len(able) > 1 else "")
+
+
+def error_curve(run: Run) -> tuple[Array, Array]:
+    """Times (s) and position errors (m) of a run, thinned and up to where they are finite."""
+    time, error = run.column("t_s"), run.column("s_m") - run.column("s_desired_m")
+    whole = len(error) if np.isfinite(error).all() else int(np.argmin(np.isfinite(error)))
+    keep = slice(None, whole, max(1, len(time) // DRAWN))
+    return time[keep], error[keep]
+
+
+def error_plot(rows: Sequence[tuple[str, Mapping[str, Any]]], where: str) -> Iterator[Plot]:
+    """|Position error| over time of all (name, row) that finish, rows with `curve`; nothing without any."""
+    curves = []
+    for name, row in rows:
+        if row["failed"] is None:
+            time, error = row["curve"]
+            kept = error != 0
+            curves += [Curve(name, time[kept], np.abs(error[kept]))] if kept.any() else []
+    if curves:
+        yield Plot(f"Position error beside MPC, {where}", "not in the paper", "time (s)", "|position error| (m)",
+                   tuple(curves), log_y=True)
 
 
 def counters_words(counters: Sequence[Mapping[str, int]]) -> str:

@@ -15,6 +15,19 @@ from workbench.studies.chen2019_plots import all_plots
 from workbench.studies.chen2019_record import ChenStudy
 from workbench.studies.chen2019_runs import STATED, changed, cost, run_number, title
 from workbench.studies.chen2019_tables import all_tables
+from workbench.studies.chen2019_tuned import (
+    DRIVERS,
+    WHERE,
+    Task,
+    run_tuned,
+    stated_rows,
+    tuned_findings,
+    tuned_plots,
+    tuned_table,
+    tuned_tasks,
+)
+from workbench.studies.pairs import drawn_rows, pair_findings, pair_table, pairs_of
+from workbench.studies.tuning import checked, tune_with
 from workbench.workers import run_tasks
 
 # What a run that failed has no numbers for.
@@ -39,10 +52,23 @@ def run(study: ChenStudy, workers: int, on_progress: Progress) -> StudyResult:
     found = Found(study, {i: runs[i] for i in asked}, cost(study))
     trip, longer = (run_beside(study), growth(study)) if study.mpc else (None, ())
     on_progress(steps, steps, "cost of a sample")
+    tuned = stated_rows(study, found.stated, trip)
+    left = [task for task in tuned_tasks(study) if task not in tuned]
+
+    def keep(result: tuple[Task, dict[str, Any]]) -> None:
+        tuned[result[0]] = result[1]
+        on_progress(len(tuned), len(tuned_tasks(study)), "stated and tuned")
+
+    run_tasks(run_tuned, study, left, workers, keep)
+    rows = [(task, tuned[task]) for task in tuned_tasks(study)]
+    pairs = pairs_of(study, drawn_rows(DRIVERS, study, workers, on_progress))
     return StudyResult(
         rows=tuple(_row(study, i, runs[i]) for i in asked),
-        tables=(*all_tables(found), *beside_tables(found, trip, longer)), plots=all_plots(found),
-        findings=(*all_findings(found), *beside_findings(found, trip)),
+        tables=(*all_tables(found), *beside_tables(found, trip, longer), *tuned_table(study, rows),
+                *pair_table(study, DRIVERS, pairs, WHERE)),
+        plots=(*all_plots(found), *tuned_plots(study, rows)),
+        findings=(*all_findings(found), *beside_findings(found, trip), *tuned_findings(study, rows),
+                  *pair_findings(study, DRIVERS, pairs, WHERE)),
         failures=tuple((title(study, i), str(runs[i].failed)) for i in asked if runs[i].failed is not None))
 
 
@@ -68,4 +94,4 @@ def _row(study: ChenStudy, number: int, done: CarsRun) -> dict[str, Any]:
     return row | {"outcome": outcome(done), "step_us_median": float(np.median(done.step_us)), "failed": done.failed}
 
 
-KIND = StudyKind(ChenStudy, run)
+KIND = StudyKind(ChenStudy, run, checked(DRIVERS), tune_with(DRIVERS))

@@ -61,15 +61,18 @@ def mpc_of(study: ChenStudy, desired: Array, horizon: int | None = None) -> Mult
     return MultiCarMpc(cars, desired, horizon or data.horizon, data.period_s, weights, study.reference.cruise_mps)
 
 
-def run_beside(study: ChenStudy, end_s: float | None = None) -> Beside:
-    """One trip, or its beginning until end_s, from rest at the reference's start."""
+def run_beside(study: ChenStudy, end_s: float | None = None, known: ChenStudy | None = None) -> Beside:
+    """One trip, or its beginning until end_s, from rest at the reference's start.
+
+    known: the study that MPC is made for, where its train is not the one that is driven.
+    """
     data, of = study.mpc, plan(study)
     assert data is not None
     per_sample = round(data.period_s / of.period_s)
     steps = len(of.reference) if end_s is None else round(end_s / of.period_s)
     samples = -(-steps // per_sample)
     times = np.arange(samples + data.horizon + 2, dtype=float) * data.period_s
-    mpc = mpc_of(study, np.stack(study.reference.curve().at(times), axis=1))
+    mpc = mpc_of(known or study, np.stack(study.reference.curve().at(times), axis=1))
     kernel, n = _kernel().held_forces, study.train.cars
     state = np.zeros((len(law.CAR_STATE), n))
     state[:2] = of.reference[0, :2, None]

@@ -10,6 +10,7 @@ from workbench.desired_curve import DesiredCurve, start_cruise_stop
 from workbench.errors import WorkbenchError
 from workbench.studies.base import Study, with_values
 from workbench.studies.beside_mpc import MpcData
+from workbench.studies.tuning_record import Pairs, StudyTuning
 from workbench.toml_input import Positive, Record, SourcedRecord, Text
 
 Mass = Annotated[float, Strict(), Field(ge=1e3, le=2e5, allow_inf_nan=False)]
@@ -165,6 +166,8 @@ class ChenStudy(Study):
     cost: Cost
     changes: tuple[Change, ...] = ()
     mpc: MpcData | None = None
+    tuning: StudyTuning | None = None
+    pairs: Pairs | None = None
 
     @property
     def samples(self) -> int:

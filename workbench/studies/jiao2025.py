@@ -12,12 +12,23 @@ from workbench.studies.jiao2025_findings import all_findings
 from workbench.studies.jiao2025_found import Found, mse, outcome, peak, rises
 from workbench.studies.jiao2025_plots import all_plots
 from workbench.studies.jiao2025_tables import all_tables
+from workbench.studies.jiao2025_tuned import (
+    DRIVERS,
+    Task,
+    run_tuned,
+    tuned_findings,
+    tuned_plots,
+    tuned_table,
+    tuned_tasks,
+)
+from workbench.studies.pairs import drawn_rows, pair_findings, pair_table, pairs_of
+from workbench.studies.tuning import checked, tune_with
 from workbench.workers import run_tasks
 
 
 def run(study: JiaoStudy, workers: int, on_progress: Progress) -> StudyResult:
     """All runs of the study in `workers` processes; a run that diverges is told and stops no other."""
-    asked, more = list(dict.fromkeys(cases(study))), beside_tasks(study)
+    asked, more, again = list(dict.fromkeys(cases(study))), beside_tasks(study), tuned_tasks(study)
     runs: dict[Case, TrialRun] = {}
 
     def record(result: tuple[Case, TrialRun]) -> None:
@@ -33,10 +44,22 @@ def run(study: JiaoStudy, workers: int, on_progress: Progress) -> StudyResult:
 
     run_tasks(run_one, study, more, workers, keep)
     of_mpc, found = [beside[task] for task in more], Found(study, runs)
+    tuned: dict[Task, dict[str, Any]] = {}
+
+    def keep_tuned(result: tuple[Task, dict[str, Any]]) -> None:
+        tuned[result[0]] = result[1]
+
+    run_tasks(run_tuned, study, again, 1, keep_tuned)
+    rows = [(task, tuned[task]) for task in again]
+    pairs = pairs_of(study, drawn_rows(DRIVERS, study, workers, on_progress))
+    where = {name: reading.title for name, reading in study.readings.items()}
     return StudyResult(
         rows=tuple(_row(study, case, runs[case]) for case in asked),
-        tables=(*all_tables(found), *beside_table(found, of_mpc)), plots=all_plots(found),
-        findings=(*all_findings(found), *beside_findings(found, of_mpc)),
+        tables=(*all_tables(found), *beside_table(found, of_mpc), *tuned_table(study, rows),
+                *pair_table(study, DRIVERS, pairs, where)),
+        plots=(*all_plots(found), *tuned_plots(study, rows)),
+        findings=(*all_findings(found), *beside_findings(found, of_mpc), *tuned_findings(study, rows),
+                  *pair_findings(study, DRIVERS, pairs, where)),
         failures=tuple((name_of(study, case), str(runs[case].failed)) for case in asked
                        if runs[case].failed is not None and case.unit_mps2 is None))
 
@@ -75,4 +98,4 @@ def _row(study: JiaoStudy, case: Case, done: TrialRun) -> dict[str, Any]:
     }
 
 
-KIND = StudyKind(JiaoStudy, run)
+KIND = StudyKind(JiaoStudy, run, checked(DRIVERS), tune_with(DRIVERS))

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import accumulate
 
 import numpy as np
@@ -15,8 +15,9 @@ from workbench.curve_table import Row, curve_through
 from workbench.desired_curve import DesiredCurve
 from workbench.mpc.controller import KINDS
 from workbench.report.numbers import number
+from workbench.simulate.closed_loop import NOMINAL, Factors
 from workbench.simulate.trial_loop import SEEN_BY
-from workbench.simulate.trials import Array, TrialRun, trial_kernel
+from workbench.simulate.trials import Array, TrialPlan, TrialRun, trial_kernel
 from workbench.studies.base import ResultTable
 from workbench.studies.beside_mpc import KINDS_BESIDE, controller, counters_words, known
 from workbench.studies.jiao2025_cases import PRINTED_LAWS, Case, JiaoStudy, plan
@@ -64,15 +65,19 @@ def _curve(speed: Array, step_s: float) -> DesiredCurve:
                                for k, (s, v, a) in enumerate(zip(places, speed, rate, strict=True))))
 
 
-def run_one(study: JiaoStudy, task: Task) -> Beside:
-    """One trip of the desired length; MPC knows mass and mean resistance, and neither grades nor their changes."""
+def run_one(study: JiaoStudy, task: Task, factors: Factors = NOMINAL) -> Beside:
+    """One trip of the desired length; MPC knows mass and mean resistance, and neither grades nor their changes.
+
+    factors: by which mass and resistance (`davis_a`) of the train differ from what MPC knows.
+    """
     name, kind = task
-    of, data = plan(study, Case(name, PRINTED_LAWS[0], study.trials.seed)), study.mpc
+    stated, data = plan(study, Case(name, PRINTED_LAWS[0], study.trials.seed)), study.mpc
+    of = true_plan(study, Case(name, PRINTED_LAWS[0], study.trials.seed), factors)
     assert data is not None
     data = data.model_copy(update={"period_s": of.step_s})
-    mean = [float(pair[0]) / of.divisor for pair in paper.davis_newton.values()]
+    mean = [float(pair[0]) / stated.divisor for pair in paper.davis_newton.values()]
     curve = _curve(of.desired, of.step_s)
-    mpc = controller(known(data, curve, of.mass_kg, (mean[0], mean[1], mean[2]), curve.trip_time_s), kind)
+    mpc = controller(known(data, curve, stated.mass_kg, (mean[0], mean[1], mean[2]), curve.trip_time_s), kind)
     kernel, train = trial_kernel(PRINTED_LAWS[0], False), np.array([of.step_s, of.mass_kg, of.unit_n, of.divisor])
     length, seen_by = len(of.desired) - 1, SEEN_BY.index(of.seen_by)
     speed, taken, place, met = np.zeros(length + 1), np.zeros(length), 0.0, 0.0
@@ -81,13 +86,25 @@ def run_one(study: JiaoStudy, task: Task) -> Beside:
         command = mpc.command(j * of.step_s, place, speed[j])
         taken[j] = 1e6 * (time.perf_counter() - before)
         force = kernel.additional_force(j, length, met, seen_by, of.desired_positions, of.edges, of.additional_n)
-        speed[j + 1] = kernel.step_speed(speed[j], command * of.mass_kg / of.unit_n, force, j * of.k_per_sample, train)
+        speed[j + 1] = kernel.step_speed(speed[j], command * stated.mass_kg / of.unit_n, force, j * of.k_per_sample,
+                                         train)
         met = kernel.step_position(met, speed[j], train)
         place += of.step_s * (speed[j] + speed[j + 1]) / 2  # what an odometer shows; (1) needs no position
     error = of.desired[1:] - speed[1:]
-    jerk = np.diff(speed, 2) / of.step_s**2
-    return Beside(name, kind, float(np.mean(error**2)), float(np.abs(error).max()), float(np.sqrt(np.mean(jerk**2))),
+    return Beside(name, kind, float(np.mean(error**2)), float(np.abs(error).max()), jerk_rms(speed, of.step_s),
                   float(np.median(taken)), dict(mpc.counters))
+
+
+def true_plan(study: JiaoStudy, case: Case, factors: Factors) -> TrialPlan:
+    """The plan of a run on a train whose mass and resistance (`davis_a`) differ by factors from what is stated."""
+    train = study.train.model_copy(update={"mass_kg": study.train.mass_kg * factors.mass})
+    of = plan(study.model_copy(update={"train": train}), case)
+    return replace(of, divisor=of.divisor / factors.davis_a)
+
+
+def jerk_rms(speed: Array, step_s: float) -> float:
+    """RMS of the second difference of speeds at the samples, m/s^3."""
+    return float(np.sqrt(np.mean((np.diff(speed, 2) / step_s**2) ** 2)))
 
 
 def overtaken(run: TrialRun, rival: float) -> int | None:

@@ -17,6 +17,7 @@ from workbench.controllers.jiao2025 import TRIAL_LAWS
 from workbench.simulate.trials import Array, TrialPlan
 from workbench.studies.base import Study
 from workbench.studies.beside_mpc import MpcData
+from workbench.studies.tuning_record import Pairs, StudyTuning
 from workbench.toml_input import Name, Number, Positive, Record, SourcedRecord, Text
 
 GRAVITY = 9.80665
@@ -171,6 +172,8 @@ class JiaoStudy(Study):
     unit_sweep: UnitSweep
     variants: tuple[Change, ...] = ()
     mpc: MpcData | None = None
+    tuning: StudyTuning | None = None
+    pairs: Pairs | None = None
 
     @model_validator(mode="after")
     def _names_are_known(self) -> Self:

@@ -5,13 +5,24 @@ from __future__ import annotations
 from typing import Any
 
 from workbench.studies.base import Progress, StudyKind, StudyResult
-from workbench.studies.liu2020_beside import Beside, Task, beside_findings, beside_table, beside_tasks, run_one
+from workbench.studies.liu2020_beside import (
+    Beside,
+    Task,
+    beside_findings,
+    beside_plots,
+    beside_table,
+    beside_tasks,
+    run_one,
+)
 from workbench.studies.liu2020_cases import Found, cases, title_of
 from workbench.studies.liu2020_findings import all_findings
 from workbench.studies.liu2020_plots import all_plots
 from workbench.studies.liu2020_record import LiuStudy
 from workbench.studies.liu2020_runs import Case, Outcome, run_case
 from workbench.studies.liu2020_tables import all_tables
+from workbench.studies.liu2020_tuned import DRIVERS
+from workbench.studies.pairs import drawn_rows, pair_findings, pair_table, pairs_of
+from workbench.studies.tuning import checked, tune_with
 from workbench.workers import run_tasks
 
 ROW = ("position_m_min", "position_m_max", "speed_mps_min", "speed_mps_max", "position_m", "speed_mps", "s_tilde_m",
@@ -40,11 +51,15 @@ def run(study: LiuStudy, workers: int, on_progress: Progress) -> StudyResult:
 
     run_tasks(run_one, study, more, workers, keep)
     of_mpc = [beside[task] for task in more]
+    pairs = pairs_of(study, drawn_rows(DRIVERS, study, workers, on_progress))
+    where = {name: push.title for name, push in study.disturbances.items()}
     found = Found(study, outcomes)
     return StudyResult(
         rows=tuple(_row(study, outcomes[case]) for case in asked),
-        tables=(*all_tables(found), *beside_table(study, of_mpc)), plots=all_plots(found),
-        findings=(*all_findings(found), *beside_findings(study, of_mpc)),
+        tables=(*all_tables(found), *beside_table(study, of_mpc), *pair_table(study, DRIVERS, pairs, where)),
+        plots=(*all_plots(found), *beside_plots(study, of_mpc)),
+        findings=(*all_findings(found), *beside_findings(study, of_mpc),
+                  *pair_findings(study, DRIVERS, pairs, where)),
         failures=tuple((title_of(study, case), str(outcomes[case].failed)) for case in asked if outcomes[case].failed))
 
 
@@ -61,4 +76,4 @@ def _row(study: LiuStudy, outcome: Outcome) -> dict[str, Any]:
     }
 
 
-KIND = StudyKind(LiuStudy, run)
+KIND = StudyKind(LiuStudy, run, checked(DRIVERS), tune_with(DRIVERS))

@@ -1,4 +1,4 @@
-"""liu2020's trip driven by MPC: the same train, line and disturbances beside the paper's laws."""
+"""liu2020's trip driven by MPC: the same train, line and disturbances beside the paper's laws, stated and tuned."""
 
 from __future__ import annotations
 
@@ -7,33 +7,34 @@ from dataclasses import dataclass
 from typing import Any
 
 from workbench.controllers.liu2020 import LAWS
-from workbench.metrics import measure_run
 from workbench.mpc.controller import KINDS
 from workbench.report.numbers import number
-from workbench.simulate.closed_loop import run_law
-from workbench.studies.base import ResultTable
-from workbench.studies.beside_mpc import HEADER, KINDS_BESIDE, best_words, cells, counters_words, known, run_beside
+from workbench.studies.base import Plot, ResultTable
+from workbench.studies.beside_mpc import HEADER, best_words, cells, counters_words, error_plot
 from workbench.studies.liu2020_record import LiuStudy
-from workbench.studies.liu2020_runs import davis_newton, law_values, of_train, setting_of
-
-# What stands beside MPC: the laws with their signs corrected, by speed and by the position alone.
-BESIDE = ("liu2020.corrected", "liu2020.position_only")
+from workbench.studies.liu2020_tuned import DRIVERS, LAW_NAMES, drive_column
+from workbench.studies.tuning import MPC_NAMES, entries, tuning_words
 
 
 @dataclass(frozen=True)
 class Task:
-    """A controller (an MPC's kind or a law, with its column of Table 2) under a disturbance."""
+    """A controller (an MPC's kind or a law, with its column of Table 2) under a disturbance.
+
+    tuned: by what name the file states what was found for it, where it runs with that.
+    """
 
     controller: str
     disturbance: str
     column: int | None = None
+    tuned: str | None = None
 
     @property
     def title(self) -> str:
         """As tables have it."""
+        end = ", tuned" if self.tuned else ""
         if self.column is None:
-            return KINDS[self.controller].title
-        return f"{LAWS[self.controller].title}, Value {self.column}"
+            return KINDS[self.controller].title + end
+        return LAWS[self.controller].title + (end or f", Value {self.column}")
 
     @property
     def information(self) -> str:
@@ -49,24 +50,21 @@ def beside_tasks(study: LiuStudy) -> list[Task]:
     if study.mpc is None:
         return []
     columns = dict.fromkeys((study.table_4_column - 1 or 1, study.table_4_column))
-    laws = [(law, column) for law in BESIDE for column in columns]
-    return [Task(name, push, column) for push in study.disturbances
-            for name, column in (*laws, *((kind, None) for kind in KINDS_BESIDE))]
+    found = [name for name, tuned in entries(study, DRIVERS) if tuned]
+    tasks = []
+    for push in study.disturbances:
+        for name, law in LAW_NAMES.items():
+            tasks += [Task(law, push, column) for column in columns]
+            tasks += [Task(law, push, study.table_4_column, name)] if name in found else []
+        for name, kind in MPC_NAMES.items():
+            tasks += [Task(kind, push), *([Task(kind, push, tuned=name)] if name in found else [])]
+    return tasks
 
 
 def run_one(study: LiuStudy, task: Task) -> Beside:
-    """One run; MPC knows mass and general resistance, chi among them, and neither slopes nor disturbances."""
-    setting, plant = setting_of(study, task.disturbance), of_train.model()
-    if task.column is not None:
-        law = LAWS[task.controller]
-        run = run_law(law, law_values(study, law, task.column), setting, study.sampling.period_s, "explicit",
-                      plant=plant)
-    else:
-        data, mass = study.mpc, study.train.mass_kg / study.train.chi
-        assert data is not None
-        nominal = known(data, setting.curve, mass, davis_newton(study.train), setting.end_s)
-        run = run_beside(nominal, task.controller, setting, plant)
-    return task, measure_run(run, study.line.length_m).row(), run.counters
+    """The run of a task."""
+    driven = DRIVERS.tuned(study, task.tuned) if task.tuned else study
+    return task, *drive_column(driven, task.controller, task.column, task.disturbance)
 
 
 def beside_table(study: LiuStudy, runs: Sequence[Beside]) -> Iterator[ResultTable]:
@@ -80,15 +78,28 @@ def beside_table(study: LiuStudy, runs: Sequence[Beside]) -> Iterator[ResultTabl
         "Beside MPC", "comparison", ("disturbance", "controller", "is told", *HEADER), tuple(rows),
         f"MPC every {data.period_s:g} s, {data.horizon} samples ahead, limits of {data.max_traction_mps2:g} m/s², "
         f"the laws without limits as in the paper. MPC counted "
-        f"{counters_words([counters for *_, counters in runs])}.")
+        f"{counters_words([counters for *_, counters in runs])}."
+        + (f" {tuning_words(study.tuning)} The tuning's line is shorter than this one, see the file."
+           if study.tuning else ""))
 
 
 def beside_findings(study: LiuStudy, runs: Sequence[Beside]) -> Iterator[str]:
-    """Who is nearest where, a sentence a disturbance."""
+    """Who is nearest where, a sentence a disturbance for all as stated and one for all as tuned."""
     for push, stated in study.disturbances.items() if runs else ():
-        rows = [(task.title, row) for task, row, _ in runs if task.disturbance == push]
-        yield (f"Beside MPC, {stated.title}: {best_words(rows, 'position_rms', 'position RMS')} m; "
-               f"{best_words(rows, 'jerk_rms', 'jerk RMS')} m/s³.")
+        for state, words in ((False, "as stated"), (True, "tuned")):
+            rows = [(task.title, row) for task, row, _ in runs
+                    if task.disturbance == push and bool(task.tuned) == state]
+            if rows:
+                yield (f"Beside MPC, {stated.title}, {words}: {best_words(rows, 'position_rms', 'position RMS')} m; "
+                       f"{best_words(rows, 'speed_rms', 'speed RMS')} m/s; "
+                       f"{best_words(rows, 'jerk_rms', 'jerk RMS')} m/s³.")
     steps = [row["step_us_median"] for task, row, _ in runs if task.column is None]
     if steps:
         yield f"A step of MPC takes {number(min(steps))} to {number(max(steps))} µs here."
+
+
+def beside_plots(study: LiuStudy, runs: Sequence[Beside]) -> Iterator[Plot]:
+    """Position errors over time under Table 3's disturbance, stated and tuned."""
+    chosen = [(task.title, row) for task, row, _ in runs if task.disturbance == study.runs.table_3_disturbance
+              and task.column in (None, study.table_4_column)]
+    yield from error_plot(chosen, study.disturbances[study.runs.table_3_disturbance].title)

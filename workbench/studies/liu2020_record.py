@@ -12,6 +12,7 @@ from workbench.controllers.liu2020 import LAWS
 from workbench.desired_curve import RampTime
 from workbench.studies.base import Study, with_values
 from workbench.studies.beside_mpc import MpcData
+from workbench.studies.tuning_record import Pairs, StudyTuning
 from workbench.toml_input import NonNegative, Number, Positive, Record, SourcedRecord, Text
 
 COLUMNS = 10
@@ -216,6 +217,8 @@ class LiuStudy(Study):
     runs: Runs
     changes: tuple[Change, ...] = ()
     mpc: MpcData | None = None
+    tuning: StudyTuning | None = None
+    pairs: Pairs | None = None
 
     @model_validator(mode="after")
     def _parts_fit_together(self) -> Self:

@@ -4,13 +4,24 @@ from __future__ import annotations
 
 from workbench.controllers.mao2018_laws import KINDS
 from workbench.studies.base import Progress, StudyKind, StudyResult
-from workbench.studies.mao2018_beside import Beside, beside_findings, beside_table, beside_tasks, run_one
+from workbench.studies.mao2018_beside import (
+    Beside,
+    Task,
+    beside_findings,
+    beside_plots,
+    beside_table,
+    beside_tasks,
+    run_one,
+)
 from workbench.studies.mao2018_findings import findings
 from workbench.studies.mao2018_found import Found
 from workbench.studies.mao2018_plots import all_plots
 from workbench.studies.mao2018_record import CaseData, MaoStudy
 from workbench.studies.mao2018_runs import Asked, Obtained, Signs, obtain
 from workbench.studies.mao2018_tables import all_tables
+from workbench.studies.mao2018_tuned import DRIVERS, where
+from workbench.studies.pairs import drawn_rows, pair_findings, pair_table, pairs_of
+from workbench.studies.tuning import checked, tune_with
 from workbench.workers import run_tasks
 
 
@@ -48,20 +59,24 @@ def run(study: MaoStudy, workers: int, on_progress: Progress) -> StudyResult:
 
     # The longest first, so that no process is left alone with one.
     run_tasks(obtain, study, sorted(asked, key=lambda one: _steps(study, one), reverse=True), workers, record)
-    beside: dict[tuple[int, str], Beside] = {}
+    beside: dict[Task, Beside] = {}
     more = beside_tasks(study)
 
     def keep(one: Beside) -> None:
-        beside[one.case, one.kind] = one
-        on_progress(len(asked) + len(beside), len(asked) + len(more), f"case {one.case}, {one.kind}")
+        beside[one.case, one.name, one.tuned] = one
+        on_progress(len(asked) + len(beside), len(asked) + len(more), f"case {one.case}, {one.title}")
 
     run_tasks(run_one, study, more, workers, keep)
-    of_mpc = [beside[task] for task in more]
+    others = [beside[task] for task in more]
+    pairs = pairs_of(study, drawn_rows(DRIVERS, study, workers, on_progress))
     everything = Found(study, {one: found[one] for one in asked})
     return StudyResult(
         rows=tuple(found[one].row for one in asked),
-        tables=(*all_tables(everything), *beside_table(everything, of_mpc)), plots=all_plots(everything),
-        findings=(*findings(everything), *beside_findings(everything, of_mpc)),
+        tables=(*all_tables(everything), *beside_table(everything, others),
+                *pair_table(study, DRIVERS, pairs, where(study))),
+        plots=(*all_plots(everything), *beside_plots(everything, others)),
+        findings=(*findings(everything), *beside_findings(everything, others),
+                  *pair_findings(study, DRIVERS, pairs, where(study))),
         failures=tuple((found[one].name, found[one].failed or "") for one in asked if found[one].failed))
 
 
@@ -70,4 +85,4 @@ def _steps(study: MaoStudy, asked: Asked) -> float:
     return (asked.end_s or study.horizon.end_s) / period
 
 
-KIND = StudyKind(MaoStudy, run)
+KIND = StudyKind(MaoStudy, run, checked(DRIVERS), tune_with(DRIVERS))

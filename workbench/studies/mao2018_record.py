@@ -14,6 +14,7 @@ from workbench.events import Term
 from workbench.scenario import Interval
 from workbench.studies.base import Study
 from workbench.studies.beside_mpc import MpcData
+from workbench.studies.tuning_record import Pairs, StudyTuning
 from workbench.toml_input import (
     Count,
     Name,
@@ -186,6 +187,8 @@ class MaoStudy(Study):
     sampling: SamplingData
     sensitivity: tuple[Change, ...] = ()
     mpc: MpcData | None = None
+    tuning: StudyTuning | None = None
+    pairs: Pairs | None = None
 
     @model_validator(mode="after")
     def _parts_fit_together(self) -> Self:

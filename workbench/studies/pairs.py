@@ -1,0 +1,189 @@
+"""Law and MPC on the same drawn trains: paired differences, and which of them are more than chance."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from workbench.contest.statistics import Interval, mean_interval, overtakes, resampled
+from workbench.report.numbers import number
+from workbench.simulate.closed_loop import Factors
+from workbench.studies.base import Progress, ResultTable
+from workbench.studies.beside_mpc import FOLLOWS_MPS
+from workbench.studies.tuning import Drivers, entries, shortened
+from workbench.studies.tuning_record import Pairs
+from workbench.workers import run_tasks
+
+METRIC_NAMES = {"position_rms": ("position RMS", "m"), "speed_rms": ("speed RMS", "m/s"),
+                "jerk_rms": ("jerk RMS", "m/s³")}
+STATES = {False: "as stated", True: "tuned"}
+
+# (place, controller, whether it is tuned) -> a row a draw
+Drawn = Mapping[tuple[str, str, bool], Sequence[Mapping[str, Any]]]
+Task = tuple[int, str, str, bool]
+
+
+@dataclass(frozen=True)
+class Pair:
+    """A law and an MPC, both as stated or both tuned, over the draws in a place.
+
+    differences: metric -> law less MPC with its interval, None where a run of either failed; means: metric -> of law
+    and of MPC; failed: how many runs of law and of MPC failed; overtakes: metric -> the trial from which on a law that
+    learns is ahead by more than chance, or None.
+    """
+
+    place: str
+    law: str
+    rival: str
+    tuned: bool
+    means: dict[str, tuple[float, float]]
+    differences: dict[str, Interval | None]
+    failed: tuple[int, int]
+    overtakes: dict[str, int | None]
+
+    @property
+    def follow(self) -> tuple[bool, bool]:
+        """Whether law and MPC follow the desired curve: no run fails, and the mean speed RMS is small enough."""
+        if any(self.failed):
+            return not self.failed[0], not self.failed[1]
+        return self.means["speed_rms"][0] <= FOLLOWS_MPS, self.means["speed_rms"][1] <= FOLLOWS_MPS
+
+    def winner(self, metric: str) -> str | None:
+        """Who has less of a metric by more than chance; one whose run failed loses to one whose runs all ended.
+
+        In jerk one that does not follow the desired curve loses to one that does.
+        """
+        difference = self.differences[metric]
+        if metric == "jerk_rms" and not all(self.follow):
+            return self.law if self.follow[0] else self.rival if self.follow[1] else None
+        if difference is None:
+            if bool(self.failed[0]) == bool(self.failed[1]):
+                return None
+            return self.rival if self.failed[0] else self.law
+        return self.law if difference.high < 0 else self.rival if difference.low > 0 else None
+
+
+def factors_of(pairs: Pairs, draw: int) -> Factors:
+    """Mass and resistance of a draw; of seed and number of the draw alone, so the same for all who drive."""
+    generator = np.random.default_rng(np.random.SeedSequence(pairs.seed, spawn_key=(draw,)))
+    mass, a, b, c = (1 + pairs.spread * generator.uniform(-1.0, 1.0, 4)).tolist()
+    return Factors(mass=mass, davis_a=a, davis_b=b, davis_c=c)
+
+
+def drawn_rows(drivers: Drivers, study: Any, workers: int, on_progress: Progress) -> Drawn:
+    """Every controller, as stated and as tuned, on every drawn train; nothing where the file states no pairs."""
+    pairs: Pairs | None = study.pairs
+    if pairs is None:
+        return {}
+    tasks: list[Task] = [(draw, place, name, tuned) for draw in range(pairs.draws) for place in pairs.places
+                         for name, tuned in entries(study, drivers)]
+    found: dict[Task, Mapping[str, Any]] = {}
+
+    def record(result: tuple[Task, Mapping[str, Any]]) -> None:
+        found[result[0]] = result[1]
+        on_progress(len(found), len(tasks), f"drawn train {result[0][0] + 1}")
+
+    run_tasks(_one, (drivers, shortened(study, pairs.set, "pairs.set")), tasks, workers, record)
+    return {(place, name, tuned): [found[draw, place, name, tuned] for draw in range(pairs.draws)]
+            for place in pairs.places for name, tuned in entries(study, drivers)}
+
+
+def _one(shared: tuple[Drivers, Any], task: Task) -> tuple[Task, Mapping[str, Any]]:
+    (drivers, study), (draw, place, name, tuned) = shared, task
+    driven = drivers.tuned(study, name) if tuned else study
+    return task, drivers.drive(driven, name, place, factors_of(study.pairs, draw))
+
+
+def _values(rows: Sequence[Mapping[str, Any]], metric: str) -> NDArray[np.float64]:
+    return np.array([row[metric] for row in rows], dtype=float)
+
+
+def pairs_of(study: Any, drawn: Drawn) -> tuple[Pair, ...]:
+    """Every law against every MPC in the same state of tuning."""
+    if not drawn:
+        return ()
+    stated, metrics = study.pairs, tuple(study.tuning.objective.units)
+    chosen = resampled(stated.draws, stated.resamples, stated.seed)
+    found = []
+    for place, law, tuned in drawn:
+        for other, rival, state in drawn:
+            if law.startswith("mpc") or not rival.startswith("mpc") or (other, state) != (place, tuned):
+                continue
+            ours, theirs = drawn[place, law, tuned], drawn[place, rival, tuned]
+            failed = tuple(sum(row["failed"] is not None for row in rows) for rows in (ours, theirs))
+            means: dict[str, tuple[float, float]] = {}
+            differences: dict[str, Interval | None] = {}
+            ahead: dict[str, int | None] = {}
+            for metric in metrics:
+                if any(failed):
+                    differences[metric] = None
+                    continue
+                a, b = _values(ours, metric), _values(theirs, metric)
+                means[metric] = float(a.mean()), float(b.mean())
+                differences[metric] = mean_interval(a - b, chosen, stated.confidence)
+                if metric in ours[0].get("trials", {}):
+                    trials = np.array([row["trials"][metric] for row in ours])
+                    ahead[metric] = overtakes(trials, b, stated.resamples, stated.seed, stated.confidence)
+            found.append(Pair(place, law, rival, tuned, means, differences, (failed[0], failed[1]), ahead))
+    return tuple(found)
+
+
+def _cell(pair: Pair, metric: str, titles: Mapping[str, str], draws: int) -> str:
+    difference, winner = pair.differences[metric], pair.winner(metric)
+    verdict = "no win" if winner is None else titles[winner]
+    if metric == "jerk_rms" and difference is not None and not all(pair.follow):
+        verdict += " (the other does not follow)" if any(pair.follow) else " (neither follows)"
+    if difference is None:
+        words = " and ".join(f"{titles[name]} fails in {count} of {draws}"
+                             for name, count in zip((pair.law, pair.rival), pair.failed, strict=True) if count)
+        return f"{words}: {verdict}"
+    a, b = pair.means[metric]
+    return (f"{number(a)} − {number(b)} = {number(difference.mean)} [{number(difference.low)}, "
+            f"{number(difference.high)}]: {verdict}")
+
+
+def pair_table(study: Any, drivers: Drivers, pairs: Sequence[Pair], where: Mapping[str, str],
+               note: str = "") -> Iterator[ResultTable]:
+    """A row per place, law, MPC and state of tuning; nothing without pairs. where: place -> words."""
+    if not pairs:
+        return
+    stated, titles = study.pairs, drivers.titles
+    metrics = tuple(pairs[0].differences)
+    learns = any(pair.overtakes for pair in pairs)
+    rows = []
+    for pair in pairs:
+        cells = [_cell(pair, metric, titles, stated.draws) for metric in metrics]
+        if learns:
+            cells.append(", ".join("no" if trial is None else f"{METRIC_NAMES[metric][0]} {trial}"
+                                   for metric, trial in pair.overtakes.items()) or "—")
+        rows.append((where[pair.place], titles[pair.law], titles[pair.rival], STATES[pair.tuned], *cells))
+    header = ("run", "law", "MPC", "parameters", *(f"{METRIC_NAMES[m][0]} ({METRIC_NAMES[m][1]})" for m in metrics))
+    yield ResultTable(
+        "Law less MPC on the same drawn trains", "comparison",
+        (*header, "trial from which on the law is ahead") if learns else header, tuple(rows),
+        f"Means over {stated.draws} trains whose mass and resistance lie within ±{100 * stated.spread:g} % of what "
+        f"MPC knows, their difference with the {100 * stated.confidence:g} % interval of a paired bootstrap, and who "
+        "has less. A difference inside its interval is not called a win. A controller with runs that fail loses to "
+        f"one without; who errs by more than {FOLLOWS_MPS:g} m/s in speed RMS does not follow and wins nothing in "
+        "jerk." + (f" {note}" if note else ""))
+
+
+def pair_findings(study: Any, drivers: Drivers, pairs: Sequence[Pair], where: Mapping[str, str]) -> Iterator[str]:
+    """Who wins with which, a sentence per place and law: as stated and as tuned."""
+    for place, law in dict.fromkeys((pair.place, pair.law) for pair in pairs):
+        parts = []
+        for tuned in (False, True):
+            of = [pair for pair in pairs if (pair.place, pair.law, pair.tuned) == (place, law, tuned)]
+            for metric in of[0].differences if of else ():
+                won = [drivers.titles[pair.rival] for pair in of if pair.winner(metric) == law]
+                lost = [drivers.titles[pair.rival] for pair in of if pair.winner(metric) == pair.rival]
+                open_ = [drivers.titles[pair.rival] for pair in of if pair.winner(metric) is None]
+                words = [f"{verb} {' and '.join(names)}" for verb, names in (
+                    ("beats", won), ("loses to", lost), ("is level with", open_)) if names]
+                parts.append(f"{METRIC_NAMES[metric][0]} {STATES[tuned]}: {', '.join(words)}")
+        yield (f"{drivers.titles[law]} on {study.pairs.draws} drawn trains, {where[place]}, "
+               f"±{100 * study.pairs.spread:g} %: {'; '.join(parts)}.")
