@@ -43,6 +43,21 @@ def test_every_kind_is_a_controller_of_scenarios():
     assert all(law.startswith("mpc.") for law in KINDS)
 
 
+def test_a_command_may_be_held_for_several_samples_and_planned_with_their_period():
+    held, curve = controller("mpc.linear", held_samples=5.0)
+    scenario = scenario_of("mpc.linear")
+    slow = scenario.controllers["mpc"].model_copy(update={"period_s": 5 * T})
+    plain = MpcController(scenario.model_copy(update={"controllers": {"mpc": slow}}), slow, "mpc")
+    assert held.problem.period_s == pytest.approx(5 * T)
+    for k in range(40):
+        position, speed, _ = (float(x) for x in curve.at(k * T))
+        answer = held.command(k * T, position + 0.01, speed)
+        if k % 5 == 0:
+            wanted = plain.command(k * T, position + 0.01, speed)
+        assert answer == wanted
+    assert held.counters["qp"] == 8
+
+
 OTHER_TRAINS = [Factors(), Factors(mass=1.1, davis_a=1.2), Factors(mass=0.93, line_resistance=1.5)]
 
 
@@ -188,6 +203,8 @@ def test_a_deadline_that_nothing_meets_leaves_a_train_that_still_arrives():
     *(({name: None}, f"'{name}' is missing: add it") for name in COMMON),
     ({"horizont": 25.0}, "unknown 'horizont': choose among horizon"),
     ({"horizon": 2.5}, "horizon: 2.5 is no whole number"),
+    ({"held_samples": 2.5}, "held_samples = 2.5 is no whole number"),
+    ({"held_samples": 0.0}, "held_samples = 0 is no whole number"),
     ({"horizon": 1.0}, "horizon: 1 is no whole number"),
     ({"horizon": 1e9}, "is no whole number from 2 to 1000"),
     ({"position_weight": 0.0}, "choose a weight within"),

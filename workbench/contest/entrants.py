@@ -78,6 +78,12 @@ def follows_curve(scenario: Scenario, name: str) -> bool:
     return KINDS[law].follows_curve if law in KINDS else True
 
 
+def held_samples(scenario: Scenario, name: str) -> int:
+    """How many samples of its loop a contestant's command is held for: only the first of them is a control step."""
+    spec = scenario.controllers[name]
+    return int(spec.parameters.get("held_samples", 1)) if spec.law in KINDS else 1
+
+
 def learns(scenario: Scenario, name: str) -> bool:
     """Whether a contestant learns from trial to trial."""
     law = scenario.controllers[name].law

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from workbench.contest.entrant import Played
-from workbench.contest.entrants import play
+from workbench.contest.entrants import held_samples, play
 from workbench.contest.record import Condition, Contest
 from workbench.events import Failure
 from workbench.metrics import measure
@@ -169,7 +169,8 @@ def one_match(shared: tuple[Contest, Scenario], task: Task) -> Match:
         scenario = with_parameters(scenario, entry.controller, dict(contest.tuning.found[entry.controller]))
     played = play_match(scenario, entry.controller, contest.conditions[condition], draw, contest.seed)
     run = played.run
-    middle, slow = np.percentile(run.step_us, (50, 99)).tolist() if len(run.step_us) else (0.0, 0.0)
+    steps = run.step_us[:: held_samples(scenario, entry.controller)]
+    middle, slow = np.percentile(steps, (50, 99)).tolist() if len(steps) else (0.0, 0.0)
     return Match(condition, draw, entry.name, match_values(run, scenario), run.failed,
                  middle, slow, run.counters, played.trials)
 

@@ -15,7 +15,7 @@ from workbench.contest.learning import learning_findings, learning_plot, learnin
 from workbench.contest.matches import METRICS, all_matches, draws_of, of, overspeed, run_match, tunable
 from workbench.contest.record import Contest
 from workbench.contest.search import Tuned
-from workbench.contest.tables import HEADINGS, Told, all_tables
+from workbench.contest.tables import HEADINGS, UNITS, Told, all_tables
 from workbench.contest.tune import tune_all
 from workbench.errors import InputError
 from workbench.report.numbers import number
@@ -163,9 +163,9 @@ def _without_curve(told: Told) -> Iterator[str]:
             ahead += own is not None and arrived[i] and all(float(own.mean()) < value for value in others)
         late = [value for name in told.contest.conditions if (value := told.values(name, "late_s")[i]) is not None]
         worst = f", at most {number(max(float(value.max()) for value in late))} s late" if late else ""
-        yield (f"{entry.name}, which follows no curve, takes on average less energy than every one that does and "
-               f"arrives in {ahead} of {counted} conditions; all its runs end within {band:g} m of the stop in "
-               f"{within} of them{worst}.")
+        yield (f"{entry.name}, which follows no curve, takes on average less energy than everyone who follows it to "
+               f"the end in {ahead} of {counted} conditions; all its runs end within {band:g} m of the stop in "
+               f"{within} of {counted}{worst}.")
 
 
 def _limits_of_the_curve(told: Told) -> Iterator[str]:
@@ -181,10 +181,12 @@ def _limits_of_the_curve(told: Told) -> Iterator[str]:
 def _gain(told: Told, controller: str, tuned: str) -> Iterator[str]:
     condition = told.contest.tuning.condition
     names = [entry.name for entry in told.entries]
-    before, after = (told.values(condition, "position_rms")[names.index(name)] for name in (controller, tuned))
+    metric, words = (("position_rms", "position RMS {} m → {} m") if follows_curve(told.scenario, controller) else
+                     ("energy_J", "energy {} kWh → {} kWh"))
+    before, after = (told.values(condition, metric)[names.index(name)] for name in (controller, tuned))
     if before is not None and after is not None:
-        yield (f"Tuning of {controller} ({told.contest.tuning.runs} runs): position RMS "
-               f"{number(float(before.mean()))} m → {number(float(after.mean()))} m under "
+        change = words.format(*(number(float(value.mean()) / UNITS.get(metric, 1.0)) for value in (before, after)))
+        yield (f"Tuning of {controller} ({told.contest.tuning.runs} runs): {change} under "
                f"{told.contest.conditions[condition].title}.")
 
 

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from workbench.contest.effort import mpc_table
-from workbench.contest.entrants import follows_curve, information
+from workbench.contest.entrants import follows_curve, held_samples, information
 from workbench.contest.matches import METRICS, OF_CURVE, Entry, Match, entries, of
 from workbench.contest.record import Contest
 from workbench.contest.statistics import mean_interval, resampled, winners
@@ -135,7 +135,8 @@ def contestants_table(told: Told) -> ResultTable:
         steps = [match.step_us for match in told.matches if match.entry == entry.name]
         parameters = told.contest.tuning.found[entry.controller] if entry.tuned else {}
         rows.append((entry.name, spec.title or spec.law, information(told.scenario, entry.controller),
-                     f"{1e3 * spec.period_s:g}", number(float(np.median(steps))),
+                     f"{1e3 * spec.period_s * held_samples(told.scenario, entry.controller):g}",
+                     number(float(np.median(steps))),
                      ", ".join(f"{key} = {value:g}" for key, value in parameters.items()) or "as stated"))
     return ResultTable("The contestants", "the contest's file", (
         "controller", "law", "is told", "period (ms)", "µs a step", "parameters"), tuple(rows),

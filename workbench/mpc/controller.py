@@ -67,7 +67,8 @@ class Kind:
 
 
 COMMON = ("horizon", "position_weight", "speed_weight", "command_weight", "change_weight", "band_price")
-OPTIONAL = {"deadline_s": math.inf}
+# held_samples: how many samples of the loop a command is held for; the period of the problem is so many of the loop's.
+OPTIONAL = {"deadline_s": math.inf, "held_samples": 1.0}
 KINDS: dict[str, Kind] = {
     "mpc.linear": Kind("linear MPC", "full state, nominal model", _linear),
     "mpc.nonlinear": Kind("nonlinear MPC", "full state, nominal model", _nonlinear),
@@ -91,11 +92,13 @@ class MpcController:
         kind, where = KINDS[spec.law], f"controllers.{name}.parameters"
         values = _checked(spec.parameters, kind, where)
         train, curve = scenario.train, scenario.desired_curve()
+        self._held_samples, self._loop_period_s, self._held = int(values["held_samples"]), spec.period_s, 0.0
         try:
             price = (values["band_price"], 0.0)
             self.problem = Problem(
                 horizon=_whole(values["horizon"]),
-                period_s=spec.period_s, davis=(train.davis_a_mps2, train.davis_b_per_s, train.davis_c_per_m),
+                period_s=spec.period_s * self._held_samples,
+                davis=(train.davis_a_mps2, train.davis_b_per_s, train.davis_c_per_m),
                 lowest_command_mps2=-train.max_braking_n / train.mass_kg,
                 highest_command_mps2=train.max_traction_n / train.mass_kg,
                 weights=Weights(position=values["position_weight"], speed=values["speed_weight"],
@@ -128,6 +131,8 @@ class MpcController:
         """The command u = F/m in m/s^2 for the sample at time_s."""
         position_m, speed_mps = float(position_m), float(speed_mps)  # numpy's scalars are slow to count with
         good = math.isfinite(time_s) and abs(position_m) < FARTHEST_M and abs(speed_mps) < FASTEST_MPS
+        if math.isfinite(time_s) and round(time_s / self._loop_period_s) % self._held_samples:
+            return self._held
         k = round(time_s / self.problem.period_s) if math.isfinite(time_s) else self._sample + 1
         k = self._sample = min(max(k, 0), self._last_sample)
         if good:
@@ -137,6 +142,7 @@ class MpcController:
         else:
             answer = self._fallback.command(k, None, self._observer.disturbance)
         self._observer.predict(k, speed_mps if good else None, answer)
+        self._held = answer
         return answer
 
 
@@ -158,4 +164,7 @@ def _checked(given: Values, kind: Kind, where: str) -> Values:
     values = OPTIONAL | given
     if not values["deadline_s"] > 0:
         raise InputError("", where, f"deadline_s = {values['deadline_s']:g} must be positive: leave it out for none")
+    if not (1 <= values["held_samples"] <= 1000 and values["held_samples"] == int(values["held_samples"])):
+        raise InputError("", where, f"held_samples = {values['held_samples']:g} is no whole number from 1 to 1000: "
+                         "leave it out for a command every sample")
     return values
