@@ -47,10 +47,11 @@ def held_speed(vehicle, profile) -> float:
     return float(np.median(profile.speed_mps[cruise]))
 
 
+@pytest.mark.parametrize("intervals", [None, 2000], ids=["default", "2000"])
 @pytest.mark.parametrize(("vehicle", "length_m", "time_s"), HOLDING)
-def test_speeds_and_energy_are_the_classical_ones(vehicle, length_m, time_s):
+def test_speeds_and_energy_are_the_classical_ones(vehicle, length_m, time_s, intervals):
     theory = classical_run(vehicle, length_m, time_s, 70.0)
-    found = find_reference(vehicle, level(length_m), time_s, intervals=2000)
+    found = find_reference(vehicle, level(length_m), time_s, intervals=intervals)
     assert theory.hold_m > 0 and not theory.limited
     assert held_speed(vehicle, found.profile) == pytest.approx(theory.top_mps, rel=1e-3)
     assert start_of_braking(vehicle, found.profile) == pytest.approx(theory.brake_mps, rel=1e-3)

@@ -10,16 +10,19 @@ from __future__ import annotations
 
 import time
 import warnings
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import pairwise
 
 import cvxpy as cp
 import numpy as np
+from numpy.typing import NDArray
+from scipy import sparse
 
 from workbench.errors import SolverError
 from workbench.optimal.course import Array
 from workbench.optimal.force_pieces import force_pieces
 from workbench.optimal.grid import Grid
+from workbench.optimal.open_rows import Mask, OpenRows, all_open, open_rows, rightly_closed, thinned
 from workbench.optimal.vehicle import ForceLimit, Vehicle
 
 # Accuracy asked of clarabel; what it returns is checked again by everything that follows.
@@ -27,6 +30,8 @@ SETTINGS = {"tol_gap_abs": 1e-8, "tol_gap_rel": 1e-8, "tol_feas": 1e-8}
 # Without refining each step's linear equations a program takes half the time; some then end inaccurately, and are
 # solved again with it.
 QUICK = {"iterative_refinement_enable": False}
+# From so many intervals on a coarser program comes first.
+COARSE_FIRST = 2000
 
 
 @dataclass(frozen=True)
@@ -54,19 +59,43 @@ class NoPlanError(SolverError):
 
 def solve_socp(vehicle: Vehicle, grid: Grid, trip_time_s: float, start_mps: float = 0.0,
                end_mps: float = 0.0) -> Plan:
-    """The run of least energy within trip_time_s; raises NoPlanError when clarabel finds none or is inaccurate."""
+    """The run of least energy within trip_time_s; raises NoPlanError when clarabel finds none or is inaccurate.
+
+    A large program is solved on a coarser mesh first, and then without what that leaves no use for.
+    """
+    ends, spent = (start_mps, end_mps), 0.0
+    if len(grid.limit_mps) >= COARSE_FIRST:
+        try:
+            coarse, price = _solve(vehicle, thinned(grid), trip_time_s, ends)
+            spent = coarse.solve_s
+            rows = open_rows(vehicle, grid, coarse.grid, coarse.half_square, coarse.force_n, price)
+            plan, price = _solve(vehicle, grid, trip_time_s, ends, rows)
+            spent += plan.solve_s
+            if rightly_closed(vehicle, grid, rows, plan.half_square, plan.force_n, price):
+                return replace(plan, solve_s=spent)
+        except NoPlanError:
+            pass  # the whole program says whether there is none
+    plan, _ = _solve(vehicle, grid, trip_time_s, ends)
+    return replace(plan, solve_s=spent + plan.solve_s)
+
+
+def _solve(vehicle: Vehicle, grid: Grid, trip_time_s: float, ends_mps: tuple[float, float],
+           rows: OpenRows | None = None) -> tuple[Plan, Array]:
+    """The plan, and what a newton more at the wheel is worth on each interval, J/m per N."""
     h, n = grid.step_m, len(grid.limit_mps)
+    rows = rows or all_open(grid)
     inertia, (a, b_1, c) = vehicle.inertia_kg, vehicle.davis_n
     # Scales: variables are around one.
     speed = float(grid.limit_mps.max())
     force = max(vehicle.traction.at(0.0), vehicle.braking_n)
     mean_time = trip_time_s / n
     half = speed**2
+    work = force * grid.course.length_m
 
     b, v, tau = cp.Variable(n + 1), cp.Variable(n + 1), cp.Variable(n)
-    pull = cp.Variable(n, nonneg=True)
+    pull = _where(rows.pull)
     # A brake that the train does not have costs time all the same.
-    brake, grip = (cp.Variable(n, nonneg=True) if most > 0 else cp.Constant(np.zeros(n))
+    brake, grip = (_where(rows.brake) if most > 0 else cp.Constant(np.zeros(n))
                    for most in (vehicle.regenerative.force_n, vehicle.friction_brake_n))
     b_mean, v_mean = (b[1:] + b[:-1]) / 2, (v[1:] + v[:-1]) / 2
     # Newton's law, in units between force and work: as force its numbers would be large on short intervals.
@@ -78,18 +107,21 @@ def solve_socp(vehicle: Vehicle, grid: Grid, trip_time_s: float, start_mps: floa
     fixed = grid.stands.copy()
     fixed[[0, -1]] = True
     value = np.zeros(n + 1)
-    value[0], value[-1] = (start_mps / speed) ** 2, (end_mps / speed) ** 2
+    value[[0, -1]] = (np.array(ends_mps) / speed) ** 2
     top = (grid.node_limit_mps / speed) ** 2
     free = ~fixed
+    fast = free & rows.top
     duration = cp.sum(tau) <= n
-    rules = [motion, b[fixed] == value[fixed], v[fixed] == np.sqrt(value[fixed]), b[free] <= top[free], duration,
+    rules = [motion, b[fixed] == value[fixed], v[fixed] == np.sqrt(value[fixed]), b[fast] <= top[fast], duration,
              # v^2 <= b and tau (v_k + v_k+1) >= 2 h, in units of the scales
              cp.SOC(b[free] + 1, cp.vstack([2 * v[free], b[free] - 1])),
              cp.SOC(tau + 2 * v_mean, cp.vstack([tau - 2 * v_mean, 2 * np.sqrt(2 * h / (mean_time * speed))])),
              *([grip <= vehicle.friction_brake_n / force] if vehicle.friction_brake_n > 0 else [])]
-    rules += _force_rules(pull, vehicle.traction, grid, v_mean, tau, (force, speed, mean_time))
+    sides = [(pull, vehicle.traction, rows.pull_limit)]
     if vehicle.regenerative.force_n > 0:
-        rules += _force_rules(brake, vehicle.regenerative, grid, v_mean, tau, (force, speed, mean_time))
+        sides.append((brake, vehicle.regenerative, rows.brake))
+    for side, limit, asked in sides:
+        rules += _force_rules(side, limit, grid, v_mean, tau, (force, speed, mean_time), np.flatnonzero(asked))
     if b_1 > 0:  # else the resistance would fall with a speed that the relaxation lets go
         rules.append(v[free] >= cp.multiply(1 / np.sqrt(top[free]), b[free]))
     comfort = [(sign, sign * (b[1:] - b[:-1]) <= 2 * limit * h / half)
@@ -100,15 +132,27 @@ def solve_socp(vehicle: Vehicle, grid: Grid, trip_time_s: float, start_mps: floa
     returned = vehicle.regenerative_efficiency * cp.sum(cp.multiply(h, brake))
     problem = cp.Problem(cp.Minimize((used - returned) / grid.course.length_m), rules)
     solve_s = _solved(problem, f"the cone program of {n} intervals for {trip_time_s:g} s")
-    work = force * grid.course.length_m
+    price = row * motion.dual_value * work / (force * h)
     # Limits of the acceleration act on db/ds itself: they belong to the price of what changes b.
-    adjoint = row * motion.dual_value * work / (force * h)
+    adjoint = price
     for sign, rule in comfort:
         adjoint = adjoint + sign * rule.dual_value * 2 * work / (half * inertia)
     half_square = np.where(fixed, value, np.maximum(b.value, 0.0)) * half / 2
-    return Plan(grid, half_square, (pull.value - brake.value - grip.value) * force,
-                adjoint, float(duration.dual_value) * work / mean_time,
-                float(problem.value) * work, solve_s, str(problem.status))
+    plan = Plan(grid, half_square, (pull.value - brake.value - grip.value) * force, adjoint,
+                float(duration.dual_value) * work / mean_time, float(problem.value) * work, solve_s,
+                str(problem.status))
+    return plan, price
+
+
+def _where(used: Mask) -> cp.Expression:
+    """A non-negative variable on some of the intervals, and zero on the others."""
+    count, at = len(used), np.flatnonzero(used)
+    if len(at) == count:
+        return cp.Variable(count, nonneg=True)
+    if not len(at):
+        return cp.Constant(np.zeros(count))
+    place = sparse.csr_array((np.ones(len(at)), (at, np.arange(len(at)))), shape=(count, len(at)))
+    return place @ cp.Variable(len(at), nonneg=True)
 
 
 def _solved(problem: cp.Problem, what: str) -> float:
@@ -119,7 +163,7 @@ def _solved(problem: cp.Problem, what: str) -> float:
         try:
             with warnings.catch_warnings():
                 warnings.filterwarnings("ignore", "Solution may be inaccurate")
-                problem.solve(cp.CLARABEL, ignore_dpp=True, canon_backend="SCIPY", **settings)
+                problem.solve(cp.CLARABEL, ignore_dpp=True, canon_backend="SCIPY", warm_start=False, **settings)
         except cp.SolverError as error:
             trouble = f"clarabel fails on {what} ({error}): try other intervals"
             spent += time.perf_counter() - started
@@ -134,15 +178,17 @@ def _solved(problem: cp.Problem, what: str) -> float:
     return spent
 
 
-def _force_rules(force: cp.Variable, limit: ForceLimit, grid: Grid, v_mean: cp.Expression, tau: cp.Variable,
-                 scales: tuple[float, float, float]) -> list[cp.Constraint]:
-    """Limits of one force in scaled units; a table by the lines of its upper concave hull, a relaxation."""
+def _force_rules(force: cp.Expression, limit: ForceLimit, grid: Grid, v_mean: cp.Expression, tau: cp.Variable,
+                 scales: tuple[float, float, float], at: NDArray[np.intp]) -> list[cp.Constraint]:
+    """Limits of one force on intervals `at`, in scaled units; a table by the lines of its upper concave hull."""
     unit, speed, mean_time = scales
-    rules = [force <= limit.force_n / unit]
+    if not len(at):
+        return []
+    rules = [force[at] <= limit.force_n / unit]
     if np.isfinite(limit.power_w):
-        rules.append(cp.multiply(grid.step_m * unit / (limit.power_w * mean_time), force) <= tau)
+        rules.append(cp.multiply(grid.step_m[at] * unit / (limit.power_w * mean_time), force[at]) <= tau[at])
     for constant, slope in _hull_lines(limit, speed):
-        rules.append(force <= constant / unit + slope * speed / unit * v_mean)
+        rules.append(force[at] <= constant / unit + slope * speed / unit * v_mean[at])
     return rules
 
 

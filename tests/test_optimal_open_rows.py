@@ -1,0 +1,109 @@
+"""A large cone program without what a coarser mesh leaves no use for: the same answer, or the whole program's."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from test_optimal_nlp import TRAINS, hilly
+
+from workbench.optimal import open_rows, socp
+from workbench.optimal.grid import graded_grid, kept_borders
+from workbench.optimal.open_rows import all_open, rightly_closed, thinned
+from workbench.optimal.reference import least_time
+from workbench.optimal.socp import COARSE_FIRST, solve_socp
+
+CONVEX = [vehicle for vehicle in TRAINS if not vehicle.traction.table]
+INTERVALS = COARSE_FIRST + 200
+
+
+def whole(vehicle, grid, asked):
+    return socp._solve(vehicle, grid, asked, (0.0, 0.0))
+
+
+@pytest.mark.parametrize("vehicle", TRAINS, ids=lambda vehicle: vehicle.name)
+@pytest.mark.parametrize("stops", [(), (8e3,)])
+def test_a_large_program_is_answered_as_if_nothing_had_been_left_out(vehicle, stops):
+    course = hilly(stops)
+    grid = graded_grid(course, INTERVALS)
+    asked = 1.15 * least_time(vehicle, course).trip_time_s
+    plan, (reference, _) = solve_socp(vehicle, grid, asked), whole(vehicle, grid, asked)
+    assert plan.energy_j == pytest.approx(reference.energy_j, rel=2e-6)
+    assert plan.time_price_w == pytest.approx(reference.time_price_w, rel=2e-3)
+    np.testing.assert_allclose(np.sqrt(2 * plan.half_square), np.sqrt(2 * reference.half_square), atol=0.05)
+    assert plan.solve_s > 0
+
+
+def test_what_is_left_out_is_a_good_part_and_small_programs_are_left_alone(monkeypatch):
+    sizes = []
+    solve = socp._solve
+
+    def counted(vehicle, grid, asked, ends, rows=None):
+        sizes.append((len(grid.limit_mps), rows))
+        return solve(vehicle, grid, asked, ends, rows)
+
+    monkeypatch.setattr(socp, "_solve", counted)
+    course = hilly()
+    asked = 1.15 * least_time(CONVEX[0], course).trip_time_s
+    solve_socp(CONVEX[0], graded_grid(course, 400), asked)
+    assert [rows for _, rows in sizes] == [None]
+    sizes.clear()
+    solve_socp(CONVEX[0], graded_grid(course, INTERVALS), asked)
+    (few, first), (many, rows) = sizes
+    assert first is None and few < many / 5
+    assert rows.brake.mean() < 0.5 and rows.pull.mean() < 0.8 and rows.top.mean() < 0.8
+
+
+@pytest.mark.parametrize("closed", ["pull", "brake", "pull_limit", "top"])
+def test_what_was_left_out_wrongly_is_seen_and_the_whole_program_solved(monkeypatch, closed):
+    """A guess that leaves out what is needed everywhere must cost time only."""
+    # A linear term of the resistance comes with a rule that holds the speed limit as well.
+    vehicle, course = replace(CONVEX[0], davis_n=(4e3, 0.0, 9.0)), hilly()
+    grid = graded_grid(course, INTERVALS)
+    asked = 1.04 * least_time(vehicle, course).trip_time_s
+    verdicts = []
+
+    def misled(vehicle, grid, *_):
+        never = np.zeros(len(grid.limit_mps) + (closed == "top"), dtype=bool)
+        return replace(all_open(grid), **{closed: never})
+
+    def watched(*arguments):
+        verdicts.append(rightly_closed(*arguments))
+        return verdicts[-1]
+
+    monkeypatch.setattr(socp, "open_rows", misled)
+    monkeypatch.setattr(socp, "rightly_closed", watched)
+    plan, (reference, _) = solve_socp(vehicle, grid, asked), whole(vehicle, grid, asked)
+    assert not any(verdicts)  # without traction there is no plan, hence no verdict
+    assert plan.energy_j == reference.energy_j
+    np.testing.assert_array_equal(plan.half_square, reference.half_square)
+
+
+def test_a_thinned_mesh_keeps_borders_and_stops():
+    course = hilly((8e3,))
+    grid = graded_grid(course, INTERVALS)
+    coarse = thinned(grid)
+    assert set(kept_borders(course)) <= set(coarse.position_m) <= set(grid.position_m)
+    assert len(coarse.limit_mps) <= len(grid.limit_mps) / open_rows.THINNED + 2 * len(kept_borders(course))
+    assert coarse.stands.sum() == 1
+
+
+def test_a_refined_attempt_is_not_the_quick_one_again(monkeypatch):
+    """Settings of an earlier attempt must not live on in a solver that is used again."""
+    vehicle, course = CONVEX[0], hilly()
+    grid = graded_grid(course, 100)
+    asked = 1.15 * least_time(vehicle, course).trip_time_s
+    attempts = []
+    solve = socp.cp.Problem.solve
+
+    def inaccurate_first(problem, *arguments, **settings):
+        attempts.append(settings)
+        solve(problem, *arguments, **settings)
+        if len(attempts) == 1:
+            problem._status = socp.cp.OPTIMAL_INACCURATE
+
+    monkeypatch.setattr(socp.cp.Problem, "solve", inaccurate_first)
+    solve_socp(vehicle, grid, asked)
+    quick, refined = attempts
+    assert quick["iterative_refinement_enable"] is False
+    assert "iterative_refinement_enable" not in refined
+    assert not quick["warm_start"] and not refined["warm_start"]
