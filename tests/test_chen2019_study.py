@@ -64,7 +64,8 @@ def short(study):
               "(17)-(22) with the errors of the same sample", "slopes as a function of time", "slopes where the car is",
               "50.03 to 55 t: the lower bound 30 kg above the mass", "acceleration filtered with 0.1 s")
     base = changed(study, **{key.replace(".", "__"): value for key, value in SHORT.items()})
-    return base.model_copy(update={"changes": tuple(c for c in study.changes if c.title in wanted)})
+    return base.model_copy(update={"changes": tuple(c for c in study.changes if c.title in wanted),
+                                   "pairs": study.pairs.model_copy(update={"draws": 2, "set": {}})})
 
 
 @pytest.fixture(scope="module")

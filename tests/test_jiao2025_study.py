@@ -40,7 +40,8 @@ def small(study):
         "readings": {name: study.readings[name] for name in keep},
         "trials": study.trials.model_copy(update={"seeds": 3}),
         "unit_sweep": study.unit_sweep.model_copy(update={"readings": ("N",), "count": 4}),
-        "variants": tuple(v for v in study.variants if v.title in wanted)})
+        "variants": tuple(v for v in study.variants if v.title in wanted),
+        "pairs": study.pairs.model_copy(update={"draws": 2})})
 
 
 @pytest.fixture(scope="module")

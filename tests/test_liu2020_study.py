@@ -63,7 +63,8 @@ def short(study):
     return study.model_copy(update={
         "line": study.line.model_copy(update={"length_m": 12e3, "sections": (section,)}),
         "sampling": study.sampling.model_copy(update={"period_s": 0.005}),
-        "adaptation": study.adaptation.model_copy(update=faster)})
+        "adaptation": study.adaptation.model_copy(update=faster),
+        "pairs": study.pairs.model_copy(update={"draws": 2, "set": {}})})
 
 
 def outcome_of(study, column, law, disturbance="fast", leak=None):

@@ -19,6 +19,8 @@ from workbench.studies.mao2018_beside import beside_tasks
 from workbench.studies.mao2018_numbers import initial, parameters, setting_of
 from workbench.studies.mao2018_record import MaoStudy
 from workbench.studies.mao2018_runs import Asked, obtain, simulate
+from workbench.studies.mao2018_tuned import DRIVERS
+from workbench.studies.pairs import pair_tasks
 from workbench.studies.registry import load_study
 from workbench.toml_input import validate_record
 from workbench.train import single_particle
@@ -272,13 +274,16 @@ def short(study):
     kept = [change for change in study.sensitivity if change.laws != "corrected" or len(change.cases) > 1]
     return study.model_copy(update={
         "horizon": study.horizon.model_copy(update={"end_s": 1.5, "settled_window_s": 0.5}),
-        "sampling": study.sampling.model_copy(update={"end_s": 1.0}), "sensitivity": tuple(kept)})
+        "sampling": study.sampling.model_copy(update={"end_s": 1.0}), "sensitivity": tuple(kept),
+        "pairs": study.pairs.model_copy(update={"draws": 2, "set": {}})})
 
 
 def test_a_study_has_every_figure_and_no_nan_and_says_what_failed(short):
     steps = []
     result = run(short, 1, lambda done, total, what: steps.append((done, total, what)))
-    assert len(result.rows) == len(plan(short)) == len(steps) - len(beside_tasks(short))
+    more = len(beside_tasks(short)) + len(pair_tasks(DRIVERS, short))
+    assert len(result.rows) == len(plan(short)) == len(steps) - more
+    assert [done for done, *_ in steps] == list(range(1, len(steps) + 1)) and steps[-1][1] == len(steps)
     assert json.dumps(study_document(short, result), allow_nan=False)
     sources = [plot.source for plot in result.plots]
     assert sources[:5] == ["paper, Figure 1", *(f"paper, Figure 2 ({letter})" for letter in "abcd")]

@@ -26,7 +26,7 @@ from workbench.studies.chen2019_tuned import (
     tuned_table,
     tuned_tasks,
 )
-from workbench.studies.pairs import drawn_rows, pair_findings, pair_table, pairs_of
+from workbench.studies.pairs import drawn_rows, pair_findings, pair_table, pair_tasks, pairs_of
 from workbench.studies.tuning import checked, tune_with
 from workbench.workers import run_tasks
 
@@ -40,28 +40,29 @@ def run(study: ChenStudy, workers: int, on_progress: Progress) -> StudyResult:
     """All runs of the study in `workers` processes; a run that ends early is told and stops no other."""
     asked = range(STATED, len(study.changes))
     runs: dict[int, CarsRun] = {}
-    steps = len(asked) + 1
+    before = len(asked) + 1 + len(tuned_tasks(study))
+    total = before + len(pair_tasks(DRIVERS, study))
 
     def record(result: tuple[int, CarsRun]) -> None:
         runs[result[0]] = result[1]
-        on_progress(len(runs), steps, title(study, result[0]))
+        on_progress(len(runs), total, title(study, result[0]))
 
     # The longest first, so that no process is left alone with one.
     run_tasks(run_number, study, sorted(asked, key=lambda i: -changed(study, i).samples), workers, record)
     # By itself, so that nothing else takes time from what is measured.
     found = Found(study, {i: runs[i] for i in asked}, cost(study))
     trip, longer = (run_beside(study), growth(study)) if study.mpc else (None, ())
-    on_progress(steps, steps, "cost of a sample")
+    on_progress(len(asked) + 1, total, "cost of a sample")
     tuned = stated_rows(study, found.stated, trip)
     left = [task for task in tuned_tasks(study) if task not in tuned]
 
     def keep(result: tuple[Task, dict[str, Any]]) -> None:
         tuned[result[0]] = result[1]
-        on_progress(len(tuned), len(tuned_tasks(study)), "stated and tuned")
+        on_progress(len(asked) + 1 + len(tuned), total, "stated and tuned")
 
     run_tasks(run_tuned, study, left, workers, keep)
     rows = [(task, tuned[task]) for task in tuned_tasks(study)]
-    pairs = pairs_of(study, drawn_rows(DRIVERS, study, workers, on_progress))
+    pairs = pairs_of(study, drawn_rows(DRIVERS, study, workers, on_progress, before))
     return StudyResult(
         rows=tuple(_row(study, i, runs[i]) for i in asked),
         tables=(*all_tables(found), *beside_tables(found, trip, longer), *tuned_table(study, rows),

@@ -162,7 +162,7 @@ def _ahead(row: Mapping[str, Any], rival: Mapping[str, Any] | None, metric: str)
 def tuned_findings(study: ChenStudy, runs: Rows) -> Iterator[str]:
     """Who is best, stated and tuned, and when the learner gets ahead."""
     for tuned in (False, True):
-        rows = [(title_of(name, state), row) for (name, state), row in runs if state == tuned]
+        rows = [(TITLES[name], row) for (name, state), row in runs if state == tuned]
         if not rows:
             continue
         best = "; ".join(f"{best_words(rows, metric, what)} {unit}" for metric, what, unit in (

@@ -21,7 +21,7 @@ from workbench.studies.jiao2025_tuned import (
     tuned_table,
     tuned_tasks,
 )
-from workbench.studies.pairs import drawn_rows, pair_findings, pair_table, pairs_of
+from workbench.studies.pairs import drawn_rows, pair_findings, pair_table, pair_tasks, pairs_of
 from workbench.studies.tuning import checked, tune_with
 from workbench.workers import run_tasks
 
@@ -29,18 +29,20 @@ from workbench.workers import run_tasks
 def run(study: JiaoStudy, workers: int, on_progress: Progress) -> StudyResult:
     """All runs of the study in `workers` processes; a run that diverges is told and stops no other."""
     asked, more, again = list(dict.fromkeys(cases(study))), beside_tasks(study), tuned_tasks(study)
+    before = len(asked) + len(more) + len(again)
+    total = before + len(pair_tasks(DRIVERS, study))
     runs: dict[Case, TrialRun] = {}
 
     def record(result: tuple[Case, TrialRun]) -> None:
         runs[result[0]] = result[1]
-        on_progress(len(runs), len(asked) + len(more), name_of(study, result[0]))
+        on_progress(len(runs), total, name_of(study, result[0]))
 
     run_tasks(_run_case, study, asked, workers, record)
     beside: dict[tuple[str, str], Beside] = {}
 
     def keep(one: Beside) -> None:
         beside[one.reading, one.kind] = one
-        on_progress(len(asked) + len(beside), len(asked) + len(more), f"{one.kind}, {one.reading}")
+        on_progress(len(asked) + len(beside), total, f"{one.kind}, {one.reading}")
 
     run_tasks(run_one, study, more, workers, keep)
     of_mpc, found = [beside[task] for task in more], Found(study, runs)
@@ -48,10 +50,11 @@ def run(study: JiaoStudy, workers: int, on_progress: Progress) -> StudyResult:
 
     def keep_tuned(result: tuple[Task, dict[str, Any]]) -> None:
         tuned[result[0]] = result[1]
+        on_progress(len(asked) + len(more) + len(tuned), total, "stated and tuned")
 
     run_tasks(run_tuned, study, again, 1, keep_tuned)
     rows = [(task, tuned[task]) for task in again]
-    pairs = pairs_of(study, drawn_rows(DRIVERS, study, workers, on_progress))
+    pairs = pairs_of(study, drawn_rows(DRIVERS, study, workers, on_progress, before))
     where = {name: reading.title for name, reading in study.readings.items()}
     return StudyResult(
         rows=tuple(_row(study, case, runs[case]) for case in asked),

@@ -122,7 +122,7 @@ def tuned_findings(study: JiaoStudy, runs: Rows) -> Iterator[str]:
     """Who is best, stated and tuned, and when the learners get ahead."""
     for place in dict.fromkeys(task[0] for task, _ in runs):
         for tuned in (False, True):
-            rows = [(title_of(name, tuned), row) for (at, name, state), row in runs if (at, state) == (place, tuned)]
+            rows = [(TITLES[name], row) for (at, name, state), row in runs if (at, state) == (place, tuned)]
             if not rows:
                 continue
             learned = list(_learned(rows, study.trials.count))

@@ -21,7 +21,7 @@ from workbench.studies.liu2020_record import LiuStudy
 from workbench.studies.liu2020_runs import Case, Outcome, run_case
 from workbench.studies.liu2020_tables import all_tables
 from workbench.studies.liu2020_tuned import DRIVERS
-from workbench.studies.pairs import drawn_rows, pair_findings, pair_table, pairs_of
+from workbench.studies.pairs import drawn_rows, pair_findings, pair_table, pair_tasks, pairs_of
 from workbench.studies.tuning import checked, tune_with
 from workbench.workers import run_tasks
 
@@ -36,22 +36,24 @@ NAMES = {"position_m_min": "position_error_min", "position_m_max": "position_err
 def run(study: LiuStudy, workers: int, on_progress: Progress) -> StudyResult:
     """All runs of the study in `workers` processes; a run that diverges is told and stops no other."""
     asked, more = cases(study), beside_tasks(study)
+    before = len(asked) + len(more)
+    total = before + len(pair_tasks(DRIVERS, study))
     outcomes: dict[Case, Outcome] = {}
 
     def record(outcome: Outcome) -> None:
         outcomes[outcome.case] = outcome
-        on_progress(len(outcomes), len(asked) + len(more), title_of(study, outcome.case))
+        on_progress(len(outcomes), total, title_of(study, outcome.case))
 
     run_tasks(run_case, study, asked, workers, record)
     beside: dict[Task, Beside] = {}
 
     def keep(one: Beside) -> None:
         beside[one[0]] = one
-        on_progress(len(asked) + len(beside), len(asked) + len(more), f"{one[0].title}, {one[0].disturbance}")
+        on_progress(len(asked) + len(beside), total, f"{one[0].title}, {one[0].disturbance}")
 
     run_tasks(run_one, study, more, workers, keep)
     of_mpc = [beside[task] for task in more]
-    pairs = pairs_of(study, drawn_rows(DRIVERS, study, workers, on_progress))
+    pairs = pairs_of(study, drawn_rows(DRIVERS, study, workers, on_progress, before))
     where = {name: push.title for name, push in study.disturbances.items()}
     found = Found(study, outcomes)
     return StudyResult(

@@ -31,10 +31,14 @@ class Task:
     @property
     def title(self) -> str:
         """As tables have it."""
-        end = ", tuned" if self.tuned else ""
-        if self.column is None:
-            return KINDS[self.controller].title + end
-        return LAWS[self.controller].title + (end or f", Value {self.column}")
+        if self.tuned:
+            return f"{self.plain}, tuned"
+        return self.plain if self.column is None else f"{self.plain}, Value {self.column}"
+
+    @property
+    def plain(self) -> str:
+        """The controller without its gains."""
+        return (KINDS if self.column is None else LAWS)[self.controller].title
 
     @property
     def information(self) -> str:
@@ -87,7 +91,7 @@ def beside_findings(study: LiuStudy, runs: Sequence[Beside]) -> Iterator[str]:
     """Who is nearest where, a sentence a disturbance for all as stated and one for all as tuned."""
     for push, stated in study.disturbances.items() if runs else ():
         for state, words in ((False, "as stated"), (True, "tuned")):
-            rows = [(task.title, row) for task, row, _ in runs
+            rows = [(task.plain if state else task.title, row) for task, row, _ in runs
                     if task.disturbance == push and bool(task.tuned) == state]
             if rows:
                 yield (f"Beside MPC, {stated.title}, {words}: {best_words(rows, 'position_rms', 'position RMS')} m; "

@@ -20,7 +20,7 @@ from workbench.studies.mao2018_record import CaseData, MaoStudy
 from workbench.studies.mao2018_runs import Asked, Obtained, Signs, obtain
 from workbench.studies.mao2018_tables import all_tables
 from workbench.studies.mao2018_tuned import DRIVERS, where
-from workbench.studies.pairs import drawn_rows, pair_findings, pair_table, pairs_of
+from workbench.studies.pairs import drawn_rows, pair_findings, pair_table, pair_tasks, pairs_of
 from workbench.studies.tuning import checked, tune_with
 from workbench.workers import run_tasks
 
@@ -50,25 +50,26 @@ def plan(study: MaoStudy) -> list[Asked]:
 
 def run(study: MaoStudy, workers: int, on_progress: Progress) -> StudyResult:
     """All runs of the study in `workers` processes; a run that diverges is told and stops no other."""
-    asked = plan(study)
+    asked, more = plan(study), beside_tasks(study)
+    before = len(asked) + len(more)
+    total = before + len(pair_tasks(DRIVERS, study))
     found: dict[Asked, Obtained] = {}
 
     def record(result: Obtained) -> None:
         found[result.asked] = result
-        on_progress(len(found), len(asked) + len(beside_tasks(study)), result.name)
+        on_progress(len(found), total, result.name)
 
     # The longest first, so that no process is left alone with one.
     run_tasks(obtain, study, sorted(asked, key=lambda one: _steps(study, one), reverse=True), workers, record)
     beside: dict[Task, Beside] = {}
-    more = beside_tasks(study)
 
     def keep(one: Beside) -> None:
         beside[one.case, one.name, one.tuned] = one
-        on_progress(len(asked) + len(beside), len(asked) + len(more), f"case {one.case}, {one.title}")
+        on_progress(len(asked) + len(beside), total, f"case {one.case}, {one.title}")
 
     run_tasks(run_one, study, more, workers, keep)
     others = [beside[task] for task in more]
-    pairs = pairs_of(study, drawn_rows(DRIVERS, study, workers, on_progress))
+    pairs = pairs_of(study, drawn_rows(DRIVERS, study, workers, on_progress, before))
     everything = Found(study, {one: found[one] for one in asked})
     return StudyResult(
         rows=tuple(found[one].row for one in asked),

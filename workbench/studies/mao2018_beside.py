@@ -15,6 +15,7 @@ from workbench.studies.mao2018_record import MaoStudy
 from workbench.studies.mao2018_tuned import DRIVERS, LAW, row_of, run_case
 from workbench.studies.tuning import MPC_NAMES, entries, tuning_words
 
+TUNED = ", tuned"
 # (case, controller by its name in [tuning], whether it is tuned)
 Task = tuple[int, str, bool]
 
@@ -32,7 +33,7 @@ class Beside:
     @property
     def title(self) -> str:
         """As tables have it."""
-        return DRIVERS.titles[self.name] + (", tuned" if self.tuned else "")
+        return DRIVERS.titles[self.name] + (TUNED if self.tuned else "")
 
 
 def beside_tasks(study: MaoStudy) -> list[Task]:
@@ -84,7 +85,7 @@ def beside_findings(found: Found, others: Sequence[Beside]) -> Iterator[str]:
     """Who is nearest where, a sentence a case for all as stated and one for all as tuned."""
     for case in range(1, len(found.study.cases) + 1) if others else ():
         for tuned, words in ((False, "as stated"), (True, "tuned")):
-            rows = _rows(found, others, case, tuned)
+            rows = [(name.removesuffix(TUNED), row) for name, row in _rows(found, others, case, tuned)]
             if rows:
                 yield (f"Beside MPC, case {case}, {words}: {best_words(rows, 'position_rms', 'position RMS')} m; "
                        f"{best_words(rows, 'speed_rms', 'speed RMS')} m/s; "

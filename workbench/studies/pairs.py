@@ -74,19 +74,26 @@ def factors_of(pairs: Pairs, draw: int) -> Factors:
     return Factors(mass=mass, davis_a=a, davis_b=b, davis_c=c)
 
 
-def drawn_rows(drivers: Drivers, study: Any, workers: int, on_progress: Progress) -> Drawn:
+def pair_tasks(drivers: Drivers, study: Any) -> list[Task]:
     """Every controller, as stated and as tuned, on every drawn train; nothing where the file states no pairs."""
     pairs: Pairs | None = study.pairs
-    if pairs is None:
+    return [] if pairs is None else [
+        (draw, place, name, tuned) for draw in range(pairs.draws) for place in pairs.places
+        for name, tuned in entries(study, drivers)]
+
+
+def drawn_rows(drivers: Drivers, study: Any, workers: int, on_progress: Progress, before: int = 0) -> Drawn:
+    """The runs of `pair_tasks`; before: how many runs of the study come before them in its progress."""
+    tasks = pair_tasks(drivers, study)
+    if not tasks:
         return {}
-    tasks: list[Task] = [(draw, place, name, tuned) for draw in range(pairs.draws) for place in pairs.places
-                         for name, tuned in entries(study, drivers)]
     found: dict[Task, Mapping[str, Any]] = {}
 
     def record(result: tuple[Task, Mapping[str, Any]]) -> None:
         found[result[0]] = result[1]
-        on_progress(len(found), len(tasks), f"drawn train {result[0][0] + 1}")
+        on_progress(before + len(found), before + len(tasks), f"drawn train {result[0][0] + 1}")
 
+    pairs: Pairs = study.pairs
     run_tasks(_one, (drivers, shortened(study, pairs.set, "pairs.set")), tasks, workers, record)
     return {(place, name, tuned): [found[draw, place, name, tuned] for draw in range(pairs.draws)]
             for place in pairs.places for name, tuned in entries(study, drivers)}
