@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from workbench.contest.entrants import held_samples
-from workbench.mpc.controller import KINDS
+from workbench.controllers.registry import SAMPLED
 from workbench.report.numbers import number
 from workbench.studies.base import ResultTable
 
@@ -26,7 +26,7 @@ def mpc_table(told: Told) -> Iterator[ResultTable]:
     rows = []
     for entry in told.entries:
         spec = told.scenario.controllers[entry.controller]
-        if spec.law not in KINDS:
+        if spec.law not in SAMPLED:
             continue
         matches = [match for match in told.matches if match.entry == entry.name]
         if not matches:
