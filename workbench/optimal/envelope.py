@@ -13,10 +13,12 @@ from workbench.errors import WorkbenchError
 from workbench.optimal.course import Array, Course
 from workbench.optimal.profile import Profile
 from workbench.optimal.vehicle import Vehicle
+from workbench.train import davis_resistance
 
 # By this share more than a run's last speed is aimed at where full traction leads to it, for the steps' error.
 RUN_UP = 1e-5
 NO_TABLE = np.zeros((0, 2))
+compiled_resistance = njit(cache=True)(davis_resistance)
 
 
 class InfeasibleRunError(WorkbenchError):
@@ -45,7 +47,7 @@ def _slope(b: float, sign: float, line: float, drag: float, numbers: Array, limi
     """db/ds with full traction (sign 1), or its negative with full brakes (sign -1), within the comfort limit."""
     inertia, a, b_1, c, friction, fastest, hardest = numbers
     v = np.sqrt(2.0 * max(b, 0.0))
-    resistance = a + b_1 * v + (c + drag) * v * v + line
+    resistance = compiled_resistance(v, a, b_1, c + drag) + line
     if sign > 0:
         return float(min((_force(limits[0], tables[0], v) - resistance) / inertia, fastest))
     return float(min((_force(limits[1], tables[1], v) + friction + resistance) / inertia, hardest))

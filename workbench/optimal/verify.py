@@ -1,9 +1,9 @@
 """A second opinion on a run: its force, as a function of time, drives the train in a fine simulation.
 
-The simulation shares no formula with the plan but the train's and the line's numbers: it integrates position and speed
-over time by RK4, and energy as power. Over a summit a force in time alone holds no train, since rounding grows there;
-so a weak correction is added, whose largest value is told: if mesh, time or force of the plan were wrong, it would be
-large.
+The simulation shares nothing with the plan but the train's resistance and the line's numbers: it integrates position
+and speed over time by RK4, and energy as power. Over a summit a force in time alone holds no train, since rounding
+grows there; so a weak correction is added, whose largest value is told: if mesh, time or force of the plan were wrong,
+it would be large.
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ import numpy as np
 from numba import njit
 
 from workbench.optimal.course import Array
-from workbench.optimal.envelope import device_limits
+from workbench.optimal.envelope import compiled_resistance, device_limits
 from workbench.optimal.profile import Profile
 from workbench.optimal.vehicle import Vehicle
 
@@ -45,6 +45,13 @@ class Check:
 
 
 @njit(cache=True)
+def _against(speed: float, share: float, line: Array, drag: Array, a: float, b: float, c: float) -> float:
+    """What slows the train down at a share of a cell, N: resistance, tunnel and line."""
+    tunnel = drag[0] + share * (drag[1] - drag[0])
+    return float(compiled_resistance(speed, a, b, c + tunnel) + line[0] + share * (line[1] - line[0]))
+
+
+@njit(cache=True)
 def _drive(time: Array, position: Array, speed: Array, acceleration: Array, limit: Array, line: Array, drag: Array,
            numbers: Array, limits: tuple[Array, Array], tables: tuple[Array, Array],
            step_s: float) -> tuple[float, float, float, float, float, float]:
@@ -70,9 +77,7 @@ def _drive(time: Array, position: Array, speed: Array, acceleration: Array, limi
                 v_plan = speed[k] + acceleration[k] * t
                 s_plan = position[k] + (speed[k] + acceleration[k] * t / 2) * t
                 share = min(max((s_plan - position[k]) / (position[k + 1] - position[k]), 0.0), 1.0)
-                u = (inertia * acceleration[k] + a + b * v_plan
-                     + (c + drag[k, 0] + share * (drag[k, 1] - drag[k, 0])) * v_plan * v_plan
-                     + line[k, 0] + share * (line[k, 1] - line[k, 0]))
+                u = inertia * acceleration[k] + _against(v_plan, share, line[k], drag[k], a, b, c)
                 # The train: where it really is.
                 at, fast = s + ds, v + dv
                 push = inertia * (POSITION_GAIN * (s_plan - at) + SPEED_GAIN * (v_plan - fast))
@@ -86,8 +91,7 @@ def _drive(time: Array, position: Array, speed: Array, acceleration: Array, limi
                 while cell > 0 and at < position[cell] - TOUCHING_M:
                     cell -= 1
                 share = min(max((at - position[cell]) / (position[cell + 1] - position[cell]), 0.0), 1.0)
-                resistance = (a + b * fast + (c + drag[cell, 0] + share * (drag[cell, 1] - drag[cell, 0])) * fast * fast
-                              + line[cell, 0] + share * (line[cell, 1] - line[cell, 0]))
+                resistance = _against(fast, share, line[cell], drag[cell], a, b, c)
                 slope[stage, 0], slope[stage, 1] = fast, (u - resistance) / inertia
                 weight = dt / 6 if stage in (0, 3) else dt / 3
                 pull = max(fast, 0.0)
