@@ -199,7 +199,12 @@ def test_who_fails_or_stands_still_wins_nothing() -> None:
     few, pair = liu_pairs(rows_of(fine, fine, fine, failed=3), rows_of(fine + 1, fine, fine + 1))
     assert {pair.winner(metric) for metric in pair.differences} == {"mpc_linear"} and pair.failed == (3, 0)
     table = next(pair_table(few, DRIVERS["liu2020"], [pair], {"fast": "fast"}))
-    assert "fails in 3 of 12: linear MPC" in table.rows[0][4]
+    assert "−1.00 [−1.00, −1.00]; " in table.rows[0][4], "over the nine trains on which both arrive"
+    assert table.rows[0][4].endswith("fails in 3 of 12: linear MPC")
+    few, none = liu_pairs(rows_of(fine, fine, fine, failed=11), rows_of(fine + 1, fine, fine + 1))
+    assert set(none.differences.values()) == {None} and none.winner("jerk_rms") == "mpc_linear"
+    assert next(pair_table(few, DRIVERS["liu2020"], [none], {"fast": "fast"})).rows[0][4].endswith(
+        "fails in 11 of 12: linear MPC")
     _, both = liu_pairs(rows_of(fine, fine, fine, failed=3), rows_of(fine, fine, fine, failed=1))
     assert {both.winner(metric) for metric in both.differences} == {None}
     few, still = liu_pairs(rows_of(lost, lost, 0 * fine), rows_of(fine, fine, fine))

@@ -81,7 +81,7 @@ def beside_table(study: LiuStudy, runs: Sequence[Beside]) -> Iterator[ResultTabl
     yield ResultTable(
         "Beside MPC", "comparison", ("disturbance", "controller", "is told", *HEADER), tuple(rows),
         f"MPC every {data.period_s:g} s, {data.horizon} samples ahead, limits of {data.max_traction_mps2:g} m/s², "
-        f"the laws without limits as in the paper. MPC counted "
+        f"the laws every {study.sampling.period_s:g} s, without limits as in the paper. MPC counted "
         f"{counters_words([counters for *_, counters in runs])}."
         + (f" {tuning_words(study.tuning)} The tuning's line is shorter than this one, see the file."
            if study.tuning else ""))

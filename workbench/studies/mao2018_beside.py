@@ -73,7 +73,8 @@ def beside_table(found: Found, others: Sequence[Beside]) -> Iterator[ResultTable
     yield ResultTable(
         "Beside MPC", "comparison", ("case", "controller", *HEADER), tuple(rows),
         f"{next(iter(found.study.tunings.values())).title}; MPC every {data.period_s:g} s, {data.horizon} samples "
-        f"ahead, limits of {data.max_traction_mps2:g} m/s², the laws without limits as in the paper. "
+        f"ahead, limits of {data.max_traction_mps2:g} m/s², the laws every "
+        f"{next(iter(found.study.tunings.values())).period_s:g} s, without limits as in the paper. "
         f"MPC: {KINDS[KINDS_BESIDE[-1]].information}, that of mode (i) with all motors healthy; the laws: full state, "
         f"parameters unknown, times of the modes and frequencies of the failure known. MPC counted "
         f"{counters_words([one.counters for one in others])}."

@@ -7,7 +7,6 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from workbench.contest.statistics import Interval, mean_interval, overtakes, resampled
 from workbench.report.numbers import number
@@ -31,9 +30,9 @@ Task = tuple[int, str, str, bool]
 class Pair:
     """A law and an MPC, both as stated or both tuned, over the draws in a place.
 
-    differences: metric -> law less MPC with its interval, None where a run of either failed; means: metric -> of law
-    and of MPC; failed: how many runs of law and of MPC failed; overtakes: metric -> the trial from which on a law that
-    learns is ahead by more than chance, or None.
+    differences: metric -> law less MPC with its interval over the draws in which both end, None where there are not
+    two; means: metric -> of law and of MPC; failed: how many runs of law and of MPC failed; overtakes: metric -> the
+    trial from which on a law that learns is ahead by more than chance, or None.
     """
 
     place: str
@@ -48,22 +47,18 @@ class Pair:
     @property
     def follow(self) -> tuple[bool, bool]:
         """Whether law and MPC follow the desired curve: no run fails, and the mean speed RMS is small enough."""
-        if any(self.failed):
-            return not self.failed[0], not self.failed[1]
-        return self.means["speed_rms"][0] <= FOLLOWS_MPS, self.means["speed_rms"][1] <= FOLLOWS_MPS
+        speeds = self.means.get("speed_rms", (0.0, 0.0))
+        return (not self.failed[0] and speeds[0] <= FOLLOWS_MPS, not self.failed[1] and speeds[1] <= FOLLOWS_MPS)
 
     def winner(self, metric: str) -> str | None:
-        """Who has less of a metric by more than chance; one whose run failed loses to one whose runs all ended.
+        """Who has less of a metric by more than chance; one with a run that failed loses to one without.
 
         In jerk one that does not follow the desired curve loses to one that does.
         """
         difference = self.differences[metric]
-        if metric == "jerk_rms" and not all(self.follow):
-            return self.law if self.follow[0] else self.rival if self.follow[1] else None
-        if difference is None:
-            if bool(self.failed[0]) == bool(self.failed[1]):
-                return None
-            return self.rival if self.failed[0] else self.law
+        able = self.follow if metric == "jerk_rms" else (not self.failed[0], not self.failed[1])
+        if not all(able) or difference is None:
+            return self.law if able[0] else self.rival if able[1] else None
         return self.law if difference.high < 0 else self.rival if difference.low > 0 else None
 
 
@@ -105,10 +100,6 @@ def _one(shared: tuple[Drivers, Any], task: Task) -> tuple[Task, Mapping[str, An
     return task, drivers.drive(driven, name, place, factors_of(study.pairs, draw))
 
 
-def _values(rows: Sequence[Mapping[str, Any]], metric: str) -> NDArray[np.float64]:
-    return np.array([row[metric] for row in rows], dtype=float)
-
-
 def pairs_of(study: Any, drawn: Drawn) -> tuple[Pair, ...]:
     """Every law against every MPC in the same state of tuning."""
     if not drawn:
@@ -121,19 +112,20 @@ def pairs_of(study: Any, drawn: Drawn) -> tuple[Pair, ...]:
             if law.startswith("mpc") or not rival.startswith("mpc") or (other, state) != (place, tuned):
                 continue
             ours, theirs = drawn[place, law, tuned], drawn[place, rival, tuned]
+            ended = [(a, b) for a, b in zip(ours, theirs, strict=True) if a["failed"] is None and b["failed"] is None]
             failed = tuple(sum(row["failed"] is not None for row in rows) for rows in (ours, theirs))
             means: dict[str, tuple[float, float]] = {}
             differences: dict[str, Interval | None] = {}
             ahead: dict[str, int | None] = {}
             for metric in metrics:
-                if any(failed):
+                if len(ended) < 2:
                     differences[metric] = None
                     continue
-                a, b = _values(ours, metric), _values(theirs, metric)
+                a, b = (np.array([pair[side][metric] for pair in ended]) for side in (0, 1))
                 means[metric] = float(a.mean()), float(b.mean())
                 differences[metric] = mean_interval(a - b, chosen, stated.confidence)
-                if metric in ours[0].get("trials", {}):
-                    trials = np.array([row["trials"][metric] for row in ours])
+                if metric in ended[0][0].get("trials", {}):
+                    trials = np.array([ours["trials"][metric] for ours, _ in ended])
                     ahead[metric] = overtakes(trials, b, stated.resamples, stated.seed, stated.confidence)
             found.append(Pair(place, law, rival, tuned, means, differences, (failed[0], failed[1]), ahead))
     return tuple(found)
@@ -142,15 +134,15 @@ def pairs_of(study: Any, drawn: Drawn) -> tuple[Pair, ...]:
 def _cell(pair: Pair, metric: str, titles: Mapping[str, str], draws: int) -> str:
     difference, winner = pair.differences[metric], pair.winner(metric)
     verdict = "no win" if winner is None else titles[winner]
-    if metric == "jerk_rms" and difference is not None and not all(pair.follow):
-        verdict += " (the other does not follow)" if any(pair.follow) else " (neither follows)"
+    failed = " and ".join(f"{titles[name]} fails in {count} of {draws}"
+                          for name, count in zip((pair.law, pair.rival), pair.failed, strict=True) if count)
     if difference is None:
-        words = " and ".join(f"{titles[name]} fails in {count} of {draws}"
-                             for name, count in zip((pair.law, pair.rival), pair.failed, strict=True) if count)
-        return f"{words}: {verdict}"
+        return f"{failed}: {verdict}"
+    if metric == "jerk_rms" and not failed and not all(pair.follow):
+        verdict += " (the other does not follow)" if any(pair.follow) else " (neither follows)"
     a, b = pair.means[metric]
     return (f"{number(a)} − {number(b)} = {number(difference.mean)} [{number(difference.low)}, "
-            f"{number(difference.high)}]: {verdict}")
+            f"{number(difference.high)}]{f'; {failed}' if failed else ''}: {verdict}")
 
 
 def pair_table(study: Any, drivers: Drivers, pairs: Sequence[Pair], where: Mapping[str, str],
@@ -175,8 +167,8 @@ def pair_table(study: Any, drivers: Drivers, pairs: Sequence[Pair], where: Mappi
         f"Means over {stated.draws} trains whose mass and resistance lie within ±{100 * stated.spread:g} % of what "
         f"MPC knows, their difference with the {100 * stated.confidence:g} % interval of a paired bootstrap, and who "
         "has less. A difference inside its interval is not called a win. A controller with runs that fail loses to "
-        f"one without; who errs by more than {FOLLOWS_MPS:g} m/s in speed RMS does not follow and wins nothing in "
-        "jerk." + (f" {note}" if note else ""))
+        "one without, and the numbers are of the trains on which both arrive; who errs by more than "
+        f"{FOLLOWS_MPS:g} m/s in speed RMS does not follow and wins nothing in jerk." + (f" {note}" if note else ""))
 
 
 def pair_findings(study: Any, drivers: Drivers, pairs: Sequence[Pair], where: Mapping[str, str]) -> Iterator[str]:
@@ -192,5 +184,7 @@ def pair_findings(study: Any, drivers: Drivers, pairs: Sequence[Pair], where: Ma
                 words = [f"{verb} {' and '.join(names)}" for verb, names in (
                     ("beats", won), ("loses to", lost), ("is level with", open_)) if names]
                 parts.append(f"{METRIC_NAMES[metric][0]} {STATES[tuned]}: {', '.join(words)}")
+            if of and of[0].failed[0]:
+                parts.append(f"{STATES[tuned]} it fails on {of[0].failed[0]} of them")
         yield (f"{drivers.titles[law]} on {study.pairs.draws} drawn trains, {where[place]}, "
                f"±{100 * study.pairs.spread:g} %: {'; '.join(parts)}.")
