@@ -21,6 +21,7 @@ from workbench.contest.matches import (
     STANDING_MPS,
     Match,
     all_matches,
+    entries,
     match_values,
     overspeed,
     run_match,
@@ -180,7 +181,7 @@ def test_steps_are_told_beside_their_period_with_who_answered_instead(contest: C
     values = dict.fromkeys(Told(small, of, (), None).metrics, 0.0)
     matches = tuple(Match("nominal", draw, name, dict(values), None, 10.0 * (draw + 1), 500.0 * (draw + 1), counters)
                     for draw in range(3) for name in of.controllers)
-    (table,) = mpc_table(Told(small, of, matches, None))
+    (table,) = mpc_table(of, entries(small, of), matches)
     assert len(table.rows) == 1  # no other than MPC
     name, period, middle, slow, share, asked, *rest = table.rows[0]
     assert (name, period, middle, slow) == ("mpc_linear", "100", "20.0", "1000")

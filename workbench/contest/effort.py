@@ -3,40 +3,38 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterator
-from typing import TYPE_CHECKING
+from collections.abc import Iterator, Sequence
 
 import numpy as np
 
 from workbench.contest.entrants import held_samples
+from workbench.contest.matches import Entry, Match
 from workbench.controllers.registry import SAMPLED
 from workbench.report.numbers import number
+from workbench.scenario import Scenario
 from workbench.studies.base import ResultTable
-
-if TYPE_CHECKING:
-    from workbench.contest.tables import Told
 
 # Of `mpc.fallback`: what is shown of its counters, in the order of a sample's fate.
 SHOWN = {"qp_failed": "no plan", "late": "too late", "shifted_plan": "last plan, shifted", "lqr": "LQR",
          "feedforward": "feedforward"}
 
 
-def mpc_table(told: Told) -> Iterator[ResultTable]:
+def mpc_table(scenario: Scenario, taking_part: Sequence[Entry], matches: Sequence[Match]) -> Iterator[ResultTable]:
     """A row per MPC over all its runs; none without MPC."""
     rows = []
-    for entry in told.entries:
-        spec = told.scenario.controllers[entry.controller]
+    for entry in taking_part:
+        spec = scenario.controllers[entry.controller]
         if spec.law not in SAMPLED:
             continue
-        matches = [match for match in told.matches if match.entry == entry.name]
-        if not matches:
+        own = [match for match in matches if match.entry == entry.name]
+        if not own:
             continue
         counters = Counter[str]()
-        for match in matches:
+        for match in own:
             counters.update(match.counters)
-        middle, slow = (float(np.median([getattr(match, name) for match in matches]))
+        middle, slow = (float(np.median([getattr(match, name) for match in own]))
                         for name in ("step_us", "step_p99_us"))
-        period_s = spec.period_s * held_samples(told.scenario, entry.controller)
+        period_s = spec.period_s * held_samples(scenario, entry.controller)
         rows.append((entry.name, f"{1e3 * period_s:g}", number(middle), number(slow),
                      number(100 * slow / (1e6 * period_s)), f"{counters['qp']}",
                      *(f"{counters[key]}" for key in SHOWN)))

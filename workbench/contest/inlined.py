@@ -7,13 +7,11 @@ and how many disturbances, failures and changes there are is written into it as 
 
 from __future__ import annotations
 
-import importlib.util
 import sys
 from pathlib import Path
 from types import ModuleType
 
-from workbench.cache_folder import write_whole
-from workbench.compile import Estimates, kernel_module
+from workbench.compile import Estimates, kernel_module, loop_module
 from workbench.controllers.base import ControlLaw
 from workbench.errors import CompileError
 from workbench.simulate import kernel_loop
@@ -40,7 +38,7 @@ def law_loop(law: ControlLaw, setting: Setting, estimates: Estimates = "correcte
 
 
 def inlined(module: ModuleType, setting: Setting, *others: str) -> ModuleType:
-    """A module of `compile.loop_module` for settings with as many rows as this one has; beside it on disk.
+    """A module of `compile.loop_module` for settings with as many rows as this one has.
 
     others: functions that are put into the loop beside PUT_IN. Raises CompileError where the module has no such ones.
     """
@@ -53,27 +51,19 @@ def inlined(module: ModuleType, setting: Setting, *others: str) -> ModuleType:
 
 
 def _load(path: Path, name: str, others: tuple[str, ...], rows: tuple[int, ...]) -> ModuleType:
-    text = path.read_text(encoding="utf-8")
+    """All functions of a generated module, those that are put in marked as such, as a module of their own."""
+    text = path.read_text(encoding="utf-8").partition("from numba import njit")[2].replace(f"{CALLED}\n", "")
     for function in (*PUT_IN, *others):
-        called = f"{CALLED}\ndef {function}("
+        called = f"\ndef {function}("
         if text.count(called) != 1:
             raise CompileError(f"{path}: no function '{function}' to be put into its callers: name those of the loop")
-        text = text.replace(called, f"{INLINE}\ndef {function}(")
+        # The tab keeps `loop_module`, which decorates what it finds, from decorating these once more.
+        text = text.replace(called, f"\n{INLINE}\ndef\t{function}(")
     for array, count in zip(COUNTED, rows, strict=True):
         if count >= 0:
             text = text.replace(f"{array}.shape[0]", str(count))
-    name = name.replace("-1", "n")
-    beside = path.with_name(f"{name}.py")
-    if not beside.exists() or beside.read_text(encoding="utf-8") != text:
-        write_whole(beside, text)
-    spec = importlib.util.spec_from_file_location(name, beside)
-    if spec is None or spec.loader is None:
-        raise CompileError(f"cannot import the generated kernel {beside}: remove it and run again")
-    made = importlib.util.module_from_spec(spec)
-    sys.modules[name] = made
-    try:
-        spec.loader.exec_module(made)
-    except BaseException:
-        del sys.modules[name]
-        raise
-    return made
+    return loop_module(f"{name}, which it has the functions of", [text], sys.modules[__name__])
+
+
+# The loop is among the functions, so that nothing is joined to them.
+# --- kernel ---

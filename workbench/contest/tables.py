@@ -178,7 +178,7 @@ def all_tables(told: Told) -> Iterator[ResultTable]:
     """In the order of the page."""
     yield winners_table(told)
     yield contestants_table(told)
-    yield from mpc_table(told)
+    yield from mpc_table(told.scenario, told.entries, told.matches)
     for condition in told.contest.conditions:
         yield condition_table(told, condition)
     yield from energy_table(told)
