@@ -10,6 +10,7 @@ from typing import Annotated, Any, Self, TypeVar
 from pydantic import BaseModel, ConfigDict, Field, Strict, ValidationError, model_validator
 
 from workbench.errors import InputError
+from workbench.text_input import read_text
 
 Number = Annotated[float, Strict(), Field(allow_inf_nan=False)]
 Positive = Annotated[float, Strict(), Field(gt=0, allow_inf_nan=False)]
@@ -54,18 +55,7 @@ R = TypeVar("R", bound=BaseModel)
 
 def read_toml(path: Path) -> dict[str, Any]:
     """The table in a TOML file; raises InputError when it is missing, unreadable or not TOML."""
-    try:
-        text = path.read_text(encoding="utf-8")
-    except FileNotFoundError:
-        raise InputError(path, "", "no such file: check the path") from None
-    except IsADirectoryError:
-        raise InputError(path, "", "is a folder: name a .toml file in it") from None
-    except UnicodeDecodeError:
-        raise InputError(path, "", "is not UTF-8 text: save it as UTF-8 TOML") from None
-    except OSError as trouble:
-        raise InputError(path, "", f"cannot be read ({trouble.strerror}): check its permissions") from None
-    except ValueError as trouble:  # a null character in the path
-        raise InputError(path, "", f"is no path ({trouble}): correct the name") from None
+    text = read_text(path, "TOML")
     if not text.strip():
         raise InputError(path, "", "is empty: a TOML table is expected")
     try:

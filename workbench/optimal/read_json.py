@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import Any
 
 from workbench.errors import InputError
+from workbench.text_input import read_text
 
 # TTOBench nests five deep. What is much deeper was not written by hand, and would exhaust whoever prints it.
 DEEPEST = 40
@@ -14,18 +15,7 @@ DEEPEST = 40
 
 def read_json(path: Path) -> dict[str, Any]:
     """The object in a JSON file; raises InputError when it is missing, unreadable or not one JSON object."""
-    try:
-        text = path.read_text(encoding="utf-8-sig")
-    except FileNotFoundError:
-        raise InputError(path, "", "no such file: check the path") from None
-    except IsADirectoryError:
-        raise InputError(path, "", "is a folder: name a .json file in it") from None
-    except UnicodeDecodeError:
-        raise InputError(path, "", "is not UTF-8 text: save it as UTF-8 JSON") from None
-    except OSError as trouble:
-        raise InputError(path, "", f"cannot be read ({trouble.strerror}): check its permissions") from None
-    except ValueError as trouble:  # a null character in the path
-        raise InputError(path, "", f"is no path ({trouble}): correct the name") from None
+    text = read_text(path, "JSON")
     try:
         data = json.loads(text, object_pairs_hook=_unique)
     except InputError as trouble:
