@@ -16,7 +16,8 @@ PATHS = {".".join(path.relative_to(ROOT.parent).with_suffix("").parts).removesuf
 # A module may import from its own floor and the floors below it. The longest prefix says which floor.
 FLOORS = (
     ("errors",),
-    ("text_input", "toml_input", "json_output", "cache_folder", "workers", "report.numbers"),  # files in and out, processes, digits
+    ("text_input",),
+    ("toml_input", "json_output", "cache_folder", "workers", "report.numbers"),  # files in and out, processes, digits
     ("train", "multi_particle", "track", "desired_curve", "curve_table", "events", "sensing"),
     ("scenario", "controllers.base"),  # what a scenario states, and what a law is
     ("compile",),  # expressions to code; it must know what a law is
