@@ -10,10 +10,11 @@ from scenarios import BENCHMARKS, YANG, short_scenario, values_for, with_law
 
 from workbench.controllers.base import ControlLaw, LawState, desired_position, position, speed
 from workbench.controllers.registry import LAWS
-from workbench.errors import InputError
+from workbench.errors import InputError, WorkbenchError
 from workbench.metrics import measure
 from workbench.scenario import load_scenario
-from workbench.simulate.closed_loop import Factors, simulate
+from workbench.simulate import closed_loop
+from workbench.simulate.closed_loop import Factors, setting_of, simulate
 
 ESTIMATES = ("corrected", "explicit")
 
@@ -236,3 +237,10 @@ def test_a_controller_that_stops_at_the_limit_itself_is_counted_like_the_others(
     at_limit = (applied >= 110e3 * (1 - 1e-9)) | (applied <= -scenario.train.max_braking_n * (1 - 1e-9))
     assert run.totals["saturated_samples"] == np.sum(at_limit) > 0
     assert run.column("u_mps2").max() <= 110e3 / scenario.train.mass_kg
+
+
+def test_values_that_are_not_those_of_the_laws_states_are_refused():
+    """A kernel writes every state into the log, whose rows are as wide as the law says."""
+    law, empty = LAWS["pid"], np.zeros((0, 0))
+    with pytest.raises(WorkbenchError, match=r"pid: 2 initial values for 1 states of one number each: give one"):
+        closed_loop.run_law(law, (np.zeros(3), np.zeros(2), empty, empty), setting_of(short_scenario()), 0.05)

@@ -19,6 +19,7 @@ from workbench.compile import cars_source, function_source, loop_module, plant_s
 from workbench.contest.entrant import Entrant, Played, trial_errors
 from workbench.contest.inlined import inlined
 from workbench.controllers import chen2019 as law
+from workbench.controllers.base import LawState
 from workbench.controllers.registry import held_command
 from workbench.scenario import ControllerSpec, Scenario
 from workbench.simulate import kernel_loop
@@ -69,6 +70,10 @@ def control_step(_t, _p, _v, _s_r, _v_r, _a_r, _period, parameters, scalars, neu
 def domain_margin(_t, _p, _v, _x_d, _v_d, _a_d, _period, parameters):
     return math.inf
 """
+# What `scalars` holds from sample to sample, in the order of STEP.
+_CARRIED = sp.symbols("lambda_1 lambda_2 v_dot_followed v_last", real=True)
+ONE_CAR = replace(held_command, id="chen2019.one_car",
+                  states=tuple(LawState(symbol, update=symbol) for symbol in _CARRIED))
 CAR = ("car_mass_kg", "m_low_kg", "m_high_kg")
 PUT_IN = ("control", "followed", "auxiliary", "control_step")
 LAW = tuple(str(symbol) for symbol in (*law.gains, *law.learning_gains))
@@ -111,7 +116,7 @@ def _play(scenario: Scenario, spec: ControllerSpec, setting: Setting) -> Played:
     run: Run | None = None
     for trial in range(1, int(given["trials"]) + 1):
         noisy = replace(setting, sensing=replace(setting.sensing, seed=setting.sensing.seed + trial - 1))
-        run = run_law(held_command, (values, np.zeros(4), np.zeros((0, 0)), memory), noisy, spec.period_s,
+        run = run_law(ONE_CAR, (values, np.zeros(len(_CARRIED)), np.zeros((0, 0)), memory), noisy, spec.period_s,
                       title=ENTRANTS[spec.law].title, module=inlined(_learner(), setting, *PUT_IN))
         found = trial_errors(run, scenario.track.length_m)
         if found is None:

@@ -9,7 +9,7 @@ from workbench.contest import chen2019, jiao2025, liu2020
 from workbench.contest.entrant import Entrant, Played
 from workbench.contest.inlined import law_loop
 from workbench.contest.record import Contest
-from workbench.controllers.registry import LAWS, SAMPLED
+from workbench.controllers.registry import LAWS, SAMPLED, held_command
 from workbench.controllers.values import check_controllers, law_values
 from workbench.errors import InputError
 from workbench.mpc.controller import KINDS
@@ -57,7 +57,8 @@ def play(scenario: Scenario, name: str, setting: Setting) -> Played:
         return Played(run_law(law, law_values(law, spec, name), setting, spec.period_s, spec.estimates, name,
                               spec.title or law.title, module=law_loop(law, setting, spec.estimates)))
     if spec.law not in ENTRANTS:
-        return Played(simulate_in(scenario, name, setting))
+        held = law_loop(held_command, setting, spec.estimates)
+        return Played(simulate_in(scenario, name, setting, held=held))
     found = ENTRANTS[spec.law].play(scenario, spec, setting)
     return replace(found, run=replace(found.run, controller=name))
 

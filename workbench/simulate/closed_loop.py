@@ -15,6 +15,7 @@ from workbench.controllers.base import ControlLaw
 from workbench.controllers.registry import LAWS, SAMPLED, SampledController, held_command
 from workbench.controllers.values import check_controllers, controller_spec, law_values
 from workbench.desired_curve import DesiredCurve
+from workbench.errors import WorkbenchError
 from workbench.events import failure_rows, mode_rows
 from workbench.scenario import Scenario
 from workbench.sensing import PERFECT, Sensing
@@ -151,10 +152,12 @@ def simulate(scenario: Scenario, name: str, factors: Factors = NOMINAL) -> Run:
     return simulate_in(scenario, name, setting_of(scenario, factors))
 
 
-def simulate_in(scenario: Scenario, name: str, setting: Setting, plant: Plant | None = None) -> Run:
+def simulate_in(scenario: Scenario, name: str, setting: Setting, plant: Plant | None = None,
+                held: ModuleType | None = None) -> Run:
     """`simulate` in a setting, and with a plant, that may differ from the scenario's, which are what controllers know.
 
-    plant: as in `run_law`; the setting's plant_values belong to it.
+    plant: as in `run_law`; the setting's plant_values belong to it. held: `held_command` compiled already, for a
+    controller that is called once a sample.
     """
     spec = controller_spec(scenario, name)
     if spec.law in LAWS:
@@ -165,9 +168,9 @@ def simulate_in(scenario: Scenario, name: str, setting: Setting, plant: Plant | 
     plan = setting.plan(spec.period_s)
     arrays, sensing = _arrays(replace(setting, sensing=PERFECT), spec.period_s, held_command), setting.sensing
     sampled = SAMPLED[spec.law](scenario, spec, name)
-    kernel = kernel_module(plant or single_particle(), held_command, kernel_loop, spec.estimates).closed_loop
+    module = held or kernel_module(plant or single_particle(), held_command, kernel_loop, spec.estimates)
     between = sensing.arrays(-(-plan[0] // plan[1]), spec.period_s)
-    status, reached, step_us = _run_sampled(kernel, arrays, sampled, _fixed(setting), plan, between)
+    status, reached, step_us = _run_sampled(module.closed_loop, arrays, sampled, _fixed(setting), plan, between)
     return _run(name, spec.title or sampled.title, held_command, arrays, plan, (status, reached, step_us),
                 _why(status, reached * plan[2], arrays.state, held_command, spec.law), sampled.counters)
 
@@ -181,7 +184,11 @@ def run_law(law: ControlLaw, values: tuple[Array, Array, Array, Array], setting:
     them; plant: of position, speed, force, opposing force, mass and Davis coefficients, in the order of
     `single_particle`, which it is unless given; the setting's plant_values come after these. module: compiled already,
     of a law that is more than its expressions; it may write into the neuron data.
+    Raises WorkbenchError where the values are not those of the law's states.
     """
+    if len(values[1]) != len(law.scalar_states):  # a kernel writes them into rows of the log, whose width the law says
+        raise WorkbenchError(f"{law.id}: {len(values[1])} initial values for {len(law.scalar_states)} states of one "
+                             "number each: give one value a state")
     arrays, plan = _arrays(setting, period_s, law), setting.plan(period_s)
     kernel = (module or kernel_module(plant or single_particle(), law, kernel_loop, estimates)).closed_loop
     parameters, scalars, neurons, data = values
