@@ -25,9 +25,9 @@ import numpy as np
 
 from workbench.errors import WorkbenchError
 from workbench.optimal.course import Array, Course
-from workbench.optimal.files import load_line, load_vehicle
 from workbench.optimal.grid import graded_grid
-from workbench.optimal.line import course
+from workbench.optimal.inputs.files import load_line, load_vehicle
+from workbench.optimal.inputs.line import course
 from workbench.optimal.nlp import solve_nlp
 from workbench.optimal.profile import WEIGHT, Profile, energy_j, forces
 from workbench.optimal.reference import Reference, find_reference, least_time

@@ -16,8 +16,8 @@ from pathlib import Path
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 
 from workbench.errors import WorkbenchError
-from workbench.optimal.files import load_line, load_vehicle
-from workbench.optimal.line import course
+from workbench.optimal.inputs.files import load_line, load_vehicle
+from workbench.optimal.inputs.line import course
 from workbench.optimal.reference import find_reference, least_time
 
 SHARED = Path(__file__).parent.parent.parent / "shared" / "ttobench"

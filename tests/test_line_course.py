@@ -10,7 +10,7 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 from workbench.errors import InputError
-from workbench.optimal.line import RULES, Line, Tunnel, course
+from workbench.optimal.inputs.line import RULES, Line, Tunnel, course
 from workbench.optimal.vehicle import ForceLimit, Vehicle
 
 TRAIN = Vehicle("train", 2e5, (2000.0, 30.0, 5.0), ForceLimit(2e5), friction_brake_n=2e5, length_m=150.0,

@@ -14,14 +14,14 @@ from typer.testing import CliRunner
 
 from workbench.cli import app
 from workbench.errors import InputError
-from workbench.optimal.car_train import CarLimits, CarTrain, car_limits
-from workbench.optimal.cars_steady import carried_ahead, resting_forces, steady_state
+from workbench.optimal.cars.car_train import CarLimits, CarTrain, car_limits
+from workbench.optimal.cars.cars_steady import carried_ahead, resting_forces, steady_state
+from workbench.optimal.cars.multi_car import car_course, line_force, run_cars
+from workbench.optimal.cars.share_forces import RULES, share_forces
 from workbench.optimal.course import Course
-from workbench.optimal.files import load_cars, load_line, load_vehicle
-from workbench.optimal.line import course
-from workbench.optimal.multi_car import car_course, line_force, run_cars
+from workbench.optimal.inputs.files import load_cars, load_line, load_vehicle
+from workbench.optimal.inputs.line import course
 from workbench.optimal.reference import least_time
-from workbench.optimal.share_forces import RULES, share_forces
 from workbench.optimal.smooth import SmoothRun, smooth_reference
 from workbench.optimal.vehicle import ForceLimit
 

@@ -6,8 +6,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from workbench.optimal.files import load_line, load_vehicle
-from workbench.optimal.line import course
+from workbench.optimal.inputs.files import load_line, load_vehicle
+from workbench.optimal.inputs.line import course
 from workbench.optimal.reference import find_reference, least_time
 
 FOLDER = Path(__file__).parent.parent.parent / "shared" / "ttobench"

@@ -11,7 +11,7 @@ from typer.testing import CliRunner
 from workbench.cli import app
 from workbench.errors import WorkbenchError
 from workbench.optimal.bound_checker import main as check_bounds
-from workbench.optimal.files import load_vehicle
+from workbench.optimal.inputs.files import load_vehicle
 
 BENCHMARKS = YANG.parent
 LINES = sorted((BENCHMARKS / "lines").glob("*.toml"))

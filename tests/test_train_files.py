@@ -11,9 +11,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from workbench.errors import InputError
-from workbench.optimal.files import load_line, load_vehicle
-from workbench.optimal.line import course
-from workbench.optimal.plausible import plausible
+from workbench.optimal.inputs.files import load_line, load_vehicle
+from workbench.optimal.inputs.line import course
+from workbench.optimal.inputs.plausible import plausible
 from workbench.optimal.vehicle import ForceLimit, Vehicle
 from workbench.studies.liu2020_record import LiuStudy
 from workbench.studies.liu2020_runs import davis_newton

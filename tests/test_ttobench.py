@@ -10,8 +10,8 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from workbench.errors import InputError
-from workbench.optimal.files import load_line, load_vehicle, notes_together
-from workbench.optimal.line import Line, course
+from workbench.optimal.inputs.files import load_line, load_vehicle, notes_together
+from workbench.optimal.inputs.line import Line, course
 from workbench.optimal.vehicle import ForceLimit, Vehicle
 
 SHARED = Path(__file__).parent.parent.parent / "shared" / "ttobench"

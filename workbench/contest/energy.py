@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from workbench.optimal.course import Course
 from workbench.optimal.envelope import InfeasibleRunError
-from workbench.optimal.files import from_track
-from workbench.optimal.line import course
+from workbench.optimal.inputs.files import from_track
+from workbench.optimal.inputs.line import course
 from workbench.optimal.reference import Reference, find_reference
 from workbench.optimal.vehicle import ForceLimit, Vehicle
 from workbench.scenario import Scenario

@@ -15,8 +15,8 @@ from pydantic import Field, Strict
 from workbench.errors import InputError
 from workbench.optimal.course import Array
 from workbench.optimal.export import samples
-from workbench.optimal.files import load_line, load_vehicle
-from workbench.optimal.line import course
+from workbench.optimal.inputs.files import load_line, load_vehicle
+from workbench.optimal.inputs.line import course
 from workbench.optimal.smooth import SmoothReference, smooth_reference
 from workbench.optimal.vehicle import ForceLimit, Vehicle
 from workbench.toml_input import Positive, SourcedRecord, Text, load_record

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from matplotlib.figure import Figure
 
-from workbench.optimal.multi_car import CarsRun
+from workbench.optimal.cars.multi_car import CarsRun
 from workbench.report.svg import FAINT, INK, PALETTE, thin
 
 # Beyond so many curves only the range of all of them is drawn.

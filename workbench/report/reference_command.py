@@ -11,13 +11,13 @@ import numpy as np
 from workbench.errors import InputError
 from workbench.json_output import write_json
 from workbench.optimal.bound_document import write_certificate
-from workbench.optimal.cars_document import cars_document, write_cars_csv
+from workbench.optimal.cars.cars_document import cars_document, write_cars_csv
+from workbench.optimal.cars.multi_car import CarsRun, car_course, run_cars
 from workbench.optimal.course import Course
 from workbench.optimal.envelope import InfeasibleRunError
 from workbench.optimal.export import reference_document, samples, write_csv
-from workbench.optimal.files import load_cars, load_line, load_vehicle, notes_together
-from workbench.optimal.line import Line, course
-from workbench.optimal.multi_car import CarsRun, car_course, run_cars
+from workbench.optimal.inputs.files import load_cars, load_line, load_vehicle, notes_together
+from workbench.optimal.inputs.line import Line, course
 from workbench.optimal.reference import Reference, Solver, find_reference, least_time
 from workbench.optimal.regimes import time_shares
 from workbench.optimal.smooth import SmoothReference, smooth_reference

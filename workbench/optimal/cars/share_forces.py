@@ -20,7 +20,7 @@ import numpy as np
 from numba import njit
 
 from workbench.errors import InputError
-from workbench.optimal.car_train import CarLimits
+from workbench.optimal.cars.car_train import CarLimits
 from workbench.optimal.course import Array
 
 Rule = Literal["least_coupler_forces", "equal_shares"]

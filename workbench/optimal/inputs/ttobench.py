@@ -10,11 +10,11 @@ from typing import Annotated, Any, ClassVar, Self
 from pydantic import BeforeValidator, ConfigDict, Field, Strict, model_validator
 
 from workbench.errors import InputError
-from workbench.optimal.line import Line, Tunnel
-from workbench.optimal.line_checks import SHARPEST_RADIUS_M, require_starts, require_stops, require_tunnels
-from workbench.optimal.plausible import plausible
-from workbench.optimal.read_json import read_json
-from workbench.optimal.units import (
+from workbench.optimal.inputs.line import Line, Tunnel
+from workbench.optimal.inputs.line_checks import SHARPEST_RADIUS_M, require_starts, require_stops, require_tunnels
+from workbench.optimal.inputs.plausible import plausible
+from workbench.optimal.inputs.read_json import read_json
+from workbench.optimal.inputs.units import (
     AREA,
     FORCE_PER_SQUARED_SPEED,
     GRADE_PERMILLE,

@@ -30,13 +30,13 @@ import sympy as sp
 from workbench import multi_particle as of_cars
 from workbench.compile import cars_source, loop_module
 from workbench.errors import SolverError
-from workbench.optimal import cars_loop
-from workbench.optimal.car_train import VALUES, CarTrain, car_limits
-from workbench.optimal.cars_loop import WORKS
-from workbench.optimal.cars_steady import carried_ahead
+from workbench.optimal.cars import cars_loop
+from workbench.optimal.cars.car_train import VALUES, CarTrain, car_limits
+from workbench.optimal.cars.cars_loop import WORKS
+from workbench.optimal.cars.cars_steady import carried_ahead
+from workbench.optimal.cars.share_forces import Rule, Shares, share_forces
 from workbench.optimal.course import Array, Course
-from workbench.optimal.line import Line, course
-from workbench.optimal.share_forces import Rule, Shares, share_forces
+from workbench.optimal.inputs.line import Line, course
 from workbench.optimal.smooth import SmoothRun, needed_force
 
 # Between two rows of the forces, and steps of the simulation in each: 5 ms, where couplers swing with up to 2 Hz.

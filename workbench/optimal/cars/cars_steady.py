@@ -10,9 +10,9 @@ import sympy as sp
 from workbench.compile import numeric
 from workbench.errors import InputError
 from workbench.multi_particle import basic_resistance, c_0, c_a, c_v
-from workbench.optimal.car_train import CarTrain, car_limits
+from workbench.optimal.cars.car_train import CarTrain, car_limits
+from workbench.optimal.cars.share_forces import Rule, share_forces
 from workbench.optimal.course import Array
-from workbench.optimal.share_forces import Rule, share_forces
 from workbench.track import STANDARD_GRAVITY_MPS2
 
 _mass, _speed, _air = sp.symbols("mass speed air", real=True)

@@ -12,9 +12,9 @@ import numpy as np
 import sympy as sp
 
 from workbench.errors import InputError
-from workbench.optimal.along_line import AlongLine, Array, steps
 from workbench.optimal.course import Course
-from workbench.optimal.line_checks import (
+from workbench.optimal.inputs.along_line import AlongLine, Array, steps
+from workbench.optimal.inputs.line_checks import (
     FASTEST_MPS,
     LONGEST_TRAIN_M,
     SAME_PLACE_M,

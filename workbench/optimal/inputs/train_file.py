@@ -7,8 +7,8 @@ from typing import Annotated, Self
 
 from pydantic import Field, Strict, model_validator
 
-from workbench.optimal.cars_file import CarsTable
-from workbench.optimal.plausible import plausible
+from workbench.optimal.inputs.cars_file import CarsTable
+from workbench.optimal.inputs.plausible import plausible
 from workbench.optimal.vehicle import ForceLimit, Vehicle
 from workbench.toml_input import NonNegative, Positive, Record
 from workbench.train import Train

@@ -9,8 +9,8 @@ from typing import Any
 import numpy as np
 
 from workbench.errors import InputError
-from workbench.optimal.cars_steady import steady_state
-from workbench.optimal.multi_car import CarsRun
+from workbench.optimal.cars.cars_steady import steady_state
+from workbench.optimal.cars.multi_car import CarsRun
 
 
 def cars_document(cars: CarsRun) -> dict[str, Any]:

@@ -7,8 +7,8 @@ from typing import Annotated, Self
 from pydantic import Field, Strict, model_validator
 
 from workbench.errors import InputError
-from workbench.optimal.car_train import CarTrain
-from workbench.optimal.line_checks import SHORTEST_TRAIN_M
+from workbench.optimal.cars.car_train import CarTrain
+from workbench.optimal.inputs.line_checks import SHORTEST_TRAIN_M
 from workbench.optimal.vehicle import Vehicle
 from workbench.toml_input import SourcedRecord
 

@@ -6,7 +6,7 @@ import math
 from itertools import pairwise
 
 from workbench.errors import InputError
-from workbench.optimal.line_checks import FASTEST_MPS, LONGEST_TRAIN_M, SHORTEST_TRAIN_M
+from workbench.optimal.inputs.line_checks import FASTEST_MPS, LONGEST_TRAIN_M, SHORTEST_TRAIN_M
 from workbench.optimal.vehicle import Vehicle
 
 

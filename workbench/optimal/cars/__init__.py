@@ -1,0 +1,1 @@
+"""Trains of several cars: forces shared among them, their own equations simulated along a plan."""
