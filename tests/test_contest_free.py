@@ -135,6 +135,12 @@ def test_economic_results_are_the_same_bytes_with_any_number_of_processes(contes
     assert plain[0] == plain[1]
 
 
+def hurried(scenario: Scenario) -> Scenario:
+    """With a curve that brakes later than the speed limit before the last station allows."""
+    reference = scenario.reference.model_copy(update={"braking_mps2": 0.6})
+    return scenario.model_copy(update={"reference": reference})
+
+
 def test_economic_mpc_saves_energy_stops_and_keeps_the_limits_without_following(
         contest: Contest, scenario: Scenario) -> None:
     nominal = contest.conditions["nominal"]
@@ -146,7 +152,10 @@ def test_economic_mpc_saves_energy_stops_and_keeps_the_limits_without_following(
     assert free["stopping_error"] < scenario.simulation.position_band_m  # type: ignore[operator]
     assert free["late_s"] == 0.0
     assert free["position_rms"] > 5 * tied["position_rms"]  # type: ignore[operator]
-    assert free["overspeed_mps"] < tied["overspeed_mps"]  # type: ignore[operator]
+    assert free["overspeed_mps"] == tied["overspeed_mps"] == 0.0
+    too_fast, limited = (match_values(run_match(hurried(scenario), name, nominal, 0, contest.seed), scenario)
+                         for name in ("mpc_told", FREE))
+    assert too_fast["overspeed_mps"] > 1.0 > limited["overspeed_mps"]  # type: ignore[operator]
 
 
 def test_who_follows_no_curve_is_not_ranked_by_errors_from_it(
@@ -172,7 +181,10 @@ def test_who_follows_no_curve_is_not_ranked_by_errors_from_it(
         assert FREE not in table.header and "mpc_offset_free" in table.header
     findings = KIND.run(small, 1, lambda *_: None).findings
     assert any(finding.startswith(f"{FREE}, which follows no curve") for finding in findings)
-    assert any("desired curve itself" in finding for finding in findings)
+    assert not any("desired curve itself" in finding for finding in findings)
+    monkeypatch.setattr("workbench.contest.study.entered", lambda _: hurried(only(scenario, "pid")))
+    findings = KIND.run(small, 1, lambda *_: None).findings
+    assert any("The desired curve itself is up to 1.06 m/s faster" in finding for finding in findings)
 
 
 def test_steps_are_told_beside_their_period_with_who_answered_instead(contest: Contest, scenario: Scenario) -> None:
