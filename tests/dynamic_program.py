@@ -13,6 +13,7 @@ from workbench.optimal.course import Array, Course
 from workbench.optimal.grid import graded_grid
 from workbench.optimal.profile import largest_force
 from workbench.optimal.vehicle import Vehicle
+from workbench.train import davis_resistance
 
 
 @njit(cache=True)
@@ -59,7 +60,7 @@ def least_cost(vehicle: Vehicle, course: Course, price_w: float, intervals: int,
     most, electric = largest_force(vehicle.traction, speed), largest_force(vehicle.regenerative, speed)
     value = np.where(b == 0, 0.0, np.inf)
     for k in range(len(grid.limit_mps) - 1, -1, -1):
-        against = a + b_1 * speed + (c + grid.drag[k]) * speed**2 + grid.force_n[k]
+        against = davis_resistance(speed, a, b_1, c + grid.drag[k]) + grid.force_n[k]
         value = _before(value, b, float(grid.node_limit_mps[k]) ** 2 / 2 + 1e-9, float(grid.step_m[k]), against,
                         vehicle.inertia_kg, most, electric, vehicle.friction_brake_n, vehicle.traction_efficiency,
                         vehicle.regenerative_efficiency, price_w)
