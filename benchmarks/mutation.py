@@ -12,11 +12,13 @@ see that point, should then answer `refuted`, `gap` or `violated` with a counter
 from __future__ import annotations
 
 import argparse
+import gc
 import json
 import random
 import signal
 import sys
 import time
+import weakref
 from collections import Counter
 from collections.abc import Iterator
 from concurrent.futures import ProcessPoolExecutor, as_completed
@@ -25,6 +27,7 @@ from dataclasses import asdict, dataclass
 from fractions import Fraction
 from itertools import zip_longest
 from pathlib import Path
+from types import FrameType
 from typing import Any
 
 ROOT = Path(__file__).parents[1]
@@ -43,6 +46,7 @@ from workbench.proof.paper import collect_papers  # noqa: E402
 from workbench.proof.text import goal_text, relation_text  # noqa: E402
 
 WANTED_SHARE = 0.99
+WEAK_REFERENCES = (weakref.__file__, weakref.WeakSet.__init__.__code__.co_filename)
 
 
 @dataclass(frozen=True)
@@ -173,8 +177,11 @@ def _provable(task: Task) -> bool:
 @contextmanager
 def _at_most(seconds: float) -> Iterator[None]:
     """Leave the block after some seconds of this process's work (where the system has timers)."""
-    def over(*_: object) -> None:
-        raise OutOfTimeError
+    def over(_: int, frame: FrameType | None) -> None:
+        if _drops_exceptions(frame):
+            signal.setitimer(signal.ITIMER_PROF, 0.001)  # soon again, outside of it
+        else:
+            raise OutOfTimeError
 
     if not hasattr(signal, "setitimer"):
         yield
@@ -188,6 +195,20 @@ def _at_most(seconds: float) -> Iterator[None]:
     finally:
         signal.setitimer(signal.ITIMER_PROF, 0)
         signal.signal(signal.SIGPROF, previous)
+
+
+def _drops_exceptions(frame: FrameType | None) -> bool:
+    """Whether the frame is in a callback of the collector, a finalizer or a weak reference's callback.
+
+    Python reports what these raise and goes on, so that an exception raised there ends nothing.
+    """
+    collecting = {getattr(callback, "__code__", None) for callback in gc.callbacks}
+    while frame is not None:
+        code = frame.f_code
+        if code in collecting or code.co_name == "__del__" or code.co_filename in WEAK_REFERENCES:
+            return True
+        frame = frame.f_back
+    return False
 
 
 def run(tasks: list[Task], seed: int, jobs: int, limit: float) -> list[Outcome]:

@@ -3,7 +3,10 @@
 What an independent search breaks must be refuted, and must never come out proved.
 """
 
+import gc
 import sys
+import time
+import weakref
 from collections import Counter
 from pathlib import Path
 
@@ -13,7 +16,7 @@ from workbench.proof.mutate import KINDS
 
 ROOT = Path(__file__).parents[2]
 sys.path.insert(0, str(ROOT / "benchmarks"))
-from mutation import FAILED, judge, plan  # noqa: E402
+from mutation import FAILED, _at_most, judge, plan  # noqa: E402
 
 WANTED, SEED, LIMIT = 64, 2, 4.0
 
@@ -47,3 +50,33 @@ def test_the_plan_is_the_same_for_the_same_seed():
     one, two = (plan([ROOT / "proofs" / "yang2021.py"], 12, 5) for _ in range(2))
     assert one == two
     assert one != plan([ROOT / "proofs" / "yang2021.py"], 12, 6)
+
+
+def _collected(_phase: str, _info: dict[str, int]) -> None:
+    _work_for(0.05)
+
+
+class _Finalized:
+    def __del__(self) -> None:
+        _work_for(0.05)
+
+
+def _work_for(seconds: float) -> None:
+    until = time.process_time() + seconds
+    while time.process_time() < until:
+        pass
+
+
+@pytest.mark.parametrize("work", [gc.collect, _Finalized, lambda: weakref.finalize(_Finalized(), _work_for, 0.05)])
+def test_a_limit_holds_where_python_drops_exceptions(work):
+    """An exception raised in such a place would be reported as a warning, which is an error here, and end nothing."""
+    gc.callbacks.append(_collected)
+    started = time.process_time()
+    try:
+        with _at_most(0.1):
+            while time.process_time() < started + 5:
+                work()
+                _work_for(0.03)
+    finally:
+        gc.callbacks.remove(_collected)
+    assert time.process_time() < started + 4
