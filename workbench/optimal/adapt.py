@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from workbench.optimal.bound import Certificate, cell_bounds
+from workbench.optimal.bound import cell_bounds
+from workbench.optimal.certificate import Certificate
 from workbench.optimal.course import Array
 from workbench.optimal.grid import Grid, grid_on
 from workbench.optimal.socp import Plan
@@ -19,6 +20,7 @@ _GAUSS = (0.5 - np.sqrt(3) / 6, 0.5 + np.sqrt(3) / 6)
 def slack(vehicle: Vehicle, plan: Plan, certificate: Certificate) -> Array:
     """By how much each interval's part of the plan's own cost lies above its part of the bound, J, shape (n,)."""
     grid, x = plan.grid, certificate.position_m
+    price = plan.timetable.cell_prices(certificate.prices_w(plan.timetable), x)
     h = np.diff(x)
     owner = np.searchsorted(grid.position_m, (x[1:] + x[:-1]) / 2) - 1
     b = np.interp(x, grid.position_m, plan.half_square)
@@ -32,9 +34,9 @@ def slack(vehicle: Vehicle, plan: Plan, certificate: Certificate) -> Array:
         v = np.sqrt(2 * half_square)
         p = certificate.left + share * (certificate.right - certificate.left)
         resistance = davis_resistance(v, a, b_1, c + grid.drag[owner])
-        own += h / 2 * (cost + certificate.time_price_w / v + p * (resistance - u)
+        own += h / 2 * (cost + price / v + p * (resistance - u)
                         - vehicle.inertia_kg * (certificate.right - certificate.left) / h * half_square)
-    above = np.maximum(own - cell_bounds(vehicle, grid.course, certificate), 0.0)
+    above = np.maximum(own - cell_bounds(vehicle, grid.course, certificate, plan.timetable), 0.0)
     return np.asarray(np.bincount(owner, weights=above, minlength=len(plan.force_n)), dtype=float)
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from workbench.optimal.bound import Certificate
+from workbench.optimal.certificate import Certificate
 from workbench.optimal.course import Array
 from workbench.optimal.grid import kept_borders
 from workbench.optimal.socp import Plan
@@ -31,6 +31,8 @@ def certificate_from(vehicle: Vehicle, plan: Plan) -> Certificate:
     s, b = grid.position_m, plan.half_square
     middle = (s[1:] + s[:-1]) / 2
     reached = b >= (NEAR_LIMIT * grid.node_limit_mps) ** 2 / 2
+    reached |= (grid.node_least_mps > 0) & (b <= (grid.node_least_mps / NEAR_LIMIT) ** 2 / 2)
+    price = plan.interval_prices_w
     breaks = np.isin(s, kept_borders(grid.course)) & (reached | grid.stands)
     breaks[[0, -1]] = True
     at, left, right = [s[:1]], [], []
@@ -38,13 +40,14 @@ def certificate_from(vehicle: Vehicle, plan: Plan) -> Certificate:
         for start, end, other, node in ((s[k], middle[k], k - 1, k), (middle[k], s[k + 1], k + 1, k + 1)):
             points = _parts(start, end, plan, k)
             if breaks[node] and b[node] == 0.0:
-                values = _towards_standstill(vehicle, plan, k, points)
+                values = _towards_standstill(vehicle, plan, k, points, float(price[k]))
             else:
                 values = _between(points, plan, k, _neighbour(breaks, k, other), middle)
             at.append(points[1:])
             left.append(values[:-1])
             right.append(values[1:])
-    return Certificate(np.concatenate(at), np.concatenate(left), np.concatenate(right), max(plan.time_price_w, 0.0))
+    *earlier, last = plan.timetable.fair(plan.prices_w).tolist()
+    return Certificate(np.concatenate(at), np.concatenate(left), np.concatenate(right), last, tuple(earlier))
 
 
 def _neighbour(breaks: NDArray[np.bool_], k: int, other: int) -> int:
@@ -85,11 +88,11 @@ def _inverse_speed(points: Array, plan: Plan, k: int) -> Array:
     return np.asarray(1 / np.sqrt(2 * np.where(b > 0, b, b[b > 0].min(initial=np.inf))))
 
 
-def _towards_standstill(vehicle: Vehicle, plan: Plan, k: int, points: Array) -> Array:
+def _towards_standstill(vehicle: Vehicle, plan: Plan, k: int, points: Array, price_w: float) -> Array:
     b = plan.half_square
     middle = np.array([(b[k] + b[k + 1]) / 2])
     acceleration = (b[k + 1] - b[k]) / plan.grid.step_m[k]
-    rise = plan.time_price_w / (vehicle.inertia_kg * acceleration)
+    rise = price_w / (vehicle.inertia_kg * acceleration)
     return np.asarray(plan.adjoint[k] + rise * (_inverse_speed(points, plan, k) - 1 / np.sqrt(2 * middle)))
 
 

@@ -1,15 +1,27 @@
 """A proven lower bound on the energy of every run of a course, not only of those on a mesh.
 
-Let J be the energy, u the force at the wheel, c(u) its cost, G the line's force and b half the squared speed. For any
-time price mu >= 0 and any piecewise linear p(s), every run that arrives within T obeys
+Let J be the energy, u the force at the wheel, c(u) its cost, G the line's force and b half the squared speed. A run
+passes its timing points at times t_j within lo_j to hi_j. For any prices r_j of these events (timetable.py) and any
+piecewise linear p(s), with mu(s) the sum of the prices of the events that lie ahead of s, every such run obeys
 
     J >= integral of min over v and u of [ c(u) - p u + mu / v + p r(v) - p' inertia v^2 / 2 ] + p G  ds
-         + inertia [p b] at the ends and at jumps of p  -  mu T
+         + inertia [p b] at the ends and at jumps of p  +  time part
 
-because what was added to J is not positive: mu times the time that is left, and p times the equation of motion, which
-is zero, integrated by parts. For each v the bracket is concave in s on a cell, where p is linear, so its minimum over v
-and u is concave too and lies above its chord: the ends of each cell are all that need be looked at. Nothing is assumed
-of the run, and no convexity: the limits of force, power and speed enter as they are.
+because what was added to J is not positive: p times the equation of motion, which is zero, integrated by parts, and
+the sum of r_j (t_j - hi_j) where r_j > 0 and of r_j (t_j - lo_j) where r_j < 0. In it t_j is the earliest departure, a
+wait there, and what was run and waited since, so that running through ds at v adds ds / v to every event ahead:
+mu / v, in total. A wait adds its length times the level of the next event, which is at least that level times the
+least wait where it is not negative; on the way a train may stand wherever it likes, and then v = 0 in the integral. So
+
+    time part = earliest departure x first level + sum of least wait x level - sum of r_j (hi_j or lo_j)
+
+and one time T for the whole run is one event with r = mu at hi = T: time part - mu T. Cells that cross a timing point
+take the least mu there, since 1 / v is positive. A jump of p costs what the worst speed allowed there makes of it: the
+limit's where p rises with position, and the least speed asked of a timing point, else 0, where it falls.
+
+For each v the bracket is concave in s on a cell, where p is linear, so its minimum over v and u is concave too and lies
+above its chord: the ends of each cell are all that need be looked at. Nothing is assumed of the run, and no convexity:
+the limits of force, power and speed enter as they are.
 """
 
 from __future__ import annotations
@@ -22,8 +34,11 @@ from numba import njit
 from numpy.typing import NDArray
 
 from workbench.errors import WorkbenchError
+from workbench.optimal.bound_fixed import fixed_part, owner_of
+from workbench.optimal.certificate import Certificate
 from workbench.optimal.course import Array, Course
 from workbench.optimal.force_pieces import ForcePiece, force_pieces
+from workbench.optimal.timetable import Timetable, as_timetable
 from workbench.optimal.vehicle import Vehicle
 
 # Of 1 / v, 1, v and v^2.
@@ -35,29 +50,11 @@ ACCELERATION_RANGES = 30
 
 
 @dataclass(frozen=True)
-class Certificate:
-    """What proves a bound: position_m shape (n + 1,); left, right: shape (n,), p at both ends of each cell (J/m per N).
-
-    time_price_w: mu. Raises WorkbenchError when a value is not finite or mu is negative.
-    """
-
-    position_m: Array
-    left: Array
-    right: Array
-    time_price_w: float
-
-    def __post_init__(self) -> None:
-        values = (self.position_m, self.left, self.right, np.array([self.time_price_w]))
-        if not all(np.all(np.isfinite(v)) for v in values) or self.time_price_w < 0:
-            raise WorkbenchError("certificate of a bound: its values must be finite and its time price not negative: "
-                                 "solve again")
-
-
-@dataclass(frozen=True)
 class Terms:
     """One minimisation: of inverse / v + constant + slope v + square v^2 for v from low to high, each shape (m,).
 
     cell: which cell it belongs to; its value is the least over all terms of a cell's end. end: 0 left, 1 right.
+    of_force: what of `inverse` is not the price of time, where it is known.
     """
 
     cell: Array
@@ -68,48 +65,32 @@ class Terms:
     constant: Array
     slope: Array
     square: Array
+    of_force: Array | None = None
 
 
-def lower_bound(vehicle: Vehicle, course: Course, certificate: Certificate, trip_time_s: float,
+def lower_bound(vehicle: Vehicle, course: Course, certificate: Certificate, asked: Timetable | float,
                 start_mps: float = 0.0, end_mps: float = 0.0) -> float:
-    """The bound in J, auxiliaries left out; -inf where the certificate proves nothing.
+    """The bound in J of all runs in a timetable or a time in s, auxiliaries left out; -inf where it proves nothing.
 
     Raises WorkbenchError where a cell crosses a change of the tunnels' drag, so that it is no line there.
     """
-    return (float(cell_bounds(vehicle, course, certificate).sum())
-            + fixed_part(vehicle, course, certificate, trip_time_s, start_mps, end_mps))
+    timetable = as_timetable(course, asked)
+    cells = cell_bounds(vehicle, course, certificate, timetable)
+    return float(cells.sum()) + fixed_part(vehicle, course, certificate, timetable, start_mps, end_mps).total_j
 
 
-def cell_bounds(vehicle: Vehicle, course: Course, certificate: Certificate) -> Array:
+def cell_bounds(vehicle: Vehicle, course: Course, certificate: Certificate, timetable: Timetable) -> Array:
     """What each cell adds to the bound without the line's force, J: its length times the mean of the least values."""
-    terms = bound_terms(vehicle, course, certificate)
+    terms = bound_terms(vehicle, course, certificate, timetable)
     ends = np.full((2, len(certificate.left)), np.inf)
     np.minimum.at(ends, (terms.end.astype(int), terms.cell.astype(int)), minima(terms))
     return np.asarray(np.diff(certificate.position_m) * ends.mean(axis=0))
 
 
-def fixed_part(vehicle: Vehicle, course: Course, certificate: Certificate, trip_time_s: float, start_mps: float,
-               end_mps: float) -> float:
-    """What needs no minimisation: the line's force, the ends, the jumps of p at the worst speed there, and mu T."""
-    p_left, p_right, inertia = certificate.left, certificate.right, vehicle.inertia_kg
-    x, fine = certificate.position_m, course.split(certificate.position_m[1:-1])
-    owner = _owner(x, fine.position_m)
-    width = np.diff(x)[owner]
-    p = [p_left[owner] + (p_right - p_left)[owner] * (ends - x[owner]) / width
-         for ends in (fine.position_m[:-1], fine.position_m[1:])]
-    g, step = fine.force_n, np.diff(fine.position_m)
-    line = step @ ((p[0] * g[:, 0] + p[1] * g[:, 1]) / 3 + (p[0] * g[:, 1] + p[1] * g[:, 0]) / 6)
-    jump = np.searchsorted(fine.position_m, x[1:-1])
-    top = np.minimum(fine.limit_mps[jump], fine.limit_mps[jump - 1]) ** 2 / 2
-    top[np.isin(x[1:-1], course.stops_m)] = 0.0
-    jumps = np.minimum(p_right[:-1] - p_left[1:], 0.0) @ top
-    ends = p_right[-1] * end_mps**2 / 2 - p_left[0] * start_mps**2 / 2
-    return float(line + inertia * (jumps + ends) - certificate.time_price_w * trip_time_s)
-
-
-def bound_terms(vehicle: Vehicle, course: Course, certificate: Certificate) -> Terms:
+def bound_terms(vehicle: Vehicle, course: Course, certificate: Certificate, timetable: Timetable) -> Terms:
     """Every minimisation that the bound needs: for both ends of each cell, on each range of speeds."""
     cells = _cells(course, certificate)
+    price = timetable.cell_prices(certificate.prices_w(timetable), certificate.position_m)
     slope = (certificate.right - certificate.left) / np.diff(certificate.position_m)
     # p times a drag that changes along the cell bends: below its chord by a quarter of the product at most.
     bend = np.maximum((certificate.right - certificate.left) * (cells.drag[1] - cells.drag[0]), 0.0) / 4
@@ -124,8 +105,9 @@ def bound_terms(vehicle: Vehicle, course: Course, certificate: Certificate) -> T
             square = p * (c + cells.drag[end]) - bend - vehicle.inertia_kg * slope / 2 + way[3]
             found.append(np.stack([
                 inside.astype(float), np.full(len(inside), float(end)), np.full(len(inside), low),
-                np.minimum(high, cells.limit_mps[inside]), (certificate.time_price_w + way[0])[inside],
-                (p * a + way[1])[inside], (p * b_1 + way[2])[inside], square[inside]]))
+                np.minimum(high, cells.limit_mps[inside]), (price + way[0])[inside],
+                (p * a + way[1])[inside], (p * b_1 + way[2])[inside], square[inside],
+                way[0][inside]]))
     return Terms(*np.concatenate(found, axis=1))
 
 
@@ -146,7 +128,7 @@ def cell_limits(course: Course, certificate: Certificate) -> Array:
 
 def _cells(course: Course, certificate: Certificate) -> _Cells:
     x, fine = certificate.position_m, course.split(certificate.position_m[1:-1])
-    owner, count = _owner(x, fine.position_m), len(certificate.left)
+    owner, count = owner_of(x, fine.position_m), len(certificate.left)
     limit, least, most = np.zeros(count), np.full(count, np.inf), np.full(count, -np.inf)
     np.maximum.at(limit, owner, fine.limit_mps)
     np.minimum.at(least, owner, fine.force_n.min(axis=1))
@@ -214,11 +196,6 @@ def _choose(where: NDArray[np.bool_], one: Coefficients, other: Coefficients) ->
     inverse, constant, slope, square = (np.where(where, first, second)
                                         for first, second in zip(one, other, strict=True))
     return inverse, constant, slope, square
-
-
-def _owner(x: Array, fine: Array) -> NDArray[np.intp]:
-    """The cell of x in which each cell of `fine` lies."""
-    return np.searchsorted(x, (fine[1:] + fine[:-1]) / 2) - 1
 
 
 def _speed_edges(vehicle: Vehicle, top_mps: float) -> list[tuple[float, float, ForcePiece, ForcePiece]]:

@@ -5,6 +5,10 @@ square, low, high and the value that is claimed to lie below inverse / v + const
 from low to high. Times v this is a cubic that must not be negative. Its Bernstein coefficients say so on pieces that
 are halved until they do. The bound is the claimed values, each cell's length times the mean of its two ends' least,
 plus the fixed part, all summed as fractions.
+
+Where it states the events of a timetable, the fixed part is held against what they make of it: no more than the line's
+and the ends' part, the jumps at the worst speed that each place allows, and the windows at their prices; and the price
+of time in every term against the sum of the prices of all events that lie ahead of its cell.
 """
 
 from __future__ import annotations
@@ -12,6 +16,7 @@ from __future__ import annotations
 import json
 import sys
 from fractions import Fraction
+from itertools import pairwise
 from pathlib import Path
 from typing import Any
 
@@ -61,6 +66,8 @@ def checked_bound(certificate: dict[str, Any]) -> Fraction:
             raise ValueError(f"term {number}: its value is not proven")
         before = least[cell][end]
         least[cell][end] = value if before is None else min(before, value)
+    if "events" in certificate:
+        _check_timetable(certificate, lengths)
     total = Fraction(certificate["fixed_j"])
     for cell, (length, (left, right)) in enumerate(zip(lengths, least, strict=True)):
         top = Fraction(certificate["limit_mps"][cell])
@@ -68,6 +75,70 @@ def checked_bound(certificate: dict[str, Any]) -> Fraction:
             raise ValueError(f"cell {cell}: not every speed up to its limit is looked at")
         total += length * (left + right) / 2
     return total
+
+
+def _check_timetable(certificate: dict[str, Any], lengths: list[Fraction]) -> None:
+    """Raises ValueError unless the prices of time and the fixed part follow from the events and the jumps."""
+    legs, time_part = _legs(certificate["events"], Fraction(certificate["origin_s"]))
+    prices = [Fraction(price) for price in certificate["cell_price_w"]]
+    if len(prices) != len(lengths):
+        raise ValueError("not every cell has a price of time")
+    _check_prices(legs, Fraction(certificate["start_m"]), lengths, prices)
+    terms = certificate["terms"]
+    for number, (cell, inverse, force) in enumerate(zip(terms["cell"], terms["inverse"], terms["of_force"],
+                                                        strict=True)):
+        if Fraction(inverse) > prices[cell] + Fraction(force):
+            raise ValueError(f"term {number}: takes more for time than its cell's price")
+    fixed = (Fraction(certificate["line_j"]) + Fraction(certificate["ends_j"]) + time_part
+             + _jumps(certificate["jumps"], len(lengths) - 1))
+    if Fraction(certificate["fixed_j"]) > fixed:
+        raise ValueError("the fixed part is more than windows, jumps, line and ends give")
+
+
+def _legs(events: list[dict[str, Any]], origin: Fraction) -> tuple[list[tuple[Fraction, Fraction]], Fraction]:
+    """Where each leg ends with what a second costs on it, and what the windows add to the bound."""
+    level, time_part = Fraction(0), Fraction(0)
+    legs: list[tuple[Fraction, Fraction]] = []
+    for number, event in reversed(list(enumerate(events))):
+        price, dwell = Fraction(event["price_w"]), Fraction(event["dwell_s"])
+        level += price
+        limit = event["latest_s" if price > 0 else "earliest_s"]
+        if level < 0 or dwell < 0 or (dwell > 0 and not event["waits"]) or (price != 0 and limit is None):
+            raise ValueError(f"event {number}: price, dwell and window do not go together")
+        time_part += dwell * level - (price * Fraction(limit) if price else 0)
+        if not event["waits"]:
+            legs.insert(0, (Fraction(event["position_m"]), level))
+    if not events[0]["waits"] or origin != Fraction(events[0]["earliest_s"]) or any(
+            two <= one for (one, _), (two, _) in pairwise(legs)):
+        raise ValueError("the events are not in order")
+    return legs, time_part + origin * level
+
+
+def _check_prices(legs: list[tuple[Fraction, Fraction]], start: Fraction, lengths: list[Fraction],
+                  prices: list[Fraction]) -> None:
+    """Raises ValueError where a cell takes more for a second than a leg that it lies on."""
+    # Lengths are rounded differences of positions, so that a border may lie beside an event's by a little.
+    near, leg = Fraction(1, 10**6), 0
+    for cell, (length, price) in enumerate(zip(lengths, prices, strict=True)):
+        while leg < len(legs) - 1 and legs[leg][0] <= start + near:
+            leg += 1
+        last = leg
+        while last < len(legs) - 1 and legs[last][0] < start + length - near:
+            last += 1
+        if price > min(level for _, level in legs[leg:last + 1]):
+            raise ValueError(f"cell {cell}: its price of time is more than the events ahead of it give")
+        start += length
+    if abs(start - legs[-1][0]) > near:
+        raise ValueError("the cells do not end at the last event")
+
+
+def _jumps(jumps: dict[str, Any], count: int) -> Fraction:
+    """All jumps at the worst speed each."""
+    rows = list(zip(*(map(Fraction, jumps[name]) for name in ("inertia_times_fall", "slowest_mps", "fastest_mps")),
+                    strict=True))
+    if len(rows) != count or any(not 0 <= slowest <= fastest for _, slowest, fastest in rows):
+        raise ValueError("the jumps are not one at each border, between two speeds")
+    return sum((fall * (fastest if fall < 0 else slowest) ** 2 / 2 for fall, slowest, fastest in rows), Fraction(0))
 
 
 def main(arguments: list[str]) -> int:

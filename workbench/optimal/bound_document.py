@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -9,38 +10,64 @@ import numpy as np
 
 from workbench.errors import SolverError
 from workbench.json_output import write_json
-from workbench.optimal.bound import bound_terms, cell_limits, fixed_part, minima
+from workbench.optimal.bound import bound_terms, cell_limits, minima
 from workbench.optimal.bound_checker import checked_bound
+from workbench.optimal.bound_fixed import fixed_part
 from workbench.optimal.course import Course
 from workbench.optimal.reference import Reference
+from workbench.optimal.timetable import Timetable
 from workbench.optimal.vehicle import Vehicle
 
 # Each value is claimed a little lower than it was found, so that rounding cannot spoil it.
 SLACK = 1e-10
+ROUNDING = 1e-13
 
 
 def bound_document(vehicle: Vehicle, course: Course, found: Reference, start_mps: float,
                    end_mps: float) -> dict[str, Any]:
     """The certificate as data; its `lower_bound_J` is what it proves, without auxiliaries."""
-    certificate = found.certificate
-    terms = bound_terms(vehicle, course, certificate)
+    certificate, timetable = found.certificate, found.timetable
+    course = timetable.on(course)
+    terms = bound_terms(vehicle, course, certificate, timetable)
+    fixed = fixed_part(vehicle, course, certificate, timetable, start_mps, end_mps)
+    prices = certificate.prices_w(timetable)
+    # What is a sum of others is stated a little lower, so that it is no more than they are.
+    of_force = np.zeros(0) if terms.of_force is None else terms.of_force
+    lower = ROUNDING * (np.abs(of_force) + np.abs(terms.inverse))
+    terms = replace(terms, inverse=terms.inverse - np.where(of_force == 0, 0.0, lower))
+    parts = (fixed.line_j, fixed.jumps_j, fixed.ends_j, fixed.time_j)
     size = (np.abs(terms.constant) + np.abs(terms.inverse) / np.maximum(terms.high, 1e-3)
             + np.abs(terms.slope) * terms.high + np.abs(terms.square) * terms.high**2)
     values = minima(terms) - SLACK * size
     document: dict[str, Any] = {
         "version": 1, "cell_m": np.diff(certificate.position_m).tolist(),
         "limit_mps": cell_limits(course, certificate).tolist(),
-        "fixed_j": fixed_part(vehicle, course, certificate, found.asked_time_s, start_mps, end_mps),
+        "fixed_j": fixed.total_j - ROUNDING * sum(map(abs, parts)),
+        "line_j": fixed.line_j, "ends_j": fixed.ends_j,
+        "jumps": {"inertia_times_fall": fixed.jump.tolist(), "slowest_mps": fixed.slowest_mps.tolist(),
+                  "fastest_mps": fixed.fastest_mps.tolist()},
+        "start_m": float(certificate.position_m[0]), "origin_s": timetable.origin_s,
+        "events": _events(timetable, prices.tolist()),
+        "cell_price_w": timetable.cell_prices(prices, certificate.position_m).tolist(),
         "terms": {"cell": terms.cell.astype(int).tolist(), "end": terms.end.astype(int).tolist(),
                   "low": terms.low.tolist(), "high": terms.high.tolist(), "inverse": terms.inverse.tolist(),
                   "constant": terms.constant.tolist(), "slope": terms.slope.tolist(),
-                  "square": terms.square.tolist(), "value": values.tolist()}}
+                  "square": terms.square.tolist(), "value": values.tolist(), "of_force": of_force.tolist()}}
     try:
         proven = float(checked_bound(document))
     except ValueError as trouble:
         raise SolverError(f"the bound's certificate does not hold in exact arithmetic ({trouble}): solve with other "
                           "intervals") from None
     return document | {"lower_bound_J": np.nextafter(proven, -np.inf).item()}
+
+
+def _events(timetable: Timetable, prices_w: list[float]) -> list[dict[str, Any]]:
+    """Windows and prices of the timetable in order; infinite limits are null."""
+    return [{"position_m": timetable.points[event.point].position_m, "kind": event.kind, "waits": event.waits,
+             "dwell_s": event.dwell_s, "price_w": price,
+             "earliest_s": event.window.earliest_s if np.isfinite(event.window.earliest_s) else None,
+             "latest_s": event.window.latest_s if np.isfinite(event.window.latest_s) else None}
+            for event, price in zip(timetable.events, prices_w, strict=True)]
 
 
 def write_certificate(path: Path, vehicle: Vehicle, course: Course, found: Reference, start_mps: float,

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,6 +13,15 @@ Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True)
+class Passage:
+    """A point of a run that is passed at slowest_mps to fastest_mps: more than the limits of the line around it."""
+
+    position_m: float
+    slowest_mps: float = 0.0
+    fastest_mps: float = np.inf
+
+
+@dataclass(frozen=True)
 class Course:
     """A run from position_m[0] to position_m[-1], for one train: its length is already taken into account.
 
@@ -20,7 +29,8 @@ class Course:
     each section, positive; it already holds for the train's whole length and its own highest speed. force_n: shape
     (n, 2), N, at the start and the end of each section and linear between: grade and curves, opposing motion.
     drag: shape (n, 2), N s^2/m^2, likewise: what tunnels add to the resistance's square term. stops_m: positions
-    strictly inside at which the train must come to a stand, each one of position_m.
+    strictly inside at which the train must come to a stand, each one of position_m. points: passed strictly inside,
+    each at one of position_m too.
     Raises WorkbenchError when shapes, order or signs are wrong.
     """
 
@@ -29,6 +39,7 @@ class Course:
     force_n: Array
     drag: Array
     stops_m: tuple[float, ...] = ()
+    points: tuple[Passage, ...] = ()
 
     def __post_init__(self) -> None:
         n = len(self.position_m) - 1
@@ -40,8 +51,9 @@ class Course:
                 and np.all(np.isfinite(self.force_n))):
             raise WorkbenchError("course: positions must increase, limits be positive, drag not be negative and "
                                  "forces be finite: correct the line")
-        if not set(self.stops_m) <= set(self.position_m[1:-1].tolist()):
-            raise WorkbenchError("course: a stop is no border of a section inside the run: add it to position_m")
+        if not {*self.stops_m, *(p.position_m for p in self.points)} <= set(self.position_m[1:-1].tolist()):
+            raise WorkbenchError("course: a stop or a point is no border of a section inside the run: add it to "
+                                 "position_m")
 
     @property
     def length_m(self) -> float:
@@ -59,7 +71,8 @@ class Course:
             low, high = ends[section, :1], ends[section, 1:]
             return low + share * (high - low)
 
-        return Course(borders, self.limit_mps[section], cut(self.force_n), cut(self.drag), self.stops_m)
+        return replace(self, position_m=borders, limit_mps=self.limit_mps[section], force_n=cut(self.force_n),
+                       drag=cut(self.drag))
 
     def cut(self, from_m: float, to_m: float) -> Course:
         """The part of the course from one position to another, which must lie inside it."""
@@ -67,4 +80,14 @@ class Course:
         inside = (whole.position_m[:-1] >= from_m) & (whole.position_m[1:] <= to_m)
         ends = np.flatnonzero(inside)
         return Course(whole.position_m[ends[0]:ends[-1] + 2], whole.limit_mps[inside], whole.force_n[inside],
-                      whole.drag[inside], tuple(stop for stop in self.stops_m if from_m < stop < to_m))
+                      whole.drag[inside], tuple(stop for stop in self.stops_m if from_m < stop < to_m),
+                      tuple(point for point in self.points if from_m < point.position_m < to_m))
+
+    def speed_windows_mps(self, nodes_m: Array) -> tuple[Array, Array]:
+        """The least and the highest speed at positions by points and stops alone: 0 and infinite elsewhere."""
+        least, most = np.zeros(len(nodes_m)), np.full(len(nodes_m), np.inf)
+        for point in self.points:
+            at = nodes_m == point.position_m
+            least[at], most[at] = point.slowest_mps, point.fastest_mps
+        most[np.isin(nodes_m, self.stops_m)] = 0.0
+        return least, most

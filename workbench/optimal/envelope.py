@@ -136,8 +136,11 @@ def device_limits(vehicle: Vehicle) -> tuple[tuple[Array, Array], tuple[Array, A
 
 
 def _top(course: Course) -> Array:
-    """Half the square of the speed limit at each border: of its lower side."""
+    """Half the square of the speed limit at each border: of its lower side, or of the point that is passed there."""
     limit = np.minimum(np.append(course.limit_mps, np.inf), np.insert(course.limit_mps, 0, np.inf))
+    for point in course.points:
+        at = course.position_m == point.position_m
+        limit[at] = np.minimum(limit[at], point.fastest_mps)
     return np.asarray(limit**2 / 2)
 
 

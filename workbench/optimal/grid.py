@@ -21,13 +21,15 @@ LEAST_INTERVALS = 3
 class Grid:
     """A course on a mesh of n intervals.
 
-    position_m: shape (n + 1,). node_limit_mps: shape (n + 1,), the lower limit of both sides. limit_mps, force_n and
-    drag: shape (n,), of the intervals, the last two as means over each. stands: shape (n + 1,), true at inner stops.
+    position_m: shape (n + 1,). node_limit_mps: shape (n + 1,), the lower limit of both sides, or that of a point;
+    node_least_mps: shape (n + 1,), what a point asks at least. limit_mps, force_n and drag: shape (n,), of the
+    intervals, the last two as means over each. stands: shape (n + 1,), true at inner stops.
     """
 
     course: Course
     position_m: Array
     node_limit_mps: Array
+    node_least_mps: Array
     limit_mps: Array
     force_n: Array
     drag: Array
@@ -40,11 +42,13 @@ class Grid:
 
 
 def kept_borders(course: Course) -> Array:
-    """Positions that every mesh of the course has: its ends, its stops, and where the limit or the drag changes."""
+    """Positions that every mesh of the course has: ends, stops, points, and where the limit or the drag changes."""
     limit_changes = np.diff(course.limit_mps) != 0
     drag_changes = np.any(np.diff(course.drag, axis=0) != 0, axis=1) | (course.drag[:-1, 1] != course.drag[1:, 0])
     inner = course.position_m[1:-1]
-    return np.unique(np.concatenate((course.position_m[[0, -1]], inner[limit_changes | drag_changes], course.stops_m)))
+    points = [point.position_m for point in course.points]
+    return np.unique(np.concatenate((course.position_m[[0, -1]], inner[limit_changes | drag_changes], course.stops_m,
+                                     points)))
 
 
 def grid_on(course: Course, position_m: Array) -> Grid:
@@ -60,8 +64,10 @@ def grid_on(course: Course, position_m: Array) -> Grid:
     limit = np.full(count, np.inf)
     np.minimum.at(limit, owner, fine.limit_mps)
     node = np.minimum(np.append(limit, np.inf), np.insert(limit, 0, np.inf))
-    return Grid(course, position_m, node, limit, mean(fine.force_n), mean(fine.drag),
-                np.isin(position_m, course.stops_m))
+    stands = np.isin(position_m, course.stops_m)
+    least, most = course.speed_windows_mps(position_m)
+    return Grid(course, position_m, np.where(stands, node, np.minimum(node, most)), least, limit, mean(fine.force_n),
+                mean(fine.drag), stands)
 
 
 def graded_grid(course: Course, intervals: int) -> Grid:

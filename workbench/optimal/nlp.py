@@ -21,6 +21,7 @@ from workbench.compile import casadi_function
 from workbench.optimal.course import Array
 from workbench.optimal.grid import Grid
 from workbench.optimal.socp import NoPlanError, Plan
+from workbench.optimal.timetable import in_time
 from workbench.optimal.vehicle import ForceLimit, Vehicle
 from workbench.train import a_0, b_0, c_0, davis_resistance, v
 
@@ -193,5 +194,6 @@ def _plan(vehicle: Vehicle, grid: Grid, program: _Program, x: Array, duals: Arra
         # Limits of the acceleration, in the last row, act on db/ds itself: they belong to the price of what changes b.
         price = price + rows[:, -1] * scales.force_n / vehicle.inertia_kg
     adjoint = price * work / (scales.force_n * grid.step_m)
+    price = np.array([0.0, max(float(duals[-1]), 0.0) * work / scales.time_s])
     return Plan(grid, half_square, (stages[:, 3] - stages[:, 4] - stages[:, 5]) * scales.force_n, adjoint,
-                max(float(duals[-1]), 0.0) * work / scales.time_s, cost * work, seconds, status)
+                in_time(grid.course, scales.time_s), price, cost * work, seconds, status)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Literal
 
 import numpy as np
@@ -12,14 +12,17 @@ import numpy as np
 from workbench.errors import InputError
 from workbench.optimal.adapt import finer_grid
 from workbench.optimal.adjoint import certificate_from
-from workbench.optimal.bound import Certificate, lower_bound
-from workbench.optimal.course import Course
-from workbench.optimal.envelope import InfeasibleRunError, drivable, fastest
+from workbench.optimal.bound import lower_bound
+from workbench.optimal.certificate import Certificate
+from workbench.optimal.course import Array, Course
+from workbench.optimal.envelope import InfeasibleRunError, fastest
+from workbench.optimal.fit_times import fitted
 from workbench.optimal.grid import Grid, graded_grid, kept_borders
 from workbench.optimal.profile import Profile, energy_j
 from workbench.optimal.refine import refined
-from workbench.optimal.regimes import binding
+from workbench.optimal.schedule import Miss, leg_times, nearest_legs, require_possible, schedule
 from workbench.optimal.socp import NoPlanError, Plan, solve_socp
+from workbench.optimal.timetable import TOUCH_S, Timetable, in_time
 from workbench.optimal.vehicle import Vehicle
 from workbench.optimal.verify import Check, check
 
@@ -33,18 +36,18 @@ NO_GAIN, GAP_OF_CONES = 0.9, 1e-3
 PARTS, FASTEST_CELLS = 8, 4000
 # A run whose energy is proven to lie within this share above the least possible one is called optimal.
 OPTIMAL_GAP = 0.01
-# Share of the trip time by which a drivable run may be late before the plan itself is made again for less time.
-LATE = 2e-5
+# Share of the trip time by which a drivable run may be off before the plan itself is made again, so many times.
+OFF, PLANS = 2e-5, 3
 # Slower than this on average is no train.
 SLOWEST_MEAN_MPS = 0.5
 
 
 @dataclass(frozen=True)
 class Reference:
-    """A run, its energy at the supply in J, and a proven lower bound on the energy of every run in the same time.
+    """A run, its energy at the supply in J, and a proven lower bound on that of every run in the same timetable.
 
-    solver: what planned it; solve_s: its time. least_time_s: of the fastest run. status: 'optimal' where the gap is at
-    most 1 per cent, else 'feasible'.
+    clock_s: the time of each event of the timetable. solver: what planned it; solve_s: its time. least_time_s: of the
+    fastest run, without waiting. status: 'optimal' where the gap is at most 1 per cent, else 'feasible'.
     """
 
     vehicle: Vehicle
@@ -52,7 +55,8 @@ class Reference:
     energy_j: float
     lower_bound_j: float
     certificate: Certificate
-    asked_time_s: float
+    timetable: Timetable
+    clock_s: Array
     least_time_s: float
     solver: str
     solve_s: float
@@ -83,25 +87,39 @@ def find_reference(vehicle: Vehicle, course: Course, trip_time_s: float, start_m
     if course.length_m / trip_time_s < SLOWEST_MEAN_MPS:
         raise InputError("", "time", f"{trip_time_s:g} s for {course.length_m:.0f} m is less than {SLOWEST_MEAN_MPS:g} "
                          "m/s on average: is it in seconds?")
+    return find_timed_reference(vehicle, course, in_time(course, trip_time_s), start_mps, end_mps, intervals, solver)
+
+
+def find_timed_reference(vehicle: Vehicle, course: Course, timetable: Timetable, start_mps: float = 0.0,
+                         end_mps: float = 0.0, intervals: int | None = None, solver: Solver = "auto") -> Reference:
+    """The run of least energy that meets every window of a timetable, as `find_reference`.
+
+    The nonlinear program knows no windows on the way: with them `auto` plans by the cone program alone.
+    Raises InfeasibleRunError where no run meets the timetable, and where none was found that does.
+    """
+    course = timetable.on(course)
+    only_time = timetable.trip_time_s is not None
+    if solver == "nlp" and not only_time:
+        raise InputError("", "--solver", "'nlp' knows no timetable: leave it out")
     quickest = least_time(vehicle, course, start_mps, end_mps)
-    if trip_time_s < quickest.trip_time_s:
-        raise InfeasibleRunError(
-            f"{trip_time_s:g} s is too short: the least feasible trip time is {quickest.trip_time_s:.1f} s, "
-            f"{binding(vehicle, quickest)}: allow more time", quickest.trip_time_s)
+    require_possible(vehicle, timetable, quickest)
     borders = kept_borders(course)
     nothing = Certificate(borders, np.zeros(len(borders) - 1), np.zeros(len(borders) - 1), 0.0)
-    best = _Found(quickest, lower_bound(vehicle, course, nothing, trip_time_s, start_mps, end_mps), nothing, 0.0,
-                  "the fastest run")
-    asked = _Asked(vehicle, trip_time_s, start_mps, end_mps, quickest)
+    asked = _Asked(vehicle, timetable, start_mps, end_mps, quickest)
+    best = _Found(_timed(asked, quickest), lower_bound(vehicle, course, nothing, timetable, start_mps, end_mps),
+                  nothing, 0.0, "the fastest run")
     grid = graded_grid(course, intervals or INTERVALS + STOP_INTERVALS * len(course.stops_m))
     if solver != "nlp":
         best = _rounds(asked, _cone_plan, grid, best, 1 if intervals else ROUNDS)
-    if solver == "nlp" or (solver == "auto" and best.gap(vehicle) > GAP_OF_CONES):
+    if solver == "nlp" or (solver == "auto" and only_time and best.gap(vehicle) > GAP_OF_CONES):
         best = _rounds(asked, _nonlinear_plan, grid, best, 1)
-    energy = energy_j(vehicle, best.profile)
-    return Reference(vehicle, best.profile, energy, best.bound_j + vehicle.auxiliary_w * quickest.trip_time_s,
-                     best.certificate, trip_time_s, quickest.trip_time_s, best.solver, best.solve_s,
-                     check(vehicle, best.profile))
+    if best.run is None:
+        raise InfeasibleRunError(_not_found(timetable, best.miss))
+    profile, clock = best.run.profile, best.run.clock_s
+    least_s = _least_between_ends(timetable, quickest)
+    return Reference(vehicle, profile, best.run.energy_j(vehicle), best.bound_j + vehicle.auxiliary_w * least_s,
+                     best.certificate, timetable, clock, quickest.trip_time_s, best.solver, best.solve_s,
+                     check(vehicle, profile))
 
 
 def least_time(vehicle: Vehicle, course: Course, start_mps: float = 0.0, end_mps: float = 0.0) -> Profile:
@@ -115,39 +133,90 @@ class _Asked:
     """What every plan must meet, and the run that arrives first."""
 
     vehicle: Vehicle
-    trip_time_s: float
+    timetable: Timetable
     start_mps: float
     end_mps: float
     quickest: Profile
 
 
 @dataclass(frozen=True)
-class _Found:
-    """The best run so far with what planned it, and the best bound, which need not come from the same mesh."""
+class _Timed:
+    """A run and the clock at the events of its timetable."""
 
     profile: Profile
+    clock_s: Array
+
+    def energy_j(self, vehicle: Vehicle) -> float:
+        """At the supply, with auxiliaries from departure to arrival."""
+        waited = float(self.clock_s[-1] - self.clock_s[0]) - self.profile.trip_time_s
+        return energy_j(vehicle, self.profile) + (vehicle.auxiliary_w * waited if len(self.clock_s) > 2 else 0.0)
+
+
+@dataclass(frozen=True)
+class _Found:
+    """The best run so far with what planned it, and the best bound, which need not come from the same mesh.
+
+    run: None as long as none meets the timetable; miss: what the last one missed.
+    """
+
+    run: _Timed | None
     bound_j: float
     certificate: Certificate
     solve_s: float
     solver: str
+    miss: Miss | None = None
 
     def gap(self, vehicle: Vehicle) -> float:
-        return _gap(energy_j(vehicle, self.profile), self.bound_j)
+        return math.inf if self.run is None else _gap(self.run.energy_j(vehicle), self.bound_j)
 
-    def improved(self, vehicle: Vehicle, profile: Profile, bound: float, certificate: Certificate, solve_s: float,
+    def improved(self, vehicle: Vehicle, run: _Timed | Miss, bound: float, certificate: Certificate, solve_s: float,
                  solver: str) -> _Found:
-        less = energy_j(vehicle, profile) < energy_j(vehicle, self.profile)
-        return _Found(profile if less else self.profile, max(bound, self.bound_j),
-                      certificate if bound > self.bound_j else self.certificate, self.solve_s + solve_s,
-                      solver if less else self.solver)
+        more = replace(self, solve_s=self.solve_s + solve_s)
+        if bound > self.bound_j:
+            more = replace(more, bound_j=bound, certificate=certificate)
+        if isinstance(run, Miss):
+            return replace(more, miss=run)
+        less = self.run is None or run.energy_j(vehicle) < self.run.energy_j(vehicle)
+        return replace(more, run=run, solver=solver) if less else more
 
 
-# Of a request, a mesh, a trip time and a first guess: a plan and its solver's name.
-_Planner = Callable[["_Asked", Grid, float, Profile], tuple[Plan, str]]
+# Of a request, a mesh, what each leg takes beyond the plan and a first guess: a plan and its solver's name.
+_Planner = Callable[["_Asked", Grid, Array, Profile], tuple[Plan, str]]
 
 
 def _gap(energy: float, bound: float) -> float:
     return (energy - bound) / abs(energy) if energy else energy - bound
+
+
+def _timed(asked: _Asked, profile: Profile) -> _Timed | None:
+    found = _clocked(asked, profile)
+    return None if isinstance(found, Miss) else found
+
+
+def _clocked(asked: _Asked, profile: Profile) -> _Timed | Miss:
+    """The run with its clock, or what it misses; windows of no width are met to TOUCH_S."""
+    legs = leg_times(asked.timetable, profile)
+    clock = schedule(asked.timetable, legs)
+    if isinstance(clock, Miss) and asked.timetable.trip_time_s is None:
+        clock = schedule(asked.timetable, legs, TOUCH_S)
+    return clock if isinstance(clock, Miss) else _Timed(profile, clock)
+
+
+def _least_between_ends(timetable: Timetable, quickest: Profile) -> float:
+    """No run takes less from its departure to its arrival, waits included."""
+    least = quickest.trip_time_s + sum(event.dwell_s for event in timetable.events)
+    return max(least, timetable.points[-1].arrival.earliest_s - timetable.points[0].departure.latest_s)
+
+
+def _not_found(timetable: Timetable, miss: Miss | None) -> str:
+    """In a line: nothing is proven, but no run was found; where it fails."""
+    text = "no run was found that meets every window of the timetable, though it was not proven that there is none"
+    if miss is None:
+        return f"{text}: widen the windows"
+    event = timetable.events[miss.event]
+    return (f"{text}: the best one has the {event.kind} at timing point {event.point + 1}, "
+            f"{timetable.points[event.point].position_m:g} m, {miss.by_s:.3g} s too {'late' if miss.late else 'soon'}: "
+            "widen the window there")
 
 
 def _rounds(asked: _Asked, planner: _Planner, grid: Grid, best: _Found, rounds: int) -> _Found:
@@ -155,29 +224,30 @@ def _rounds(asked: _Asked, planner: _Planner, grid: Grid, best: _Found, rounds: 
     vehicle, course = asked.vehicle, grid.course
     for number in range(rounds):
         before = best.gap(vehicle)
-        found = _planned(asked, planner, grid, best.profile)
+        found = _planned(asked, planner, grid, best.run.profile if best.run else asked.quickest)
         if found is None:
             break
-        plan, profile, solve_s, solver = found
+        plan, run, solve_s, solver = found
         certificate = certificate_from(vehicle, plan)
-        bound = lower_bound(vehicle, course, certificate, asked.trip_time_s, asked.start_mps, asked.end_mps)
-        best = best.improved(vehicle, profile, bound, certificate, solve_s, solver)
+        bound = lower_bound(vehicle, course, certificate, asked.timetable, asked.start_mps, asked.end_mps)
+        best = best.improved(vehicle, run, bound, certificate, solve_s, solver)
         if best.gap(vehicle) <= GAP_WANTED or (
-                number and best.gap(vehicle) > max(NO_GAIN * before, OPTIMAL_GAP)):
+                number and best.gap(vehicle) > max(NO_GAIN * before, OPTIMAL_GAP) and best.run):
             break
         if number + 1 < rounds:
             grid = finer_grid(vehicle, plan, certificate)
     return best
 
 
-def _cone_plan(asked: _Asked, grid: Grid, trip_time_s: float, _: Profile) -> tuple[Plan, str]:
-    return solve_socp(asked.vehicle, grid, trip_time_s, asked.start_mps, asked.end_mps), "clarabel"
+def _cone_plan(asked: _Asked, grid: Grid, extra_s: Array, _: Profile) -> tuple[Plan, str]:
+    return solve_socp(asked.vehicle, grid, asked.timetable, asked.start_mps, asked.end_mps, extra_s), "clarabel"
 
 
-def _nonlinear_plan(asked: _Asked, grid: Grid, trip_time_s: float, guess: Profile) -> tuple[Plan, str]:
+def _nonlinear_plan(asked: _Asked, grid: Grid, extra_s: Array, guess: Profile) -> tuple[Plan, str]:
     from workbench.optimal.nlp import ATTEMPTS, solve_nlp  # noqa: PLC0415 - casadi, which most runs do not need
 
     trouble = ""
+    trip_time_s = asked.timetable.points[-1].arrival.latest_s - float(extra_s.sum())
     for name, from_best in ATTEMPTS:
         run = guess if from_best else asked.quickest
         start = np.interp(grid.position_m, run.position_m, run.half_square)
@@ -189,50 +259,31 @@ def _nonlinear_plan(asked: _Asked, grid: Grid, trip_time_s: float, guess: Profil
 
 
 def _planned(asked: _Asked, planner: _Planner, grid: Grid,
-             guess: Profile) -> tuple[Plan, Profile, float, str] | None:
-    """The plan, a drivable run that arrives in time, the solver's time and name; None where the solver found none."""
-    wanted, spent = asked.trip_time_s, 0.0
+             guess: Profile) -> tuple[Plan, _Timed | Miss, float, str] | None:
+    """The plan, a drivable run that meets the timetable or what it misses, the solver's time and name.
+
+    None where the solver found none.
+    """
+    timetable = asked.timetable
+    least = leg_times(timetable, asked.quickest)
+    allowed = OFF * (timetable.points[-1].arrival.latest_s - timetable.origin_s)
+    extra, spent = np.zeros(len(timetable.points) - 1), 0.0
     plan: Plan | None = None
-    for _ in range(3):
+    for _ in range(PLANS):
         try:
-            plan, solver = planner(asked, grid, wanted, guess)
+            plan, solver = planner(asked, grid, extra, guess)
         except NoPlanError:
             break
         spent += plan.solve_s
         profile = refined(asked.vehicle, plan, PARTS, asked.start_mps, asked.end_mps)
-        late = profile.trip_time_s - asked.trip_time_s
-        if late <= LATE * asked.trip_time_s:
+        now = leg_times(timetable, profile)
+        legs = nearest_legs(timetable, now, least)
+        off = now - (now if legs is None else legs)
+        if float(np.abs(off).sum()) <= allowed:
             break
-        wanted -= late
+        extra = extra + off
     if plan is None:
         return None
-    in_time = _in_time(asked.vehicle, profile, asked.quickest, asked.trip_time_s, asked.start_mps, asked.end_mps)
-    return plan, in_time, spent, solver
-
-
-def _in_time(vehicle: Vehicle, profile: Profile, quickest: Profile, trip_time_s: float, start_mps: float,
-             end_mps: float) -> Profile:
-    """The run itself if it is in time, else the least mixture with the fastest one that is."""
-    if profile.trip_time_s <= trip_time_s:
-        return profile
-    fast = np.interp(profile.position_m, quickest.position_m, quickest.half_square)
-    low, high, best = 0.0, 1.0, quickest
-    for _ in range(40):
-        share = _secant(low, high, profile, best, trip_time_s) if low == 0.0 else (low + high) / 2
-        mixed = drivable(vehicle, profile.course, profile.half_square + share * (fast - profile.half_square),
-                         start_mps, end_mps)
-        if mixed.trip_time_s <= trip_time_s:
-            high, best = share, mixed
-            if trip_time_s - mixed.trip_time_s <= 1e-6 * trip_time_s:
-                break
-        else:
-            low = share
-        if high - low < 1e-9:
-            break
-    return best
-
-
-def _secant(low: float, high: float, slow: Profile, fast: Profile, trip_time_s: float) -> float:
-    """A share that is a little more than the line between both runs asks for."""
-    late, early = slow.trip_time_s - trip_time_s, trip_time_s - fast.trip_time_s
-    return low + (high - low) * min(0.5, 1.2 * late / (late + early))
+    if legs is not None:
+        profile = fitted(asked.vehicle, profile, asked.quickest, timetable, legs, asked.start_mps, asked.end_mps)
+    return plan, _clocked(asked, profile), spent, solver

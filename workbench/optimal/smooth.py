@@ -7,7 +7,7 @@ average takes w seconds longer than the run, which therefore is planned for a tr
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -153,7 +153,7 @@ def _lowered(vehicle: Vehicle, course: Course, window_s: float) -> Course:
     falls = np.append(limit[:-1] > limit[1:], False) | np.insert(limit[1:] < limit[:-1], 0, False)
     rises = np.append(limit[:-1] < limit[1:], False)
     lower = np.where(falls | rises, np.maximum(limit - margin, limit / 2), limit)
-    return Course(course.position_m, lower, course.force_n, course.drag, course.stops_m)
+    return replace(course, limit_mps=lower)
 
 
 def _judged(vehicle: Vehicle, course: Course, run: SmoothRun, optimal: Reference, window_s: float,

@@ -19,10 +19,12 @@ from numpy.typing import NDArray
 from scipy import sparse
 
 from workbench.errors import SolverError
+from workbench.optimal.clock_rows import clock_rows
 from workbench.optimal.course import Array
 from workbench.optimal.force_pieces import force_pieces
 from workbench.optimal.grid import Grid
 from workbench.optimal.open_rows import Mask, OpenRows, all_open, open_rows, rightly_closed, thinned
+from workbench.optimal.timetable import Timetable, as_timetable
 from workbench.optimal.vehicle import ForceLimit, Vehicle
 
 # Accuracy asked of clarabel; what it returns is checked again by everything that follows.
@@ -32,6 +34,8 @@ SETTINGS = {"tol_gap_abs": 1e-8, "tol_gap_rel": 1e-8, "tol_feas": 1e-8}
 QUICK = {"iterative_refinement_enable": False}
 # From so many intervals on a coarser program comes first.
 COARSE_FIRST = 2000
+# A plan keeps this far above a least speed, so that the driven run, which may be a little slower, does.
+LEAST_MARGIN = 1.0001
 
 
 @dataclass(frozen=True)
@@ -39,48 +43,60 @@ class Plan:
     """A solved program on a grid of n intervals.
 
     half_square: shape (n + 1,), b in m^2/s^2. force_n: shape (n,), mean force at the wheel. adjoint: shape (n,),
-    J/m per N: what a newton of resistance on the interval costs; time_price_w: what a second less costs. energy_j: at
-    the supply, without auxiliaries.
+    J/m per N: what a newton of resistance on the interval costs; prices_w: what a second costs at each event of the
+    timetable. energy_j: at the supply, without auxiliaries.
     """
 
     grid: Grid
     half_square: Array
     force_n: Array
     adjoint: Array
-    time_price_w: float
+    timetable: Timetable
+    prices_w: Array
     energy_j: float
     solve_s: float
     status: str
+
+    @property
+    def time_price_w(self) -> float:
+        """What a second less on the way to the end costs."""
+        return float(self.prices_w[-1])
+
+    @property
+    def interval_prices_w(self) -> Array:
+        """What a second less costs on each interval, shape (n,)."""
+        return self.timetable.cell_prices(self.timetable.fair(self.prices_w), self.grid.position_m)
 
 
 class NoPlanError(SolverError):
     """The cone program has no solution; the message names the solver's status."""
 
 
-def solve_socp(vehicle: Vehicle, grid: Grid, trip_time_s: float, start_mps: float = 0.0,
-               end_mps: float = 0.0) -> Plan:
-    """The run of least energy within trip_time_s; raises NoPlanError when clarabel finds none or is inaccurate.
+def solve_socp(vehicle: Vehicle, grid: Grid, asked: Timetable | float, start_mps: float = 0.0,
+               end_mps: float = 0.0, extra_s: Array | None = None) -> Plan:
+    """The run of least energy in a timetable or a trip time in s; raises NoPlanError where clarabel finds none.
 
+    extra_s: seconds that each leg between timing points takes beyond what the program knows; none where not given.
     A large program is solved on a coarser mesh first, and then without what that leaves no use for.
     """
     ends, spent = (start_mps, end_mps), 0.0
     if len(grid.limit_mps) >= COARSE_FIRST:
         try:
-            coarse, price = _solve(vehicle, thinned(grid), trip_time_s, ends)
+            coarse, price = _solve(vehicle, thinned(grid), asked, ends, extra_s=extra_s)
             spent = coarse.solve_s
             rows = open_rows(vehicle, grid, coarse.grid, coarse.half_square, coarse.force_n, price)
-            plan, price = _solve(vehicle, grid, trip_time_s, ends, rows)
+            plan, price = _solve(vehicle, grid, asked, ends, rows, extra_s)
             spent += plan.solve_s
             if rightly_closed(vehicle, grid, rows, plan.half_square, plan.force_n, price):
                 return replace(plan, solve_s=spent)
         except NoPlanError:
             pass  # the whole program says whether there is none
-    plan, _ = _solve(vehicle, grid, trip_time_s, ends)
+    plan, _ = _solve(vehicle, grid, asked, ends, extra_s=extra_s)
     return replace(plan, solve_s=spent + plan.solve_s)
 
 
-def _solve(vehicle: Vehicle, grid: Grid, trip_time_s: float, ends_mps: tuple[float, float],
-           rows: OpenRows | None = None) -> tuple[Plan, Array]:
+def _solve(vehicle: Vehicle, grid: Grid, asked: Timetable | float, ends_mps: tuple[float, float],
+           rows: OpenRows | None = None, extra_s: Array | None = None) -> tuple[Plan, Array]:
     """The plan, and what a newton more at the wheel is worth on each interval, J/m per N."""
     h, n = grid.step_m, len(grid.limit_mps)
     rows = rows or all_open(grid)
@@ -88,7 +104,8 @@ def _solve(vehicle: Vehicle, grid: Grid, trip_time_s: float, ends_mps: tuple[flo
     # Scales: variables are around one.
     speed = float(grid.limit_mps.max())
     force = max(vehicle.traction.at(0.0), vehicle.braking_n)
-    mean_time = trip_time_s / n
+    clock = clock_rows(as_timetable(grid.course, asked), grid.position_m, extra_s)
+    mean_time = clock.horizon_s / n
     half = speed**2
     work = force * grid.course.length_m
 
@@ -111,8 +128,11 @@ def _solve(vehicle: Vehicle, grid: Grid, trip_time_s: float, ends_mps: tuple[flo
     top = (grid.node_limit_mps / speed) ** 2
     free = ~fixed
     fast = free & rows.top
-    duration = cp.sum(tau) <= n
-    rules = [motion, b[fixed] == value[fixed], v[fixed] == np.sqrt(value[fixed]), b[fast] <= top[fast], duration,
+    least = (np.minimum(grid.node_least_mps * LEAST_MARGIN, grid.node_limit_mps) / speed) ** 2
+    held = free & (least > 0)
+    late, soon, windows = clock.rules(tau, mean_time)
+    rules = [motion, b[fixed] == value[fixed], v[fixed] == np.sqrt(value[fixed]), b[fast] <= top[fast],
+             *windows, *([b[held] >= least[held]] if held.any() else []),
              # v^2 <= b and tau (v_k + v_k+1) >= 2 h, in units of the scales
              cp.SOC(b[free] + 1, cp.vstack([2 * v[free], b[free] - 1])),
              cp.SOC(tau + 2 * v_mean, cp.vstack([tau - 2 * v_mean, 2 * np.sqrt(2 * h / (mean_time * speed))])),
@@ -120,8 +140,8 @@ def _solve(vehicle: Vehicle, grid: Grid, trip_time_s: float, ends_mps: tuple[flo
     sides = [(pull, vehicle.traction, rows.pull_limit)]
     if vehicle.regenerative.force_n > 0:
         sides.append((brake, vehicle.regenerative, rows.brake))
-    for side, limit, asked in sides:
-        rules += _force_rules(side, limit, grid, v_mean, tau, (force, speed, mean_time), np.flatnonzero(asked))
+    for side, limit, near in sides:
+        rules += _force_rules(side, limit, grid, v_mean, tau, (force, speed, mean_time), np.flatnonzero(near))
     if b_1 > 0:  # else the resistance would fall with a speed that the relaxation lets go
         rules.append(v[free] >= cp.multiply(1 / np.sqrt(top[free]), b[free]))
     comfort = [(sign, sign * (b[1:] - b[:-1]) <= 2 * limit * h / half)
@@ -131,7 +151,7 @@ def _solve(vehicle: Vehicle, grid: Grid, trip_time_s: float, ends_mps: tuple[flo
     used = cp.sum(cp.multiply(h, pull)) / vehicle.traction_efficiency
     returned = vehicle.regenerative_efficiency * cp.sum(cp.multiply(h, brake))
     problem = cp.Problem(cp.Minimize((used - returned) / grid.course.length_m), rules)
-    solve_s = _solved(problem, f"the cone program of {n} intervals for {trip_time_s:g} s")
+    solve_s = _solved(problem, f"the cone program of {n} intervals for {clock.horizon_s:g} s")
     price = row * motion.dual_value * work / (force * h)
     # Limits of the acceleration act on db/ds itself: they belong to the price of what changes b.
     adjoint = price
@@ -139,8 +159,8 @@ def _solve(vehicle: Vehicle, grid: Grid, trip_time_s: float, ends_mps: tuple[flo
         adjoint = adjoint + sign * rule.dual_value * 2 * work / (half * inertia)
     half_square = np.where(fixed, value, np.maximum(b.value, 0.0)) * half / 2
     plan = Plan(grid, half_square, (pull.value - brake.value - grip.value) * force, adjoint,
-                float(duration.dual_value) * work / mean_time, float(problem.value) * work, solve_s,
-                str(problem.status))
+                clock.timetable, clock.prices(late, soon, windows) * work / mean_time, float(problem.value) * work,
+                solve_s, str(problem.status))
     return plan, price
 
 

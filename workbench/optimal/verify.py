@@ -23,6 +23,8 @@ from workbench.optimal.vehicle import Vehicle
 POSITION_GAIN, SPEED_GAIN = 0.01, 0.2
 # As near to a border of the line as this, a train may be on either side of it.
 TOUCHING_M = 1e-3
+# Slower than this a lag says nothing of time.
+STILL_MPS = 0.1
 
 
 @dataclass(frozen=True)
@@ -33,7 +35,7 @@ class Check:
 
     energy_j: at the supply, with auxiliaries. position_drift_m, speed_drift_mps: largest distance from the plan.
     force_excess: the largest force beyond traction or both brakes, as a share of the limit there. speed_excess_mps:
-    above the speed limit.
+    above the speed limit. lag_m: shape (n + 1,), by how much the train is behind the plan at each node of the run.
     """
 
     energy_j: float
@@ -42,6 +44,13 @@ class Check:
     force_excess: float
     speed_excess_mps: float
     correction_n: float
+    lag_m: Array
+
+    def clock_s(self, profile: Profile) -> Array:
+        """When the simulated train passes the run's nodes, s, shape (n + 1,); at a standstill the plan's own time."""
+        speed = profile.speed_mps
+        moving = speed > STILL_MPS
+        return np.asarray(profile.time_s + np.where(moving, self.lag_m / np.where(moving, speed, 1.0), 0.0))
 
 
 @njit(cache=True)
@@ -54,10 +63,10 @@ def _against(speed: float, share: float, line: Array, drag: Array, a: float, b: 
 @njit(cache=True)
 def _drive(time: Array, position: Array, speed: Array, acceleration: Array, limit: Array, line: Array, drag: Array,
            numbers: Array, limits: tuple[Array, Array], tables: tuple[Array, Array],
-           step_s: float) -> tuple[float, float, float, float, float, float]:
+           step_s: float, lag: Array) -> tuple[float, float, float, float, float, float]:
     """Energy without auxiliaries, drift of position and speed, excess of force and speed, largest correction.
 
-    The arrays are those of a profile.
+    The arrays are those of a profile; `lag` is filled with the way that is missing at each node.
     """
     inertia, a, b, c, friction, efficiency, regain = numbers
     s, v = position[0], speed[0]
@@ -112,6 +121,7 @@ def _drive(time: Array, position: Array, speed: Array, acceleration: Array, limi
             off_s = max(off_s, abs(s - position[k] - (speed[k] + acceleration[k] * t / 2) * t))
             off_v = max(off_v, abs(v - speed[k] - acceleration[k] * t))
             over_speed = max(over_speed, v - limit[cell])
+        lag[k + 1] = position[k + 1] - s
     return energy, off_s, off_v, over_force, over_speed, corrected
 
 
@@ -121,8 +131,9 @@ def check(vehicle: Vehicle, profile: Profile, step_s: float = 0.05) -> Check:
                         vehicle.regenerative_efficiency])
     limits, tables = device_limits(vehicle)
     course = profile.course
+    lag = np.zeros(len(profile.half_square))
     energy, off_s, off_v, force, speed, push = _drive(
         profile.time_s, profile.position_m, profile.speed_mps, profile.acceleration_mps2, course.limit_mps,
-        course.force_n, course.drag, numbers, limits, tables, step_s)
+        course.force_n, course.drag, numbers, limits, tables, step_s, lag)
     return Check(energy + vehicle.auxiliary_w * profile.trip_time_s, off_s, off_v, max(force, 0.0),
-                 max(speed, 0.0) if math.isfinite(speed) else math.inf, push)
+                 max(speed, 0.0) if math.isfinite(speed) else math.inf, push, lag)

@@ -1,0 +1,64 @@
+"""What of a bound needs no minimisation: the line's force, the ends, the jumps of p, and the windows of time."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from workbench.optimal.certificate import Certificate
+from workbench.optimal.course import Array, Course
+from workbench.optimal.timetable import Timetable
+from workbench.optimal.vehicle import Vehicle
+
+
+@dataclass(frozen=True)
+class FixedPart:
+    """Parts in J: line_j of the line's force, ends_j of the speeds at both ends, time_j of the windows of time.
+
+    jump: shape (n - 1,), inertia times the fall of p at each inner border, J per m^2/s^2. slowest_mps, fastest_mps:
+    shape (n - 1,), the speeds between which every run passes there.
+    """
+
+    line_j: float
+    ends_j: float
+    time_j: float
+    jump: Array
+    slowest_mps: Array
+    fastest_mps: Array
+
+    @property
+    def jumps_j(self) -> float:
+        """All jumps at the worst speed each."""
+        return float(np.minimum(self.jump, 0.0) @ self.fastest_mps**2 + np.maximum(self.jump, 0.0) @ self.slowest_mps**2
+                     ) / 2
+
+    @property
+    def total_j(self) -> float:
+        """The sum."""
+        return self.line_j + self.jumps_j + self.ends_j + self.time_j
+
+
+def fixed_part(vehicle: Vehicle, course: Course, certificate: Certificate, timetable: Timetable, start_mps: float,
+               end_mps: float) -> FixedPart:
+    """Of a certificate for all runs in a timetable from one speed in m/s to another."""
+    p_left, p_right, inertia = certificate.left, certificate.right, vehicle.inertia_kg
+    x, fine = certificate.position_m, course.split(certificate.position_m[1:-1])
+    owner = owner_of(x, fine.position_m)
+    width = np.diff(x)[owner]
+    p = [p_left[owner] + (p_right - p_left)[owner] * (ends - x[owner]) / width
+         for ends in (fine.position_m[:-1], fine.position_m[1:])]
+    g, step = fine.force_n, np.diff(fine.position_m)
+    line = step @ ((p[0] * g[:, 0] + p[1] * g[:, 1]) / 3 + (p[0] * g[:, 1] + p[1] * g[:, 0]) / 6)
+    jump = np.searchsorted(fine.position_m, x[1:-1])
+    least, most = course.speed_windows_mps(x[1:-1])
+    most = np.minimum(most, np.minimum(fine.limit_mps[jump], fine.limit_mps[jump - 1]))
+    ends_j = inertia * (p_right[-1] * end_mps**2 / 2 - p_left[0] * start_mps**2 / 2)
+    return FixedPart(float(line), float(ends_j), timetable.time_part_j(certificate.prices_w(timetable)),
+                     inertia * (p_right[:-1] - p_left[1:]), least, most)
+
+
+def owner_of(x: Array, fine: Array) -> NDArray[np.intp]:
+    """The cell of x in which each cell of `fine` lies."""
+    return np.searchsorted(x, (fine[1:] + fine[:-1]) / 2) - 1

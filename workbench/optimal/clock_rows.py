@@ -1,0 +1,88 @@
+"""The windows of a timetable as rows of the cone program: what was run and waited up to each event."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import cvxpy as cp
+import numpy as np
+from numpy.typing import NDArray
+from scipy import sparse
+
+from workbench.optimal.course import Array
+from workbench.optimal.timetable import Timetable
+
+
+@dataclass(frozen=True)
+class ClockRows:
+    """Event i is at fixed_s[i] + runs[i] times the intervals' durations + waits[i] times the free waits.
+
+    fixed_s: shape (m,). runs: shape (m, n). waits: shape (m, k), a column for each wait that may serve to be later.
+    """
+
+    timetable: Timetable
+    fixed_s: Array
+    runs: sparse.csr_array
+    waits: Array
+
+    @property
+    def horizon_s(self) -> float:
+        """From the earliest departure to the latest arrival, without what is known to be waited; at least a second."""
+        latest = self.timetable.points[-1].arrival.latest_s
+        return max(latest - float(self.fixed_s[-1]), 1.0)
+
+    def rules(self, tau: cp.Variable, unit_s: float) -> tuple[NDArray[np.intp], NDArray[np.intp],
+                                                              list[cp.Constraint]]:
+        """Events with a latest time, those with an earliest one, and the rows that say so; durations in unit_s."""
+        windows = [event.window for event in self.timetable.events]
+        highest, lowest = (np.array([getattr(window, name) for window in windows])
+                           for name in ("latest_s", "earliest_s"))
+        free = self.waits.shape[1]
+        late = np.flatnonzero(np.isfinite(highest) & ((np.arange(len(windows)) > 0) | (free > 0)))
+        soon = np.flatnonzero(np.isfinite(lowest) & (np.arange(len(windows)) > 0))
+        wait = cp.Variable(free, nonneg=True) if free else None
+
+        def clock(at: NDArray[np.intp]) -> cp.Expression:
+            ran = self.runs[at] @ tau
+            return ran if wait is None else ran + self.waits[at] @ wait
+
+        found = [clock(late) <= (highest - self.fixed_s)[late] / unit_s]
+        if len(soon):
+            found.append(clock(soon) >= (lowest - self.fixed_s)[soon] / unit_s)
+        return late, soon, found
+
+    def prices(self, late: NDArray[np.intp], soon: NDArray[np.intp], rules: list[cp.Constraint]) -> Array:
+        """The price of each event in the program's unit of cost, of the solved rows."""
+        found = np.zeros(len(self.fixed_s))
+        found[late] += np.maximum(rules[0].dual_value, 0.0)
+        if len(soon):
+            found[soon] -= np.maximum(rules[1].dual_value, 0.0)
+        return found
+
+
+def clock_rows(timetable: Timetable, position_m: Array, extra_s: Array | None = None) -> ClockRows:
+    """For a mesh that has every timing point as a node.
+
+    extra_s: what each leg takes beyond the program's durations, shape (legs,). A wait is free only where a later
+    event must not come too soon: elsewhere waiting serves nothing.
+    """
+    events = timetable.events
+    extra = np.zeros(len(timetable.points) - 1) if extra_s is None else extra_s
+    node = np.searchsorted(position_m, timetable.position_m)
+    rows, fixed, waits = [], [], []
+    total, seen = timetable.origin_s, [0.0] * sum(event.waits for event in events)
+    number = 0
+    for place, event in enumerate(events):
+        if event.waits:
+            total += event.dwell_s
+            serves = any(np.isfinite(later.window.earliest_s) for later in events[max(place, 1):])
+            serves &= place > 0 or event.window.latest_s > event.window.earliest_s
+            seen[number] = 1.0 if serves else 0.0
+            number += 1
+        else:
+            total += float(extra[event.point - 1])
+        fixed.append(total)
+        waits.append(list(seen))
+        rows.append((np.arange(len(position_m) - 1) < node[event.point]).astype(float))
+    columns = np.array(waits)
+    return ClockRows(timetable, np.array(fixed), sparse.csr_array(np.array(rows)), columns[:, columns.any(axis=0)])
