@@ -192,6 +192,8 @@ def report(scenario: Annotated[Path, typer.Argument(help="Scenario or study TOML
 def reference(track: Annotated[Path, typer.Argument(help="Line: TOML of this project, or TTOBench JSON")],
               train: Annotated[Path, typer.Argument(help="Train: TOML of this project, or TTOBench JSON")],
               time: Annotated[float | None, typer.Option(metavar="S", help="Trip time in s, with its stops.")] = None,
+              timetable: Annotated[Path | None, typer.Option(
+                  metavar="FILE", help="Windows on the way: TOML, or a journey of TTOBench; not with --time.")] = None,
               stops: Annotated[bool, typer.Option("--stops", help="Serve the line's stops on the way.")] = False,
               dwell: Annotated[float, typer.Option(metavar="S", help="Wait at each stop on the way.")] = 30.0,
               from_m: Annotated[float, typer.Option(metavar="M", help="Where the run starts.")] = 0.0,
@@ -215,7 +217,7 @@ def reference(track: Annotated[Path, typer.Argument(help="Line: TOML of this pro
     from workbench.report.reference_command import Request, reference_run
 
     done = reference_run(Request(track, train, time, stops, dwell, from_m, to_m, from_speed, to_speed, intervals,
-                                 window, max_jerk, json, csv, every, figure, certificate, solver))
+                                 window, max_jerk, json, csv, every, figure, certificate, solver, timetable))
     for line in done:
         out_console.print(line, soft_wrap=True, highlight=False, markup=False)
 

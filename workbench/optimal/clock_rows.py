@@ -38,7 +38,8 @@ class ClockRows:
         highest, lowest = (np.array([getattr(window, name) for window in windows])
                            for name in ("latest_s", "earliest_s"))
         free = self.waits.shape[1]
-        late = np.flatnonzero(np.isfinite(highest) & ((np.arange(len(windows)) > 0) | (free > 0)))
+        # What precedes the first departure is free where a wait there may serve, else it is none.
+        late = np.flatnonzero(np.isfinite(highest) & ((np.arange(len(windows)) > 0) | self.waits.any(axis=1)))
         soon = np.flatnonzero(np.isfinite(lowest) & (np.arange(len(windows)) > 0))
         wait = cp.Variable(free, nonneg=True) if free else None
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import csv
+import math
 from pathlib import Path
 from typing import Any
 
@@ -17,6 +18,8 @@ from workbench.optimal.vehicle import Vehicle
 
 COLUMNS = ("t_s", "s_m", "v_mps", "a_mps2", "u_N")
 MOST_ROWS = 2_000_000
+# A lower price of a second is rounding of the solver's.
+LEAST_PRICE_W = 50.0
 
 
 def reference_document(found: Reference, smooth: SmoothReference | None) -> dict[str, Any]:
@@ -29,12 +32,44 @@ def reference_document(found: Reference, smooth: SmoothReference | None) -> dict
         "check": {"energy_J": check.energy_j, "position_drift_m": check.position_drift_m,
                   "speed_drift_mps": check.speed_drift_mps, "correction_N": check.correction_n,
                   "force_excess": check.force_excess,
-                  "speed_excess_mps": check.speed_excess_mps}}
+                  "speed_excess_mps": check.speed_excess_mps},
+        "timing_points": timing_rows(found, smooth)}
     if smooth is not None:
         document["smooth"] = {"energy_J": smooth.energy_j, "trip_time_s": smooth.run.trip_time_s,
                               "window_s": smooth.window_s, "max_jerk_mps3": smooth.max_jerk_mps3,
-                              "force_excess": smooth.force_excess, "speed_excess_mps": smooth.speed_excess_mps}
+                              "force_excess": smooth.force_excess, "speed_excess_mps": smooth.speed_excess_mps,
+                              "departure_s": float(smooth.clock_s[0]), "window_miss_s": smooth.miss_s}
     return document
+
+
+def timing_rows(found: Reference, smooth: SmoothReference | None) -> list[dict[str, Any]]:
+    """Each event of the timetable with its window, when and how fast the run meets it, and what binds.
+
+    `time_s`: of the optimal run; `simulated_time_s`: of its simulation; `smooth_time_s`: of the smooth one. `binds`:
+    'latest' or 'earliest' where the proof gives that limit a price, `price_W`: joules that a second of room would save.
+    Limits that are not there are null.
+    """
+    timetable, profile = found.timetable, found.profile
+    prices = found.certificate.prices_w(timetable).tolist()
+    at = np.searchsorted(profile.position_m, timetable.position_m)
+    late = (found.check.clock_s(profile) - profile.time_s)[at]
+    rows = []
+    for k, (event, price) in enumerate(zip(timetable.events, prices, strict=True)):
+        point, time, simulated = timetable.points[event.point], float(found.clock_s[k]), float(late[event.point])
+        rows.append({
+            "position_m": point.position_m, "kind": event.kind, "earliest_s": _limit(event.window.earliest_s),
+            "latest_s": _limit(event.window.latest_s), "slowest_mps": point.slowest_mps,
+            "fastest_mps": 0.0 if point.stands else _limit(point.fastest_mps), "dwell_s": event.dwell_s,
+            "time_s": time, "simulated_time_s": time + simulated,
+            "speed_mps": float(profile.speed_mps[at[event.point]]),
+            "smooth_time_s": None if smooth is None else float(smooth.clock_s[k]),
+            "binds": ("latest" if price > 0 else "earliest") if abs(price) >= LEAST_PRICE_W else None,
+            "price_W": abs(price) if abs(price) >= LEAST_PRICE_W else 0.0})
+    return rows
+
+
+def _limit(value: float) -> float | None:
+    return value if math.isfinite(value) else None
 
 
 def samples(vehicle: Vehicle, course: Course, run: SmoothRun, every_s: float) -> Array:

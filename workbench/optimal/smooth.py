@@ -16,8 +16,10 @@ from workbench.desired_curve import DEGREE, DesiredCurve
 from workbench.errors import InputError
 from workbench.optimal.course import Array, Course
 from workbench.optimal.envelope import InfeasibleRunError
+from workbench.optimal.planned_ahead import planned_ahead, waits
 from workbench.optimal.profile import Profile, largest_force
-from workbench.optimal.reference import Reference, Solver, find_reference
+from workbench.optimal.reference import Reference, Solver, find_reference, find_timed_reference
+from workbench.optimal.timetable import Timetable, as_timetable
 from workbench.optimal.vehicle import Vehicle
 from workbench.train import davis_resistance
 
@@ -53,6 +55,17 @@ class SmoothRun:
         s, v, a, j = self.position_m[k], self.speed_mps[k], self.acceleration_mps2[k], self.jerk_mps3[k]
         return s + t * (v + t * (a / 2 + t * j / 6)), v + t * (a + t * j / 2), a + t * j
 
+    def time_at(self, position_m: float) -> float:
+        """When it passes a position, s."""
+        early, late = 0.0, self.trip_time_s
+        for _ in range(80):
+            middle = (early + late) / 2
+            if float(self.at(np.array([middle]))[0][0]) < position_m:
+                early = middle
+            else:
+                late = middle
+        return late
+
     def desired_curve(self) -> DesiredCurve:
         """As the reference of the adaptive laws; raises WorkbenchError unless it starts and ends at a standstill."""
         rows = np.zeros((len(self.jerk_mps3), DEGREE + 1))
@@ -61,7 +74,7 @@ class SmoothRun:
         return DesiredCurve(self.breaks_s, rows)
 
 
-def smoothed(profile: Profile, window_s: float, dwell_s: float = 0.0) -> SmoothRun:
+def smoothed(profile: Profile, window_s: float, dwell_s: float | Array = 0.0) -> SmoothRun:
     """The moving average of a run over window_s; at each inner stop of its course the train stands for dwell_s.
 
     It begins where the run begins and lasts window_s longer; before and after the run the speed stays as it is there.
@@ -103,7 +116,8 @@ class SmoothReference:
     """A smooth run, the optimal run below it, and what smoothing changed.
 
     energy_j: at the supply. force_excess: largest force beyond its limit, as a share of it; speed_excess_mps: above the
-    speed limit; max_jerk_mps3: largest jerk.
+    speed limit; max_jerk_mps3: largest jerk. clock_s: when it is at each event of the timetable; miss_s: by how much
+    it misses a window at most.
     """
 
     run: SmoothRun
@@ -113,12 +127,14 @@ class SmoothReference:
     force_excess: float
     speed_excess_mps: float
     max_jerk_mps3: float
+    clock_s: Array
+    miss_s: float
 
 
-def smooth_reference(vehicle: Vehicle, course: Course, trip_time_s: float, window_s: float = WINDOW_S,
+def smooth_reference(vehicle: Vehicle, course: Course, asked: Timetable | float, window_s: float = WINDOW_S,
                      max_jerk_mps3: float | None = None, dwell_s: float = 0.0, start_mps: float = 0.0,
                      end_mps: float = 0.0, intervals: int | None = None, solver: Solver = "auto") -> SmoothReference:
-    """A smooth run within trip_time_s, which includes dwell_s at each inner stop.
+    """A smooth run in a timetable, or in a trip time in s that includes dwell_s at each inner stop.
 
     A run that begins or ends at a speed keeps it for half a window there. With a limit of the jerk the window is made
     as long as it takes. Raises InputError, InfeasibleRunError.
@@ -127,28 +143,52 @@ def smooth_reference(vehicle: Vehicle, course: Course, trip_time_s: float, windo
         raise InputError("", "window", "the smoothing window and the limit of the jerk must be positive: correct them")
     wait = max(dwell_s, window_s) if course.stops_m else 0.0
     for _ in range(JERK_ROUNDS):
-        spare = trip_time_s - window_s - len(course.stops_m) * wait
-        if spare <= 0:
-            raise InfeasibleRunError(f"{trip_time_s:g} s leave no time to run between {len(course.stops_m)} stops of "
-                                     f"{wait:g} s: allow more time")
         lowered = _lowered(vehicle, course, window_s)
         start, end = course.position_m[[0, -1]]
         if start_mps or end_mps:
             lowered = lowered.cut(start + start_mps * window_s / 2, end - end_mps * window_s / 2)
-        optimal = find_reference(vehicle, lowered, spare, start_mps, end_mps, intervals, solver)
-        run = smoothed(optimal.profile, window_s, wait)
+        if isinstance(asked, Timetable):
+            ahead = planned_ahead(asked, window_s, _margin(vehicle, window_s), lowered)
+            optimal = find_timed_reference(vehicle, lowered, ahead, start_mps, end_mps, intervals, solver)
+            run = smoothed(optimal.profile, window_s, waits(optimal.timetable, optimal.clock_s))
+        else:
+            spare = asked - window_s - len(course.stops_m) * wait
+            if spare <= 0:
+                raise InfeasibleRunError(f"{asked:g} s leave no time to run between {len(course.stops_m)} stops of "
+                                         f"{wait:g} s: allow more time")
+            optimal = find_reference(vehicle, lowered, spare, start_mps, end_mps, intervals, solver)
+            run = smoothed(optimal.profile, window_s, wait)
         jerk = float(np.abs(run.jerk_mps3).max())
         if max_jerk_mps3 is None or jerk <= max_jerk_mps3:
-            return _judged(vehicle, course, run, optimal, window_s, jerk)
+            found = _judged(vehicle, course, run, optimal, window_s, jerk)
+            return _with_clock(found, as_timetable(course, asked))
         window_s *= max(1.02 * jerk / max_jerk_mps3, 1.05)
         wait = max(wait, window_s) if course.stops_m else 0.0
     raise InfeasibleRunError(f"no window keeps the jerk below {max_jerk_mps3:g} m/s^3: allow more")
 
 
+def _margin(vehicle: Vehicle, window_s: float) -> float:
+    """By what the average speed of a braking train exceeds a limit that falls, m/s."""
+    return min(vehicle.max_deceleration_mps2, vehicle.braking_n / vehicle.inertia_kg) * window_s / 8
+
+
+def _with_clock(found: SmoothReference, timetable: Timetable) -> SmoothReference:
+    """The same with the clock of the smooth run: a stop is reached a window later, a departure is when it was."""
+    planned = found.optimal.clock_s
+    if timetable.trip_time_s is not None:
+        clock = np.array([0.0, found.run.trip_time_s])
+    else:
+        passed = [found.run.time_at(point.position_m) for point in timetable.points]
+        clock = np.array([planned[k] + (0.0 if event.waits else found.window_s) if event.kind != "passing"
+                          else planned[0] + passed[event.point] for k, event in enumerate(timetable.events)])
+    windows = [event.window for event in timetable.events]
+    miss = max(max(w.earliest_s - t, t - w.latest_s) for w, t in zip(windows, clock.tolist(), strict=True))
+    return replace(found, clock_s=clock, miss_s=max(miss, 0.0))
+
+
 def _lowered(vehicle: Vehicle, course: Course, window_s: float) -> Course:
     """The course with limits lower by what the average of a braking train exceeds them where they fall."""
-    braking = min(vehicle.max_deceleration_mps2, vehicle.braking_n / vehicle.inertia_kg)
-    margin = braking * window_s / 8
+    margin = _margin(vehicle, window_s)
     limit = course.limit_mps
     falls = np.append(limit[:-1] > limit[1:], False) | np.insert(limit[1:] < limit[:-1], 0, False)
     rises = np.append(limit[:-1] < limit[1:], False)
@@ -174,7 +214,8 @@ def _judged(vehicle: Vehicle, course: Course, run: SmoothRun, optimal: Reference
     power = v * np.where(force > 0, force / vehicle.traction_efficiency,
                          vehicle.regenerative_efficiency * np.maximum(force, -electric))
     return SmoothReference(run, optimal, window_s, float(power @ step) + vehicle.auxiliary_w * run.trip_time_s,
-                           max(float(excess.max()), 0.0), max(float((v - limit).max()), 0.0), jerk)
+                           max(float(excess.max()), 0.0), max(float((v - limit).max()), 0.0), jerk,
+                           optimal.clock_s, 0.0)
 
 
 def needed_force(vehicle: Vehicle, course: Course, s: Array, v: Array, a: Array) -> Array:

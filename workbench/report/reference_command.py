@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
@@ -11,19 +11,23 @@ import numpy as np
 from workbench.errors import InputError
 from workbench.json_output import write_json
 from workbench.optimal.bound_document import write_certificate
+from workbench.optimal.cars.car_train import CarTrain
 from workbench.optimal.cars.cars_document import cars_document, write_cars_csv
 from workbench.optimal.cars.multi_car import CarsRun, car_course, run_cars
 from workbench.optimal.course import Course
 from workbench.optimal.envelope import InfeasibleRunError
 from workbench.optimal.export import reference_document, samples, write_csv
 from workbench.optimal.inputs.files import load_cars, load_line, load_vehicle, notes_together
+from workbench.optimal.inputs.journey import load_timetable
 from workbench.optimal.inputs.line import Line, course
-from workbench.optimal.reference import Reference, Solver, find_reference, least_time
+from workbench.optimal.reference import Reference, Solver, find_reference, find_timed_reference, least_time
 from workbench.optimal.regimes import time_shares
 from workbench.optimal.smooth import SmoothReference, smooth_reference
+from workbench.optimal.timetable import Timetable
 from workbench.optimal.vehicle import Vehicle
 from workbench.report.cars_figure import couplers_figure
 from workbench.report.reference_figure import save_figure, saved
+from workbench.report.timing_lines import timing_lines
 
 KWH_J = 3.6e6
 FIGURES = (".svg", ".png", ".pdf")
@@ -51,6 +55,7 @@ class Request:
     figure: Path | None
     certificate: Path | None
     solver: Solver = "auto"
+    timetable: Path | None = None
 
 
 def reference_run(asked: Request) -> Iterator[str]:
@@ -63,6 +68,9 @@ def reference_run(asked: Request) -> Iterator[str]:
     for name, value in (("--dwell", asked.dwell_s), ("--from-speed", asked.start_mps), ("--to-speed", asked.end_mps)):
         if not 0 <= value < 1e5:
             raise InputError("", name, f"{value:g} is not usable: give 0 or more")
+    if asked.timetable:
+        yield from _timed_run(asked, line, vehicle, train, (*notes, *more))
+        return
     to_m = line.length_m if asked.to_m is None else asked.to_m
     stops = line.stops_between(asked.from_m, to_m) if asked.serve_stops else ()
     run = course(line, vehicle, asked.from_m, to_m, stops)
@@ -73,9 +81,52 @@ def reference_run(asked: Request) -> Iterator[str]:
                          f"one{_with_stops(stops, asked.dwell_s)}")
     found, smooth = _solve(asked, vehicle, run, dwell)
     cars = run_cars(train, run, car_course(line, train), smooth.run) if train else None
-    for note in (*notes, *more, *notes_together(line, vehicle)):
+    yield from _told(asked, line, vehicle, run, (*notes, *more), _Answer(found, smooth, cars), stops)
+
+
+@dataclass(frozen=True)
+class _Answer:
+    """What was found: the optimal run, the smooth one, and the cars where the train states them."""
+
+    found: Reference
+    smooth: SmoothReference
+    cars: CarsRun | None
+
+
+def _timed_run(asked: Request, line: Line, vehicle: Vehicle, train: CarTrain | None,
+               notes: tuple[str, ...]) -> Iterator[str]:
+    """The lines of a run by timetable, which says where it begins and ends and where it stops."""
+    assert asked.timetable is not None
+    for name, is_given in (("--time", asked.trip_time_s is not None), ("--stops", asked.serve_stops),
+                        ("--from-m", asked.from_m != 0), ("--to-m", asked.to_m is not None)):
+        if is_given:
+            raise InputError("", name, "does not go with --timetable, which says it: leave it out")
+    journey = load_timetable(asked.timetable, line.name, line.length_m, asked.dwell_s)
+    speeds: list[float] = []
+    for name, given, stated in (("--from-speed", asked.start_mps, journey.start_mps),
+                                ("--to-speed", asked.end_mps, journey.end_mps)):
+        if stated is not None and given not in (0, stated):
+            raise InputError("", name, f"{given:g} m/s contradicts the timetable, which says {stated:g} m/s: leave it "
+                             "out")
+        speeds.append(given if stated is None else stated)
+    asked = replace(asked, start_mps=speeds[0], end_mps=speeds[1])
+    timetable = journey.timetable
+    run = timetable.on(course(line, vehicle, timetable.points[0].position_m, timetable.points[-1].position_m))
+    found = find_timed_reference(vehicle, run, timetable, speeds[0], speeds[1], asked.intervals, asked.solver)
+    smooth = _smooth(asked, vehicle, run, timetable)
+    cars = run_cars(train, run, car_course(line, train), smooth.run) if train else None
+    yield from _told(asked, line, vehicle, run, notes, _Answer(found, smooth, cars), run.stops_m)
+
+
+def _told(asked: Request, line: Line, vehicle: Vehicle, run: Course, notes: tuple[str, ...], answer: _Answer,
+          stops: tuple[float, ...]) -> Iterator[str]:
+    """Notes, summary, timing points, and what was written."""
+    found, smooth, cars = answer.found, answer.smooth, answer.cars
+    for note in (*notes, *notes_together(line, vehicle)):
         yield f"note: {note}"
     yield from _summary(asked, line, vehicle, found, smooth, stops)
+    if asked.timetable:
+        yield from timing_lines(found, smooth)
     if cars:
         yield from _of_cars(cars)
     yield from _written(asked, vehicle, run, found, smooth, cars)
@@ -94,13 +145,16 @@ def _solve(asked: Request, vehicle: Vehicle, run: Course, dwell_s: float) -> tup
         if trouble.least_time_s is None or not dwell_s:
             raise
         raise InfeasibleRunError(f"{trouble}; waiting at stops adds {dwell_s:g} s", trouble.least_time_s) from None
+    return found, _smooth(asked, vehicle, run, asked.trip_time_s)
+
+
+def _smooth(asked: Request, vehicle: Vehicle, run: Course, within: Timetable | float) -> SmoothReference:
     try:
-        smooth = smooth_reference(vehicle, run, asked.trip_time_s, asked.window_s, asked.max_jerk_mps3, asked.dwell_s,
-                                  *ends, asked.intervals, asked.solver)
+        return smooth_reference(vehicle, run, within, asked.window_s, asked.max_jerk_mps3, asked.dwell_s,
+                                asked.start_mps, asked.end_mps, asked.intervals, asked.solver)
     except InfeasibleRunError as trouble:
         raise InfeasibleRunError(f"the run itself is feasible, its smooth reference is not: {trouble}; or choose a "
                                  "shorter --window", trouble.least_time_s) from None
-    return found, smooth
 
 
 def _with_stops(stops: tuple[float, ...], dwell_s: float) -> str:
@@ -110,9 +164,14 @@ def _with_stops(stops: tuple[float, ...], dwell_s: float) -> str:
 def _summary(asked: Request, line: Line, vehicle: Vehicle, found: Reference, smooth: SmoothReference,
              stops: tuple[float, ...]) -> Iterator[str]:
     length = found.profile.course.length_m
-    yield (f"{vehicle.name} on {line.name}: {length / 1e3:.3f} km in {asked.trip_time_s:g} s"
-           f"{_with_stops(stops, asked.dwell_s)}; the least feasible is "
-           f"{found.least_time_s + asked.dwell_s * len(stops):.1f} s")
+    if asked.timetable:
+        took = found.clock_s[-1] - found.clock_s[0]
+        yield (f"{vehicle.name} on {line.name}: {length / 1e3:.3f} km in {took:.1f} s by {asked.timetable.name}; "
+               f"running alone takes {found.least_time_s:.1f} s at least")
+    else:
+        yield (f"{vehicle.name} on {line.name}: {length / 1e3:.3f} km in {asked.trip_time_s:g} s"
+               f"{_with_stops(stops, asked.dwell_s)}; the least feasible is "
+               f"{found.least_time_s + asked.dwell_s * len(stops):.1f} s")
     yield (f"energy        {found.energy_j / KWH_J:.3f} kWh, any run takes at least "
            f"{found.lower_bound_j / KWH_J:.3f} kWh: gap {100 * found.gap:.3f} %, {found.status}")
     yield (f"solved        by {found.solver} in {1e3 * found.solve_s:.0f} ms, "
@@ -160,7 +219,7 @@ def _written(asked: Request, vehicle: Vehicle, run: Course, found: Reference, sm
         yield f"certificate: {asked.certificate} proves {proven / KWH_J:.6g} kWh in exact arithmetic"
     if asked.figure:
         save_figure(asked.figure, vehicle, found.profile, f"{vehicle.name}, {run.length_m / 1e3:.3f} km in "
-                    f"{found.profile.trip_time_s:.0f} s, {found.energy_j / KWH_J:.2f} kWh")
+                    f"{found.profile.trip_time_s:.0f} s, {found.energy_j / KWH_J:.2f} kWh", found.timetable)
         yield f"figure: {asked.figure}"
     if asked.figure and cars:
         couplers = asked.figure.with_name(f"{asked.figure.stem}_couplers{asked.figure.suffix}")

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from itertools import pairwise
 from pathlib import Path
 
 import matplotlib as mpl
 import numpy as np
+from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.patches import Patch
 from numpy.typing import NDArray
@@ -15,6 +17,7 @@ from numpy.typing import NDArray
 from workbench.errors import InputError
 from workbench.optimal.profile import Profile
 from workbench.optimal.regimes import REGIMES, regimes
+from workbench.optimal.timetable import Timetable, TimingPoint
 from workbench.optimal.vehicle import Vehicle
 from workbench.report.numbers import number
 from workbench.report.svg import FAINT, INK, PALETTE, Array, drawing, svg, thin
@@ -25,8 +28,12 @@ PAPER_GREY = "#9a9a9a"
 COLOURS = dict(zip(REGIMES, (PALETTE[0], PALETTE[4], PALETTE[2], PALETTE[1]), strict=True))
 
 
-def reference_figure(vehicle: Vehicle, profile: Profile, title: str, faint: str = FAINT) -> Figure:
-    """Speed, limit and shaded regimes over position; below, the line's force as an equivalent grade in per mille."""
+def reference_figure(vehicle: Vehicle, profile: Profile, title: str, faint: str = FAINT,
+                     timetable: Timetable | None = None) -> Figure:
+    """Speed, limit and shaded regimes over position; below, the line's force as an equivalent grade in per mille.
+
+    Timing points on the way are marked with their windows of time in s, and of speed where they have one.
+    """
     x = profile.position_m / 1e3
     figure = Figure(figsize=(9, 5), layout="constrained")
     above, below = figure.subplots(2, 1, sharex=True, height_ratios=(3, 1))
@@ -34,6 +41,8 @@ def reference_figure(vehicle: Vehicle, profile: Profile, title: str, faint: str 
         above.axvspan(first, last, color=COLOURS[name], alpha=0.22, linewidth=0)
     above.stairs(profile.course.limit_mps * 3.6, x, baseline=None, color=faint, linewidth=1.6)
     above.plot(*thin(x, profile.speed_mps * 3.6, 800), color=INK, linewidth=1.4)
+    for point in timetable.points[1:-1] if timetable else ():
+        _mark(above, point, faint)
     above.set(ylabel="speed (km/h)", ylim=(0, None), title=title)
     above.legend(handles=[Patch(color=COLOURS[name], alpha=0.22, label=name) for name in REGIMES], ncols=4,
                  loc="lower center")
@@ -44,6 +53,23 @@ def reference_figure(vehicle: Vehicle, profile: Profile, title: str, faint: str 
     below.axhline(0, color=INK, linewidth=0.6)
     below.set(xlabel="position (km)", ylabel="grade and\ncurves (‰)", xlim=(float(x[0]), float(x[-1])))
     return figure
+
+
+def _mark(axes: Axes, point: TimingPoint, faint: str) -> None:
+    """A timing point: a line with its windows, and a bar over its range of speeds."""
+    at = point.position_m / 1e3
+    windows = [point.arrival, point.departure] if point.stands else [point.arrival]
+    words = ", ".join(f"{_bound(w.earliest_s)}–{_bound(w.latest_s)} s" for w in windows)
+    axes.axvline(at, color=faint, linewidth=0.8, linestyle=":")
+    axes.annotate(words, (at, 1.0), (-3, -3), xycoords=("data", "axes fraction"), textcoords="offset points",
+                  rotation=90, ha="right", va="top", fontsize=7)
+    if not point.stands and (point.slowest_mps > 0 or math.isfinite(point.fastest_mps)):
+        top = point.fastest_mps if math.isfinite(point.fastest_mps) else axes.get_ylim()[1] / 3.6
+        axes.plot([at, at], [3.6 * point.slowest_mps, 3.6 * top], color=INK, linewidth=2.5, solid_capstyle="butt")
+
+
+def _bound(time_s: float) -> str:
+    return f"{time_s:g}" if math.isfinite(time_s) else ""
 
 
 def stretches(names: NDArray[np.str_], edges: Array) -> list[tuple[str, tuple[float, float]]]:
@@ -61,9 +87,10 @@ def reference_svg(vehicle: Vehicle, profile: Profile, title: str) -> str:
                    "limits, with the regimes traction, cruise, coast and brake shaded; grade and curves below")
 
 
-def save_figure(path: Path, vehicle: Vehicle, profile: Profile, title: str) -> None:
+def save_figure(path: Path, vehicle: Vehicle, profile: Profile, title: str,
+                timetable: Timetable | None = None) -> None:
     """Write the figure in the format of the file's ending; raises InputError where it cannot be written."""
-    saved(path, lambda faint: reference_figure(vehicle, profile, title, faint))
+    saved(path, lambda faint: reference_figure(vehicle, profile, title, faint, timetable))
 
 
 def saved(path: Path, make: Callable[[str], Figure]) -> None:

@@ -20,7 +20,7 @@ from workbench.optimal.inputs.line_checks import NEAREST_STOPS_M
 from workbench.optimal.inputs.read_json import read_json
 from workbench.optimal.inputs.ttobench import Metadata
 from workbench.optimal.inputs.units import LENGTH, SPEED, Units, to_si
-from workbench.optimal.timetable import TimingPoint, Timetable, Window
+from workbench.optimal.timetable import Timetable, TimingPoint, Window
 from workbench.toml_input import Number, Record, SourcedRecord, Text, load_record, validate_record
 
 TIME: Units = {"s": Fraction(1), "min": Fraction(60), "h": Fraction(3600)}

@@ -1,0 +1,324 @@
+"""Runs by timetable: against one trip time, against glued runs, against random runs, and what no run can meet."""
+
+import copy
+import math
+from dataclasses import replace
+from fractions import Fraction
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from optimal_instances import courses, numbers, random_runs, vehicles
+from scipy.optimize import minimize_scalar
+from test_optimal_bound import own_energy
+
+from workbench.errors import InputError, WorkbenchError
+from workbench.optimal.bound import lower_bound
+from workbench.optimal.bound_checker import checked_bound
+from workbench.optimal.bound_document import bound_document
+from workbench.optimal.certificate import Certificate
+from workbench.optimal.course import Course
+from workbench.optimal.envelope import InfeasibleRunError
+from workbench.optimal.grid import kept_borders
+from workbench.optimal.profile import energy_j
+from workbench.optimal.reference import find_reference, find_timed_reference, least_time
+from workbench.optimal.schedule import Miss, leg_times, schedule
+from workbench.optimal.smooth import smooth_reference
+from workbench.optimal.timetable import TOUCH_S, Timetable, TimingPoint, Window
+from workbench.optimal.vehicle import ForceLimit, Vehicle
+
+TRAIN = Vehicle("regenerating", 3e5, (4e3, 80.0, 9.0), ForceLimit(2e5, 2.2e6), ForceLimit(1.2e5, 2.5e6), 2e5,
+                rotating_fraction=0.06, traction_efficiency=0.85, regenerative_efficiency=0.7)
+MIDDLE_M, END_M = 6000.0, 12000.0
+
+
+def line() -> Course:
+    force = np.array([[0.0, 0.0], [1.2e4, 1.2e4], [0.0, -8e3]])
+    return Course(np.array([0.0, 4000.0, 8000.0, END_M]), np.array([35.0, 28.0, 35.0]), force, np.zeros((3, 2)))
+
+
+COURSE = line()
+TIME_S = 1.35 * least_time(TRAIN, COURSE).trip_time_s
+FREE = find_reference(TRAIN, COURSE, TIME_S)
+FREE_S = float(np.interp(MIDDLE_M, FREE.profile.position_m, FREE.profile.time_s))
+
+
+def by(middle: Window, end: Window | None = None, **more: float | bool) -> Timetable:
+    return Timetable((TimingPoint(0.0, departure=Window(0.0, 0.0)), TimingPoint(MIDDLE_M, middle, **more),
+                      TimingPoint(END_M, arrival=end or Window(latest_s=TIME_S))))
+
+
+def require_kept(found, timetable):
+    """Every window, by the run's own times and by the simulation's."""
+    for clock in (found.clock_s, found.clock_s + np.array([
+            (found.check.clock_s(found.profile) - found.profile.time_s)[
+                np.searchsorted(found.profile.position_m, timetable.points[e.point].position_m)]
+            for e in timetable.events])):
+        slack = TOUCH_S if clock is found.clock_s else 1e-3
+        for time, event in zip(clock, timetable.events, strict=True):
+            assert event.window.earliest_s - slack <= time <= event.window.latest_s + slack
+    legs = leg_times(timetable, found.profile)
+    at = 0
+    for k, event in enumerate(timetable.events):
+        if k and event.waits:
+            assert found.clock_s[k] - found.clock_s[k - 1] >= event.dwell_s - TOUCH_S
+        elif k:
+            assert found.clock_s[k] - found.clock_s[k - 1] == pytest.approx(legs[at], abs=1e-6)
+            at += 1
+
+
+def test_one_window_at_the_end_is_a_trip_time():
+    only = Timetable((TimingPoint(0.0, departure=Window(0.0, 0.0)),
+                      TimingPoint(END_M, arrival=Window(latest_s=TIME_S))))
+    found = find_timed_reference(TRAIN, COURSE, only)
+    assert found.energy_j == pytest.approx(FREE.energy_j, rel=1e-6)
+    assert found.lower_bound_j == pytest.approx(FREE.lower_bound_j, rel=1e-6)
+    assert found.certificate.time_price_w == pytest.approx(FREE.certificate.time_price_w, rel=1e-4)
+
+
+def test_a_clock_that_begins_later_changes_nothing():
+    later = Timetable((TimingPoint(0.0, departure=Window(1000.0, 1000.0)),
+                       TimingPoint(END_M, arrival=Window(latest_s=1000.0 + TIME_S))))
+    found = find_timed_reference(TRAIN, COURSE, later)
+    assert found.lower_bound_j == pytest.approx(FREE.lower_bound_j, rel=1e-6)
+    assert found.clock_s[0] == 1000.0
+
+
+def test_a_window_that_the_free_run_meets_anyway_changes_nothing():
+    timetable = by(Window(FREE_S - 20, FREE_S + 20))
+    found = find_timed_reference(TRAIN, COURSE, timetable)
+    assert found.energy_j == pytest.approx(FREE.energy_j, rel=2e-4)
+    assert found.lower_bound_j == pytest.approx(FREE.lower_bound_j, rel=3e-4)
+    prices = found.certificate.prices_w(timetable)
+    assert abs(prices[1]) < 2e-3 * prices[2]
+    require_kept(found, timetable)
+
+
+def glued(first_s: float, second_s: float) -> tuple[float, float]:
+    """The least energy of two runs of so many seconds, one up to the middle and one from it, and its speed there."""
+    def energy(speed: float) -> float:
+        try:
+            first = find_reference(TRAIN, COURSE.cut(0.0, MIDDLE_M), first_s, 0.0, speed, intervals=300)
+            second = find_reference(TRAIN, COURSE.cut(MIDDLE_M, END_M), second_s, speed, 0.0, intervals=300)
+            return first.energy_j + second.energy_j
+        except InfeasibleRunError:
+            return 1e12
+
+    best = minimize_scalar(energy, bounds=(8.0, 28.0), method="bounded", options={"xatol": 0.05})
+    return float(best.fun), float(best.x)
+
+
+@pytest.mark.parametrize(("shift_s", "sign"), [(-20.0, 1), (20.0, -1)])
+def test_a_tight_window_costs_what_two_glued_runs_cost(shift_s, sign):
+    """Sooner than free, so that the latest time binds; later, so that the earliest does."""
+    at = FREE_S + shift_s
+    timetable = by(Window(latest_s=at) if sign > 0 else Window(at))
+    found = find_timed_reference(TRAIN, COURSE, timetable)
+    require_kept(found, timetable)
+    energy, speed = glued(at, TIME_S - at)
+    assert found.energy_j > FREE.energy_j * 1.0005
+    assert found.energy_j == pytest.approx(energy, rel=1e-3)
+    assert found.lower_bound_j <= energy
+    assert found.gap <= 1e-3
+    middle = np.searchsorted(found.profile.position_m, MIDDLE_M)
+    assert found.profile.speed_mps[middle] == pytest.approx(speed, abs=0.6)
+    prices = found.certificate.prices_w(timetable)
+    assert sign * prices[1] > 0.01 * prices[2]
+
+
+def test_the_price_of_a_window_is_the_slope_of_the_energy():
+    at = FREE_S - 20.0
+    one, two, three = (find_timed_reference(TRAIN, COURSE, by(Window(latest_s=at + d))) for d in (-1.0, 0.0, 1.0))
+    price = two.certificate.window_prices_w[1]
+    assert (one.energy_j - three.energy_j) / 2 == pytest.approx(price, rel=0.1)
+
+
+@pytest.mark.parametrize("more", [{"fastest_mps": 15.0}, {"slowest_mps": 27.0}, {"slowest_mps": 18.0,
+                                                                                "fastest_mps": 18.0}])
+def test_a_window_of_speed_holds_and_is_priced(more):
+    timetable = by(Window(), **more)
+    found = find_timed_reference(TRAIN, COURSE, timetable)
+    speed = found.profile.speed_mps[np.searchsorted(found.profile.position_m, MIDDLE_M)]
+    assert more.get("slowest_mps", 0.0) - 1e-6 <= speed <= more.get("fastest_mps", 99.0) + 1e-9
+    assert found.gap <= 1e-3
+    assert found.energy_j >= FREE.lower_bound_j
+    assert found.energy_j > FREE.energy_j
+
+
+def test_a_stop_with_two_windows_waits_for_its_departure():
+    stop = TimingPoint(MIDDLE_M, Window(250.0, 330.0), Window(400.0, 420.0), stands=True)
+    timetable = Timetable((TimingPoint(0.0, departure=Window(0.0, 0.0)), stop,
+                           TimingPoint(END_M, arrival=Window(latest_s=760.0))))
+    found = find_timed_reference(TRAIN, COURSE, timetable)
+    require_kept(found, timetable)
+    parts = sum(find_reference(TRAIN, COURSE.cut(*part), time).energy_j
+                for part, time in (((0.0, MIDDLE_M), 330.0), ((MIDDLE_M, END_M), 360.0)))
+    assert found.energy_j == pytest.approx(parts, rel=1e-3)
+    assert found.lower_bound_j <= parts
+    smooth = smooth_reference(TRAIN, COURSE, timetable, 1.0)
+    assert smooth.miss_s == 0.0
+    at, v, _ = smooth.run.at(np.linspace(smooth.clock_s[1] + 1e-3, smooth.clock_s[2] - 1e-3, 5) - smooth.clock_s[0])
+    np.testing.assert_allclose(at, MIDDLE_M, atol=1e-3)
+    np.testing.assert_allclose(v, 0.0, atol=1e-6)
+
+
+def test_the_smooth_run_passes_within_its_window():
+    timetable = by(Window(FREE_S - 21, FREE_S - 20))
+    smooth = smooth_reference(TRAIN, COURSE, timetable, 1.0)
+    assert smooth.miss_s == 0.0
+    position = smooth.run.at(smooth.clock_s[1:2] - smooth.clock_s[0])[0][0]
+    assert position == pytest.approx(MIDDLE_M, abs=1e-3)
+
+
+@settings(max_examples=60)
+@given(vehicles(), courses(4), st.data(), st.integers(0, 2**31))
+def test_no_run_that_meets_the_windows_takes_less_than_any_certificate_proves(vehicle, course, data, seed):
+    """Windows are put around the times of a run; prices, p and cells are arbitrary, and cells may cross the points."""
+    runs = random_runs(vehicle, course, seed, 6)
+    if not runs:
+        return
+    length = float(course.position_m[-1])
+    inner = sorted({round(x, 2) for x in data.draw(st.lists(numbers(30.0, length - 30.0), min_size=1, max_size=3))})
+    inner = [x for k, x in enumerate(inner) if k == 0 or x - inner[k - 1] > 1]
+    positions = kept_borders(course)
+    left, right = (np.array([data.draw(numbers(-0.7, 2.5)) for _ in positions[1:]]) for _ in range(2))
+    for run in runs:
+        rng = np.random.default_rng(seed)
+        origin, wait = rng.uniform(0, 100, 2)
+        def at(x, run=run):
+            b = np.interp(x, run.position_m, run.half_square)
+            k = np.clip(np.searchsorted(run.position_m, x) - 1, 0, len(run.time_s) - 2)
+            return run.time_s[k] + 2 * (x - run.position_m[k]) / (np.sqrt(2 * b) + run.speed_mps[k]), np.sqrt(2 * b)
+
+        points = []
+        for x in inner:
+            time, speed = at(x)
+            early, late, low, high = rng.uniform(0, 30, 4) * rng.integers(0, 2, 4)
+            points.append(TimingPoint(x, Window(origin + wait + time - early, origin + wait + time + late),
+                                      slowest_mps=max(speed - low, 0.0), fastest_mps=speed + high + 1e-9))
+        timetable = Timetable((TimingPoint(0.0, departure=Window(origin, origin + wait)), *points,
+                               TimingPoint(length, arrival=Window(latest_s=origin + wait + run.trip_time_s))))
+        levels = np.array([data.draw(st.sampled_from([0.0, 2e4, 3e5, 2e6])) for _ in timetable.events])
+        *earlier, last = (-np.diff(np.append(levels, 0.0))).tolist()
+        extra = np.unique(np.concatenate((positions, [p.position_m for p in points]))) if seed % 2 else positions
+        owner = np.clip(np.searchsorted(positions, extra[:-1], side="right") - 1, 0, len(left) - 1)
+        certificate = Certificate(extra, left[owner], right[owner], last, tuple(earlier))
+        bound = lower_bound(vehicle, timetable.on(course), certificate, timetable)
+        energy, tolerance = own_energy(vehicle, run)
+        assert bound <= energy + tolerance + 1e-9 * float(np.abs(levels).sum()) * (200 + run.trip_time_s)
+
+
+DOCUMENT: dict = {}
+
+
+def document() -> dict:
+    if not DOCUMENT:
+        timetable = by(Window(FREE_S - 30, FREE_S - 20), fastest_mps=20.0)
+        found = find_timed_reference(TRAIN, COURSE, timetable, intervals=30)
+        DOCUMENT.update(bound_document(TRAIN, COURSE, found, 0.0, 0.0))
+        assert DOCUMENT["lower_bound_J"] == pytest.approx(found.lower_bound_j, rel=1e-6)
+    return copy.deepcopy(DOCUMENT)
+
+
+TAMPERING = {
+    "a later latest time": lambda d: d["events"][1].__setitem__("latest_s", d["events"][1]["latest_s"] + 1),
+    "another arrival": lambda d: d["events"][-1].__setitem__("latest_s", d["events"][-1]["latest_s"] + 1),
+    "a smaller price": lambda d: d["events"][1].__setitem__("price_w", 0.5 * d["events"][1]["price_w"]),
+    "a negative level": lambda d: d["events"][-1].__setitem__("price_w", -1.0),
+    "no such limit": lambda d: d["events"][1].__setitem__("latest_s", None),
+    "a cell's price": lambda d: d["cell_price_w"].__setitem__(0, d["cell_price_w"][0] * 1.001),
+    "a lower cell's price": lambda d: d["cell_price_w"].__setitem__(0, d["cell_price_w"][0] * 0.999),
+    "a cell's price beyond the point": lambda d: d["cell_price_w"].__setitem__(-1, d["cell_price_w"][0]),
+    "a point elsewhere": lambda d: d["events"][1].__setitem__("position_m", 2000.0),
+    "a term's time": lambda d: d["terms"]["of_force"].__setitem__(0, d["terms"]["of_force"][0] - 1e3),
+    "a faster passing": lambda d: d["jumps"]["fastest_mps"].__setitem__(
+        int(np.argmin(d["jumps"]["inertia_times_fall"])), 40.0),
+    "a jump": lambda d: d["jumps"]["inertia_times_fall"].__setitem__(0, -1e9),
+    "a fixed part": lambda d: d.__setitem__("fixed_j", d["fixed_j"] + 1e3),
+    "a waiting that is none": lambda d: d["events"][1].__setitem__("dwell_s", 10.0),
+    "cells that end elsewhere": lambda d: d["cell_m"].__setitem__(0, d["cell_m"][0] + 1.0),
+}
+
+
+@pytest.mark.parametrize("name", TAMPERING)
+def test_a_tampered_certificate_is_refused(name):
+    made = document()
+    TAMPERING[name](made)
+    with pytest.raises((ValueError, TypeError)):
+        checked_bound(made)
+
+
+def test_the_untouched_certificate_proves_its_bound_and_old_ones_hold_too():
+    made = document()
+    assert checked_bound(made) >= Fraction(made["lower_bound_J"])
+    for name in ("events", "cell_price_w", "jumps", "line_j", "ends_j", "origin_s", "start_m"):
+        del made[name]
+    del made["terms"]["of_force"]
+    assert checked_bound(made) >= Fraction(made["lower_bound_J"])
+
+
+IMPOSSIBLE = [
+    (by(Window(latest_s=100.0)), r"timing point 2 at 6000 m cannot be met: passing by 100 s asked, .* is the earliest, "
+                                 r".* s later, as fast as can be after departure at 0 m not before 0 s \(.*limit"),
+    (by(Window(500.0), Window(latest_s=600.0)), "timing point 3 at 12000 m cannot be met: arrival by 600 s .* after "
+                                                "passing at 6000 m not before 500 s"),
+    (by(Window(700.0), Window(latest_s=600.0)), "timing point 3 at 12000 m cannot be met"),
+    (by(Window(), slowest_mps=30.0), "timing point 2 at 6000 m asks for 30 m/s at least: .* allow 28 m/s there"),
+    (Timetable((TimingPoint(0.0, departure=Window(0.0, 0.0)),
+                TimingPoint(MIDDLE_M, Window(300.0), Window(latest_s=310.0), True, dwell_s=30.0),
+                TimingPoint(END_M, arrival=Window(latest_s=900.0)))),
+     "departure by 310 s asked, 330.0 s is the earliest, 20.0 s later, because .* the least dwell is 30 s"),
+]
+
+
+@pytest.mark.parametrize(("timetable", "words"), IMPOSSIBLE)
+def test_what_no_run_meets_is_refused_in_one_line(timetable, words):
+    with pytest.raises(InfeasibleRunError, match=words) as caught:
+        find_timed_reference(TRAIN, COURSE, timetable)
+    assert "\n" not in str(caught.value)
+
+
+def test_the_nonlinear_program_says_that_it_knows_no_windows():
+    with pytest.raises(InputError, match="'nlp' knows no timetable"):
+        find_timed_reference(TRAIN, COURSE, by(Window(FREE_S - 20)), solver="nlp")
+
+
+def test_a_timetable_of_another_course_or_without_limits_is_refused():
+    with pytest.raises(WorkbenchError, match="cut it"):
+        find_timed_reference(TRAIN, COURSE.cut(0.0, 9000.0), by(Window()))
+    with pytest.raises(WorkbenchError, match="latest one"):
+        by(Window(), Window(0.0))
+
+
+@given(st.lists(numbers(10.0, 300.0), min_size=1, max_size=5), st.data())
+def test_a_schedule_meets_every_window_or_names_one_that_is_missed(legs, data):
+    points = [TimingPoint(0.0, departure=Window(0.0, data.draw(st.sampled_from([0.0, 50.0]))))]
+    for k in range(1, len(legs) + 1):
+        low = data.draw(numbers(0.0, 900.0))
+        high = low + data.draw(numbers(0.0, 600.0))
+        stands = data.draw(st.booleans()) and k < len(legs)
+        points.append(TimingPoint(100.0 * k, Window(low, high), Window(low, high + 60) if stands else Window(), stands,
+                                  20.0 if stands else 0.0))
+    timetable = Timetable(tuple(points))
+    clock = schedule(timetable, np.array(legs))
+    if isinstance(clock, Miss):
+        assert clock.by_s > 0
+        return
+    for k, event in enumerate(timetable.events):
+        assert event.window.earliest_s - 1e-9 <= clock[k] <= event.window.latest_s + 1e-9
+        if k:
+            passed = clock[k] - clock[k - 1]
+            assert passed >= event.dwell_s - 1e-9 if event.waits else passed == pytest.approx(legs[event.point - 1])
+
+
+def test_a_downhill_run_that_has_more_time_than_use_for_waits_or_slows_down():
+    """Down a slope and without an electric brake no second is worth anything; the window must be met all the same."""
+    vehicle = replace(TRAIN, regenerative=ForceLimit(0.0), regenerative_efficiency=0.0)
+    slope = Course(np.array([0.0, END_M]), np.array([30.0]), np.full((1, 2), -6e4), np.zeros((1, 2)))
+    for end in (Window(1500.0, 1501.0), Window(1300.0, 1300.0)):
+        timetable = by(Window(900.0, 901.0 if end.latest_s > 1300 else 900.0), end)
+        found = find_timed_reference(vehicle, slope, timetable)
+        require_kept(found, timetable)
+        assert found.energy_j >= found.lower_bound_j
+        assert math.isclose(energy_j(vehicle, found.profile), found.energy_j, rel_tol=1e-9, abs_tol=1.0)
