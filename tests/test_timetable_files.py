@@ -142,7 +142,6 @@ def test_every_output_of_a_run_by_timetable(tmp_path):
 @pytest.mark.parametrize(("options", "words"), [
     (("--time", 2600), "--time: does not go with --timetable"), (("--stops",), "--stops: does not go"),
     (("--to-m", 9000), "--to-m: does not go"), (("--from-speed", 5), "contradicts the timetable"),
-    (("--solver", "nlp"), "knows no timetable"),
 ])
 def test_options_that_a_timetable_says_are_refused(options, words):
     with pytest.raises(WorkbenchError, match=words):

@@ -5,7 +5,8 @@ The time of an interval is exactly 2 h / (v_k + v_k+1). Its motion is that of th
 linear in v. Limits of power and tables hold at the mean speed (v_k + v_k+1) / 2, where force times speed is the
 interval's mean power.
 Stage by stage (speed and time so far; then next speed, traction, both brakes) it has the structure that fatrop wants;
-ipopt solves the same program. Hessians are exact. The duals of the motion give the same p as the cone program's.
+ipopt solves the same program, and alone the one whose clock waits at stops and has windows. Hessians are exact. The
+duals of the motion give the same p as the cone program's.
 """
 
 from __future__ import annotations
@@ -18,10 +19,11 @@ import casadi as ca
 import numpy as np
 
 from workbench.compile import casadi_function
+from workbench.optimal.clock_nodes import ClockNodes, clock_nodes
 from workbench.optimal.course import Array
 from workbench.optimal.grid import Grid
-from workbench.optimal.socp import NoPlanError, Plan
-from workbench.optimal.timetable import in_time
+from workbench.optimal.socp import LEAST_MARGIN, NoPlanError, Plan
+from workbench.optimal.timetable import Timetable, as_timetable
 from workbench.optimal.vehicle import ForceLimit, Vehicle
 from workbench.train import a_0, b_0, c_0, davis_resistance, v
 
@@ -35,6 +37,8 @@ FEASIBLE = 1e-6
 # Of one stage: speed and time at its start; next speed, traction, electric and friction brake.
 STATES, CONTROLS = 2, 4
 ITERATIONS = 500
+# The rows of a stage that hold the windows of arrival and departure begin here.
+WINDOW_ROWS = 4
 
 
 @dataclass(frozen=True)
@@ -60,14 +64,18 @@ class _Program:
     scales: _Scales
 
 
-def solve_nlp(vehicle: Vehicle, grid: Grid, trip_time_s: float, guess: Array, start_mps: float = 0.0,
-              end_mps: float = 0.0, solver: NlpSolver = "fatrop") -> Plan:
-    """The run of least energy within trip_time_s near `guess`, half the squared speed at the nodes, shape (n + 1,).
+def solve_nlp(vehicle: Vehicle, grid: Grid, asked: Timetable | float, guess: Array, start_mps: float = 0.0,
+              end_mps: float = 0.0, solver: NlpSolver = "fatrop", extra_s: Array | None = None) -> Plan:
+    """The run of least energy in a timetable or a trip time near `guess`, half the squared speed at the nodes.
 
+    extra_s: what each leg between timing points takes beyond the program. With windows on the way only by ipopt.
     A local optimum: the bound, not the solver, says how good it is. Raises NoPlanError where the solver finds none or
     returns one that breaks a constraint.
     """
-    program = _program(vehicle, grid, trip_time_s, start_mps, end_mps)
+    timetable = as_timetable(grid.course, asked)
+    extra = np.zeros(len(timetable.points) - 1) if extra_s is None else extra_s
+    clock = clock_nodes(timetable, grid.position_m, extra)
+    program = _program(vehicle, grid, clock, start_mps, end_mps)
     first = _first_guess(vehicle, grid, guess, program.scales)
     run = ca.nlpsol("optimal_run", solver, program.problem, _options(solver, program))
     started = time.perf_counter()
@@ -82,12 +90,13 @@ def solve_nlp(vehicle: Vehicle, grid: Grid, trip_time_s: float, guess: Array, st
     if not stats["success"] or not violation <= FEASIBLE:
         raise NoPlanError(f"{solver} says '{status}' of the nonlinear program and breaks a constraint by "
                           f"{violation:.2g}: try other intervals")
-    return _plan(vehicle, grid, program, x, np.array(answer["lam_g"]).ravel(), float(answer["f"]), seconds, status)
+    return _plan(vehicle, grid, program, x, np.array(answer["lam_g"]).ravel(), float(answer["f"]), seconds, status,
+                 clock)
 
 
-def _program(vehicle: Vehicle, grid: Grid, trip_time_s: float, start_mps: float, end_mps: float) -> _Program:
+def _program(vehicle: Vehicle, grid: Grid, nodes: ClockNodes, start_mps: float, end_mps: float) -> _Program:
     h, n = grid.step_m, len(grid.limit_mps)
-    scales = _Scales(float(grid.limit_mps.max()), max(vehicle.traction.at(0.0), vehicle.braking_n), trip_time_s,
+    scales = _Scales(float(grid.limit_mps.max()), max(vehicle.traction.at(0.0), vehicle.braking_n), nodes.horizon_s,
                      max(vehicle.traction.at(0.0), vehicle.braking_n) * grid.course.length_m)
     free = ~grid.stands
     free[-1] = False
@@ -110,9 +119,14 @@ def _program(vehicle: Vehicle, grid: Grid, trip_time_s: float, start_mps: float,
     ending[-1] = end_mps
     top = np.minimum(grid.node_limit_mps[1:], ending) / scales.speed_mps
     slowest = np.where(np.isinf(ending), SLOWEST_SHARE, top)
+    slowest = np.maximum(slowest, np.minimum(grid.node_least_mps[1:] * LEAST_MARGIN / scales.speed_mps, top))
+    between = nodes.between / scales.time_s
     table: list[tuple[Any, Any, Any]] = [
-        (ahead[0, :] - then, 0.0, 0.0), (ahead[1, :] - clock - duration, 0.0, 0.0), (motion, 0.0, 0.0),
+        (ahead[0, :] - then, 0.0, 0.0), (ahead[1, :] - clock - duration, between[:, 0], between[:, 1]),
+        (motion, 0.0, 0.0),
         (then, slowest, top)]
+    if nodes.timetable.trip_time_s is None:
+        table += [(clock + duration, *(nodes.arrival / scales.time_s).T), (clock, *(nodes.departure / scales.time_s).T)]
     for force, limit in ((pull, vehicle.traction), (brake, vehicle.regenerative)):
         if np.isfinite(limit.power_w) and limit.force_n > 0:
             table.append((force * mean * scales.force_n / limit.power_w, -np.inf, 1.0))
@@ -126,6 +140,8 @@ def _program(vehicle: Vehicle, grid: Grid, trip_time_s: float, start_mps: float,
     rows = ca.vertcat(*(expression for expression, _, _ in table))
     low = np.stack([np.broadcast_to(bound, n) for _, bound, _ in table]).astype(float)
     high = np.stack([np.broadcast_to(bound, n) for _, _, bound in table]).astype(float)
+    # A run may begin later than at zero where its departure's own row says until when.
+    later = np.inf if np.isfinite(nodes.departure[0, 0]) else 0.0
     begin = ca.vertcat(one[0, 0] - start_mps / scales.speed_mps, one[1, 0])
     problem = {"x": ca.vertcat(ca.vec(one), last), "f": cost,
                "g": ca.vertcat(rows[:, 0], begin, ca.vec(rows[:, 1:]), last[1])}
@@ -136,7 +152,7 @@ def _program(vehicle: Vehicle, grid: Grid, trip_time_s: float, start_mps: float,
     return _Program(problem, np.append(np.tile(stage_low, n), [-np.inf] * 2),
                     np.append(np.tile(stage_high, n), [np.inf] * 2),
                     np.concatenate((low[:, 0], [0.0, 0.0], low[:, 1:].T.ravel(), [-np.inf])),
-                    np.concatenate((high[:, 0], [0.0, 0.0], high[:, 1:].T.ravel(), [1.0])),
+                    np.concatenate((high[:, 0], [0.0, later], high[:, 1:].T.ravel(), [1.0])),
                     (len(table), n), scales)
 
 
@@ -179,7 +195,7 @@ def _options(solver: NlpSolver, program: _Program) -> dict[str, Any]:
 
 
 def _plan(vehicle: Vehicle, grid: Grid, program: _Program, x: Array, duals: Array, cost: float, seconds: float,
-          status: str) -> Plan:
+          status: str, clock: ClockNodes) -> Plan:
     per_stage, n = program.rows
     stages = x[:-STATES].reshape(n, STATES + CONTROLS)
     rows = np.concatenate((duals[:per_stage], duals[per_stage + 2:-1])).reshape(n, per_stage)
@@ -194,6 +210,16 @@ def _plan(vehicle: Vehicle, grid: Grid, program: _Program, x: Array, duals: Arra
         # Limits of the acceleration, in the last row, act on db/ds itself: they belong to the price of what changes b.
         price = price + rows[:, -1] * scales.force_n / vehicle.inertia_kg
     adjoint = price * work / (scales.force_n * grid.step_m)
-    price = np.array([0.0, max(float(duals[-1]), 0.0) * work / scales.time_s])
+    price_of_time = _prices(clock, grid, rows, float(duals[-1])) * work / scales.time_s
     return Plan(grid, half_square, (stages[:, 3] - stages[:, 4] - stages[:, 5]) * scales.force_n, adjoint,
-                in_time(grid.course, scales.time_s), price, cost * work, seconds, status)
+                clock.timetable, price_of_time, cost * work, seconds, status)
+
+
+def _prices(clock: ClockNodes, grid: Grid, rows: Array, at_end: float) -> Array:
+    """The price of each event in scaled units: the duals of its row, and that of the last arrival in all."""
+    found = np.zeros(len(clock.timetable.events))
+    found[-1] = max(at_end, 0.0)
+    if clock.timetable.trip_time_s is None:
+        for k, (event, node) in enumerate(zip(clock.timetable.events, clock.nodes(grid.position_m), strict=True)):
+            found[k] += rows[node, WINDOW_ROWS + 1] if event.waits else rows[node - 1, WINDOW_ROWS]
+    return found

@@ -94,13 +94,9 @@ def find_timed_reference(vehicle: Vehicle, course: Course, timetable: Timetable,
                          end_mps: float = 0.0, intervals: int | None = None, solver: Solver = "auto") -> Reference:
     """The run of least energy that meets every window of a timetable, as `find_reference`.
 
-    The nonlinear program knows no windows on the way: with them `auto` plans by the cone program alone.
     Raises InfeasibleRunError where no run meets the timetable, and where none was found that does.
     """
     course = timetable.on(course)
-    only_time = timetable.trip_time_s is not None
-    if solver == "nlp" and not only_time:
-        raise InputError("", "--solver", "'nlp' knows no timetable: leave it out")
     quickest = least_time(vehicle, course, start_mps, end_mps)
     require_possible(vehicle, timetable, quickest)
     borders = kept_borders(course)
@@ -111,7 +107,7 @@ def find_timed_reference(vehicle: Vehicle, course: Course, timetable: Timetable,
     grid = graded_grid(course, intervals or INTERVALS + STOP_INTERVALS * len(course.stops_m))
     if solver != "nlp":
         best = _rounds(asked, _cone_plan, grid, best, 1 if intervals else ROUNDS)
-    if solver == "nlp" or (solver == "auto" and only_time and best.gap(vehicle) > GAP_OF_CONES):
+    if solver == "nlp" or (solver == "auto" and best.gap(vehicle) > GAP_OF_CONES):
         best = _rounds(asked, _nonlinear_plan, grid, best, 1)
     if best.run is None:
         raise InfeasibleRunError(_not_found(timetable, best.miss))
@@ -247,12 +243,14 @@ def _nonlinear_plan(asked: _Asked, grid: Grid, extra_s: Array, guess: Profile) -
     from workbench.optimal.nlp import ATTEMPTS, solve_nlp  # noqa: PLC0415 - casadi, which most runs do not need
 
     trouble = ""
-    trip_time_s = asked.timetable.points[-1].arrival.latest_s - float(extra_s.sum())
     for name, from_best in ATTEMPTS:
+        if name == "fatrop" and asked.timetable.trip_time_s is None:
+            continue  # its stages know no waiting
         run = guess if from_best else asked.quickest
         start = np.interp(grid.position_m, run.position_m, run.half_square)
         try:
-            return solve_nlp(asked.vehicle, grid, trip_time_s, start, asked.start_mps, asked.end_mps, name), name
+            return solve_nlp(asked.vehicle, grid, asked.timetable, start, asked.start_mps, asked.end_mps, name,
+                             extra_s), name
         except NoPlanError as error:
             trouble = str(error)
     raise NoPlanError(trouble)
