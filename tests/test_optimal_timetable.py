@@ -166,6 +166,15 @@ def test_a_stop_with_two_windows_waits_for_its_departure():
     np.testing.assert_allclose(v, 0.0, atol=1e-6)
 
 
+def test_a_stop_without_windows_is_a_stop_of_the_line_with_its_dwell():
+    timetable = by(Window(), Window(latest_s=TIME_S + 140), stands=True, dwell_s=40.0)
+    found = find_timed_reference(TRAIN, COURSE, timetable)
+    require_kept(found, timetable)
+    stopped = find_reference(TRAIN, replace(COURSE.split(np.array([MIDDLE_M])), stops_m=(MIDDLE_M,)), TIME_S + 100)
+    assert found.energy_j == pytest.approx(stopped.energy_j, rel=1e-5)
+    assert found.lower_bound_j == pytest.approx(stopped.lower_bound_j, rel=1e-5)
+
+
 def test_the_smooth_run_passes_within_its_window():
     timetable = by(Window(FREE_S - 21, FREE_S - 20))
     smooth = smooth_reference(TRAIN, COURSE, timetable, 1.0)

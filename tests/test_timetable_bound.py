@@ -10,7 +10,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from optimal_instances import courses, numbers, random_runs, vehicles
 from test_optimal_bound import own_energy
-from test_optimal_timetable import COURSE, FREE_S, MIDDLE_M, TRAIN, by
+from test_optimal_timetable import COURSE, END_M, FREE_S, MIDDLE_M, TRAIN, by
 
 from workbench.optimal.bound import lower_bound
 from workbench.optimal.bound_checker import checked_bound
@@ -21,12 +21,13 @@ from workbench.optimal.reference import find_timed_reference
 from workbench.optimal.timetable import TOUCH_S, Timetable, TimingPoint, Window
 
 
-@pytest.mark.parametrize("shift_s", [-20.0, 20.0])
+@pytest.mark.parametrize(("shift_s", "speeds"), [(-20.0, {"fastest_mps": 20.0}), (20.0, {"fastest_mps": 20.0}),
+                                                 (-20.0, {"slowest_mps": 27.0})])
 @pytest.mark.parametrize("size", [0.0, 1e-3, 1e-2, 0.1])
-def test_certificates_near_the_best_one_prove_no_more_than_the_run_takes(shift_s, size):
+def test_certificates_near_the_best_one_prove_no_more_than_the_run_takes(shift_s, speeds, size):
     """There a bound is nearly sharp, so that a wrong term would show; with cells that cross the timing point too."""
     at = FREE_S + shift_s
-    timetable = by(Window(latest_s=at) if shift_s < 0 else Window(at), fastest_mps=20.0)
+    timetable = by(Window(latest_s=at) if shift_s < 0 else Window(at), **speeds)
     found = find_timed_reference(TRAIN, COURSE, timetable)
     best, rng = found.certificate, np.random.default_rng(7)
     assert (found.energy_j - found.lower_bound_j) < 1e-3 * found.energy_j
@@ -80,6 +81,24 @@ def test_no_run_that_meets_the_windows_takes_less_than_any_certificate_proves(ve
         bound = lower_bound(vehicle, timetable.on(course), certificate, timetable)
         energy, tolerance = own_energy(vehicle, run)
         assert bound <= energy + tolerance + 1e-9 * float(np.abs(levels).sum()) * (200 + run.trip_time_s)
+
+
+def test_waits_that_pay_prove_nothing_nor_do_prices_without_a_limit():
+    """A second of waiting must not be worth less than nothing; a price needs a limit on its side."""
+    def proves(departure: Window, *prices: float) -> bool:
+        stop = TimingPoint(MIDDLE_M, Window(100.0, 330.0), departure, stands=True)
+        timetable = Timetable((TimingPoint(0.0, departure=Window(0.0, 50.0)), stop,
+                               TimingPoint(END_M, arrival=Window(600.0, 760.0))))
+        course = timetable.on(COURSE)
+        x = kept_borders(course)
+        certificate = Certificate(x, np.zeros(len(x) - 1), np.zeros(len(x) - 1), 1e5, prices)
+        return bool(np.isfinite(lower_bound(TRAIN, course, certificate, timetable)))
+
+    both = Window(350.0, 420.0)
+    assert proves(both, 0.0, 1e5, 0.0) and proves(both, 0.0, 0.0, -1e5) and proves(both, -2e5, 1e5, 0.0)
+    assert not proves(both, 0.0, 3e5, -2e5), "at the stop"
+    assert not proves(both, -3e5, 1e5, 0.0), "at the start"
+    assert not proves(Window(latest_s=420.0), 0.0, 0.0, -1e5), "no earliest departure"
 
 
 DOCUMENT: dict = {}

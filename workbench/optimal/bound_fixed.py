@@ -36,7 +36,7 @@ class FixedPart:
 
     @property
     def total_j(self) -> float:
-        """The sum."""
+        """The sum of all parts, J."""
         return self.line_j + self.jumps_j + self.ends_j + self.time_j
 
 
