@@ -37,9 +37,9 @@ def test_what_is_left_out_is_a_good_part_and_small_programs_are_left_alone(monke
     sizes = []
     solve = socp._solve
 
-    def counted(vehicle, grid, asked, ends, rows=None):
+    def counted(vehicle, grid, asked, ends, rows=None, extra_s=None):
         sizes.append((len(grid.limit_mps), rows))
-        return solve(vehicle, grid, asked, ends, rows)
+        return solve(vehicle, grid, asked, ends, rows, extra_s)
 
     monkeypatch.setattr(socp, "_solve", counted)
     course = hilly()
