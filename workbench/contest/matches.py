@@ -175,19 +175,26 @@ def one_match(shared: tuple[Contest, Scenario], task: Task) -> Match:
                  middle, slow, run.counters, played.trials)
 
 
-def all_matches(contest: Contest, scenario: Scenario, workers: int,
-                on_progress: Callable[[int, int, str], None]) -> tuple[Match, ...]:
-    """Every match, ordered by condition, draw and entry; a condition without chance is run once."""
+def all_matches(contest: Contest, scenario: Scenario, workers: int, on_progress: Callable[[int, int, str], None],
+                played: Sequence[Match] = (), keep: Callable[[Match], None] = lambda match: None) -> tuple[Match, ...]:
+    """Every match, ordered by condition, draw and entry; a condition without chance is run once.
+
+    Those already `played` are taken as they are; keep(match) is called with every other as it is finished.
+    """
     tasks: list[Task] = [(name, draw, entry) for name in contest.conditions for draw in range(draws_of(contest, name))
                          for entry in entries(contest, scenario)]
-    found: dict[tuple[str, int, str], Match] = {}
+    places = [(condition, draw, entry.name) for condition, draw, entry in tasks]
+    before = {(match.condition, match.draw, match.entry): match for match in played}
+    found = {place: before[place] for place in places if place in before}
 
     def record(match: Match) -> None:
+        keep(match)
         found[match.condition, match.draw, match.entry] = match
         on_progress(len(found), len(tasks), f"{match.entry}: {contest.conditions[match.condition].title}")
 
-    run_tasks(one_match, (contest, scenario), tasks, workers, record)
-    return tuple(found[condition, draw, entry.name] for condition, draw, entry in tasks)
+    todo = [task for task, place in zip(tasks, places, strict=True) if place not in found]
+    run_tasks(one_match, (contest, scenario), todo, workers, record)
+    return tuple(found[place] for place in places)
 
 
 def of(matches: Sequence[Match], condition: str, entry: str) -> list[Match]:

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import asdict
 from pathlib import Path
 from typing import Any
 
@@ -11,8 +12,9 @@ import numpy as np
 
 from workbench.contest.energy import best_run
 from workbench.contest.entrants import check_entrants, entered, follows_curve, learns
+from workbench.contest.kept import matches_journal, matches_of
 from workbench.contest.learning import learning_findings, learning_plot, learning_tables
-from workbench.contest.matches import METRICS, all_matches, draws_of, of, overspeed, run_match, tunable
+from workbench.contest.matches import METRICS, Match, all_matches, draws_of, of, overspeed, run_match, tunable
 from workbench.contest.record import Contest
 from workbench.contest.search import Tuned
 from workbench.contest.tables import HEADINGS, UNITS, Told, all_tables
@@ -44,8 +46,19 @@ def located(contest: Contest, path: Path) -> Contest:
 
 def run(contest: Contest, workers: int, on_progress: Progress) -> StudyResult:
     """All matches, their tables, figures and findings."""
+    return _run(contest, workers, on_progress, (), lambda match: None)
+
+
+def run_kept(contest: Contest, workers: int, on_progress: Progress, folder: Path, resume: bool) -> StudyResult:
+    """`run` with a journal of the matches in a folder; with `resume` those that it holds are not played again."""
+    with matches_journal(folder, contest, entered(contest), resume) as journal:
+        return _run(contest, workers, on_progress, matches_of(journal), lambda match: journal.append(asdict(match)))
+
+
+def _run(contest: Contest, workers: int, on_progress: Progress, played: Sequence[Match],
+         keep: Callable[[Match], None]) -> StudyResult:
     scenario = entered(contest)
-    matches = all_matches(contest, scenario, workers, on_progress)
+    matches = all_matches(contest, scenario, workers, on_progress, played, keep)
     best = best_run(scenario)
     told = Told(contest, scenario, matches, best.lower_bound_j if best else None)
     first: dict[str, str] = {}  # of an entry's failed runs under a condition the first; the findings say how many
@@ -194,4 +207,4 @@ def _tuned(contest: Contest, names: list[str], workers: int, on_progress: Progre
     return tune_all(contest, entered(contest), names, workers, on_progress)
 
 
-KIND = StudyKind(Contest, run, located, _tuned)
+KIND = StudyKind(Contest, run, located, _tuned, run_kept)
