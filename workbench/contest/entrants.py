@@ -7,7 +7,6 @@ from pathlib import Path
 
 from workbench.contest import chen2019, jiao2025, liu2020
 from workbench.contest.entrant import Entrant, Played
-from workbench.contest.inlined import law_loop
 from workbench.contest.record import Contest
 from workbench.controllers.registry import LAWS, SAMPLED, held_command
 from workbench.controllers.values import check_controllers, law_values
@@ -15,6 +14,7 @@ from workbench.errors import InputError
 from workbench.mpc.controller import KINDS
 from workbench.scenario import Scenario, load_scenario
 from workbench.simulate.closed_loop import Setting, run_law, simulate_in
+from workbench.simulate.setting_loop import law_loop
 
 ENTRANTS: dict[str, Entrant] = {**liu2020.ENTRANTS, **jiao2025.ENTRANTS, **chen2019.ENTRANTS}
 
