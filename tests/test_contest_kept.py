@@ -4,7 +4,7 @@ import json
 from pathlib import Path
 
 import pytest
-from scenarios import YANG
+from contests import COMMON, common, few
 from typer.testing import CliRunner
 
 from workbench.cli import app
@@ -12,19 +12,13 @@ from workbench.contest.kept import JOURNAL_NAME
 from workbench.contest.record import Contest
 from workbench.contest.study import run, run_kept
 from workbench.errors import InputError
-from workbench.studies.registry import load_study
 
-COMMON = YANG.parent / "common.toml"
 RUNNER = CliRunner()
 
 
 @pytest.fixture(scope="module")
 def contest() -> Contest:
-    found = load_study(COMMON)
-    assert isinstance(found, Contest)
-    tuning = found.tuning.model_copy(update={"found": {}})
-    return found.model_copy(update={"seeds": 2, "tuning": tuning, "resamples": 200, "entrants": {}, "absent": {},
-                                    "conditions": {name: found.conditions[name] for name in ("nominal", "ten")}})
+    return few(common(), "nominal", "ten")
 
 
 class StopError(Exception):
