@@ -103,6 +103,15 @@ def play_match(scenario: Scenario, name: str, condition: Condition, draw: int, s
     generator = np.random.default_rng(sequence)
     factors = 1 + condition.spread * generator.uniform(-1.0, 1.0, 5)
     noise_seed = int(generator.integers(2**31))
+    world = world_of(scenario, condition)
+    setting = setting_of(world, Factors(*(float(factor) for factor in factors)))
+    sensing = Sensing(condition.position_noise_m, condition.speed_noise_mps, condition.measurement_delay_s,
+                      condition.command_delay_s, noise_seed)
+    return play(world, name, replace(setting, sensing=sensing))
+
+
+def world_of(scenario: Scenario, condition: Condition) -> Scenario:
+    """What all draws of a condition share, and controllers know of it but for failures: limits, and whether level."""
     train = scenario.train
     limited = train.model_copy(update={"max_traction_n": train.max_traction_n * condition.force_share,
                                        "max_braking_n": train.max_braking_n * condition.force_share})
@@ -114,10 +123,7 @@ def play_match(scenario: Scenario, name: str, condition: Condition, draw: int, s
     world = scenario.model_copy(update={"train": limited, "failures": failures})
     if condition.level:
         world = world.model_copy(update={"track": _levelled(world)})
-    setting = setting_of(world, Factors(*(float(factor) for factor in factors)))
-    sensing = Sensing(condition.position_noise_m, condition.speed_noise_mps, condition.measurement_delay_s,
-                      condition.command_delay_s, noise_seed)
-    return play(world, name, replace(setting, sensing=sensing))
+    return world
 
 
 def _levelled(scenario: Scenario) -> Track:

@@ -15,6 +15,7 @@ from workbench.contest.entrants import check_entrants, entered, follows_curve, l
 from workbench.contest.kept import matches_journal, matches_of
 from workbench.contest.learning import learning_findings, learning_plot, learning_tables
 from workbench.contest.matches import METRICS, Match, all_matches, draws_of, of, overspeed, run_match, tunable
+from workbench.contest.premises import premises_findings, premises_table
 from workbench.contest.record import Contest
 from workbench.contest.search import Tuned
 from workbench.contest.tables import HEADINGS, UNITS, Told, all_tables
@@ -66,9 +67,11 @@ def _run(contest: Contest, workers: int, on_progress: Progress, played: Sequence
         if match.failed is not None:
             first.setdefault(f"{match.entry}, {contest.conditions[match.condition].title}", match.failed)
     failures = tuple(first.items())
-    return StudyResult(rows=tuple(_rows(told)), tables=(*all_tables(told), *learning_tables(told)),
+    return StudyResult(rows=tuple(_rows(told)),
+                       tables=(*all_tables(told), *premises_table(told), *learning_tables(told)),
                        plots=(*_plots(told), *learning_plot(told)),
-                       findings=(*_findings(told), *learning_findings(told)), failures=failures)
+                       findings=(*_findings(told), *premises_findings(told), *learning_findings(told)),
+                       failures=failures)
 
 
 def _rows(told: Told) -> Iterator[dict[str, Any]]:
