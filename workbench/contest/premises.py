@@ -56,9 +56,9 @@ def lacks(scenario: Scenario, condition: Condition, around: Tube, needed: float)
         reasons.append("changes of the train are not bounded")
     if around.disturbance_mps2 < needed:
         reasons.append("the bound is too small")
-    failing = [premise.statement.split(":")[0] for premise in around.premises if not premise.holds]
+    failing = [premise.name for premise in around.premises if not premise.holds]
     if failing:
-        reasons.append("not so: " + "; ".join(failing))
+        reasons.append(f"there is no {', no '.join(failing)}".replace("no a ", "no "))
     if condition.position_noise_m or condition.speed_noise_mps:
         reasons.append("noise is no part of it")
     if condition.measurement_delay_s or condition.command_delay_s:

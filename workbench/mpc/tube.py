@@ -34,8 +34,9 @@ ROUNDED_UP = 1 + 1e-5
 
 @dataclass(frozen=True)
 class Premise:
-    """One thing that the guarantee rests on, and whether it holds."""
+    """One thing that the guarantee rests on, and whether it holds; name: in a few words."""
 
+    name: str
     statement: str
     value: float
     limit: float
@@ -165,17 +166,20 @@ def tube(problem: Problem, ahead: Array, disturbance_mps2: float, band_m: float 
     drawn = (commands + command) * (ahead[:, 1] + speed)
     radius = float(np.abs(np.linalg.eigvals(A_K)).max())
     premises = (
-        Premise("the feedback is stable: spectral radius of A - B K", radius, 1.0),
-        Premise("the changing slope of the resistance is small: its loop gain", loop, 1.0),
-        Premise("speeds stay where the slopes were taken, 1 m/s above the fastest: largest |e2|, m/s", speed, 1.0),
-        Premise("the tube fits into the band: largest |e1|, m", position, band_m),
-        Premise("driving leaves room for the feedback: highest command with it, m/s^2",
+        Premise("a stable feedback", "the feedback is stable: spectral radius of A - B K", radius, 1.0),
+        Premise("a resistance of little curvature", "the changing slope of the resistance is small: its loop gain",
+                loop, 1.0),
+        Premise("speeds near the curve's", "speeds stay where the slopes were taken, 1 m/s above the fastest: "
+                "largest |e2|, m/s", speed, 1.0),
+        Premise("a tube within the band", "the tube fits into the band: largest |e1|, m", position, band_m),
+        Premise("room in traction", "driving leaves room for the feedback: highest command with it, m/s^2",
                 float((commands + command).max()), problem.highest_command_mps2),
-        Premise("braking leaves room for the feedback: lowest command with it, m/s^2, negated",
+        Premise("room in braking", "braking leaves room for the feedback: lowest command with it, m/s^2, negated",
                 -float((commands - command).min()), -problem.lowest_command_mps2),
-        Premise("the power limit leaves room for the feedback: highest power with it, W/kg", float(drawn.max()),
-                problem.power_w_per_kg),
-        Premise("the run starts within what the tube leaves of the band, m", abs(start), band_m - position),
+        Premise("room in power", "the power limit leaves room for the feedback: highest power with it, W/kg",
+                float(drawn.max()), problem.power_w_per_kg),
+        Premise("a start near the curve", "the run starts within what the tube leaves of the band, m",
+                abs(start), band_m - position),
     )
     return Tube(K, position, speed, command, disturbance_mps2, total, A_K, premises)
 
@@ -196,8 +200,8 @@ def _checked(problem: Problem, rows: bytes, shape: tuple[int, int], disturbance_
         return around
     mpc = TubeMpc(problem, ahead, around)
     run = mpc.nominal_run(ahead[0, :3] + [start, 0.0, 0.0], len(ahead) - problem.horizon - 1)
-    nominal = Premise("the nominal run stays within what the tube leaves of the band, m",
-                      float(np.abs(run[:, 0]).max()), problem.band_m - around.position_m)
+    nominal = Premise("a nominal run near the curve", "the nominal run stays within what the tube leaves of the "
+                      "band, m", float(np.abs(run[:, 0]).max()), problem.band_m - around.position_m)
     return replace(around, premises=(*around.premises, nominal))
 
 
