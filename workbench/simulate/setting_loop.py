@@ -1,4 +1,4 @@
-"""The compiled closed loop made for a setting: the same numbers to the last bit, in a third of the time.
+"""The compiled closed loop made for a setting: the same numbers to the last bit, in a fifth to two thirds of the time.
 
 A call between two kernels hands over every array by its parts, which costs more than the Runge-Kutta step it is for;
 and what never happens in a setting is asked about four times a step. So the plant's functions are put into the loop,
