@@ -80,6 +80,16 @@ def lower_bound(vehicle: Vehicle, course: Course, certificate: Certificate, trip
             + fixed_part(vehicle, course, certificate, trip_time_s, start_mps, end_mps))
 
 
+def auxiliary_part(vehicle: Vehicle, course: Course, certificate: Certificate, trip_time_s: float) -> float:
+    """What auxiliaries add to the bound, J: as long as time is worth more than they draw, all of the trip time.
+
+    At a lower price of time, mu, an early run may gain what mu leaves of them; none is faster than the speed limit.
+    """
+    drawn, price = vehicle.auxiliary_w, certificate.time_price_w
+    shortest = float(np.diff(course.position_m) @ (1 / course.limit_mps))
+    return min(drawn, price) * trip_time_s + max(drawn - price, 0.0) * min(shortest, trip_time_s)
+
+
 def cell_bounds(vehicle: Vehicle, course: Course, certificate: Certificate) -> Array:
     """What each cell adds to the bound without the line's force, J: its length times the mean of the least values."""
     terms = bound_terms(vehicle, course, certificate)

@@ -121,7 +121,7 @@ def _program(vehicle: Vehicle, grid: Grid, trip_time_s: float, start_mps: float,
     if np.isfinite(min(most, least)):
         table.append((inertia / vehicle.inertia_kg, -least, most))
     cost = (ca.dot(step, pull) / vehicle.traction_efficiency - vehicle.regenerative_efficiency * ca.dot(step, brake)
-            ) * scales.force_n / scales.work_j
+            ) * scales.force_n / scales.work_j + vehicle.auxiliary_w * scales.time_s / scales.work_j * last[1]
     rows = ca.vertcat(*(expression for expression, _, _ in table))
     low = np.stack([np.broadcast_to(bound, n) for _, bound, _ in table]).astype(float)
     high = np.stack([np.broadcast_to(bound, n) for _, _, bound in table]).astype(float)
@@ -194,4 +194,4 @@ def _plan(vehicle: Vehicle, grid: Grid, program: _Program, x: Array, duals: Arra
         price = price + rows[:, -1] * scales.force_n / vehicle.inertia_kg
     adjoint = price * work / (scales.force_n * grid.step_m)
     return Plan(grid, half_square, (stages[:, 3] - stages[:, 4] - stages[:, 5]) * scales.force_n, adjoint,
-                max(float(duals[-1]), 0.0) * work / scales.time_s, cost * work, seconds, status)
+                max(float(duals[-1]), 0.0) * work / scales.time_s + vehicle.auxiliary_w, cost * work, seconds, status)

@@ -12,7 +12,7 @@ import numpy as np
 from workbench.errors import InputError
 from workbench.optimal.adapt import finer_grid
 from workbench.optimal.adjoint import certificate_from
-from workbench.optimal.bound import Certificate, lower_bound
+from workbench.optimal.bound import Certificate, auxiliary_part, lower_bound
 from workbench.optimal.course import Course
 from workbench.optimal.envelope import InfeasibleRunError, drivable, fastest
 from workbench.optimal.grid import Grid, graded_grid, kept_borders
@@ -35,6 +35,10 @@ PARTS, FASTEST_CELLS = 8, 4000
 OPTIMAL_GAP = 0.01
 # Share of the trip time by which a drivable run may be late before the plan itself is made again for less time.
 LATE = 2e-5
+# More intervals than these are a fine mesh to the nonlinear program.
+FINE = 1000
+# A run that takes less than the bound by more than this share of it is none.
+CELLS_ERROR = 1e-6
 # Slower than this on average is no train.
 SLOWEST_MEAN_MPS = 0.5
 
@@ -90,18 +94,18 @@ def find_reference(vehicle: Vehicle, course: Course, trip_time_s: float, start_m
             f"{binding(vehicle, quickest)}: allow more time", quickest.trip_time_s)
     borders = kept_borders(course)
     nothing = Certificate(borders, np.zeros(len(borders) - 1), np.zeros(len(borders) - 1), 0.0)
-    best = _Found(quickest, lower_bound(vehicle, course, nothing, trip_time_s, start_mps, end_mps), nothing, 0.0,
-                  "the fastest run")
     asked = _Asked(vehicle, trip_time_s, start_mps, end_mps, quickest)
+    best = _Found(quickest, _bound(asked, course, nothing), nothing, 0.0, "the fastest run")
     grid = graded_grid(course, intervals or INTERVALS + STOP_INTERVALS * len(course.stops_m))
     if solver != "nlp":
-        best = _rounds(asked, _cone_plan, grid, best, 1 if intervals else ROUNDS)
+        best, finest = _rounds(asked, _cone_plan, grid, best, 1 if intervals else ROUNDS)
+        if solver == "auto" and best.gap(vehicle) > GAP_OF_CONES and finest is not grid:
+            best, _ = _rounds(asked, _nonlinear_plan, finest, best, 1)
     if solver == "nlp" or (solver == "auto" and best.gap(vehicle) > GAP_OF_CONES):
-        best = _rounds(asked, _nonlinear_plan, grid, best, 1)
+        best, _ = _rounds(asked, _nonlinear_plan, grid, best, 1)
     energy = energy_j(vehicle, best.profile)
-    return Reference(vehicle, best.profile, energy, best.bound_j + vehicle.auxiliary_w * quickest.trip_time_s,
-                     best.certificate, trip_time_s, quickest.trip_time_s, best.solver, best.solve_s,
-                     check(vehicle, best.profile))
+    return Reference(vehicle, best.profile, energy, best.bound_j, best.certificate, trip_time_s, quickest.trip_time_s,
+                     best.solver, best.solve_s, check(vehicle, best.profile))
 
 
 def least_time(vehicle: Vehicle, course: Course, start_mps: float = 0.0, end_mps: float = 0.0) -> Profile:
@@ -136,8 +140,11 @@ class _Found:
 
     def improved(self, vehicle: Vehicle, profile: Profile, bound: float, certificate: Certificate, solve_s: float,
                  solver: str) -> _Found:
-        less = energy_j(vehicle, profile) < energy_j(vehicle, self.profile)
-        return _Found(profile if less else self.profile, max(bound, self.bound_j),
+        new, old, proven = energy_j(vehicle, profile), energy_j(vehicle, self.profile), max(bound, self.bound_j)
+        # On a coarse mesh a run may pass its limits within cells, and seem to take less than any run can.
+        floor = proven - CELLS_ERROR * abs(proven)
+        less = new < old if (new >= floor) == (old >= floor) else new >= floor
+        return _Found(profile if less else self.profile, proven,
                       certificate if bound > self.bound_j else self.certificate, self.solve_s + solve_s,
                       solver if less else self.solver)
 
@@ -150,24 +157,29 @@ def _gap(energy: float, bound: float) -> float:
     return (energy - bound) / abs(energy) if energy else energy - bound
 
 
-def _rounds(asked: _Asked, planner: _Planner, grid: Grid, best: _Found, rounds: int) -> _Found:
-    """The best after planning on finer and finer meshes, until the gap is small or finer meshes do not help."""
+def _bound(asked: _Asked, course: Course, certificate: Certificate) -> float:
+    """The bound with auxiliaries."""
+    return (lower_bound(asked.vehicle, course, certificate, asked.trip_time_s, asked.start_mps, asked.end_mps)
+            + auxiliary_part(asked.vehicle, course, certificate, asked.trip_time_s))
+
+
+def _rounds(asked: _Asked, planner: _Planner, grid: Grid, best: _Found, rounds: int) -> tuple[_Found, Grid]:
+    """The best after planning on finer and finer meshes, until the gap is small or they do not help; the last mesh."""
     vehicle, course = asked.vehicle, grid.course
     for number in range(rounds):
         before = best.gap(vehicle)
         found = _planned(asked, planner, grid, best.profile)
         if found is None:
             break
-        plan, profile, solve_s, solver = found
-        certificate = certificate_from(vehicle, plan)
-        bound = lower_bound(vehicle, course, certificate, asked.trip_time_s, asked.start_mps, asked.end_mps)
-        best = best.improved(vehicle, profile, bound, certificate, solve_s, solver)
+        certificate = certificate_from(vehicle, found.plan)
+        bound = _bound(asked, course, certificate)
+        best = best.improved(vehicle, found.in_time, bound, certificate, found.solve_s, found.solver)
         if best.gap(vehicle) <= GAP_WANTED or (
                 number and best.gap(vehicle) > max(NO_GAIN * before, OPTIMAL_GAP)):
             break
         if number + 1 < rounds:
-            grid = finer_grid(vehicle, plan, certificate)
-    return best
+            grid = finer_grid(vehicle, found.plan, certificate, found.run)
+    return best, grid
 
 
 def _cone_plan(asked: _Asked, grid: Grid, trip_time_s: float, _: Profile) -> tuple[Plan, str]:
@@ -178,7 +190,8 @@ def _nonlinear_plan(asked: _Asked, grid: Grid, trip_time_s: float, guess: Profil
     from workbench.optimal.nlp import ATTEMPTS, solve_nlp  # noqa: PLC0415 - casadi, which most runs do not need
 
     trouble = ""
-    for name, from_best in ATTEMPTS:
+    # On a fine mesh ipopt takes minutes: there the first attempt is the only one.
+    for name, from_best in ATTEMPTS[:1] if len(grid.limit_mps) > FINE else ATTEMPTS:
         run = guess if from_best else asked.quickest
         start = np.interp(grid.position_m, run.position_m, run.half_square)
         try:
@@ -188,11 +201,21 @@ def _nonlinear_plan(asked: _Asked, grid: Grid, trip_time_s: float, guess: Profil
     raise NoPlanError(trouble)
 
 
-def _planned(asked: _Asked, planner: _Planner, grid: Grid,
-             guess: Profile) -> tuple[Plan, Profile, float, str] | None:
-    """The plan, a drivable run that arrives in time, the solver's time and name; None where the solver found none."""
+@dataclass(frozen=True)
+class _Planned:
+    """The plan for the asked time and its run, which may be late; a run in time; the solver's time and name."""
+
+    plan: Plan
+    run: Profile
+    in_time: Profile
+    solve_s: float
+    solver: str
+
+
+def _planned(asked: _Asked, planner: _Planner, grid: Grid, guess: Profile) -> _Planned | None:
+    """What comes of planning on a mesh; None where the solver found no plan."""
     wanted, spent = asked.trip_time_s, 0.0
-    plan: Plan | None = None
+    first: tuple[Plan, Profile, str] | None = None
     for _ in range(3):
         try:
             plan, solver = planner(asked, grid, wanted, guess)
@@ -200,14 +223,15 @@ def _planned(asked: _Asked, planner: _Planner, grid: Grid,
             break
         spent += plan.solve_s
         profile = refined(asked.vehicle, plan, PARTS, asked.start_mps, asked.end_mps)
+        first = first or (plan, profile, solver)
         late = profile.trip_time_s - asked.trip_time_s
         if late <= LATE * asked.trip_time_s:
             break
         wanted -= late
-    if plan is None:
+    if first is None:
         return None
     in_time = _in_time(asked.vehicle, profile, asked.quickest, asked.trip_time_s, asked.start_mps, asked.end_mps)
-    return plan, in_time, spent, solver
+    return _Planned(first[0], first[1], in_time, spent, first[2])
 
 
 def _in_time(vehicle: Vehicle, profile: Profile, quickest: Profile, trip_time_s: float, start_mps: float,
@@ -215,7 +239,7 @@ def _in_time(vehicle: Vehicle, profile: Profile, quickest: Profile, trip_time_s:
     """The run itself if it is in time, else the least mixture with the fastest one that is."""
     if profile.trip_time_s <= trip_time_s:
         return profile
-    fast = np.interp(profile.position_m, quickest.position_m, quickest.half_square)
+    fast = fastest(vehicle, profile.course, start_mps, end_mps).half_square  # on the same cells, as precise as the run
     low, high, best = 0.0, 1.0, quickest
     for _ in range(40):
         share = _secant(low, high, profile, best, trip_time_s) if low == 0.0 else (low + high) / 2

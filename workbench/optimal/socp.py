@@ -39,8 +39,8 @@ class Plan:
     """A solved program on a grid of n intervals.
 
     half_square: shape (n + 1,), b in m^2/s^2. force_n: shape (n,), mean force at the wheel. adjoint: shape (n,),
-    J/m per N: what a newton of resistance on the interval costs; time_price_w: what a second less costs. energy_j: at
-    the supply, without auxiliaries.
+    J/m per N: what a newton of resistance on the interval costs; time_price_w: what a second less costs, auxiliaries
+    included. energy_j: at the supply, with auxiliaries.
     """
 
     grid: Grid
@@ -130,7 +130,8 @@ def _solve(vehicle: Vehicle, grid: Grid, trip_time_s: float, ends_mps: tuple[flo
     rules += [rule for _, rule in comfort]
     used = cp.sum(cp.multiply(h, pull)) / vehicle.traction_efficiency
     returned = vehicle.regenerative_efficiency * cp.sum(cp.multiply(h, brake))
-    problem = cp.Problem(cp.Minimize((used - returned) / grid.course.length_m), rules)
+    drawn = vehicle.auxiliary_w * mean_time / work * cp.sum(tau)
+    problem = cp.Problem(cp.Minimize((used - returned) / grid.course.length_m + drawn), rules)
     solve_s = _solved(problem, f"the cone program of {n} intervals for {trip_time_s:g} s")
     price = row * motion.dual_value * work / (force * h)
     # Limits of the acceleration act on db/ds itself: they belong to the price of what changes b.
@@ -139,8 +140,8 @@ def _solve(vehicle: Vehicle, grid: Grid, trip_time_s: float, ends_mps: tuple[flo
         adjoint = adjoint + sign * rule.dual_value * 2 * work / (half * inertia)
     half_square = np.where(fixed, value, np.maximum(b.value, 0.0)) * half / 2
     plan = Plan(grid, half_square, (pull.value - brake.value - grip.value) * force, adjoint,
-                float(duration.dual_value) * work / mean_time, float(problem.value) * work, solve_s,
-                str(problem.status))
+                float(duration.dual_value) * work / mean_time + vehicle.auxiliary_w, float(problem.value) * work,
+                solve_s, str(problem.status))
     return plan, price
 
 
