@@ -109,19 +109,19 @@ def compare(scenario: Annotated[Path, typer.Argument(help="Scenario or study TOM
     from workbench.json_output import write_json
     from workbench.report.build import comparison_document, run_study, study_document
     from workbench.simulate.compare import compare as run_comparison
-    from workbench.studies.registry import is_study, load_study, study_kind
+    from workbench.studies.registry import check_kept, is_study, load_study
 
     if is_study(scenario):
         _refuse(variants, "--variants")
         study = load_study(scenario)
-        _check_kept(study_kind(study.paper).run_kept is not None, out, resume)
+        check_kept(study, out, resume)
         with progress() as show:
             found = run_study(study, workers, show, out, resume)
         if json:
             write_json(json, study_document(study, found))
         print_study(found)
         return
-    _check_kept(False, out, resume)
+    check_kept(None, out, resume)
     with progress() as show:
         result = run_comparison(scenario, variants, workers, lambda done, total, _: show("runs", done, total))
     document = comparison_document(result)
@@ -251,14 +251,6 @@ def gains(paper: Annotated[str, typer.Argument(help="A paper's name, or its TOML
     if json:
         write_json(json, gains_document(found, done))
     print_study(gains_result(found, done))
-
-
-def _check_kept(keeps: bool, out: Path | None, resume: bool) -> None:
-    if not keeps and (out is not None or resume):
-        raise InputError("", "--resume" if out is None else "--out", "is for contests, which alone keep their finished "
-                         "runs: leave it out")
-    if resume and out is None:
-        raise InputError("", "--resume", "needs the folder of the runs to go on with: name it with --out")
 
 
 def _refuse(given: bool, option: str) -> None:
