@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -91,11 +91,11 @@ def _word(told: Told, place: int, entry: Entry, name: str) -> Word:
                 sum(each.get("beyond_bound", 0) for each in counters), sum(each.get("qp", 0) for each in counters))
 
 
-def premises_table(told: Told) -> Iterator[ResultTable]:
+def premises_table(told: Told, found: Sequence[Word]) -> Iterator[ResultTable]:
     """A row per tube and condition; none without a tube."""
     rows = [(word.entry, told.contest.conditions[word.condition].title, number(word.around.disturbance_mps2),
              number(word.needed), number(word.largest), number(word.around.position_m), number(word.largest_error_m),
-             f"{word.beyond} of {word.samples}", word.why or "holds") for word in words_of(told)]
+             f"{word.beyond} of {word.samples}", word.why or "holds") for word in found]
     if rows:
         yield ResultTable(
             "Where the tube's word holds", "computed from line, train and conditions; errors and samples of all runs", (
@@ -109,13 +109,13 @@ def premises_table(told: Told) -> Iterator[ResultTable]:
             "runs tell what happened, and nothing is promised.")
 
 
-def premises_findings(told: Told) -> Iterator[str]:
+def premises_findings(told: Told, found: Sequence[Word]) -> Iterator[str]:
     """In which conditions every tube keeps its band by its premises."""
-    found = list(words_of(told))
     for name in dict.fromkeys(word.entry for word in found):
         own = [word for word in found if word.entry == name]
         sure = [told.contest.conditions[word.condition].title for word in own if not word.why]
         band = told.scenario.simulation.position_band_m
-        words = f"certain in {', '.join(sure)}" if sure else "certain in no condition"
-        yield (f"{name}: |position error| below {band:g} m is {words}; its premises, or its bound, do not hold in "
-               f"{len(own) - len(sure)} of {len(own)} conditions.")
+        words = (f"certain in all {len(own)} conditions" if len(sure) == len(own) else
+                 f"certain in {', '.join(sure)} alone of {len(own)} conditions" if sure else
+                 f"certain in none of {len(own)} conditions: its premises, or its bound, do not hold")
+        yield f"{name}: |position error| below {band:g} m is {words}."

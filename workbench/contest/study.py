@@ -15,14 +15,14 @@ from workbench.contest.entrants import check_entrants, entered, follows_curve, l
 from workbench.contest.kept import matches_journal, matches_of
 from workbench.contest.learning import learning_findings, learning_plot, learning_tables
 from workbench.contest.matches import METRICS, Match, all_matches, draws_of, of, overspeed, run_match, tunable
-from workbench.contest.premises import premises_findings, premises_table
+from workbench.contest.premises import premises_findings, premises_table, words_of
 from workbench.contest.record import Contest
 from workbench.contest.search import Tuned
 from workbench.contest.tables import HEADINGS, UNITS, Told, all_tables
 from workbench.contest.tune import tune_all
 from workbench.errors import InputError
 from workbench.report.numbers import number
-from workbench.scenario import load_scenario
+from workbench.scenario import Scenario, load_scenario
 from workbench.studies.base import Curve, Plot, Progress, StudyKind, StudyResult
 
 
@@ -31,6 +31,7 @@ def located(contest: Contest, path: Path) -> Contest:
     contest = contest.model_copy(update={"scenario": str(path.parent / contest.scenario)})
     check_entrants(contest, load_scenario(Path(contest.scenario)), path)
     scenario = entered(contest)
+    _delays_alike(contest, scenario, path)
     for name, ranges in contest.tuning.ranges.items():
         if name not in scenario.controllers:
             raise InputError(path, f"tuning.ranges.{name}", "is no controller of the scenario: choose one of "
@@ -43,6 +44,22 @@ def located(contest: Contest, path: Path) -> Contest:
                 raise InputError(path, f"tuning.ranges.{name}.{key}", "is no parameter of this controller: choose "
                                  f"among {', '.join(tunable(scenario, name))}")
     return contest
+
+
+def _delays_alike(contest: Contest, scenario: Scenario, path: Path) -> None:
+    """Delays are whole samples, so that one which is none of a controller's would be rounded to its advantage or harm.
+
+    Raises InputError for such a delay.
+    """
+    for condition, stated in contest.conditions.items():
+        for key in ("measurement_delay_s", "command_delay_s"):
+            delay = getattr(stated, key)
+            for name, spec in scenario.controllers.items():
+                samples = delay / spec.period_s
+                if abs(samples - round(samples)) > 1e-6:
+                    raise InputError(path, f"conditions.{condition}.{key}", f"{delay:g} s is no whole number of the "
+                                     f"{spec.period_s:g} s at which '{name}' samples, so that not all would be delayed "
+                                     "alike: choose a multiple of every period")
 
 
 def run(contest: Contest, workers: int, on_progress: Progress) -> StudyResult:
@@ -66,11 +83,11 @@ def _run(contest: Contest, workers: int, on_progress: Progress, played: Sequence
     for match in matches:
         if match.failed is not None:
             first.setdefault(f"{match.entry}, {contest.conditions[match.condition].title}", match.failed)
-    failures = tuple(first.items())
+    failures, words = tuple(first.items()), tuple(words_of(told))
     return StudyResult(rows=tuple(_rows(told)),
-                       tables=(*all_tables(told), *premises_table(told), *learning_tables(told)),
+                       tables=(*all_tables(told), *premises_table(told, words), *learning_tables(told)),
                        plots=(*_plots(told), *learning_plot(told)),
-                       findings=(*_findings(told), *premises_findings(told), *learning_findings(told)),
+                       findings=(*_findings(told), *premises_findings(told, words), *learning_findings(told)),
                        failures=failures)
 
 
