@@ -7,7 +7,7 @@ import pytest
 from scenarios import YANG
 
 from workbench.contest.entrants import entered
-from workbench.contest.matches import Match, all_matches, draws_of, entries
+from workbench.contest.matches import Match, all_matches, draws_of, entries, run_match, world_of
 from workbench.contest.premises import premises_findings, premises_table, words_of
 from workbench.contest.record import Contest
 from workbench.contest.statistics import resampled, winners
@@ -36,6 +36,24 @@ def test_a_delay_that_would_not_hit_all_alike_is_refused(contest: Contest, key: 
     with pytest.raises(InputError, match=words) as trouble:
         located(changed, COMMON)
     assert "\n" not in str(trouble.value)
+
+
+def test_all_sample_alike_where_a_condition_says_so(contest: Contest) -> None:
+    """Every contestant's command then changes at the stated period's multiples alone."""
+    stated, scenario = contest.conditions["sampled"], entered(contest)
+    world = world_of(scenario, stated)
+    assert {spec.period_s for spec in world.controllers.values()} == {stated.period_s}
+    assert len({spec.period_s for spec in world_of(scenario, contest.conditions["ten"]).controllers.values()}) > 1
+    fine = scenario.model_copy(update={"simulation": scenario.simulation.model_copy(update={"log_every_s": 0.005})})
+    for name in ("pid", "mpc_linear"):
+        run = run_match(fine, name, stated, 0, contest.seed)
+        changed = np.flatnonzero(np.diff(run.column("u_mps2"))) + 1
+        assert len(changed) > 100
+        assert set((changed % 20).tolist()) == {0}
+    odd = contest.model_copy(update={"scenario": Path(contest.scenario).name, "conditions": contest.conditions | {
+        "sampled": stated.model_copy(update={"period_s": 0.0125})}})
+    with pytest.raises(InputError, match=r"conditions\.sampled\.period_s: 0\.0125 is not a whole number"):
+        located(odd, COMMON)
 
 
 def test_a_difference_that_no_table_shows_is_no_win() -> None:

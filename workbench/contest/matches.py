@@ -111,7 +111,7 @@ def play_match(scenario: Scenario, name: str, condition: Condition, draw: int, s
 
 
 def world_of(scenario: Scenario, condition: Condition) -> Scenario:
-    """What all draws of a condition share, and controllers know of it but for failures: limits, and whether level."""
+    """What all draws of a condition share, and controllers know but for failures: limits, whether level, sampling."""
     train = scenario.train
     limited = train.model_copy(update={"max_traction_n": train.max_traction_n * condition.force_share,
                                        "max_braking_n": train.max_braking_n * condition.force_share})
@@ -123,6 +123,10 @@ def world_of(scenario: Scenario, condition: Condition) -> Scenario:
     world = scenario.model_copy(update={"train": limited, "failures": failures})
     if condition.level:
         world = world.model_copy(update={"track": _levelled(world)})
+    if condition.period_s is not None:
+        sampled = {name: spec.model_copy(update={"period_s": condition.period_s})
+                   for name, spec in world.controllers.items()}
+        world = world.model_copy(update={"controllers": sampled})
     return world
 
 

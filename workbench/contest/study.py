@@ -49,16 +49,21 @@ def located(contest: Contest, path: Path) -> Contest:
 def _delays_alike(contest: Contest, scenario: Scenario, path: Path) -> None:
     """Delays are whole samples, so that one which is none of a controller's would be rounded to its advantage or harm.
 
-    Raises InputError for such a delay.
+    Raises InputError for such a delay, and for a sampling that is no multiple of the plant's step.
     """
     for condition, stated in contest.conditions.items():
+        step = scenario.simulation.plant_step_s
+        if stated.period_s is not None and (round(stated.period_s / step) < 1 or
+                                            abs(stated.period_s / step - round(stated.period_s / step)) > 1e-6):
+            raise InputError(path, f"conditions.{condition}.period_s", f"{stated.period_s:g} is not a whole number of "
+                             f"plant steps of {step:g} s: choose a multiple")
         for key in ("measurement_delay_s", "command_delay_s"):
             delay = getattr(stated, key)
             for name, spec in scenario.controllers.items():
-                samples = delay / spec.period_s
-                if abs(samples - round(samples)) > 1e-6:
+                period = stated.period_s or spec.period_s
+                if abs(delay / period - round(delay / period)) > 1e-6:
                     raise InputError(path, f"conditions.{condition}.{key}", f"{delay:g} s is no whole number of the "
-                                     f"{spec.period_s:g} s at which '{name}' samples, so that not all would be delayed "
+                                     f"{period:g} s at which '{name}' samples, so that not all would be delayed "
                                      "alike: choose a multiple of every period")
 
 
