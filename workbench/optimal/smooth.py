@@ -24,6 +24,8 @@ from workbench.train import davis_resistance
 WINDOW_S = 1.0
 # Times a window is made longer until the jerk keeps its limit.
 JERK_ROUNDS = 12
+# Borders closer than this are one.
+SLIVER_M = 0.01
 
 
 @dataclass(frozen=True)
@@ -146,14 +148,29 @@ def smooth_reference(vehicle: Vehicle, course: Course, trip_time_s: float, windo
 
 
 def _lowered(vehicle: Vehicle, course: Course, window_s: float) -> Course:
-    """The course with limits lower by what the average of a braking train exceeds them where they fall."""
+    """The course with limits lower by what the average of a braking train exceeds them, near where they change.
+
+    Near is a window's way at the limit itself: farther away the average knows one limit only.
+    """
+    s, speed = course.position_m, course.limit_mps
+    changes = np.flatnonzero(np.diff(speed)) + 1
+    reach = np.concatenate((s[changes] - window_s * speed[changes - 1], s[changes] + window_s * speed[changes]))
+    course = course.split(_apart(reach, s))
     braking = min(vehicle.max_deceleration_mps2, vehicle.braking_n / vehicle.inertia_kg)
     margin = braking * window_s / 8
-    limit = course.limit_mps
-    falls = np.append(limit[:-1] > limit[1:], False) | np.insert(limit[1:] < limit[:-1], 0, False)
-    rises = np.append(limit[:-1] < limit[1:], False)
-    lower = np.where(falls | rises, np.maximum(limit - margin, limit / 2), limit)
+    limit, middle = course.limit_mps, (course.position_m[1:] + course.position_m[:-1]) / 2
+    after = np.searchsorted(s[changes], middle)
+    borders = np.concatenate(([-np.inf], s[changes], [np.inf]))
+    near = np.minimum(middle - borders[after], borders[after + 1] - middle) < window_s * limit
+    lower = np.where(near, np.maximum(limit - margin, limit / 2), limit)
     return Course(course.position_m, lower, course.force_n, course.drag, course.stops_m)
+
+
+def _apart(points: Array, borders: Array) -> Array:
+    """The points inside the borders that lie a little off each of them."""
+    inside = np.sort(points[(points > borders[0]) & (points < borders[-1])])
+    after = np.searchsorted(borders, inside)
+    return inside[np.minimum(inside - borders[after - 1], borders[after] - inside) > SLIVER_M]
 
 
 def _judged(vehicle: Vehicle, course: Course, run: SmoothRun, optimal: Reference, window_s: float,
