@@ -44,9 +44,12 @@ def check_entrants(contest: Contest, scenario: Scenario, path: Path) -> None:
         elif spec.law in LAWS or spec.law in SAMPLED:
             ordinary[name] = spec
         else:
-            raise InputError(path, f"entrants.{name}.law", f"unknown '{spec.law}': choose a law of a scenario or one "
-                             f"of {', '.join(ENTRANTS)}")
-    check_controllers(scenario.model_copy(update={"controllers": ordinary}), path)
+            raise InputError(path, f"entrants.{name}.law", f"unknown '{spec.law}': choose one of "
+                             f"{', '.join((*LAWS, *SAMPLED, *ENTRANTS))}")
+    try:
+        check_controllers(scenario.model_copy(update={"controllers": ordinary}), path)
+    except InputError as trouble:  # in a contest's file the table is called otherwise
+        raise InputError(path, trouble.key.replace("controllers.", "entrants.", 1), trouble.problem) from None
 
 
 def play(scenario: Scenario, name: str, setting: Setting) -> Played:
