@@ -99,12 +99,15 @@ def condition_table(told: Told, condition: str) -> ResultTable:
             cells.append("—" if value is None else _interval(metric, value, chosen, told.contest.confidence) + mark)
         rows.append((*cells, f"{failed} of {len(matches)}"))
     runs = told.contest.seeds if stated.random else 1
+    noisy = stated.position_noise_m or stated.speed_noise_mps
+    noise = " Noise is drawn anew at every sample, so that who samples more often has more to average." if noisy else ""
     return ResultTable(
         stated.title, f"{runs} run{'s' if runs > 1 else ''} each, the same draws for all",
         ("controller", *(HEADINGS[metric] for metric in told.metrics), "failed"), tuple(rows),
         f"Means, in brackets their {100 * told.contest.confidence:g} % bootstrap interval. ● the best, and every one "
         "whose paired difference from it may be chance. A controller with a run that fails, or that misses the end by "
-        f"more than {ARRIVED_M:g} m, is not ranked; nor is one by errors from a curve that it does not follow.")
+        f"more than {ARRIVED_M:g} m, is not ranked; nor is one by errors from a curve that it does not follow."
+        + noise)
 
 
 def _interval(metric: str, values: NDArray[np.float64], chosen: NDArray[np.intp], confidence: float) -> str:
