@@ -35,8 +35,6 @@ PARTS, FASTEST_CELLS = 8, 4000
 OPTIMAL_GAP = 0.01
 # Share of the trip time by which a drivable run may be late before the plan itself is made again for less time.
 LATE = 2e-5
-# More intervals than these are a fine mesh to the nonlinear program.
-FINE = 1000
 # A run that takes less than the bound by more than this share of it is none.
 CELLS_ERROR = 1e-6
 # Slower than this on average is no train.
@@ -98,11 +96,9 @@ def find_reference(vehicle: Vehicle, course: Course, trip_time_s: float, start_m
     best = _Found(quickest, _bound(asked, course, nothing), nothing, 0.0, "the fastest run")
     grid = graded_grid(course, intervals or INTERVALS + STOP_INTERVALS * len(course.stops_m))
     if solver != "nlp":
-        best, finest = _rounds(asked, _cone_plan, grid, best, 1 if intervals else ROUNDS)
-        if solver == "auto" and best.gap(vehicle) > GAP_OF_CONES and finest is not grid:
-            best, _ = _rounds(asked, _nonlinear_plan, finest, best, 1)
+        best = _rounds(asked, _cone_plan, grid, best, 1 if intervals else ROUNDS)
     if solver == "nlp" or (solver == "auto" and best.gap(vehicle) > GAP_OF_CONES):
-        best, _ = _rounds(asked, _nonlinear_plan, grid, best, 1)
+        best = _rounds(asked, _nonlinear_plan, grid, best, 1)
     energy = energy_j(vehicle, best.profile)
     return Reference(vehicle, best.profile, energy, best.bound_j, best.certificate, trip_time_s, quickest.trip_time_s,
                      best.solver, best.solve_s, check(vehicle, best.profile))
@@ -163,8 +159,8 @@ def _bound(asked: _Asked, course: Course, certificate: Certificate) -> float:
             + auxiliary_part(asked.vehicle, course, certificate, asked.trip_time_s))
 
 
-def _rounds(asked: _Asked, planner: _Planner, grid: Grid, best: _Found, rounds: int) -> tuple[_Found, Grid]:
-    """The best after planning on finer and finer meshes, until the gap is small or they do not help; the last mesh."""
+def _rounds(asked: _Asked, planner: _Planner, grid: Grid, best: _Found, rounds: int) -> _Found:
+    """The best after planning on finer and finer meshes, until the gap is small or finer ones do not help."""
     vehicle, course = asked.vehicle, grid.course
     for number in range(rounds):
         before = best.gap(vehicle)
@@ -179,7 +175,7 @@ def _rounds(asked: _Asked, planner: _Planner, grid: Grid, best: _Found, rounds: 
             break
         if number + 1 < rounds:
             grid = finer_grid(vehicle, found.plan, certificate, found.run)
-    return best, grid
+    return best
 
 
 def _cone_plan(asked: _Asked, grid: Grid, trip_time_s: float, _: Profile) -> tuple[Plan, str]:
@@ -190,8 +186,7 @@ def _nonlinear_plan(asked: _Asked, grid: Grid, trip_time_s: float, guess: Profil
     from workbench.optimal.nlp import ATTEMPTS, solve_nlp  # noqa: PLC0415 - casadi, which most runs do not need
 
     trouble = ""
-    # On a fine mesh ipopt takes minutes: there the first attempt is the only one.
-    for name, from_best in ATTEMPTS[:1] if len(grid.limit_mps) > FINE else ATTEMPTS:
+    for name, from_best in ATTEMPTS:
         run = guess if from_best else asked.quickest
         start = np.interp(grid.position_m, run.position_m, run.half_square)
         try:

@@ -131,8 +131,9 @@ def smooth_reference(vehicle: Vehicle, course: Course, trip_time_s: float, windo
     for _ in range(JERK_ROUNDS):
         spare = trip_time_s - window_s - len(course.stops_m) * wait
         if spare <= 0:
-            raise InfeasibleRunError(f"{trip_time_s:g} s leave no time to run between {len(course.stops_m)} stops of "
-                                     f"{wait:g} s: allow more time")
+            waiting = f" and {len(course.stops_m)} stops of {wait:g} s" if course.stops_m else ""
+            raise InfeasibleRunError(f"smoothing over {window_s:.4g} s{waiting} leave nothing of {trip_time_s:g} s to "
+                                     "run: allow more time")
         lowered = _lowered(vehicle, course, window_s)
         start, end = course.position_m[[0, -1]]
         if start_mps or end_mps:
