@@ -3,8 +3,17 @@
 import os
 from pathlib import Path
 
+import pytest
 from hypothesis import settings
 
 os.environ.setdefault("WORKBENCH_CACHE", str(Path(__file__).parent.parent / ".cache"))
 settings.register_profile("fixed", derandomize=True, deadline=None)
 settings.load_profile("fixed")
+
+
+@pytest.fixture(scope="session")
+def contest():
+    """The shipped contest; imported by those who ask for it, so that other tests start as fast as before."""
+    from contests import common
+
+    return common()

@@ -20,7 +20,7 @@ FLOORS = (
     ("toml_input", "json_output", "cache_folder", "workers", "report.numbers"),  # files in and out, processes, digits
     ("train", "multi_particle", "track", "desired_curve", "curve_table", "events", "sensing"),
     ("scenario", "controllers.base"),  # what a scenario states, and what a law is
-    ("compile",),  # expressions to code; it must know what a law is
+    ("compile", "compile_text"),  # expressions to code; it must know what a law is
     ("controllers", "mpc"),  # the laws themselves, and MPC, which is compiled and reads its scenario
     ("simulate", "proof", "optimal", "gains"),
     ("metrics",),  # numbers of a run

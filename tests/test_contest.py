@@ -5,6 +5,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from contests import COMMON, few, only
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from scenarios import YANG
@@ -20,28 +21,12 @@ from workbench.errors import InputError, WorkbenchError
 from workbench.scenario import Scenario, load_scenario
 from workbench.studies.registry import load_study
 
-COMMON = YANG.parent / "common.toml"
 QUICK = ("pid", "pocrac", "mpc_linear")
 
 
 @pytest.fixture(scope="module")
-def contest() -> Contest:
-    found = load_study(COMMON)
-    assert isinstance(found, Contest)
-    return found
-
-
-@pytest.fixture(scope="module")
 def scenario(contest: Contest) -> Scenario:
-    whole = load_scenario(Path(contest.scenario))
-    return whole.model_copy(update={"controllers": {name: whole.controllers[name] for name in QUICK}})
-
-
-def small(contest: Contest, conditions: tuple[str, ...], seeds: int = 2) -> Contest:
-    """Few seeds and conditions, nothing tuned."""
-    tuning = contest.tuning.model_copy(update={"found": {}})
-    return contest.model_copy(update={"seeds": seeds, "tuning": tuning, "resamples": 200, "entrants": {}, "absent": {},
-                                      "conditions": {name: contest.conditions[name] for name in conditions}})
+    return only(load_scenario(Path(contest.scenario)), *QUICK)
 
 
 def test_every_controller_meets_the_same_train_and_noise(contest: Contest, scenario: Scenario) -> None:
@@ -106,8 +91,8 @@ def test_intervals_cover_the_mean_as_often_as_they_say() -> None:
 
 
 def test_results_are_the_same_bytes_with_any_number_of_processes(contest: Contest, scenario: Scenario) -> None:
-    few = small(contest, ("ten", "noise"))
-    runs = [all_matches(few, scenario, workers, lambda *_: None) for workers in (1, 2)]
+    small = few(contest, "ten", "noise")
+    runs = [all_matches(small, scenario, workers, lambda *_: None) for workers in (1, 2)]
     plain = [json.dumps([(m.condition, m.draw, m.entry, m.values, m.failed) for m in run]) for run in runs]
     assert plain[0] == plain[1]
     assert len(runs[0]) == 2 * 2 * len(QUICK)
@@ -118,7 +103,7 @@ def test_tuning_never_makes_worse_keeps_its_budget_and_repeats_itself(
     from workbench.contest import tune as module
 
     tuning = contest.tuning.model_copy(update={"runs": 30, "draws": 2})
-    few = contest.model_copy(update={"tuning": tuning})
+    cheap = contest.model_copy(update={"tuning": tuning})
     drawn = []
 
     def counted(*arguments: object) -> object:
@@ -126,7 +111,7 @@ def test_tuning_never_makes_worse_keeps_its_budget_and_repeats_itself(
         return run_match(*arguments)  # type: ignore[arg-type]
 
     monkeypatch.setattr(module, "run_match", counted)
-    first, second = tune(few, scenario, "pid"), tune(few, scenario, "pid")
+    first, second = tune(cheap, scenario, "pid"), tune(cheap, scenario, "pid")
     assert first == second
     found, cost, stated = first
     assert cost <= stated
@@ -139,8 +124,8 @@ def test_tuning_never_makes_worse_keeps_its_budget_and_repeats_itself(
 def test_a_small_contest_is_told_whole(contest: Contest, scenario: Scenario, tmp_path: Path,
                                        monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("workbench.contest.study.entered", lambda _: scenario)
-    few = small(contest, ("nominal", "late_command"))
-    result = KIND.run(few, 1, lambda *_: None)
+    small = few(contest, "nominal", "late_command")
+    result = KIND.run(small, 1, lambda *_: None)
     assert {row["controller"] for row in result.rows} == set(QUICK)
     assert {row["condition"] for row in result.rows} == {"nominal", "late_command"}
     for row in result.rows:

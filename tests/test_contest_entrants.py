@@ -7,6 +7,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from contests import few, only
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from scenarios import YANG
@@ -26,15 +27,7 @@ from workbench.sensing import Sensing
 from workbench.simulate.closed_loop import Setting, run_law, setting_of
 from workbench.studies.registry import load_study
 
-COMMON = YANG.parent / "common.toml"
 SHORT_S = 40.0
-
-
-@pytest.fixture(scope="module")
-def contest() -> Contest:
-    found = load_study(COMMON)
-    assert isinstance(found, Contest)
-    return found
 
 
 @pytest.fixture(scope="module")
@@ -49,16 +42,6 @@ def scenario(contest: Contest) -> Scenario:
 
 def short(scenario: Scenario, **sensing: float) -> Setting:
     return replace(setting_of(scenario), end_s=SHORT_S, sensing=Sensing(**sensing, seed=3))  # type: ignore[arg-type]
-
-
-def few(contest: Contest, conditions: tuple[str, ...], seeds: int = 2) -> Contest:
-    tuning = contest.tuning.model_copy(update={"found": {}})
-    return contest.model_copy(update={"seeds": seeds, "tuning": tuning, "resamples": 100,
-                                      "conditions": {name: contest.conditions[name] for name in conditions}})
-
-
-def only(scenario: Scenario, *names: str) -> Scenario:
-    return scenario.model_copy(update={"controllers": {name: scenario.controllers[name] for name in names}})
 
 
 def test_the_common_line_is_driven_by_every_paper(scenario: Scenario) -> None:
@@ -136,7 +119,7 @@ def test_trips_are_learned_from(contest: Contest, scenario: Scenario) -> None:
 
 
 def test_results_with_learners_are_the_same_bytes(contest: Contest, scenario: Scenario) -> None:
-    small, of = few(contest, ("noise",)), only(scenario, "liu2020", "jiao2025", "chen2019")
+    small, of = few(contest, "noise", with_entrants=True), only(scenario, "liu2020", "jiao2025", "chen2019")
     runs = [all_matches(small, of, workers, lambda *_: None) for workers in (1, 2)]
     plain = [json.dumps([(m.draw, m.entry, m.values, m.failed, m.trials) for m in run]) for run in runs]
     assert plain[0] == plain[1]
@@ -170,7 +153,7 @@ def test_who_misses_the_end_of_the_line_is_not_ranked_and_all_of_it_is_told(
         contest: Contest, scenario: Scenario, monkeypatch: pytest.MonkeyPatch) -> None:
     of = only(scenario, "pid", "mpc_offset_free", "liu2020", "jiao2025", "chen2019")
     monkeypatch.setattr("workbench.contest.study.entered", lambda _: of)
-    small = few(contest, ("nominal",), seeds=1)
+    small = few(contest, "nominal", seeds=1, with_entrants=True)
     result = KIND.run(small, 1, lambda *_: None)
     rows = {row["controller"]: row for row in result.rows}
     assert rows["jiao2025"]["stopping_error"] > ARRIVED_M

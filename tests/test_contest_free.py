@@ -6,15 +6,14 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from contests import COMMON, few, only
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
-from scenarios import YANG
 
 from workbench.compile import kernel_module
 from workbench.contest.effort import mpc_table
 from workbench.contest.energy import best_run
 from workbench.contest.entrants import entered, follows_curve, play
-from workbench.contest.inlined import COUNTED, MOST_ROWS, inlined, law_loop
 from workbench.contest.learning import learning_tables
 from workbench.contest.matches import (
     OF_CURVE,
@@ -40,34 +39,16 @@ from workbench.scenario import Scenario
 from workbench.sensing import Sensing
 from workbench.simulate import kernel_loop
 from workbench.simulate.closed_loop import Setting, run_law, setting_of, simulate_in
-from workbench.studies.registry import load_study
+from workbench.simulate.setting_loop import COUNTED, MOST_ROWS, law_loop, setting_form
 from workbench.train import single_particle
 
-COMMON = YANG.parent / "common.toml"
 FREE = "mpc_economic"
 KEPT = (terminal.lqr, tube._extents, linear._linearised, transcription._program)
 
 
 @pytest.fixture(scope="module")
-def contest() -> Contest:
-    found = load_study(COMMON)
-    assert isinstance(found, Contest)
-    return found
-
-
-@pytest.fixture(scope="module")
 def scenario(contest: Contest) -> Scenario:
     return entered(contest)
-
-
-def only(scenario: Scenario, *names: str) -> Scenario:
-    return scenario.model_copy(update={"controllers": {name: scenario.controllers[name] for name in names}})
-
-
-def few(contest: Contest, *conditions: str, seeds: int = 1) -> Contest:
-    tuning = contest.tuning.model_copy(update={"found": {}})
-    return contest.model_copy(update={"seeds": seeds, "tuning": tuning, "resamples": 50, "entrants": {}, "absent": {},
-                                      "conditions": {name: contest.conditions[name] for name in conditions}})
 
 
 def short(scenario: Scenario, end_s: float = 30.0, **sensing: float) -> Setting:
@@ -103,7 +84,7 @@ def test_a_loop_is_made_for_as_many_rows_as_the_setting_has(scenario: Scenario) 
     runs = [run_law(law, values, setting, spec.period_s, module=law_loop(law, s)).log for s in (setting, calm)]
     assert not np.array_equal(*runs)
     with pytest.raises(CompileError, match="no function 'nonsense'"):
-        inlined(kernel_module(single_particle(), law, kernel_loop), setting, "nonsense")
+        kernel_module(single_particle(), law, kernel_loop, form=setting_form(setting, "nonsense"))
 
 
 @pytest.mark.parametrize("law", KINDS)
@@ -129,7 +110,7 @@ def test_an_mpc_is_computed_once_and_runs_the_same_whatever_ran_before(
 
 
 def test_economic_results_are_the_same_bytes_with_any_number_of_processes(contest: Contest, scenario: Scenario) -> None:
-    small, of = few(contest, "noise", seeds=2), only(scenario, FREE, "mpc_tube")
+    small, of = few(contest, "noise"), only(scenario, FREE, "mpc_tube")
     runs = [all_matches(small, of, workers, lambda *_: None) for workers in (1, 2)]
     plain = [json.dumps([(m.draw, m.entry, m.values, m.failed, m.counters) for m in run]) for run in runs]
     assert plain[0] == plain[1]
@@ -163,7 +144,7 @@ def test_who_follows_no_curve_is_not_ranked_by_errors_from_it(
     of = only(scenario, "pid", FREE, "mpc_offset_free", "chen2019")
     of = with_parameters(of, "chen2019", {"trials": 2.0})
     monkeypatch.setattr("workbench.contest.study.entered", lambda _: of)
-    small = few(contest, "nominal")
+    small = few(contest, "nominal", seeds=1)
     told = Told(small, of, all_matches(small, of, 1, lambda *_: None), None)
     assert [follows_curve(of, name) for name in of.controllers] == [True, False, True, True]
     # Errors from the curve made the least of all, it would still not be their winner; energy is its own.
@@ -188,7 +169,7 @@ def test_who_follows_no_curve_is_not_ranked_by_errors_from_it(
 
 
 def test_steps_are_told_beside_their_period_with_who_answered_instead(contest: Contest, scenario: Scenario) -> None:
-    small, of = few(contest, "nominal"), only(scenario, "pid", "mpc_linear")
+    small, of = few(contest, "nominal", seeds=1), only(scenario, "pid", "mpc_linear")
     counters = {"qp": 400, "qp_failed": 3, "late": 2, "shifted_plan": 4, "lqr": 1, "feedforward": 0}
     values = dict.fromkeys(Told(small, of, (), None).metrics, 0.0)
     matches = tuple(Match("nominal", draw, name, dict(values), None, 10.0 * (draw + 1), 500.0 * (draw + 1), counters)

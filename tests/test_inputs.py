@@ -5,10 +5,10 @@ from pathlib import Path
 
 import pytest
 from input_mistakes import GRADES, LINE_MISTAKES, LINE_TEXT, SCENARIO_MISTAKES, TEXT
+from refusals import changed, refusal
 from scenarios import BENCHMARKS, YANG, short_scenario
 
 from workbench.controllers.values import check_controllers
-from workbench.errors import InputError
 from workbench.scenario import Variant, load_scenario, load_variant
 from workbench.toml_input import read_toml
 from workbench.track import load_track
@@ -19,20 +19,6 @@ def folder(tmp_path):
     shutil.copytree(YANG.parent / "lines", tmp_path / "lines")
     shutil.copy(YANG, tmp_path / "yang2021.toml")
     return tmp_path
-
-
-def changed(text: str, old: str, new: str) -> str:
-    assert old in text, f"the shipped file no longer holds {old!r}"
-    return text.replace(old, new, 1)
-
-
-def refusal(read, *arguments) -> str:
-    with pytest.raises(InputError) as caught:
-        read(*arguments)
-    message = str(caught.value)
-    assert len(message.splitlines()) == 1
-    assert message.isprintable()
-    return message
 
 
 def load_all(path: Path) -> None:

@@ -10,10 +10,10 @@ from pathlib import Path
 import numpy as np
 import plain_trials
 import pytest
+from refusals import changed_copy, refusal
 
 from workbench.controllers import jiao2025 as paper
 from workbench.controllers.jiao2025 import TRIAL_LAWS
-from workbench.errors import InputError
 from workbench.report.build import study_document
 from workbench.report.sources import sourced_values
 from workbench.simulate.trials import run_trials
@@ -149,14 +149,9 @@ def test_every_value_says_where_it_comes_from(study):
     ('mu = "paper, Table 1"\n', "", "learning: source.mu is missing"),
 ])
 def test_bad_input_is_one_line_with_file_and_key(tmp_path, old, new, message):
-    text = FILE.read_text(encoding="utf-8")
-    assert old in text
-    path = tmp_path / "jiao.toml"
-    path.write_text(text.replace(old, new, 1), encoding="utf-8")
-    with pytest.raises(InputError) as trouble:
-        load_study(path)
-    assert str(trouble.value).startswith(f"{path}: ") and "\n" not in str(trouble.value)
-    assert message.lower() in str(trouble.value).lower()
+    path = changed_copy(FILE, tmp_path, old, new)
+    said = refusal(load_study, path)
+    assert said.startswith(f"{path}: ") and message.lower() in said.lower()
 
 
 # --- what the paper says, and what comes out ------------------------------------------------------------------

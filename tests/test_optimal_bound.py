@@ -80,19 +80,21 @@ def test_no_run_in_time_takes_less_than_the_bound_of_a_reference(vehicle, course
         return
     assert found.lower_bound_j <= found.energy_j
     assert found.profile.trip_time_s <= asked * (1 + 1e-9)
-    certificate = found.certificate
+    certificate, drawn = found.certificate, found.certificate.auxiliary_w
     rng = np.random.default_rng(seed)
     own, tolerance = own_energy(vehicle, found.profile)
     for size in (0.0, 1e-3, 1e-2, 0.1):  # near its best a bound is nearly sharp, so that a wrong term would show
         noise = rng.normal(0.0, size, (2, len(certificate.left)))
+        price = (certificate.time_price_w - drawn) * (1 + rng.normal(0.0, size / 10))
         near = Certificate(certificate.position_m, certificate.left + noise[0], certificate.right + noise[1],
-                           certificate.time_price_w * (1 + rng.normal(0.0, size / 10)) + 0.0)
-        assert lower_bound(vehicle, course, near, found.profile.trip_time_s) <= own + tolerance
+                           price + drawn, auxiliary_w=drawn)
+        time = found.profile.trip_time_s
+        assert lower_bound(vehicle, course, near, time) <= own + drawn * time + tolerance
     for run in runs:
         # A bound holds for runs of its trip time: each run is held against the bound at its own.
         bound = lower_bound(vehicle, course, certificate, max(asked, run.trip_time_s))
         energy, tolerance = own_energy(vehicle, run)
-        assert bound <= energy + tolerance
+        assert bound <= energy + drawn * run.trip_time_s + tolerance
 
 
 def test_a_jump_of_the_price_inside_a_cell_of_two_limits_proves_nothing_false():

@@ -101,22 +101,27 @@ def check_certificates(folder: Annotated[Path, typer.Argument(help="Folder of ce
 @app.command()
 def compare(scenario: Annotated[Path, typer.Argument(help="Scenario or study TOML")], json: JsonFile = None,
             variants: Annotated[bool, typer.Option(help="Also run the scenario's variants.")] = False,
+            out: Annotated[Path | None, typer.Option(
+                metavar="FOLDER", help="Where a contest keeps its finished runs.")] = None,
+            resume: Annotated[bool, typer.Option("--resume", help="Go on with the runs kept in --out.")] = False,
             workers: Workers = None) -> None:
     """Run all controllers of a scenario on the same train and line, and compare them; or all runs of a study."""
     from workbench.json_output import write_json
     from workbench.report.build import comparison_document, run_study, study_document
     from workbench.simulate.compare import compare as run_comparison
-    from workbench.studies.registry import is_study, load_study
+    from workbench.studies.registry import check_kept, is_study, load_study
 
     if is_study(scenario):
         _refuse(variants, "--variants")
         study = load_study(scenario)
+        check_kept(study, out, resume)
         with progress() as show:
-            found = run_study(study, workers, show)
+            found = run_study(study, workers, show, out, resume)
         if json:
             write_json(json, study_document(study, found))
         print_study(found)
         return
+    check_kept(None, out, resume)
     with progress() as show:
         result = run_comparison(scenario, variants, workers, lambda done, total, _: show("runs", done, total))
     document = comparison_document(result)
@@ -171,6 +176,8 @@ def report(scenario: Annotated[Path, typer.Argument(help="Scenario or study TOML
                min=1, help="Monte Carlo runs; default: as the scenario states")] = None,
            seed: Annotated[int | None, typer.Option(min=0)] = None, gains: Annotated[bool, typer.Option(
                help="Also what is proved of the paper's gains, and better ones.")] = True,
+           resume: Annotated[bool, typer.Option(
+               "--resume", help="Go on with the runs of the Monte Carlo, or of a contest, kept in --out.")] = False,
            workers: Workers = None) -> None:
     """Check the proof, run and compare the controllers, and put the whole on one page."""
     from workbench.report.build import build_report, build_study_report
@@ -180,11 +187,11 @@ def report(scenario: Annotated[Path, typer.Argument(help="Scenario or study TOML
         _refuse(runs is not None, "--runs")
         _refuse(seed is not None, "--seed")
         with progress() as show:
-            study = build_study_report(scenario, proofs or [], out, workers, show, gains)
+            study = build_study_report(scenario, proofs or [], out, workers, show, gains, resume)
         _print_study_report(study)
         return
     with progress() as show:
-        made = build_report(scenario, proofs or [], out, runs, seed, workers, show, gains)
+        made = build_report(scenario, proofs or [], out, runs, seed, workers, show, gains, resume)
     _print_report(made)
 
 

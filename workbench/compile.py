@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import hashlib
 import importlib.util
-import inspect
 import keyword
 import sys
 import tempfile
@@ -18,6 +17,7 @@ import sympy as sp
 from sympy.printing.pycode import PythonCodePrinter
 
 from workbench.cache_folder import CACHE_VARIABLE, cache_folder, writable, write_whole
+from workbench.compile_text import AS_WRITTEN, Form, module_text
 from workbench.controllers.base import MEASUREMENTS, ControlLaw, neuron, neuron_count
 from workbench.errors import CompileError
 from workbench.multi_particle import cars
@@ -234,25 +234,21 @@ def _kernel_folder() -> Path:
     return folder
 
 
-def kernel_module(plant: Plant, law: ControlLaw, loop: ModuleType,
-                  estimates: Estimates = "corrected") -> ModuleType:
+def kernel_module(plant: Plant, law: ControlLaw, loop: ModuleType, estimates: Estimates = "corrected",
+                  form: Form = AS_WRITTEN) -> ModuleType:
     """The compiled module of a plant under a law, driven by the functions of `loop`; cached between runs."""
-    return loop_module(f"{law.source} and {plant.source}", [plant_source(plant), law_source(law, estimates)], loop)
+    functions = [plant_source(plant), law_source(law, estimates)]
+    return loop_module(f"{law.source} and {plant.source}", functions, loop, form)
 
 
-def loop_module(source: str, functions: Sequence[str], loop: ModuleType) -> ModuleType:
+def loop_module(source: str, functions: Sequence[str], loop: ModuleType, form: Form = AS_WRITTEN) -> ModuleType:
     """The compiled module of generated functions, driven by what stands below the marker in `loop`; cached.
 
     source: what the functions were generated from, in words; functions: their Python source. All of it is joined
-    into one module on disk, in which every function becomes a numba kernel.
+    into one module on disk, in which every function becomes a numba kernel of the given form.
+    Raises CompileError for a form that does not fit, and where no folder can be written.
     """
-    loop_source = inspect.getsource(loop).split("# --- kernel ---")[1]
-    text = "\n".join([
-        f'"""Generated from the sympy expressions of {source}."""', "", "import math", "", "from numba import njit", "",
-        *functions, loop_source,
-    ])
-    # By numpy's error model a division by zero gives inf or nan, which the loop reports as a diverged law.
-    text = text.replace("\ndef ", "\n@njit(cache=True, error_model='numpy')\ndef ")
+    text = module_text(source, functions, loop, form)
     digest = hashlib.sha256(text.encode()).hexdigest()[:20]
     name = f"workbench_kernel_{digest}"
     if name in sys.modules:

@@ -6,7 +6,7 @@ import multiprocessing
 import os
 import signal
 import threading
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Hashable, Iterator, Sequence
 from concurrent.futures import FIRST_COMPLETED, Future, ProcessPoolExecutor, wait
 from concurrent.futures.process import BrokenProcessPool
 from contextlib import contextmanager
@@ -19,6 +19,7 @@ THREAD_LIMITS = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "
                  "VECLIB_MAXIMUM_THREADS")
 
 T = TypeVar("T")
+K = TypeVar("K", bound=Hashable)
 R = TypeVar("R")
 
 
@@ -64,6 +65,28 @@ def run_tasks(function: Callable[[Any, T], R], shared: Any, tasks: Sequence[T], 
                 if not future.cancelled() and future.exception() is None:
                     record(future.result())
             raise
+
+
+def results_of(function: Callable[[Any, K], R], shared: Any, tasks: Sequence[K], workers: int,
+               on_result: Callable[[int, K, R], None]) -> dict[K, R]:
+    """Task -> function(shared, task), in the order of the tasks; they are run as by `run_tasks`, and raise alike.
+
+    on_result(finished, task, result) is called after each, in the order in which they finish.
+    """
+    found: dict[K, R] = {}
+
+    def record(done: tuple[K, R]) -> None:
+        task, result = done
+        found[task] = result
+        on_result(len(found), task, result)
+
+    run_tasks(_with_task, (function, shared), tasks, workers, record)
+    return {task: found[task] for task in tasks}
+
+
+def _with_task(given: tuple[Callable[[Any, K], R], Any], task: K) -> tuple[K, R]:
+    function, shared = given
+    return task, function(shared, task)
 
 
 @contextmanager

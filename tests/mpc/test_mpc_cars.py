@@ -231,3 +231,32 @@ def test_a_train_that_cannot_be_is_refused(changes, words):
 def test_weights_that_give_no_feedback_are_refused(name):
     with pytest.raises(InputError, match="choose a weight within"):
         CarWeights(**({"position": 1.0, "speed": 1.0, "command": 1.0} | {name: 0.0}))
+
+
+class _ByIpopt:
+    """A `BoxProgram` of the same Hessian, by ipopt."""
+
+    def __init__(self, H):
+        x, f = ca.SX.sym("x", len(H)), ca.SX.sym("f", len(H))
+        self._solver = ca.nlpsol("box", "ipopt", {"x": x, "p": f, "f": ca.bilin(ca.DM(H), x, x) / 2 + ca.dot(f, x)}, {
+            "print_time": False, "ipopt": {"print_level": 0, "sb": "yes", "tol": 1e-10, "bound_relax_factor": 0.0}})
+
+    def solve(self, f, low, high, start):
+        found = self._solver(x0=start, p=f, lbx=low, ubx=high)
+        assert self._solver.stats()["success"]
+        return np.asarray(found["x"]).ravel(), 0
+
+
+@pytest.mark.parametrize("n", [2, 6])
+def test_the_loop_costs_what_ipopts_does(n):
+    ours, twin = mpc_of(n), mpc_of(n)
+    twin._program = _ByIpopt(twin._program._H)
+    costs = []
+    for mpc in (ours, twin):
+        errors, forces = run(n, mpc, 60)
+        costs.append(WEIGHTS.position * np.sum(errors**2) + WEIGHTS.command * np.sum((forces / 5e4) ** 2))
+        # While a metre is made up limits bind: of the motors, and of the trailers, which cannot pull.
+        assert (forces[:, 0] >= 4e4 * (1 - 1e-6)).sum() >= 2
+        assert (forces[:, 1] >= -1e-2).sum() >= 2
+        assert mpc.counters["qp_failed"] == 0
+    assert costs[0] == pytest.approx(costs[1], rel=1e-6)

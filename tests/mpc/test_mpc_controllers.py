@@ -224,10 +224,10 @@ def test_unfit_parameters_are_refused_naming_the_controller_and_the_file(law, ch
 
 @pytest.mark.parametrize(("law", "changes", "words"), [
     ("mpc.offset_free", {"observer_gain": 1.5}, "observer_gain: 1.5 is outside 0 to 1"),
-    ("mpc.economic", {"energy_price": -1.0}, "must not be negative"),
+    ("mpc.economic", {"energy_price": -1.0}, "must be finite and not negative"),
     ("mpc.economic", {"regenerated": 2.0}, "be a share"),
-    ("mpc.tube", {"disturbance_mps2": 0.0}, "must be positive and finite"),
-    ("mpc.tube", {"disturbance_mps2": 5.0}, "leaves no command"),
+    ("mpc.tube", {"disturbance_mps2": 0.0}, "is not above 0 and up to 5"),
+    ("mpc.tube", {"disturbance_mps2": 50.0}, "is not above 0 and up to 5"),
 ])
 def test_unfit_parameters_of_one_kind_are_refused(law, changes, words):
     with pytest.raises(InputError, match=words):

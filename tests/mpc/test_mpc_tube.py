@@ -137,9 +137,9 @@ def test_the_nominal_run_is_known_before_the_real_one():
     assert (rows[:, 2] <= problem.highest_command_mps2 - mpc.around.command_mps2 + 1e-12).all()
 
 
-@pytest.mark.parametrize("bound", [0.0, -1.0, float("nan"), float("inf")])
+@pytest.mark.parametrize("bound", [0.0, -1.0, float("nan"), float("inf"), 6.0])
 def test_a_bound_that_is_none_is_refused(bound):
-    with pytest.raises(InputError, match="must be positive and finite"):
+    with pytest.raises(InputError, match="is not above 0 and up to 5"):
         tube(*problem_of(), bound)
 
 
@@ -168,3 +168,37 @@ def test_the_premises_hold_for_yang2021s_own_line_and_train():
     assert around.holds, around.report()
     # A push that stays at its bound is met by K_p e: no tube of this feedback is thinner.
     assert W / around.gain[0] * 0.99 < around.position_m < 0.2
+
+
+def test_the_start_of_the_run_is_a_premise():
+    """The nominal run starts where the train does; from beyond what the tube leaves of the band nothing is promised."""
+    near, far = (tube_scenario(short_scenario, simulation__initial_position_m=start) for start in (-0.05, -0.19))
+    made = [MpcController(scenario, scenario.controllers["mpc"], "mpc") for scenario in (near, far)]
+    assert made[0].counters["premises_failed"] == 0
+    assert made[1].counters["premises_failed"] > 0
+    assert any("the run starts within" in line for line in made[1].explain())
+
+
+def test_a_push_beyond_the_stated_bound_is_counted_and_explained():
+    weak = tube_scenario(short_scenario, disturbance__amplitude_mps2=0.3, disturbance__period_s=10.0)
+    run, quiet = simulate(weak, "mpc"), simulate(tube_scenario(short_scenario), "mpc")
+    assert quiet.counters["beyond_bound"] == 0
+    assert 0.2 < run.counters["beyond_bound"] / run.counters["qp"] < 0.9
+    ours = MpcController(weak, weak.controllers["mpc"], "mpc")
+    ours.command(0.0, 0.0, 0.0)
+    expected = ours._observer._expected_speed
+    ours.command(T, 0.0, expected + 0.149 * T)
+    assert ours.counters["beyond_bound"] == 0
+    ours.command(2 * T, 0.0, ours._observer._expected_speed - 0.2 * T)
+    assert ours.counters["beyond_bound"] == 1
+    assert "beyond_bound: 1" in ours.explain()[0]
+    assert "0.2 m/s^2" in ours.explain()[0]
+
+
+def test_where_premises_fail_the_nominal_run_still_follows_the_curve():
+    """A bound that no limit leaves room for is counted; tightened all the same, the train would not even start."""
+    weak = tube_scenario(short_scenario, train__max_traction_n=160e3)
+    weak.controllers["mpc"].parameters["disturbance_mps2"] = 0.9
+    run = simulate(weak, "mpc")
+    assert run.counters["premises_failed"] > 0
+    assert np.abs(run.column("s_m") - run.column("s_desired_m")).max() < 0.2

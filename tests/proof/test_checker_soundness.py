@@ -1,11 +1,11 @@
 """Certificates of false claims, each made to slip through one gap; the checker must refuse them all."""
 
 import json
-import re
 
 import pytest
+from verdicts import assert_refused
 
-from workbench.proof.checker import CertificateError, check, check_folder
+from workbench.proof.checker import check, check_folder
 
 IDENTITY = {"rule": "identity"}
 
@@ -251,10 +251,7 @@ ATTACKS = {
 
 @pytest.mark.parametrize("name", ATTACKS)
 def test_false_certificate_is_refused_for_the_right_reason(name):
-    certificate, reason = ATTACKS[name]
-    with pytest.raises(CertificateError) as caught:
-        check(certificate)
-    assert re.search(reason, str(caught.value)), caught.value
+    assert_refused(*ATTACKS[name])
 
 
 GENUINE = {

@@ -18,8 +18,9 @@ from pathlib import Path
 import pytest
 import sympy as sp
 from independent import Evaluated, model_breaks, path_obeys
+from verdicts import accepted
 
-from workbench.proof.checker import CertificateError, check, check_folder
+from workbench.proof.checker import check_folder
 from workbench.proof.claim import D, Goal, Relation
 from workbench.proof.decide.engine import pinned
 from workbench.proof.paper import collect_papers
@@ -38,14 +39,6 @@ COUNTS: Counter[str] = Counter()
 @functools.cache
 def loaded(path):
     return json.loads(path.read_text(encoding="utf-8"))
-
-
-def accepted(certificate):
-    try:
-        check(certificate)
-    except CertificateError:
-        return False
-    return True
 
 
 # --- corruptions -----------------------------------------------------------------------------------------

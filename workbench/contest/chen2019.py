@@ -16,8 +16,8 @@ import sympy as sp
 
 from workbench import multi_particle as of_train
 from workbench.compile import cars_source, function_source, loop_module, plant_source
+from workbench.compile_text import Form
 from workbench.contest.entrant import Entrant, Played, trial_errors
-from workbench.contest.inlined import inlined
 from workbench.controllers import chen2019 as law
 from workbench.controllers.base import LawState
 from workbench.controllers.registry import held_command
@@ -25,6 +25,7 @@ from workbench.scenario import ControllerSpec, Scenario
 from workbench.simulate import kernel_loop
 from workbench.simulate.cars_loop import COMPUTED
 from workbench.simulate.closed_loop import Run, Setting, run_law
+from workbench.simulate.setting_loop import setting_form
 from workbench.simulate.trials import Array
 from workbench.train import single_particle
 
@@ -81,7 +82,7 @@ PARAMETERS = (*LAW, *CAR, "tau", "trials")
 
 
 @cache
-def _learner() -> ModuleType:
+def _learner(form: Form) -> ModuleType:
     sample, plant = law.control_sample("filtered"), single_particle()
     return loop_module(f"chen2019 (8)-(22) for one car and {plant.source}", [
         plant_source(plant),
@@ -90,7 +91,7 @@ def _learner() -> ModuleType:
                     (tuple(sample.computed[name] for name in COMPUTED), sample.kept), sample.shared),
         function_source("followed", (law.v_dot_used, _v_now, _v_last), law.VALUES, [_followed]),
         function_source("auxiliary", (law.lambda_1, law.lambda_2, law.Delta_u), law.VALUES, _euler),
-        STEP], kernel_loop)
+        STEP], kernel_loop, form)
 
 
 def _values(scenario: Scenario, spec: ControllerSpec) -> Array:
@@ -117,7 +118,7 @@ def _play(scenario: Scenario, spec: ControllerSpec, setting: Setting) -> Played:
     for trial in range(1, int(given["trials"]) + 1):
         noisy = replace(setting, sensing=replace(setting.sensing, seed=setting.sensing.seed + trial - 1))
         run = run_law(ONE_CAR, (values, np.zeros(len(_CARRIED)), np.zeros((0, 0)), memory), noisy, spec.period_s,
-                      title=ENTRANTS[spec.law].title, module=inlined(_learner(), setting, *PUT_IN))
+                      title=ENTRANTS[spec.law].title, module=_learner(setting_form(setting, *PUT_IN)))
         found = trial_errors(run, scenario.track.length_m)
         if found is None:
             return Played(replace(run, failed=f"trial {trial}: {run.failed}"), tuple(errors))

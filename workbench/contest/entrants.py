@@ -7,7 +7,6 @@ from pathlib import Path
 
 from workbench.contest import chen2019, jiao2025, liu2020
 from workbench.contest.entrant import Entrant, Played
-from workbench.contest.inlined import law_loop
 from workbench.contest.record import Contest
 from workbench.controllers.registry import LAWS, SAMPLED, held_command
 from workbench.controllers.values import check_controllers, law_values
@@ -15,6 +14,7 @@ from workbench.errors import InputError
 from workbench.mpc.controller import KINDS
 from workbench.scenario import Scenario, load_scenario
 from workbench.simulate.closed_loop import Setting, run_law, simulate_in
+from workbench.simulate.setting_loop import law_loop
 
 ENTRANTS: dict[str, Entrant] = {**liu2020.ENTRANTS, **jiao2025.ENTRANTS, **chen2019.ENTRANTS}
 
@@ -44,9 +44,12 @@ def check_entrants(contest: Contest, scenario: Scenario, path: Path) -> None:
         elif spec.law in LAWS or spec.law in SAMPLED:
             ordinary[name] = spec
         else:
-            raise InputError(path, f"entrants.{name}.law", f"unknown '{spec.law}': choose a law of a scenario or one "
-                             f"of {', '.join(ENTRANTS)}")
-    check_controllers(scenario.model_copy(update={"controllers": ordinary}), path)
+            raise InputError(path, f"entrants.{name}.law", f"unknown '{spec.law}': choose one of "
+                             f"{', '.join((*LAWS, *SAMPLED, *ENTRANTS))}")
+    try:
+        check_controllers(scenario.model_copy(update={"controllers": ordinary}), path)
+    except InputError as trouble:  # in a contest's file the table is called otherwise
+        raise InputError(path, trouble.key.replace("controllers.", "entrants.", 1), trouble.problem) from None
 
 
 def play(scenario: Scenario, name: str, setting: Setting) -> Played:

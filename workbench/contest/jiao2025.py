@@ -14,13 +14,14 @@ from types import ModuleType
 import numpy as np
 
 from workbench.compile import loop_module, plant_source
+from workbench.compile_text import Form
 from workbench.contest.entrant import Entrant, Played, trial_errors
-from workbench.contest.inlined import inlined
 from workbench.controllers.jiao2025 import TRIAL_LAWS
 from workbench.controllers.registry import held_command
 from workbench.scenario import ControllerSpec, Scenario
 from workbench.simulate import kernel_loop
 from workbench.simulate.closed_loop import Run, Setting, run_law
+from workbench.simulate.setting_loop import setting_form
 from workbench.simulate.trials import trial_kernel
 from workbench.train import single_particle
 
@@ -39,9 +40,9 @@ OWN = ("unit_mps2", "first_input", "trials")
 
 
 @cache
-def _player() -> ModuleType:
+def _player(form: Form) -> ModuleType:
     plant = single_particle()
-    return loop_module(f"a table of commands and {plant.source}", [plant_source(plant), PLAYBACK], kernel_loop)
+    return loop_module(f"a table of commands and {plant.source}", [plant_source(plant), PLAYBACK], kernel_loop, form)
 
 
 def _play(scenario: Scenario, spec: ControllerSpec, setting: Setting) -> Played:
@@ -69,7 +70,7 @@ def _play(scenario: Scenario, spec: ControllerSpec, setting: Setting) -> Played:
         table[0, :length], table[0, length] = unit * u, unit * u[-1]
         noisy = replace(setting, sensing=replace(setting.sensing, seed=setting.sensing.seed + trial))
         run = run_law(held_command, (np.zeros(1), np.zeros(0), np.zeros((0, 0)), table), noisy, spec.period_s,
-                      title=law.title, module=inlined(_player(), setting, "control_step"))
+                      title=law.title, module=_player(setting_form(setting, "control_step")))
         found = trial_errors(run, scenario.track.length_m)
         if found is None:
             return Played(replace(run, failed=f"trial {trial}: {run.failed}"), tuple(errors))

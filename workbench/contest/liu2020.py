@@ -5,10 +5,10 @@ from __future__ import annotations
 import numpy as np
 
 from workbench.contest.entrant import Entrant, Played
-from workbench.contest.inlined import law_loop
 from workbench.controllers.liu2020 import LAWS
 from workbench.scenario import ControllerSpec, Scenario
 from workbench.simulate.closed_loop import Setting, run_law
+from workbench.simulate.setting_loop import law_loop
 from workbench.studies.liu2020_runs import Array, centers_along
 
 OBSERVED = ("k_1", "k_2", "k_3", "k_4", "k_5")

@@ -103,6 +103,15 @@ def play_match(scenario: Scenario, name: str, condition: Condition, draw: int, s
     generator = np.random.default_rng(sequence)
     factors = 1 + condition.spread * generator.uniform(-1.0, 1.0, 5)
     noise_seed = int(generator.integers(2**31))
+    world = world_of(scenario, condition)
+    setting = setting_of(world, Factors(*(float(factor) for factor in factors)))
+    sensing = Sensing(condition.position_noise_m, condition.speed_noise_mps, condition.measurement_delay_s,
+                      condition.command_delay_s, noise_seed)
+    return play(world, name, replace(setting, sensing=sensing))
+
+
+def world_of(scenario: Scenario, condition: Condition) -> Scenario:
+    """What all draws of a condition share, and controllers know but for failures: limits, whether level, sampling."""
     train = scenario.train
     limited = train.model_copy(update={"max_traction_n": train.max_traction_n * condition.force_share,
                                        "max_braking_n": train.max_braking_n * condition.force_share})
@@ -114,10 +123,11 @@ def play_match(scenario: Scenario, name: str, condition: Condition, draw: int, s
     world = scenario.model_copy(update={"train": limited, "failures": failures})
     if condition.level:
         world = world.model_copy(update={"track": _levelled(world)})
-    setting = setting_of(world, Factors(*(float(factor) for factor in factors)))
-    sensing = Sensing(condition.position_noise_m, condition.speed_noise_mps, condition.measurement_delay_s,
-                      condition.command_delay_s, noise_seed)
-    return play(world, name, replace(setting, sensing=sensing))
+    if condition.period_s is not None:
+        sampled = {name: spec.model_copy(update={"period_s": condition.period_s})
+                   for name, spec in world.controllers.items()}
+        world = world.model_copy(update={"controllers": sampled})
+    return world
 
 
 def _levelled(scenario: Scenario) -> Track:
@@ -175,19 +185,26 @@ def one_match(shared: tuple[Contest, Scenario], task: Task) -> Match:
                  middle, slow, run.counters, played.trials)
 
 
-def all_matches(contest: Contest, scenario: Scenario, workers: int,
-                on_progress: Callable[[int, int, str], None]) -> tuple[Match, ...]:
-    """Every match, ordered by condition, draw and entry; a condition without chance is run once."""
+def all_matches(contest: Contest, scenario: Scenario, workers: int, on_progress: Callable[[int, int, str], None],
+                played: Sequence[Match] = (), keep: Callable[[Match], None] = lambda match: None) -> tuple[Match, ...]:
+    """Every match, ordered by condition, draw and entry; a condition without chance is run once.
+
+    Those already `played` are taken as they are; keep(match) is called with every other as it is finished.
+    """
     tasks: list[Task] = [(name, draw, entry) for name in contest.conditions for draw in range(draws_of(contest, name))
                          for entry in entries(contest, scenario)]
-    found: dict[tuple[str, int, str], Match] = {}
+    places = [(condition, draw, entry.name) for condition, draw, entry in tasks]
+    before = {(match.condition, match.draw, match.entry): match for match in played}
+    found = {place: before[place] for place in places if place in before}
 
     def record(match: Match) -> None:
+        keep(match)
         found[match.condition, match.draw, match.entry] = match
         on_progress(len(found), len(tasks), f"{match.entry}: {contest.conditions[match.condition].title}")
 
-    run_tasks(one_match, (contest, scenario), tasks, workers, record)
-    return tuple(found[condition, draw, entry.name] for condition, draw, entry in tasks)
+    todo = [task for task, place in zip(tasks, places, strict=True) if place not in found]
+    run_tasks(one_match, (contest, scenario), todo, workers, record)
+    return tuple(found[place] for place in places)
 
 
 def of(matches: Sequence[Match], condition: str, entry: str) -> list[Match]:

@@ -6,7 +6,7 @@ from typing import Annotated, Self
 
 from pydantic import Field, Strict, model_validator
 
-from workbench.scenario import ControllerSpec
+from workbench.scenario import ControllerSpec, Interval
 from workbench.studies.base import Study
 from workbench.studies.tuning_record import Searched, Seed
 from workbench.toml_input import Count, Name, NonNegative, Positive, SourcedRecord, Text
@@ -20,7 +20,8 @@ class Condition(SourcedRecord):
 
     spread: mass, Davis coefficients and the line's resistance are drawn from 1 - spread to 1 + spread; level: the line
     has no grades. failed_share of the motors give failure_n (in all) from failure_from_s on. Noise and delays are those
-    of `sensing.py`; force_share: of traction and braking limits that is left, known to the controllers.
+    of `sensing.py`; force_share: of traction and braking limits that is left, known to the controllers. period_s: at
+    which all sample, instead of each at its own; a multiple of the plant's step.
     """
 
     title: Text
@@ -34,6 +35,7 @@ class Condition(SourcedRecord):
     measurement_delay_s: NonNegative = 0.0
     command_delay_s: NonNegative = 0.0
     force_share: Share = 1.0
+    period_s: Interval | None = None
 
     @property
     def random(self) -> bool:

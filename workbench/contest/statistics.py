@@ -37,12 +37,13 @@ def mean_interval(values: Array, chosen: NDArray[np.intp], confidence: float) ->
     return Interval(float(values.mean()), float(low), float(high))
 
 
-def winners(values: Sequence[Array | None], chosen: NDArray[np.intp], confidence: float) -> list[int]:
+def winners(values: Sequence[Array | None], chosen: NDArray[np.intp], confidence: float, alike: float = 0.0
+            ) -> list[int]:
     """Numbers of the controllers that are not worse than the best by more than chance; the best alone has won.
 
     values: per controller its metric by draw, the less the better, or None where a run failed: such a controller
     neither wins nor ties. Of two with unlike numbers of draws the first ones of both are compared. A difference counts
-    when the interval of the paired difference leaves out zero.
+    when the interval of the paired difference leaves out zero and the means differ by more than the share `alike`.
     """
     able = [i for i, value in enumerate(values) if value is not None]
     if not able:
@@ -57,7 +58,7 @@ def winners(values: Sequence[Array | None], chosen: NDArray[np.intp], confidence
         assert value is not None
         both = min(len(value), len(reference))
         difference = mean_interval(value[:both] - reference[:both], chosen, confidence)
-        if i == best or not difference.low > 0:
+        if i == best or not difference.low > 0 or means[i] - means[best] <= alike * abs(means[best]):
             tied.append(i)
     return tied
 

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import asdict
 from pathlib import Path
 from typing import Any
 
@@ -11,15 +12,17 @@ import numpy as np
 
 from workbench.contest.energy import best_run
 from workbench.contest.entrants import check_entrants, entered, follows_curve, learns
+from workbench.contest.kept import matches_journal, matches_of
 from workbench.contest.learning import learning_findings, learning_plot, learning_tables
-from workbench.contest.matches import METRICS, all_matches, draws_of, of, overspeed, run_match, tunable
+from workbench.contest.matches import METRICS, Match, all_matches, draws_of, of, overspeed, run_match, tunable
+from workbench.contest.premises import premises_findings, premises_table, words_of
 from workbench.contest.record import Contest
 from workbench.contest.search import Tuned
 from workbench.contest.tables import HEADINGS, UNITS, Told, all_tables
 from workbench.contest.tune import tune_all
 from workbench.errors import InputError
 from workbench.report.numbers import number
-from workbench.scenario import load_scenario
+from workbench.scenario import Scenario, load_scenario
 from workbench.studies.base import Curve, Plot, Progress, StudyKind, StudyResult
 
 
@@ -28,6 +31,7 @@ def located(contest: Contest, path: Path) -> Contest:
     contest = contest.model_copy(update={"scenario": str(path.parent / contest.scenario)})
     check_entrants(contest, load_scenario(Path(contest.scenario)), path)
     scenario = entered(contest)
+    _delays_alike(contest, scenario, path)
     for name, ranges in contest.tuning.ranges.items():
         if name not in scenario.controllers:
             raise InputError(path, f"tuning.ranges.{name}", "is no controller of the scenario: choose one of "
@@ -42,20 +46,54 @@ def located(contest: Contest, path: Path) -> Contest:
     return contest
 
 
+def _delays_alike(contest: Contest, scenario: Scenario, path: Path) -> None:
+    """Delays are whole samples, so that one which is none of a controller's would be rounded to its advantage or harm.
+
+    Raises InputError for such a delay, and for a sampling that is no multiple of the plant's step.
+    """
+    for condition, stated in contest.conditions.items():
+        step = scenario.simulation.plant_step_s
+        if stated.period_s is not None and (round(stated.period_s / step) < 1 or
+                                            abs(stated.period_s / step - round(stated.period_s / step)) > 1e-6):
+            raise InputError(path, f"conditions.{condition}.period_s", f"{stated.period_s:g} is not a whole number of "
+                             f"plant steps of {step:g} s: choose a multiple")
+        for key in ("measurement_delay_s", "command_delay_s"):
+            delay = getattr(stated, key)
+            for name, spec in scenario.controllers.items():
+                period = stated.period_s or spec.period_s
+                if abs(delay / period - round(delay / period)) > 1e-6:
+                    raise InputError(path, f"conditions.{condition}.{key}", f"{delay:g} s is no whole number of the "
+                                     f"{period:g} s at which '{name}' samples, so that not all would be delayed "
+                                     "alike: choose a multiple of every period")
+
+
 def run(contest: Contest, workers: int, on_progress: Progress) -> StudyResult:
     """All matches, their tables, figures and findings."""
+    return _run(contest, workers, on_progress, (), lambda match: None)
+
+
+def run_kept(contest: Contest, workers: int, on_progress: Progress, folder: Path, resume: bool) -> StudyResult:
+    """`run` with a journal of the matches in a folder; with `resume` those that it holds are not played again."""
+    with matches_journal(folder, contest, entered(contest), resume) as journal:
+        return _run(contest, workers, on_progress, matches_of(journal), lambda match: journal.append(asdict(match)))
+
+
+def _run(contest: Contest, workers: int, on_progress: Progress, played: Sequence[Match],
+         keep: Callable[[Match], None]) -> StudyResult:
     scenario = entered(contest)
-    matches = all_matches(contest, scenario, workers, on_progress)
+    matches = all_matches(contest, scenario, workers, on_progress, played, keep)
     best = best_run(scenario)
     told = Told(contest, scenario, matches, best.lower_bound_j if best else None)
     first: dict[str, str] = {}  # of an entry's failed runs under a condition the first; the findings say how many
     for match in matches:
         if match.failed is not None:
             first.setdefault(f"{match.entry}, {contest.conditions[match.condition].title}", match.failed)
-    failures = tuple(first.items())
-    return StudyResult(rows=tuple(_rows(told)), tables=(*all_tables(told), *learning_tables(told)),
+    failures, words = tuple(first.items()), tuple(words_of(told))
+    return StudyResult(rows=tuple(_rows(told)),
+                       tables=(*all_tables(told), *premises_table(told, words), *learning_tables(told)),
                        plots=(*_plots(told), *learning_plot(told)),
-                       findings=(*_findings(told), *learning_findings(told)), failures=failures)
+                       findings=(*_findings(told), *premises_findings(told, words), *learning_findings(told)),
+                       failures=failures)
 
 
 def _rows(told: Told) -> Iterator[dict[str, Any]]:
@@ -194,4 +232,4 @@ def _tuned(contest: Contest, names: list[str], workers: int, on_progress: Progre
     return tune_all(contest, entered(contest), names, workers, on_progress)
 
 
-KIND = StudyKind(Contest, run, located, _tuned)
+KIND = StudyKind(Contest, run, located, _tuned, run_kept)

@@ -25,6 +25,8 @@ HEADINGS = {"position_rms": "position RMS (m)", "speed_rms": "speed RMS (m/s)",
 UNITS = {"energy_J": 3.6e6}
 # A run that ends farther from the end of the line has not made the trip: what it saves is no merit.
 ARRIVED_M = 5.0
+# Means that differ by a smaller share are one number in the tables: where nothing is drawn, an interval has no width.
+ALIKE = 1e-3
 # So many are named where nobody is alone the best.
 NAMED = 4
 
@@ -77,7 +79,8 @@ class Told:
         """
         ranked = [value if arrived and self.judged(entry, metric) else None for entry, value, arrived in zip(
             self.entries, self.values(condition, metric), self.arrives(condition), strict=True)]
-        return [self.entries[i].name for i in winners(ranked, self.chosen(condition), self.contest.confidence)]
+        return [self.entries[i].name for i in winners(
+            ranked, self.chosen(condition), self.contest.confidence, ALIKE)]
 
 
 def condition_table(told: Told, condition: str) -> ResultTable:
@@ -96,12 +99,15 @@ def condition_table(told: Told, condition: str) -> ResultTable:
             cells.append("—" if value is None else _interval(metric, value, chosen, told.contest.confidence) + mark)
         rows.append((*cells, f"{failed} of {len(matches)}"))
     runs = told.contest.seeds if stated.random else 1
+    noisy = stated.position_noise_m or stated.speed_noise_mps
+    noise = " Noise is drawn anew at every sample, so that who samples more often has more to average." if noisy else ""
     return ResultTable(
         stated.title, f"{runs} run{'s' if runs > 1 else ''} each, the same draws for all",
         ("controller", *(HEADINGS[metric] for metric in told.metrics), "failed"), tuple(rows),
         f"Means, in brackets their {100 * told.contest.confidence:g} % bootstrap interval. ● the best, and every one "
         "whose paired difference from it may be chance. A controller with a run that fails, or that misses the end by "
-        f"more than {ARRIVED_M:g} m, is not ranked; nor is one by errors from a curve that it does not follow.")
+        f"more than {ARRIVED_M:g} m, is not ranked; nor is one by errors from a curve that it does not follow."
+        + noise)
 
 
 def _interval(metric: str, values: NDArray[np.float64], chosen: NDArray[np.intp], confidence: float) -> str:
@@ -123,7 +129,8 @@ def winners_table(told: Told) -> ResultTable:
         rows.append((condition.title, *cells))
     return ResultTable(
         "Who wins where", "the tables below", ("condition", *(HEADINGS[m] for m in told.metrics)), tuple(rows),
-        "A difference inside its interval is no win: then all that may be best are named or counted. Ranked are those "
+        "A difference inside its interval, or of less than a thousandth, is no win: then all that may be best are "
+        "named or counted. Ranked are those "
         f"whose runs all end within {ARRIVED_M:g} m of the end of the line. A trailing + marks the tuned parameters.")
 
 

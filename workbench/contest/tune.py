@@ -10,7 +10,7 @@ from workbench.contest.record import Contest, Objective, WithoutCurve
 from workbench.contest.search import Tuned, score, search
 from workbench.errors import InputError
 from workbench.scenario import Scenario
-from workbench.workers import run_tasks
+from workbench.workers import results_of
 
 # Draws of the search lie far from those of the contest, so that no controller is judged by what it was tuned on.
 DRAWS_FROM = 1_000_000
@@ -60,15 +60,9 @@ def tune(contest: Contest, scenario: Scenario, name: str) -> Tuned:
 def tune_all(contest: Contest, scenario: Scenario, names: list[str], workers: int,
              on_progress: Callable[[int, int, str], None]) -> dict[str, Tuned]:
     """`tune` of several controllers in parallel processes, in the order of the names."""
-    found: dict[str, Tuned] = {}
-
-    def record(result: tuple[str, Tuned]) -> None:
-        found[result[0]] = result[1]
-        on_progress(len(found), len(names), result[0])
-
-    run_tasks(_tune_task, (contest, scenario), names, workers, record)
-    return {name: found[name] for name in names}
+    return results_of(_tune_task, (contest, scenario), names, workers,
+                      lambda done, name, _: on_progress(done, len(names), name))
 
 
-def _tune_task(shared: tuple[Contest, Scenario], name: str) -> tuple[str, Tuned]:
-    return name, tune(*shared, name)
+def _tune_task(shared: tuple[Contest, Scenario], name: str) -> Tuned:
+    return tune(*shared, name)

@@ -207,7 +207,7 @@ def _checked(values: dict[str, float], where: str) -> dict[str, float]:
         if key not in PARAMETERS:
             raise InputError("", where, f"unknown '{key}': choose among {', '.join(PARAMETERS)}")
     horizon, gain = values["horizon"], values["observer_gain"]
-    if horizon != int(horizon) or not 2 <= horizon <= LONGEST_HORIZON:
+    if not (2 <= horizon <= LONGEST_HORIZON and horizon == int(horizon)):
         raise InputError("", where, f"horizon = {horizon:g} is no whole number from 2 to {LONGEST_HORIZON}: "
                          f"give the number of samples predicted")
     if not 0 < gain <= 1:

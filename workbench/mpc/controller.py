@@ -17,7 +17,7 @@ from workbench.mpc.offset_free import Observer
 from workbench.mpc.preview import preview
 from workbench.mpc.problem import Array, Problem, Weights
 from workbench.mpc.solution import Tracker
-from workbench.mpc.tube import TubeMpc, tube
+from workbench.mpc.tube import TubeMpc, checked_tube
 from workbench.scenario import ControllerSpec, Scenario
 from workbench.track import resistance_table
 
@@ -27,23 +27,24 @@ FARTHEST_M, FASTEST_MPS = 1e9, 1e4
 Values = dict[str, float]
 
 
-def _linear(problem: Problem, ahead: Array, values: Values) -> LinearMpc:
-    del values
+def _linear(problem: Problem, ahead: Array, values: Values, start_m: float) -> LinearMpc:
+    del values, start_m
     return LinearMpc(problem, ahead)
 
 
-def _nonlinear(problem: Problem, ahead: Array, values: Values) -> NonlinearMpc:
-    del values
+def _nonlinear(problem: Problem, ahead: Array, values: Values, start_m: float) -> NonlinearMpc:
+    del values, start_m
     return NonlinearMpc(problem, ahead)
 
 
-def _economic(problem: Problem, ahead: Array, values: Values) -> Tracker:
+def _economic(problem: Problem, ahead: Array, values: Values, start_m: float) -> Tracker:
+    del start_m
     prices = Prices(values["energy_price"], values["time_price"], values["regenerated"])
     return economic_mpc(problem, ahead, prices)
 
 
-def _tube(problem: Problem, ahead: Array, values: Values) -> TubeMpc:
-    return TubeMpc(problem, ahead, tube(problem, ahead, values["disturbance_mps2"], problem.band_m))
+def _tube(problem: Problem, ahead: Array, values: Values, start_m: float) -> TubeMpc:
+    return TubeMpc(problem, ahead, checked_tube(problem, ahead, values["disturbance_mps2"], start_m))
 
 
 @dataclass(frozen=True)
@@ -51,12 +52,13 @@ class Kind:
     """One of the family: what it is called, what it knows, how it solves, and the parameters beside COMMON.
 
     told_grades: and curves and tunnels. follows_curve: within the band; one that does not keeps the line's speed limits
-    instead, and takes from the curve when and where it is to arrive.
+    instead, and takes from the curve when and where it is to arrive. tracker: of the problem, what lies ahead, the
+    parameters, and how far from the curve the train starts (m).
     """
 
     title: str
     information: str
-    tracker: Callable[[Problem, Array, Values], Tracker]
+    tracker: Callable[[Problem, Array, Values, float], Tracker]
     parameters: tuple[str, ...] = ()
     told_grades: bool = False
     follows_curve: bool = True
@@ -110,7 +112,8 @@ class MpcController:
             line = resistance_table(scenario.track) if kind.told_grades else None
             kept = () if kind.follows_curve else scenario.track.speed_limit
             self.ahead = preview(self.problem, curve, duration, line=line, limits=kept)
-            tracker = kind.tracker(self.problem, self.ahead, values)
+            start = scenario.simulation.initial_position_m - float(self.ahead[0, 0])
+            tracker = kind.tracker(self.problem, self.ahead, values, start)
             self._observer = Observer(self.problem, self.ahead, values.get("observer_gain", 0.0))
         except InputError as trouble:
             raise InputError("", f"{where}: {trouble.key}", trouble.problem) from None
@@ -118,14 +121,21 @@ class MpcController:
         self._fallback = Fallback(tracker, tracker.lqr, self.ahead, limits, values["deadline_s"])
         self.title, self.information, self.counters = kind.title, kind.information, self._fallback.counters
         self.tracker = tracker
+        self._bound, self._farthest = math.inf, 0.0
         if isinstance(tracker, TubeMpc):
+            self._bound = tracker.around.disturbance_mps2 * (1 + 1e-6) + 1e-9
             self.counters["premises_failed"] = sum(not premise.holds for premise in tracker.around.premises)
+            self.counters["beyond_bound"] = 0
         self._last_sample, self._sample = len(self.ahead) - self.problem.horizon - 1, -1
 
     def explain(self) -> list[str]:
         """A line for everything that went otherwise than planned, and for every premise of a tube that fails."""
         premises = self.tracker.around.report() if isinstance(self.tracker, TubeMpc) else []
-        return [line for line in premises if line.startswith("FAILS")] + self._fallback.explain()
+        lines = [line for line in premises if line.startswith("FAILS")]
+        if beyond := self.counters.get("beyond_bound", 0):
+            lines.append(f"beyond_bound: {beyond} (samples over which the train was pushed by more than the stated "
+                         f"bound, by up to {self._farthest:.3g} m/s^2)")
+        return lines + self._fallback.explain()
 
     def command(self, time_s: float, position_m: float, speed_mps: float) -> float:
         """The command u = F/m in m/s^2 for the sample at time_s."""
@@ -137,6 +147,9 @@ class MpcController:
         k = self._sample = min(max(k, 0), self._last_sample)
         if good:
             disturbance = self._observer.correct(speed_mps)
+            if abs(self._observer.surprise) > self._bound:
+                self.counters["beyond_bound"] += 1
+                self._farthest = max(self._farthest, abs(self._observer.surprise))
             state = np.array([position_m, speed_mps, self._observer.force])
             answer = self._fallback.command(k, state, disturbance)
         else:

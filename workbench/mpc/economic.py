@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from functools import lru_cache
 from typing import Any
@@ -35,9 +36,9 @@ class Prices:
     regenerated: float = 0.0
 
     def __post_init__(self) -> None:
-        if not (self.energy >= 0 and self.time >= 0 and 0 <= self.regenerated <= 1):
-            raise InputError("", "prices", f"energy {self.energy:g} and time {self.time:g} must not be negative, and "
-                             f"what is regenerated, {self.regenerated:g}, be a share: correct them")
+        if not (0 <= self.energy < math.inf and 0 <= self.time < math.inf and 0 <= self.regenerated <= 1):
+            raise InputError("", "prices", f"energy {self.energy:g} and time {self.time:g} must be finite and not "
+                             f"negative, and what is regenerated, {self.regenerated:g}, be a share: correct them")
 
 
 def power(force: Any, speed: Any, regenerated: float) -> Any:

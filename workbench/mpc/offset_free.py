@@ -18,6 +18,7 @@ class Observer:
 
     gain: the share of each surprise that is believed, from 0 (no observer) to 1 (deadbeat); the estimate's error then
     decays by 1 - gain a sample, so that it is stable for every gain above 0. largest_mps2 bounds the estimate.
+    surprise: mean push of the last period (m/s^2) that was not expected, 0 where nothing was.
     Raises InputError for a gain outside 0 to 1.
     """
 
@@ -30,12 +31,14 @@ class Observer:
         self._ahead, self._gain, self._largest = ahead, gain, largest_mps2
         self.disturbance, self.force = 0.0, float(ahead[0, 2])
         self._expected_speed: float | None = None
+        self.surprise = 0.0
 
     def correct(self, speed_mps: float) -> float:
         """Take in a measured speed; the estimate."""
+        self.surprise = 0.0
         if self._expected_speed is not None:
-            surprise = (speed_mps - self._expected_speed) / self._period_s
-            moved = self.disturbance + self._gain * surprise
+            self.surprise = (speed_mps - self._expected_speed) / self._period_s
+            moved = self.disturbance + self._gain * self.surprise
             self.disturbance = min(max(moved, -self._largest), self._largest)
         return self.disturbance
 

@@ -65,7 +65,7 @@ class Problem:
     terminal_speed_mps: float = 15.0
 
     def __post_init__(self) -> None:
-        if self.horizon != int(self.horizon) or not 2 <= self.horizon <= LONGEST_HORIZON:
+        if not (2 <= self.horizon <= LONGEST_HORIZON and self.horizon == int(self.horizon)):
             raise InputError("", "horizon", f"{self.horizon:g} is no whole number from 2 to {LONGEST_HORIZON}: "
                              "give the number of samples predicted")
         if self.actuator not in ACTUATORS:

@@ -57,8 +57,8 @@ class CasadiMpc:
         self.problem, self.ahead, self.horizon = problem, ahead, problem.horizon
         self.lqr = beyond or lqr(problem)
         self._rows = problem.rows(ahead)
-        program = _program(problem, tuple(self._rows.tolist()), solver, stage_cost or tracking_cost(problem),
-                           terminal or lqr_cost(self.lqr))
+        self.stage_cost, self.terminal = stage_cost or tracking_cost(problem), terminal or lqr_cost(self.lqr)
+        program = _program(problem, tuple(self._rows.tolist()), solver, self.stage_cost, self.terminal)
         self._solver, self._read, self._bounds = program.solver, program.read, program.bounds
         self.cost = 0.0
         self.forget()

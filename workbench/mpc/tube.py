@@ -14,7 +14,6 @@ from functools import lru_cache
 
 import control
 import numpy as np
-from scipy.linalg import expm
 
 from workbench.errors import InputError
 from workbench.mpc.kernels import kernels
@@ -25,15 +24,19 @@ from workbench.mpc.solution import Solution
 GRID = 40
 # A sum is cut where its last term, as often as a geometric sum repeats it, is below this share of it.
 REST = 1e-9
+SERIES_BELOW = 1e-3
 MOST_TERMS = 100_000
+# A push beyond this is none that a train meets.
+LARGEST_MPS2 = 5.0
 # The answer bends by at most slope (below 0.1/s) times itself, so that trapezoids of a 40th of a period miss less.
 ROUNDED_UP = 1 + 1e-5
 
 
 @dataclass(frozen=True)
 class Premise:
-    """One thing that the guarantee rests on, and whether it holds."""
+    """One thing that the guarantee rests on, and whether it holds; name: in a few words."""
 
+    name: str
     statement: str
     value: float
     limit: float
@@ -73,9 +76,16 @@ class Tube:
 
 
 def held(slope_per_s: float, time_s: float) -> tuple[Array, Array]:
-    """exp(A t), shape (2, 2), and what a unit of command held for t adds, shape (2,)."""
-    big = expm(time_s * np.array([[0.0, 1.0, 0.0], [0.0, slope_per_s, 1.0], [0.0, 0.0, 0.0]]))
-    return big[:2, :2], big[:2, 2]
+    """exp(A t), shape (2, 2), and what a unit of command held for t adds, shape (2,); A = [[0, 1], [0, slope]].
+
+    Written out: the tube needs a thousand of them.
+    """
+    x = slope_per_s * time_s
+    moved = math.expm1(x) / x if x else 1.0
+    # (moved - 1) / x, where a difference of nearly equal numbers would lose digits by its series.
+    pushed = (moved - 1) / x if abs(x) > SERIES_BELOW else 1 / 2 + x / 6 + x**2 / 24 + x**3 / 120
+    return (np.array([[1.0, moved * time_s], [0.0, math.exp(x)]]),
+            np.array([pushed * time_s**2, moved * time_s]))
 
 
 def feedback(problem: Problem, slope_per_s: float) -> Array:
@@ -96,7 +106,7 @@ def extents(slope_per_s: float, period_s: float, gain: Array) -> tuple[Array, Ar
     return found.copy(), A_K.copy()
 
 
-# Thousands of matrix exponentials, the same for every run of a controller.
+# The same for every run of a controller.
 @lru_cache(maxsize=64)
 def _extents(slope_per_s: float, period_s: float, feedback_gain: tuple[float, ...]) -> tuple[Array, Array]:
     gain = np.array(feedback_gain)
@@ -137,10 +147,11 @@ def tube(problem: Problem, ahead: Array, disturbance_mps2: float, band_m: float 
 
     The disturbance holds everything the nominal model lacks: grades, curves, wrong mass and resistance, wind.
     start: distance of the train from the desired run at the start, m, which the nominal run may start with.
-    Raises InputError for a bound that is not positive.
+    Raises InputError for a bound that is not positive, or that no train meets.
     """
-    if not 0 < disturbance_mps2 < math.inf:
-        raise InputError("", "disturbance_mps2", f"{disturbance_mps2:g} must be positive and finite: give its bound")
+    if not 0 < disturbance_mps2 <= LARGEST_MPS2:
+        raise InputError("", "disturbance_mps2", f"{disturbance_mps2:g} is not above 0 and up to {LARGEST_MPS2:g}: "
+                         "give the bound of the disturbance")
     _, b, c = problem.davis
     fastest = float(ahead[:, 1].max())
     least, most = -(b + 2 * c * (fastest + 1.0)), -b
@@ -155,34 +166,61 @@ def tube(problem: Problem, ahead: Array, disturbance_mps2: float, band_m: float 
     drawn = (commands + command) * (ahead[:, 1] + speed)
     radius = float(np.abs(np.linalg.eigvals(A_K)).max())
     premises = (
-        Premise("the feedback is stable: spectral radius of A - B K", radius, 1.0),
-        Premise("the changing slope of the resistance is small: its loop gain", loop, 1.0),
-        Premise("speeds stay where the slopes were taken, 1 m/s above the fastest: largest |e2|, m/s", speed, 1.0),
-        Premise("the tube fits into the band: largest |e1|, m", position, band_m),
-        Premise("driving leaves room for the feedback: highest command with it, m/s^2",
+        Premise("a stable feedback", "the feedback is stable: spectral radius of A - B K", radius, 1.0),
+        Premise("a resistance of little curvature", "the changing slope of the resistance is small: its loop gain",
+                loop, 1.0),
+        Premise("speeds near the curve's", "speeds stay where the slopes were taken, 1 m/s above the fastest: "
+                "largest |e2|, m/s", speed, 1.0),
+        Premise("a tube within the band", "the tube fits into the band: largest |e1|, m", position, band_m),
+        Premise("room in traction", "driving leaves room for the feedback: highest command with it, m/s^2",
                 float((commands + command).max()), problem.highest_command_mps2),
-        Premise("braking leaves room for the feedback: lowest command with it, m/s^2, negated",
+        Premise("room in braking", "braking leaves room for the feedback: lowest command with it, m/s^2, negated",
                 -float((commands - command).min()), -problem.lowest_command_mps2),
-        Premise("the power limit leaves room for the feedback: highest power with it, W/kg", float(drawn.max()),
-                problem.power_w_per_kg),
-        Premise("the run starts within what the tube leaves of the band, m", abs(start), band_m - position),
+        Premise("room in power", "the power limit leaves room for the feedback: highest power with it, W/kg",
+                float(drawn.max()), problem.power_w_per_kg),
+        Premise("a start near the curve", "the run starts within what the tube leaves of the band, m",
+                abs(start), band_m - position),
     )
     return Tube(K, position, speed, command, disturbance_mps2, total, A_K, premises)
+
+
+def checked_tube(problem: Problem, ahead: Array, disturbance_mps2: float, start: float = 0.0) -> Tube:
+    """`tube` in the problem's band, with the nominal run itself, which is known beforehand, as a further premise.
+
+    Computed once a process.
+    """
+    return _checked(problem, ahead.tobytes(), ahead.shape, disturbance_mps2, start)
+
+
+@lru_cache(maxsize=16)
+def _checked(problem: Problem, rows: bytes, shape: tuple[int, int], disturbance_mps2: float, start: float) -> Tube:
+    ahead = np.frombuffer(rows).reshape(shape).copy()
+    around = tube(problem, ahead, disturbance_mps2, problem.band_m, start)
+    if not math.isfinite(around.position_m):
+        return around
+    mpc = TubeMpc(problem, ahead, around)
+    run = mpc.nominal_run(ahead[0, :3] + [start, 0.0, 0.0], len(ahead) - problem.horizon - 1)
+    nominal = Premise("a nominal run near the curve", "the nominal run stays within what the tube leaves of the "
+                      "band, m", float(np.abs(run[:, 0]).max()), problem.band_m - around.position_m)
+    return replace(around, premises=(*around.premises, nominal))
 
 
 class TubeMpc:
     """MPC of the nominal train within limits that are tightened by the tube, and the feedback that holds to it.
 
-    The nominal run knows nothing of disturbances, so it can be known before the real one: `nominal_run` is it.
+    The nominal run knows nothing of disturbances, so it can be known before the real one: `nominal_run` is it. Where a
+    premise fails nothing is guaranteed; then the limits are tightened no further than the desired run's own commands,
+    since a nominal run that is pushed off the curve would only be worse.
     """
 
     def __init__(self, problem: Problem, ahead: Array, around: Tube) -> None:
         room = max(problem.band_m - around.position_m, 1e-6)
         low = problem.lowest_command_mps2 + around.command_mps2
         high = problem.highest_command_mps2 - around.command_mps2
-        if not low < 0 < high:
-            raise InputError("", "disturbance_mps2", f"{around.disturbance_mps2:g} leaves no command to the nominal "
-                             "run: give a smaller bound or stronger limits")
+        if not around.holds:
+            wanted = ahead[:, 3]
+            high = max(high, min(float(wanted.max()), problem.highest_command_mps2))
+            low = min(low, max(float(wanted.min()), problem.lowest_command_mps2))
         self.around, self.horizon = around, problem.horizon
         tightened = replace(problem, band_m=room, lowest_command_mps2=low, highest_command_mps2=high)
         self.nominal = LinearMpc(tightened, ahead)

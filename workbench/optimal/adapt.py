@@ -1,4 +1,4 @@
-"""A finer mesh where a plan and its bound lie apart."""
+"""A finer mesh where a plan lies apart from its bound, or from the run that is driven."""
 
 from __future__ import annotations
 
@@ -7,7 +7,8 @@ import numpy as np
 from workbench.optimal.bound import cell_bounds
 from workbench.optimal.certificate import Certificate
 from workbench.optimal.course import Array
-from workbench.optimal.grid import Grid, grid_on
+from workbench.optimal.grid import Grid, grid_on, kept_borders, with_force_borders
+from workbench.optimal.profile import Profile, cell_energy_j
 from workbench.optimal.socp import Plan
 from workbench.optimal.vehicle import Vehicle
 from workbench.train import davis_resistance
@@ -20,7 +21,7 @@ _GAUSS = (0.5 - np.sqrt(3) / 6, 0.5 + np.sqrt(3) / 6)
 def slack(vehicle: Vehicle, plan: Plan, certificate: Certificate) -> Array:
     """By how much each interval's part of the plan's own cost lies above its part of the bound, J, shape (n,)."""
     grid, x = plan.grid, certificate.position_m
-    price = plan.timetable.cell_prices(certificate.prices_w(plan.timetable), x)
+    price = certificate.cell_prices_w(plan.timetable)
     h = np.diff(x)
     owner = np.searchsorted(grid.position_m, (x[1:] + x[:-1]) / 2) - 1
     b = np.interp(x, grid.position_m, plan.half_square)
@@ -40,11 +41,27 @@ def slack(vehicle: Vehicle, plan: Plan, certificate: Certificate) -> Array:
     return np.asarray(np.bincount(owner, weights=above, minlength=len(plan.force_n)), dtype=float)
 
 
-def finer_grid(vehicle: Vehicle, plan: Plan, certificate: Certificate) -> Grid:
-    """The plan's mesh with intervals divided in proportion to the root of their slack, GROWTH more in all."""
+def driven_apart(vehicle: Vehicle, plan: Plan, run: Profile) -> Array:
+    """By how much each interval takes more or less of the run than of the plan, in energy and priced time, J."""
+    s, h, u = plan.grid.position_m, plan.grid.step_m, plan.force_n
+    owner = np.clip(np.searchsorted(s, (run.position_m[1:] + run.position_m[:-1]) / 2) - 1, 0, len(u) - 1)
+    speed = np.sqrt(2 * plan.half_square)
+    planned = h * np.where(u > 0, u / vehicle.traction_efficiency,
+                           vehicle.regenerative_efficiency * np.maximum(u, -vehicle.regenerative.force_n))
+    price = plan.interval_prices_w
+    planned += price * 2 * h / (speed[1:] + speed[:-1])
+    driven = cell_energy_j(vehicle, run) + price[owner] * np.diff(run.time_s)
+    return np.abs(np.bincount(owner, weights=driven, minlength=len(u)) - planned)
+
+
+def finer_grid(vehicle: Vehicle, plan: Plan, certificate: Certificate, run: Profile) -> Grid:
+    """The plan's mesh with intervals divided in proportion to the root of what is apart, GROWTH more in all."""
     s, count = plan.grid.position_m, len(plan.force_n)
-    weight = np.sqrt(slack(vehicle, plan, certificate))
+    weight = np.sqrt(slack(vehicle, plan, certificate) + driven_apart(vehicle, plan, run))
     weight /= max(float(weight.sum()), 1e-300)
-    parts = np.maximum(1, np.round(0.3 + GROWTH * count * weight)).astype(int)
+    # What rounding leaves is carried on, so that slack that is spread evenly makes a finer mesh too. Halves go up, also
+    # where the last digit of the sum is a little lower.
+    parts = 1 + np.diff(np.floor(np.cumsum(GROWTH * count * weight) + 0.5 + 1e-9), prepend=0.0).astype(int)
     nodes = [s[:1], *(np.linspace(s[k], s[k + 1], parts[k] + 1)[1:] for k in range(count))]
-    return grid_on(plan.grid.course, np.concatenate(nodes))
+    course = plan.grid.course
+    return grid_on(course, with_force_borders(course, np.concatenate(nodes), kept_borders(course)))

@@ -9,6 +9,7 @@ from workbench.optimal.certificate import Certificate
 from workbench.optimal.course import Array
 from workbench.optimal.grid import kept_borders
 from workbench.optimal.socp import Plan
+from workbench.optimal.timetable import counted
 from workbench.optimal.vehicle import Vehicle
 
 # Speeds of neighbouring cells: p goes like 1/v near a stop, and is nearly linear in between.
@@ -46,8 +47,10 @@ def certificate_from(vehicle: Vehicle, plan: Plan) -> Certificate:
             at.append(points[1:])
             left.append(values[:-1])
             right.append(values[1:])
-    *earlier, last = plan.timetable.fair(plan.prices_w).tolist()
-    return Certificate(np.concatenate(at), np.concatenate(left), np.concatenate(right), last, tuple(earlier))
+    drawn = counted(vehicle.auxiliary_w)
+    *earlier, last = plan.timetable.fair(plan.prices_w, drawn).tolist()
+    return Certificate(np.concatenate(at), np.concatenate(left), np.concatenate(right), last + drawn, tuple(earlier),
+                       drawn)
 
 
 def _neighbour(breaks: NDArray[np.bool_], k: int, other: int) -> int:

@@ -1,8 +1,9 @@
 """A proven lower bound on the energy of every run of a course, not only of those on a mesh.
 
 Let J be the energy, u the force at the wheel, c(u) its cost, G the line's force and b half the squared speed. A run
-passes its timing points at times t_j within lo_j to hi_j. For any prices r_j of these events (timetable.py) and any
-piecewise linear p(s), with mu(s) the sum of the prices of the events that lie ahead of s, every such run obeys
+passes its timing points at times t_j within lo_j to hi_j, and auxiliaries draw A from its first departure to its last
+arrival. For any prices r_j of these events (timetable.py) and any piecewise linear p(s), with mu(s) the sum of A and of
+the prices of the events that lie ahead of s, every such run obeys
 
     J >= integral of min over v and u of [ c(u) - p u + mu / v + p r(v) - p' inertia v^2 / 2 ] + p G  ds
          + inertia [p b] at the ends and at jumps of p  +  time part
@@ -10,12 +11,14 @@ piecewise linear p(s), with mu(s) the sum of the prices of the events that lie a
 because what was added to J is not positive: p times the equation of motion, which is zero, integrated by parts, and
 the sum of r_j (t_j - hi_j) where r_j > 0 and of r_j (t_j - lo_j) where r_j < 0. In it t_j is the earliest departure, a
 wait there, and what was run and waited since, so that running through ds at v adds ds / v to every event ahead:
-mu / v, in total. A wait adds its length times the level of the next event, which is at least that level times the
-least wait where it is not negative; on the way a train may stand wherever it likes, and then v = 0 in the integral. So
+mu / v, in total, since auxiliaries are a price A of the last arrival and -A of the first departure without limits. A
+wait adds its length times the level of the next event, which is at least that level times the least wait where it is
+not negative; on the way a train may stand wherever it likes, and then v = 0 in the integral. So
 
     time part = earliest departure x first level + sum of least wait x level - sum of r_j (hi_j or lo_j)
 
-and one time T for the whole run is one event with r = mu at hi = T: time part - mu T. Cells that cross a timing point
+where all levels but the first hold A. One time T for the whole run is one event with r = mu - A at hi = T: time part
+-r T; what is counted of A may be less than what is drawn. Cells that cross a timing point
 take the least mu there, since 1 / v is positive. A jump of p costs what the worst speed allowed there makes of it: the
 limit's where p rises with position, and the least speed asked of a timing point, else 0, where it falls.
 
@@ -70,9 +73,10 @@ class Terms:
 
 def lower_bound(vehicle: Vehicle, course: Course, certificate: Certificate, asked: Timetable | float,
                 start_mps: float = 0.0, end_mps: float = 0.0) -> float:
-    """The bound in J of all runs in a timetable or a time in s, auxiliaries left out; -inf where it proves nothing.
+    """The bound in J of all runs in a timetable or a time in s; -inf where it proves nothing.
 
-    Raises WorkbenchError where a cell crosses a change of the tunnels' drag, so that it is no line there.
+    Auxiliaries count as far as the certificate counts them. Raises WorkbenchError where a cell crosses a change of the
+    tunnels' drag, so that it is no line there, and where more auxiliaries are counted than the train draws.
     """
     timetable = as_timetable(course, asked)
     cells = cell_bounds(vehicle, course, certificate, timetable)
@@ -90,7 +94,10 @@ def cell_bounds(vehicle: Vehicle, course: Course, certificate: Certificate, time
 def bound_terms(vehicle: Vehicle, course: Course, certificate: Certificate, timetable: Timetable) -> Terms:
     """Every minimisation that the bound needs: for both ends of each cell, on each range of speeds."""
     cells = _cells(course, certificate)
-    price = timetable.cell_prices(certificate.prices_w(timetable), certificate.position_m)
+    if certificate.auxiliary_w > vehicle.auxiliary_w:
+        raise WorkbenchError(f"certificate of a bound: counts {certificate.auxiliary_w:g} W of auxiliaries, more "
+                             f"than the train's {vehicle.auxiliary_w:g} W: solve again")
+    price = certificate.cell_prices_w(timetable)
     slope = (certificate.right - certificate.left) / np.diff(certificate.position_m)
     # p times a drag that changes along the cell bends: below its chord by a quarter of the product at most.
     bend = np.maximum((certificate.right - certificate.left) * (cells.drag[1] - cells.drag[0]), 0.0) / 4

@@ -8,7 +8,8 @@ plus the fixed part, all summed as fractions.
 
 Where it states the events of a timetable, the fixed part is held against what they make of it: no more than the line's
 and the ends' part, the jumps at the worst speed that each place allows, and the windows at their prices; and the price
-of time in every term against the sum of the prices of all events that lie ahead of its cell.
+of time in every term against the sum of the prices of all events that lie ahead of its cell and of what auxiliaries
+draw from the first departure to the last arrival.
 """
 
 from __future__ import annotations
@@ -79,7 +80,8 @@ def checked_bound(certificate: dict[str, Any]) -> Fraction:
 
 def _check_timetable(certificate: dict[str, Any], lengths: list[Fraction]) -> None:
     """Raises ValueError unless the prices of time and the fixed part follow from the events and the jumps."""
-    legs, time_part = _legs(certificate["events"], Fraction(certificate["origin_s"]))
+    legs, time_part = _legs(certificate["events"], Fraction(certificate["origin_s"]),
+                            Fraction(certificate.get("auxiliary_w", 0)))
     prices = [Fraction(price) for price in certificate["cell_price_w"]]
     if len(prices) != len(lengths):
         raise ValueError("not every cell has a price of time")
@@ -95,13 +97,16 @@ def _check_timetable(certificate: dict[str, Any], lengths: list[Fraction]) -> No
         raise ValueError("the fixed part is more than windows, jumps, line and ends give")
 
 
-def _legs(events: list[dict[str, Any]], origin: Fraction) -> tuple[list[tuple[Fraction, Fraction]], Fraction]:
-    """Where each leg ends with what a second costs on it, and what the windows add to the bound."""
-    level, time_part = Fraction(0), Fraction(0)
+def _legs(events: list[dict[str, Any]], origin: Fraction,
+          auxiliary: Fraction) -> tuple[list[tuple[Fraction, Fraction]], Fraction]:
+    """Where each leg ends with what a second costs on it, and what windows and least waits add to the bound."""
+    if auxiliary < 0:
+        raise ValueError("auxiliaries draw less than nothing")
+    level, time_part = auxiliary, Fraction(0)
     legs: list[tuple[Fraction, Fraction]] = []
     for number, event in reversed(list(enumerate(events))):
         price, dwell = Fraction(event["price_w"]), Fraction(event["dwell_s"])
-        level += price
+        level += price if number else price - auxiliary  # which do not draw yet before the first departure
         limit = event["latest_s" if price > 0 else "earliest_s"]
         if level < 0 or dwell < 0 or (dwell > 0 and not event["waits"]) or (price != 0 and limit is None):
             raise ValueError(f"event {number}: price, dwell and window do not go together")

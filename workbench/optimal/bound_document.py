@@ -25,7 +25,7 @@ ROUNDING = 1e-13
 
 def bound_document(vehicle: Vehicle, course: Course, found: Reference, start_mps: float,
                    end_mps: float) -> dict[str, Any]:
-    """The certificate as data; its `lower_bound_J` is what it proves, without auxiliaries."""
+    """The certificate as data; its `lower_bound_J` is what it proves."""
     certificate, timetable = found.certificate, found.timetable
     course = timetable.on(course)
     terms = bound_terms(vehicle, course, certificate, timetable)
@@ -47,8 +47,9 @@ def bound_document(vehicle: Vehicle, course: Course, found: Reference, start_mps
         "jumps": {"inertia_times_fall": fixed.jump.tolist(), "slowest_mps": fixed.slowest_mps.tolist(),
                   "fastest_mps": fixed.fastest_mps.tolist()},
         "start_m": float(certificate.position_m[0]), "origin_s": timetable.origin_s,
+        "auxiliary_w": certificate.auxiliary_w,
         "events": _events(timetable, prices.tolist()),
-        "cell_price_w": timetable.cell_prices(prices, certificate.position_m).tolist(),
+        "cell_price_w": certificate.cell_prices_w(timetable).tolist(),
         "terms": {"cell": terms.cell.astype(int).tolist(), "end": terms.end.astype(int).tolist(),
                   "low": terms.low.tolist(), "high": terms.high.tolist(), "inverse": terms.inverse.tolist(),
                   "constant": terms.constant.tolist(), "slope": terms.slope.tolist(),
@@ -72,7 +73,7 @@ def _events(timetable: Timetable, prices_w: list[float]) -> list[dict[str, Any]]
 
 def write_certificate(path: Path, vehicle: Vehicle, course: Course, found: Reference, start_mps: float,
                       end_mps: float) -> float:
-    """Write the re-checked certificate; returns the bound in J that it proves, without auxiliaries."""
+    """Write the re-checked certificate; returns the bound in J that it proves."""
     document = bound_document(vehicle, course, found, start_mps, end_mps)
     write_json(path, document)
     return float(document["lower_bound_J"])

@@ -55,7 +55,7 @@ def fixed_part(vehicle: Vehicle, course: Course, certificate: Certificate, timet
     least, most = course.speed_windows_mps(x[1:-1])
     most = np.minimum(most, np.minimum(fine.limit_mps[jump], fine.limit_mps[jump - 1]))
     ends_j = inertia * (p_right[-1] * end_mps**2 / 2 - p_left[0] * start_mps**2 / 2)
-    return FixedPart(float(line), float(ends_j), timetable.time_part_j(certificate.prices_w(timetable)),
+    return FixedPart(float(line), float(ends_j), certificate.time_part_j(timetable),
                      inertia * (p_right[:-1] - p_left[1:]), least, most)
 
 

@@ -31,9 +31,17 @@ class ClockRows:
         latest = self.timetable.points[-1].arrival.latest_s
         return max(latest - float(self.fixed_s[-1]), 1.0)
 
+    @property
+    def fixed_between_ends_s(self) -> float:
+        """What is known to pass from the first departure to the last arrival beside running and free waits."""
+        return float(self.fixed_s[-1] - self.fixed_s[0])
+
     def rules(self, tau: cp.Variable, unit_s: float) -> tuple[NDArray[np.intp], NDArray[np.intp],
-                                                              list[cp.Constraint]]:
-        """Events with a latest time, those with an earliest one, and the rows that say so; durations in unit_s."""
+                                                              list[cp.Constraint], cp.Expression]:
+        """Events with a latest time, those with an earliest one, and the rows that say so; durations in unit_s.
+
+        Last what is run and freely waited from the first departure to the last arrival.
+        """
         windows = [event.window for event in self.timetable.events]
         highest, lowest = (np.array([getattr(window, name) for window in windows])
                            for name in ("latest_s", "earliest_s"))
@@ -50,7 +58,8 @@ class ClockRows:
         found = [clock(late) <= (highest - self.fixed_s)[late] / unit_s]
         if len(soon):
             found.append(clock(soon) >= (lowest - self.fixed_s)[soon] / unit_s)
-        return late, soon, found
+        run = cp.sum(tau)
+        return late, soon, found, run if wait is None else run + (self.waits[-1] - self.waits[0]) @ wait
 
     def prices(self, late: NDArray[np.intp], soon: NDArray[np.intp], rules: list[cp.Constraint]) -> Array:
         """The price of each event in the program's unit of cost, of the solved rows."""

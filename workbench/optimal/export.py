@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import csv
+import io
 import math
 from pathlib import Path
 from typing import Any
@@ -91,10 +92,12 @@ def write_csv(path: Path, rows: Array) -> None:
     """The rows under their header; raises InputError where the file cannot be written."""
     try:
         path.parent.mkdir(parents=True, exist_ok=True)
-        with path.open("w", newline="", encoding="utf-8") as file:
-            writer = csv.writer(file)
-            writer.writerow(COLUMNS)
-            writer.writerows([f"{value:.12g}" for value in row] for row in rows.tolist())
+        # At once, so that an interruption leaves no half of a table.
+        text = io.StringIO(newline="")
+        writer = csv.writer(text)
+        writer.writerow(COLUMNS)
+        writer.writerows([f"{value:.12g}" for value in row] for row in rows.tolist())
+        path.write_text(text.getvalue(), encoding="utf-8", newline="")
     except OSError as trouble:
         raise InputError(path, "", f"cannot be written ({trouble.strerror}): choose another file") from None
 

@@ -34,8 +34,10 @@ def fitted(vehicle: Vehicle, profile: Profile, quickest: Profile, timetable: Tim
     """
     now = leg_times(timetable, profile)
     if timetable.trip_time_s is not None:
-        return profile if now[0] <= leg_s[0] else _quicker(vehicle, profile, quickest, float(leg_s[0]),
-                                                           (start_mps, end_mps), SHORT)
+        if now[0] <= leg_s[0]:
+            return profile
+        same = fastest(vehicle, profile.course, start_mps, end_mps)  # on the same cells, as precise as the run
+        return _quicker(vehicle, profile, (same, quickest), float(leg_s[0]), (start_mps, end_mps), SHORT)
     half_square = profile.half_square.copy()
     at = np.searchsorted(profile.position_m, timetable.position_m)
     ends = np.sqrt(2 * half_square[at])
@@ -48,7 +50,7 @@ def fitted(vehicle: Vehicle, profile: Profile, quickest: Profile, timetable: Tim
             speeds = float(ends[k]), float(ends[k + 1])
             if now[k] > leg_s[k]:
                 quick = fastest(vehicle, part.course, *speeds)
-                part = _quicker(vehicle, part, quick, float(leg_s[k]), speeds, EXACT)
+                part = _quicker(vehicle, part, (quick, quick), float(leg_s[k]), speeds, EXACT)
             else:
                 part = _slower(vehicle, part, float(leg_s[k]), speeds)
         except InfeasibleRunError:
@@ -57,15 +59,15 @@ def fitted(vehicle: Vehicle, profile: Profile, quickest: Profile, timetable: Tim
     return Profile(profile.course, half_square)
 
 
-def _quicker(vehicle: Vehicle, profile: Profile, quick: Profile, asked_s: float, ends_mps: tuple[float, float],
-             short: float) -> Profile:
-    """The least mixture with the fast run that takes asked_s at most."""
-    fast = np.interp(profile.position_m, quick.position_m, quick.half_square)
+def _quicker(vehicle: Vehicle, profile: Profile, quick: tuple[Profile, Profile], asked_s: float,
+             ends_mps: tuple[float, float], short: float) -> Profile:
+    """The least mixture with a fast run on the same cells that takes asked_s at most; the second where none does."""
+    fast = quick[0].half_square
 
     def mixed(share: float) -> Profile:
         return drivable(vehicle, profile.course, profile.half_square + share * (fast - profile.half_square), *ends_mps)
 
-    return _mixture(mixed, profile, quick, asked_s, short)
+    return _mixture(mixed, profile, quick[1], asked_s, short)
 
 
 def _slower(vehicle: Vehicle, profile: Profile, asked_s: float, ends_mps: tuple[float, float]) -> Profile:

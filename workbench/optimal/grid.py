@@ -98,7 +98,7 @@ def graded_grid(course: Course, intervals: int) -> Grid:
         first, last = np.interp([low, high], sample, share)
         count = max(LEAST_INTERVALS, round(last - first))
         nodes.append(np.append(np.interp(np.linspace(first, last, count + 1)[1:-1], share, sample), high))
-    return grid_on(course, _with_force_borders(course, np.concatenate(nodes), kept))
+    return grid_on(course, with_force_borders(course, np.concatenate(nodes), kept))
 
 
 def _around(centers: Array, reach: float, start: float, end: float) -> Array:
@@ -106,7 +106,7 @@ def _around(centers: Array, reach: float, start: float, end: float) -> Array:
     return points[(points > start) & (points < end)]
 
 
-def _with_force_borders(course: Course, nodes: Array, kept: Array) -> Array:
+def with_force_borders(course: Course, nodes: Array, kept: Array) -> Array:
     """Move the nearest free node onto each border of the line's force that stands well apart from the others."""
     movable = ~np.isin(nodes, kept)
     moved = nodes.copy()

@@ -137,6 +137,7 @@ def _program(vehicle: Vehicle, grid: Grid, nodes: ClockNodes, start_mps: float, 
         table.append((inertia / vehicle.inertia_kg, -least, most))
     cost = (ca.dot(step, pull) / vehicle.traction_efficiency - vehicle.regenerative_efficiency * ca.dot(step, brake)
             ) * scales.force_n / scales.work_j
+    cost += vehicle.auxiliary_w * scales.time_s / scales.work_j * (last[1] - one[1, 0])
     rows = ca.vertcat(*(expression for expression, _, _ in table))
     low = np.stack([np.broadcast_to(bound, n) for _, bound, _ in table]).astype(float)
     high = np.stack([np.broadcast_to(bound, n) for _, _, bound in table]).astype(float)
@@ -212,7 +213,7 @@ def _plan(vehicle: Vehicle, grid: Grid, program: _Program, x: Array, duals: Arra
     adjoint = price * work / (scales.force_n * grid.step_m)
     price_of_time = _prices(clock, grid, rows, float(duals[-1])) * work / scales.time_s
     return Plan(grid, half_square, (stages[:, 3] - stages[:, 4] - stages[:, 5]) * scales.force_n, adjoint,
-                clock.timetable, price_of_time, cost * work, seconds, status)
+                clock.timetable, price_of_time, cost * work, seconds, status, vehicle.auxiliary_w)
 
 
 def _prices(clock: ClockNodes, grid: Grid, rows: Array, at_end: float) -> Array:

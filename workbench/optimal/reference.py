@@ -22,7 +22,7 @@ from workbench.optimal.profile import Profile, energy_j
 from workbench.optimal.refine import refined
 from workbench.optimal.schedule import Miss, leg_times, nearest_legs, require_possible, schedule
 from workbench.optimal.socp import NoPlanError, Plan, solve_socp
-from workbench.optimal.timetable import TOUCH_S, Timetable, in_time
+from workbench.optimal.timetable import TOUCH_S, Timetable, counted, in_time
 from workbench.optimal.vehicle import Vehicle
 from workbench.optimal.verify import Check, check
 
@@ -38,6 +38,8 @@ PARTS, FASTEST_CELLS = 8, 4000
 OPTIMAL_GAP = 0.01
 # Share of the trip time by which a drivable run may be off before the plan itself is made again, so many times.
 OFF, PLANS = 2e-5, 3
+# A run that takes less than the bound by more than this share of it is none.
+CELLS_ERROR = 1e-6
 # Slower than this on average is no train.
 SLOWEST_MEAN_MPS = 0.5
 
@@ -100,7 +102,8 @@ def find_timed_reference(vehicle: Vehicle, course: Course, timetable: Timetable,
     quickest = least_time(vehicle, course, start_mps, end_mps)
     require_possible(vehicle, timetable, quickest)
     borders = kept_borders(course)
-    nothing = Certificate(borders, np.zeros(len(borders) - 1), np.zeros(len(borders) - 1), 0.0)
+    drawn = counted(vehicle.auxiliary_w)
+    nothing = Certificate(borders, np.zeros(len(borders) - 1), np.zeros(len(borders) - 1), drawn, auxiliary_w=drawn)
     asked = _Asked(vehicle, timetable, start_mps, end_mps, quickest)
     best = _Found(_timed(asked, quickest), lower_bound(vehicle, course, nothing, timetable, start_mps, end_mps),
                   nothing, 0.0, "the fastest run")
@@ -111,11 +114,9 @@ def find_timed_reference(vehicle: Vehicle, course: Course, timetable: Timetable,
         best = _rounds(asked, _nonlinear_plan, grid, best, 1)
     if best.run is None:
         raise InfeasibleRunError(_not_found(timetable, best.miss))
-    profile, clock = best.run.profile, best.run.clock_s
-    least_s = _least_between_ends(timetable, quickest)
-    return Reference(vehicle, profile, best.run.energy_j(vehicle), best.bound_j + vehicle.auxiliary_w * least_s,
-                     best.certificate, timetable, clock, quickest.trip_time_s, best.solver, best.solve_s,
-                     check(vehicle, profile))
+    profile = best.run.profile
+    return Reference(vehicle, profile, best.run.energy_j(vehicle), best.bound_j, best.certificate, timetable,
+                     best.run.clock_s, quickest.trip_time_s, best.solver, best.solve_s, check(vehicle, profile))
 
 
 def least_time(vehicle: Vehicle, course: Course, start_mps: float = 0.0, end_mps: float = 0.0) -> Profile:
@@ -167,13 +168,16 @@ class _Found:
 
     def improved(self, vehicle: Vehicle, run: _Timed | Miss, bound: float, certificate: Certificate, solve_s: float,
                  solver: str) -> _Found:
-        more = replace(self, solve_s=self.solve_s + solve_s)
-        if bound > self.bound_j:
-            more = replace(more, bound_j=bound, certificate=certificate)
+        proven = max(bound, self.bound_j)
+        more = replace(self, bound_j=proven, solve_s=self.solve_s + solve_s,
+                       certificate=certificate if bound > self.bound_j else self.certificate)
         if isinstance(run, Miss):
             return replace(more, miss=run)
-        less = self.run is None or run.energy_j(vehicle) < self.run.energy_j(vehicle)
-        return replace(more, run=run, solver=solver) if less else more
+        new, old = run.energy_j(vehicle), math.inf if self.run is None else self.run.energy_j(vehicle)
+        # On a coarse mesh a run may pass its limits within cells, and seem to take less than any run can.
+        floor = proven - CELLS_ERROR * abs(proven)
+        less = new < old if (new >= floor) == (old >= floor) else new >= floor
+        return replace(more, run=run, solver=solver) if less or self.run is None else more
 
 
 # Of a request, a mesh, what each leg takes beyond the plan and a first guess: a plan and its solver's name.
@@ -191,17 +195,12 @@ def _timed(asked: _Asked, profile: Profile) -> _Timed | None:
 
 def _clocked(asked: _Asked, profile: Profile) -> _Timed | Miss:
     """The run with its clock, or what it misses; windows of no width are met to TOUCH_S."""
-    legs = leg_times(asked.timetable, profile)
-    clock = schedule(asked.timetable, legs)
-    if isinstance(clock, Miss) and asked.timetable.trip_time_s is None:
-        clock = schedule(asked.timetable, legs, TOUCH_S)
+    timetable, brief = asked.timetable, asked.vehicle.auxiliary_w > 0
+    legs = leg_times(timetable, profile)
+    clock = schedule(timetable, legs, brief=brief)
+    if isinstance(clock, Miss) and timetable.trip_time_s is None:
+        clock = schedule(timetable, legs, TOUCH_S, brief)
     return clock if isinstance(clock, Miss) else _Timed(profile, clock)
-
-
-def _least_between_ends(timetable: Timetable, quickest: Profile) -> float:
-    """No run takes less from its departure to its arrival, waits included."""
-    least = quickest.trip_time_s + sum(event.dwell_s for event in timetable.events)
-    return max(least, timetable.points[-1].arrival.earliest_s - timetable.points[0].departure.latest_s)
 
 
 def _not_found(timetable: Timetable, miss: Miss | None) -> str:
@@ -216,22 +215,21 @@ def _not_found(timetable: Timetable, miss: Miss | None) -> str:
 
 
 def _rounds(asked: _Asked, planner: _Planner, grid: Grid, best: _Found, rounds: int) -> _Found:
-    """The best after planning on finer and finer meshes, until the gap is small or finer meshes do not help."""
+    """The best after planning on finer and finer meshes, until the gap is small or finer ones do not help."""
     vehicle, course = asked.vehicle, grid.course
     for number in range(rounds):
         before = best.gap(vehicle)
         found = _planned(asked, planner, grid, best.run.profile if best.run else asked.quickest)
         if found is None:
             break
-        plan, run, solve_s, solver = found
-        certificate = certificate_from(vehicle, plan)
+        certificate = certificate_from(vehicle, found.plan)
         bound = lower_bound(vehicle, course, certificate, asked.timetable, asked.start_mps, asked.end_mps)
-        best = best.improved(vehicle, run, bound, certificate, solve_s, solver)
+        best = best.improved(vehicle, found.timed, bound, certificate, found.solve_s, found.solver)
         if best.gap(vehicle) <= GAP_WANTED or (
                 number and best.gap(vehicle) > max(NO_GAIN * before, OPTIMAL_GAP) and best.run):
             break
         if number + 1 < rounds:
-            grid = finer_grid(vehicle, plan, certificate)
+            grid = finer_grid(vehicle, found.plan, certificate, found.run)
     return best
 
 
@@ -256,17 +254,24 @@ def _nonlinear_plan(asked: _Asked, grid: Grid, extra_s: Array, guess: Profile) -
     raise NoPlanError(trouble)
 
 
-def _planned(asked: _Asked, planner: _Planner, grid: Grid,
-             guess: Profile) -> tuple[Plan, _Timed | Miss, float, str] | None:
-    """The plan, a drivable run that meets the timetable or what it misses, the solver's time and name.
+@dataclass(frozen=True)
+class _Planned:
+    """The plan for the asked times and its run, which may be off; a run in time or its miss; the solver's seconds."""
 
-    None where the solver found none.
-    """
+    plan: Plan
+    run: Profile
+    timed: _Timed | Miss
+    solve_s: float
+    solver: str
+
+
+def _planned(asked: _Asked, planner: _Planner, grid: Grid, guess: Profile) -> _Planned | None:
+    """What comes of planning on a mesh; None where the solver found no plan."""
     timetable = asked.timetable
     least = leg_times(timetable, asked.quickest)
     allowed = OFF * (timetable.points[-1].arrival.latest_s - timetable.origin_s)
     extra, spent = np.zeros(len(timetable.points) - 1), 0.0
-    plan: Plan | None = None
+    first: tuple[Plan, Profile, str] | None = None
     for _ in range(PLANS):
         try:
             plan, solver = planner(asked, grid, extra, guess)
@@ -274,14 +279,15 @@ def _planned(asked: _Asked, planner: _Planner, grid: Grid,
             break
         spent += plan.solve_s
         profile = refined(asked.vehicle, plan, PARTS, asked.start_mps, asked.end_mps)
+        first = first or (plan, profile, solver)
         now = leg_times(timetable, profile)
         legs = nearest_legs(timetable, now, least)
         off = now - (now if legs is None else legs)
         if float(np.abs(off).sum()) <= allowed:
             break
         extra = extra + off
-    if plan is None:
+    if first is None:
         return None
     if legs is not None:
         profile = fitted(asked.vehicle, profile, asked.quickest, timetable, legs, asked.start_mps, asked.end_mps)
-    return plan, _clocked(asked, profile), spent, solver
+    return _Planned(first[0], first[1], _clocked(asked, profile), spent, first[2])

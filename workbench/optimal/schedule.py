@@ -36,10 +36,11 @@ def leg_times(timetable: Timetable, profile: Profile) -> Array:
     return np.diff(profile.time_s[at])
 
 
-def schedule(timetable: Timetable, leg_s: Array, touch_s: float = 0.0) -> Array | Miss:
+def schedule(timetable: Timetable, leg_s: Array, touch_s: float = 0.0, brief: bool = False) -> Array | Miss:
     """The clock at each event, s, shape (m,), arriving as early as the windows allow; or the first one missed.
 
-    touch_s: by how much a window may be missed.
+    touch_s: by how much a window may be missed. brief: arrive at stops on the way as late as the last arrival allows,
+    which lets the first departure be as late as it can: nothing takes less from one to the other.
     """
     events = timetable.events
     low, high = np.empty(len(events)), np.empty(len(events))
@@ -58,7 +59,10 @@ def schedule(timetable: Timetable, leg_s: Array, touch_s: float = 0.0) -> Array 
     clock = low.copy()
     for k in range(len(events) - 1, 0, -1):
         if not events[k].waits:
-            clock[k - 1] = clock[k] - leg_s[events[k].point - 1]
+            # Rounding must not take it out of its window.
+            clock[k - 1] = min(max(clock[k] - leg_s[events[k].point - 1], low[k - 1]), high[k - 1])
+        elif brief:
+            clock[k - 1] = min(high[k - 1], clock[k] - events[k].dwell_s)
     return clock
 
 

@@ -26,6 +26,8 @@ from workbench.train import davis_resistance
 WINDOW_S = 1.0
 # Times a window is made longer until the jerk keeps its limit.
 JERK_ROUNDS = 12
+# Borders closer than this are one.
+SLIVER_M = 0.01
 
 
 @dataclass(frozen=True)
@@ -154,8 +156,9 @@ def smooth_reference(vehicle: Vehicle, course: Course, asked: Timetable | float,
         else:
             spare = asked - window_s - len(course.stops_m) * wait
             if spare <= 0:
-                raise InfeasibleRunError(f"{asked:g} s leave no time to run between {len(course.stops_m)} stops of "
-                                         f"{wait:g} s: allow more time")
+                waiting = f" and {len(course.stops_m)} stops of {wait:g} s" if course.stops_m else ""
+                raise InfeasibleRunError(f"smoothing over {window_s:.4g} s{waiting} leave nothing of {asked:g} s to "
+                                         "run: allow more time")
             optimal = find_reference(vehicle, lowered, spare, start_mps, end_mps, intervals, solver)
             run = smoothed(optimal.profile, window_s, wait)
         jerk = float(np.abs(run.jerk_mps3).max())
@@ -187,13 +190,27 @@ def _with_clock(found: SmoothReference, timetable: Timetable) -> SmoothReference
 
 
 def _lowered(vehicle: Vehicle, course: Course, window_s: float) -> Course:
-    """The course with limits lower by what the average of a braking train exceeds them where they fall."""
-    margin = _margin(vehicle, window_s)
-    limit = course.limit_mps
-    falls = np.append(limit[:-1] > limit[1:], False) | np.insert(limit[1:] < limit[:-1], 0, False)
-    rises = np.append(limit[:-1] < limit[1:], False)
-    lower = np.where(falls | rises, np.maximum(limit - margin, limit / 2), limit)
+    """The course with limits lower by what the average of a braking train exceeds them, near where they change.
+
+    Near is a window's way at the limit itself: farther away the average knows one limit only.
+    """
+    s, speed = course.position_m, course.limit_mps
+    changes = np.flatnonzero(np.diff(speed)) + 1
+    reach = np.concatenate((s[changes] - window_s * speed[changes - 1], s[changes] + window_s * speed[changes]))
+    course = course.split(_apart(reach, s))
+    limit, middle = course.limit_mps, (course.position_m[1:] + course.position_m[:-1]) / 2
+    after = np.searchsorted(s[changes], middle)
+    borders = np.concatenate(([-np.inf], s[changes], [np.inf]))
+    near = np.minimum(middle - borders[after], borders[after + 1] - middle) < window_s * limit
+    lower = np.where(near, np.maximum(limit - _margin(vehicle, window_s), limit / 2), limit)
     return replace(course, limit_mps=lower)
+
+
+def _apart(points: Array, borders: Array) -> Array:
+    """The points inside the borders that lie a little off each of them."""
+    inside = np.sort(points[(points > borders[0]) & (points < borders[-1])])
+    after = np.searchsorted(borders, inside)
+    return inside[np.minimum(inside - borders[after - 1], borders[after] - inside) > SLIVER_M]
 
 
 def _judged(vehicle: Vehicle, course: Course, run: SmoothRun, optimal: Reference, window_s: float,

@@ -24,7 +24,7 @@ from workbench.optimal.course import Array
 from workbench.optimal.force_pieces import force_pieces
 from workbench.optimal.grid import Grid
 from workbench.optimal.open_rows import Mask, OpenRows, all_open, open_rows, rightly_closed, thinned
-from workbench.optimal.timetable import Timetable, as_timetable
+from workbench.optimal.timetable import Timetable, as_timetable, counted
 from workbench.optimal.vehicle import ForceLimit, Vehicle
 
 # Accuracy asked of clarabel; what it returns is checked again by everything that follows.
@@ -44,7 +44,7 @@ class Plan:
 
     half_square: shape (n + 1,), b in m^2/s^2. force_n: shape (n,), mean force at the wheel. adjoint: shape (n,),
     J/m per N: what a newton of resistance on the interval costs; prices_w: what a second costs at each event of the
-    timetable. energy_j: at the supply, without auxiliaries.
+    timetable, without what auxiliaries draw, auxiliary_w. energy_j: at the supply, with auxiliaries.
     """
 
     grid: Grid
@@ -56,16 +56,18 @@ class Plan:
     energy_j: float
     solve_s: float
     status: str
+    auxiliary_w: float = 0.0
 
     @property
     def time_price_w(self) -> float:
-        """What a second less on the way to the end costs."""
-        return float(self.prices_w[-1])
+        """What a second less on the way to the end costs, auxiliaries included."""
+        return float(self.prices_w[-1]) + self.auxiliary_w
 
     @property
     def interval_prices_w(self) -> Array:
-        """What a second less costs on each interval, shape (n,)."""
-        return self.timetable.cell_prices(self.timetable.fair(self.prices_w), self.grid.position_m)
+        """What a second less costs on each interval, auxiliaries included, shape (n,)."""
+        drawn = counted(self.auxiliary_w)
+        return self.timetable.cell_prices(self.timetable.fair(self.prices_w, drawn), self.grid.position_m, drawn)
 
 
 class NoPlanError(SolverError):
@@ -130,7 +132,7 @@ def _solve(vehicle: Vehicle, grid: Grid, asked: Timetable | float, ends_mps: tup
     fast = free & rows.top
     least = (np.minimum(grid.node_least_mps * LEAST_MARGIN, grid.node_limit_mps) / speed) ** 2
     held = free & (least > 0)
-    late, soon, windows = clock.rules(tau, mean_time)
+    late, soon, windows, between_ends = clock.rules(tau, mean_time)
     rules = [motion, b[fixed] == value[fixed], v[fixed] == np.sqrt(value[fixed]), b[fast] <= top[fast],
              *windows, *([b[held] >= least[held]] if held.any() else []),
              # v^2 <= b and tau (v_k + v_k+1) >= 2 h, in units of the scales
@@ -150,7 +152,8 @@ def _solve(vehicle: Vehicle, grid: Grid, asked: Timetable | float, ends_mps: tup
     rules += [rule for _, rule in comfort]
     used = cp.sum(cp.multiply(h, pull)) / vehicle.traction_efficiency
     returned = vehicle.regenerative_efficiency * cp.sum(cp.multiply(h, brake))
-    problem = cp.Problem(cp.Minimize((used - returned) / grid.course.length_m), rules)
+    drawn = vehicle.auxiliary_w * mean_time / work * between_ends
+    problem = cp.Problem(cp.Minimize((used - returned) / grid.course.length_m + drawn), rules)
     solve_s = _solved(problem, f"the cone program of {n} intervals for {clock.horizon_s:g} s")
     price = row * motion.dual_value * work / (force * h)
     # Limits of the acceleration act on db/ds itself: they belong to the price of what changes b.
@@ -159,8 +162,9 @@ def _solve(vehicle: Vehicle, grid: Grid, asked: Timetable | float, ends_mps: tup
         adjoint = adjoint + sign * rule.dual_value * 2 * work / (half * inertia)
     half_square = np.where(fixed, value, np.maximum(b.value, 0.0)) * half / 2
     plan = Plan(grid, half_square, (pull.value - brake.value - grip.value) * force, adjoint,
-                clock.timetable, clock.prices(late, soon, windows) * work / mean_time, float(problem.value) * work,
-                solve_s, str(problem.status))
+                clock.timetable, clock.prices(late, soon, windows) * work / mean_time,
+                float(problem.value) * work + vehicle.auxiliary_w * clock.fixed_between_ends_s,
+                solve_s, str(problem.status), vehicle.auxiliary_w)
     return plan, price
 
 

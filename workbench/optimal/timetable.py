@@ -3,7 +3,8 @@
 A timetable is a chain of events: the departure, every passing, every arrival and departure at a stop on the way, the
 last arrival. Between two events the train runs or waits. A price r of an event is what a second of it costs: positive
 where it must not be later, negative where it must not be sooner. What comes before an event delays all that follow, so
-that a second of it costs the sum of the prices from there on: its level.
+that a second of it costs the sum of the prices from there on: its level. Auxiliaries, which draw from the first
+departure to the last arrival, are part of every level but that of the first departure.
 """
 
 from __future__ import annotations
@@ -19,7 +20,7 @@ from workbench.optimal.course import Array, Course, Passage
 
 # A time is within a window from this near on: a thousandth of what a timetable or a clock on a train can tell.
 TOUCH_S = 1e-6
-GRAIN_W = 2.0**-10
+GRAIN_W = 2.0**-20
 
 
 @dataclass(frozen=True)
@@ -111,21 +112,30 @@ class Timetable:
         fine = course.split(np.array([p.position_m for p in inner]))
         return replace(fine, stops_m=tuple(sorted(stops)), points=passed)
 
-    def levels(self, prices_w: Array) -> Array:
-        """What a second costs before each event, W, shape (m,), of the events' prices: the sum from each one on."""
-        return np.asarray(np.cumsum(prices_w[::-1])[::-1])
+    def levels(self, prices_w: Array, auxiliary_w: float = 0.0) -> Array:
+        """What a second costs before each event, W, shape (m,): the sum of the events' prices from each one on."""
+        found = np.asarray(np.cumsum(prices_w[::-1])[::-1])
+        found[1:] += auxiliary_w
+        return found
 
-    def fair(self, prices_w: Array) -> Array:
-        """The prices nearby under which no second is worth less than nothing; signs of prices stay.
+    def fair(self, prices_w: Array, auxiliary_w: float = 0.0) -> Array:
+        """The prices nearby under which no second is worth less than nothing; none turns to a limit that is not there.
 
-        Their levels are whole multiples of GRAIN_W, so that summing them again gives no rounding below zero.
+        Their levels are whole multiples of GRAIN_W, as auxiliary_w must be, so that summing them again gives no
+        rounding below zero.
         """
-        levels = np.round(np.maximum(self.levels(prices_w), 0.0) / GRAIN_W) * GRAIN_W
-        return np.asarray(-np.diff(np.append(levels, 0.0)))
+        sums = self.levels(prices_w)
+        least = np.where(np.arange(len(sums)) > 0, -auxiliary_w, 0.0)
+        sums = np.round(np.maximum(sums, least) / GRAIN_W) * GRAIN_W
+        for k, event in enumerate(self.events[:-1]):
+            if not math.isfinite(event.window.latest_s):
+                sums[k + 1] = max(sums[k + 1], sums[k])
+        return np.asarray(-np.diff(np.append(sums, 0.0)))
 
-    def cell_prices(self, prices_w: Array, position_m: Array) -> Array:
+    def cell_prices(self, prices_w: Array, position_m: Array, auxiliary_w: float = 0.0) -> Array:
         """What a second costs on each cell between positions, W: the least where a cell crosses timing points."""
-        runs = [level for level, event in zip(self.levels(prices_w), self.events, strict=True) if not event.waits]
+        levels = self.levels(prices_w, auxiliary_w)
+        runs = [level for level, event in zip(levels, self.events, strict=True) if not event.waits]
         own = self.position_m
         first = np.clip(np.searchsorted(own, position_m[:-1], side="right") - 1, 0, len(runs) - 1)
         last = np.clip(np.searchsorted(own, position_m[1:], side="left") - 1, 0, len(runs) - 1)
@@ -134,9 +144,9 @@ class Timetable:
             found[cell] = min(runs[first[cell]:last[cell] + 1])
         return found
 
-    def time_part_j(self, prices_w: Array) -> float:
-        """What the windows add to a bound, J; -inf where the prices prove nothing."""
-        levels, events = self.levels(prices_w), self.events
+    def time_part_j(self, prices_w: Array, auxiliary_w: float = 0.0) -> float:
+        """What windows and least waits add to a bound, J; -inf where the prices prove nothing."""
+        levels, events = self.levels(prices_w, auxiliary_w), self.events
         total = self.origin_s * float(levels[0])
         for event, level, price in zip(events, levels.tolist(), prices_w.tolist(), strict=True):
             limit = event.window.latest_s if price > 0 else event.window.earliest_s
@@ -151,6 +161,11 @@ def in_time(course: Course, trip_time_s: float) -> Timetable:
     start, end = course.position_m[[0, -1]].tolist()
     arrival = TimingPoint(end, arrival=Window(latest_s=trip_time_s))
     return Timetable((TimingPoint(start, departure=Window(0.0)), arrival), trip_time_s)
+
+
+def counted(auxiliary_w: float) -> float:
+    """What a bound counts of auxiliaries, W: whole multiples of GRAIN_W, so that sums with prices are exact."""
+    return math.floor(auxiliary_w / GRAIN_W) * GRAIN_W
 
 
 def as_timetable(course: Course, asked: Timetable | float) -> Timetable:

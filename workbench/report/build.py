@@ -55,9 +55,10 @@ class StudyReport:
 
 def build_report(scenario_path: Path, proof_paths: list[Path], out: Path, runs: int | None = None,
                  seed: int | None = None, workers: int | None = None,
-                 on_progress: Progress = lambda what, done, total: None, with_gains: bool = False) -> Report:
+                 on_progress: Progress = lambda what, done, total: None, with_gains: bool = False,
+                 resume: bool = False) -> Report:
     """Decide the claims, run and compare the controllers, and write report.html, claims.json, compare.json,
-    the certificates and the Monte Carlo table into `out`.
+    the certificates and the Monte Carlo table into `out`; `resume` goes on with the Monte Carlo kept there.
 
     Raises InputError for input that cannot be used, before anything is computed.
     """
@@ -73,7 +74,7 @@ def build_report(scenario_path: Path, proof_paths: list[Path], out: Path, runs: 
     runs = scenario.uncertainty.runs if runs is None else runs
     seed = scenario.uncertainty.seed if seed is None else seed
     with _timed(timings, "Monte Carlo"):
-        rows = sweep(scenario_path, runs, seed, out=out / "monte_carlo", workers=workers,
+        rows = sweep(scenario_path, runs, seed, out=out / "monte_carlo", resume=resume, workers=workers,
                      on_progress=lambda done, total, _: on_progress("Monte Carlo", done, total))
     found = _gains(scenario_path, asked, out, workers, on_progress, timings) if with_gains else None
     command = f"workbench report {scenario_path} {' '.join(map(str, proof_paths))} --out {out} --runs {runs}"
@@ -89,9 +90,9 @@ def build_report(scenario_path: Path, proof_paths: list[Path], out: Path, runs: 
 
 def build_study_report(study_path: Path, proof_paths: list[Path], out: Path, workers: int | None = None,
                        on_progress: Progress = lambda what, done, total: None,
-                       with_gains: bool = False) -> StudyReport:
+                       with_gains: bool = False, resume: bool = False) -> StudyReport:
     """Decide the claims, run the study, and write report.html, claims.json, compare.json, the certificates and
-    the curves of every figure into `out`.
+    the curves of every figure into `out`; with `resume` the runs that `run_study` has kept there are not run again.
 
     Raises InputError for input that cannot be used, before anything is computed.
     """
@@ -101,7 +102,7 @@ def build_study_report(study_path: Path, proof_paths: list[Path], out: Path, wor
     timings: dict[str, float] = {}
     claims = _decide(asked, out, workers, on_progress, timings)
     with _timed(timings, "runs"):
-        result = run_study(study, workers, on_progress)
+        result = run_study(study, workers, on_progress, out, resume)
         write_json(out / "compare.json", study_document(study, result))
     write_curves(result.plots, out / "curves")
     found = _gains(study_path, asked, out, workers, on_progress, timings) if with_gains else None
@@ -113,11 +114,21 @@ def build_study_report(study_path: Path, proof_paths: list[Path], out: Path, wor
     return StudyReport(page, claims, study, result, timings)
 
 
-def run_study(study: Study, workers: int | None = None,
-              on_progress: Progress = lambda what, done, total: None) -> StudyResult:
-    """All runs of a study, in `workers` processes or one a core."""
-    return study_kind(study.paper).run(study, workers or cores(),
-                                       lambda done, total, _: on_progress("runs", done, total))
+def run_study(study: Study, workers: int | None = None, on_progress: Progress = lambda what, done, total: None,
+              kept: Path | None = None, resume: bool = False) -> StudyResult:
+    """All runs of a study, in `workers` processes or one a core.
+
+    kept: a folder for what is finished, from which `resume` goes on; of no effect for a study whose runs are few.
+    Raises InputError for a folder that another study has used, or that cannot be written.
+    """
+    kind = study_kind(study.paper)
+
+    def told(done: int, total: int, _: str) -> None:
+        on_progress("runs", done, total)
+
+    if kept is not None and kind.run_kept is not None:
+        return kind.run_kept(study, workers or cores(), told, kept, resume)
+    return kind.run(study, workers or cores(), told)
 
 
 def study_document(study: Study, result: StudyResult) -> dict[str, Any]:

@@ -60,6 +60,9 @@ class Request:
 
 def reference_run(asked: Request) -> Iterator[str]:
     """Lines for the reader as they come; raises InputError and InfeasibleRunError before anything is written."""
+    _require_own_files(asked)
+    if not 0 < asked.every_s < float("inf"):
+        raise InputError("", "--every", f"{asked.every_s:g} s is no step of a table: give a positive number of seconds")
     line, notes = load_line(asked.track)
     vehicle, more = load_vehicle(asked.train)
     train = load_cars(asked.train)
@@ -132,6 +135,23 @@ def _told(asked: Request, line: Line, vehicle: Vehicle, run: Course, notes: tupl
     yield from _written(asked, vehicle, run, found, smooth, cars)
 
 
+def _require_own_files(asked: Request) -> None:
+    """Raises InputError where an output would be written over an input or over another output."""
+    taken = {asked.track.resolve(): "the line's file", asked.train.resolve(): "the train's file"}
+    for name, path in (("--json", asked.json), ("--csv", _table(asked)), ("--figure", asked.figure),
+                       ("--certificate", asked.certificate)):
+        if path is None:
+            continue
+        if path.resolve() in taken:
+            raise InputError(path, name, f"is {taken[path.resolve()]} too: give each output a file of its own")
+        taken[path.resolve()] = f"the file of {name}"
+
+
+def _table(asked: Request) -> Path | None:
+    """Where the smooth reference goes: by default beside the JSON."""
+    return asked.csv or (asked.json.with_suffix(".csv") if asked.json else None)
+
+
 def _solve(asked: Request, vehicle: Vehicle, run: Course, dwell_s: float) -> tuple[Reference, SmoothReference]:
     assert asked.trip_time_s is not None
     ends = asked.start_mps, asked.end_mps
@@ -201,7 +221,7 @@ def _of_cars(cars: CarsRun) -> Iterator[str]:
 
 def _written(asked: Request, vehicle: Vehicle, run: Course, found: Reference, smooth: SmoothReference,
              cars: CarsRun | None) -> Iterator[str]:
-    table = asked.csv or (asked.json.with_suffix(".csv") if asked.json else None)
+    table = _table(asked)
     if table:
         write_csv(table, samples(vehicle, run, smooth.run, asked.every_s))
         yield f"reference: {table}"

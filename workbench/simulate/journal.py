@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import hashlib
 import json
 import os
+from functools import cache
 from pathlib import Path
 from types import TracebackType
 from typing import Any, Self
@@ -12,6 +14,18 @@ from workbench.errors import InputError
 
 FORMAT = "workbench journal 1"
 REMEDY = "start anew without resume, or name another output folder"
+
+
+@cache
+def code_digest(*patterns: str) -> bytes:
+    """A digest of modules of this package, read once: this process goes on with those it has imported."""
+    digest = hashlib.sha256()
+    package = Path(__file__).parents[1]
+    for pattern in patterns:
+        for file in sorted(package.glob(pattern)):
+            if file.name != "cli.py":
+                digest.update(file.read_bytes())
+    return digest.digest()
 
 
 class Journal:

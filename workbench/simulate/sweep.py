@@ -10,7 +10,6 @@ import tempfile
 from collections.abc import Callable, Sequence
 from contextlib import nullcontext
 from dataclasses import asdict, dataclass, fields
-from functools import cache
 from pathlib import Path
 
 import numpy as np
@@ -21,11 +20,13 @@ from workbench.errors import InputError
 from workbench.metrics import Metrics, measure
 from workbench.scenario import Scenario, load_scenario
 from workbench.simulate.closed_loop import Factors, check_controllers, simulate
-from workbench.simulate.journal import REMEDY, Journal
+from workbench.simulate.journal import REMEDY, Journal, code_digest
 from workbench.track import CurveSection, GradeSection, Track
 from workbench.workers import cores, run_tasks
 
 CSV_NAME, JOURNAL_NAME = "sweep.csv", "sweep.journal.jsonl"
+# On which modules of the package a row depends.
+SIMULATING = ("*.py", "controllers/*.py", "mpc/*.py", "simulate/*.py")
 # Totals and means over a whole run: they say nothing when the run ended early.
 WHOLE_RUN = ("position_rms", "speed_rms", "stopping_error", "energy_J", "jerk_rms", "saturated_fraction",
              "limit_violations")
@@ -201,19 +202,7 @@ def inputs_digest(scenario: Scenario) -> str:
     """What the rows depend on: the scenario's values, its line, and the code that computes them."""
     data = scenario.model_dump(exclude={"printed_table", "printed_values", "variants", "title", "citation"})
     text = json.dumps(data, sort_keys=True, default=str)
-    return hashlib.sha256(code_digest() + text.encode()).hexdigest()[:20]
-
-
-@cache
-def code_digest() -> bytes:
-    """A digest of the modules that simulate, read once: this process goes on with those it has imported."""
-    digest = hashlib.sha256()
-    package = Path(__file__).parents[1]
-    for pattern in ("*.py", "controllers/*.py", "simulate/*.py"):
-        for file in sorted(package.glob(pattern)):
-            if file.name != "cli.py":
-                digest.update(file.read_bytes())
-    return digest.digest()
+    return hashlib.sha256(code_digest(*SIMULATING) + text.encode()).hexdigest()[:20]
 
 
 def _chosen(scenario: Scenario, path: Path, controllers: Sequence[str] | None) -> list[str]:

@@ -134,9 +134,12 @@ class StudyKind:
     located(study, path): of studies that name other files, the study with them found from its own path.
     tune(study, names, workers, on_progress): of studies whose file has a [tuning] table, for each name the parameters
     that were found, their cost and that of the stated ones.
+    run_kept(study, workers, on_progress, folder, resume): of studies that take long, `run` with what is finished kept
+    in a folder, from which `resume` goes on; InputError where the folder is another's or cannot be written.
     """
 
     record: type[Study]
     run: Callable[[Any, int, Progress], StudyResult]
     located: Callable[[Any, Path], Any] | None = None
     tune: Callable[[Any, list[str], int, Progress], dict[str, tuple[dict[str, float], float, float]]] | None = None
+    run_kept: Callable[[Any, int, Progress, Path, bool], StudyResult] | None = None

@@ -6,8 +6,6 @@ from typing import Any
 
 from workbench.studies.base import Progress, StudyKind, StudyResult
 from workbench.studies.liu2020_beside import (
-    Beside,
-    Task,
     beside_findings,
     beside_plots,
     beside_table,
@@ -18,12 +16,12 @@ from workbench.studies.liu2020_cases import Found, cases, title_of
 from workbench.studies.liu2020_findings import all_findings
 from workbench.studies.liu2020_plots import all_plots
 from workbench.studies.liu2020_record import LiuStudy
-from workbench.studies.liu2020_runs import Case, Outcome, run_case
+from workbench.studies.liu2020_runs import Outcome, run_case
 from workbench.studies.liu2020_tables import all_tables
 from workbench.studies.liu2020_tuned import DRIVERS
 from workbench.studies.pairs import drawn_rows, pair_findings, pair_table, pair_tasks, pairs_of
 from workbench.studies.tuning import checked, tune_with
-from workbench.workers import run_tasks
+from workbench.workers import results_of
 
 ROW = ("position_m_min", "position_m_max", "speed_mps_min", "speed_mps_max", "position_m", "speed_mps", "s_tilde_m",
        "v_tilde_mps", "energy_J", "energy_both_J", "input_n_min", "input_n_max", "reversals")
@@ -38,20 +36,10 @@ def run(study: LiuStudy, workers: int, on_progress: Progress) -> StudyResult:
     asked, more = cases(study), beside_tasks(study)
     before = len(asked) + len(more)
     total = before + len(pair_tasks(DRIVERS, study))
-    outcomes: dict[Case, Outcome] = {}
-
-    def record(outcome: Outcome) -> None:
-        outcomes[outcome.case] = outcome
-        on_progress(len(outcomes), total, title_of(study, outcome.case))
-
-    run_tasks(run_case, study, asked, workers, record)
-    beside: dict[Task, Beside] = {}
-
-    def keep(one: Beside) -> None:
-        beside[one[0]] = one
-        on_progress(len(asked) + len(beside), total, f"{one[0].title}, {one[0].disturbance}")
-
-    run_tasks(run_one, study, more, workers, keep)
+    outcomes = results_of(run_case, study, asked, workers,
+                          lambda done, case, _: on_progress(done, total, title_of(study, case)))
+    beside = results_of(run_one, study, more, workers, lambda done, task, _: on_progress(
+        len(asked) + done, total, f"{task.title}, {task.disturbance}"))
     of_mpc = [beside[task] for task in more]
     pairs = pairs_of(study, drawn_rows(DRIVERS, study, workers, on_progress, before))
     where = {name: push.title for name, push in study.disturbances.items()}

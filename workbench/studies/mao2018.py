@@ -5,8 +5,6 @@ from __future__ import annotations
 from workbench.controllers.mao2018_laws import KINDS
 from workbench.studies.base import Progress, StudyKind, StudyResult
 from workbench.studies.mao2018_beside import (
-    Beside,
-    Task,
     beside_findings,
     beside_plots,
     beside_table,
@@ -17,12 +15,12 @@ from workbench.studies.mao2018_findings import findings
 from workbench.studies.mao2018_found import Found
 from workbench.studies.mao2018_plots import all_plots
 from workbench.studies.mao2018_record import CaseData, MaoStudy
-from workbench.studies.mao2018_runs import Asked, Obtained, Signs, obtain
+from workbench.studies.mao2018_runs import Asked, Signs, obtain
 from workbench.studies.mao2018_tables import all_tables
 from workbench.studies.mao2018_tuned import DRIVERS, where
 from workbench.studies.pairs import drawn_rows, pair_findings, pair_table, pair_tasks, pairs_of
 from workbench.studies.tuning import checked, tune_with
-from workbench.workers import run_tasks
+from workbench.workers import results_of
 
 
 def variants(case: CaseData) -> tuple[Signs, ...]:
@@ -53,21 +51,11 @@ def run(study: MaoStudy, workers: int, on_progress: Progress) -> StudyResult:
     asked, more = plan(study), beside_tasks(study)
     before = len(asked) + len(more)
     total = before + len(pair_tasks(DRIVERS, study))
-    found: dict[Asked, Obtained] = {}
-
-    def record(result: Obtained) -> None:
-        found[result.asked] = result
-        on_progress(len(found), total, result.name)
-
     # The longest first, so that no process is left alone with one.
-    run_tasks(obtain, study, sorted(asked, key=lambda one: _steps(study, one), reverse=True), workers, record)
-    beside: dict[Task, Beside] = {}
-
-    def keep(one: Beside) -> None:
-        beside[one.case, one.name, one.tuned] = one
-        on_progress(len(asked) + len(beside), total, f"case {one.case}, {one.title}")
-
-    run_tasks(run_one, study, more, workers, keep)
+    found = results_of(obtain, study, sorted(asked, key=lambda one: _steps(study, one), reverse=True), workers,
+                       lambda done, _, result: on_progress(done, total, result.name))
+    beside = results_of(run_one, study, more, workers, lambda done, _, one: on_progress(
+        len(asked) + done, total, f"case {one.case}, {one.title}"))
     others = [beside[task] for task in more]
     pairs = pairs_of(study, drawn_rows(DRIVERS, study, workers, on_progress, before))
     everything = Found(study, {one: found[one] for one in asked})

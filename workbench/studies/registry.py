@@ -47,3 +47,13 @@ def load_study(path: Path) -> Study:
         raise trouble.within(path) from None
     study = validate_record(data, kind.record, path)
     return kind.located(study, path) if kind.located else study
+
+
+def check_kept(study: Study | None, out: Path | None, resume: bool) -> None:
+    """InputError unless runs of the study, None for a scenario, can be kept in `out` and gone on with."""
+    keeps = study is not None and study_kind(study.paper).run_kept is not None
+    if not keeps and (out is not None or resume):
+        raise InputError("", "--resume" if out is None else "--out", "is for contests, which alone keep their finished "
+                         "runs: leave it out")
+    if resume and out is None:
+        raise InputError("", "--resume", "needs the folder of the runs to go on with: name it with --out")

@@ -14,7 +14,7 @@ from workbench.simulate.closed_loop import NOMINAL, Factors
 from workbench.studies.base import Progress, Study, with_values
 from workbench.studies.beside_mpc import KINDS_BESIDE
 from workbench.studies.tuning_record import Pairs, StudyTuning
-from workbench.workers import run_tasks
+from workbench.workers import results_of
 
 # By which names files know the kinds of MPC beside a law.
 MPC_NAMES = {kind.replace(".", "_"): kind for kind in KINDS_BESIDE}
@@ -119,19 +119,13 @@ def tune_with(drivers: Drivers) -> Callable[[Study, list[str], int, Progress], d
     """What `StudyKind.tune` is for studies with these drivers: all names in parallel processes, in their order."""
 
     def tune(study: Study, names: list[str], workers: int, on_progress: Progress) -> dict[str, Tuned]:
-        found: dict[str, Tuned] = {}
-
-        def record(result: tuple[str, Tuned]) -> None:
-            found[result[0]] = result[1]
-            on_progress(len(found), len(names), result[0])
-
-        run_tasks(_tune_one, (drivers, study), names, workers, record)
-        return {name: found[name] for name in names}
+        return results_of(_tune_one, (drivers, study), names, workers,
+                          lambda done, name, _: on_progress(done, len(names), name))
 
     return tune
 
 
-def _tune_one(shared: tuple[Drivers, Any], name: str) -> tuple[str, Tuned]:
+def _tune_one(shared: tuple[Drivers, Any], name: str) -> Tuned:
     (drivers, study), budget = shared, shared[1].tuning
     short, goal = shortened(study, budget.set, "tuning.set"), budget.objective
 
@@ -140,8 +134,8 @@ def _tune_one(shared: tuple[Drivers, Any], name: str) -> tuple[str, Tuned]:
         return sum(score(_finished(drivers.drive(changed, name, place, NOMINAL), goal.units), goal.units, goal.failed)
                    for place in budget.places) / len(budget.places)
 
-    return name, search(cost, drivers.parameters(short, name), budget.ranges[name],
-                        budget.runs // len(budget.places), budget.seed, 3 * goal.failed)
+    return search(cost, drivers.parameters(short, name), budget.ranges[name], budget.runs // len(budget.places),
+                  budget.seed, 3 * goal.failed)
 
 
 def _finished(row: Mapping[str, Any], metrics: Mapping[str, float]) -> dict[str, float | None]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
 from dataclasses import dataclass
 from fractions import Fraction
 
@@ -27,6 +28,22 @@ class Known:
     sign: str
 
 
+def tangents(goal: Goal, atoms: Atoms) -> Iterator[tuple[str, sp.Expr, sp.Expr]]:
+    """(fact, argument, what is at least 0) of the tangents that the checker knows of logarithms and exponentials.
+
+    Of those that are atoms at first: whoever flattens what is given may add others.
+    """
+    arguments = [(argument, "exp_tangent") for argument in goal.facts]
+    for argument in list(atoms.logs):
+        arguments += [(argument, "log_tangent"), (1 / argument, "log_tangent")]
+    for argument in list(atoms.exps):
+        arguments += [(argument, "exp_tangent"), (-argument, "exp_tangent")]
+    for nested, fact in arguments:
+        argument = nested.xreplace(atoms.meanings())
+        yield fact, argument, (argument - 1 - sp.log(argument) if fact == "log_tangent"
+                               else sp.exp(argument, evaluate=False) - 1 - argument)
+
+
 def known_facts(goal: Goal, relations: tuple[Relation, ...], atoms: Atoms) -> list[Known]:
     """Assumptions that are more than the sign of a symbol, and what the checker knows of every function."""
     known = [Known((), {(): Fraction(1)}, ">")]
@@ -40,16 +57,8 @@ def known_facts(goal: Goal, relations: tuple[Relation, ...], atoms: Atoms) -> li
         sign = "==" if relation.operator == "==" else ">" if relation.strict else ">="
         value = to_laurent(flatten(relation.margin, atoms, goal.flow), atoms)
         known.append(Known(({"assume": position},), value, sign))
-    arguments = [(argument, "exp_tangent") for argument in goal.facts]
-    for argument in list(atoms.logs):
-        arguments += [(argument, "log_tangent"), (1 / argument, "log_tangent")]
-    for argument in list(atoms.exps):
-        arguments += [(argument, "exp_tangent"), (-argument, "exp_tangent")]
-    for nested, fact in arguments:
-        argument = nested.xreplace(atoms.meanings())
-        fact_value = (argument - 1 - sp.log(argument) if fact == "log_tangent"
-                      else sp.exp(argument, evaluate=False) - 1 - argument)
-        value = to_laurent(flatten(fact_value, atoms, {}), atoms)
+    for fact, argument, excess in tangents(goal, atoms):
+        value = to_laurent(flatten(excess, atoms, {}), atoms)
         known.append(Known(({"fact": fact, "of": text(argument)},), value, ">="))
     for root, (itself, square) in list(atoms.squares.items()):
         inner = flatten(itself.args[0], atoms, {})

@@ -15,6 +15,7 @@ from sympy.polys.rings import PolyRing
 from workbench.errors import ClaimError
 from workbench.proof.claim import Goal, Relation
 from workbench.proof.decide.atoms import Atoms, Item, flatten
+from workbench.proof.decide.facts import tangents
 from workbench.proof.decide.laurent import goal_atoms, positive_by_terms
 from workbench.proof.decide.situation import Signed, Situation, Substitution
 from workbench.proof.derive import SUM, Size
@@ -128,15 +129,7 @@ def _assumptions(goal: Goal, relations: tuple[Relation, ...], atoms: Atoms) -> I
 
 def _facts(goal: Goal, relations: tuple[Relation, ...], atoms: Atoms) -> Iterator[Stated]:
     """(items, polynomial, sign) of tangents of logarithms and exponentials, and of squares of roots and sizes."""
-    arguments = [(argument, "exp_tangent") for argument in goal.facts]
-    for argument in list(atoms.logs):
-        arguments += [(argument, "log_tangent"), (1 / argument, "log_tangent")]
-    for argument in list(atoms.exps):
-        arguments += [(argument, "exp_tangent"), (-argument, "exp_tangent")]
-    for nested, fact in arguments:
-        argument = nested.xreplace(atoms.meanings())
-        excess = (argument - 1 - sp.log(argument) if fact == "log_tangent"
-                  else sp.exp(argument, evaluate=False) - 1 - argument)
+    for fact, argument, excess in tangents(goal, atoms):
         try:
             value, cleared = _cleared(flatten(excess, atoms, {}), atoms, relations)
         except ClaimError:

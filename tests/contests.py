@@ -1,0 +1,29 @@
+"""The contest the tests play: the shipped one, with fewer draws, conditions and contestants."""
+
+from functools import cache
+
+from scenarios import YANG
+
+from workbench.contest.record import Contest
+from workbench.scenario import Scenario
+from workbench.studies.registry import load_study
+
+COMMON = YANG.parent / "common.toml"
+
+
+@cache
+def common() -> Contest:
+    found = load_study(COMMON)
+    assert isinstance(found, Contest)
+    return found
+
+
+def few(contest: Contest, *conditions: str, seeds: int = 2, with_entrants: bool = False) -> Contest:
+    """Few draws of these conditions, nothing tuned, the contest's own entrants only where they are wanted."""
+    changes = {"seeds": seeds, "tuning": contest.tuning.model_copy(update={"found": {}}), "resamples": 100,
+               "conditions": {name: contest.conditions[name] for name in conditions}}
+    return contest.model_copy(update=changes if with_entrants else changes | {"entrants": {}, "absent": {}})
+
+
+def only(scenario: Scenario, *names: str) -> Scenario:
+    return scenario.model_copy(update={"controllers": {name: scenario.controllers[name] for name in names}})

@@ -1,0 +1,96 @@
+"""A contest's own word: delays that hit all alike, differences too small to see, and where a tube's promise holds."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+from scenarios import YANG
+
+from workbench.contest.entrants import entered
+from workbench.contest.matches import Match, all_matches, draws_of, entries, run_match, world_of
+from workbench.contest.premises import premises_findings, premises_table, words_of
+from workbench.contest.record import Contest
+from workbench.contest.statistics import resampled, winners
+from workbench.contest.study import located
+from workbench.contest.tables import Told
+from workbench.errors import InputError
+from workbench.studies.registry import load_study
+
+COMMON = YANG.parent / "common.toml"
+
+
+@pytest.fixture(scope="module")
+def contest() -> Contest:
+    found = load_study(COMMON)
+    assert isinstance(found, Contest)
+    return found
+
+
+@pytest.mark.parametrize("key", ["measurement_delay_s", "command_delay_s"])
+def test_a_delay_that_would_not_hit_all_alike_is_refused(contest: Contest, key: str) -> None:
+    """40 ms are 8 samples of the laws at 5 ms and none of MPC's at 100 ms: it would see the train at once."""
+    late = contest.conditions["ten"].model_copy(update={key: 0.04})
+    changed = contest.model_copy(update={"conditions": contest.conditions | {"ten": late},
+                                         "scenario": Path(contest.scenario).name})
+    words = rf"conditions\.ten\.{key}: 0\.04 s is no whole number of the 0\.1 s"
+    with pytest.raises(InputError, match=words) as trouble:
+        located(changed, COMMON)
+    assert "\n" not in str(trouble.value)
+
+
+def test_all_sample_alike_where_a_condition_says_so(contest: Contest) -> None:
+    """Every contestant's command then changes at the stated period's multiples alone."""
+    stated, scenario = contest.conditions["sampled"], entered(contest)
+    world = world_of(scenario, stated)
+    assert {spec.period_s for spec in world.controllers.values()} == {stated.period_s}
+    assert len({spec.period_s for spec in world_of(scenario, contest.conditions["ten"]).controllers.values()}) > 1
+    fine = scenario.model_copy(update={"simulation": scenario.simulation.model_copy(update={"log_every_s": 0.005})})
+    for name in ("pid", "mpc_linear"):
+        run = run_match(fine, name, stated, 0, contest.seed)
+        changed = np.flatnonzero(np.diff(run.column("u_mps2"))) + 1
+        assert len(changed) > 100
+        assert set((changed % 20).tolist()) == {0}
+    odd = contest.model_copy(update={"scenario": Path(contest.scenario).name, "conditions": contest.conditions | {
+        "sampled": stated.model_copy(update={"period_s": 0.0125})}})
+    with pytest.raises(InputError, match=r"conditions\.sampled\.period_s: 0\.0125 is not a whole number"):
+        located(odd, COMMON)
+
+
+def test_a_difference_that_no_table_shows_is_no_win() -> None:
+    chosen = resampled(1, 200, 1)
+    one, near, far = (np.array([value]) for value in (1000.0, 1000.4, 1003.0))
+    assert winners([one, near, far], chosen, 0.95, 1e-3) == [0, 1]
+    assert winners([one, near, far], chosen, 0.95) == [0]
+    assert winners([near, one, None], chosen, 0.95, 1e-3) == [0, 1]
+    assert winners([np.zeros(1), np.array([1e-9])], chosen, 0.95, 1e-3) == [0]
+
+
+def test_a_tubes_promise_is_told_by_condition_and_kept(contest: Contest) -> None:
+    """On the level a bound of the gusts alone; with the line's grades no bound leaves room within the power limit."""
+    whole = entered(contest)
+    spec = whole.controllers["mpc_tube"]
+    gusts = spec.model_copy(update={"parameters": spec.parameters | {"disturbance_mps2": 0.021}})
+    scenario = whole.model_copy(update={"controllers": {"mpc_tube": gusts}})
+    names = ("nominal", "level", "late_measurement")
+    small = contest.model_copy(update={
+        "seeds": 1, "resamples": 50, "entrants": {}, "absent": {},
+        "conditions": {name: contest.conditions[name] for name in names},
+        "tuning": contest.tuning.model_copy(update={"found": {}})})
+    matches: tuple[Match, ...] = all_matches(small, scenario, 1, lambda *_: None)
+    assert len(matches) == sum(draws_of(small, name) for name in names) * len(entries(small, scenario))
+    told = Told(small, scenario, matches, None)
+    nominal, level, late = words = tuple(words_of(told))
+    assert level.why == ""
+    assert level.needed <= 0.021 < level.largest
+    assert level.beyond == 0
+    assert level.largest_error_m is not None
+    assert level.largest_error_m < level.around.position_m + 1e-3
+    assert "the bound is too small" in nominal.why
+    assert nominal.needed > nominal.largest
+    assert nominal.beyond > 0
+    assert "delays are no part of it" in late.why
+    table, = premises_table(told, words)
+    assert [row[-1] for row in table.rows] == [word.why or "holds" for word in words]
+    sentence, = premises_findings(told, words)
+    assert small.conditions["level"].title in sentence
+    assert "alone of 3 conditions" in sentence
