@@ -83,3 +83,11 @@ def test_smoothing_lowers_speed_limits_near_their_changes_alone():
     smooth = smooth_reference(TRAIN, line, 1.005 * least)
     assert smooth.optimal.least_time_s < 1.001 * least
     assert smooth.speed_excess_mps < 0.02
+
+
+def test_a_line_as_slow_as_a_walk_is_no_mistake_in_the_unit_of_time():
+    """0.4 m/s is what this line allows; the same mean speed on a fast line is asked for in another unit."""
+    crawl = Course(np.array([0.0, 100.0, 200.0]), np.array([0.4, 0.4]), np.zeros((2, 2)), np.zeros((2, 2)))
+    found = find_reference(TRAIN, crawl, 3 * least_time(TRAIN, crawl).trip_time_s)
+    assert 0 <= found.gap <= 1e-3
+    assert found.profile.speed_mps.max() <= 0.4 * (1 + 1e-9)

@@ -106,7 +106,7 @@ def test_a_run_may_begin_and_end_at_a_speed() -> None:
 def test_requests_that_leave_no_run_are_refused() -> None:
     with pytest.raises(InfeasibleRunError, match="least feasible trip time is"):
         smooth_reference(TRAIN, course(), 200.0)
-    with pytest.raises(InfeasibleRunError, match="leave no time"):
+    with pytest.raises(InfeasibleRunError, match="leave nothing of"):
         smooth_reference(TRAIN, course(stops=(4_000.0,)), 20.0, dwell_s=30.0)
     with pytest.raises(InputError, match="must be positive"):
         smooth_reference(TRAIN, course(), 700.0, 0.0)

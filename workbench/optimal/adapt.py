@@ -15,6 +15,8 @@ from workbench.train import davis_resistance
 
 # Intervals that a finer mesh has more, as a share.
 GROWTH = 0.7
+# Intervals are not divided into shorter ones: the cone program's numbers would lie too far apart.
+SHORTEST_M = 1e-3
 _GAUSS = (0.5 - np.sqrt(3) / 6, 0.5 + np.sqrt(3) / 6)
 
 
@@ -62,6 +64,7 @@ def finer_grid(vehicle: Vehicle, plan: Plan, certificate: Certificate, run: Prof
     # What rounding leaves is carried on, so that slack that is spread evenly makes a finer mesh too. Halves go up, also
     # where the last digit of the sum is a little lower.
     parts = 1 + np.diff(np.floor(np.cumsum(GROWTH * count * weight) + 0.5 + 1e-9), prepend=0.0).astype(int)
+    parts = np.clip(parts, 1, np.maximum(plan.grid.step_m // SHORTEST_M, 1).astype(int))
     nodes = [s[:1], *(np.linspace(s[k], s[k + 1], parts[k] + 1)[1:] for k in range(count))]
     course = plan.grid.course
     return grid_on(course, with_force_borders(course, np.concatenate(nodes), kept_borders(course)))

@@ -14,15 +14,16 @@ from workbench.optimal.vehicle import Vehicle
 
 # Speeds of neighbouring cells: p goes like 1/v near a stop, and is nearly linear in between.
 RATIO, MOST_PARTS = 1.08, 60
-# From this share of it on a speed is at its limit.
-NEAR_LIMIT = 0.995
+# From one of these shares of it on a speed is at its limit. Just below it a jump of p costs the bound what a run at the
+# limit would gain by it; and a solver leaves a speed that is at its limit a little below.
+NEAR_LIMIT = (0.995, 1 - 1e-6)
 # Cells are no shorter.
 SHORTEST_M = 1e-6
 # Half the squared speed below this share of an interval's is a standstill that rounding has touched.
 STANDSTILL = 1e-12
 
 
-def certificate_from(vehicle: Vehicle, plan: Plan) -> Certificate:
+def certificate_from(vehicle: Vehicle, plan: Plan, near_limit: float = NEAR_LIMIT[0]) -> Certificate:
     """p through the dual values at the middles of the intervals, linear in 1/v between them; jumps at borders.
 
     p may jump at a stop and where the run meets another limit; there it is continued from each side on its own, towards
@@ -31,8 +32,8 @@ def certificate_from(vehicle: Vehicle, plan: Plan) -> Certificate:
     grid = plan.grid
     s, b = grid.position_m, plan.half_square
     middle = (s[1:] + s[:-1]) / 2
-    reached = b >= (NEAR_LIMIT * grid.node_limit_mps) ** 2 / 2
-    reached |= (grid.node_least_mps > 0) & (b <= (grid.node_least_mps / NEAR_LIMIT) ** 2 / 2)
+    reached = b >= (near_limit * grid.node_limit_mps) ** 2 / 2
+    reached |= (grid.node_least_mps > 0) & (b <= (grid.node_least_mps / near_limit) ** 2 / 2)
     price = plan.interval_prices_w
     breaks = np.isin(s, kept_borders(grid.course)) & (reached | grid.stands)
     breaks[[0, -1]] = True

@@ -11,18 +11,19 @@ import numpy as np
 
 from workbench.errors import InputError
 from workbench.optimal.adapt import finer_grid
-from workbench.optimal.adjoint import certificate_from
+from workbench.optimal.adjoint import NEAR_LIMIT, certificate_from
 from workbench.optimal.bound import lower_bound
 from workbench.optimal.certificate import Certificate
 from workbench.optimal.course import Array, Course
 from workbench.optimal.envelope import InfeasibleRunError, fastest
 from workbench.optimal.fit_times import fitted
 from workbench.optimal.grid import Grid, graded_grid, kept_borders
-from workbench.optimal.profile import Profile, energy_j
+from workbench.optimal.profile import Profile
 from workbench.optimal.refine import refined
-from workbench.optimal.schedule import Miss, leg_times, nearest_legs, require_possible, schedule
+from workbench.optimal.schedule import Miss, leg_times, nearest_legs, require_possible
 from workbench.optimal.socp import NoPlanError, Plan, solve_socp
-from workbench.optimal.timetable import TOUCH_S, Timetable, counted, in_time
+from workbench.optimal.timed_run import TimedRun, not_found, timed_run
+from workbench.optimal.timetable import Timetable, counted, in_time
 from workbench.optimal.vehicle import Vehicle
 from workbench.optimal.verify import Check, check
 
@@ -40,8 +41,10 @@ OPTIMAL_GAP = 0.01
 OFF, PLANS = 2e-5, 3
 # A run that takes less than the bound by more than this share of it is none.
 CELLS_ERROR = 1e-6
-# Slower than this on average is no train.
-SLOWEST_MEAN_MPS = 0.5
+# What is found before any solver has found something.
+FASTEST = "the fastest run"
+# Slower than this on average, and so many times slower than the fastest run, is no train.
+SLOWEST_MEAN_MPS, SLOWER = 0.5, 10.0
 
 
 @dataclass(frozen=True)
@@ -86,7 +89,8 @@ def find_reference(vehicle: Vehicle, course: Course, trip_time_s: float, start_m
     """
     if not (math.isfinite(trip_time_s) and trip_time_s > 0):
         raise InputError("", "time", f"{trip_time_s:g} s is no trip time: give a positive number of seconds")
-    if course.length_m / trip_time_s < SLOWEST_MEAN_MPS:
+    if course.length_m / trip_time_s < SLOWEST_MEAN_MPS and (
+            trip_time_s > SLOWER * least_time(vehicle, course, start_mps, end_mps).trip_time_s):
         raise InputError("", "time", f"{trip_time_s:g} s for {course.length_m:.0f} m is less than {SLOWEST_MEAN_MPS:g} "
                          "m/s on average: is it in seconds?")
     return find_timed_reference(vehicle, course, in_time(course, trip_time_s), start_mps, end_mps, intervals, solver)
@@ -105,15 +109,16 @@ def find_timed_reference(vehicle: Vehicle, course: Course, timetable: Timetable,
     drawn = counted(vehicle.auxiliary_w)
     nothing = Certificate(borders, np.zeros(len(borders) - 1), np.zeros(len(borders) - 1), drawn, auxiliary_w=drawn)
     asked = _Asked(vehicle, timetable, start_mps, end_mps, quickest)
-    best = _Found(_timed(asked, quickest), lower_bound(vehicle, course, nothing, timetable, start_mps, end_mps),
-                  nothing, 0.0, "the fastest run")
+    run = timed_run(vehicle, timetable, quickest)
+    best = _Found(None if isinstance(run, Miss) else run,
+                  lower_bound(vehicle, course, nothing, timetable, start_mps, end_mps), nothing, 0.0, FASTEST)
     grid = graded_grid(course, intervals or INTERVALS + STOP_INTERVALS * len(course.stops_m))
     if solver != "nlp":
         best = _rounds(asked, _cone_plan, grid, best, 1 if intervals else ROUNDS)
     if solver == "nlp" or (solver == "auto" and best.gap(vehicle) > GAP_OF_CONES):
         best = _rounds(asked, _nonlinear_plan, grid, best, 1)
     if best.run is None:
-        raise InfeasibleRunError(_not_found(timetable, best.miss))
+        raise InfeasibleRunError(not_found(timetable, best.miss))
     profile = best.run.profile
     return Reference(vehicle, profile, best.run.energy_j(vehicle), best.bound_j, best.certificate, timetable,
                      best.run.clock_s, quickest.trip_time_s, best.solver, best.solve_s, check(vehicle, profile))
@@ -137,26 +142,13 @@ class _Asked:
 
 
 @dataclass(frozen=True)
-class _Timed:
-    """A run and the clock at the events of its timetable."""
-
-    profile: Profile
-    clock_s: Array
-
-    def energy_j(self, vehicle: Vehicle) -> float:
-        """At the supply, with auxiliaries from departure to arrival."""
-        waited = float(self.clock_s[-1] - self.clock_s[0]) - self.profile.trip_time_s
-        return energy_j(vehicle, self.profile) + (vehicle.auxiliary_w * waited if len(self.clock_s) > 2 else 0.0)
-
-
-@dataclass(frozen=True)
 class _Found:
     """The best run so far with what planned it, and the best bound, which need not come from the same mesh.
 
     run: None as long as none meets the timetable; miss: what the last one missed.
     """
 
-    run: _Timed | None
+    run: TimedRun | None
     bound_j: float
     certificate: Certificate
     solve_s: float
@@ -166,7 +158,7 @@ class _Found:
     def gap(self, vehicle: Vehicle) -> float:
         return math.inf if self.run is None else _gap(self.run.energy_j(vehicle), self.bound_j)
 
-    def improved(self, vehicle: Vehicle, run: _Timed | Miss, bound: float, certificate: Certificate, solve_s: float,
+    def improved(self, vehicle: Vehicle, run: TimedRun | Miss, bound: float, certificate: Certificate, solve_s: float,
                  solver: str) -> _Found:
         proven = max(bound, self.bound_j)
         more = replace(self, bound_j=proven, solve_s=self.solve_s + solve_s,
@@ -188,32 +180,6 @@ def _gap(energy: float, bound: float) -> float:
     return (energy - bound) / abs(energy) if energy else energy - bound
 
 
-def _timed(asked: _Asked, profile: Profile) -> _Timed | None:
-    found = _clocked(asked, profile)
-    return None if isinstance(found, Miss) else found
-
-
-def _clocked(asked: _Asked, profile: Profile) -> _Timed | Miss:
-    """The run with its clock, or what it misses; windows of no width are met to TOUCH_S."""
-    timetable, brief = asked.timetable, asked.vehicle.auxiliary_w > 0
-    legs = leg_times(timetable, profile)
-    clock = schedule(timetable, legs, brief=brief)
-    if isinstance(clock, Miss) and timetable.trip_time_s is None:
-        clock = schedule(timetable, legs, TOUCH_S, brief)
-    return clock if isinstance(clock, Miss) else _Timed(profile, clock)
-
-
-def _not_found(timetable: Timetable, miss: Miss | None) -> str:
-    """In a line: nothing is proven, but no run was found; where it fails."""
-    text = "no run was found that meets every window of the timetable, though it was not proven that there is none"
-    if miss is None:
-        return f"{text}: widen the windows"
-    event = timetable.events[miss.event]
-    return (f"{text}: the best one has the {event.kind} at timing point {event.point + 1}, "
-            f"{timetable.points[event.point].position_m:g} m, {miss.by_s:.3g} s too {'late' if miss.late else 'soon'}: "
-            "widen the window there")
-
-
 def _rounds(asked: _Asked, planner: _Planner, grid: Grid, best: _Found, rounds: int) -> _Found:
     """The best after planning on finer and finer meshes, until the gap is small or finer ones do not help."""
     vehicle, course = asked.vehicle, grid.course
@@ -221,9 +187,14 @@ def _rounds(asked: _Asked, planner: _Planner, grid: Grid, best: _Found, rounds: 
         before = best.gap(vehicle)
         found = _planned(asked, planner, grid, best.run.profile if best.run else asked.quickest)
         if found is None:
-            break
-        certificate = certificate_from(vehicle, found.plan)
-        bound = lower_bound(vehicle, course, certificate, asked.timetable, asked.start_mps, asked.end_mps)
+            if best.solver != FASTEST:
+                break
+            # Every mesh drives a little worse than the line allows: a time near the least one needs a finer mesh.
+            grid = graded_grid(course, 2 * len(grid.limit_mps))
+            continue
+        bound, certificate = max(((lower_bound(vehicle, course, made, asked.timetable, asked.start_mps, asked.end_mps),
+                                   made) for made in (certificate_from(vehicle, found.plan, near)
+                                                      for near in NEAR_LIMIT)), key=lambda pair: pair[0])
         best = best.improved(vehicle, found.timed, bound, certificate, found.solve_s, found.solver)
         if best.gap(vehicle) <= GAP_WANTED or (
                 number and best.gap(vehicle) > max(NO_GAIN * before, OPTIMAL_GAP) and best.run):
@@ -260,7 +231,7 @@ class _Planned:
 
     plan: Plan
     run: Profile
-    timed: _Timed | Miss
+    timed: TimedRun | Miss
     solve_s: float
     solver: str
 
@@ -290,4 +261,4 @@ def _planned(asked: _Asked, planner: _Planner, grid: Grid, guess: Profile) -> _P
         return None
     if legs is not None:
         profile = fitted(asked.vehicle, profile, asked.quickest, timetable, legs, asked.start_mps, asked.end_mps)
-    return _Planned(first[0], first[1], _clocked(asked, profile), spent, first[2])
+    return _Planned(first[0], first[1], timed_run(asked.vehicle, timetable, profile), spent, first[2])
