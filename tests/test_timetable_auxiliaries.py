@@ -85,6 +85,7 @@ def test_bound_plan_and_proof_hold_auxiliaries_between_the_ends(solver):
     found = find_timed_reference(DRAWING, COURSE, STOP, solver=solver)
     require_kept(found, STOP)
     assert 0 <= found.gap <= 2e-3
+    assert found.check.energy_j == pytest.approx(found.energy_j, rel=1e-4)
     kept = 0
     quick = least_time(DRAWING, STOP.on(COURSE))
     for one, two in product(np.linspace(0.35, 1.0, 6), np.linspace(0.18, 0.3, 7)):

@@ -119,9 +119,10 @@ def find_timed_reference(vehicle: Vehicle, course: Course, timetable: Timetable,
         best = _rounds(asked, _nonlinear_plan, grid, best, 1)
     if best.run is None:
         raise InfeasibleRunError(not_found(timetable, best.miss))
-    profile = best.run.profile
+    profile, simulated = best.run.profile, check(vehicle, best.run.profile)
+    simulated = replace(simulated, energy_j=simulated.energy_j + vehicle.auxiliary_w * best.run.waited_s)
     return Reference(vehicle, profile, best.run.energy_j(vehicle), best.bound_j, best.certificate, timetable,
-                     best.run.clock_s, quickest.trip_time_s, best.solver, best.solve_s, check(vehicle, profile))
+                     best.run.clock_s, quickest.trip_time_s, best.solver, best.solve_s, simulated)
 
 
 def least_time(vehicle: Vehicle, course: Course, start_mps: float = 0.0, end_mps: float = 0.0) -> Profile:

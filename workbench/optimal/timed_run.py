@@ -18,10 +18,14 @@ class TimedRun:
     profile: Profile
     clock_s: Array
 
+    @property
+    def waited_s(self) -> float:
+        """At stops from departure to arrival."""
+        return float(self.clock_s[-1] - self.clock_s[0]) - self.profile.trip_time_s if len(self.clock_s) > 2 else 0.0
+
     def energy_j(self, vehicle: Vehicle) -> float:
         """At the supply, with auxiliaries from departure to arrival."""
-        waited = float(self.clock_s[-1] - self.clock_s[0]) - self.profile.trip_time_s
-        return energy_j(vehicle, self.profile) + (vehicle.auxiliary_w * waited if len(self.clock_s) > 2 else 0.0)
+        return energy_j(vehicle, self.profile) + vehicle.auxiliary_w * self.waited_s
 
 
 def timed_run(vehicle: Vehicle, timetable: Timetable, profile: Profile) -> TimedRun | Miss:
