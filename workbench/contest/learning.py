@@ -95,7 +95,7 @@ def learning_findings(told: Told) -> Iterator[str]:
             words = f"is ahead of an MPC in {len(ahead)} of {met} pairings" if ahead else (
                 f"overtakes no MPC within its trips in any of {met} pairings")
             when = f", from trip {ahead[0]} to {ahead[-1]} on" if ahead else ""
-            lost = f"; its runs fail in {failed} conditions" if failed else ""
+            lost = f"; its runs fail in {failed} condition{'s' if failed > 1 else ''}" if failed else ""
             first = sum(trip == 1 for trip in ahead)
             known = f", in {first} of them before it has learned anything" if first else ""
             yield f"{learner} {words} of condition and MPC in {heading}{when}{known}{lost}."
