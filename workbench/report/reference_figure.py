@@ -23,6 +23,7 @@ from workbench.report.numbers import number
 from workbench.report.svg import FAINT, INK, PALETTE, Array, drawing, svg, thin
 from workbench.track import STANDARD_GRAVITY_MPS2
 
+SPEED_WINDOW = "speeds asked for"
 # Away from a page there are no page colours.
 PAPER_GREY = "#9a9a9a"
 COLOURS = dict(zip(REGIMES, (PALETTE[0], PALETTE[4], PALETTE[2], PALETTE[1]), strict=True))
@@ -44,8 +45,9 @@ def reference_figure(vehicle: Vehicle, profile: Profile, title: str, faint: str 
     for point in timetable.points[1:-1] if timetable else ():
         _mark(above, point, faint)
     above.set(ylabel="speed (km/h)", ylim=(0, None), title=title)
-    above.legend(handles=[Patch(color=COLOURS[name], alpha=0.22, label=name) for name in REGIMES], ncols=4,
-                 loc="lower center")
+    windows = [line for line in above.get_lines() if line.get_label() == SPEED_WINDOW][:1]
+    above.legend(handles=[*(Patch(color=COLOURS[name], alpha=0.22, label=name) for name in REGIMES), *windows],
+                 ncols=5, loc="lower center")
     # N/kN of weight is the per mille of a grade.
     weight = vehicle.mass_kg * STANDARD_GRAVITY_MPS2 / 1000
     ends = profile.course.force_n / weight
@@ -65,7 +67,8 @@ def _mark(axes: Axes, point: TimingPoint, faint: str) -> None:
                   rotation=90, ha="right", va="top", fontsize=7)
     if not point.stands and (point.slowest_mps > 0 or math.isfinite(point.fastest_mps)):
         top = point.fastest_mps if math.isfinite(point.fastest_mps) else axes.get_ylim()[1] / 3.6
-        axes.plot([at, at], [3.6 * point.slowest_mps, 3.6 * top], color=INK, linewidth=2.5, solid_capstyle="butt")
+        axes.plot([at, at], [3.6 * point.slowest_mps, 3.6 * top], color=PALETTE[3], linewidth=5, alpha=0.5, zorder=1,
+                  solid_capstyle="butt", label=SPEED_WINDOW)
 
 
 def _bound(time_s: float) -> str:
