@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import functools
-import inspect
 from types import ModuleType
 
 import numpy as np
 from numpy.typing import NDArray
 
 from workbench.compile import loop_module
+from workbench.compile_text import loop_text
 from workbench.mpc import quadratic_kernel, solver_kernel
 from workbench.mpc.model import SOFT, Actuator, kernel_functions
 from workbench.mpc.problem import Array
@@ -20,7 +20,7 @@ Memory = tuple[NDArray[np.int64], NDArray[np.int64], Array]
 @functools.cache
 def kernels(actuator: Actuator) -> ModuleType:
     """The module of `solve_linear`, `solve_nonlinear` and what they are made of, for one actuator."""
-    stages = inspect.getsource(quadratic_kernel).split("# --- kernel ---")[1]
+    stages = loop_text(quadratic_kernel)
     return loop_module(f"train.py with its actuator ({actuator})", [*kernel_functions(actuator), stages], solver_kernel)
 
 

@@ -19,7 +19,7 @@ from workbench.errors import InputError
 from workbench.optimal.inputs.line_checks import NEAREST_STOPS_M
 from workbench.optimal.inputs.read_json import read_json
 from workbench.optimal.inputs.ttobench import Metadata
-from workbench.optimal.inputs.units import LENGTH, SPEED, Units, to_si
+from workbench.optimal.inputs.units import LENGTH, SPEED, Units, require_units, to_si
 from workbench.optimal.timetable import Timetable, TimingPoint, Window
 from workbench.toml_input import Number, Record, SourcedRecord, Text, load_record, validate_record
 
@@ -45,11 +45,7 @@ class TimingPoints(Record):
 
     @model_validator(mode="after")
     def _known_units(self) -> TimingPoints:
-        for name in [*self.COLUMNS, *self.units]:
-            if name not in self.units:
-                raise ValueError(f"units.{name} is missing: add it")
-            if name not in self.COLUMNS:
-                raise ValueError(f"units.{name} is no column here: name {', '.join(self.COLUMNS)}")
+        require_units(self.units, self.COLUMNS)
         self.rows()
         return self
 

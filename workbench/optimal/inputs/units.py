@@ -132,6 +132,15 @@ class SquareResistance(Quantity):
     KNOWN = FORCE_PER_SQUARED_SPEED
 
 
+def require_units(given: dict[str, str], columns: dict[str, Units]) -> None:
+    """ValueError unless a unit is given for every column, and for nothing else."""
+    for name in [*columns, *given]:
+        if name not in given:
+            raise ValueError(f"units.{name} is missing: add it")
+        if name not in columns:
+            raise ValueError(f"units.{name} is no column here: name {', '.join(columns)}")
+
+
 class Columns(Record):
     """Rows of numbers with a unit for each column; a subclass names the columns and what rows are."""
 
@@ -142,11 +151,7 @@ class Columns(Record):
 
     @model_validator(mode="after")
     def _known_units(self) -> Columns:
-        for name in [*self.COLUMNS, *self.units]:
-            if name not in self.units:
-                raise ValueError(f"units.{name} is missing: add it")
-            if name not in self.COLUMNS:
-                raise ValueError(f"units.{name} is no column here: name {', '.join(self.COLUMNS)}")
+        require_units(self.units, self.COLUMNS)
         self.rows()
         return self
 
