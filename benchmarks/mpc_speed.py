@@ -30,7 +30,7 @@ os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 import casadi as ca
 import numpy as np
 
-from workbench.desired_curve import start_cruise_stop
+from workbench.model.desired_curve import start_cruise_stop
 from workbench.mpc.car_model import CarTrain, train_rates
 from workbench.mpc.linear import LinearMpc
 from workbench.mpc.model import model

@@ -8,10 +8,10 @@ from __future__ import annotations
 import sys
 from pathlib import Path
 
-from workbench.curve_table import read_rows
+from workbench.model.curve_table import read_rows
 from workbench.optimal.curve_request import requested_curve
 from workbench.optimal.export import write_csv
-from workbench.studies.tracking import Tracked, track
+from workbench.paper.tracking import Tracked, track
 
 BENCHMARKS = Path(__file__).parent
 KWH_J = 3.6e6

@@ -18,7 +18,7 @@ import tempfile
 import time
 from pathlib import Path
 
-from workbench.workers import cores
+from workbench.simulate.process_pool import cores
 
 REPEATS_WARM = 5
 

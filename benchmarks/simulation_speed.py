@@ -16,10 +16,10 @@ import sys
 import time
 from pathlib import Path
 
-from workbench.controllers.registry import LAWS
-from workbench.desired_curve import CruiseSpeed
-from workbench.scenario import Scenario, load_scenario
+from workbench.model.desired_curve import CruiseSpeed
 from workbench.simulate.closed_loop import simulate
+from workbench.simulate.controllers import LAWS
+from workbench.trains.scenario import Scenario, load_scenario
 
 INTERPRETED_M = 60.0
 REPEATS = 3

@@ -3,10 +3,10 @@
 from functools import cache
 
 from scenarios import YANG
+from workbench.paper.registry import load_study
 
 from workbench.contest.record import Contest
-from workbench.scenario import Scenario
-from workbench.studies.registry import load_study
+from workbench.trains.scenario import Scenario
 
 COMMON = YANG.parent / "common.toml"
 

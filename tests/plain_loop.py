@@ -10,7 +10,7 @@ from dataclasses import dataclass
 import sympy as sp
 from numpy.polynomial import polynomial as poly
 
-from workbench.controllers.base import MEASUREMENTS, ControlLaw, neuron
+from workbench.model.law import MEASUREMENTS, ControlLaw, neuron
 
 
 def _plain(expr: sp.Expr) -> sp.Expr:

@@ -3,12 +3,13 @@
 import tomllib
 from pathlib import Path
 
-from workbench.controllers.base import ControlLaw
-from workbench.controllers.registry import LAWS
-from workbench.scenario import ControllerSpec, Scenario
-from workbench.studies.registry import is_study
-from workbench.toml_input import validate_record
-from workbench.track import Track
+from workbench.paper.registry import is_study
+
+from workbench.files.toml import validate_record
+from workbench.model.law import ControlLaw
+from workbench.simulate.controllers import LAWS
+from workbench.trains.scenario import ControllerSpec, Scenario
+from workbench.trains.track import Track
 
 BENCHMARKS = [path for path in sorted((Path(__file__).parent.parent / "benchmarks").glob("*.toml"))
               if not is_study(path)]

@@ -3,7 +3,7 @@
 import pytest
 from scenarios import YANG
 
-from workbench.scenario import load_scenario
+from workbench.trains.scenario import load_scenario
 
 
 @pytest.fixture(scope="module")

@@ -9,23 +9,21 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scenarios import YANG
 from scipy.integrate import solve_ivp
+from workbench.paper.registry import load_study
 
-from workbench.controllers import chen2019 as chen_law
-from workbench.controllers import mao2018_laws as mao_laws
-from workbench.simulate.held_cars_loop import HELD_COLUMNS
-from workbench.studies import (
-    chen2019_beside,
-    jiao2025_beside,
-    liu2020_beside,
-    liu2020_runs,
-    mao2018_beside,
-    mao2018_numbers,
-)
-from workbench.studies.beside_mpc import KINDS_BESIDE, known, run_beside
-from workbench.studies.chen2019_runs import plan as chen_plan
-from workbench.studies.jiao2025_cases import plan as jiao_plan
-from workbench.studies.registry import load_study
-from workbench.track import ResistanceTable
+from proofs.chen2019 import laws as chen_law
+from proofs.chen2019.study import mpc_comparison as chen2019_beside
+from proofs.chen2019.study.held_cars_loop import HELD_COLUMNS
+from proofs.chen2019.study.runs import plan as chen_plan
+from proofs.jiao2025.study import mpc_comparison as jiao2025_beside
+from proofs.jiao2025.study.cases import plan as jiao_plan
+from proofs.liu2020.study import mpc_comparison as liu2020_beside
+from proofs.liu2020.study import runs as liu2020_runs
+from proofs.mao2018 import laws as mao_laws
+from proofs.mao2018.study import mpc_comparison as mao2018_beside
+from proofs.mao2018.study import numbers as mao2018_numbers
+from workbench.paper.mpc_comparison import KINDS_BESIDE, known, run_beside
+from workbench.trains.track import ResistanceTable
 
 
 def study(name: str):

@@ -10,18 +10,12 @@ import numpy as np
 import plain_cars
 import pytest
 import sympy as sp
+from workbench.paper.registry import load_study
 
-from workbench import cli
-from workbench import multi_particle as of_train
-from workbench.compile import cars_source
-from workbench.controllers import chen2019 as law
-from workbench.errors import CompileError, InputError
-from workbench.report.build import build_study_report, study_document
-from workbench.report.sources import sourced_values
-from workbench.simulate.cars_trials import run_cars
-from workbench.studies.base import with_values
-from workbench.studies.chen2019 import run
-from workbench.studies.chen2019_found import (
+from proofs.chen2019 import laws as law
+from proofs.chen2019.study import run
+from proofs.chen2019.study.cars_trials import run_cars
+from proofs.chen2019.study.outcomes import (
     allowed_change,
     alternating_growth,
     cef_change,
@@ -34,10 +28,16 @@ from workbench.studies.chen2019_found import (
     rises,
     speed_error,
 )
-from workbench.studies.chen2019_record import ChenStudy
-from workbench.studies.chen2019_runs import STATED, plan, run_number, title
-from workbench.studies.registry import load_study
-from workbench.toml_input import validate_record
+from proofs.chen2019.study.record import ChenStudy
+from proofs.chen2019.study.runs import STATED, plan, run_number, title
+from workbench.cli import app as cli
+from workbench.compile.kernel import cars_source
+from workbench.errors import CompileError, InputError
+from workbench.files.toml import validate_record
+from workbench.paper.study import with_values
+from workbench.report.build import build_study_report, study_document
+from workbench.report.sources import sourced_values
+from workbench.trains import multi_particle as of_train
 
 FILE = Path(__file__).parent.parent / "benchmarks" / "chen2019.toml"
 # A stronger train that is at its cruise speed soon, and fewer trips.

@@ -8,13 +8,13 @@ import sympy as sp
 from plain_loop import plain_run
 from scenarios import BENCHMARKS, YANG, short_scenario, values_for, with_law
 
-from workbench.controllers.base import ControlLaw, LawState, desired_position, position, speed
-from workbench.controllers.registry import LAWS
 from workbench.errors import InputError, WorkbenchError
-from workbench.metrics import measure
-from workbench.scenario import load_scenario
+from workbench.model.law import ControlLaw, LawState, desired_position, position, speed
 from workbench.simulate import closed_loop
 from workbench.simulate.closed_loop import Factors, setting_of, simulate
+from workbench.simulate.controllers import LAWS
+from workbench.simulate.metrics import measure
+from workbench.trains.scenario import load_scenario
 
 ESTIMATES = ("corrected", "explicit")
 

@@ -9,12 +9,12 @@ import numpy as np
 import pytest
 import sympy as sp
 
-from workbench.compile import casadi_function, kernel_module, law_source, numeric, plant_source
-from workbench.controllers.base import ControlLaw, LawState, over_neurons, position
-from workbench.controllers.registry import LAWS
+from workbench.compile.kernel import casadi_function, kernel_module, law_source, numeric, plant_source
 from workbench.errors import CompileError
+from workbench.model.law import ControlLaw, LawState, over_neurons, position
 from workbench.simulate import kernel_loop
-from workbench.train import Plant, single_particle, single_particle_per_mass
+from workbench.simulate.controllers import LAWS
+from workbench.trains.train import Plant, single_particle, single_particle_per_mass
 
 PLANTS = {"newton": single_particle(), "per mass": single_particle_per_mass()}
 

@@ -7,13 +7,13 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from workbench.compile import kernel_module, loop_module
-from workbench.compile_text import CALLED, MARKER, PUT_IN, Form, loop_text, module_text
-from workbench.controllers.registry import LAWS
+from workbench.compile.kernel import kernel_module, loop_module
+from workbench.compile.text import CALLED, MARKER, PUT_IN, Form, loop_text, module_text
 from workbench.errors import CompileError
 from workbench.simulate import kernel_loop
+from workbench.simulate.controllers import LAWS
 from workbench.simulate.setting_loop import COUNTED, STAGES
-from workbench.train import single_particle
+from workbench.trains.train import single_particle
 
 LOOP = f'''"""A loop."""
 

@@ -9,17 +9,17 @@ from contests import COMMON, few, only
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from scenarios import YANG
+from workbench.contest.tune_command import BEGIN, tune_run
+from workbench.paper.registry import load_study
 
-from workbench.contest.command import BEGIN, tune_run
 from workbench.contest.energy import best_run
 from workbench.contest.matches import METRICS, all_matches, entries, match_values, run_match
 from workbench.contest.record import Contest
-from workbench.contest.statistics import mean_interval, resampled, winners
 from workbench.contest.study import KIND, located
 from workbench.contest.tune import DRAWS_FROM, tune
 from workbench.errors import InputError, WorkbenchError
-from workbench.scenario import Scenario, load_scenario
-from workbench.studies.registry import load_study
+from workbench.paper.statistics import mean_interval, resampled, winners
+from workbench.trains.scenario import Scenario, load_scenario
 
 QUICK = ("pid", "pocrac", "mpc_linear")
 

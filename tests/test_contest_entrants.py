@@ -11,21 +11,21 @@ from contests import few, only
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from scenarios import YANG
+from workbench.paper.registry import load_study
 
-from workbench.contest import chen2019
+from proofs.chen2019 import contest as chen2019
 from workbench.contest.entrants import ENTRANTS, check_entrants, entered, learns, play
 from workbench.contest.learning import learners, learning_tables
 from workbench.contest.matches import all_matches, draws_of, play_match, with_parameters
 from workbench.contest.record import Condition, Contest
-from workbench.contest.statistics import overtakes, resampled, winners
 from workbench.contest.study import KIND
 from workbench.contest.tables import ARRIVED_M, Told, energy_table
-from workbench.controllers.registry import held_command
+from workbench.model.sensing import Sensing
+from workbench.paper.statistics import overtakes, resampled, winners
 from workbench.report.study_page import StudyContent, build_study_page
-from workbench.scenario import Scenario, load_scenario
-from workbench.sensing import Sensing
 from workbench.simulate.closed_loop import Setting, run_law, setting_of
-from workbench.studies.registry import load_study
+from workbench.simulate.controllers import held_command
+from workbench.trains.scenario import Scenario, load_scenario
 
 SHORT_S = 40.0
 

@@ -5,16 +5,16 @@ from pathlib import Path
 import numpy as np
 import pytest
 from scenarios import YANG
+from workbench.paper.registry import load_study
 
 from workbench.contest.entrants import entered
 from workbench.contest.matches import Match, all_matches, draws_of, entries, run_match, world_of
 from workbench.contest.premises import premises_findings, premises_table, words_of
 from workbench.contest.record import Contest
-from workbench.contest.statistics import resampled, winners
 from workbench.contest.study import located
 from workbench.contest.tables import Told
 from workbench.errors import InputError
-from workbench.studies.registry import load_study
+from workbench.paper.statistics import resampled, winners
 
 COMMON = YANG.parent / "common.toml"
 

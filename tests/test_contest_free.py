@@ -10,7 +10,7 @@ from contests import COMMON, few, only
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-from workbench.compile import kernel_module
+from workbench.compile.kernel import kernel_module
 from workbench.contest.effort import mpc_table
 from workbench.contest.energy import best_run
 from workbench.contest.entrants import entered, follows_curve, play
@@ -30,17 +30,17 @@ from workbench.contest.record import Contest, WithoutCurve
 from workbench.contest.study import KIND, located
 from workbench.contest.tables import Told, condition_table, winners_table
 from workbench.contest.tune import objective, tune
-from workbench.controllers.registry import LAWS
-from workbench.controllers.values import law_values
 from workbench.errors import CompileError, InputError
+from workbench.model.sensing import Sensing
 from workbench.mpc import linear, terminal, transcription, tube
 from workbench.mpc.controller import KINDS
-from workbench.scenario import Scenario
-from workbench.sensing import Sensing
 from workbench.simulate import kernel_loop
 from workbench.simulate.closed_loop import Setting, run_law, setting_of, simulate_in
+from workbench.simulate.controllers import LAWS
+from workbench.simulate.law_values import law_values
 from workbench.simulate.setting_loop import COUNTED, MOST_ROWS, law_loop, setting_form
-from workbench.train import single_particle
+from workbench.trains.scenario import Scenario
+from workbench.trains.train import single_particle
 
 FREE = "mpc_economic"
 KEPT = (terminal.lqr, tube._extents, linear._linearised, transcription._program)

@@ -7,8 +7,8 @@ import pytest
 from contests import COMMON, common, few
 from typer.testing import CliRunner
 
-from workbench.cli import app
-from workbench.contest.kept import JOURNAL_NAME
+from workbench.cli.app import app
+from workbench.contest.journal import JOURNAL_NAME
 from workbench.contest.record import Contest
 from workbench.contest.study import run, run_kept
 from workbench.errors import InputError

@@ -8,11 +8,11 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from workbench.curve_table import COLUMNS, Row, curve_through, read_rows
-from workbench.desired_curve import start_cruise_stop
 from workbench.errors import InputError, WorkbenchError
-from workbench.scenario import load_scenario
+from workbench.model.curve_table import COLUMNS, Row, curve_through, read_rows
+from workbench.model.desired_curve import start_cruise_stop
 from workbench.simulate.closed_loop import simulate
+from workbench.trains.scenario import load_scenario
 
 BENCHMARKS = Path(__file__).parent.parent / "benchmarks"
 CURVE = start_cruise_stop(2000.0, 20.0, 0.5, 0.6, 4.0)

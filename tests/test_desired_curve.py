@@ -8,7 +8,9 @@ from numpy.polynomial import polynomial as poly
 from scenarios import BENCHMARKS, YANG
 from scipy.integrate import quad
 
-from workbench.desired_curve import (
+from workbench.errors import InputError, WorkbenchError
+from workbench.files.toml import validate_record
+from workbench.model.desired_curve import (
     DesiredCurve,
     SpeedLevels,
     davis_cruise_speed,
@@ -16,9 +18,7 @@ from workbench.desired_curve import (
     speed_levels,
     start_cruise_stop,
 )
-from workbench.errors import InputError, WorkbenchError
-from workbench.scenario import load_scenario
-from workbench.toml_input import validate_record
+from workbench.trains.scenario import load_scenario
 
 CURVES = {
     **{path.stem: load_scenario(path).desired_curve() for path in BENCHMARKS},

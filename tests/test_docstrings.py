@@ -6,8 +6,8 @@ from pathlib import Path
 import pytest
 
 import workbench
-from workbench.controllers.registry import LAWS, SAMPLED
 from workbench.errors import WorkbenchError
+from workbench.simulate.controllers import LAWS, SAMPLED
 
 ROOT = Path(workbench.__file__).parent
 MODULES = sorted(ROOT.rglob("*.py"))

@@ -8,11 +8,11 @@ import pytest
 from scenarios import short_scenario, with_law
 from scipy.integrate import solve_ivp
 
-from workbench.controllers.registry import LAWS, held_command
-from workbench.desired_curve import DesiredCurve
 from workbench.errors import InputError
-from workbench.events import Failure, Mode, PushTerm, failure_rows, mode_rows, push_rows
+from workbench.model.desired_curve import DesiredCurve
+from workbench.model.events import Failure, Mode, PushTerm, failure_rows, mode_rows, push_rows
 from workbench.simulate.closed_loop import Setting, run_law, simulate
+from workbench.simulate.controllers import LAWS, held_command
 
 MASS, END_S = 4e5, 60.0
 # Each entry: from, to, offset, amplitude, omega, phase, and the power of the speed or the share of the motors.

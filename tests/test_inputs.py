@@ -8,10 +8,10 @@ from input_mistakes import GRADES, LINE_MISTAKES, LINE_TEXT, SCENARIO_MISTAKES, 
 from refusals import changed, refusal
 from scenarios import BENCHMARKS, YANG, short_scenario
 
-from workbench.controllers.values import check_controllers
-from workbench.scenario import Variant, load_scenario, load_variant
-from workbench.toml_input import read_toml
-from workbench.track import load_track
+from workbench.files.toml import read_toml
+from workbench.simulate.law_values import check_controllers
+from workbench.trains.scenario import Variant, load_scenario, load_variant
+from workbench.trains.track import load_track
 
 
 @pytest.fixture

@@ -8,10 +8,10 @@ from hypothesis import strategies as st
 from input_mistakes import LINE, LINE_TEXT, TEXT
 from scenarios import YANG
 
-from workbench.controllers.values import check_controllers
 from workbench.errors import InputError
-from workbench.scenario import load_scenario
-from workbench.track import load_track
+from workbench.simulate.law_values import check_controllers
+from workbench.trains.scenario import load_scenario
+from workbench.trains.track import load_track
 
 JUNK = st.sampled_from([
     "nan", "inf", "-inf", "true", '""', '"x"', "-1", "0", "0.1", "3", "1e300", "1e-300", "-1e308", "5e-324",

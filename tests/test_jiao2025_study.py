@@ -11,16 +11,16 @@ import numpy as np
 import plain_trials
 import pytest
 from refusals import changed_copy, refusal
+from workbench.paper.registry import load_study
 
-from workbench.controllers import jiao2025 as paper
-from workbench.controllers.jiao2025 import TRIAL_LAWS
+from proofs.jiao2025 import laws as paper
+from proofs.jiao2025.laws import TRIAL_LAWS
+from proofs.jiao2025.study import name_of, run
+from proofs.jiao2025.study.cases import Case, cases, changed, concerns, plan
+from proofs.jiao2025.study.outcomes import Found, mse, outcome, rises
+from proofs.jiao2025.study.trials import run_trials
 from workbench.report.build import study_document
 from workbench.report.sources import sourced_values
-from workbench.simulate.trials import run_trials
-from workbench.studies.jiao2025 import name_of, run
-from workbench.studies.jiao2025_cases import Case, cases, changed, concerns, plan
-from workbench.studies.jiao2025_found import Found, mse, outcome, rises
-from workbench.studies.registry import load_study
 
 ROOT = Path(__file__).parent.parent
 FILE = ROOT / "benchmarks" / "jiao2025.toml"

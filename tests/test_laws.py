@@ -6,9 +6,10 @@ import numpy as np
 import pytest
 import sympy as sp
 
-from workbench.controllers import rbf_pid, yang2021
-from workbench.controllers.pid import pid
-from workbench.train import single_particle, single_particle_per_mass
+from proofs.yang2021 import laws as yang2021
+from proofs.yang2021 import rbf_pid
+from workbench.model.pid import pid
+from workbench.trains.train import single_particle, single_particle_per_mass
 
 RANDOM = np.random.default_rng(2021)
 NEURONS = 4

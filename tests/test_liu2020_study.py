@@ -10,21 +10,16 @@ import pytest
 import sympy as sp
 from refusals import changed_copy, refusal
 from scipy.integrate import solve_ivp
+from workbench.paper.registry import load_study
 
-from workbench.compile import law_source
-from workbench.controllers import liu2020_train as of_train
-from workbench.controllers.base import speed
-from workbench.controllers.liu2020 import LAWS
-from workbench.report.build import study_document
-from workbench.report.sources import sourced_values
-from workbench.report.study_page import StudyContent, build_study_page
-from workbench.simulate.closed_loop import run_law
-from workbench.studies.liu2020 import KIND, run
-from workbench.studies.liu2020_cases import DRAWN_LAWS, Found, cases, title_of
-from workbench.studies.liu2020_findings import all_findings
-from workbench.studies.liu2020_plots import all_plots
-from workbench.studies.liu2020_record import Section
-from workbench.studies.liu2020_runs import (
+from proofs.liu2020 import plant as of_train
+from proofs.liu2020.laws import LAWS
+from proofs.liu2020.study import KIND, run
+from proofs.liu2020.study.cases import DRAWN_LAWS, Found, cases, title_of
+from proofs.liu2020.study.findings import all_findings
+from proofs.liu2020.study.plots import all_plots
+from proofs.liu2020.study.record import Section
+from proofs.liu2020.study.runs import (
     Case,
     Outcome,
     centers,
@@ -40,9 +35,14 @@ from workbench.studies.liu2020_runs import (
     section_force,
     setting_of,
 )
-from workbench.studies.liu2020_steady import eigenvalues, implied, largest_step_s
-from workbench.studies.liu2020_tables import all_tables
-from workbench.studies.registry import load_study
+from proofs.liu2020.study.steady import eigenvalues, implied, largest_step_s
+from proofs.liu2020.study.tables import all_tables
+from workbench.compile.kernel import law_source
+from workbench.model.law import speed
+from workbench.report.build import study_document
+from workbench.report.sources import sourced_values
+from workbench.report.study_page import StudyContent, build_study_page
+from workbench.simulate.closed_loop import run_law
 
 FILE = Path(__file__).parent.parent / "benchmarks" / "liu2020.toml"
 G = 9.80665

@@ -11,15 +11,15 @@ import pytest
 import sympy as sp
 from scenarios import YANG, short_scenario
 
-from workbench.compile import kernel_module
-from workbench.controllers.base import neuron, neuron_count
-from workbench.controllers.registry import LAWS
+from workbench.compile.kernel import kernel_module
+from workbench.model.law import neuron, neuron_count
 from workbench.proof.derive import lie_derivative
 from workbench.proof.paper import collect_papers
 from workbench.simulate import kernel_loop
 from workbench.simulate.closed_loop import _arrays, law_values, setting_of
-from workbench.track import resistance_table
-from workbench.train import single_particle
+from workbench.simulate.controllers import LAWS
+from workbench.trains.track import resistance_table
+from workbench.trains.train import single_particle
 
 START_S, DURATION_S = 1.0, 2.0
 PROOF = YANG.parents[1] / "proofs" / "yang2021.py"

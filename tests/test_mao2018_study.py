@@ -12,19 +12,19 @@ import pytest
 import sympy as sp
 from refusals import changed_copy, refusal
 from scipy.integrate import solve_ivp
+from workbench.paper.registry import load_study
 
-from workbench.controllers import mao2018_laws as laws
+from proofs.mao2018 import laws
+from proofs.mao2018.study import plan, run, variants
+from proofs.mao2018.study.drivers import DRIVERS
+from proofs.mao2018.study.mpc_comparison import beside_tasks
+from proofs.mao2018.study.numbers import initial, parameters, setting_of
+from proofs.mao2018.study.record import MaoStudy
+from proofs.mao2018.study.runs import Asked, obtain, simulate
+from workbench.files.toml import validate_record
+from workbench.paper.pairs import pair_tasks
 from workbench.report.build import study_document
-from workbench.studies.mao2018 import plan, run, variants
-from workbench.studies.mao2018_beside import beside_tasks
-from workbench.studies.mao2018_numbers import initial, parameters, setting_of
-from workbench.studies.mao2018_record import MaoStudy
-from workbench.studies.mao2018_runs import Asked, obtain, simulate
-from workbench.studies.mao2018_tuned import DRIVERS
-from workbench.studies.pairs import pair_tasks
-from workbench.studies.registry import load_study
-from workbench.toml_input import validate_record
-from workbench.train import single_particle
+from workbench.trains.train import single_particle
 
 FILE = Path(__file__).parent.parent / "benchmarks" / "mao2018.toml"
 CASES = (1, 2, 3, 4, 5)

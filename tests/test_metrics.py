@@ -7,9 +7,9 @@ import numpy as np
 import pytest
 from scenarios import short_scenario
 
-from workbench.metrics import measure
 from workbench.simulate.closed_loop import Run, simulate
 from workbench.simulate.kernel_loop import ACCUMULATORS, LOG_COLUMNS
+from workbench.simulate.metrics import measure
 
 
 def made_up_run(**changes):

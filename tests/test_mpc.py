@@ -11,13 +11,13 @@ from hypothesis import strategies as st
 from scenarios import short_scenario
 from scipy.linalg import expm, solve_discrete_are
 
-from workbench.controllers import mpc
-from workbench.controllers.mpc import PARAMETERS, SOLVERS, TrackingMpc
-from workbench.controllers.registry import SAMPLED
-from workbench.controllers.values import check_controllers
 from workbench.errors import InputError, SolverError
-from workbench.metrics import measure
+from workbench.mpc import tracking as mpc
+from workbench.mpc.tracking import PARAMETERS, SOLVERS, TrackingMpc
 from workbench.simulate.closed_loop import Factors, simulate
+from workbench.simulate.controllers import SAMPLED
+from workbench.simulate.law_values import check_controllers
+from workbench.simulate.metrics import measure
 
 T = 0.1
 SCENARIO = short_scenario()

@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 from scipy.integrate import solve_ivp
 from typer.testing import CliRunner
 
-from workbench.cli import app
+from workbench.cli.app import app
 from workbench.errors import InputError
 from workbench.optimal.cars.car_train import CarLimits, CarTrain, car_limits
 from workbench.optimal.cars.cars_steady import carried_ahead, resting_forces, steady_state

@@ -5,16 +5,16 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from workbench.paper.registry import load_study
 
-from workbench.curve_table import curve_through, read_rows
+from proofs.chen2019.study import runs as chen2019_runs
+from proofs.chen2019.study.cars_trials import run_cars
 from workbench.errors import InputError
+from workbench.model.curve_table import curve_through, read_rows
 from workbench.optimal.curve_request import requested_curve
-from workbench.scenario import load_scenario, load_variant
-from workbench.simulate.cars_trials import run_cars
+from workbench.paper.tracking import track
 from workbench.simulate.closed_loop import simulate
-from workbench.studies import chen2019_runs
-from workbench.studies.registry import load_study
-from workbench.studies.tracking import track
+from workbench.trains.scenario import load_scenario, load_variant
 
 BENCHMARKS = Path(__file__).parent.parent / "benchmarks"
 RULES = sorted((BENCHMARKS / "references").glob("*.toml"))

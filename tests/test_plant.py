@@ -5,15 +5,15 @@ import pytest
 from scenarios import short_scenario, with_law
 from scipy.integrate import solve_ivp
 
-from workbench.compile import kernel_module
-from workbench.controllers.registry import LAWS, held_command
-from workbench.metrics import measure
-from workbench.sensing import PERFECT
+from workbench.compile.kernel import kernel_module
+from workbench.model.sensing import PERFECT
 from workbench.simulate import kernel_loop
 from workbench.simulate.closed_loop import simulate
+from workbench.simulate.controllers import LAWS, held_command
 from workbench.simulate.kernel_loop import ACCUMULATORS, DIVERGED, LOG_COLUMNS
-from workbench.track import resistance_table
-from workbench.train import single_particle
+from workbench.simulate.metrics import measure
+from workbench.trains.track import resistance_table
+from workbench.trains.train import single_particle
 
 MASS, DAVIS, LINE, SINE = 2e5, (6e4, 8e2, 32.0), 0.02, (0.05, 2 * np.pi / 60)
 

@@ -8,7 +8,7 @@ import pytest
 from scenarios import YANG
 from typer.testing import CliRunner
 
-from workbench.cli import app
+from workbench.cli.app import app
 from workbench.errors import WorkbenchError
 from workbench.optimal.bound_checker import main as check_bounds
 from workbench.optimal.inputs.files import load_vehicle

@@ -9,16 +9,17 @@ from xml.etree import ElementTree
 import pytest
 from test_sweep import write_scenario
 
-from workbench.metrics import measure
-from workbench.report import figures, numbers
+from workbench.files import numbers
+from workbench.report import figures
 from workbench.report.claims import VERDICTS
 from workbench.report.formulas import formula
 from workbench.report.page import ReportContent, build_page
 from workbench.report.sources import sourced_values
 from workbench.report.tables import nominal_table
-from workbench.scenario import load_scenario, load_variant
 from workbench.simulate.closed_loop import simulate
+from workbench.simulate.metrics import measure
 from workbench.simulate.sweep import sweep
+from workbench.trains.scenario import load_scenario, load_variant
 
 HOSTILE = "<script>alert('x')</script><img src=x onerror=alert(1)>\"'&"
 VOID = {"meta", "link", "br", "img", "input", "hr", "wbr"}

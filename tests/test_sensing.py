@@ -7,10 +7,10 @@ import pytest
 from scenarios import YANG
 
 from workbench.errors import WorkbenchError
-from workbench.scenario import Scenario, load_scenario
-from workbench.sensing import PERFECT, Sensing
+from workbench.model.sensing import PERFECT, Sensing
 from workbench.simulate import closed_loop, kernel_loop
 from workbench.simulate.closed_loop import Run, law_values, run_law, setting_of
+from workbench.trains.scenario import Scenario, load_scenario
 
 PERIOD_S = 0.01
 

@@ -9,16 +9,16 @@ from types import ModuleType
 import numpy as np
 import pytest
 from test_report import read
+from workbench.paper.registry import is_study, load_study
 
-from workbench import cli
+from workbench.cli import app as cli
 from workbench.errors import InputError
+from workbench.files.toml import Positive, SourcedRecord
+from workbench.paper import registry
+from workbench.paper.study import Curve, Plot, ResultTable, Study, StudyKind, StudyResult
 from workbench.report.build import build_study_report, run_study, study_document
 from workbench.report.sources import sourced_values
 from workbench.report.study_figures import study_plot
-from workbench.studies import registry
-from workbench.studies.base import Curve, Plot, ResultTable, Study, StudyKind, StudyResult
-from workbench.studies.registry import is_study, load_study
-from workbench.toml_input import Positive, SourcedRecord
 
 FILE = """
 version = 1
@@ -174,9 +174,9 @@ def test_figures_are_small_and_the_same_every_time():
 
 def test_what_is_known_of_gains_stands_on_the_page(tiny, tmp_path, monkeypatch):
     from workbench.gains.result import Condition, GainReport
+    from workbench.paper.gain_effects import Effect
     from workbench.proof.new_paper import write_new_paper
     from workbench.report import build
-    from workbench.studies.gain_effects import Effect
 
     paper = tmp_path / "tiny2026.py"
     write_new_paper("tiny2026", tmp_path)

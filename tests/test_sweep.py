@@ -10,10 +10,10 @@ from pathlib import Path
 import pytest
 
 from workbench.errors import InputError
-from workbench.scenario import load_scenario
 from workbench.simulate.closed_loop import Factors
+from workbench.simulate.process_pool import run_tasks
 from workbench.simulate.sweep import JOURNAL_NAME, draw_factors, summarise, sweep
-from workbench.workers import run_tasks
+from workbench.trains.scenario import load_scenario
 
 RUNS, SEED = 3, 7
 

@@ -9,8 +9,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scenarios import BENCHMARKS, SHORT_LINE, YANG, short_scenario
 
-from workbench.scenario import load_scenario
-from workbench.track import (
+from workbench.trains.scenario import load_scenario
+from workbench.trains.track import (
     Track,
     additional_specific_resistance,
     curvature_per_m,

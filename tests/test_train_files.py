@@ -9,16 +9,16 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from workbench.paper.registry import load_study
 
+from proofs.liu2020.study.record import LiuStudy
+from proofs.liu2020.study.runs import davis_newton
 from workbench.errors import InputError
 from workbench.optimal.inputs.files import load_line, load_vehicle
 from workbench.optimal.inputs.line import course
 from workbench.optimal.inputs.plausible import plausible
 from workbench.optimal.vehicle import ForceLimit, Vehicle
-from workbench.studies.liu2020_record import LiuStudy
-from workbench.studies.liu2020_runs import davis_newton
-from workbench.studies.registry import load_study
-from workbench.track import load_track, resistance_table
+from workbench.trains.track import load_track, resistance_table
 
 BENCHMARKS = Path(__file__).parent.parent / "benchmarks"
 LINES, TRAINS = sorted(BENCHMARKS.glob("lines/*.toml")), sorted(BENCHMARKS.glob("trains/*.toml"))

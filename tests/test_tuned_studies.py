@@ -12,21 +12,24 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from scenarios import YANG
+from workbench.contest.tune_command import BEGIN, tune_run
+from workbench.paper.registry import is_study, load_study, study_kind
 
-from workbench.contest.command import BEGIN, tune_run
+from proofs.chen2019.study import drivers as chen2019_tuned
+from proofs.jiao2025.study import drivers as jiao2025_tuned
+from proofs.jiao2025.study.outcomes import mse
+from proofs.liu2020.study import drivers as liu2020_tuned
+from proofs.mao2018.study import drivers as mao2018_tuned
 from workbench.contest.record import Contest
-from workbench.contest.search import score, search
 from workbench.errors import InputError
+from workbench.files.toml import read_toml
+from workbench.paper.drivers import Drivers, entries, shortened, tune_with
+from workbench.paper.local_search import score, search
+from workbench.paper.mpc_comparison import FOLLOWS_MPS, best_words
+from workbench.paper.pairs import drawn_rows, factors_of, pair_findings, pair_table, pairs_of
+from workbench.paper.study import ResultTable
 from workbench.report.study_figures import study_plot
 from workbench.simulate.closed_loop import NOMINAL, Factors, simulate_in
-from workbench.studies import chen2019_tuned, jiao2025_tuned, liu2020_tuned, mao2018_tuned
-from workbench.studies.base import ResultTable
-from workbench.studies.beside_mpc import FOLLOWS_MPS, best_words
-from workbench.studies.jiao2025_found import mse
-from workbench.studies.pairs import drawn_rows, factors_of, pair_findings, pair_table, pairs_of
-from workbench.studies.registry import is_study, load_study, study_kind
-from workbench.studies.tuning import Drivers, entries, shortened, tune_with
-from workbench.toml_input import read_toml
 
 BENCHMARKS = YANG.parent
 DRIVERS: dict[str, Drivers] = {

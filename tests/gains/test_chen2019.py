@@ -8,16 +8,16 @@ import pytest
 import sympy as sp
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from workbench.paper.registry import load_study
 
-from workbench.controllers.chen2019 import c_1, c_2, c_3, gains
-from workbench.gains import chen2019
+from proofs.chen2019 import gains as chen2019
+from proofs.chen2019.laws import c_1, c_2, c_3, gains
+from proofs.chen2019.study.cars_trials import run_cars
+from proofs.chen2019.study.runs import plan
 from workbench.gains.search import search
 from workbench.gains.stated import Stated
-from workbench.simulate.cars_trials import run_cars
-from workbench.studies.base import with_values
-from workbench.studies.chen2019_runs import plan
-from workbench.studies.gain_effects import bound_used
-from workbench.studies.registry import load_study
+from workbench.paper.gain_effects import bound_used
+from workbench.paper.study import with_values
 
 FILE = Path(__file__).parents[2] / "benchmarks" / "chen2019.toml"
 

@@ -5,12 +5,12 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from workbench.paper.registry import load_study
 
+from proofs.jiao2025.study import cases
+from proofs.jiao2025.study.trials import run_trials
+from workbench.paper.gain_effects import Effect, checked_gains, effects
 from workbench.report.gains import compared, gains_document, gains_result
-from workbench.simulate.trials import run_trials
-from workbench.studies import jiao2025_cases as cases
-from workbench.studies.gain_effects import Effect, checked_gains, effects
-from workbench.studies.registry import load_study
 
 FILE = Path(__file__).parents[2] / "benchmarks" / "jiao2025.toml"
 

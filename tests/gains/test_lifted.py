@@ -8,7 +8,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from workbench.gains import jiao2025
+from proofs.jiao2025 import gains as jiao2025
 from workbench.gains.lifted import Filter, bounded, dense_norm, exact_bound, fixed_gain, lanczos_norm, norm, norms
 from workbench.gains.stated import Stated
 

@@ -7,16 +7,16 @@ from pathlib import Path
 import numpy as np
 import pytest
 import sympy as sp
+from workbench.paper.registry import load_study
 
-from workbench.controllers import mao2018 as of
-from workbench.controllers.mao2018_laws import KINDS, LAWS, failure_law, train
-from workbench.controllers.mao2018_leakage import leak, leaky
-from workbench.gains import mao2018
+from proofs.mao2018 import equations as of
+from proofs.mao2018 import gains as mao2018
+from proofs.mao2018.laws import KINDS, LAWS, failure_law, train
+from proofs.mao2018.leakage import leak, leaky
+from proofs.mao2018.study.numbers import initial, parameters, setting_of
 from workbench.gains.search import search
 from workbench.gains.stated import Stated
 from workbench.simulate.closed_loop import run_law
-from workbench.studies.mao2018_numbers import initial, parameters, setting_of
-from workbench.studies.registry import load_study
 
 FILE = Path(__file__).parents[2] / "benchmarks" / "mao2018.toml"
 

@@ -7,9 +7,9 @@ import numpy as np
 import pytest
 import sympy as sp
 
-from workbench.controllers.liu2020 import k_1, k_2, k_3
+from proofs.liu2020 import gains as liu2020
+from proofs.liu2020.laws import k_1, k_2, k_3
 from workbench.errors import SolverError
-from workbench.gains import liu2020
 from workbench.gains.frequency import abscissa, linear
 from workbench.gains.search import Infeasible, search
 from workbench.gains.stated import Stated

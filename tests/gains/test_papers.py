@@ -9,12 +9,12 @@ from functools import cache
 from pathlib import Path
 
 import pytest
+from workbench.paper.gains_registry import PAPERS, file_of, gains_of
 
 from workbench.gains.certificate import certificate_text, write_certificates
-from workbench.gains.registry import PAPERS, file_of, gains_of
 from workbench.gains.stated import Stated
+from workbench.paper.gain_effects import tasks_of
 from workbench.proof.checker import CertificateError, check, check_folder
-from workbench.studies.gain_effects import tasks_of
 
 ROOT = Path(__file__).parents[2]
 COMMITTED = ROOT / "proofs" / "gains"

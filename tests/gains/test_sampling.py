@@ -7,14 +7,15 @@ import pytest
 import sympy as sp
 from scipy.integrate import solve_ivp
 
-from workbench.controllers import yang2021 as law
-from workbench.controllers.base import desired_acceleration, desired_position, desired_speed
+from proofs.mao2018 import gains as mao2018
+from proofs.yang2021 import gains as yang2021
+from proofs.yang2021 import laws as law
 from workbench.errors import SolverError
-from workbench.gains import mao2018, yang2021
 from workbench.gains.sampling import largest_period_s, sampled_map, stability_certificate
 from workbench.gains.stated import Stated
+from workbench.model.law import desired_acceleration, desired_position, desired_speed
 from workbench.proof.checker import check
-from workbench.train import f, single_particle_per_mass, u
+from workbench.trains.train import f, single_particle_per_mass, u
 
 BENCHMARKS = Path(__file__).parents[2] / "benchmarks"
 SPEED = sp.Rational(326, 10)

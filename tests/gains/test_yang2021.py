@@ -6,12 +6,12 @@ from pathlib import Path
 import numpy as np
 import pytest
 import sympy as sp
+from workbench.paper.gains_registry import gains_of
 
-from workbench.gains import yang2021
-from workbench.gains.registry import gains_of
+from proofs.yang2021 import gains as yang2021
 from workbench.gains.search import search
-from workbench.scenario import Variant, load_variant
 from workbench.simulate.closed_loop import simulate
+from workbench.trains.scenario import Variant, load_variant
 
 FILE = Path(__file__).parents[2] / "benchmarks" / "yang2021.toml"
 

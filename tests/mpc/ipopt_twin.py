@@ -4,11 +4,11 @@ import casadi as ca
 import numpy as np
 import pytest
 
-from workbench.controllers import mpc as tracking
-from workbench.controllers.mpc import TrackingMpc
+from workbench.mpc import tracking
 from workbench.mpc.linear import LinearMpc
 from workbench.mpc.nonlinear import NonlinearMpc
 from workbench.mpc.solution import Solution
+from workbench.mpc.tracking import TrackingMpc
 from workbench.mpc.transcription import SOLVERS, CasadiMpc
 from workbench.mpc.tube import TubeMpc
 

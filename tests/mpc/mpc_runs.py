@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from workbench.desired_curve import start_cruise_stop
+from workbench.model.desired_curve import start_cruise_stop
 from workbench.mpc.model import model
 from workbench.mpc.preview import preview
 from workbench.mpc.problem import Problem, Weights

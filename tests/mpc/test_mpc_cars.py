@@ -12,8 +12,8 @@ from scipy.integrate import solve_ivp
 from scipy.linalg import solve_discrete_are
 from scipy.optimize import lsq_linear
 
-from workbench.desired_curve import start_cruise_stop
 from workbench.errors import InputError, SolverError
+from workbench.model.desired_curve import start_cruise_stop
 from workbench.mpc.box_program import BoxProgram
 from workbench.mpc.car_model import CarTrain, period, resistance, train_rates
 from workbench.mpc.multi_car import COUNTERS, CarWeights, MultiCarMpc

@@ -8,15 +8,15 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scenarios import short_scenario
 
-from workbench.controllers.registry import SAMPLED
-from workbench.controllers.values import check_controllers
 from workbench.errors import InputError
-from workbench.metrics import measure
 from workbench.mpc.controller import COMMON, KINDS, MpcController
 from workbench.mpc.fallback import COUNTERS, MEANING, Fallback
 from workbench.mpc.solution import Solution
 from workbench.simulate.closed_loop import Factors, simulate
-from workbench.track import resistance_table
+from workbench.simulate.controllers import SAMPLED
+from workbench.simulate.law_values import check_controllers
+from workbench.simulate.metrics import measure
+from workbench.trains.track import resistance_table
 
 T, BRAKE, TRACTION, BAND = 0.1, 1.2, 1.0, 0.2
 WEIGHTS = {"horizon": 25.0, "position_weight": 25.0, "speed_weight": 14.8, "command_weight": 4.34,

@@ -5,19 +5,19 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from scenarios import YANG
+from workbench.paper.registry import load_study
 
 from workbench.contest.entrants import entered
 from workbench.contest.matches import play_match, with_parameters
 from workbench.contest.premises import lacks, unknown_of
-from workbench.desired_curve import start_cruise_stop
 from workbench.errors import InputError
+from workbench.model.desired_curve import start_cruise_stop
 from workbench.mpc.controller import MpcController
 from workbench.mpc.disturbance import Unknown, largest_bound, largest_disturbance, needed_bound
 from workbench.mpc.preview import preview
 from workbench.mpc.problem import Problem, Weights
 from workbench.mpc.tube import tube
-from workbench.studies.registry import load_study
-from workbench.track import ResistanceTable
+from workbench.trains.track import ResistanceTable
 
 DAVIS = (0.3, 4e-3, 1.6e-4)
 LINE = ResistanceTable(np.array([0.0, 500.0, 900.0, 905.0]), np.array([0.02, -0.05, 0.11, 0.0]))

@@ -8,12 +8,12 @@ import pytest
 from ipopt_twin import tracking_by_ipopt, twin_of
 from scenarios import short_scenario
 
-from workbench.controllers import mpc as tracking
-from workbench.controllers.mpc import TrackingMpc
-from workbench.controllers.registry import SAMPLED
-from workbench.controllers.values import check_controllers
 from workbench.errors import InputError
+from workbench.mpc import tracking
 from workbench.mpc.controller import COMMON, KINDS, OPTIONAL
+from workbench.mpc.tracking import TrackingMpc
+from workbench.simulate.controllers import SAMPLED
+from workbench.simulate.law_values import check_controllers
 
 T = 0.1
 NUMBERS = {"horizon": 25.0, "position_weight": 25.0, "speed_weight": 14.8, "command_weight": 4.34,

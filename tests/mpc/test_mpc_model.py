@@ -17,7 +17,7 @@ from workbench.mpc.model import ACTUATORS, model
 from workbench.mpc.preview import preview
 from workbench.mpc.problem import Problem, Weights
 from workbench.mpc.terminal import lqr
-from workbench.track import ResistanceTable
+from workbench.trains.track import ResistanceTable
 
 STATES = st.tuples(st.floats(0, 1e3), st.floats(0, 40), st.floats(-1, 1), st.floats(-1, 1), st.floats(-0.2, 0.2))
 

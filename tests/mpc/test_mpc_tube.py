@@ -8,14 +8,14 @@ from scenarios import YANG, short_scenario
 from scipy.integrate import solve_ivp
 from scipy.linalg import solve_discrete_lyapunov
 
-from workbench.desired_curve import start_cruise_stop
 from workbench.errors import InputError
+from workbench.model.desired_curve import start_cruise_stop
 from workbench.mpc.controller import MpcController
 from workbench.mpc.preview import preview
 from workbench.mpc.problem import Problem, Weights
 from workbench.mpc.tube import TubeMpc, extents, feedback, held, tube
-from workbench.scenario import load_scenario
 from workbench.simulate.closed_loop import Factors, simulate
+from workbench.trains.scenario import load_scenario
 
 T, W = 0.1, 0.15
 DAVIS = (0.3, 4e-3, 1.6e-4)

@@ -2,7 +2,7 @@
 
 import pytest
 
-from workbench.cli import main
+from workbench.cli.app import main
 from workbench.errors import ClaimError, InputError
 from workbench.proof.decide.engine import decide_all
 from workbench.proof.paper import collect_papers

@@ -21,10 +21,10 @@ from workbench.proof.claim import (
     less,
     saturation,
 )
+from workbench.proof.decide.boundary_points import solved
 from workbench.proof.decide.engine import prove_goal
 from workbench.proof.decide.landscape import Landscape
 from workbench.proof.decide.refute import find_counterexample, find_example
-from workbench.proof.decide.ties import solved
 
 x, y, z, w, d = sp.symbols("x y z w d", real=True)
 p, q, r = sp.symbols("p q r", positive=True)

@@ -5,7 +5,7 @@ import json
 import pytest
 from small_papers import IDS, TEXT, document, proved, write_paper
 
-from workbench.cli import app
+from workbench.cli.app import app
 from workbench.errors import InputError
 from workbench.proof import kept as kept_module
 

@@ -9,10 +9,10 @@ import numpy as np
 
 from workbench.contest.entrants import held_samples
 from workbench.contest.matches import Entry, Match
-from workbench.controllers.registry import SAMPLED
-from workbench.report.numbers import number
-from workbench.scenario import Scenario
-from workbench.studies.base import ResultTable
+from workbench.files.numbers import number
+from workbench.paper.study import ResultTable
+from workbench.simulate.controllers import SAMPLED
+from workbench.trains.scenario import Scenario
 
 # Of `mpc.fallback`: what is shown of its counters, in the order of a sample's fate.
 SHOWN = {"qp_failed": "no plan", "late": "too late", "shifted_plan": "last plan, shifted", "lqr": "LQR",

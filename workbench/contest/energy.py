@@ -8,7 +8,7 @@ from workbench.optimal.inputs.files import from_track
 from workbench.optimal.inputs.line import course
 from workbench.optimal.reference import Reference, find_reference
 from workbench.optimal.vehicle import ForceLimit, Vehicle
-from workbench.scenario import Scenario
+from workbench.trains.scenario import Scenario
 
 # Of the desired curve's highest speed: the bound holds for all runs that are no faster.
 FASTEST = 1.2

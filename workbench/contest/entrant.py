@@ -7,9 +7,9 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 from workbench.errors import InputError
-from workbench.metrics import measure_run
-from workbench.scenario import ControllerSpec, Scenario
 from workbench.simulate.closed_loop import Run, Setting
+from workbench.simulate.metrics import measure_run
+from workbench.trains.scenario import ControllerSpec, Scenario
 
 Values = dict[str, float]
 

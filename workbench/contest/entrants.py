@@ -5,29 +5,41 @@ from __future__ import annotations
 from dataclasses import replace
 from pathlib import Path
 
-from workbench.contest import chen2019, jiao2025, liu2020
 from workbench.contest.entrant import Entrant, Played
 from workbench.contest.record import Contest
-from workbench.controllers.registry import LAWS, SAMPLED, held_command
-from workbench.controllers.values import check_controllers, law_values
 from workbench.errors import InputError
+from workbench.model.laws import law_named, named, names_near
 from workbench.mpc.controller import KINDS
-from workbench.scenario import Scenario, load_scenario
 from workbench.simulate.closed_loop import Setting, run_law, simulate_in
+from workbench.simulate.controllers import SAMPLED, compiled_law, held_command, known_laws
+from workbench.simulate.law_values import check_controllers, law_values
 from workbench.simulate.setting_loop import law_loop
+from workbench.trains.scenario import Scenario
 
-ENTRANTS: dict[str, Entrant] = {**liu2020.ENTRANTS, **jiao2025.ENTRANTS, **chen2019.ENTRANTS}
 
-
-def entered(contest: Contest) -> Scenario:
+def entered(contest: Contest, scenario: Scenario) -> Scenario:
     """The contest's scenario with the contest's own entrants among its controllers."""
-    scenario = load_scenario(Path(contest.scenario))
-    return scenario.model_copy(update={"controllers": scenario.controllers | contest.entrants})
+    entrants = {name: spec.model_copy(update={"law": _from(contest.folder, spec.law)})
+                for name, spec in contest.entrants.items()}
+    return scenario.model_copy(update={"controllers": scenario.controllers | entrants})
 
 
-def check_entrants(contest: Contest, scenario: Scenario, path: Path) -> None:
+def _from(folder: Path, law: str) -> str:
+    """A law's name as a file in another folder would write it."""
+    file, separator, name = law.partition("::")
+    return f"{(folder / file).resolve()}::{name}" if separator else law
+
+
+def entrant_named(law: str, folder: Path) -> Entrant | None:
+    """The law that needs a run of its own, from a paper's contest.py; None where there is none of that name."""
+    if law.partition("::")[1]:
+        return None
+    return named(law, folder, "contest", Entrant)
+
+
+def check_entrants(contest: Contest, scenario: Scenario, path: Path, scenario_path: Path) -> None:
     """Raise InputError for a controller or entrant that cannot be used, naming the file it stands in."""
-    check_controllers(scenario, contest.scenario)
+    check_controllers(scenario, scenario_path)
     ordinary = {}
     for name, spec in contest.entrants.items():
         ratio = spec.period_s / scenario.simulation.plant_step_s
@@ -36,16 +48,18 @@ def check_entrants(contest: Contest, scenario: Scenario, path: Path) -> None:
                              f"steps of {scenario.simulation.plant_step_s:g} s: choose a multiple")
         if name in scenario.controllers:
             raise InputError(path, f"entrants.{name}", "is a controller of the scenario already: name it otherwise")
-        if spec.law in ENTRANTS:
+        entrant = entrant_named(spec.law, contest.folder)
+        if entrant is not None:
             try:
-                ENTRANTS[spec.law].check(spec, f"entrants.{name}")
+                entrant.check(spec, f"entrants.{name}")
             except InputError as trouble:
                 raise trouble.within(path) from None
-        elif spec.law in LAWS or spec.law in SAMPLED:
-            ordinary[name] = spec
+        elif spec.law in SAMPLED or law_named(spec.law, contest.folder):
+            ordinary[name] = spec.model_copy(update={"law": _from(contest.folder, spec.law)})
         else:
+            others = ", ".join(names_near(contest.folder, "contest", Entrant))
             raise InputError(path, f"entrants.{name}.law", f"unknown '{spec.law}': choose one of "
-                             f"{', '.join((*LAWS, *SAMPLED, *ENTRANTS))}")
+                             f"{known_laws(scenario)}{', ' if others else ''}{others}")
     try:
         check_controllers(scenario.model_copy(update={"controllers": ordinary}), path)
     except InputError as trouble:  # in a contest's file the table is called otherwise
@@ -55,24 +69,25 @@ def check_entrants(contest: Contest, scenario: Scenario, path: Path) -> None:
 def play(scenario: Scenario, name: str, setting: Setting) -> Played:
     """Run a contestant in a setting that may differ from what the scenario states, which is what it knows."""
     spec = scenario.controllers[name]
-    if spec.law in LAWS:
-        law = LAWS[spec.law]
+    entrant = entrant_named(spec.law, scenario.folder)
+    law = None if entrant else compiled_law(scenario, spec)
+    if law is not None:
         return Played(run_law(law, law_values(law, spec, name), setting, spec.period_s, spec.estimates, name,
                               spec.title or law.title, module=law_loop(law, setting, spec.estimates)))
-    if spec.law not in ENTRANTS:
+    if entrant is None:
         held = law_loop(held_command, setting, spec.estimates)
         return Played(simulate_in(scenario, name, setting, held=held))
-    found = ENTRANTS[spec.law].play(scenario, spec, setting)
+    found = entrant.play(scenario, spec, setting)
     return replace(found, run=replace(found.run, controller=name))
 
 
 def information(scenario: Scenario, name: str) -> str:
     """What a contestant may know."""
-    law = scenario.controllers[name].law
-    if law in ENTRANTS:
-        return ENTRANTS[law].information
-    if law in LAWS:
-        return LAWS[law].information
+    spec = scenario.controllers[name]
+    law = spec.law
+    known = entrant_named(law, scenario.folder) or compiled_law(scenario, spec)
+    if known is not None:
+        return known.information
     return KINDS[law].information if law in KINDS else "full state, nominal model"
 
 
@@ -90,5 +105,5 @@ def held_samples(scenario: Scenario, name: str) -> int:
 
 def learns(scenario: Scenario, name: str) -> bool:
     """Whether a contestant learns from trial to trial."""
-    law = scenario.controllers[name].law
-    return law in ENTRANTS and ENTRANTS[law].learns
+    entrant = entrant_named(scenario.controllers[name].law, scenario.folder)
+    return entrant is not None and entrant.learns

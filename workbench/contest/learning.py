@@ -9,10 +9,10 @@ from numpy.typing import NDArray
 
 from workbench.contest.entrants import follows_curve, learns
 from workbench.contest.matches import of
-from workbench.contest.statistics import overtakes
 from workbench.contest.tables import Told
-from workbench.report.numbers import number
-from workbench.studies.base import Curve, Plot, ResultTable
+from workbench.files.numbers import number
+from workbench.paper.statistics import overtakes
+from workbench.paper.study import Curve, Plot, ResultTable
 
 # Of `Played.trials`: column, heading, metric of a whole run.
 ERRORS = ((0, "position RMS", "position_rms", "m"), (1, "speed RMS", "speed_rms", "m/s"))

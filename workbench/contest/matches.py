@@ -12,13 +12,13 @@ from numpy.typing import NDArray
 from workbench.contest.entrant import Played
 from workbench.contest.entrants import held_samples, play
 from workbench.contest.record import Condition, Contest
-from workbench.events import Failure
-from workbench.metrics import measure
-from workbench.scenario import Scenario
-from workbench.sensing import Sensing
+from workbench.model.events import Failure
+from workbench.model.sensing import Sensing
 from workbench.simulate.closed_loop import Factors, Run, setting_of
-from workbench.track import Track
-from workbench.workers import run_tasks
+from workbench.simulate.metrics import measure
+from workbench.simulate.process_pool import run_tasks
+from workbench.trains.scenario import Scenario
+from workbench.trains.track import Track
 
 Array = NDArray[np.float64]
 

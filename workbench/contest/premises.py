@@ -10,13 +10,13 @@ import numpy as np
 from workbench.contest.matches import Entry, of, with_parameters, world_of
 from workbench.contest.record import Condition
 from workbench.contest.tables import Told
+from workbench.files.numbers import number
 from workbench.mpc.controller import MpcController
 from workbench.mpc.disturbance import Unknown, largest_bound, needed_bound
 from workbench.mpc.tube import Tube, TubeMpc
-from workbench.report.numbers import number
-from workbench.scenario import Scenario
-from workbench.studies.base import ResultTable
-from workbench.track import resistance_table
+from workbench.paper.study import ResultTable
+from workbench.trains.scenario import Scenario
+from workbench.trains.track import resistance_table
 
 LAW = "mpc.tube"
 

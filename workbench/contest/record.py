@@ -4,12 +4,13 @@ from __future__ import annotations
 
 from typing import Annotated, Self
 
-from pydantic import Field, Strict, model_validator
+from pydantic import Field, PrivateAttr, Strict, model_validator
 
-from workbench.scenario import ControllerSpec, Interval
-from workbench.studies.base import Study
-from workbench.studies.tuning_record import Searched, Seed
-from workbench.toml_input import Count, Name, NonNegative, Positive, SourcedRecord, Text
+from workbench.errors import InputError
+from workbench.files.toml import Count, Name, NonNegative, Positive, SourcedRecord, Text
+from workbench.paper.study import Study
+from workbench.paper.tuning_record import Searched, Seed
+from workbench.trains.scenario import ControllerSpec, Interval, Scenario
 
 Spread = Annotated[float, Strict(), Field(ge=0, lt=1, allow_inf_nan=False)]
 Share = Annotated[float, Strict(), Field(gt=0, le=1, allow_inf_nan=False)]
@@ -91,6 +92,20 @@ class Contest(Study):
     tuning: Tuning
     entrants: dict[Name, ControllerSpec] = Field(default_factory=dict)
     absent: dict[Name, Text] = Field(default_factory=dict)
+    _world: Scenario | None = PrivateAttr(default=None)
+
+    @property
+    def world(self) -> Scenario:
+        """The scenario with all who take part; InputError before `with_world` has given it."""
+        if self._world is None:
+            raise InputError("", "scenario", "has not been read: load the contest from its file")
+        return self._world
+
+    def with_world(self, world: Scenario) -> Self:
+        """The contest with its scenario and all who take part in it."""
+        found = self.model_copy()
+        found._world = world
+        return found
 
     @model_validator(mode="after")
     def _names_exist(self) -> Self:

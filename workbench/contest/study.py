@@ -12,25 +12,26 @@ import numpy as np
 
 from workbench.contest.energy import best_run
 from workbench.contest.entrants import check_entrants, entered, follows_curve, learns
-from workbench.contest.kept import matches_journal, matches_of
+from workbench.contest.journal import matches_journal, matches_of
 from workbench.contest.learning import learning_findings, learning_plot, learning_tables
 from workbench.contest.matches import METRICS, Match, all_matches, draws_of, of, overspeed, run_match, tunable
 from workbench.contest.premises import premises_findings, premises_table, words_of
 from workbench.contest.record import Contest
-from workbench.contest.search import Tuned
 from workbench.contest.tables import HEADINGS, UNITS, Told, all_tables
 from workbench.contest.tune import tune_all
 from workbench.errors import InputError
-from workbench.report.numbers import number
-from workbench.scenario import Scenario, load_scenario
-from workbench.studies.base import Curve, Plot, Progress, StudyKind, StudyResult
+from workbench.files.numbers import number
+from workbench.paper.local_search import Tuned
+from workbench.paper.study import Curve, Plot, Progress, StudyKind, StudyResult
+from workbench.trains.scenario import Scenario, load_scenario
 
 
 def located(contest: Contest, path: Path) -> Contest:
-    """The contest with its scenario's path; raises InputError where the scenario or a name in it is wrong."""
-    contest = contest.model_copy(update={"scenario": str(path.parent / contest.scenario)})
-    check_entrants(contest, load_scenario(Path(contest.scenario)), path)
-    scenario = entered(contest)
+    """The contest with its scenario, read; raises InputError where the scenario or a name in it is wrong."""
+    scenario_path = path.parent / contest.scenario
+    stated = load_scenario(scenario_path)
+    check_entrants(contest, stated, path, scenario_path)
+    scenario = entered(contest, stated).in_folder(contest.folder)
     _delays_alike(contest, scenario, path)
     for name, ranges in contest.tuning.ranges.items():
         if name not in scenario.controllers:
@@ -43,7 +44,7 @@ def located(contest: Contest, path: Path) -> Contest:
             if key not in tunable(scenario, name):
                 raise InputError(path, f"tuning.ranges.{name}.{key}", "is no parameter of this controller: choose "
                                  f"among {', '.join(tunable(scenario, name))}")
-    return contest
+    return contest.with_world(scenario)
 
 
 def _delays_alike(contest: Contest, scenario: Scenario, path: Path) -> None:
@@ -74,13 +75,13 @@ def run(contest: Contest, workers: int, on_progress: Progress) -> StudyResult:
 
 def run_kept(contest: Contest, workers: int, on_progress: Progress, folder: Path, resume: bool) -> StudyResult:
     """`run` with a journal of the matches in a folder; with `resume` those that it holds are not played again."""
-    with matches_journal(folder, contest, entered(contest), resume) as journal:
+    with matches_journal(folder, contest, resume) as journal:
         return _run(contest, workers, on_progress, matches_of(journal), lambda match: journal.append(asdict(match)))
 
 
 def _run(contest: Contest, workers: int, on_progress: Progress, played: Sequence[Match],
          keep: Callable[[Match], None]) -> StudyResult:
-    scenario = entered(contest)
+    scenario = contest.world
     matches = all_matches(contest, scenario, workers, on_progress, played, keep)
     best = best_run(scenario)
     told = Told(contest, scenario, matches, best.lower_bound_j if best else None)
@@ -229,7 +230,7 @@ def _gain(told: Told, controller: str, tuned: str) -> Iterator[str]:
 
 
 def _tuned(contest: Contest, names: list[str], workers: int, on_progress: Progress) -> dict[str, Tuned]:
-    return tune_all(contest, entered(contest), names, workers, on_progress)
+    return tune_all(contest, contest.world, names, workers, on_progress)
 
 
 KIND = StudyKind(Contest, run, located, _tuned, run_kept)

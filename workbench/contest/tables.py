@@ -12,10 +12,10 @@ from workbench.contest.effort import mpc_table
 from workbench.contest.entrants import follows_curve, held_samples, information
 from workbench.contest.matches import METRICS, OF_CURVE, Entry, Match, entries, of
 from workbench.contest.record import Contest
-from workbench.contest.statistics import mean_interval, resampled, winners
-from workbench.report.numbers import number
-from workbench.scenario import Scenario
-from workbench.studies.base import ResultTable
+from workbench.files.numbers import number
+from workbench.paper.statistics import mean_interval, resampled, winners
+from workbench.paper.study import ResultTable
+from workbench.trains.scenario import Scenario
 
 HEADINGS = {"position_rms": "position RMS (m)", "speed_rms": "speed RMS (m/s)",
             "largest_position_error": "largest |position error| (m)", "stopping_error": "|stopping error| (m)",

@@ -7,10 +7,10 @@ from collections.abc import Callable
 from workbench.contest.entrants import follows_curve
 from workbench.contest.matches import match_values, run_match, tunable, with_parameters
 from workbench.contest.record import Contest, Objective, WithoutCurve
-from workbench.contest.search import Tuned, score, search
 from workbench.errors import InputError
-from workbench.scenario import Scenario
-from workbench.workers import results_of
+from workbench.paper.local_search import Tuned, score, search
+from workbench.simulate.process_pool import results_of
+from workbench.trains.scenario import Scenario
 
 # Draws of the search lie far from those of the contest, so that no controller is judged by what it was tuned on.
 DRAWS_FROM = 1_000_000

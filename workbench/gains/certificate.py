@@ -15,7 +15,7 @@ from typing import Any
 
 import sympy as sp
 
-from workbench.errors import InputError, SolverError
+from workbench.errors import SolverError
 from workbench.gains.exact import Matrix, rational, simplest, solve_exactly, squares_of
 from workbench.gains.lmi import Array, Scaled, size_of
 from workbench.gains.problem import Exponents, Family, Problem
@@ -23,6 +23,7 @@ from workbench.proof.checker import CertificateError, check
 from workbench.proof.claim import Goal
 from workbench.proof.decide.engine import prove_goal
 from workbench.proof.decide.refute import find_example
+from workbench.proof.document import write_folder
 from workbench.proof.text import goal_text, relation_text, text
 
 # (number of the region's inequality or -1, positive coefficient, root as exponents -> coefficient) of a square.
@@ -158,17 +159,11 @@ def certificate_text(certificate: Certificate) -> str:
     return json.dumps(certificate, indent=1, sort_keys=True, ensure_ascii=False) + "\n"
 
 
-def write_certificates(certificates: Iterable[Certificate], folder: Path) -> list[Path]:
-    """Write each as <paper>/<name>.json below a folder; InputError where that cannot be."""
-    written = []
-    try:
-        for certificate in certificates:
-            paper, _, name = str(certificate["claim"]).partition(":")
-            path = folder / paper / f"{name}.json"
-            path.parent.mkdir(parents=True, exist_ok=True)
-            path.write_text(certificate_text(certificate), encoding="utf-8")
-            written.append(path)
-    except OSError as trouble:
-        raise InputError(trouble.filename or folder, "", f"cannot be written ({trouble.strerror}): name another folder "
-                                                         "by --certificates") from None
-    return written
+def write_certificates(certificates: Iterable[Certificate], folder: Path) -> None:
+    """Write each as <name>.json into the folder of its paper, with a manifest; InputError where that cannot be."""
+    papers: dict[str, dict[str, str]] = {}
+    for certificate in certificates:
+        paper, _, name = str(certificate["claim"]).partition(":")
+        papers.setdefault(paper, {})[name] = certificate_text(certificate)
+    for paper, written in papers.items():
+        write_folder(folder, paper, written, None)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from fractions import Fraction
 from pathlib import Path
 from typing import Any
@@ -11,24 +11,13 @@ import sympy as sp
 
 from workbench.errors import InputError
 from workbench.gains.exact import rational
-from workbench.proof.loading import ProofFile
-from workbench.toml_input import read_toml
 
 
 class Stated:
-    """A file's numbers by dotted key; a key that is missing or no number is an InputError that names it.
+    """A file's numbers by dotted key; a key that is missing or no number is an InputError that names it."""
 
-    proofs: the folder of the proof files, from which the paper's Lyapunov functions and conditions come; it stands
-    beside the file's folder unless named.
-    """
-
-    def __init__(self, path: Path, proofs: Path | None = None) -> None:
-        self.path, self.data = path, read_toml(path)
-        self.proofs = proofs or path.absolute().parent.parent / "proofs"
-
-    def proof_file(self) -> Any:
-        """The imported proof file of the paper, whose expressions the searches use; InputError where there is none."""
-        return ProofFile(self.proofs / f"{self.entry('paper')}.py").module()
+    def __init__(self, path: Path, data: Mapping[str, Any]) -> None:
+        self.path, self.data = path, data
 
     def entry(self, key: str) -> Any:
         """What stands at a dotted key."""

@@ -10,10 +10,10 @@ import numpy as np
 import sympy as sp
 from scipy.linalg import expm
 
-from workbench.compile import casadi_function
+from workbench.compile.kernel import casadi_function
 from workbench.errors import InputError
 from workbench.mpc.problem import Array
-from workbench.multi_particle import ahead, behind, coefficients, f_a, first, m, m_total, rates, s, u, v
+from workbench.trains.multi_particle import ahead, behind, coefficients, f_a, first, m, m_total, rates, s, u, v
 
 FEWEST, MOST = 2, 64
 

@@ -18,8 +18,8 @@ from workbench.mpc.preview import preview
 from workbench.mpc.problem import Array, Problem, Weights
 from workbench.mpc.solution import Tracker
 from workbench.mpc.tube import TubeMpc, checked_tube
-from workbench.scenario import ControllerSpec, Scenario
-from workbench.track import resistance_table
+from workbench.trains.scenario import ControllerSpec, Scenario
+from workbench.trains.track import resistance_table
 
 # A train is nowhere near these, so a measurement beyond them is no measurement.
 FARTHEST_M, FASTEST_MPS = 1e9, 1e4

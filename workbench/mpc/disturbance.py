@@ -21,7 +21,7 @@ from workbench.errors import InputError
 from workbench.mpc.preview import resistance
 from workbench.mpc.problem import Array, Problem
 from workbench.mpc.tube import LARGEST_MPS2, tube
-from workbench.track import ResistanceTable
+from workbench.trains.track import ResistanceTable
 
 MOST_ROUNDS = 100
 # A round of the search goes farther by this share, so that it ends, at most so much above the least bound.

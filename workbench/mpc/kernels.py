@@ -8,8 +8,8 @@ from types import ModuleType
 import numpy as np
 from numpy.typing import NDArray
 
-from workbench.compile import loop_module
-from workbench.compile_text import loop_text
+from workbench.compile.kernel import loop_module
+from workbench.compile.text import loop_text
 from workbench.mpc import quadratic_kernel, solver_kernel
 from workbench.mpc.model import SOFT, Actuator, kernel_functions
 from workbench.mpc.problem import Array

@@ -13,8 +13,8 @@ from typing import Any, Literal
 
 import sympy as sp
 
-from workbench.compile import casadi_function, function_source
-from workbench.train import single_particle_per_mass
+from workbench.compile.kernel import casadi_function, function_source
+from workbench.trains.train import single_particle_per_mass
 
 Actuator = Literal["direct", "lag"]
 ACTUATORS: tuple[Actuator, ...] = ("direct", "lag")

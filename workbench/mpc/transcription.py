@@ -15,7 +15,7 @@ from typing import Any
 import casadi as ca
 import numpy as np
 
-from workbench.compile import casadi_function
+from workbench.compile.kernel import casadi_function
 from workbench.errors import SolverError
 from workbench.mpc import model as of
 from workbench.mpc.problem import Array, Problem

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from workbench.errors import SolverError
-from workbench.json_output import write_json
+from workbench.files.json_output import write_json
 from workbench.optimal.bound import bound_terms, cell_limits, minima
 from workbench.optimal.bound_checker import checked_bound
 from workbench.optimal.bound_fixed import fixed_part

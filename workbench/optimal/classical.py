@@ -18,10 +18,10 @@ import sympy as sp
 from scipy.integrate import quad, solve_ivp
 from scipy.optimize import brentq
 
-from workbench.compile import numeric
+from workbench.compile.kernel import numeric
 from workbench.errors import WorkbenchError
 from workbench.optimal.vehicle import Vehicle
-from workbench.train import a_0, b_0, c_0, davis_resistance, v
+from workbench.trains.train import a_0, b_0, c_0, davis_resistance, v
 
 _ARGUMENTS = (v, a_0, b_0, c_0)
 _RESISTANCE = davis_resistance(v, a_0, b_0, c_0)

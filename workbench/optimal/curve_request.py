@@ -13,13 +13,13 @@ from typing import Annotated
 from pydantic import Field, Strict
 
 from workbench.errors import InputError
+from workbench.files.toml import Positive, SourcedRecord, Text, load_record
 from workbench.optimal.course import Array
 from workbench.optimal.export import samples
 from workbench.optimal.inputs.files import load_line, load_vehicle
 from workbench.optimal.inputs.line import course
 from workbench.optimal.smooth import SmoothReference, smooth_reference
 from workbench.optimal.vehicle import ForceLimit, Vehicle
-from workbench.toml_input import Positive, SourcedRecord, Text, load_record
 
 
 class CurveRequest(SourcedRecord):

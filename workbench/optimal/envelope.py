@@ -13,7 +13,7 @@ from workbench.errors import WorkbenchError
 from workbench.optimal.course import Array, Course
 from workbench.optimal.profile import Profile
 from workbench.optimal.vehicle import Vehicle
-from workbench.train import davis_resistance
+from workbench.trains.train import davis_resistance
 
 # By this share more than a run's last speed is aimed at where full traction leads to it, for the steps' error.
 RUN_UP = 1e-5

@@ -18,14 +18,14 @@ from typing import Any, Literal
 import casadi as ca
 import numpy as np
 
-from workbench.compile import casadi_function
+from workbench.compile.kernel import casadi_function
 from workbench.optimal.clock_nodes import ClockNodes, clock_nodes
 from workbench.optimal.course import Array
 from workbench.optimal.grid import Grid
 from workbench.optimal.socp import LEAST_MARGIN, NoPlanError, Plan
 from workbench.optimal.timetable import Timetable, as_timetable
 from workbench.optimal.vehicle import ForceLimit, Vehicle
-from workbench.train import a_0, b_0, c_0, davis_resistance, v
+from workbench.trains.train import a_0, b_0, c_0, davis_resistance, v
 
 NlpSolver = Literal["fatrop", "ipopt"]
 # What is tried in turn: a solver, from the best run known (True) or from the fastest one.

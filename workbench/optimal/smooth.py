@@ -12,8 +12,8 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from workbench.desired_curve import DEGREE, DesiredCurve
 from workbench.errors import InputError
+from workbench.model.desired_curve import DEGREE, DesiredCurve
 from workbench.optimal.course import Array, Course
 from workbench.optimal.envelope import InfeasibleRunError
 from workbench.optimal.planned_ahead import planned_ahead, waits
@@ -21,7 +21,7 @@ from workbench.optimal.profile import Profile, largest_force
 from workbench.optimal.reference import Reference, Solver, find_reference, find_timed_reference
 from workbench.optimal.timetable import Timetable, as_timetable
 from workbench.optimal.vehicle import Vehicle
-from workbench.train import davis_resistance
+from workbench.trains.train import davis_resistance
 
 WINDOW_S = 1.0
 # Times a window is made longer until the jerk keeps its limit.

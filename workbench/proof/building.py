@@ -6,8 +6,8 @@ import inspect
 from collections.abc import Callable
 
 from workbench.errors import ClaimError
+from workbench.files.mistakes import mistake
 from workbench.proof.claim import Claim, Goal
-from workbench.proof.mistakes import mistake
 
 
 def built(claim: Claim, build: Callable[[], Goal], what: str = "goal") -> Goal:

@@ -18,6 +18,7 @@ tanh x = (exp 2x - 1)/(exp 2x + 1), Max(a, b) = (a + b + abs(a - b))/2, Min(a, b
 from __future__ import annotations
 
 import ast
+import hashlib
 import json
 import math
 import re
@@ -1059,21 +1060,46 @@ def check(certificate: dict[str, Any]) -> None:
         raise CertificateError(f"malformed: {type(trouble).__name__} {trouble}") from None
 
 
+MANIFEST = "manifest.json"
+
+
 def check_folder(folder: Path) -> list[tuple[Path, str, str | None]]:
-    """(file, verdict, reason it is invalid or None) for every <paper>/<equation>.json below a folder."""
+    """(file, verdict, reason it is invalid or None) for every certificate below a folder: <equation>.json in a folder
+    whose manifest.json says of which paper they are and which there are, or else in a folder named like the paper."""
     results: list[tuple[Path, str, str | None]] = []
-    for path in sorted(folder.rglob("*.json")):
+    named = {path.parent: _manifest(path) for path in sorted(folder.rglob(MANIFEST))}
+    for place, (_, digests) in named.items():
+        for name in sorted(digests):
+            if not (place / f"{name}.json").is_file():
+                results.append((place / f"{name}.json", "?", f"{MANIFEST} names it, and it is missing"))
+        if not digests:
+            results.append((place / MANIFEST, "?", "names no certificate"))
+    for path in sorted(path for path in folder.rglob("*.json") if path.name != MANIFEST):
         verdict = "?"
         try:
-            certificate = json.loads(path.read_text(encoding="utf-8"), object_pairs_hook=_unique)
+            text = path.read_text(encoding="utf-8")
+            certificate = json.loads(text, object_pairs_hook=_unique)
             verdict = str(certificate.get("verdict")) if isinstance(certificate, dict) else "?"
-            if certificate.get("claim") != f"{path.resolve().parent.name}:{path.stem}":
+            paper, digests = named.get(path.parent, (path.resolve().parent.name, {}))
+            if path.parent in named and digests.get(path.stem) != hashlib.sha256(text.encode()).hexdigest():
+                raise CertificateError(f"{MANIFEST} names " + (
+                    "another content for it" if path.stem in digests else "no such certificate"))
+            if certificate.get("claim") != f"{paper}:{path.stem}":
                 raise CertificateError(f"the certificate of {certificate.get('claim')} under another claim's name")
             check(certificate)
             results.append((path, verdict, None))
         except (CertificateError, ValueError, AttributeError, RecursionError, OSError) as trouble:
             results.append((path, verdict, str(trouble)))
     return results
+
+
+def _manifest(path: Path) -> tuple[str, dict[str, str]]:
+    """The paper and the digests of its certificates by their names; of a damaged manifest none."""
+    try:
+        found = json.loads(path.read_text(encoding="utf-8"), object_pairs_hook=_unique)
+        return str(found["paper"]), {str(name): str(digest) for name, digest in found["certificates"].items()}
+    except (CertificateError, ValueError, KeyError, TypeError, AttributeError, RecursionError, OSError):
+        return "", {}
 
 
 def _unique(pairs: list[tuple[str, Any]]) -> dict[str, Any]:

@@ -8,7 +8,7 @@ import sys
 from importlib import metadata
 from pathlib import Path
 
-from workbench.proof.reads import STARTED_NS, changed_since
+from workbench.proof.dependencies import STARTED_NS, changed_since
 
 SOURCES = Path(__file__).parent
 LIBRARIES = ("sympy", "mpmath", "python-flint", "numpy", "scipy", "cvxpy", "clarabel", "scs", "osqp", "highspy")

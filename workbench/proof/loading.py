@@ -1,36 +1,31 @@
-"""Import a proof file by its path, with the modules that stand beside it."""
+"""Import a paper by its path: a folder with its claims, or a single proof file with the modules beside it."""
 
 from __future__ import annotations
 
 import importlib.util
+import re
 import sys
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
-from importlib.machinery import FileFinder, ModuleSpec, SourceFileLoader
+from importlib.machinery import FileFinder, ModuleSpec
 from pathlib import Path
 from types import ModuleType
-from typing import Any
 
 from workbench.errors import ClaimError, InputError
-from workbench.proof.mistakes import mistake
-from workbench.proof.reads import reading, reads
+from workbench.files.folders import CLAIMS_FOLDER, PAPER_FILE
+from workbench.files.mistakes import mistake
+from workbench.files.modules import PREFIX as FOLDER_PREFIX
+from workbench.files.modules import SourceLoader, module_in, sources_of
+from workbench.proof.dependencies import reading, reads
 
 PREFIX = "workbench_proofs_"
-
-
-class _FromSource(SourceFileLoader):
-    """Reads the source, never bytecode: that knows its source by size and second only, and a changed claim must
-    not be taken for the old one."""
-
-    def path_stats(self, path: Any) -> Mapping[str, Any]:
-        raise OSError(f"{path}: no bytecode wanted")
 
 
 class _Beside:
     """Finds the modules that stand in a folder."""
 
     def __init__(self, folder: Path) -> None:
-        self.finder = FileFinder(str(folder), (_FromSource, [".py"]))
+        self.finder = FileFinder(str(folder), (SourceLoader, [".py"]))
         self.found: set[str] = set()
 
     def find_spec(self, name: str, path: Sequence[str] | None = None, target: ModuleType | None = None,
@@ -44,22 +39,27 @@ class _Beside:
 
 
 class ProofFile:
-    """A proof file, imported on first use.
+    """A paper's folder or a single proof file, imported on first use.
 
-    Modules beside it are found while it is `at_home`, as Python does for a script; they are its own, so that
-    files of one name in two folders are not taken for each other.
+    Modules beside a single file are found while it is `at_home`, as Python does for a script; they are its own, so
+    that files of one name in two folders are not taken for each other. A folder is a package, whose modules import
+    each other relatively; its claims are imported in the order of their names, section_2 before section_10.
     """
 
     def __init__(self, path: Path) -> None:
         self.path = path
         self.sources = {str(path.absolute())}
-        self._beside = _Beside(path.absolute().parent)
+        self._beside = None if path.is_dir() else _Beside(path.absolute().parent)
         self._own: dict[str, ModuleType] = {}
-        self._module: ModuleType | None = None
+        self._modules: list[ModuleType] = []
 
     @contextmanager
     def at_home(self) -> Iterator[None]:
         """Whatever is imported within sees the modules beside the file first."""
+        if self._beside is None:  # a package, whose modules know each other
+            with reading(self.sources):
+                yield
+            return
         sys.meta_path.insert(0, self._beside)
         hidden = {name: sys.modules[name] for name in self._own if name in sys.modules}
         sys.modules.update(self._own)
@@ -72,22 +72,30 @@ class ProofFile:
                 self._own[name] = sys.modules.pop(name)
             sys.modules.update(hidden)
 
-    def module(self) -> ModuleType:
-        """The imported file; raises InputError when it cannot be imported."""
-        if self._module is None:
+    def modules(self) -> list[ModuleType]:
+        """The imported files that may state a paper; raises InputError when one cannot be imported."""
+        if not self._modules:
             try:
                 with self.at_home():
-                    self._module = self._imported()
+                    self._modules = self._of_folder() if self.path.is_dir() else [self._imported()]
             except ClaimError as trouble:
                 raise InputError(self.path, "", str(trouble)) from None
+            except InputError:
+                raise
             except (Exception, SystemExit) as trouble:  # a file that exits would end the run undecided
                 raise InputError(self.path, "", f"cannot be imported: {mistake(trouble, self.path)}") from trouble
-        return self._module
+        return self._modules
+
+    def _of_folder(self) -> list[ModuleType]:
+        names = [CLAIMS_FOLDER + "." + name for name in claim_files(self.path)]
+        if (self.path / PAPER_FILE).is_file():
+            names.insert(0, PAPER_FILE.removesuffix(".py"))
+        return [module_in(self.path, name) for name in names]
 
     def _imported(self) -> ModuleType:
         name = f"{PREFIX}{self.path.stem}"
         spec = importlib.util.spec_from_file_location(name, self.path,
-                                                      loader=_FromSource(name, str(self.path.absolute())))
+                                                      loader=SourceLoader(name, str(self.path.absolute())))
         if spec is None or spec.loader is None:
             raise InputError(self.path, "", "cannot be imported: is it a Python file?")
         module = importlib.util.module_from_spec(spec)
@@ -97,4 +105,12 @@ class ProofFile:
 
     def reads(self, cache_folder: Path | None = None) -> frozenset[str]:
         """The files it may depend on, as far as they have been read yet, those of the cache left out."""
-        return reads(self.sources, (PREFIX,), cache_folder)
+        own = self.sources | sources_of(self.path) if self.path.is_dir() else self.sources
+        return reads(own, (PREFIX, FOLDER_PREFIX), cache_folder)
+
+
+def claim_files(folder: Path) -> list[str]:
+    """The names of the modules in a paper's claims, numbers in them by their value."""
+    names = [path.stem for path in (folder / CLAIMS_FOLDER).glob("*.py") if not path.name.startswith(("_", "."))]
+    return sorted(names, key=lambda name: [(not part.isdigit(), int(part) if part.isdigit() else 0, part)
+                                           for part in re.findall(r"\d+|\D+", name)])

@@ -71,4 +71,6 @@ def collect_papers(paths: list[Path]) -> list[Paper]:
 
 def papers_in(file: ProofFile) -> list[Paper]:
     """The papers that a proof file states; raises InputError when it cannot be imported."""
-    return [value for value in vars(file.module()).values() if isinstance(value, Paper)]
+    stated = {id(value): value for module in file.modules() for value in vars(module).values()
+              if isinstance(value, Paper)}
+    return list(stated.values())

@@ -3,31 +3,35 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from contextlib import ExitStack
 from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
 
 from workbench.errors import InputError
-from workbench.proof.kept import FileEntry, Kept, kept
+from workbench.proof.cache import FileEntry, Kept, kept
+from workbench.proof.dependencies import digest
+from workbench.proof.messages import Decided, Listing
 from workbench.proof.premises import below, premises_problem, with_taint
-from workbench.proof.reads import digest
+from workbench.proof.process_pool import team
 from workbench.proof.selection import NO_PAPER, Target, chosen, files_of
-from workbench.proof.team import team
 from workbench.proof.verdict import Decision, Stated
-from workbench.proof.work import Decided, Listing
-from workbench.workers import cores
+from workbench.simulate.process_pool import cores
 
 Progress = Callable[[int, int], None]
 
 
 @dataclass(frozen=True)
 class Proof:
-    """The claims that were asked for, decided; `now` are the ids of all that were not found in the cache."""
+    """The claims that were asked for, decided; `now` are the ids of all that were not found in the cache.
+
+    papers: by the name of each paper its folder or proof file.
+    """
 
     decisions: list[Decision]
     now: frozenset[str]
+    papers: Mapping[str, Path]
 
 
 def prove(found: Sequence[Target], jobs: int | None = None, use_cache: bool = True,
@@ -64,7 +68,8 @@ def prove(found: Sequence[Target], jobs: int | None = None, use_cache: bool = Tr
     every |= {claim_id: result.decision for claim_id, result in decided.items()}
     tainted = with_taint([every[claim_id] for claim_id in claims if claim_id in wanted])
     return Proof([d for d in tainted if d.claim.id in asked],
-                 frozenset(claim_id for claim_id, result in decided.items() if result.now))
+                 frozenset(claim_id for claim_id, result in decided.items() if result.now),
+                 {claim.paper: file for file in files for claim in stated[file]})
 
 
 def _well_formed(files: Sequence[Path], stated: dict[Path, tuple[Stated, ...]],

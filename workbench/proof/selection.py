@@ -1,4 +1,4 @@
-"""Which claims are asked for: proof files, folders of them, and single claims as in chen2019.py::24."""
+"""Which claims are asked for: papers, folders of them, and single claims as in PAPER::24."""
 
 from __future__ import annotations
 
@@ -9,6 +9,8 @@ from fnmatch import fnmatchcase
 from pathlib import Path
 
 from workbench.errors import InputError
+from workbench.files.folders import CLAIMS_FOLDER, PAPER_FILE, is_paper, paper_named, papers_in
+from workbench.files.modules import python_files
 from workbench.proof.verdict import Stated
 
 NO_PAPER = "states no Paper: create one with workbench.proof.paper.Paper"
@@ -16,33 +18,53 @@ NO_PAPER = "states no Paper: create one with workbench.proof.paper.Paper"
 
 @dataclass(frozen=True)
 class Target:
-    """What one argument names: proof files, and which of their claims; all of them where there is no pattern."""
+    """What one argument names: papers, each a folder or a single proof file, and which of their claims; all of them
+    where there is no pattern."""
 
     path: Path
     files: tuple[Path, ...]
     pattern: str | None = None
 
+    def inputs(self) -> list[Path]:
+        """The Python files that are read for it."""
+        return [file for path in self.files for file in (python_files(path) if path.is_dir() else [path])]
 
-def targets(arguments: Sequence[str | Path]) -> list[Target]:
-    """What the arguments name; a folder stands for all .py files in it.
 
-    Raises InputError when a path has no proof file.
+def targets(arguments: Sequence[str | Path], none_is_fine: bool = False) -> list[Target]:
+    """What the arguments name: a paper's folder, a proof file, or a folder of such.
+
+    Raises InputError when a path has no proof file, unless that is fine.
     """
     found = [_target(str(argument)) for argument in arguments]
-    if not any(target.files for target in found):
-        raise InputError(found[0].path if found else "proofs", "", "holds no proof file: name a .py file")
-    return found
+    if not none_is_fine and not any(target.files for target in found):
+        raise InputError(found[0].path if found else "proofs", "", "holds no proof file: name a paper's folder or "
+                         "a .py file")
+    return [target for target in found if target.files] if none_is_fine else found
+
+
+def states_claims(folder: Path) -> bool:
+    """Whether a paper's folder has anything to decide: a paper.py, or files in claims."""
+    return (folder / PAPER_FILE).is_file() or any((folder / CLAIMS_FOLDER).glob("*.py"))
 
 
 def _target(argument: str) -> Target:
     name, separator, pattern = argument.partition("::")
     path = Path(name)
-    if path.is_dir():
-        files = tuple(sorted(p for p in path.glob("*.py") if not p.name.startswith("_")))
+    if path.name == PAPER_FILE and is_paper(path.parent):
+        path = path.parent
+    files: tuple[Path, ...]
+    if is_paper(path):
+        files = (path,) if states_claims(path) else ()
+    elif path.is_dir():
+        single = [p for p in path.glob("*.py") if not p.name.startswith("_")]
+        files = tuple(sorted([*single, *(p for p in papers_in(path) if states_claims(p))]))
     elif path.suffix == ".py" and path.is_file():
         files = (path,)
     else:
-        raise InputError(path, "", "no such proof file: name a .py file or a folder of them")
+        near = paper_named(name, Path.cwd()) if name.isidentifier() else None
+        if near is None:
+            raise InputError(path, "", "no such paper: name a paper's folder, a proof file, or a folder of them")
+        path, files = near, (near,)
     return Target(path, files, pattern if separator else None)
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from dataclasses import dataclass
 from typing import Any, Literal
 
@@ -13,6 +14,16 @@ Verdict = Literal["proved", "refuted", "violated", "gap", "assumed", "undecided"
 KINDS: tuple[Kind, ...] = ("identity", "inequality", "condition", "implication", "limit")
 VERDICTS: tuple[Verdict, ...] = ("proved", "refuted", "violated", "gap", "assumed", "undecided")
 FAILED: tuple[Verdict, ...] = ("refuted", "violated", "gap")
+
+
+# Names of papers and numbers of claims become names of folders and files.
+LONGEST_EQUATION = 100
+_EQUATION = re.compile(r"[A-Za-z0-9][A-Za-z0-9._+-]*")
+
+
+def is_equation(text: str) -> bool:
+    """Whether a text can be a claim's number, which also names its file; `manifest` is the name of another file."""
+    return bool(_EQUATION.fullmatch(text)) and len(text) <= LONGEST_EQUATION and text.lower() != "manifest"
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -36,6 +47,12 @@ class Stated:
         paper, _, equation = self.id.partition(":")
         if not paper or not equation:
             raise ClaimError(f"claim id '{self.id}': write it as <paper>:<equation>")
+        if not (paper.isidentifier() and paper.isascii()):
+            raise ClaimError(f"claim id {self.id!r}: '{paper}' is no name of a paper: use letters, digits and "
+                             "underscores, a letter first")
+        if not is_equation(equation):
+            raise ClaimError(f"claim id {self.id!r}: '{equation}' is no number of a claim: use letters, digits, '.', "
+                             f"'_', '+' and '-', a letter or digit first, at most {LONGEST_EQUATION} of them")
         if self.kind not in KINDS:
             raise ClaimError(f"claim {self.id}: kind '{self.kind}' is none of {', '.join(KINDS)}")
         if self.recorded not in VERDICTS:

@@ -7,16 +7,16 @@ from functools import cache
 from pathlib import Path
 
 from workbench.errors import InputError, WorkbenchError
+from workbench.proof.cache import Kept, kept
 from workbench.proof.checker import CertificateError, check
 from workbench.proof.claim import Claim
 from workbench.proof.decide.engine import decide
+from workbench.proof.dependencies import watch
 from workbench.proof.fingerprint import fingerprint
-from workbench.proof.kept import Kept, kept
 from workbench.proof.loading import ProofFile
+from workbench.proof.messages import Decided, Listing
 from workbench.proof.paper import papers_in
-from workbench.proof.reads import watch
 from workbench.proof.verdict import Decision, Stated
-from workbench.proof.work import Decided, Listing
 
 
 class Worker:

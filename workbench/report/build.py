@@ -1,34 +1,66 @@
-"""The main job: a paper's scenario or study and its proof files in, a folder with its report and data out."""
+"""The main job: a paper in, a folder with its report and data out."""
 
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 from workbench.errors import InputError
-from workbench.gains.registry import PAPERS
-from workbench.json_output import write_json
-from workbench.proof.document import claims_document, write_certificates
+from workbench.files.folders import is_paper
+from workbench.files.json_output import write_json
+from workbench.gains.result import GainReport
+from workbench.paper.gain_effects import effects, gains_of
+from workbench.paper.loading import Loaded
+from workbench.paper.study import Study, StudyResult
+from workbench.proof.document import Places, claims_document, write_certificates
 from workbench.proof.prove import prove
 from workbench.proof.selection import Target, targets
 from workbench.report.gains import gains_document, gains_result
 from workbench.report.page import ReportContent, build_page
 from workbench.report.study_page import StudyContent, build_study_page, write_curves
-from workbench.scenario import load_scenario
-from workbench.simulate.compare import Comparison, compare
+from workbench.simulate.compare import Comparison, checked_variants, compare
+from workbench.simulate.process_pool import cores
 from workbench.simulate.sweep import SweepSummary, summarise, sweep
-from workbench.studies.base import Study, StudyResult
-from workbench.studies.gain_effects import checked_gains, effects
-from workbench.studies.registry import load_study, study_kind
-from workbench.toml_input import read_toml
-from workbench.workers import cores
 
 # (what is being done, done, total); total 0 while it is not known
 Progress = Callable[[str, int, int], None]
+
+
+@dataclass(frozen=True)
+class Asked:
+    """A report that is asked for, with everything it needs checked; gains: what was found of the paper's gains."""
+
+    loaded: Loaded
+    proofs: tuple[Target, ...]
+    out: Path
+    gains: GainReport | None
+    resume: bool
+    workers: int | None
+    command: str
+
+    @classmethod
+    def of(cls, loaded: Loaded, proofs: Sequence[str], out: Path, with_gains: bool = False, resume: bool = False,
+           workers: int | None = None) -> Asked:
+        """Check before anything runs: claims and gains can be had, variants fit, the folder can be written.
+
+        proofs: papers whose claims are on the page; without any the paper's own. Raises InputError.
+        """
+        asked = tuple(targets(list(proofs))) if proofs else tuple(_own(loaded))
+        if loaded.kind is None:
+            checked_variants(loaded.path, loaded.data, loaded.scenario, True)
+        _require_folder(out)
+        gains = gains_of(loaded) if with_gains and loaded.gain_search() is not None else None
+        named = [str(loaded.path), *proofs]
+        return cls(loaded, asked, out, gains, resume, workers, f"workbench report {' '.join(named)} --out {out}")
+
+
+def _own(loaded: Loaded) -> list[Target]:
+    """The claims of the paper in whose folder the file lies; none for another file."""
+    return targets([loaded.folder], none_is_fine=True) if is_paper(loaded.folder) else []
 
 
 @dataclass(frozen=True)
@@ -53,75 +85,69 @@ class StudyReport:
     timings: dict[str, float]
 
 
-def build_report(scenario_path: Path, proof_paths: list[Path], out: Path, runs: int | None = None,
-                 seed: int | None = None, workers: int | None = None,
-                 on_progress: Progress = lambda what, done, total: None, with_gains: bool = False,
-                 resume: bool = False) -> Report:
+def build_report(asked: Asked, runs: int | None = None, seed: int | None = None,
+                 on_progress: Progress = lambda what, done, total: None) -> Report:
     """Decide the claims, run and compare the controllers, and write report.html, claims.json, compare.json,
-    the certificates and the Monte Carlo table into `out`; `resume` goes on with the Monte Carlo kept there.
-
-    Raises InputError for input that cannot be used, before anything is computed.
-    """
-    scenario = load_scenario(scenario_path)
-    asked = targets(proof_paths) if proof_paths else []
-    _require_folder(out)
+    the certificates and the Monte Carlo table; with `resume` the Monte Carlo kept there goes on."""
+    loaded, scenario, out, workers = asked.loaded, asked.loaded.scenario, asked.out, asked.workers
     timings: dict[str, float] = {}
-    claims = _decide(asked, out, workers, on_progress, timings)
+    claims = _decide(asked, on_progress, timings)
     with _timed(timings, "runs and variants"):
-        comparison = compare(scenario_path, workers=workers,
+        comparison = compare(loaded.path, loaded.data, scenario, workers=workers,
                              on_progress=lambda done, total, _: on_progress("runs and variants", done, total))
         write_json(out / "compare.json", comparison_document(comparison))
     runs = scenario.uncertainty.runs if runs is None else runs
     seed = scenario.uncertainty.seed if seed is None else seed
     with _timed(timings, "Monte Carlo"):
-        rows = sweep(scenario_path, runs, seed, out=out / "monte_carlo", resume=resume, workers=workers,
+        rows = sweep(scenario, loaded.path, runs, seed, out=out / "monte_carlo", resume=asked.resume, workers=workers,
                      on_progress=lambda done, total, _: on_progress("Monte Carlo", done, total))
-    found = _gains(scenario_path, asked, out, workers, on_progress, timings) if with_gains else None
-    command = f"workbench report {scenario_path} {' '.join(map(str, proof_paths))} --out {out} --runs {runs}"
     content = ReportContent(
         scenario=scenario, claims=claims, runs=comparison.runs, metrics=comparison.metrics, sweep=rows,
-        sweep_seed=seed, variants=comparison.variants, timings=timings, commands=(command,),
-        gains=found)
+        sweep_seed=seed, variants=comparison.variants, timings=timings,
+        commands=(f"{asked.command} --runs {runs}",), gains=_gains(asked, on_progress, timings))
     page = out / "report.html"
     with _timed(timings, "page"):
         page.write_text(build_page(content), encoding="utf-8")
     return Report(page, claims, comparison, summarise(rows, scenario), timings)
 
 
-def build_study_report(study_path: Path, proof_paths: list[Path], out: Path, workers: int | None = None,
-                       on_progress: Progress = lambda what, done, total: None,
-                       with_gains: bool = False, resume: bool = False) -> StudyReport:
+def build_study_report(asked: Asked, on_progress: Progress = lambda what, done, total: None) -> StudyReport:
     """Decide the claims, run the study, and write report.html, claims.json, compare.json, the certificates and
-    the curves of every figure into `out`; with `resume` the runs that `run_study` has kept there are not run again.
-
-    Raises InputError for input that cannot be used, before anything is computed.
-    """
-    study = load_study(study_path)
-    asked = targets(proof_paths) if proof_paths else []
-    _require_folder(out)
+    the curves of every figure; with `resume` the runs that `run_study` has kept there are not run again."""
+    loaded, study, out = asked.loaded, asked.loaded.study, asked.out
     timings: dict[str, float] = {}
-    claims = _decide(asked, out, workers, on_progress, timings)
+    claims = _decide(asked, on_progress, timings)
     with _timed(timings, "runs"):
-        result = run_study(study, workers, on_progress, out, resume)
+        result = run_study(loaded, asked.workers, on_progress, out, asked.resume)
         write_json(out / "compare.json", study_document(study, result))
     write_curves(result.plots, out / "curves")
-    found = _gains(study_path, asked, out, workers, on_progress, timings) if with_gains else None
-    command = f"workbench report {study_path} {' '.join(map(str, proof_paths))} --out {out}"
+    found = _gains(asked, on_progress, timings)
     page = out / "report.html"
     with _timed(timings, "page"):
-        text = build_study_page(StudyContent(study, result, claims, timings, (command,), found))
+        text = build_study_page(StudyContent(study, result, claims, timings, (asked.command,), found))
         page.write_text(text, encoding="utf-8")
     return StudyReport(page, claims, study, result, timings)
 
 
-def run_study(study: Study, workers: int | None = None, on_progress: Progress = lambda what, done, total: None,
+def check_resumable(loaded: Loaded, out: Path | None, resume: bool) -> None:
+    """InputError unless runs can be kept in `out` and gone on with."""
+    keeps = loaded.kind is not None and loaded.kind.run_kept is not None
+    if not keeps and (out is not None or resume):
+        raise InputError("", "--resume" if out is None else "--out", "is for contests, which alone keep their finished "
+                         "runs: leave it out")
+    if resume and out is None:
+        raise InputError("", "--resume", "needs the folder of the runs to go on with: name it with --out")
+
+
+def run_study(loaded: Loaded, workers: int | None = None, on_progress: Progress = lambda what, done, total: None,
               kept: Path | None = None, resume: bool = False) -> StudyResult:
     """All runs of a study, in `workers` processes or one a core.
 
     kept: a folder for what is finished, from which `resume` goes on; of no effect for a study whose runs are few.
     Raises InputError for a folder that another study has used, or that cannot be written.
     """
-    kind = study_kind(study.paper)
+    kind, study = loaded.kind, loaded.study
+    assert kind is not None
 
     def told(done: int, total: int, _: str) -> None:
         on_progress("runs", done, total)
@@ -147,29 +173,29 @@ def comparison_document(comparison: Comparison) -> dict[str, Any]:
                          for variant, metrics in comparison.variants]}
 
 
-def _decide(asked: list[Target], out: Path, workers: int | None, on_progress: Progress,
-            timings: dict[str, float]) -> dict[str, Any]:
+def _decide(asked: Asked, on_progress: Progress, timings: dict[str, float]) -> dict[str, Any]:
     """The document of the claims that are asked for; empty when none is."""
-    if not asked:
+    if not asked.proofs:
         return {}
     with _timed(timings, "proof"):
-        decisions = prove(asked, workers, on_progress=lambda *step: on_progress("claims", *step)).decisions
-        write_certificates(decisions, out / "certificates")
-        claims = claims_document(decisions, out / "certificates")
-        write_json(out / "claims.json", claims)
+        decisions = prove(asked.proofs, asked.workers,
+                          on_progress=lambda *step: on_progress("claims", *step)).decisions
+        places = Places(asked.out / "certificates")
+        write_certificates(decisions, places)
+        claims = claims_document(decisions, places)
+        write_json(asked.out / "claims.json", claims)
     return claims
 
 
-def _gains(path: Path, asked: list[Target], out: Path, workers: int | None, on_progress: Progress,
-           timings: dict[str, float]) -> StudyResult | None:
-    """What is known of the paper's gains, and gains.json in `out`; none for a file of which no gains are known."""
-    if not asked or str(read_toml(path).get("paper")) not in PAPERS:
+def _gains(asked: Asked, on_progress: Progress, timings: dict[str, float]) -> StudyResult | None:
+    """What is known of the paper's gains, and gains.json; none for a paper that searches none."""
+    if asked.gains is None:
         return None
     with _timed(timings, "gains"):
-        report = checked_gains(path, asked[0].path.parent)
-        done = effects(path, report, workers, lambda at, total, _: on_progress("runs of gains", at, total))
-        write_json(out / "gains.json", gains_document(report, done))
-    return gains_result(report, done)
+        done = effects(asked.loaded, asked.gains, asked.workers,
+                       lambda at, total, _: on_progress("runs of gains", at, total))
+        write_json(asked.out / "gains.json", gains_document(asked.gains, done))
+    return gains_result(asked.gains, done)
 
 
 def _require_folder(out: Path) -> None:

@@ -11,12 +11,12 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.ticker import MaxNLocator
 
-from workbench.report.numbers import fixed, length, number
+from workbench.files.numbers import fixed, length, number
 from workbench.report.svg import FAINT, INK, PALETTE, Array, drawing, svg, thin
-from workbench.scenario import Scenario
 from workbench.simulate.closed_loop import Run
 from workbench.simulate.sweep import SweepRow
-from workbench.track import resistance_table
+from workbench.trains.scenario import Scenario
+from workbench.trains.track import resistance_table
 
 START_S = 30.0
 MOST_POINTS = 40

@@ -6,10 +6,10 @@ from collections.abc import Sequence
 from fractions import Fraction
 from typing import Any
 
+from workbench.files.numbers import exact, number
 from workbench.gains.result import GainReport, GainSet
-from workbench.report.numbers import exact, number
-from workbench.studies.base import ResultTable, StudyResult
-from workbench.studies.gain_effects import Effect
+from workbench.paper.gain_effects import Effect
+from workbench.paper.study import ResultTable, StudyResult
 
 LONG = 12  # characters of a fraction that is shown as it is
 APART = 1.02  # by what factor numbers differ that are said to

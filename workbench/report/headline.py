@@ -6,13 +6,13 @@ from collections.abc import Sequence
 
 from markupsafe import Markup
 
-from workbench.metrics import Metrics
+from workbench.files.numbers import length, number
 from workbench.report.claims import NOT_AS_PRINTED, VERDICTS, ClaimView, counts
-from workbench.report.numbers import length, number
 from workbench.report.sources import SourcedValue
 from workbench.report.tables import largest_error
-from workbench.scenario import Scenario, Variant
+from workbench.simulate.metrics import Metrics
 from workbench.simulate.sweep import SweepSummary
+from workbench.trains.scenario import Scenario, Variant
 
 PLURAL = {"gap": "gaps"}
 NOTABLE = 1.1

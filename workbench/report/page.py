@@ -8,17 +8,17 @@ from typing import Any
 
 from markupsafe import Markup
 
-from workbench.metrics import Metrics
+from workbench.files.numbers import length
+from workbench.paper.study import StudyResult
 from workbench.report import figures, headline, tables
 from workbench.report.claims import claim_views
-from workbench.report.numbers import length
 from workbench.report.sources import sourced_values
 from workbench.report.table_view import gains_view
 from workbench.report.template import PageFigure, render
-from workbench.scenario import Scenario, Variant
 from workbench.simulate.closed_loop import Run
+from workbench.simulate.metrics import Metrics
 from workbench.simulate.sweep import SweepRow, summarise
-from workbench.studies.base import StudyResult
+from workbench.trains.scenario import Scenario, Variant
 
 
 @dataclass(frozen=True)

@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 
 from workbench.errors import InputError
-from workbench.json_output import write_json
+from workbench.files.json_output import write_json
 from workbench.optimal.bound_document import write_certificate
 from workbench.optimal.cars.car_train import CarTrain
 from workbench.optimal.cars.cars_document import cars_document, write_cars_csv

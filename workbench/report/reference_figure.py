@@ -15,13 +15,13 @@ from matplotlib.patches import Patch
 from numpy.typing import NDArray
 
 from workbench.errors import InputError
+from workbench.files.numbers import number
 from workbench.optimal.profile import Profile
 from workbench.optimal.regimes import REGIMES, regimes
 from workbench.optimal.timetable import Timetable, TimingPoint
 from workbench.optimal.vehicle import Vehicle
-from workbench.report.numbers import number
 from workbench.report.svg import FAINT, INK, PALETTE, Array, drawing, svg, thin
-from workbench.track import STANDARD_GRAVITY_MPS2
+from workbench.trains.track import STANDARD_GRAVITY_MPS2
 
 SPEED_WINDOW = "speeds asked for"
 # Away from a page there are no page colours.

@@ -7,8 +7,8 @@ from dataclasses import dataclass
 
 from pydantic import BaseModel
 
-from workbench.report.numbers import NOTHING, exact
-from workbench.toml_input import SourcedRecord
+from workbench.files.numbers import NOTHING, exact
+from workbench.files.toml import SourcedRecord
 
 
 @dataclass(frozen=True)

@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 from matplotlib.figure import Figure
 
+from workbench.paper.study import Plot
 from workbench.report.svg import FAINT, PALETTE, drawing, svg, thin
-from workbench.studies.base import Plot
 
 UNDERNEATH = ("desired", "printed")
 LINES = ("-", "--", ":", "-.")

@@ -12,13 +12,13 @@ from typing import Any
 from markupsafe import Markup
 
 from workbench.errors import InputError
+from workbench.paper.study import Plot, Study, StudyResult
 from workbench.report import headline
 from workbench.report.claims import claim_views
 from workbench.report.sources import sourced_values
 from workbench.report.study_figures import study_plot
 from workbench.report.table_view import caption, gains_view, table_views
 from workbench.report.template import PageFigure, render
-from workbench.studies.base import Plot, Study, StudyResult
 
 
 @dataclass(frozen=True)

@@ -6,8 +6,8 @@ import re
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
-from workbench.report.numbers import NOTHING
-from workbench.studies.base import ResultTable, StudyResult
+from workbench.files.numbers import NOTHING
+from workbench.paper.study import ResultTable, StudyResult
 
 _NUMBER = re.compile(r"[-+−±≤≥<>~≈\[(]*\s*[\d∞]")
 WORDY = 18  # a cell of more letters is words, and may be broken

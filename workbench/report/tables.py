@@ -6,13 +6,13 @@ import re
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 
-from workbench.controllers.registry import LAWS, SAMPLED
-from workbench.metrics import Metrics
-from workbench.report.numbers import NOTHING, fixed, grouped, number
+from workbench.files.numbers import NOTHING, fixed, grouped, number
 from workbench.report.sources import stated
-from workbench.scenario import Scenario, Variant
 from workbench.simulate.closed_loop import Run
+from workbench.simulate.controllers import SAMPLED, compiled_law
+from workbench.simulate.metrics import Metrics
 from workbench.simulate.sweep import WHOLE_RUN, SweepSummary
+from workbench.trains.scenario import Scenario, Variant
 
 
 @dataclass(frozen=True)
@@ -119,8 +119,8 @@ def nominal_table(metrics: Sequence[Metrics]) -> list[MetricRow]:
 
 def information(scenario: Scenario, controller: str) -> str:
     """What a controller is allowed to know, in words."""
-    law = scenario.controllers[controller].law
-    source = LAWS.get(law) or SAMPLED.get(law)
+    spec = scenario.controllers[controller]
+    source = compiled_law(scenario, spec) or SAMPLED.get(spec.law)
     return str(getattr(source, "information", NOTHING))
 
 

@@ -14,8 +14,8 @@ from typing import Any
 from jinja2 import Environment, FileSystemLoader, StrictUndefined
 from markupsafe import Markup
 
+from workbench.files.numbers import number
 from workbench.report.claims import claim_views, counts
-from workbench.report.numbers import number
 from workbench.report.sources import SourcedValue, stated
 
 PACKAGES = ("workbench", "numpy", "scipy", "sympy", "numba", "casadi", "matplotlib")

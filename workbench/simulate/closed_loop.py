@@ -10,19 +10,19 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from workbench.compile import Estimates, kernel_module
-from workbench.controllers.base import ControlLaw
-from workbench.controllers.registry import LAWS, SAMPLED, SampledController, held_command
-from workbench.controllers.values import check_controllers, controller_spec, law_values
-from workbench.desired_curve import DesiredCurve
+from workbench.compile.kernel import Estimates, kernel_module
 from workbench.errors import WorkbenchError
-from workbench.events import failure_rows, mode_rows
-from workbench.scenario import Scenario
-from workbench.sensing import PERFECT, Sensing
+from workbench.model.desired_curve import DesiredCurve
+from workbench.model.events import failure_rows, mode_rows
+from workbench.model.law import ControlLaw
+from workbench.model.sensing import PERFECT, Sensing
 from workbench.simulate import kernel_loop
+from workbench.simulate.controllers import SAMPLED, SampledController, compiled_law, held_command
 from workbench.simulate.kernel_loop import ACCUMULATORS, DIVERGED, LEFT_DOMAIN, LOG_COLUMNS, RUNNING
-from workbench.track import ResistanceTable, resistance_table
-from workbench.train import Plant, single_particle
+from workbench.simulate.law_values import check_controllers, controller_spec, law_values
+from workbench.trains.scenario import Scenario
+from workbench.trains.track import ResistanceTable, resistance_table
+from workbench.trains.train import Plant, single_particle
 
 TIMED_BLOCK = 1000
 
@@ -160,8 +160,8 @@ def simulate_in(scenario: Scenario, name: str, setting: Setting, plant: Plant | 
     controller that is called once a sample.
     """
     spec = controller_spec(scenario, name)
-    if spec.law in LAWS:
-        law = LAWS[spec.law]
+    law = compiled_law(scenario, spec)
+    if law is not None:
         return run_law(law, law_values(law, spec, name), setting, spec.period_s, spec.estimates, name,
                        spec.title or law.title, plant)
     # The kernel holds what it is told; noise and delays lie between it and the controller.

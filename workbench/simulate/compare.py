@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
-from workbench.metrics import Metrics, measure
-from workbench.scenario import Scenario, Variant, load_scenario, load_variant
 from workbench.simulate.closed_loop import Run, check_controllers, simulate
-from workbench.workers import cores, run_tasks
+from workbench.simulate.metrics import Metrics, measure
+from workbench.simulate.process_pool import cores, run_tasks
+from workbench.trains.scenario import Scenario, Variant, changed_scenario
 
 Case = tuple[int, str]  # 0 is the scenario as stated, i > 0 its i-th variant
 Progress = Callable[[int, int, str], None]
@@ -25,19 +26,15 @@ class Comparison:
     variants: tuple[tuple[Variant, tuple[Metrics, ...]], ...]
 
 
-def compare(path: Path, with_variants: bool = True, workers: int | None = None,
-            on_progress: Progress | None = None) -> Comparison:
-    """Simulate all controllers of the scenario file in parallel processes.
+def compare(path: Path, data: Mapping[str, Any], scenario: Scenario, with_variants: bool = True,
+            workers: int | None = None, on_progress: Progress | None = None) -> Comparison:
+    """Simulate all controllers of a scenario in parallel processes; path, data: its file, and the table in it.
 
     on_progress(finished, total, what) is called after each run. A run that fails is a row that says so.
     Raises InputError or WorkbenchError for a scenario or variant that cannot be used.
     """
-    scenario = load_scenario(path)
-    check_controllers(scenario, path)
     variants = scenario.variants if with_variants else ()
-    scenarios = [scenario, *(load_variant(path, variant) for variant in variants)]
-    for variant, changed in zip(variants, scenarios[1:], strict=True):
-        check_controllers(changed, f"{path}: variant '{variant.title}'")
+    scenarios = [scenario, *checked_variants(path, data, scenario, with_variants)]
     cases = [(0, name) for name in scenario.controllers]
     cases += [(i, name) for i, variant in enumerate(variants, start=1)
               for name in scenario.controllers if name in (variant.controllers or scenario.controllers)]
@@ -56,6 +53,16 @@ def compare(path: Path, with_variants: bool = True, workers: int | None = None,
         scenario, tuple(run for run, _ in nominal if run is not None), tuple(metrics for _, metrics in nominal),
         tuple((variant, tuple(found[i, name][1] for j, name in cases if j == i))
               for i, variant in enumerate(variants, start=1)))
+
+
+def checked_variants(path: Path, data: Mapping[str, Any], scenario: Scenario, with_variants: bool) -> list[Scenario]:
+    """The scenario's variants; InputError for a controller, of the scenario or of one of them, that cannot be used."""
+    check_controllers(scenario, path)
+    variants = scenario.variants if with_variants else ()
+    scenarios = [changed_scenario(path, dict(data), variant, scenario) for variant in variants]
+    for variant, changed in zip(variants, scenarios, strict=True):
+        check_controllers(changed, f"{path}: variant '{variant.title}'")
+    return scenarios
 
 
 def _run_case(scenarios: list[Scenario], case: Case) -> tuple[Case, Run | None, Metrics]:

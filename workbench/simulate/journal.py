@@ -11,6 +11,9 @@ from types import TracebackType
 from typing import Any, Self
 
 from workbench.errors import InputError
+from workbench.files.folders import is_paper, paper_named
+from workbench.files.modules import python_files
+from workbench.trains.scenario import Scenario
 
 FORMAT = "workbench journal 1"
 REMEDY = "start anew without resume, or name another output folder"
@@ -23,9 +26,26 @@ def code_digest(*patterns: str) -> bytes:
     package = Path(__file__).parents[1]
     for pattern in patterns:
         for file in sorted(package.glob(pattern)):
-            if file.name != "cli.py":
-                digest.update(file.read_bytes())
+            digest.update(file.read_bytes())
     return digest.digest()
+
+
+def laws_digest(scenario: Scenario) -> bytes:
+    """A digest of the sources of all laws that a scenario names outside this package: of a paper's folder all files."""
+    digest = hashlib.sha256()
+    names = {spec.law for spec in scenario.controllers.values()}
+    for path in sorted({file for name in names for file in _sources(scenario.folder, name)}):
+        digest.update(path.read_bytes())
+    return digest.digest()
+
+
+def _sources(near: Path, law: str) -> list[Path]:
+    file, separator, _ = law.partition("::")
+    if separator:
+        return [near / file]
+    paper, dot, _ = law.partition(".")
+    folder = near if is_paper(near) else paper_named(paper, near) if dot else None
+    return python_files(folder) if folder else []
 
 
 class Journal:

@@ -9,12 +9,12 @@ from __future__ import annotations
 
 from types import ModuleType
 
-from workbench.compile import Estimates, kernel_module
-from workbench.compile_text import Form
-from workbench.controllers.base import ControlLaw
+from workbench.compile.kernel import Estimates, kernel_module
+from workbench.compile.text import Form
+from workbench.model.law import ControlLaw
 from workbench.simulate import kernel_loop
 from workbench.simulate.closed_loop import Setting
-from workbench.train import single_particle
+from workbench.trains.train import single_particle
 
 # What the plant's four stages of a step call.
 STAGES = ("plant_rates", "additional", "term", "pushed", "applied", "at_time", "rates_at")
@@ -22,7 +22,8 @@ COUNTED = ("terms", "failures", "changes")
 # So many rows of one kind are written into a loop; more are counted by it.
 MOST_ROWS = 2
 
-_made: dict[tuple[str, Estimates, Form], ModuleType] = {}
+# By the law itself, not its id: a copied folder has laws of the same names.
+_made: dict[tuple[int, Estimates, Form], tuple[ControlLaw, ModuleType]] = {}
 
 
 def setting_form(setting: Setting, *others: str) -> Form:
@@ -36,7 +37,7 @@ def setting_form(setting: Setting, *others: str) -> Form:
 
 def law_loop(law: ControlLaw, setting: Setting, estimates: Estimates = "corrected") -> ModuleType:
     """The closed loop of a law of the registry, or a paper's, with the single particle in a setting."""
-    key = law.id, estimates, setting_form(setting)
+    key = id(law), estimates, setting_form(setting)
     if key not in _made:
-        _made[key] = kernel_module(single_particle(), law, kernel_loop, estimates, key[2])
-    return _made[key]
+        _made[key] = law, kernel_module(single_particle(), law, kernel_loop, estimates, key[2])
+    return _made[key][1]

@@ -15,18 +15,18 @@ from pathlib import Path
 import numpy as np
 from pydantic import TypeAdapter, ValidationError
 
-from workbench.desired_curve import CruiseSpeed
 from workbench.errors import InputError
-from workbench.metrics import Metrics, measure
-from workbench.scenario import Scenario, load_scenario
+from workbench.model.desired_curve import CruiseSpeed
 from workbench.simulate.closed_loop import Factors, check_controllers, simulate
-from workbench.simulate.journal import REMEDY, Journal, code_digest
-from workbench.track import CurveSection, GradeSection, Track
-from workbench.workers import cores, run_tasks
+from workbench.simulate.journal import REMEDY, Journal, code_digest, laws_digest
+from workbench.simulate.metrics import Metrics, measure
+from workbench.simulate.process_pool import cores, run_tasks
+from workbench.trains.scenario import Scenario
+from workbench.trains.track import CurveSection, GradeSection, Track
 
 CSV_NAME, JOURNAL_NAME = "sweep.csv", "sweep.journal.jsonl"
 # On which modules of the package a row depends.
-SIMULATING = ("*.py", "controllers/*.py", "mpc/*.py", "simulate/*.py")
+SIMULATING = ("files/*.py", "model/*.py", "trains/*.py", "compile/*.py", "mpc/*.py", "simulate/*.py")
 # Totals and means over a whole run: they say nothing when the run ended early.
 WHOLE_RUN = ("position_rms", "speed_rms", "stopping_error", "energy_J", "jerk_rms", "saturated_fraction",
              "limit_violations")
@@ -114,7 +114,7 @@ def _row(run: int, factors: Factors, metrics: Metrics) -> SweepRow:
     return SweepRow(run=run, factors=factors, **own)  # type: ignore[arg-type]
 
 
-def sweep(scenario_path: Path, runs: int, seed: int, controllers: Sequence[str] | None = None,
+def sweep(scenario: Scenario, scenario_path: Path, runs: int, seed: int, controllers: Sequence[str] | None = None,
           out: Path | None = None, resume: bool = False, workers: int | None = None,
           on_progress: Progress | None = None) -> list[SweepRow]:
     """Run every (run, controller) pair in parallel processes; rows ordered by run, then controller.
@@ -125,8 +125,6 @@ def sweep(scenario_path: Path, runs: int, seed: int, controllers: Sequence[str] 
     this needs the usual `if __name__ == "__main__":`.
     Raises InputError for unusable options or a journal of another sweep, WorkbenchError when a worker dies.
     """
-    scenario_path = Path(scenario_path)
-    scenario = load_scenario(scenario_path)
     check_controllers(scenario, scenario_path)
     names = _chosen(scenario, scenario_path, controllers)
     for key, value, least in (("runs", runs, 1), ("seed", seed, 0), ("workers", workers, 1)):
@@ -202,7 +200,7 @@ def inputs_digest(scenario: Scenario) -> str:
     """What the rows depend on: the scenario's values, its line, and the code that computes them."""
     data = scenario.model_dump(exclude={"printed_table", "printed_values", "variants", "title", "citation"})
     text = json.dumps(data, sort_keys=True, default=str)
-    return hashlib.sha256(code_digest(*SIMULATING) + text.encode()).hexdigest()[:20]
+    return hashlib.sha256(code_digest(*SIMULATING) + laws_digest(scenario) + text.encode()).hexdigest()[:20]
 
 
 def _chosen(scenario: Scenario, path: Path, controllers: Sequence[str] | None) -> list[str]:

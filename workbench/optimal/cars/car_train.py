@@ -6,10 +6,10 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from workbench.multi_particle import c_0, c_a, c_d, c_k, c_v, m_total
 from workbench.optimal.course import Array
 from workbench.optimal.profile import largest_force
 from workbench.optimal.vehicle import Vehicle
+from workbench.trains.multi_particle import c_0, c_a, c_d, c_k, c_v, m_total
 
 # Of the couplers and resistances, as the cars' expressions name them.
 VALUES = (c_0, c_v, c_a, c_k, c_d, m_total)

@@ -27,8 +27,7 @@ from types import ModuleType
 import numpy as np
 import sympy as sp
 
-from workbench import multi_particle as of_cars
-from workbench.compile import cars_source, loop_module
+from workbench.compile.kernel import cars_source, loop_module
 from workbench.errors import SolverError
 from workbench.optimal.cars import cars_loop
 from workbench.optimal.cars.car_train import VALUES, CarTrain, car_limits
@@ -38,6 +37,7 @@ from workbench.optimal.cars.share_forces import Rule, Shares, share_forces
 from workbench.optimal.course import Array, Course
 from workbench.optimal.inputs.line import Line, course
 from workbench.optimal.smooth import SmoothRun, needed_force
+from workbench.trains import multi_particle as of_cars
 
 # Between two rows of the forces, and steps of the simulation in each: 5 ms, where couplers swing with up to 2 Hz.
 ROW_S, SUBSTEPS = 0.05, 10

@@ -7,10 +7,10 @@ from typing import Annotated, Self
 from pydantic import Field, Strict, model_validator
 
 from workbench.errors import InputError
+from workbench.files.toml import SourcedRecord
 from workbench.optimal.cars.car_train import CarTrain
 from workbench.optimal.inputs.line_checks import SHORTEST_TRAIN_M
 from workbench.optimal.vehicle import Vehicle
-from workbench.toml_input import SourcedRecord
 
 # Beyond it a coupler swings faster than a simulated step of 5 ms can follow: rad/s of two neighbours, and 1/s.
 FASTEST_SWING, FASTEST_DAMPING = 100.0, 100.0

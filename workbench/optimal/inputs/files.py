@@ -4,15 +4,15 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from workbench import track as tracks
 from workbench.errors import InputError
+from workbench.files.toml import load_record, read_toml
 from workbench.optimal.cars.car_train import CarTrain
 from workbench.optimal.inputs import ttobench
 from workbench.optimal.inputs.cars_file import car_train
 from workbench.optimal.inputs.line import Line, Tunnel
 from workbench.optimal.inputs.train_file import TrainFile, vehicle
 from workbench.optimal.vehicle import Vehicle
-from workbench.toml_input import load_record, read_toml
+from workbench.trains import track as tracks
 
 Notes = tuple[str, ...]
 

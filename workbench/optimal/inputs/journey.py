@@ -16,12 +16,12 @@ from typing import Annotated, ClassVar
 from pydantic import ConfigDict, Field, model_validator
 
 from workbench.errors import InputError
+from workbench.files.json_input import read_json
+from workbench.files.toml import Number, Record, SourcedRecord, Text, load_record, validate_record
+from workbench.files.units import LENGTH, SPEED, Units, require_units, to_si
 from workbench.optimal.inputs.line_checks import NEAREST_STOPS_M
-from workbench.optimal.inputs.read_json import read_json
 from workbench.optimal.inputs.ttobench import Metadata
-from workbench.optimal.inputs.units import LENGTH, SPEED, Units, require_units, to_si
 from workbench.optimal.timetable import Timetable, TimingPoint, Window
-from workbench.toml_input import Number, Record, SourcedRecord, Text, load_record, validate_record
 
 TIME: Units = {"s": Fraction(1), "min": Fraction(60), "h": Fraction(3600)}
 Cell = Number | None

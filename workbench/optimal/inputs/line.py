@@ -26,7 +26,7 @@ from workbench.optimal.inputs.line_checks import (
     require_tunnels,
 )
 from workbench.optimal.vehicle import Vehicle
-from workbench.track import (
+from workbench.trains.track import (
     additional_specific_resistance,
     curvature_per_m,
     grade_permille,

@@ -7,11 +7,11 @@ from typing import Annotated, Self
 
 from pydantic import Field, Strict, model_validator
 
+from workbench.files.toml import NonNegative, Positive, Record
 from workbench.optimal.inputs.cars_file import CarsTable
 from workbench.optimal.inputs.plausible import plausible
 from workbench.optimal.vehicle import ForceLimit, Vehicle
-from workbench.toml_input import NonNegative, Positive, Record
-from workbench.train import Train
+from workbench.trains.train import Train
 
 Efficiency = Annotated[float, Strict(), Field(ge=0, le=1, allow_inf_nan=False)]
 

@@ -10,11 +10,9 @@ from typing import Annotated, Any, ClassVar, Self
 from pydantic import BeforeValidator, ConfigDict, Field, Strict, model_validator
 
 from workbench.errors import InputError
-from workbench.optimal.inputs.line import Line, Tunnel
-from workbench.optimal.inputs.line_checks import SHARPEST_RADIUS_M, require_starts, require_stops, require_tunnels
-from workbench.optimal.inputs.plausible import plausible
-from workbench.optimal.inputs.read_json import read_json
-from workbench.optimal.inputs.units import (
+from workbench.files.json_input import read_json
+from workbench.files.toml import Number, Record, Text, validate_record
+from workbench.files.units import (
     AREA,
     FORCE_PER_SQUARED_SPEED,
     GRADE_PERMILLE,
@@ -33,8 +31,10 @@ from workbench.optimal.inputs.units import (
     Units,
     to_si,
 )
+from workbench.optimal.inputs.line import Line, Tunnel
+from workbench.optimal.inputs.line_checks import SHARPEST_RADIUS_M, require_starts, require_stops, require_tunnels
+from workbench.optimal.inputs.plausible import plausible
 from workbench.optimal.vehicle import ForceLimit, Vehicle
-from workbench.toml_input import Number, Record, Text, validate_record
 
 VERSIONS = ("1.1", "1.2", "1.3", "1.4", "1.5")
 TRACK_BLOCKS = ("metadata", "altitude", "stops", "speed limits", "gradients", "curvatures", "tunnels",

@@ -18,10 +18,10 @@ import numpy as np
 import sympy as sp
 
 from workbench.proof.claim import Goal, equal, name_of
-from workbench.proof.decide.climb import climb
+from workbench.proof.decide.boundary_points import Family, families
 from workbench.proof.decide.landscape import Landscape
+from workbench.proof.decide.local_search import climb
 from workbench.proof.decide.sampling import tidy_fraction, trial_columns
-from workbench.proof.decide.ties import Family, families
 
 SPECIAL = (Fraction(0), Fraction(1), Fraction(-1), Fraction(1, 2), Fraction(2), Fraction(-2), Fraction(3))
 SCALES = (Fraction(1, 100), Fraction(1, 10), Fraction(1), Fraction(10), Fraction(100))

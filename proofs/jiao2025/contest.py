@@ -1,0 +1,92 @@
+"""jiao2025 in a contest: a trial plays back learned inputs on the train of all others; speeds are learned from.
+
+The train, its limits, the line and the noise are the scenario's; (1)-(3) and (17) of the paper are not used. All trials
+are of whole length, of the same train, and disturbed alike: what repeats can be learned.
+"""
+
+from __future__ import annotations
+
+import time
+from dataclasses import replace
+from functools import cache
+from types import ModuleType
+
+import numpy as np
+
+from workbench.compile.kernel import loop_module, plant_source
+from workbench.compile.text import Form
+from workbench.contest.entrant import Entrant, Played, trial_errors
+from workbench.simulate import kernel_loop
+from workbench.simulate.closed_loop import Run, Setting, run_law
+from workbench.simulate.controllers import held_command
+from workbench.simulate.setting_loop import setting_form
+from workbench.trains.scenario import ControllerSpec, Scenario
+from workbench.trains.train import single_particle
+
+from .laws import TRIAL_LAWS
+from .study.trials import trial_kernel
+
+# No law but a table: row 0 of the data holds the commands of the samples, row 1 takes the speeds that were measured.
+PLAYBACK = """
+def control_step(_t, _p, _v, _x_d, _v_d, _a_d, _period, parameters, scalars, neurons, neuron_data):
+    _k = min(int(round(_t / _period)), neuron_data.shape[1] - 1)
+    neuron_data[1, _k] = _v
+    return neuron_data[0, _k]
+
+
+def domain_margin(_t, _p, _v, _x_d, _v_d, _a_d, _period, parameters):
+    return math.inf
+"""
+OWN = ("unit_mps2", "first_input", "trials")
+
+
+@cache
+def _player(form: Form) -> ModuleType:
+    plant = single_particle()
+    return loop_module(f"a table of commands and {plant.source}", [plant_source(plant), PLAYBACK], kernel_loop, form)
+
+
+def _play(scenario: Scenario, spec: ControllerSpec, setting: Setting) -> Played:
+    """Trial 0 with the first input, then `trials` that learn."""
+    given, law = spec.parameters, TRIAL_LAWS[spec.law]
+    steps, per_sample, _, _ = setting.plan(spec.period_s)
+    samples = -(-steps // per_sample)
+    length, learn = samples - 1, trial_kernel(spec.law, False).learn_trial
+    unit, first = given["unit_mps2"], given.get("first_estimate", 1.0)
+    desired = setting.curve.at(np.arange(samples, dtype=np.float64) * spec.period_s)[1]
+    u, before, estimate = (np.full(length, value) for value in (given["first_input"], 0.0, first))
+    speed, speed_before, error = np.zeros(samples), np.zeros(samples), np.zeros(samples)
+    values = np.array([given[str(symbol)] for symbol in law.parameters])
+    lengths = np.full(int(given["trials"]) + 1, length, dtype=np.int64)
+    errors: list[tuple[float, float]] = []
+    learn_s = 0.0
+    run: Run | None = None
+    for trial in range(len(lengths)):
+        if trial > 0:
+            started = time.perf_counter()
+            learn(lengths, trial, first, u, before, estimate, speed, speed_before, error, values)
+            learn_s = time.perf_counter() - started
+            speed, speed_before = speed_before, speed
+        table = np.zeros((2, samples))
+        table[0, :length], table[0, length] = unit * u, unit * u[-1]
+        noisy = replace(setting, sensing=replace(setting.sensing, seed=setting.sensing.seed + trial))
+        run = run_law(held_command, (np.zeros(1), np.zeros(0), np.zeros((0, 0)), table), noisy, spec.period_s,
+                      title=law.title, module=_player(setting_form(setting, "control_step")))
+        found = trial_errors(run, scenario.track.length_m)
+        if found is None:
+            return Played(replace(run, failed=f"trial {trial}: {run.failed}"), tuple(errors))
+        errors.append(found)
+        speed[:] = table[1]
+        error[:] = desired - speed
+    assert run is not None
+    return Played(replace(run, step_us=run.step_us + 1e6 * learn_s / samples), tuple(errors))
+
+
+def _entrant(name: str) -> Entrant:
+    law = TRIAL_LAWS[name]
+    own = tuple(map(str, law.parameters)) + (() if name.startswith("jiao2025.pd") else ("first_estimate",))
+    return Entrant(law.title, "speed only, model unknown, earlier trials", (*own, *OWN), _play, counts=("trials",),
+                   signed=("first_input",), learns=True)
+
+
+ENTRANTS = {name: _entrant(name) for name in ("jiao2025.icfdl", "jiao2025.pd")}

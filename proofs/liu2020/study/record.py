@@ -1,0 +1,250 @@
+"""liu2020's file as a record: train, line, reference, gains, networks, disturbances, what the paper prints."""
+
+from __future__ import annotations
+
+import math
+from itertools import pairwise
+from typing import Annotated, Any, Literal, Self
+
+from pydantic import Field, Strict, model_validator
+
+from workbench.files.toml import NonNegative, Number, Positive, Record, SourcedRecord, Text
+from workbench.model.desired_curve import RampTime
+from workbench.paper.mpc_comparison import MpcData
+from workbench.paper.study import Study, with_values
+from workbench.paper.tuning_record import Pairs, StudyTuning
+
+from ..laws import LAWS
+
+COLUMNS = 10
+FEEDBACK_GAINS = ("k_1", "k_2", "k_3", "k_4", "k_5")
+
+Column = Annotated[int, Strict(), Field(ge=1, le=COLUMNS)]
+Step = Annotated[float, Strict(), Field(ge=1e-5, le=1, allow_inf_nan=False)]
+Range = tuple[Number, Number]
+
+
+class Train(SourcedRecord):
+    """Mass, the factor chi of (9), and the coefficients of (61) in the unit that they are read in."""
+
+    mass_kg: Annotated[float, Strict(), Field(ge=1e3, le=1e8, allow_inf_nan=False)]
+    chi: Annotated[float, Strict(), Field(ge=0.1, le=2, allow_inf_nan=False)]
+    davis: tuple[NonNegative, NonNegative, NonNegative]
+    davis_unit: Literal["N/kN, km/h", "N/kN, m/s", "N/kg, m/s"]
+
+
+class Section(SourcedRecord):
+    """A row of Table 1."""
+
+    from_m: NonNegative
+    to_m: Positive
+    slope: Annotated[float, Strict(), Field(ge=-100, le=100, allow_inf_nan=False)] = 0.0
+    curve_radius_m: Annotated[float, Strict(), Field(ge=50, le=1e6, allow_inf_nan=False)] | None = None
+    tunnel_length_m: NonNegative = 0.0
+
+
+class Line(SourcedRecord):
+    """Length of the run, the sections with additional resistance, and the unit of their slopes."""
+
+    length_m: Annotated[float, Strict(), Field(ge=1e3, le=1e7, allow_inf_nan=False)]
+    slope_unit: Literal["percent", "permille"]
+    sections: tuple[Section, ...]
+
+    @model_validator(mode="after")
+    def _sections_in_order(self) -> Self:
+        edges = [edge for section in self.sections for edge in (section.from_m, section.to_m)]
+        if any(after < before for before, after in pairwise((0.0, *edges, self.length_m))):
+            raise ValueError("sections: positions must increase from from_m to to_m and end within length_m: sort them")
+        return self
+
+
+class Reference(SourcedRecord):
+    """Start, cruise, stop, with the rates that use a range of the input.
+
+    The highest input accelerates against the resistance of the cruise speed, the lowest brakes at that of standstill.
+    """
+
+    cruise_mps: Annotated[float, Strict(), Field(ge=0.1, le=150, allow_inf_nan=False)]
+    highest_input_n: Positive
+    lowest_input_n: Annotated[float, Strict(), Field(lt=0, allow_inf_nan=False)]
+    ramp_s: RampTime
+
+
+class Sampling(SourcedRecord):
+    """Sampling of laws and train, rows of the log, and the filter of the differenced position."""
+
+    period_s: Annotated[float, Strict(), Field(ge=1e-5, le=0.1, allow_inf_nan=False)]
+    log_every_s: Step
+    speed_filter_s: Step
+
+
+class Gains(SourcedRecord):
+    """Table 2: one value a column. k_1 to k_4 in 1/s, k_2 in 1/s^2, k_5 in N s/m."""
+
+    k_1: tuple[Positive, ...]
+    k_2: tuple[Positive, ...]
+    k_3: tuple[Positive, ...]
+    k_4: tuple[Positive, ...]
+    k_5: tuple[Positive, ...]
+
+    @model_validator(mode="after")
+    def _ten_columns(self) -> Self:
+        for name in FEEDBACK_GAINS:
+            if len(getattr(self, name)) != COLUMNS:
+                raise ValueError(f"{name} has {len(getattr(self, name))} values: give one for each of the {COLUMNS} "
+                                 f"columns")
+        return self
+
+
+class Networks(SourcedRecord):
+    """Both networks: how many neurons along the desired curve, and their width in inputs of order one."""
+
+    neurons: Annotated[int, Strict(), Field(ge=2, le=10_000)]
+    width: Positive
+
+
+class Adaptation(SourcedRecord):
+    """Gains and leakage of (19)-(21), (32), (34), (35).
+
+    leak_rate_per_s is Gamma_f sigma_f = Gamma_v sigma_v = alpha_1 beta_1 = alpha_2 beta_2.
+    """
+
+    gamma_f_per_s2: Positive
+    alpha_1_per_s2: Positive
+    gamma_v_n_per_m: Positive
+    alpha_2_n_per_m: Positive
+    leak_rate_per_s: Annotated[float, Strict(), Field(ge=0, le=1e3, allow_inf_nan=False)]
+    kappa_1_mps: Positive
+    kappa_2_mps: Positive
+
+
+class Start(SourcedRecord):
+    """Initial estimates and priors; the train stands at position 0."""
+
+    s_hat_m: Number
+    v_hat_mps: Number
+    weights: Number
+    robust: NonNegative
+
+
+class Push(SourcedRecord):
+    """A disturbance d = (sine_n sin(omega t) + cosine_n cos(omega t))/M from a time on."""
+
+    title: Text
+    from_s: NonNegative
+    sine_n: Annotated[float, Strict(), Field(ge=-1e8, le=1e8, allow_inf_nan=False)]
+    cosine_n: Annotated[float, Strict(), Field(ge=-1e8, le=1e8, allow_inf_nan=False)]
+    omega_rad_s: Annotated[float, Strict(), Field(ge=0, le=1e3, allow_inf_nan=False)]
+
+    @property
+    def largest_n(self) -> float:
+        """The largest M d, N."""
+        return math.hypot(self.sine_n, self.cosine_n)
+
+    @property
+    def phase_rad(self) -> float:
+        """The phase with which M d = largest_n sin(omega t + phase)."""
+        return math.atan2(self.cosine_n, self.sine_n)
+
+
+class Printed(SourcedRecord):
+    """A table of results as the paper prints it: one value a column, SI units."""
+
+    energy: tuple[Number, ...]
+    s_tilde_m: tuple[Number, ...]
+    v_tilde_mps: tuple[Number, ...]
+    position_m: tuple[Number, ...]
+    speed_mps: tuple[Number, ...]
+
+    @model_validator(mode="after")
+    def _as_long_as_each_other(self) -> Self:
+        lengths = {len(getattr(self, name)) for name in type(self).model_fields if name != "source"}
+        if len(lengths) != 1:
+            raise ValueError(f"its rows have {sorted(lengths)} values: give one value a column in each")
+        return self
+
+
+class FigureRanges(SourcedRecord):
+    """Ranges that the text names for Figures 14 to 18."""
+
+    s_tilde_m: Range
+    v_tilde_mps: Range
+    position_m: Range
+    speed_mps: Range
+    input_n: Range
+
+
+class Runs(SourcedRecord):
+    """Which columns and leak rates the studies of divergence and sensitivity run.
+
+    inferred_changes: titles of the changes under which the paper's numbers seem to have been computed;
+    divergence_change: title of the change under which the signs are compared.
+    """
+
+    table_3_disturbance: Text
+    inferred_changes: tuple[Text, ...]
+    divergence_change: Text
+    divergence_columns: tuple[Column, ...]
+    divergence_leak_rates_per_s: tuple[Annotated[float, Strict(), Field(ge=0, le=1e3, allow_inf_nan=False)], ...]
+    sensitivity_law: Text
+    sensitivity_columns: tuple[Column, ...]
+
+
+class Change(Record):
+    """One change of an assumed value: dotted key -> value; columns, law: those that it runs, unless as stated."""
+
+    title: Text
+    set: dict[str, Any]
+    columns: tuple[Column, ...] = ()
+    law: Text | None = None
+
+
+class LiuStudy(Study):
+    """Everything that the runs of liu2020 need, with the source of every value."""
+
+    train: Train
+    line: Line
+    reference: Reference
+    sampling: Sampling
+    gains: Gains
+    networks: Networks
+    adaptation: Adaptation
+    start: Start
+    disturbances: dict[str, Push]
+    table_3: Printed
+    table_4: Printed
+    table_4_column: Column
+    figure_ranges: FigureRanges
+    runs: Runs
+    changes: tuple[Change, ...] = ()
+    mpc: MpcData | None = None
+    tuning: StudyTuning | None = None
+    pairs: Pairs | None = None
+
+    @model_validator(mode="after")
+    def _parts_fit_together(self) -> Self:
+        if len(self.table_3.energy) != COLUMNS:
+            raise ValueError(f"table_3: has {len(self.table_3.energy)} columns: give {COLUMNS}")
+        if len(self.table_4.energy) != len(self.disturbances):
+            raise ValueError(f"table_4: has {len(self.table_4.energy)} columns: give one for each of disturbances")
+        if self.runs.table_3_disturbance not in self.disturbances:
+            raise ValueError(f"runs.table_3_disturbance: '{self.runs.table_3_disturbance}' is no disturbance: choose "
+                             f"one of {', '.join(self.disturbances)}")
+        for key, law in (("runs.sensitivity_law", self.runs.sensitivity_law),
+                         *((f"changes: '{c.title}'", c.law) for c in self.changes if c.law)):
+            if law not in LAWS:
+                raise ValueError(f"{key}: there is no law '{law}': choose one of {', '.join(LAWS)}")
+        # A changed study has no changes of its own.
+        titles = [change.title for change in self.changes]
+        for key, title in (("divergence_change", self.runs.divergence_change),
+                           *(("inferred_changes", title) for title in self.runs.inferred_changes)):
+            if titles and title not in titles:
+                raise ValueError(f"runs.{key}: there is no change '{title}': name one by its title")
+        for change in self.changes:
+            self.with_change(change)
+        return self
+
+    def with_change(self, change: Change) -> Self:
+        """The study with a change's values set; ValueError for an unknown key or an unfit value."""
+        bare = self.model_copy(update={"changes": ()})
+        return with_values(bare, change.set, f"changes: '{change.title}'")

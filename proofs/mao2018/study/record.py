@@ -1,0 +1,265 @@
+"""The file of mao2018's study: its section VIII as stated, and what had to be assumed beside it."""
+
+from __future__ import annotations
+
+from itertools import pairwise
+from typing import Annotated, Any, Literal, Self
+
+from pydantic import Field, Strict, model_validator
+
+from workbench.errors import InputError
+from workbench.files.toml import (
+    Count,
+    Name,
+    NonNegative,
+    Number,
+    Positive,
+    Record,
+    SourcedRecord,
+    Text,
+    validate_record,
+)
+from workbench.model.desired_curve import SpeedLevels
+from workbench.model.events import Term
+from workbench.paper.mpc_comparison import MpcData
+from workbench.paper.study import Study
+from workbench.paper.tuning_record import Pairs, StudyTuning
+from workbench.trains.scenario import Interval
+
+from ..laws import MODES, SLOPE_MODE
+
+Share = Annotated[float, Strict(), Field(gt=0, le=2, allow_inf_nan=False)]
+Gain = Annotated[float, Strict(), Field(gt=0, le=1e9, allow_inf_nan=False)]
+Sampling = Annotated[float, Strict(), Field(ge=1e-5, le=0.1, allow_inf_nan=False)]
+# A rolling resistance beyond these bounds has another unit than the table's.
+Resistance = Annotated[float, Strict(), Field(ge=0, le=1, allow_inf_nan=False)]
+MOST_CASES, MOST_STEPS, MOST_LOG_ROWS = 5, 1e8, 5e5
+Regressors = Literal["scaled", "SI"]
+Event = Literal["failure", "rest", "drag"]
+
+
+class TrainData(SourcedRecord):
+    """The train: its mass, and the motors that share its force."""
+
+    mass_t: Annotated[float, Strict(), Field(ge=1, le=1e5, allow_inf_nan=False)]
+    motors: Annotated[int, Strict(), Field(ge=2, le=1000)]
+    gravity_mps2: Annotated[float, Strict(), Field(ge=9, le=10, allow_inf_nan=False)]
+
+
+class ModeData(SourcedRecord):
+    """A mode of the train as printed: when it begins, and its parameters in the table's units."""
+
+    start_s: NonNegative
+    a_kn: Resistance
+    b_kn_s_per_m: Resistance
+    c_kn_s2_per_m2: Resistance
+    theta_deg: Annotated[float, Strict(), Field(ge=-10, le=10, allow_inf_nan=False)]
+    curve_deg: Annotated[float, Strict(), Field(ge=0, le=90, allow_inf_nan=False)]
+    slope_ramp_per_s: Positive | None = None
+
+
+class Readings(SourcedRecord):
+    """How the printed units are read where they do not fit their definitions or are not printed."""
+
+    resistance: Literal["per tonne", "whole train"]
+    angle: Literal["degree", "radian"]
+    disturbance_unit_n: Literal[1, 1000]
+
+
+class ForceTerm(Term):
+    """offset + amplitude sin(omega t + phase) while its window lasts, as printed."""
+
+    offset: Number = 0.0
+    amplitude: Number = 0.0
+
+
+class DragTerm(Term):
+    """An unparameterizable part of b (power 1) or c (power 2), in the unit of the mode table."""
+
+    amplitude: Number
+    speed_power: Literal[1, 2]
+
+
+class Bounds(SourcedRecord):
+    """Bounds of |d| in the modes, in the unit of the disturbance."""
+
+    by_mode: tuple[NonNegative, NonNegative, NonNegative, NonNegative]
+
+
+class Disturbance(Record):
+    """A disturbance d(t) and, for each mode, the bound on |d| that a law may know or must find."""
+
+    terms: tuple[ForceTerm, ...]
+    bounds: Bounds
+
+
+class LawData(SourcedRecord):
+    """What the laws of every case share.
+
+    gain: of (27)-(31); the other gains have its place in their laws. lower_bound_share: what share of m_i k_nu with
+    one motor failed is known as its lower bound; rest_bound_n: delta_j^0 of (49); failure_start_n: what the failure
+    estimates together stand for at the start; layer_mps: 0 is the printed sign, else sgn(z) becomes z/(|z| + layer).
+    """
+
+    gain: Gain
+    gain_rho: Gain
+    gain_rho_k: Gain
+    gain_xi: Gain
+    gain_lambda: Gain
+    force_unit_n: Annotated[float, Strict(), Field(ge=1, le=1e8, allow_inf_nan=False)]
+    lower_bound_share: Share
+    rest_bound_n: Positive
+    k_1: Gain
+    k_2: Gain
+    omega_rad_s: Positive
+    phase_rad: Number
+    failure_start_n: Number
+    layer_mps: Annotated[float, Strict(), Field(ge=0, le=10, allow_inf_nan=False)]
+    estimates: Literal["corrected", "explicit"]
+
+
+class Tuning(SourcedRecord):
+    """One choice of what decides how fast the laws adapt: the regressors' units, feedback and sampling."""
+
+    title: Text
+    regressors: Regressors
+    r_1_per_s: Gain
+    r_2_per_s: Gain
+    period_s: Sampling
+
+
+class CaseData(SourcedRecord):
+    """A case of section VIII: the law of its section, what happens, from where and with which estimates it starts."""
+
+    title: Text
+    law: Literal["healthy", "failures", "unparameterized", "unknown_bound", "damped"]
+    disturbance: Name
+    events: tuple[Event, ...]
+    initial_position_m: Annotated[float, Strict(), Field(ge=-1e3, le=1e3, allow_inf_nan=False)]
+    estimate_share: Share
+
+
+class Horizon(SourcedRecord):
+    """How long runs last and how often they are logged."""
+
+    end_s: Annotated[float, Strict(), Field(gt=0, le=1e5, allow_inf_nan=False)]
+    log_every_s: Interval
+    settled_window_s: Positive
+
+
+class SamplingData(SourcedRecord):
+    """Which sampling periods and damping the laws bear with the regressors in SI units."""
+
+    case: Count
+    tuning: Name
+    end_s: Positive
+    periods_s: tuple[Sampling, ...]
+    r_2_per_s: tuple[Gain, ...]
+
+
+class Change(Record):
+    """A change of assumed values, to see how much they matter: dotted key -> value, in the cases named.
+
+    laws: with the signs corrected, as printed, or both.
+    """
+
+    title: Text
+    set: dict[str, Any]
+    cases: tuple[Count, ...]
+    tuning: Name
+    laws: Literal["corrected", "printed", "both"] = "corrected"
+
+
+class MaoStudy(Study):
+    """Section VIII of mao2018 with every value's source."""
+
+    train: TrainData
+    modes: tuple[ModeData, ...]
+    readings: Readings
+    reference: SpeedLevels
+    disturbances: dict[Name, Disturbance]
+    failure: tuple[ForceTerm, ...]
+    rest: tuple[ForceTerm, ...]
+    drag: tuple[DragTerm, ...]
+    law: LawData
+    tunings: dict[Name, Tuning]
+    cases: tuple[CaseData, ...]
+    horizon: Horizon
+    sampling: SamplingData
+    sensitivity: tuple[Change, ...] = ()
+    mpc: MpcData | None = None
+    tuning: StudyTuning | None = None
+    pairs: Pairs | None = None
+
+    @model_validator(mode="after")
+    def _parts_fit_together(self) -> Self:
+        self._modes_fit()
+        self._cases_fit()
+        self._runs_are_finite()
+        names: list[tuple[str, str, dict[str, Any]]] = [("sampling.tuning", self.sampling.tuning, self.tunings)]
+        names += [(f"cases[{i}].disturbance", case.disturbance, self.disturbances)
+                  for i, case in enumerate(self.cases)]
+        names += [(f"sensitivity[{i}].tuning", change.tuning, self.tunings)
+                  for i, change in enumerate(self.sensitivity)]
+        for key, name, known in names:
+            if name not in known:
+                raise ValueError(f"{key}: there is no '{name}': choose one of {', '.join(known)}")
+        asked = [("sampling.case", self.sampling.case)]
+        asked += [(f"sensitivity[{i}].cases", number) for i, change in enumerate(self.sensitivity)
+                  for number in change.cases]
+        for key, number in asked:
+            if number > len(self.cases):
+                raise ValueError(f"{key}: there is no case {number}: choose one of 1 to {len(self.cases)}")
+        end = self.reference.end_s
+        if not self.horizon.end_s <= end or not self.sampling.end_s <= end:
+            raise ValueError(f"horizon.end_s or sampling.end_s lies beyond the desired curve's end at {end:g} s")
+        if any(after.from_s < (before.to_s or end) for before, after in pairwise(self.failure)):
+            raise ValueError("failure: its parts overlap, though they are one motor: order them by time")
+        for i, change in enumerate(self.sensitivity):
+            try:
+                self.changed(change.set)
+            except InputError as trouble:
+                raise ValueError(f"sensitivity[{i}].set: {trouble}") from None
+        return self
+
+    def _cases_fit(self) -> None:
+        if [tuning.regressors for tuning in self.tunings.values()] != ["scaled", "SI"]:
+            raise ValueError("tunings: give two, the first with scaled regressors, the second with those in SI units")
+        if not 2 <= len(self.cases) <= MOST_CASES or [case.law for case in self.cases].count("healthy") != 1 or (
+                self.cases[0].law != "healthy"):
+            raise ValueError(f"cases: give the healthy one first, then one to {MOST_CASES - 1} with a law for failures")
+
+    def _runs_are_finite(self) -> None:
+        """Longer runs and logs than any train's would not end, or not fit in memory."""
+        periods = [(f"tunings.{name}.period_s", tuning.period_s) for name, tuning in self.tunings.items()]
+        for key, period in [*periods, *(("sampling.periods_s", period) for period in self.sampling.periods_s)]:
+            if self.horizon.end_s / period > MOST_STEPS:
+                raise ValueError(f"{key} = {period:g}: gives {self.horizon.end_s / period:.2g} periods in a run, more "
+                                 f"than {MOST_STEPS:.0e}: lengthen it")
+        if self.horizon.end_s / self.horizon.log_every_s > MOST_LOG_ROWS:
+            raise ValueError(f"horizon.log_every_s = {self.horizon.log_every_s:g}: gives more than {MOST_LOG_ROWS:.0e} "
+                             f"rows: log less often")
+
+    def _modes_fit(self) -> None:
+        if len(self.modes) != len(MODES):
+            raise ValueError(f"modes: the laws have estimates for {len(MODES)}, not for {len(self.modes)}")
+        if self.modes[0].start_s != 0 or any(b.start_s <= a.start_s for a, b in pairwise(self.modes)):
+            raise ValueError("modes: start_s must begin at 0 and increase from mode to mode")
+        for number, mode in zip(MODES, self.modes, strict=True):
+            if (mode.slope_ramp_per_s is not None) != (number == SLOPE_MODE):
+                raise ValueError(f"modes[{number - 1}].slope_ramp_per_s: the laws know a slope that grows in mode "
+                                 f"{SLOPE_MODE}, and there alone")
+
+    def changed(self, values: dict[str, Any]) -> MaoStudy:
+        """The study with other values by dotted key, without its sensitivity; InputError for one that does not fit."""
+        data = self.model_dump(exclude_unset=True)
+        data["sensitivity"] = ()
+        for key, value in values.items():
+            *parents, last = key.split(".")
+            table: Any = data
+            for parent in parents:
+                table = table.get(parent) if isinstance(table, dict) else None
+            if not isinstance(table, dict) or last not in table:
+                raise InputError("", "", f"no key '{key}': name a value that the file states")
+            table[last] = value
+        return validate_record(data, type(self), "")

@@ -1,0 +1,38 @@
+"""The command line: parses, calls, prints."""
+
+from __future__ import annotations
+
+import sys
+
+import typer
+
+from workbench.cli import check, compare, examples, gains, listing, new_paper, prove, reference, report, sweep, tune
+from workbench.cli.options import Version
+from workbench.cli.terminal import err_console
+from workbench.errors import WorkbenchError
+
+app = typer.Typer(no_args_is_help=True, add_completion=False, pretty_exceptions_enable=False,
+                  help="A control paper as one executable object: proof, simulation, comparison.")
+
+INTERRUPTED = 130  # with which typer ends after Ctrl-C
+
+for verb in (prove, new_paper, check, compare, sweep, tune, report, reference, gains, listing, examples):
+    app.command(verb.NAME)(verb.command)
+
+
+@app.callback()
+def options(version: Version = False) -> None:
+    """What every verb understands."""
+
+
+def main() -> None:
+    """Run the command line; an error that is the caller's to mend is one line and exit code 2."""
+    try:
+        app()
+    except WorkbenchError as trouble:
+        err_console.print(f"workbench: {trouble}", style="red", soft_wrap=True, markup=False, highlight=False)
+        sys.exit(2)
+    except SystemExit as end:
+        if end.code == INTERRUPTED:
+            err_console.print("workbench: interrupted; what was finished is kept", style="yellow")
+        raise

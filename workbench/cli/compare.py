@@ -1,0 +1,50 @@
+"""`workbench compare`: all controllers on the same train and line, or all runs of a study or contest."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from workbench.cli.options import JsonFile, PaperOrFile, Workers, load
+from workbench.cli.terminal import metrics_table, out_console, print_failures, print_study, progress
+from workbench.errors import InputError
+
+NAME = "compare"
+
+
+def command(paper: PaperOrFile, json: JsonFile = None,
+            variants: Annotated[bool, typer.Option(help="Also run the scenario's variants.")] = False,
+            out: Annotated[Path | None, typer.Option(
+                metavar="FOLDER", help="Where a contest keeps its finished runs.")] = None,
+            resume: Annotated[bool, typer.Option("--resume", help="Go on with the runs kept in --out.")] = False,
+            workers: Workers = None) -> None:
+    """Run all controllers of a scenario on the same train and line, and compare them; or all runs of a study."""
+    from workbench.files.json_output import write_json
+    from workbench.files.outputs import check_outputs
+    from workbench.report.build import check_resumable, comparison_document, run_study, study_document
+    from workbench.simulate.compare import compare as run_comparison
+
+    loaded = load(paper)
+    check_outputs({"--json": json})
+    check_resumable(loaded, out, resume)
+    if loaded.kind is not None:
+        if variants:
+            raise InputError("", "--variants", "is for scenarios; a study's file states its own runs: leave it out")
+        with progress() as show:
+            found = run_study(loaded, workers, show, out, resume)
+        if json:
+            write_json(json, study_document(loaded.study, found))
+        print_study(found)
+        return
+    with progress() as show:
+        result = run_comparison(loaded.path, loaded.data, loaded.scenario, variants, workers,
+                                lambda done, total, _: show("runs", done, total))
+    document = comparison_document(result)
+    if json:
+        write_json(json, document)
+    out_console.print(metrics_table(document["rows"], f"{result.scenario.name}: as stated"))
+    for variant in document["variants"]:
+        out_console.print(metrics_table(variant["rows"], variant["title"]))
+    print_failures(document["rows"])

@@ -1,0 +1,20 @@
+"""`workbench examples`: the papers, lines and trains that come with the workbench, written into a folder."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from workbench.cli.terminal import out_console
+
+NAME = "examples"
+
+
+def command(directory: Annotated[Path, typer.Argument(help="A new or empty folder")]) -> None:
+    """Write the papers' folders, the shared lines, trains and contests into a folder of yours."""
+    from workbench.paper.examples import write_examples
+
+    for line in write_examples(directory):
+        out_console.print(line, soft_wrap=True, highlight=False, markup=False)

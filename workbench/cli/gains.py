@@ -1,0 +1,41 @@
+"""`workbench gains`: conditions of the stated gains, what is proved of them, gains that are proved to do better."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from workbench.cli.options import JsonFile, PaperOrFile, Workers, load
+from workbench.cli.terminal import print_study, progress
+
+NAME = "gains"
+
+
+def command(paper: PaperOrFile, json: JsonFile = None,
+            certificates: Annotated[Path | None, typer.Option(
+                help="Also write the certificates below this folder.")] = None,
+            write: Annotated[bool, typer.Option(
+                "--write", help="Also write the certificates into the paper's own folder.")] = False,
+            runs: Annotated[bool, typer.Option(help="Simulate the found gains beside the stated ones.")] = True,
+            workers: Workers = None) -> None:
+    """Which conditions the stated gains meet, what can be proved of them, and gains that are proved to do better."""
+    from workbench.files.json_output import write_json
+    from workbench.files.outputs import check_outputs
+    from workbench.gains.certificate import write_certificates
+    from workbench.paper.gain_effects import effects, gains_of
+    from workbench.report.gains import gains_document, gains_result
+
+    loaded = load(paper)
+    check_outputs({"--json": json})
+    found = gains_of(loaded)
+    if certificates:
+        write_certificates(found.certificates, certificates / found.paper)
+    if write:
+        write_certificates(found.certificates, loaded.folder / "certificates" / "gains")
+    with progress() as show:
+        done = effects(loaded, found, workers, lambda at, total, _: show("runs", at, total)) if runs else ()
+    if json:
+        write_json(json, gains_document(found, done))
+    print_study(gains_result(found, done))

@@ -1,0 +1,54 @@
+"""Options and arguments that verbs share, and what they name."""
+
+from __future__ import annotations
+
+from difflib import get_close_matches
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from workbench import __version__
+from workbench.errors import InputError
+from workbench.files.folders import paper_named, papers_near
+
+if TYPE_CHECKING:
+    from workbench.paper.loading import Loaded
+
+
+def _version(asked: bool) -> None:
+    if asked:
+        typer.echo(f"workbench {__version__}")
+        raise typer.Exit
+
+
+JsonFile = Annotated[Path | None, typer.Option("--json", metavar="FILE", help="Also write the result as JSON.")]
+Workers = Annotated[int | None, typer.Option(min=1, help="Processes; default: one a core.")]
+PaperOrFile = Annotated[str, typer.Argument(
+    metavar="PAPER", help="A paper's folder, its name, or the TOML file of a scenario, study or contest")]
+Version = Annotated[bool, typer.Option("--version", callback=_version, is_eager=True, help="Say the version.")]
+
+
+def path_of(argument: str) -> Path:
+    """The file or folder that an argument names, or the folder of the paper whose name it is."""
+    path = Path(argument)
+    try:
+        if path.exists() or path.suffix or "/" in argument:
+            return path
+    except (OSError, ValueError) as trouble:
+        raise InputError("", "", f"{argument[:60]!r} is no path ({trouble}): correct the name") from None
+    found = paper_named(argument, Path.cwd())
+    if found is None:
+        names = [folder.name for folder in papers_near(Path.cwd())]
+        near = get_close_matches(argument, names, n=1)
+        hint = f"did you mean '{near[0]}'?" if near else f"name one of {', '.join(names)}" if names else (
+            "name its folder, or write examples with 'workbench examples DIR'")
+        raise InputError("", argument, f"is no file, folder or paper here: {hint}")
+    return found
+
+
+def load(argument: str) -> Loaded:
+    """The scenario, study, contest or paper that an argument names, read once."""
+    from workbench.cli.loading import load as read
+
+    return read(path_of(argument))

@@ -1,0 +1,54 @@
+"""`workbench prove`: decide every claim."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from workbench.cli.options import JsonFile
+from workbench.cli.terminal import claim_card, claims_table, err_console, out_console, progress, verdict_line
+from workbench.errors import InputError
+
+NAME = "prove"
+
+
+def command(paths: Annotated[list[str] | None, typer.Argument(
+                help="Papers' folders, a folder of them, proof files, and claims as in proofs/PAPER::24; "
+                     "default: proofs")] = None,
+            json: JsonFile = None,
+            certificates: Annotated[Path | None, typer.Option(
+                help="Where certificates go; default: 'certificates' in each paper's folder, or beside a proof "
+                     "file.")] = None,
+            jobs: Annotated[int | None, typer.Option(min=1, help="Processes; default: one a core.")] = None,
+            cache: Annotated[bool, typer.Option(help="Take what has not changed from the cache.")] = True) -> None:
+    """Decide every claim; exit 0 when each verdict is the recorded one, 1 when one differs, 2 on bad input."""
+    from workbench.files.json_output import write_json
+    from workbench.files.outputs import check_outputs
+    from workbench.proof.document import claims_document, places, write_certificates
+    from workbench.proof.prove import prove as run_prove
+    from workbench.proof.selection import targets
+
+    found = targets(paths or ["proofs"])
+    if certificates is not None and certificates.exists() and not certificates.is_dir():
+        raise InputError(certificates, "--certificates", "is a file: name a folder")
+    check_outputs({"--json": json}, [file for target in found for file in target.inputs()])
+    with progress() as show:
+        proof = run_prove(found, jobs, cache, lambda done, total: show("claims", done, total))
+    single = any(target.pattern is not None for target in found)
+    where = places(proof, certificates)
+    write_certificates(proof.decisions, where, whole_papers=not single)
+    document = claims_document(proof.decisions, where)
+    if json:
+        write_json(json, document)
+    for table in map(claim_card, document["claims"]) if single else [claims_table(document)]:
+        out_console.print(table)
+    out_console.print(verdict_line(document))
+    if not single:
+        out_console.print(f"{len(proof.now)} decided now, {len(proof.decisions) - len(proof.now)} from the cache")
+    differing = [d for d in proof.decisions if d.verdict != d.claim.recorded]
+    for d in differing:
+        err_console.print(f"[red]{d.claim.id}: decided {d.verdict}, but recorded {d.claim.recorded}[/red]")
+    if differing:
+        raise typer.Exit(1)

@@ -1,0 +1,46 @@
+"""`workbench reference`: the energy-optimal run of a train on a line."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated, Literal
+
+import typer
+
+from workbench.cli.options import JsonFile
+from workbench.cli.terminal import out_console
+
+NAME = "reference"
+
+
+def command(track: Annotated[Path, typer.Argument(help="Line: TOML of this project, or TTOBench JSON")],
+            train: Annotated[Path, typer.Argument(help="Train: TOML of this project, or TTOBench JSON")],
+            time: Annotated[float | None, typer.Option(metavar="S", help="Trip time in s, with its stops.")] = None,
+            timetable: Annotated[Path | None, typer.Option(
+                metavar="FILE", help="Windows on the way: TOML, or a journey of TTOBench; not with --time.")] = None,
+            stops: Annotated[bool, typer.Option("--stops", help="Serve the line's stops on the way.")] = False,
+            dwell: Annotated[float, typer.Option(metavar="S", help="Wait at each stop on the way.")] = 30.0,
+            from_m: Annotated[float, typer.Option(metavar="M", help="Where the run starts.")] = 0.0,
+            to_m: Annotated[float | None, typer.Option(metavar="M", help="Where it ends; default: the end.")] = None,
+            from_speed: Annotated[float, typer.Option(metavar="MPS", help="Speed at the start in m/s.")] = 0.0,
+            to_speed: Annotated[float, typer.Option(metavar="MPS", help="Speed at the end in m/s.")] = 0.0,
+            intervals: Annotated[int | None, typer.Option(
+                min=10, max=100_000, help="Of the plan's mesh; default: as many as the gap asks for.")] = None,
+            solver: Annotated[Literal["auto", "socp", "nlp"], typer.Option(
+                help="Cone program, nonlinear program, or what the gap asks for.")] = "auto",
+            window: Annotated[float, typer.Option(metavar="S", help="Over which acceleration is smoothed.")] = 1.0,
+            max_jerk: Annotated[float | None, typer.Option(metavar="MPS3", help="Limit of the jerk.")] = None,
+            json: JsonFile = None,
+            csv: Annotated[Path | None, typer.Option(
+                metavar="FILE", help="The smooth reference as CSV; default: beside the JSON.")] = None,
+            every: Annotated[float, typer.Option(metavar="S", help="Step of the CSV.")] = 0.5,
+            figure: Annotated[Path | None, typer.Option(metavar="FILE", help="Figure as SVG, PNG or PDF.")] = None,
+            certificate: Annotated[Path | None, typer.Option(
+                metavar="FILE", help="Write the bound's certificate, and re-check it exactly.")] = None) -> None:
+    """The energy-optimal run of a train on a line, a smooth reference, and a proven bound on what could be saved."""
+    from workbench.report.reference_command import Request, reference_run
+
+    done = reference_run(Request(track, train, time, stops, dwell, from_m, to_m, from_speed, to_speed, intervals,
+                               window, max_jerk, json, csv, every, figure, certificate, solver, timetable))
+    for line in done:
+        out_console.print(line, soft_wrap=True, highlight=False, markup=False)

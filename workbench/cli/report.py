@@ -1,0 +1,79 @@
+"""`workbench report`: proof, runs, comparison and gains of a paper on one page."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from workbench.cli.options import PaperOrFile, Workers, load
+from workbench.cli.terminal import (
+    claims_table,
+    metrics_table,
+    out_console,
+    print_failures,
+    print_study,
+    progress,
+    summary_table,
+    verdict_line,
+)
+from workbench.errors import InputError
+
+if TYPE_CHECKING:
+    from workbench.report.build import Report, StudyReport
+
+NAME = "report"
+
+
+def command(paper: PaperOrFile,
+            proofs: Annotated[list[str] | None, typer.Argument(
+                help="Papers whose claims are on the page; default: the paper's own")] = None,
+            out: Annotated[Path, typer.Option(help="Folder of the report")] = Path("out"),
+            runs: Annotated[int | None, typer.Option(
+                min=1, help="Monte Carlo runs; default: as the scenario states")] = None,
+            seed: Annotated[int | None, typer.Option(min=0)] = None,
+            gains: Annotated[bool, typer.Option(
+                help="Also what is proved of the paper's gains, and better ones.")] = True,
+            resume: Annotated[bool, typer.Option(
+                "--resume", help="Go on with the runs of the Monte Carlo, or of a contest, kept in --out.")] = False,
+            workers: Workers = None) -> None:
+    """Check the proof, run and compare the controllers, and put the whole on one page."""
+    from workbench.report.build import Asked, build_report, build_study_report
+
+    loaded = load(paper)
+    asked = Asked.of(loaded, proofs or [], out, gains, resume, workers)
+    if loaded.kind is not None:
+        for option, given in (("--runs", runs), ("--seed", seed)):
+            if given is not None:
+                raise InputError("", option, "is for scenarios; a study's file states its own runs: leave it out")
+        with progress() as show:
+            study = build_study_report(asked, show)
+        _print_study_report(study)
+        return
+    with progress() as show:
+        made = build_report(asked, runs, seed, show)
+    _print_report(made)
+
+
+def _print_study_report(made: StudyReport) -> None:
+    if made.claims:
+        out_console.print(verdict_line(made.claims))
+    print_study(made.result)
+    _print_end(made.timings, made.page)
+
+
+def _print_report(made: Report) -> None:
+    if made.claims:
+        out_console.print(claims_table(made.claims, only_failed=True))
+        out_console.print(verdict_line(made.claims))
+    rows = [m.row() for m in made.comparison.metrics]
+    out_console.print(metrics_table(rows, f"{made.comparison.scenario.name}: as stated"))
+    print_failures(rows)
+    out_console.print(summary_table(made.summaries, max(s.runs for s in made.summaries)))
+    _print_end(made.timings, made.page)
+
+
+def _print_end(timings: dict[str, float], page: Path) -> None:
+    out_console.print("times: " + ", ".join(f"{what} {seconds:.1f} s" for what, seconds in timings.items()))
+    out_console.print(f"report: {page}", style="bold", soft_wrap=True)

@@ -1,0 +1,172 @@
+"""What the command line shows: tables, single claims, progress."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+from typing import TYPE_CHECKING, Any
+
+from rich.box import SIMPLE_HEAD
+from rich.console import Console
+from rich.markup import escape
+from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn
+from rich.table import Table
+from rich.text import Text
+
+from workbench.proof.verdict import VERDICTS
+
+if TYPE_CHECKING:
+    from workbench.paper.contents import Contents
+    from workbench.paper.study import ResultTable, StudyResult
+
+out_console = Console()
+err_console = Console(stderr=True)
+COLOURS = {"proved": "green", "refuted": "red", "violated": "red", "gap": "yellow", "assumed": "cyan",
+           "undecided": "magenta"}
+
+
+@contextmanager
+def progress() -> Iterator[Any]:
+    """A progress bar per stage on standard error; a plain line per stage where that is no terminal."""
+    columns = (TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn(), TimeElapsedColumn())
+    with Progress(*columns, console=err_console, disable=not err_console.is_terminal) as bar:
+        tasks: dict[str, Any] = {}
+
+        def show(what: str, done: int, total: int) -> None:
+            if what not in tasks:
+                tasks[what] = bar.add_task(what, total=total)
+            bar.update(tasks[what], completed=done, total=total)
+            if not err_console.is_terminal and done == total:
+                err_console.print(f"{what}: {done} done")
+
+        yield show
+
+
+def claims_table(document: dict[str, Any], only_failed: bool = False) -> Table:
+    """All claims, or those that do not hold as printed."""
+    rows = [c for c in document["claims"] if not only_failed or c["verdict"] not in ("proved", "assumed")]
+    table = Table(title="claims that do not hold as printed" if only_failed else "claims", title_justify="left",
+                  box=SIMPLE_HEAD, pad_edge=False, expand=True)
+    for heading, share in (("id", 0), ("claim", 5), ("verdict", 0), ("shown by", 3), ("rests on failed", 3)):
+        table.add_column(heading, no_wrap=not share, ratio=share or None)
+    papers = len({c["paper"] for c in rows})
+    for c in rows:
+        shown = c["computed"] or c["method"]
+        if c["counterexample"] and not c["computed"]:
+            shown = _values(c["counterexample"])
+        name = c["equation"] if papers == 1 else c["id"]
+        table.add_row(escape(name), escape(c["title"]), _verdict(c["verdict"]), escape(shown),
+                      escape(", ".join(i.partition(":")[2] for i in c["tainted_by"])))
+    return table
+
+
+def claim_card(row: dict[str, Any]) -> Table:
+    """One claim with all that is known of it."""
+    table = Table.grid(padding=(0, 2))
+    table.add_column(no_wrap=True, style="bold")
+    table.add_column(overflow="fold")
+    recorded = "" if row["recorded"] == row["verdict"] else f", but recorded {row['recorded']}"
+    known = {
+        "claim": f"{row['id']}: {row['title']}", "statement": row["statement"], "verdict": row["verdict"] + recorded,
+        "shown by": row["method"], "value": row["computed"],
+        "counterexample": _values(row["counterexample"]) if row["counterexample"] else None,
+        "corrected": row["correction"], "holds for": row["scope"], "rests on": ", ".join(row["premises"]),
+        "failed below": ", ".join(row["tainted_by"]), "note": row["note"], "certificate": row["certificate"],
+    }
+    for what, text in known.items():
+        if text:
+            table.add_row(what, Text(text, COLOURS[row["verdict"]] if what == "verdict" else ""))
+    table.add_row()
+    return table
+
+
+def verdict_line(document: dict[str, Any]) -> str:
+    """How many claims have which verdict."""
+    counts = document["summary"]
+    every = sum(counts.values())
+    return f"{every} claim{'' if every == 1 else 's'}: " + ", ".join(
+        f"[{COLOURS[v]}]{counts[v]} {v}[/{COLOURS[v]}]" for v in VERDICTS if counts[v])
+
+
+def metrics_table(rows: Sequence[dict[str, Any]], title: str) -> Table:
+    """The controllers of a comparison beside each other."""
+    table = Table(title=title, title_justify="left", box=SIMPLE_HEAD, pad_edge=False)
+    _columns(table, "position\nerror (mm)", "speed error\n(mm/s)", "stop\n(mm)", "energy\n(MJ)", "step\n(µs)")
+    for r in rows:
+        table.add_row(
+            r["controller"] + (" [red]failed[/red]" if r["failed"] else ""),
+            _range(r["position_error_min"], r["position_error_max"]),
+            _range(r["speed_error_min"], r["speed_error_max"]), _number(r["stopping_error"], 1e3),
+            _number(r["energy_J"], 1e-6, 5), _number(r["step_us_median"]))
+    return table
+
+
+def summary_table(summaries: Sequence[Any], runs: int) -> Table:
+    """The controllers of a Monte Carlo beside each other."""
+    table = Table(title=f"Monte Carlo, {runs} runs", title_justify="left", box=SIMPLE_HEAD, pad_edge=False)
+    _columns(table, "position\nerror (mm)", "speed error\n(mm/s)", "mean |stop|\n(mm)", "failed\nruns")
+    for s in summaries:
+        table.add_row(s.controller, _range(s.position_error_min, s.position_error_max),
+                      _range(s.speed_error_min, s.speed_error_max), _number(s.mean_abs_stopping_error, 1e3),
+                      f"{s.failed} of {s.runs}")
+    return table
+
+
+def result_table(found: ResultTable) -> Table:
+    """A study's table as it is, its source beside its title."""
+    table = Table(title=escape(f"{found.title} ({found.source})"), title_justify="left", box=SIMPLE_HEAD,
+                  pad_edge=False)
+    for heading in found.header:
+        table.add_column(escape(heading), overflow="fold")
+    for row in found.rows:
+        table.add_row(*map(escape, row))
+    return table
+
+
+def print_study(result: StudyResult) -> None:
+    """Tables and findings of a study; on standard error a line for every run that failed."""
+    for table in result.tables:
+        out_console.print(result_table(table))
+    for finding in result.findings:
+        out_console.print(f"• {finding}", markup=False, highlight=False)
+    for run, why in result.failures:
+        err_console.print(f"{run}: {why}", style="red", soft_wrap=True, markup=False, highlight=False)
+
+
+def print_failures(rows: Sequence[dict[str, Any]]) -> None:
+    """A line on standard error for every run that failed."""
+    for row in rows:
+        if row["failed"]:
+            err_console.print(f"{row['controller']}: {row['failed']}", style="red", soft_wrap=True)
+
+
+def _columns(table: Table, *headings: str) -> None:
+    table.add_column("controller", no_wrap=True)
+    for heading in headings:
+        table.add_column(heading, justify="right", no_wrap=True)
+
+
+def _verdict(verdict: str) -> str:
+    return f"[{COLOURS[verdict]}]{verdict}[/{COLOURS[verdict]}]"
+
+
+def _values(point: dict[str, str]) -> str:
+    return ", ".join(f"{name} = {value}" for name, value in point.items())
+
+
+def _number(value: float | None, scale: float = 1.0, digits: int = 3) -> str:
+    return "–" if value is None else f"{value * scale:.{digits}g}"
+
+
+def _range(low: float | None, high: float | None, scale: float = 1e3) -> str:
+    """A range in thousandths of the SI unit, as the tables show errors."""
+    return "–" if low is None or high is None else rf"\[{_number(low, scale)}, {_number(high, scale)}]"
+
+
+def papers_table(papers: Sequence[Contents]) -> Table:
+    """The papers found, and what each has."""
+    table = Table("paper", "has", "certificates", "study", "folder")
+    for paper in papers:
+        table.add_row(escape(paper.name), ", ".join(paper.parts), str(paper.certificates or "none"),
+                      escape(paper.title), escape(str(paper.folder)))
+    return table

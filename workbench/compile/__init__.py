@@ -1,0 +1,1 @@
+"""The only place where expressions become code: numba kernels, casadi functions."""

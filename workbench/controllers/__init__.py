@@ -1,1 +1,0 @@
-"""Control laws: each paper's in its own file, as sympy expressions."""

@@ -1,0 +1,69 @@
+"""Where a paper's folder lies, and what a folder's modules hold."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any, TypeVar
+
+from workbench.files.modules import has_module, module_in
+
+PAPER_FILE, CLAIMS_FOLDER, STUDY_FILE, PAPERS_FOLDER = "paper.py", "claims", "study.toml", "proofs"
+
+T = TypeVar("T")
+
+
+def is_paper(folder: Path) -> bool:
+    """Whether a folder is a paper's: it has a paper.py, claims, or a study."""
+    return folder.is_dir() and ((folder / PAPER_FILE).is_file() or (folder / STUDY_FILE).is_file()
+                                or any((folder / CLAIMS_FOLDER).glob("*.py")))
+
+
+def papers_in(folder: Path) -> list[Path]:
+    """The paper folders that lie in a folder, by name."""
+    return sorted(path for path in folder.iterdir() if is_paper(path)) if folder.is_dir() else []
+
+
+def paper_named(name: str, near: Path) -> Path | None:
+    """The paper folder of that name, seen from a folder: itself, one beside it, or one in a `proofs` folder of it, of
+    a folder above it, or of the current one; None where there is none."""
+    here = near.resolve()
+    if here.name == name and is_paper(here):
+        return here
+    places = [here.parent, *(place / PAPERS_FOLDER for place in (here, *here.parents)), Path.cwd() / PAPERS_FOLDER]
+    return next((place / name for place in places if is_paper(place / name)), None)
+
+
+def papers_near(near: Path) -> list[Path]:
+    """All paper folders that `paper_named` would find from a folder, each name once."""
+    here = near.resolve()
+    places = [here.parent, *(place / PAPERS_FOLDER for place in (here, *here.parents)), Path.cwd() / PAPERS_FOLDER]
+    found = {path.name: path for place in reversed(places) for path in papers_in(place)}
+    if is_paper(here):
+        found[here.name] = here
+    return [found[name] for name in sorted(found)]
+
+
+def held_in(folder: Path, module: str, kind: type[T]) -> dict[str, T]:
+    """Everything of a kind that a module of a folder has at its top level, or in a dictionary, tuple or list there.
+
+    By its `id` where it has one, else by its name or key; empty where there is no such module. Raises InputError where
+    the module cannot be imported.
+    """
+    if not has_module(folder, module):
+        return {}
+    found: dict[str, T] = {}
+    for name, value in vars(module_in(folder, module)).items():
+        for key, one in _named(name, value):
+            if isinstance(one, kind):
+                found.setdefault(str(getattr(one, "id", key)), one)
+    return found
+
+
+def _named(name: str, value: Any) -> Iterator[tuple[str, Any]]:
+    if isinstance(value, dict):
+        yield from ((str(key), one) for key, one in value.items())
+    elif isinstance(value, tuple | list):
+        yield from ((name, one) for one in value)
+    else:
+        yield name, value

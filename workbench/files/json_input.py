@@ -1,0 +1,44 @@
+"""A JSON file as a table; whatever is wrong with it becomes one line naming the file."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from typing import Any
+
+from workbench.errors import InputError
+from workbench.files.text import read_text
+
+# TTOBench nests five deep. What is much deeper was not written by hand, and would exhaust whoever prints it.
+DEEPEST = 40
+
+
+def read_json(path: Path) -> dict[str, Any]:
+    """The object in a JSON file; raises InputError when it is missing, unreadable or not one JSON object."""
+    text = read_text(path, "JSON")
+    try:
+        data = json.loads(text, object_pairs_hook=_unique)
+    except InputError as trouble:
+        raise trouble.within(path) from None
+    except ValueError as trouble:  # JSONDecodeError, and Python's own limit on the digits of an integer
+        raise InputError(path, "", f"is not valid JSON: {trouble}: correct it there") from None
+    except RecursionError:
+        raise InputError(path, "", "is nested too deeply: write flatter lists") from None
+    if not isinstance(data, dict):
+        raise InputError(path, "", "is no JSON object: it must be one table in braces")
+    level: list[Any] = [data]
+    for _ in range(DEEPEST):
+        level = [child for item in level if isinstance(item, dict | list)
+                 for child in (item.values() if isinstance(item, dict) else item)]
+    if level:
+        raise InputError(path, "", "is nested too deeply: write flatter lists")
+    return data
+
+
+def _unique(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
+    found: dict[str, Any] = {}
+    for key, value in pairs:
+        if key in found:
+            raise InputError("", key[:60], "stands twice in one table: remove one")
+        found[key] = value
+    return found

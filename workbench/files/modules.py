@@ -1,0 +1,107 @@
+"""Python modules in a folder that a user names: imported as a package of its own, under a name made from its path.
+
+Modules of such a folder import each other relatively (`from .laws import pocrac`), so that files of one name in two
+folders are not taken for each other, and a copy of a folder is a package of its own.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import importlib
+import re
+import sys
+from collections.abc import Mapping, Sequence
+from importlib.machinery import FileFinder, ModuleSpec, SourceFileLoader
+from pathlib import Path
+from types import ModuleType
+from typing import Any
+
+from workbench.errors import InputError
+from workbench.files.mistakes import mistake
+
+PREFIX = "workbench_folder_"
+
+_folders: dict[str, Path] = {}
+
+
+class SourceLoader(SourceFileLoader):
+    """Reads the source, never bytecode: that knows its source by size and second only, and a changed formula must
+    not be taken for the old one."""
+
+    def path_stats(self, path: Any) -> Mapping[str, Any]:
+        """None that bytecode could be held against, as the import system asks for it."""
+        raise OSError(f"{path}: no bytecode wanted")
+
+
+class _Finder:
+    """Finds known folders as packages, and the modules in them."""
+
+    @staticmethod
+    def find_spec(name: str, path: Sequence[str] | None = None, target: ModuleType | None = None) -> ModuleSpec | None:
+        """The module of that name, as the import system asks for it."""
+        package, dot, _ = name.partition(".")
+        if package not in _folders:
+            return None
+        if not dot:
+            spec = ModuleSpec(name, None, is_package=True)
+            spec.submodule_search_locations = [str(_folders[package])]
+            return spec
+        return FileFinder(next(iter(path or ())), (SourceLoader, [".py"])).find_spec(name)
+
+
+sys.meta_path.insert(0, _Finder)
+
+
+def package_of(folder: Path) -> str:
+    """The name under which a folder is imported in every process that knows it."""
+    resolved = folder.resolve()
+    digest = hashlib.sha256(str(resolved).encode()).hexdigest()[:10]
+    name = f"{PREFIX}{re.sub(r'[^0-9A-Za-z_]', '_', resolved.name)}_{digest}"
+    _folders[name] = resolved
+    return name
+
+
+def has_module(folder: Path, name: str) -> bool:
+    """Whether a folder has a module or a package of that name."""
+    return (folder / f"{name}.py").is_file() or (folder / name / "__init__.py").is_file()
+
+
+def module_in(folder: Path, name: str) -> ModuleType:
+    """A module of a folder, `study.record` for `study/record.py`; InputError, naming file and line, where it cannot be
+    imported."""
+    dotted = f"{package_of(folder)}.{name}"
+    if dotted in sys.modules:
+        return sys.modules[dotted]
+    path = folder.joinpath(*name.split("."))
+    where = path.with_suffix(".py") if path.with_suffix(".py").is_file() else path
+    try:
+        return importlib.import_module(dotted)
+    except InputError:
+        raise
+    except (Exception, SystemExit) as trouble:  # a file that exits would end the run
+        raise InputError(where, "", f"cannot be imported: {mistake(trouble, where)}") from trouble
+
+
+def sources_of(folder: Path) -> frozenset[str]:
+    """The files of a folder that have been imported, as absolute paths."""
+    name = package_of(folder)
+    return frozenset(str(Path(file).absolute()) for key, module in list(sys.modules.items())
+                     if key.startswith(f"{name}.") and (file := getattr(module, "__file__", None)))
+
+
+def python_files(folder: Path) -> list[Path]:
+    """All Python files of a folder and its subfolders, hidden ones and those of caches left out, in a fixed order."""
+    return sorted(path for path in folder.rglob("*.py")
+                  if not any(part.startswith((".", "__pycache__")) for part in path.relative_to(folder).parts))
+
+
+class KnownFolders:
+    """What this process knows of folders; a process that unpickles it knows the same, and so can import from them."""
+
+    def __reduce__(self) -> tuple[Any, tuple[dict[str, str]]]:
+        return _know, ({name: str(folder) for name, folder in _folders.items()},)
+
+
+def _know(folders: Mapping[str, str]) -> KnownFolders:
+    _folders.update({name: Path(folder) for name, folder in folders.items()})
+    return KnownFolders()

@@ -1,0 +1,147 @@
+"""Read a TOML file into a validated record; whatever is wrong becomes one line naming file and key."""
+
+from __future__ import annotations
+
+import difflib
+import tomllib
+from pathlib import Path
+from typing import Annotated, Any, Self, TypeVar
+
+from pydantic import BaseModel, ConfigDict, Field, Strict, ValidationError, ValidationInfo, model_validator
+
+from workbench.errors import InputError
+from workbench.files.text import read_text
+
+Number = Annotated[float, Strict(), Field(allow_inf_nan=False)]
+Positive = Annotated[float, Strict(), Field(gt=0, allow_inf_nan=False)]
+NonNegative = Annotated[float, Strict(), Field(ge=0, allow_inf_nan=False)]
+Count = Annotated[int, Strict(), Field(ge=1)]
+Text = Annotated[str, Strict(), Field(min_length=1)]
+# Names become file names and columns of tables.
+Name = Annotated[str, Strict(), Field(pattern=r"^[A-Za-z][A-Za-z0-9_.-]*$", max_length=100)]
+
+
+# The key of a file by which it reproduces a paper, so that every value must have its source.
+REPRODUCTION = "reproduction"
+
+
+class Record(BaseModel):
+    """A frozen record; unknown keys, NaN and infinities are refused."""
+
+    model_config = ConfigDict(frozen=True, extra="forbid", allow_inf_nan=False)
+
+
+class SourcedRecord(Record):
+    """A record whose stated values may say where they come from, in its own `source` table.
+
+    In a file that says `reproduction = true` every one must, and starts with `paper`, `assumed:` or `convention:`; the
+    report lists the assumed ones.
+    """
+
+    source: dict[str, Text] = Field(default_factory=dict)
+
+    @model_validator(mode="after")
+    def _every_value_has_a_source(self, info: ValidationInfo) -> Self:
+        stated = self.model_fields_set - {"source"}
+        strict = bool((info.context or {}).get(REPRODUCTION))
+        for key in sorted(stated - self.source.keys()) if strict else ():
+            raise ValueError(f"source.{key} is missing: say where the value of '{key}' comes from")
+        for key in sorted(self.source.keys() - stated):
+            raise ValueError(f"source.{key} explains a value that is not stated: remove it or state '{key}'")
+        for key, text in self.source.items() if strict else ():
+            if not text.startswith(("paper", "assumed:", "convention:")):
+                raise ValueError(
+                    f"source.{key} = '{text}' must start with 'paper', 'assumed:' or 'convention:'"
+                )
+        return self
+
+
+R = TypeVar("R", bound=BaseModel)
+
+
+def read_toml(path: Path) -> dict[str, Any]:
+    """The table in a TOML file; raises InputError when it is missing, unreadable or not TOML."""
+    text = read_text(path, "TOML")
+    if not text.strip():
+        raise InputError(path, "", "is empty: a TOML table is expected")
+    try:
+        return tomllib.loads(text)
+    except ValueError as trouble:  # TOMLDecodeError, and Python's own limit on the digits of an integer
+        raise InputError(path, "", f"is not valid TOML: {trouble}") from None
+    except RecursionError:
+        raise InputError(path, "", "is nested too deeply: write flatter tables") from None
+
+
+def load_record(path: Path, model: type[R], reproduction: bool = False) -> R:
+    """Read `path` as a `model`; raises InputError naming the file, the first wrong key and the remedy."""
+    return validate_record(read_toml(path), model, path, reproduction)
+
+
+def validate_record(data: dict[str, Any], model: type[R], where: Path | str, reproduction: bool = False) -> R:
+    """Validate a table as a `model`; `where` is the file named in the InputError; reproduction: every value of it must
+    have its source, as also where the table itself says so."""
+    strict = reproduction or data.get(REPRODUCTION) is True
+    try:
+        return model.model_validate(data, context={REPRODUCTION: strict})
+    except ValidationError as trouble:
+        errors = trouble.errors()
+        # A mistyped key shows up twice, as unknown and as missing: the unknown one is what to mend.
+        first = next((e for e in errors if e["type"] == "extra_forbidden"), errors[0])
+        more = f" (and {len(errors) - 1} more)" if len(errors) > 1 else ""
+        raise InputError(where, _key(dict(first), data), _explain(dict(first), errors) + more) from None
+
+
+def _key(error: dict[str, Any], data: Any) -> str:
+    """The dotted key as the file writes it: pydantic adds the kind of a union's member, which no file has."""
+    parts: list[str] = []
+    location = [part for part in error["loc"] if part != "[key]"]
+    table = data
+    for number, part in enumerate(location):
+        if isinstance(part, int):
+            parts[-1:] = [f"{parts[-1] if parts else ''}[{part}]"]
+            table = table[part] if isinstance(table, list | tuple) and part < len(table) else None
+            continue
+        absent = isinstance(table, dict) and part not in table
+        if absent and not (error["type"] == "missing" and number == len(location) - 1):
+            continue
+        parts.append(str(part))
+        table = table.get(part) if isinstance(table, dict) else None
+    return ".".join(parts)
+
+
+def _short(value: Any, limit: int = 60) -> str:
+    try:
+        text = repr(value)
+    except ValueError:  # an integer of more digits than Python prints
+        return "so large an integer"
+    return text if len(text) <= limit else f"{text[:limit]}..."
+
+
+def _unknown_key(error: dict[str, Any], errors: list[Any]) -> str:
+    parent = error["loc"][:-1]
+    missing = [str(e["loc"][-1]) for e in errors if e["type"] == "missing" and e["loc"][:-1] == parent]
+    name = str(error["loc"][-1])
+    stem = name.split("_", 1)[0]
+    close = difflib.get_close_matches(name, missing, n=1, cutoff=0.5)
+    close = close or [other for other in missing if other.split("_", 1)[0] == stem]
+    if close:
+        return f"unknown key; did you mean '{close[0]}' (the unit is part of the name)?"
+    return "unknown key: remove it or correct its spelling"
+
+
+def _explain(error: dict[str, Any], errors: list[Any]) -> str:
+    value, message = error.get("input"), str(error["msg"])
+    match error["type"]:
+        case "extra_forbidden":
+            return _unknown_key(error, errors)
+        case "missing":
+            explained = "is missing: add it"
+        case "value_error":
+            explained = message.removeprefix("Value error, ")
+        case "string_pattern_mismatch":
+            explained = f"{_short(value)} is no name: use letters, digits, '_', '-', '.', a letter first"
+        case "finite_number":
+            explained = f"{value} is not a finite number: give a number"
+        case _:
+            explained = f"{message[0].lower()}{message[1:]}, not {_short(value)}: correct it"
+    return explained

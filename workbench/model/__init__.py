@@ -1,0 +1,1 @@
+"""What can be stated: laws, references, events, sensing, as expressions and records."""

@@ -1,0 +1,1 @@
+"""A paper's folder: what it has, its study, its tuning, its gains."""

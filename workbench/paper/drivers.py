@@ -1,0 +1,142 @@
+"""Law and MPC of a study driven alike: for tuning with one budget and optimiser, as stated and as tuned."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from workbench.errors import InputError
+from workbench.mpc.controller import KINDS
+from workbench.paper.local_search import Tuned, score, search
+from workbench.paper.mpc_comparison import KINDS_BESIDE
+from workbench.paper.study import Progress, Study, with_values
+from workbench.paper.tuning_record import Pairs, StudyTuning
+from workbench.simulate.closed_loop import NOMINAL, Factors
+from workbench.simulate.process_pool import results_of
+
+# By which names files know the kinds of MPC beside a law.
+MPC_NAMES = {kind.replace(".", "_"): kind for kind in KINDS_BESIDE}
+WEIGHTS = ("position_weight", "speed_weight", "command_weight", "change_weight")
+# What a study changes by itself: of no use where one of its values is changed for tuning.
+_CHANGES = ("changes", "sensitivity", "variants")
+
+
+@dataclass(frozen=True)
+class Drivers:
+    """How the controllers of a paper's study are driven one by one.
+
+    titles: controller -> its name in tables, MPC's begin with `mpc`; places: what a study runs in; stated: parameters
+    of a law that can be tuned; given: the study with others; drive(study, name, place, factors): one run of the train
+    whose mass and resistance differ by the factors from what controllers know, as a row with the keys of a comparison
+    and, of laws that learn, `trials`: an error of every trial, by the metric's name.
+    """
+
+    titles: Mapping[str, str]
+    places: Callable[[Any], tuple[str, ...]]
+    stated: Callable[[Any, str], dict[str, float]]
+    given: Callable[[Any, str, Mapping[str, float]], Any]
+    drive: Callable[[Any, str, str, Factors], dict[str, Any]]
+
+    def parameters(self, study: Any, name: str) -> dict[str, float]:
+        """What can be tuned of a controller, with its stated values."""
+        return self.stated(study, name) if name not in MPC_NAMES else mpc_stated(study, name)
+
+    def with_parameters(self, study: Any, name: str, values: Mapping[str, float]) -> Any:
+        """The study with other parameters of one controller."""
+        if name in MPC_NAMES:
+            return study.model_copy(update={"mpc": study.mpc.model_copy(update=dict(values))})
+        return self.given(study, name, values)
+
+    def tuned(self, study: Any, name: str) -> Any:
+        """The study with what was found for a controller; InputError where nothing was."""
+        if study.tuning is None or name not in study.tuning.found:
+            raise InputError("", f"tuning.found.{name}", "is missing: run 'workbench tune' with --write")
+        return self.with_parameters(study, name, study.tuning.found[name])
+
+
+def mpc_stated(study: Any, name: str) -> dict[str, float]:
+    """The parameters of an MPC beside a law that can be tuned."""
+    keys = (*WEIGHTS, "observer_gain") if "observer_gain" in KINDS[MPC_NAMES[name]].parameters else WEIGHTS
+    return {key: float(getattr(study.mpc, key)) for key in keys}
+
+
+def entries(study: Any, drivers: Drivers) -> tuple[tuple[str, bool], ...]:
+    """Every controller as stated and, where anything was found for it, as tuned; none without MPC or tuning."""
+    if study.mpc is None or study.tuning is None:
+        return ()
+    return tuple((name, tuned) for name in drivers.titles for tuned in (False, True)
+                 if not tuned or name in study.tuning.found)
+
+
+def shortened(study: Any, changes: Mapping[str, Any], where: str) -> Any:
+    """The study with other values, without the changes of its own; ValueError naming `where` for what does not fit."""
+    bare = study.model_copy(update={key: () for key in _CHANGES if hasattr(study, key)})
+    return with_values(bare, changes, where) if changes else bare
+
+
+def tuning_words(tuning: StudyTuning) -> str:
+    """For a table's note: what tuned rows were tuned for, and within which budget."""
+    units = {"position_rms": "position", "speed_rms": "speed", "jerk_rms": "jerk"}
+    parts = " + ".join(f"{units[name]} RMS/{unit:g}" for name, unit in tuning.objective.units.items())
+    return (f"Tuned: by `workbench tune`, {tuning.runs} runs with one optimiser and seed for each controller, to the "
+            f"least {parts}; the paper's parameters stay as their own rows.")
+
+
+def checked(drivers: Drivers) -> Callable[[Any, Path], Any]:
+    """What `StudyKind.located` is for studies with a tuning: InputError for a name, place or value that is none."""
+
+    def check(study: Any, path: Path) -> Any:
+        parts: list[tuple[str, StudyTuning | Pairs | None]] = [("tuning", study.tuning), ("pairs", study.pairs)]
+        for table, part in parts:
+            if part is None:
+                continue
+            if study.mpc is None or study.tuning is None:
+                raise InputError(path, table, "needs the tables [mpc] and [tuning] beside it: add them or remove it")
+            for place in part.places:
+                if place not in drivers.places(study):
+                    raise InputError(path, f"{table}.places", f"'{place}' is none of the study's: choose among "
+                                     f"{', '.join(drivers.places(study))}")
+            try:
+                shortened(study, part.set, f"{table}.set")
+            except ValueError as trouble:
+                raise InputError(path, "", str(trouble)) from None
+        for name, ranges in (study.tuning.ranges if study.tuning else {}).items():
+            if name not in drivers.titles:
+                raise InputError(path, f"tuning.ranges.{name}", "is no controller of the study: choose one of "
+                                 f"{', '.join(drivers.titles)}")
+            for key in ranges:
+                if key not in drivers.parameters(study, name):
+                    raise InputError(path, f"tuning.ranges.{name}.{key}", "is no parameter of this controller: choose "
+                                     f"among {', '.join(drivers.parameters(study, name))}")
+        return study
+
+    return check
+
+
+def tune_with(drivers: Drivers) -> Callable[[Study, list[str], int, Progress], dict[str, Tuned]]:
+    """What `StudyKind.tune` is for studies with these drivers: all names in parallel processes, in their order."""
+
+    def tune(study: Study, names: list[str], workers: int, on_progress: Progress) -> dict[str, Tuned]:
+        return results_of(_tune_one, (drivers, study), names, workers,
+                          lambda done, name, _: on_progress(done, len(names), name))
+
+    return tune
+
+
+def _tune_one(shared: tuple[Drivers, Any], name: str) -> Tuned:
+    (drivers, study), budget = shared, shared[1].tuning
+    short, goal = shortened(study, budget.set, "tuning.set"), budget.objective
+
+    def cost(values: dict[str, float]) -> float:
+        changed = drivers.with_parameters(short, name, values)
+        return sum(score(_finished(drivers.drive(changed, name, place, NOMINAL), goal.units), goal.units, goal.failed)
+                   for place in budget.places) / len(budget.places)
+
+    return search(cost, drivers.parameters(short, name), budget.ranges[name], budget.runs // len(budget.places),
+                  budget.seed, 3 * goal.failed)
+
+
+def _finished(row: Mapping[str, Any], metrics: Mapping[str, float]) -> dict[str, float | None]:
+    return {name: None if row["failed"] is not None else row[name] for name in metrics}

@@ -1,0 +1,64 @@
+"""Found gains in their paper's own simulation, beside the stated ones, with the same metrics."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+from workbench.errors import InputError, WorkbenchError
+from workbench.gains.result import GainReport
+from workbench.gains.stated import Stated
+from workbench.paper.gain_search import Row, Task
+from workbench.paper.loading import Loaded
+from workbench.paper.study import Progress
+from workbench.simulate.process_pool import cores, run_tasks
+
+
+@dataclass(frozen=True)
+class Effect:
+    """What a run gave: SI units; None for a number that a failed run does not have, which `failed` explains."""
+
+    gains: str
+    setting: str
+    numbers: Row
+    failed: str | None
+
+
+def gains_of(loaded: Loaded) -> GainReport:
+    """Conditions, certificates and found gains of a paper; InputError naming file and key, or that it has none."""
+    search = loaded.gain_search()
+    if search is None:
+        raise InputError(loaded.folder, "gains.py", "is missing, or holds no GainSearch: the folder of a paper says "
+                         "there what is searched")
+    try:
+        return search.report(Stated(loaded.path, loaded.data))
+    except WorkbenchError:
+        raise
+    except Exception as trouble:  # a file may be well formed and still leave nothing to search
+        what = " ".join(f"{type(trouble).__name__}: {trouble}".split())
+        raise InputError(loaded.path, "", f"the search of gains fails on its numbers ({what}): take those of the "
+                                          "paper's own file as a model") from trouble
+
+
+def effects(loaded: Loaded, report: GainReport, workers: int | None = None,
+            on_progress: Progress = lambda done, total, what: None) -> tuple[Effect, ...]:
+    """Every found set of gains beside the stated ones, in the order of the paper's tasks."""
+    search = loaded.gain_search()
+    tasks = search.tasks(report) if search else []
+    found: dict[int, Effect] = {}
+
+    def record(result: tuple[int, Effect]) -> None:
+        found[result[0]] = result[1]
+        on_progress(len(found), len(tasks), result[1].gains)
+
+    run_tasks(_run, loaded, list(enumerate(tasks)), workers or cores(), record)
+    return tuple(found[number] for number in range(len(tasks)))
+
+
+def _run(loaded: Loaded, numbered: tuple[int, Task]) -> tuple[int, Effect]:
+    number, task = numbered
+    search = loaded.gain_search()
+    assert search is not None
+    numbers, failed = search.run(loaded, task)
+    finite: Row = {k: None if isinstance(v, float) and not math.isfinite(v) else v for k, v in numbers.items()}
+    return number, Effect(task.gains, task.setting, finite, failed)

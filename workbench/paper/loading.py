@@ -1,0 +1,92 @@
+"""A scenario's or study's file, or the folder of a paper with its study: read once, into a record that travels on."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from workbench.errors import InputError
+from workbench.files.folders import STUDY_FILE, held_in, is_paper
+from workbench.files.toml import read_toml, validate_record
+from workbench.paper.gain_search import GainSearch
+from workbench.paper.study import Study, StudyKind
+from workbench.trains.scenario import Scenario, build_scenario
+
+Kinds = Mapping[str, Callable[[], StudyKind]]
+
+
+@dataclass(frozen=True)
+class Loaded:
+    """What a file states: the table as it was read, and the record that it makes.
+
+    kind: how a study is run; None for a scenario, which states its controllers and needs no code of its own.
+    """
+
+    path: Path
+    data: Mapping[str, Any]
+    record: Scenario | Study
+    kind: StudyKind | None = None
+
+    @property
+    def scenario(self) -> Scenario:
+        """The scenario; InputError for a study."""
+        if isinstance(self.record, Study):
+            raise InputError(self.path, "kind", "is a study, where a scenario is needed: leave `kind` out, or name a "
+                             "scenario")
+        return self.record
+
+    @property
+    def study(self) -> Study:
+        """The study; InputError for a scenario."""
+        if isinstance(self.record, Scenario):
+            raise InputError(self.path, "kind", "is a scenario, where a study is needed: name a study")
+        return self.record
+
+    @property
+    def folder(self) -> Path:
+        """Where the file lies."""
+        return self.path.parent
+
+    def gain_search(self) -> GainSearch | None:
+        """How the paper's gains are looked at; None where its folder has no gains.py that says so."""
+        found = held_in(self.folder, "gains", GainSearch) if is_paper(self.folder) else {}
+        return next(iter(found.values()), None)
+
+
+def study_file(path: Path) -> Path:
+    """The TOML file that a path names: itself, or the study of a paper's folder. Raises InputError without one."""
+    if not path.is_dir():
+        return path
+    if not (path / STUDY_FILE).is_file():
+        raise InputError(path, "", f"has no {STUDY_FILE}, which states the values of its runs: write one, or name a "
+                         "TOML file")
+    return path / STUDY_FILE
+
+
+def load(path: Path, kinds: Kinds | None = None) -> Loaded:
+    """Read a scenario, a study or a paper's folder; kinds: of files that are no paper's, by their `kind`.
+
+    Raises InputError naming file, key and remedy.
+    """
+    path = study_file(path)
+    data, others = read_toml(path), kinds or {}
+    named = data.get("kind")
+    if named is None:
+        return Loaded(path, data, build_scenario(path, data))
+    if named not in ("study", *others):
+        known = ", ".join(repr(kind) for kind in ("study", *others))
+        raise InputError(path, "kind", f"{named!r} is not known: it is one of {known}, or left out for a scenario")
+    kind = study_kind(path) if named == "study" else others[str(named)]()
+    study = validate_record(data, kind.record, path).in_folder(path.parent)
+    return Loaded(path, data, kind.located(study, path) if kind.located else study, kind)
+
+
+def study_kind(path: Path) -> StudyKind:
+    """The record and the run of a study, from the `study` package beside its file; InputError where there is none."""
+    found = held_in(path.parent, "study", StudyKind)
+    if not found:
+        raise InputError(path, "kind", "is 'study', but no study/__init__.py lies beside this file with a StudyKind in "
+                         "it: write one, or leave `kind` out for a scenario")
+    return next(iter(found.values()))

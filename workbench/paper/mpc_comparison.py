@@ -1,0 +1,154 @@
+"""A study's own scenario beside MPC: what MPC knows of the train, its runs in the study's setting, its rows."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import replace
+from typing import Annotated, Any
+
+import numpy as np
+from pydantic import Field, Strict
+
+from workbench.files.numbers import NOTHING, number
+from workbench.files.toml import NonNegative, Positive, SourcedRecord
+from workbench.model.desired_curve import DesiredCurve
+from workbench.mpc.controller import KINDS, MpcController
+from workbench.paper.study import Array, Curve, Plot
+from workbench.simulate.closed_loop import Run, Setting, simulate_in
+from workbench.trains.scenario import ControllerSpec, Interval, Scenario, Simulation
+from workbench.trains.train import Plant, Train
+
+# Offset-free MPC has an observer, the linear one has none and costs the least.
+KINDS_BESIDE = ("mpc.linear", "mpc.offset_free")
+HEADER = ("position RMS (m)", "speed RMS (m/s)", "largest |position error| (m)", "stopping error (m)", "energy (kWh)",
+          "jerk RMS (m/s³)", "saturated", "µs a step")
+JOULE_PER_KWH = 3.6e6
+# Whose speed errs by more (RMS) does not follow: a train that stands still has no jerk.
+FOLLOWS_MPS = 1.0
+# Points of a curve that is kept, and of one that is drawn.
+DRAWN, STRETCHES = 1500, 200
+
+
+class MpcData(SourcedRecord):
+    """MPC beside the paper's laws: sampling, horizon, weights as in `mpc.controller`, and limits that it knows.
+
+    band_m: beyond which position errors are priced.
+    """
+
+    period_s: Interval
+    horizon: Annotated[int, Strict(), Field(ge=2, le=200)]
+    position_weight: Positive
+    speed_weight: Positive
+    command_weight: Positive
+    change_weight: NonNegative
+    band_price: NonNegative
+    band_m: Positive
+    observer_gain: Annotated[float, Strict(), Field(gt=0, le=1, allow_inf_nan=False)]
+    max_traction_mps2: Annotated[float, Strict(), Field(gt=0, le=20, allow_inf_nan=False)]
+    max_braking_mps2: Annotated[float, Strict(), Field(gt=0, le=20, allow_inf_nan=False)]
+
+
+class _OnCurve(Scenario):
+    """A scenario whose desired curve is given, made by `known` alone."""
+
+    drawn: Any = None
+
+    def desired_curve(self) -> DesiredCurve:
+        """The given curve."""
+        found: DesiredCurve = self.drawn
+        return found
+
+
+def known(data: MpcData, curve: DesiredCurve, mass_kg: float, davis_n: tuple[float, float, float],
+          end_s: float) -> Scenario:
+    """What MPC knows: the nominal train on a level line, the desired curve, limits; a controller per kind."""
+    a, b, c = (value / mass_kg for value in davis_n)
+    train = Train.model_construct(
+        mass_kg=mass_kg, davis_a_mps2=a, davis_b_per_s=b, davis_c_per_m=c, max_power_w=None,
+        max_traction_n=data.max_traction_mps2 * mass_kg, max_braking_n=data.max_braking_mps2 * mass_kg)
+    common = {"horizon": float(data.horizon), "band_price": data.band_price, **{
+        f"{name}_weight": getattr(data, f"{name}_weight") for name in ("position", "speed", "command", "change")}}
+    controllers = {}
+    for kind in KINDS_BESIDE:
+        given = common | dict.fromkeys(KINDS[kind].parameters, data.observer_gain)
+        controllers[kind] = ControllerSpec.model_construct(
+            law=kind, title=None, period_s=data.period_s, estimates="corrected", initial={}, neurons=None,
+            parameters=given)
+    simulation = Simulation.model_construct(position_band_m=data.band_m,
+                                            dwell_s=max(0.0, end_s - curve.trip_time_s))
+    return _OnCurve.model_construct(name="beside_mpc", train=train, simulation=simulation, controllers=controllers,
+                                    drawn=curve)
+
+
+def controller(of: Scenario, kind: str) -> MpcController:
+    """An MPC of a kind, for a study whose loop is its own."""
+    return MpcController(of, of.controllers[kind], kind)
+
+
+def run_beside(of: Scenario, kind: str, setting: Setting, plant: Plant | None = None) -> Run:
+    """MPC in a study's setting, under the limits that it knows."""
+    train = of.train
+    limits = (train.max_traction_n, train.max_braking_n, setting.limits[2])
+    return simulate_in(of, kind, replace(setting, nominal_mass_kg=train.mass_kg, limits=limits), plant)
+
+
+def cells(row: Mapping[str, Any]) -> tuple[str, ...]:
+    """A row with the keys of a comparison as the cells of HEADER."""
+    if row["failed"] is not None:
+        return ("fails", *(NOTHING for _ in HEADER[1:-1]), number(row["step_us_median"]))
+    largest = max(abs(row["position_error_min"]), abs(row["position_error_max"]))
+    return tuple(map(number, (
+        row["position_rms"], row["speed_rms"], largest, row["stopping_error"], row["energy_J"] / JOULE_PER_KWH,
+        row["jerk_rms"], row["saturated_fraction"], row["step_us_median"])))
+
+
+def follows(row: Mapping[str, Any]) -> bool:
+    """Whether a run follows the desired curve at all; else its comfort says nothing."""
+    return row["failed"] is None and row["speed_rms"] <= FOLLOWS_MPS
+
+
+def best_words(rows: Sequence[tuple[str, Mapping[str, Any]]], metric: str, what: str) -> str:
+    """Who has the smallest of a metric among (name, row), and the next one behind it, in a sentence's words.
+
+    In jerk those that do not follow the desired curve are left out.
+    """
+    able = sorted((abs(row[metric]), name) for name, row in rows
+                  if row["failed"] is None and (metric != "jerk_rms" or follows(row)))
+    if not able:
+        return f"no run that ends and follows has a {what}" if metric == "jerk_rms" else "no run ends"
+    words = f"{able[0][1]} has the smallest {what}, {number(able[0][0])}"
+    return words + (f", then {able[1][1]} with {number(able[1][0])}" if len(able) > 1 else "")
+
+
+def error_curve(run: Run) -> tuple[Array, Array]:
+    """Times (s) and position errors (m) of a run, thinned and up to where they are finite."""
+    time, error = run.column("t_s"), run.column("s_m") - run.column("s_desired_m")
+    whole = len(error) if np.isfinite(error).all() else int(np.argmin(np.isfinite(error)))
+    keep = slice(None, whole, max(1, len(time) // DRAWN))
+    return time[keep], error[keep]
+
+
+def error_plot(rows: Sequence[tuple[str, Mapping[str, Any]]], where: str) -> Iterator[Plot]:
+    """|Position error| over time of all (name, row) that finish, rows with `curve`; nothing without any.
+
+    The largest of each stretch is drawn: on a logarithmic scale all zeros between would hide the rest.
+    """
+    curves = []
+    for name, row in rows:
+        if row["failed"] is None:
+            time, error = row["curve"]
+            parts = np.array_split(np.arange(len(error)), min(len(error), STRETCHES))
+            largest = np.array([np.abs(error[part]).max() for part in parts])
+            curves.append(Curve(name, np.array([time[part[0]] for part in parts]), largest))
+    if curves:
+        yield Plot(f"Position error beside MPC, {where}", "not in the paper", "time (s)", "|position error| (m)",
+                   tuple(curves), f"The largest of each of {STRETCHES} stretches.", log_y=True)
+
+
+def counters_words(counters: Sequence[Mapping[str, int]]) -> str:
+    """What MPC counted in all runs, for a note."""
+    total: dict[str, int] = {}
+    for of_run in counters:
+        for key, count in of_run.items():
+            total[key] = total.get(key, 0) + count
+    return ", ".join(f"{key} {count}" for key, count in sorted(total.items()) if count) or "nothing"

@@ -1,0 +1,190 @@
+"""Law and MPC on the same drawn trains: paired differences, and which of them are more than chance."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from workbench.files.numbers import number
+from workbench.paper.drivers import Drivers, entries, shortened
+from workbench.paper.mpc_comparison import FOLLOWS_MPS
+from workbench.paper.statistics import Interval, mean_interval, overtakes, resampled
+from workbench.paper.study import Progress, ResultTable
+from workbench.paper.tuning_record import Pairs
+from workbench.simulate.closed_loop import Factors
+from workbench.simulate.process_pool import run_tasks
+
+METRIC_NAMES = {"position_rms": ("position RMS", "m"), "speed_rms": ("speed RMS", "m/s"),
+                "jerk_rms": ("jerk RMS", "m/s³")}
+STATES = {False: "as stated", True: "tuned"}
+
+# (place, controller, whether it is tuned) -> a row a draw
+Drawn = Mapping[tuple[str, str, bool], Sequence[Mapping[str, Any]]]
+Task = tuple[int, str, str, bool]
+
+
+@dataclass(frozen=True)
+class Pair:
+    """A law and an MPC, both as stated or both tuned, over the draws in a place.
+
+    differences: metric -> law less MPC with its interval over the draws in which both end, None where there are not
+    two; means: metric -> of law and of MPC; failed: how many runs of law and of MPC failed; overtakes: metric -> the
+    trial from which on a law that learns is ahead by more than chance, or None.
+    """
+
+    place: str
+    law: str
+    rival: str
+    tuned: bool
+    means: dict[str, tuple[float, float]]
+    differences: dict[str, Interval | None]
+    failed: tuple[int, int]
+    overtakes: dict[str, int | None]
+
+    @property
+    def follow(self) -> tuple[bool, bool]:
+        """Whether law and MPC follow the desired curve: no run fails, and the mean speed RMS is small enough."""
+        speeds = self.means.get("speed_rms", (0.0, 0.0))
+        return (not self.failed[0] and speeds[0] <= FOLLOWS_MPS, not self.failed[1] and speeds[1] <= FOLLOWS_MPS)
+
+    def winner(self, metric: str) -> str | None:
+        """Who has less of a metric by more than chance; one with a run that failed loses to one without.
+
+        In jerk one that does not follow the desired curve loses to one that does.
+        """
+        difference = self.differences[metric]
+        able = self.follow if metric == "jerk_rms" else (not self.failed[0], not self.failed[1])
+        if not all(able) or difference is None:
+            return self.law if able[0] else self.rival if able[1] else None
+        return self.law if difference.high < 0 else self.rival if difference.low > 0 else None
+
+
+def factors_of(pairs: Pairs, draw: int) -> Factors:
+    """Mass and resistance of a draw; of seed and number of the draw alone, so the same for all who drive."""
+    generator = np.random.default_rng(np.random.SeedSequence(pairs.seed, spawn_key=(draw,)))
+    mass, a, b, c = (1 + pairs.spread * generator.uniform(-1.0, 1.0, 4)).tolist()
+    return Factors(mass=mass, davis_a=a, davis_b=b, davis_c=c)
+
+
+def pair_tasks(drivers: Drivers, study: Any) -> list[Task]:
+    """Every controller, as stated and as tuned, on every drawn train; nothing where the file states no pairs."""
+    pairs: Pairs | None = study.pairs
+    return [] if pairs is None else [
+        (draw, place, name, tuned) for draw in range(pairs.draws) for place in pairs.places
+        for name, tuned in entries(study, drivers)]
+
+
+def drawn_rows(drivers: Drivers, study: Any, workers: int, on_progress: Progress, before: int = 0) -> Drawn:
+    """The runs of `pair_tasks`; before: how many runs of the study come before them in its progress."""
+    tasks = pair_tasks(drivers, study)
+    if not tasks:
+        return {}
+    found: dict[Task, Mapping[str, Any]] = {}
+
+    def record(result: tuple[Task, Mapping[str, Any]]) -> None:
+        found[result[0]] = result[1]
+        on_progress(before + len(found), before + len(tasks), f"drawn train {result[0][0] + 1}")
+
+    pairs: Pairs = study.pairs
+    run_tasks(_one, (drivers, shortened(study, pairs.set, "pairs.set")), tasks, workers, record)
+    return {(place, name, tuned): [found[draw, place, name, tuned] for draw in range(pairs.draws)]
+            for place in pairs.places for name, tuned in entries(study, drivers)}
+
+
+def _one(shared: tuple[Drivers, Any], task: Task) -> tuple[Task, Mapping[str, Any]]:
+    (drivers, study), (draw, place, name, tuned) = shared, task
+    driven = drivers.tuned(study, name) if tuned else study
+    return task, drivers.drive(driven, name, place, factors_of(study.pairs, draw))
+
+
+def pairs_of(study: Any, drawn: Drawn) -> tuple[Pair, ...]:
+    """Every law against every MPC in the same state of tuning."""
+    if not drawn:
+        return ()
+    stated, metrics = study.pairs, tuple(study.tuning.objective.units)
+    chosen = resampled(stated.draws, stated.resamples, stated.seed)
+    found = []
+    for place, law, tuned in drawn:
+        for other, rival, state in drawn:
+            if law.startswith("mpc") or not rival.startswith("mpc") or (other, state) != (place, tuned):
+                continue
+            ours, theirs = drawn[place, law, tuned], drawn[place, rival, tuned]
+            ended = [(a, b) for a, b in zip(ours, theirs, strict=True) if a["failed"] is None and b["failed"] is None]
+            failed = tuple(sum(row["failed"] is not None for row in rows) for rows in (ours, theirs))
+            means: dict[str, tuple[float, float]] = {}
+            differences: dict[str, Interval | None] = {}
+            ahead: dict[str, int | None] = {}
+            for metric in metrics:
+                if len(ended) < 2:
+                    differences[metric] = None
+                    continue
+                a, b = (np.array([pair[side][metric] for pair in ended]) for side in (0, 1))
+                means[metric] = float(a.mean()), float(b.mean())
+                differences[metric] = mean_interval(a - b, chosen, stated.confidence)
+                if metric in ended[0][0].get("trials", {}):
+                    trials = np.array([ours["trials"][metric] for ours, _ in ended])
+                    ahead[metric] = overtakes(trials, b, stated.resamples, stated.seed, stated.confidence)
+            found.append(Pair(place, law, rival, tuned, means, differences, (failed[0], failed[1]), ahead))
+    return tuple(found)
+
+
+def _cell(pair: Pair, metric: str, titles: Mapping[str, str], draws: int) -> str:
+    difference, winner = pair.differences[metric], pair.winner(metric)
+    verdict = "no win" if winner is None else titles[winner]
+    failed = " and ".join(f"{titles[name]} fails in {count} of {draws}"
+                          for name, count in zip((pair.law, pair.rival), pair.failed, strict=True) if count)
+    if difference is None:
+        return f"{failed}: {verdict}"
+    if metric == "jerk_rms" and not failed and not all(pair.follow):
+        verdict += " (the other does not follow)" if any(pair.follow) else " (neither follows)"
+    a, b = pair.means[metric]
+    return (f"{number(a)} − {number(b)} = {number(difference.mean)} [{number(difference.low)}, "
+            f"{number(difference.high)}]{f'; {failed}' if failed else ''}: {verdict}")
+
+
+def pair_table(study: Any, drivers: Drivers, pairs: Sequence[Pair], where: Mapping[str, str],
+               note: str = "") -> Iterator[ResultTable]:
+    """A row per place, law, MPC and state of tuning; nothing without pairs. where: place -> words."""
+    if not pairs:
+        return
+    stated, titles = study.pairs, drivers.titles
+    metrics = tuple(pairs[0].differences)
+    learns = any(pair.overtakes for pair in pairs)
+    rows = []
+    for pair in pairs:
+        cells = [_cell(pair, metric, titles, stated.draws) for metric in metrics]
+        if learns:
+            cells.append(", ".join("no" if trial is None else f"{METRIC_NAMES[metric][0]} {trial}"
+                                   for metric, trial in pair.overtakes.items()) or "—")
+        rows.append((where[pair.place], titles[pair.law], titles[pair.rival], STATES[pair.tuned], *cells))
+    header = ("run", "law", "MPC", "parameters", *(f"{METRIC_NAMES[m][0]} ({METRIC_NAMES[m][1]})" for m in metrics))
+    yield ResultTable(
+        "Law less MPC on the same drawn trains", "comparison",
+        (*header, "trial from which on the law is ahead") if learns else header, tuple(rows),
+        f"Means over {stated.draws} trains whose mass and resistance lie within ±{100 * stated.spread:g} % of what "
+        f"MPC knows, their difference with the {100 * stated.confidence:g} % interval of a paired bootstrap, and who "
+        "has less. A difference inside its interval is not called a win. A controller with runs that fail loses to "
+        "one without, and the numbers are of the trains on which both arrive; who errs by more than "
+        f"{FOLLOWS_MPS:g} m/s in speed RMS does not follow and wins nothing in jerk." + (f" {note}" if note else ""))
+
+
+def pair_findings(study: Any, drivers: Drivers, pairs: Sequence[Pair], where: Mapping[str, str]) -> Iterator[str]:
+    """Who wins with which, a sentence per place and law: as stated and as tuned."""
+    for place, law in dict.fromkeys((pair.place, pair.law) for pair in pairs):
+        parts = []
+        for tuned in (False, True):
+            of = [pair for pair in pairs if (pair.place, pair.law, pair.tuned) == (place, law, tuned)]
+            for metric in of[0].differences if of else ():
+                won = [drivers.titles[pair.rival] for pair in of if pair.winner(metric) == law]
+                lost = [drivers.titles[pair.rival] for pair in of if pair.winner(metric) == pair.rival]
+                open_ = [drivers.titles[pair.rival] for pair in of if pair.winner(metric) is None]
+                words = [f"{verb} {' and '.join(names)}" for verb, names in (
+                    ("beats", won), ("loses to", lost), ("is level with", open_)) if names]
+                parts.append(f"{METRIC_NAMES[metric][0]} {STATES[tuned]}: {', '.join(words)}")
+            if of and of[0].failed[0]:
+                parts.append(f"{STATES[tuned]} it fails on {of[0].failed[0]} of them")
+        yield (f"{drivers.titles[law]} on {study.pairs.draws} drawn trains, {where[place]}, "
+               f"±{100 * study.pairs.spread:g} %: {'; '.join(parts)}.")

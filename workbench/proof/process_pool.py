@@ -1,0 +1,143 @@
+"""Who lists and decides claims: this process alone, or several others."""
+
+from __future__ import annotations
+
+import multiprocessing
+import signal
+from collections.abc import Callable, Iterator, Sequence
+from concurrent.futures import Future, ProcessPoolExecutor, as_completed
+from concurrent.futures.process import BrokenProcessPool
+from contextlib import contextmanager
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, Protocol, TypeVar
+
+from workbench.errors import WorkbenchError
+from workbench.proof.cache import Kept
+from workbench.proof.messages import Decided, Listing
+from workbench.simulate.process_pool import follow_parent, single_threaded
+
+if TYPE_CHECKING:
+    from workbench.proof.worker import Worker
+
+WARM_AT_ONCE = 4  # workers that are started before it is known how many claims there are
+
+Task = tuple[Path, str]
+T = TypeVar("T")
+
+
+class Team(Protocol):
+    """Does the same for one worker and for several; raises the error of the first file or claim that has one."""
+
+    def listings(self, paths: Sequence[Path]) -> list[Listing]:
+        """What the files state, in their order."""
+
+    def decided(self, tasks: Sequence[Task], on_progress: Callable[[int], None]) -> list[Decided]:
+        """The claims decided, in the order of the tasks; on_progress(how many) after each."""
+
+
+@contextmanager
+def team(jobs: int, cached: Kept | None) -> Iterator[Team]:
+    """As many workers as that; they are gone when the block is left, at once when it is left by an exception.
+
+    Raises WorkbenchError when one of them dies.
+    """
+    with single_threaded():
+        if jobs == 1:
+            yield _Alone(cached)
+            return
+        others = set(multiprocessing.active_children())
+        pool = ProcessPoolExecutor(jobs, multiprocessing.get_context("spawn"), _start, (cached,))
+        try:
+            yield _Several(pool, jobs)
+        except BaseException as trouble:
+            # Every decision that was finished is in the cache, so nothing is lost with a worker.
+            for process in set(multiprocessing.active_children()) - others:
+                process.kill()
+            if isinstance(trouble, BrokenProcessPool):
+                raise WorkbenchError("a worker process died (out of memory, or killed): run again with fewer, as "
+                                     "with --jobs 1; what was decided is kept") from None
+            raise
+        finally:
+            pool.shutdown(wait=True, cancel_futures=True)
+
+
+class _Alone:
+    def __init__(self, cached: Kept | None) -> None:
+        self.worker = _worker(cached)
+
+    def listings(self, paths: Sequence[Path]) -> list[Listing]:
+        return [self.worker.listing(path) for path in paths]
+
+    def decided(self, tasks: Sequence[Task], on_progress: Callable[[int], None]) -> list[Decided]:
+        done = []
+        for task in tasks:
+            done.append(self.worker.decided(*task))
+            on_progress(len(done))
+        return done
+
+
+class _Several:
+    def __init__(self, pool: ProcessPoolExecutor, jobs: int) -> None:
+        self.pool, self.jobs = pool, jobs
+
+    def listings(self, paths: Sequence[Path]) -> list[Listing]:
+        # Workers without a file of their own import one that others list: they will need it to decide its claims.
+        at_once = max(len(paths), min(self.jobs, WARM_AT_ONCE))
+        with _interruption_held():
+            futures = [self.pool.submit(_listing, paths[i % len(paths)]) for i in range(at_once)]
+        return _in_order(futures[: len(paths)], lambda done: None)
+
+    def decided(self, tasks: Sequence[Task], on_progress: Callable[[int], None]) -> list[Decided]:
+        with _interruption_held():
+            futures = [self.pool.submit(_decided, task) for task in tasks]
+        return _in_order(futures, on_progress)
+
+
+def _in_order(futures: list[Future[T]], on_progress: Callable[[int], None]) -> list[T]:
+    """The results; of several errors the first in this order, however the work was spread."""
+    place = {future: i for i, future in enumerate(futures)}
+    needed = len(futures)
+    for done, future in enumerate(as_completed(futures), 1):
+        if not future.cancelled() and future.exception() is not None:
+            needed = min(needed, place[future])
+            for later in futures[needed + 1:]:
+                later.cancel()
+        if needed < len(futures) and all(f.done() for f in futures[:needed]):
+            break
+        on_progress(done)
+    return [future.result() for future in futures]
+
+
+@contextmanager
+def _interruption_held() -> Iterator[None]:
+    """Hold Ctrl-C back while processes are started, in them too: it is for this process to end them."""
+    if not hasattr(signal, "pthread_sigmask"):
+        yield
+        return
+    before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
+    try:
+        yield
+    finally:
+        signal.pthread_sigmask(signal.SIG_SETMASK, before)
+
+
+def _worker(cached: Kept | None) -> Worker:
+    from workbench.proof.worker import Worker  # noqa: PLC0415 - only those who decide need sympy and the deciders
+
+    return Worker(cached)
+
+
+_here: list[Any] = []
+
+
+def _start(cached: Kept | None) -> None:
+    follow_parent()
+    _here[:] = [_worker(cached)]
+
+
+def _listing(path: Path) -> Any:
+    return _here[0].listing(path)
+
+
+def _decided(task: Task) -> Any:
+    return _here[0].decided(*task)

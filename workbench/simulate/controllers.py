@@ -1,0 +1,52 @@
+"""All controllers by id: laws that are compiled whole, and controllers that are called once a sample."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Protocol
+
+import sympy as sp
+
+from workbench.model.law import ControlLaw
+from workbench.model.laws import law_named, laws_near
+from workbench.mpc.controller import KINDS
+from workbench.mpc.tracking import TrackingMpc
+from workbench.trains.scenario import ControllerSpec, Scenario
+
+_held = sp.Symbol("u_held", real=True)
+held_command = ControlLaw(
+    id="held", title="held command", source="zero-order hold", information="full state, nominal model",
+    command=_held, parameters=(_held,),
+)
+
+
+class SampledController(Protocol):
+    """A controller that is called once a sample; it counts its troubles in `counters` and never raises."""
+
+    title: str
+    information: str
+    counters: dict[str, int]
+
+    def command(self, time_s: float, position_m: float, speed_mps: float) -> float:
+        """The command u = F/m in m/s^2 for the sample at time_s."""
+        ...
+
+
+SAMPLED: dict[str, Callable[[Scenario, ControllerSpec, str], SampledController]] = {
+    "mpc.tracking": TrackingMpc,
+    **KINDS,
+}
+
+
+def compiled_law(scenario: Scenario, spec: ControllerSpec) -> ControlLaw | None:
+    """The law of a controller that is compiled whole; None for one that is called once a sample, and unknown ones."""
+    return None if spec.law in SAMPLED else law_named(spec.law, scenario.folder)
+
+
+def known_laws(scenario: Scenario) -> str:
+    """All laws that a scenario may name, those of a paper or family with its name once: `mpc.linear | nonlinear`."""
+    families: dict[str, list[str]] = {}
+    for law in (*laws_near(scenario.folder), *SAMPLED):
+        family, dot, own = law.partition(".")
+        families.setdefault(family + dot, []).append(own)
+    return ", ".join(family + " | ".join(members) for family, members in families.items())

@@ -1,0 +1,87 @@
+"""A run as numbers: the row that `workbench compare` writes (SI units)."""
+
+from __future__ import annotations
+
+from dataclasses import asdict, dataclass
+
+import numpy as np
+
+from workbench.simulate.closed_loop import Run
+from workbench.trains.scenario import Scenario
+
+
+@dataclass(frozen=True)
+class Metrics:
+    """One row of a comparison. Errors are measured minus desired, extrema over every plant step.
+
+    energy_J: traction work at the wheel, braking not recovered; jerk_rms: of the acceleration over windows
+    of the log's spacing; saturated_fraction: of samples whose force was at a limit; limit_violations: plant
+    steps outside the position band; failed: why the run ended early, or None. Of a failed run the extrema
+    hold up to its end, and what only a whole run has (RMS, stopping error, energy, jerk) is NaN, in rows None.
+    step_us: a compiled law is timed in blocks of 1,000 samples, plant included; MPC call by call, plant
+    excluded.
+    """
+
+    controller: str
+    position_error_min: float
+    position_error_max: float
+    speed_error_min: float
+    speed_error_max: float
+    position_rms: float
+    speed_rms: float
+    stopping_error: float
+    energy_J: float
+    jerk_rms: float
+    saturated_fraction: float
+    limit_violations: int
+    step_us_median: float
+    step_us_p99: float
+    deadline_misses: int
+    failed: str | None
+    command_max: float
+    command_min: float
+    speed_min: float
+    time_of_max_position_error: float
+    counters: dict[str, int]
+
+    @property
+    def largest_position_error(self) -> float:
+        """Largest |position error|, m."""
+        return max(abs(self.position_error_min), abs(self.position_error_max))
+
+    def row(self) -> dict[str, object]:
+        """The row as plain data; numbers of a run that failed before its first sample are None."""
+        return {key: None if isinstance(value, float) and not np.isfinite(value) else value
+                for key, value in asdict(self).items()}
+
+
+def measure(run: Run, scenario: Scenario) -> Metrics:
+    """The metrics of a scenario's run."""
+    return measure_run(run, scenario.track.length_m)
+
+
+def measure_run(run: Run, length_m: float) -> Metrics:
+    """The metrics of a run that should end after length_m."""
+    total = run.totals
+    whole = np.nan if run.failed else 1.0  # what only makes sense for a whole run is no number for a failed one
+    samples = max(1.0, total["samples"])
+    # The log's rows are a whole number of plant steps apart, which log_every_s need not be.
+    spacing = np.diff(run.column("t_s")[:2])
+    jerk = np.diff(run.column("v_mps"), 2) / spacing**2
+    return Metrics(
+        controller=run.controller,
+        position_error_min=total["position_error_min"], position_error_max=total["position_error_max"],
+        speed_error_min=total["speed_error_min"], speed_error_max=total["speed_error_max"],
+        position_rms=whole * float(np.sqrt(total["position_error_square_sum"] / samples)),
+        speed_rms=whole * float(np.sqrt(total["speed_error_square_sum"] / samples)),
+        stopping_error=whole * (run.final_position_m - length_m),
+        energy_J=whole * total["traction_work_j"],
+        jerk_rms=whole * (float(np.sqrt(np.mean(jerk**2))) if len(jerk) else 0.0),
+        saturated_fraction=total["saturated_samples"] / max(1.0, total["commands"]),
+        limit_violations=int(total["band_violations"]),
+        step_us_median=float(np.median(run.step_us)), step_us_p99=float(np.percentile(run.step_us, 99)),
+        deadline_misses=int(np.sum(run.step_us > run.period_s * 1e6)),
+        failed=run.failed, command_max=total["command_max_mps2"], command_min=total["command_min_mps2"],
+        speed_min=total["speed_min_mps"], time_of_max_position_error=total["time_of_max_position_error_s"],
+        counters=run.counters,
+    )

@@ -1,0 +1,238 @@
+"""A scenario: train, line, desired curve, limits, sampling, controllers and the paper's printed values."""
+
+from __future__ import annotations
+
+import copy
+from itertools import pairwise
+from pathlib import Path
+from typing import Annotated, Any, Literal, Self
+
+from pydantic import BeforeValidator, Field, PrivateAttr, Strict, model_validator
+
+from workbench.errors import InputError, WorkbenchError
+from workbench.files.toml import (
+    REPRODUCTION,
+    Count,
+    Name,
+    NonNegative,
+    Number,
+    Positive,
+    Record,
+    SourcedRecord,
+    Text,
+    read_toml,
+    validate_record,
+)
+from workbench.model.curve_table import TableCurve
+from workbench.model.desired_curve import CruiseSpeed, DavisCruise, DesiredCurve, build_curve
+from workbench.model.events import Disturbance, Failure, Mode
+from workbench.trains.track import Track, load_track
+from workbench.trains.train import Train
+
+MOST_LOG_ROWS = 10_000_000
+
+# Between two samples or two rows of the log; bounded so that a slip of the pen is no run of years.
+Interval = Annotated[float, Strict(), Field(ge=1e-5, le=3600, allow_inf_nan=False)]
+
+
+class Simulation(SourcedRecord):
+    """Plant step, duration beyond the desired curve, and the position band that is watched."""
+
+    plant_step_s: Annotated[float, Strict(), Field(ge=1e-5, le=0.1, allow_inf_nan=False)]
+    dwell_s: Annotated[float, Strict(), Field(ge=0, le=3600, allow_inf_nan=False)]
+    position_band_m: Positive
+    log_every_s: Interval
+    initial_position_m: Annotated[float, Strict(), Field(ge=-1e4, le=1e4, allow_inf_nan=False)] = 0.0
+
+
+class NeuronGrid(SourcedRecord):
+    """Where the hidden neurons stand: `count` centers evenly along the first input, the others fixed."""
+
+    count: Annotated[int, Strict(), Field(ge=1, le=100_000)]
+    first_center: Number
+    last_center: Number
+    other_centers: tuple[Number, ...] = ()
+    width: Positive
+
+
+class ControllerSpec(SourcedRecord):
+    """One controller of a scenario: which law, its sampling period, its parameters and initial values."""
+
+    law: Text
+    title: Text | None = None
+    period_s: Interval
+    parameters: dict[str, Number] = Field(default_factory=dict)
+    initial: dict[str, Number] = Field(default_factory=dict)
+    estimates: Literal["corrected", "explicit"] = "corrected"
+    neurons: NeuronGrid | None = None
+
+
+class Uncertainty(SourcedRecord):
+    """Monte Carlo: every named factor is drawn uniformly from 1 - spread to 1 + spread."""
+
+    runs: Count
+    seed: Annotated[int, Strict(), Field(ge=0)]
+    spread: Annotated[float, Strict(), Field(ge=0, lt=1, allow_inf_nan=False)]
+    factors: tuple[Literal["mass", "davis_a", "davis_b", "davis_c", "line_resistance"], ...]
+
+
+class PrintedRow(Record):
+    """A row of the paper's comparison table."""
+
+    controller: Text
+    position_error_m: tuple[Number, Number]
+    speed_error_mps: tuple[Number, Number]
+    stopping_accuracy_m: NonNegative
+
+
+class PrintedTable(Record):
+    """A table of the paper that the runs are held against, and why they differ as far as that was measured."""
+
+    source: Text
+    rows: tuple[PrintedRow, ...]
+    reasons: tuple[Text, ...] = ()
+
+
+class PrintedValue(Record):
+    """A single number the paper prints, and the metric it is held against."""
+
+    source: Text
+    controller: Text
+    metric: Text
+    value: Number
+    unit: Text
+
+
+class Variant(Record):
+    """One change of an assumed value, to see how much it matters: dotted key -> value.
+
+    controllers: those whose run it changes; none named means all.
+    """
+
+    title: Text
+    set: dict[str, Any]
+    controllers: tuple[Text, ...] = ()
+
+
+def known_version(value: Any) -> Any:
+    """The version of a file's format as it is; ValueError for one that this workbench does not read."""
+    if type(value) is not int or value != 1:
+        raise ValueError(f"{value!r} is not known: this workbench reads version = 1")
+    return value
+
+
+class Scenario(Record):
+    """Everything a run needs, with the source of every value."""
+
+    version: Annotated[int, BeforeValidator(known_version)]
+    name: Name
+    title: Text
+    paper: Text
+    citation: Text
+    track: Track
+    train: Train
+    reference: Annotated[DavisCruise | CruiseSpeed | TableCurve, Field(discriminator="kind")]
+    simulation: Simulation
+    disturbance: Disturbance
+    modes: tuple[Mode, ...] = ()
+    failures: tuple[Failure, ...] = ()
+    controllers: dict[Name, ControllerSpec]
+    uncertainty: Uncertainty
+    printed_table: PrintedTable | None = None
+    printed_values: tuple[PrintedValue, ...] = ()
+    variants: tuple[Variant, ...] = ()
+    reproduction: Annotated[bool, Strict()] = False
+    _folder: Path = PrivateAttr(default=Path())
+
+    @property
+    def folder(self) -> Path:
+        """Where the file lies from which the scenario comes: names of laws are looked up from there."""
+        return self._folder
+
+    def in_folder(self, folder: Path) -> Self:
+        """The same scenario as if its file lay in a folder."""
+        found = self.model_copy()
+        found._folder = folder
+        return found
+
+    @model_validator(mode="after")
+    def _parts_fit_together(self) -> Self:
+        if not self.controllers:
+            raise ValueError("controllers: none given: add a [controllers.<name>] table")
+        step = self.simulation.plant_step_s
+        for name, spec in self.controllers.items():
+            ratio = spec.period_s / step
+            if round(ratio) < 1 or abs(ratio - round(ratio)) > 1e-9 * ratio:
+                raise ValueError(f"controllers.{name}.period_s = {spec.period_s:g} is not a whole number of "
+                                 f"plant steps of {step:g} s: choose a multiple")
+        starts = [mode.from_s for mode in self.modes]
+        if starts != sorted(set(starts)):
+            raise ValueError("modes: from_s does not increase from mode to mode: order them by time")
+        for mode, following in pairwise(self.modes):
+            if mode.from_s + mode.grade_ramp_s > following.from_s:
+                raise ValueError(f"modes: the grade that grows from {mode.from_s:g} s on is not there yet when the "
+                                 f"next mode begins at {following.from_s:g} s: shorten grade_ramp_s")
+        rows = self.printed_table.rows if self.printed_table else ()
+        printed = [("printed_table", row.controller) for row in rows]
+        printed += [("printed_values", value.controller) for value in self.printed_values]
+        printed += [("variants", name) for variant in self.variants for name in variant.controllers]
+        for key, name in printed:
+            if name not in self.controllers:
+                raise ValueError(f"{key}: '{name}' is no controller of this scenario: "
+                                 f"choose one of {', '.join(self.controllers)}")
+        return self
+
+    def desired_curve(self) -> DesiredCurve:
+        """The desired curve over the whole line, for the nominal train."""
+        if isinstance(self.reference, TableCurve):
+            return self.reference.curve(self.track.length_m)
+        train = self.train
+        davis = (train.davis_a_mps2, train.davis_b_per_s, train.davis_c_per_m)
+        return build_curve(self.reference, self.track.length_m, davis)
+
+
+def load_scenario(path: Path) -> Scenario:
+    """Load a scenario from TOML, its line from the file it names; raises InputError naming file and key."""
+    return build_scenario(path, read_toml(path))
+
+
+def build_scenario(path: Path, data: dict[str, Any], like: Scenario | None = None) -> Scenario:
+    """The scenario of a file that has been read already; raises InputError naming file and key.
+
+    like: a scenario of the same file, whose line and table are taken where they are the same.
+    """
+    line, reproduction = data.get("track"), data.get(REPRODUCTION) is True
+    if not isinstance(line, str):
+        raise InputError(path, "track", "name the line's TOML file, relative to this one")
+    track = like.track if like else load_track(path.parent / line, reproduction)
+    scenario = validate_record(data | {"track": track}, Scenario, path).in_folder(path.parent)
+    if isinstance(scenario.reference, TableCurve):
+        same = like and isinstance(like.reference, TableCurve) and like.reference.file == scenario.reference.file
+        reference = like.reference if like and same else scenario.reference.read(path.parent)
+        scenario = scenario.model_copy(update={"reference": reference})
+    try:
+        curve = scenario.desired_curve()
+    except WorkbenchError as trouble:
+        raise InputError(path, "reference", str(trouble)) from None
+    rows = (curve.trip_time_s + scenario.simulation.dwell_s) / scenario.simulation.log_every_s
+    if rows > MOST_LOG_ROWS:
+        raise InputError(path, "simulation.log_every_s", f"gives {rows:.0f} rows for a run of "
+                         f"{curve.trip_time_s:.0f} s, more than {MOST_LOG_ROWS}: log less often")
+    return scenario
+
+
+def changed_scenario(path: Path, data: dict[str, Any], variant: Variant, like: Scenario) -> Scenario:
+    """The scenario of a file with one variant's values set; raises InputError when a key does not exist.
+
+    data: the file as it was read, which is left as it is; like: its scenario.
+    """
+    changed = copy.deepcopy(data)
+    for key, value in variant.set.items():
+        *parents, last = key.split(".")
+        table: Any = changed
+        for parent in parents:
+            table = table.get(parent) if isinstance(table, dict) else None
+        if not isinstance(table, dict) or last not in table:
+            raise InputError(path, f"variants: {key}", "no such key: name a value that the scenario states")
+        table[last] = value
+    return build_scenario(path, changed, None if "track" in variant.set else like)

@@ -1,0 +1,187 @@
+"""A line as sections of grade, curve and tunnel, and the additional resistance they cause (yang2021 (3))."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from itertools import pairwise
+from pathlib import Path
+from typing import Annotated, Self
+
+import numpy as np
+import sympy as sp
+from numpy.typing import NDArray
+from pydantic import Field, Strict, model_validator
+
+from workbench.files.toml import NonNegative, Number, Positive, Record, SourcedRecord, Text, load_record
+
+STANDARD_GRAVITY_MPS2 = 9.80665
+
+grade_permille, curvature_per_m, tunnel_n_per_kn = sp.symbols("i kappa w_s", real=True)
+
+
+def additional_specific_resistance() -> sp.Expr:
+    """Resistance of grade, curve (600/R) and tunnel in N per kg of train, of (i, 1/R, w_s); yang2021 (3).
+
+    The curve term 600/R N/kN with R in m is the usual empirical one; straight track is 1/R = 0.
+    """
+    per_kilonewton = grade_permille + 600 * curvature_per_m + tunnel_n_per_kn
+    return sp.Rational(str(STANDARD_GRAVITY_MPS2)) * per_kilonewton / 1000
+
+
+def roeckl_specific_resistance() -> sp.Expr:
+    """The same with Roeckl's resistance of curves, 650/(R - 55) N/kN from R = 300 m on and 500/(R - 30) below.
+
+    The handbook form for standard gauge, R in m (for example D. Wende, Fahrdynamik des Schienenverkehrs, 2003).
+    The two branches do not meet: at R = 300 m they give 2.65 and 1.85 N/kN.
+    """
+    wide = 650 * curvature_per_m / (1 - 55 * curvature_per_m)
+    sharp = 500 * curvature_per_m / (1 - 30 * curvature_per_m)
+    curve = sp.Piecewise((wide, curvature_per_m <= sp.Rational(1, 300)), (sharp, True))
+    return sp.Rational(str(STANDARD_GRAVITY_MPS2)) * (grade_permille + curve + tunnel_n_per_kn) / 1000
+
+
+class Section(Record):
+    """A stretch of line from start_m to end_m."""
+
+    start_m: NonNegative
+    end_m: Positive
+
+    @model_validator(mode="after")
+    def _ends_after_its_start(self) -> Self:
+        if self.end_m <= self.start_m:
+            raise ValueError(f"end_m = {self.end_m:g} must be greater than start_m = {self.start_m:g}")
+        return self
+
+
+class GradeSection(Section):
+    """Constant grade in per mille, rising positive; plausible to +-100."""
+
+    grade_permille: Annotated[float, Strict(), Field(ge=-100, le=100, allow_inf_nan=False)]
+
+
+class CurveSection(Section):
+    """Constant curve radius in m; straight track is written radius_m = inf."""
+
+    radius_m: Annotated[float, Strict(), Field(gt=0, allow_inf_nan=True)]
+
+    @model_validator(mode="after")
+    def _plausible_radius(self) -> Self:
+        if not self.radius_m >= 50:
+            raise ValueError(
+                f"radius_m = {self.radius_m:g} is not a railway curve: give at least 50 (metres), or inf"
+            )
+        return self
+
+
+class TunnelSection(Section):
+    """Tunnel with its additional air resistance in N per kN of train weight."""
+
+    resistance_n_per_kn: NonNegative
+
+
+class SpeedSection(Section):
+    """Speed limit in m/s, from start_m to end_m."""
+
+    speed_mps: Annotated[float, Strict(), Field(gt=0, le=200, allow_inf_nan=False)]
+
+
+class Track(SourcedRecord):
+    """A line: grade and curve cover it without gap or overlap; tunnels may leave gaps (open air).
+
+    speed_limit, where given, covers it too. stops_m: where trains may stop, ends included; without it, the ends alone.
+    """
+
+    name: Text
+    length_m: Annotated[float, Strict(), Field(gt=0, le=1e8, allow_inf_nan=False)]
+    grade: tuple[GradeSection, ...]
+    curve: tuple[CurveSection, ...]
+    tunnel: tuple[TunnelSection, ...] = ()
+    speed_limit: tuple[SpeedSection, ...] = ()
+    stops_m: tuple[NonNegative, ...] = ()
+
+    @model_validator(mode="after")
+    def _sections_cover_the_line(self) -> Self:
+        _require_cover("grade", self.grade, self.length_m)
+        _require_cover("curve", self.curve, self.length_m)
+        _require_order("tunnel", self.tunnel, self.length_m)
+        if "speed_limit" in self.model_fields_set:
+            _require_cover("speed_limit", self.speed_limit, self.length_m)
+        if "stops_m" in self.model_fields_set:
+            ends = (self.stops_m[0], self.stops_m[-1]) if self.stops_m else ()
+            if ends != (0.0, self.length_m) or any(b <= a for a, b in pairwise(self.stops_m)):
+                raise ValueError(f"stops_m: must increase from 0 to length_m = {self.length_m:g}: sort them, "
+                                 "and name both ends")
+        return self
+
+
+def _require_order(kind: str, sections: Sequence[Section], length_m: float) -> None:
+    for number, (one, two) in enumerate(pairwise(sections), start=1):
+        if two.start_m < one.start_m:
+            raise ValueError(f"{kind}[{number}]: positions must increase, but {two.start_m:g} m comes after "
+                             f"{one.start_m:g} m: sort the sections")
+        if two.start_m < one.end_m:
+            raise ValueError(f"{kind}[{number}]: overlap from {two.start_m:g} m to {one.end_m:g} m: "
+                             f"let each section start where the one before ends")
+    if sections and sections[-1].end_m > length_m:
+        raise ValueError(f"{kind}[{len(sections) - 1}]: ends at {sections[-1].end_m:g} m, "
+                         f"beyond length_m = {length_m:g}: shorten it or correct length_m")
+
+
+def _require_cover(kind: str, sections: Sequence[Section], length_m: float) -> None:
+    if not sections:
+        raise ValueError(f"{kind}: no section given: cover the line from 0 to {length_m:g} m")
+    _require_order(kind, sections, length_m)
+    reached = 0.0
+    for number, section in enumerate(sections):
+        if section.start_m > reached:
+            raise ValueError(f"{kind}[{number}]: gap from {reached:g} m to {section.start_m:g} m: "
+                             f"let each section start where the one before ends")
+        reached = section.end_m
+    if reached < length_m:
+        raise ValueError(f"{kind}: gap from {reached:g} m to the end of the line at {length_m:g} m: "
+                         f"lengthen the last section or correct length_m")
+
+
+@dataclass(frozen=True)
+class ResistanceTable:
+    """Piecewise-constant additional resistance: value k holds from position_m[k] to position_m[k+1].
+
+    position_m: shape (n,), m, increasing from 0; specific_force: shape (n,), N per kg, opposing motion.
+    """
+
+    position_m: NDArray[np.float64]
+    specific_force: NDArray[np.float64]
+
+    def at(self, position_m: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Resistance in N per kg at positions in m; the end values hold beyond the line's ends."""
+        index = np.clip(np.searchsorted(self.position_m, position_m, side="right") - 1, 0, None)
+        return self.specific_force[index]
+
+
+def resistance_table(track: Track) -> ResistanceTable:
+    """The additional resistance of `track` by section, from `additional_specific_resistance`."""
+    layers: tuple[Sequence[Section], ...] = (track.grade, track.curve, track.tunnel)
+    borders = {edge for layer in layers for s in layer for edge in (s.start_m, s.end_m)}
+    starts = np.array(sorted(edge for edge in borders if edge < track.length_m))
+    resistance = sp.lambdify((grade_permille, curvature_per_m, tunnel_n_per_kn),
+                             additional_specific_resistance())
+    values = [
+        resistance(
+            next(s.grade_permille for s in track.grade if s.start_m <= x < s.end_m),
+            1 / next(s.radius_m for s in track.curve if s.start_m <= x < s.end_m),
+            next((s.resistance_n_per_kn for s in track.tunnel if s.start_m <= x < s.end_m), 0.0),
+        )
+        for x in starts
+    ]
+    return ResistanceTable(starts, np.array(values, dtype=float))
+
+
+def load_track(path: Path, reproduction: bool = False) -> Track:
+    """Load a line from TOML; raises InputError naming file and key. reproduction: every value needs its source."""
+    return load_record(path, Track, reproduction)
+
+
+__all__ = ["STANDARD_GRAVITY_MPS2", "CurveSection", "GradeSection", "Number", "ResistanceTable", "Section",
+           "SpeedSection", "Track", "TunnelSection", "additional_specific_resistance", "load_track", "resistance_table",
+           "roeckl_specific_resistance"]
