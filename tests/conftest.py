@@ -3,6 +3,7 @@
 import os
 from pathlib import Path
 
+import papers_import  # noqa: F401 - tests import from proofs
 import pytest
 from hypothesis import settings
 

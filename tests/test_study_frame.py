@@ -15,7 +15,8 @@ from workbench.cli import app as cli
 from workbench.errors import InputError
 from workbench.files.toml import Positive, SourcedRecord
 from workbench.paper import registry
-from workbench.paper.study import Curve, Plot, ResultTable, Study, StudyKind, StudyResult
+from workbench.paper.results import Curve, Plot, ResultTable, StudyResult
+from workbench.paper.study import Study, StudyKind
 from workbench.report.build import build_study_report, run_study, study_document
 from workbench.report.sources import sourced_values
 from workbench.report.study_figures import study_plot

@@ -27,7 +27,7 @@ from workbench.paper.drivers import Drivers, entries, shortened, tune_with
 from workbench.paper.local_search import score, search
 from workbench.paper.mpc_comparison import FOLLOWS_MPS, best_words
 from workbench.paper.pairs import drawn_rows, factors_of, pair_findings, pair_table, pairs_of
-from workbench.paper.study import ResultTable
+from workbench.paper.results import ResultTable
 from workbench.report.study_figures import study_plot
 from workbench.simulate.closed_loop import NOMINAL, Factors, simulate_in
 

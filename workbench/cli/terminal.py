@@ -17,7 +17,7 @@ from workbench.proof.verdict import VERDICTS
 
 if TYPE_CHECKING:
     from workbench.paper.contents import Contents
-    from workbench.paper.study import ResultTable, StudyResult
+    from workbench.paper.results import ResultTable, StudyResult
 
 out_console = Console()
 err_console = Console(stderr=True)
@@ -116,9 +116,9 @@ def result_table(found: ResultTable) -> Table:
     """A study's table as it is, its source beside its title."""
     table = Table(title=escape(f"{found.title} ({found.source})"), title_justify="left", box=SIMPLE_HEAD,
                   pad_edge=False)
-    for heading in found.header:
+    for heading in found.headings:
         table.add_column(escape(heading), overflow="fold")
-    for row in found.rows:
+    for row in found.text:
         table.add_row(*map(escape, row))
     return table
 

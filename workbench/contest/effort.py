@@ -10,7 +10,7 @@ import numpy as np
 from workbench.contest.entrants import held_samples
 from workbench.contest.matches import Entry, Match
 from workbench.files.numbers import number
-from workbench.paper.study import ResultTable
+from workbench.paper.results import ResultTable
 from workbench.simulate.controllers import SAMPLED
 from workbench.trains.scenario import Scenario
 

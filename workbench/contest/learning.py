@@ -11,8 +11,8 @@ from workbench.contest.entrants import follows_curve, learns
 from workbench.contest.matches import of
 from workbench.contest.tables import Told
 from workbench.files.numbers import number
+from workbench.paper.results import Curve, Plot, ResultTable
 from workbench.paper.statistics import overtakes
-from workbench.paper.study import Curve, Plot, ResultTable
 
 # Of `Played.trials`: column, heading, metric of a whole run.
 ERRORS = ((0, "position RMS", "position_rms", "m"), (1, "speed RMS", "speed_rms", "m/s"))

@@ -14,7 +14,7 @@ from workbench.files.numbers import number
 from workbench.mpc.controller import MpcController
 from workbench.mpc.disturbance import Unknown, largest_bound, needed_bound
 from workbench.mpc.tube import Tube, TubeMpc
-from workbench.paper.study import ResultTable
+from workbench.paper.results import ResultTable
 from workbench.trains.scenario import Scenario
 from workbench.trains.track import resistance_table
 

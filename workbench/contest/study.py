@@ -22,7 +22,8 @@ from workbench.contest.tune import tune_all
 from workbench.errors import InputError
 from workbench.files.numbers import number
 from workbench.paper.local_search import Tuned
-from workbench.paper.study import Curve, Plot, Progress, StudyKind, StudyResult
+from workbench.paper.results import Curve, Plot, StudyResult
+from workbench.paper.study import Progress, StudyKind
 from workbench.trains.scenario import Scenario, load_scenario
 
 

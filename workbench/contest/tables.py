@@ -13,8 +13,8 @@ from workbench.contest.entrants import follows_curve, held_samples, information
 from workbench.contest.matches import METRICS, OF_CURVE, Entry, Match, entries, of
 from workbench.contest.record import Contest
 from workbench.files.numbers import number
+from workbench.paper.results import ResultTable
 from workbench.paper.statistics import mean_interval, resampled, winners
-from workbench.paper.study import ResultTable
 from workbench.trains.scenario import Scenario
 
 HEADINGS = {"position_rms": "position RMS (m)", "speed_rms": "speed RMS (m/s)",

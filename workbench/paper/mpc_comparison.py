@@ -13,7 +13,7 @@ from workbench.files.numbers import NOTHING, number
 from workbench.files.toml import NonNegative, Positive, SourcedRecord
 from workbench.model.desired_curve import DesiredCurve
 from workbench.mpc.controller import KINDS, MpcController
-from workbench.paper.study import Array, Curve, Plot
+from workbench.paper.results import Array, Curve, Plot
 from workbench.simulate.closed_loop import Run, Setting, simulate_in
 from workbench.trains.scenario import ControllerSpec, Interval, Scenario, Simulation
 from workbench.trains.train import Plant, Train

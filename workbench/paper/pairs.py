@@ -11,8 +11,9 @@ import numpy as np
 from workbench.files.numbers import number
 from workbench.paper.drivers import Drivers, entries, shortened
 from workbench.paper.mpc_comparison import FOLLOWS_MPS
+from workbench.paper.results import ResultTable
 from workbench.paper.statistics import Interval, mean_interval, overtakes, resampled
-from workbench.paper.study import Progress, ResultTable
+from workbench.paper.study import Progress
 from workbench.paper.tuning_record import Pairs
 from workbench.simulate.closed_loop import Factors
 from workbench.simulate.process_pool import run_tasks

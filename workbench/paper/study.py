@@ -2,24 +2,21 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, Literal, Self, TypeVar
 
-import numpy as np
-from numpy.typing import NDArray
 from pydantic import BeforeValidator, PrivateAttr, Strict, ValidationError
 
 from workbench.files.toml import Name, Record, Text
+from workbench.paper.results import StudyResult
 from workbench.trains.scenario import known_version
 
 if TYPE_CHECKING:
     from workbench.model.desired_curve import DesiredCurve
     from workbench.paper.tracking import Tracked
 
-Array = NDArray[np.float64]
 # (runs finished, runs in all, what was run last)
 Progress = Callable[[int, int, str], None]
 
@@ -67,80 +64,6 @@ def with_values(study: S, values: Mapping[str, Any], where: str) -> S:
     except ValidationError as trouble:
         first = trouble.errors()[0]
         raise ValueError(f"{where}: {'.'.join(map(str, first['loc']))}: {first['msg']}: correct it") from None
-
-
-@dataclass(frozen=True)
-class Curve:
-    """One curve of a plot: x and y of the same length, in the units of the plot's labels.
-
-    One whose label begins with `desired` or `printed` is drawn broad and faint, beneath the others.
-    Raises ValueError for what is no curve: other lengths, no point, a value that is not finite.
-    """
-
-    label: str
-    x: Array
-    y: Array
-
-    def __post_init__(self) -> None:
-        if self.x.ndim != 1 or self.x.shape != self.y.shape or not self.x.size:
-            raise ValueError(f"curve '{self.label}' has {self.x.shape} values of x and {self.y.shape} of y")
-        if not (np.isfinite(self.x).all() and np.isfinite(self.y).all()):
-            raise ValueError(f"curve '{self.label}' has values that are not finite: end it where its run failed")
-
-
-@dataclass(frozen=True)
-class Plot:
-    """A figure of the paper, run again: what it shows, its axes with their units, its curves.
-
-    source: the figure it stands for (`paper, Figure 5`) or what it adds.
-    """
-
-    title: str
-    source: str
-    x_label: str
-    y_label: str
-    curves: tuple[Curve, ...]
-    note: str = ""
-    log_y: bool = False
-    log_x: bool = False
-
-
-@dataclass(frozen=True)
-class ResultTable:
-    """A table of results: its header and rows as text; printed and obtained values stand side by side in it."""
-
-    title: str
-    source: str
-    header: tuple[str, ...]
-    rows: tuple[tuple[str, ...], ...]
-    note: str = ""
-
-    def __post_init__(self) -> None:
-        for row in self.rows:
-            if len(row) != len(self.header) or {"nan", "inf", "-inf"} & set(row):
-                raise ValueError(f"table '{self.title}': the row {row} does not fit its header, or has no number")
-
-
-@dataclass(frozen=True)
-class StudyResult:
-    """What a study found.
-
-    rows: one a run, with the keys of `workbench compare` where they make sense, and more; plain data, None for
-    a number that a failed run does not have. findings: what a reader should know, a sentence each, every number
-    in it taken from the runs. failures: (run, why) of runs that ended early.
-    """
-
-    rows: tuple[dict[str, Any], ...]
-    tables: tuple[ResultTable, ...]
-    plots: tuple[Plot, ...]
-    findings: tuple[str, ...]
-    failures: tuple[tuple[str, str], ...] = ()
-
-    def __post_init__(self) -> None:
-        for row in self.rows:
-            wrong = [key for key, value in row.items() if isinstance(value, float) and not math.isfinite(value)]
-            if wrong:
-                raise ValueError(f"row {row}: {wrong[0]} is not finite: say None for what a run does not have")
 
 
 @dataclass(frozen=True)

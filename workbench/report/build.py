@@ -15,7 +15,8 @@ from workbench.files.json_output import write_json
 from workbench.gains.result import GainReport
 from workbench.paper.gain_effects import effects, gains_of
 from workbench.paper.loading import Loaded
-from workbench.paper.study import Study, StudyResult
+from workbench.paper.results import StudyResult
+from workbench.paper.study import Study
 from workbench.proof.document import Places, claims_document, write_certificates
 from workbench.proof.prove import prove
 from workbench.proof.selection import Target, targets
@@ -159,8 +160,9 @@ def run_study(loaded: Loaded, workers: int | None = None, on_progress: Progress 
 
 def study_document(study: Study, result: StudyResult) -> dict[str, Any]:
     """The document of `workbench compare --json` of a study."""
-    tables = [{"title": t.title, "source": t.source, "note": t.note, "header": list(t.header),
-               "rows": [list(row) for row in t.rows]} for t in result.tables]
+    tables = [{"title": t.title, "source": t.source, "note": t.note, "header": list(t.headings),
+               "rows": [list(row) for row in t.text], "units": [column.unit for column in t.columns],
+               "values": [list(row) for row in t.values]} for t in result.tables]
     failures = [{"run": run, "why": why} for run, why in result.failures]
     return {"version": 1, "scenario": study.name, "rows": list(result.rows), "tables": tables,
             "findings": list(result.findings), "failures": failures}

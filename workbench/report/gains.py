@@ -9,7 +9,7 @@ from typing import Any
 from workbench.files.numbers import exact, number
 from workbench.gains.result import GainReport, GainSet
 from workbench.paper.gain_effects import Effect
-from workbench.paper.study import ResultTable, StudyResult
+from workbench.paper.results import ResultTable, StudyResult
 
 LONG = 12  # characters of a fraction that is shown as it is
 APART = 1.02  # by what factor numbers differ that are said to

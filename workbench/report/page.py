@@ -9,7 +9,7 @@ from typing import Any
 from markupsafe import Markup
 
 from workbench.files.numbers import length
-from workbench.paper.study import StudyResult
+from workbench.paper.results import StudyResult
 from workbench.report import figures, headline, tables
 from workbench.report.claims import claim_views
 from workbench.report.sources import sourced_values

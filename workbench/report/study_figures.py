@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from matplotlib.figure import Figure
 
-from workbench.paper.study import Plot
+from workbench.paper.results import Plot
 from workbench.report.svg import FAINT, PALETTE, drawing, svg, thin
 
 UNDERNEATH = ("desired", "printed")

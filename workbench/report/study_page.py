@@ -12,7 +12,8 @@ from typing import Any
 from markupsafe import Markup
 
 from workbench.errors import InputError
-from workbench.paper.study import Plot, Study, StudyResult
+from workbench.paper.results import Plot, StudyResult
+from workbench.paper.study import Study
 from workbench.report import headline
 from workbench.report.claims import claim_views
 from workbench.report.sources import sourced_values

@@ -7,7 +7,7 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
 from workbench.files.numbers import NOTHING
-from workbench.paper.study import ResultTable, StudyResult
+from workbench.paper.results import ResultTable, StudyResult
 
 _NUMBER = re.compile(r"[-+−±≤≥<>~≈\[(]*\s*[\d∞]")
 WORDY = 18  # a cell of more letters is words, and may be broken
@@ -47,7 +47,7 @@ def caption(title: str, source: str, note: str) -> str:
 
 
 def _view(anchor: str, table: ResultTable) -> TableView:
-    columns = list(zip(*table.rows, strict=True)) if table.rows else [() for _ in table.header]
+    columns = list(zip(*table.text, strict=True)) if table.rows else [() for _ in table.header]
     return TableView(anchor, table, caption(table.title, table.source, table.note), tuple(map(_kind, columns)))
 
 

@@ -8,7 +8,8 @@ import numpy as np
 
 from workbench.paper.drivers import checked, tune_with
 from workbench.paper.pairs import drawn_rows, pair_findings, pair_table, pair_tasks, pairs_of
-from workbench.paper.study import Progress, StudyKind, StudyResult
+from workbench.paper.results import StudyResult
+from workbench.paper.study import Progress, StudyKind
 from workbench.simulate.process_pool import run_tasks
 
 from .cars_trials import CarsRun

@@ -12,7 +12,7 @@ from workbench.files.numbers import NOTHING, number
 from workbench.mpc.multi_car import MultiCarMpc
 from workbench.paper.drivers import Drivers, entries, tuning_words
 from workbench.paper.mpc_comparison import JOULE_PER_KWH, best_words
-from workbench.paper.study import Curve, Plot, ResultTable
+from workbench.paper.results import Curve, Plot, ResultTable
 from workbench.simulate.closed_loop import NOMINAL, Factors
 
 from .. import laws as paper

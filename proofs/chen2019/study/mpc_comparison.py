@@ -15,7 +15,7 @@ from workbench.files.numbers import number
 from workbench.mpc.car_model import CarTrain
 from workbench.mpc.multi_car import CarWeights, MultiCarMpc
 from workbench.paper.mpc_comparison import JOULE_PER_KWH, counters_words
-from workbench.paper.study import ResultTable
+from workbench.paper.results import ResultTable
 from workbench.trains import multi_particle as of_train
 
 from .. import laws as law

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from workbench.files.numbers import number
-from workbench.paper.study import Curve, Plot
+from workbench.paper.results import Curve, Plot
 
 from .cars_trials import CarsRun
 from .outcomes import Found, allowed_change, cef_change, difference, grows_from, outcome, position_error, speed_error

@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from workbench.files.numbers import NOTHING, fixed, number
-from workbench.paper.study import ResultTable
+from workbench.paper.results import ResultTable
 
 from .. import laws as law
 from .cars_trials import Array, CarsRun

@@ -12,7 +12,7 @@ from workbench.files.numbers import NOTHING, number
 from workbench.mpc.controller import KINDS
 from workbench.paper.drivers import MPC_NAMES, Drivers, entries, tuning_words
 from workbench.paper.mpc_comparison import best_words
-from workbench.paper.study import Curve, Plot, ResultTable
+from workbench.paper.results import Curve, Plot, ResultTable
 from workbench.simulate.closed_loop import NOMINAL, Factors
 
 from ..laws import TRIAL_LAWS

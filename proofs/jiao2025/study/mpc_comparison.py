@@ -14,7 +14,7 @@ from workbench.model.curve_table import Row, curve_through
 from workbench.model.desired_curve import DesiredCurve
 from workbench.mpc.controller import KINDS
 from workbench.paper.mpc_comparison import KINDS_BESIDE, controller, counters_words, known
-from workbench.paper.study import ResultTable
+from workbench.paper.results import ResultTable
 from workbench.simulate.closed_loop import NOMINAL, Factors
 
 from .. import laws as paper

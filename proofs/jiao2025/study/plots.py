@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from workbench.files.numbers import number
-from workbench.paper.study import Curve, Plot
+from workbench.paper.results import Curve, Plot
 
 from ..laws import TRIAL_LAWS
 from .cases import PRINTED_LAWS, Case, Reading, desired_trip, lengths, plan

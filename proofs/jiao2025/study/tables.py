@@ -7,7 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from workbench.files.numbers import NOTHING, number
-from workbench.paper.study import ResultTable
+from workbench.paper.results import ResultTable
 
 from ..laws import TRIAL_LAWS
 from .cases import PRINTED_LAWS, Case, concerns, desired_trip

@@ -6,7 +6,8 @@ from typing import Any
 
 from workbench.paper.drivers import checked, tune_with
 from workbench.paper.pairs import drawn_rows, pair_findings, pair_table, pair_tasks, pairs_of
-from workbench.paper.study import Progress, StudyKind, StudyResult
+from workbench.paper.results import StudyResult
+from workbench.paper.study import Progress, StudyKind
 from workbench.simulate.process_pool import results_of
 
 from .cases import Found, cases, title_of

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from workbench.paper.study import Curve, Plot
+from workbench.paper.results import Curve, Plot
 
 from ..laws import LAWS
 from .cases import ALL_COLUMNS, Found

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from workbench.files.numbers import exact, number
-from workbench.paper.study import ResultTable
+from workbench.paper.results import ResultTable
 
 from ..laws import LAWS
 from .cases import ALL_COLUMNS, SIGN_LAWS, TABLE_4_LAWS, TABLE_LAWS, Found

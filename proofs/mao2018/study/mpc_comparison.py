@@ -10,7 +10,7 @@ from workbench.files.numbers import number
 from workbench.mpc.controller import KINDS
 from workbench.paper.drivers import MPC_NAMES, entries, tuning_words
 from workbench.paper.mpc_comparison import HEADER, KINDS_BESIDE, best_words, cells, counters_words, error_plot
-from workbench.paper.study import Plot, ResultTable
+from workbench.paper.results import Plot, ResultTable
 
 from .drivers import DRIVERS, LAW, row_of, run_case
 from .outcomes import Found

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from workbench.model.events import failure_rows
-from workbench.paper.study import Curve, Plot
+from workbench.paper.results import Curve, Plot
 from workbench.simulate.kernel_loop import term
 
 from .numbers import failures_of

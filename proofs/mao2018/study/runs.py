@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from workbench.model.law import ControlLaw
-from workbench.paper.study import Curve
+from workbench.paper.results import Curve
 from workbench.simulate.closed_loop import Run, run_law
 from workbench.simulate.metrics import measure_run
 

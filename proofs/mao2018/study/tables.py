@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from workbench.paper.study import ResultTable
+from workbench.paper.results import ResultTable
 
 from .outcomes import Found, ended, kilonewtons, largest, left, length, settled
 from .runs import Obtained, event_times

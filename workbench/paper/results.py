@@ -1,0 +1,114 @@
+"""What a study found, as data: rows, tables, figures, findings."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from workbench.paper.cells import Cell, Column, cell_text, cell_value, is_finite
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Curve:
+    """One curve of a plot: x and y of the same length, in the units of the plot's labels.
+
+    One whose label begins with `desired` or `printed` is drawn broad and faint, beneath the others.
+    Raises ValueError for what is no curve: other lengths, no point, a value that is not finite.
+    """
+
+    label: str
+    x: Array
+    y: Array
+
+    def __post_init__(self) -> None:
+        if self.x.ndim != 1 or self.x.shape != self.y.shape or not self.x.size:
+            raise ValueError(f"curve '{self.label}' has {self.x.shape} values of x and {self.y.shape} of y")
+        if not (np.isfinite(self.x).all() and np.isfinite(self.y).all()):
+            raise ValueError(f"curve '{self.label}' has values that are not finite: end it where its run failed")
+
+
+@dataclass(frozen=True)
+class Plot:
+    """A figure of the paper, run again: what it shows, its axes with their units, its curves.
+
+    source: the figure it stands for (`paper, Figure 5`) or what it adds.
+    """
+
+    title: str
+    source: str
+    x_label: str
+    y_label: str
+    curves: tuple[Curve, ...]
+    note: str = ""
+    log_y: bool = False
+    log_x: bool = False
+
+
+@dataclass(frozen=True)
+class ResultTable:
+    """A table of results; printed and obtained values stand side by side in it.
+
+    header: a Column each, plain text for one of words or of cells that bring their own unit; rows: numbers in SI,
+    words, or both together. Raises ValueError for a row that does not fit and a number that is not finite.
+    """
+
+    title: str
+    source: str
+    header: tuple[Column | str, ...]
+    rows: tuple[tuple[Cell, ...], ...]
+    note: str = ""
+
+    def __post_init__(self) -> None:
+        for row in self.rows:
+            if len(row) != len(self.header) or not all(map(is_finite, row)):
+                raise ValueError(f"table '{self.title}': the row {row} does not fit its header, or has no number")
+
+    @property
+    def columns(self) -> tuple[Column, ...]:
+        """What each column holds."""
+        return tuple(column if isinstance(column, Column) else Column(column) for column in self.header)
+
+    @property
+    def headings(self) -> tuple[str, ...]:
+        """The header as it is shown."""
+        return tuple(column.heading for column in self.columns)
+
+    @property
+    def text(self) -> tuple[tuple[str, ...], ...]:
+        """The rows as they are shown."""
+        return tuple(tuple(cell_text(cell, column) for cell, column in zip(row, self.columns, strict=True))
+                     for row in self.rows)
+
+    @property
+    def values(self) -> tuple[tuple[Any, ...], ...]:
+        """The rows for programs: numbers in the units of their columns."""
+        return tuple(tuple(cell_value(cell, column) for cell, column in zip(row, self.columns, strict=True))
+                     for row in self.rows)
+
+
+@dataclass(frozen=True)
+class StudyResult:
+    """What a study found.
+
+    rows: one a run, with the keys of `workbench compare` where they make sense, and more; plain data, None for
+    a number that a failed run does not have. findings: what a reader should know, a sentence each, every number
+    in it taken from the runs. failures: (run, why) of runs that ended early.
+    """
+
+    rows: tuple[dict[str, Any], ...]
+    tables: tuple[ResultTable, ...]
+    plots: tuple[Plot, ...]
+    findings: tuple[str, ...]
+    failures: tuple[tuple[str, str], ...] = ()
+
+    def __post_init__(self) -> None:
+        for row in self.rows:
+            wrong = [key for key, value in row.items() if isinstance(value, float) and not math.isfinite(value)]
+            if wrong:
+                raise ValueError(f"row {row}: {wrong[0]} is not finite: say None for what a run does not have")
