@@ -12,6 +12,7 @@ from workbench.files.numbers import number
 from workbench.paper.drivers import Drivers, entries, shortened
 from workbench.paper.mpc_comparison import FOLLOWS_MPS
 from workbench.paper.results import ResultTable
+from workbench.paper.stages import Stage
 from workbench.paper.statistics import Interval, mean_interval, overtakes, resampled
 from workbench.paper.study import Progress
 from workbench.paper.tuning_record import Pairs
@@ -76,6 +77,26 @@ def pair_tasks(drivers: Drivers, study: Any) -> list[Task]:
     return [] if pairs is None else [
         (draw, place, name, tuned) for draw in range(pairs.draws) for place in pairs.places
         for name, tuned in entries(study, drivers)]
+
+
+def pair_stage(drivers: Drivers, study: Any) -> Stage:
+    """The runs of `pair_tasks` as a stage of the study; no task where the file states no pairs."""
+    tasks = pair_tasks(drivers, study)
+    shared = (drivers, shortened(study, study.pairs.set, "pairs.set")) if tasks else None
+    return Stage(_drive, shared, tasks, lambda task, _: f"drawn train {task[0] + 1}")
+
+
+def _drive(shared: tuple[Drivers, Any], task: Task) -> Mapping[str, Any]:
+    (drivers, study), (draw, place, name, tuned) = shared, task
+    return drivers.drive(drivers.tuned(study, name) if tuned else study, name, place, factors_of(study.pairs, draw))
+
+
+def compared_pairs(drivers: Drivers, study: Any, results: Mapping[Task, Mapping[str, Any]]) -> tuple[Pair, ...]:
+    """Every law against every MPC in the same state of tuning, from the results of `pair_stage`."""
+    return pairs_of(study, {(place, name, tuned): [results[draw, place, name, tuned]
+                                                   for draw in range(study.pairs.draws)]
+                            for place in study.pairs.places for name, tuned in entries(study, drivers)}
+                    if results else {})
 
 
 def drawn_rows(drivers: Drivers, study: Any, workers: int, on_progress: Progress, before: int = 0) -> Drawn:
