@@ -25,7 +25,7 @@ from workbench.paper.gain_search import GainSearch, Row, Task, changes_of
 from workbench.paper.loading import Loaded
 from workbench.proof.claim import Goal, at_least, at_most
 
-from . import laws as law
+from . import laws, plant
 from .study import outcomes
 from .study.cases import Case, Change, JiaoStudy, changed, plan
 from .study.trials import run_trials
@@ -55,21 +55,21 @@ def train_of(stated: Stated, reading: str) -> Train:
     """By (1), (3), (17): 1 - a = (T_s/M)(b_1 + b_2 (v_i + v_prev)) at the ends of speed and coefficients."""
     step, mass = stated.number(f"readings.{reading}.step_s"), stated.number("train.mass_kg")
     unit = stated.number(f"readings.{reading}.unit_n")
-    top = max(law.desired_speed(at, i) for i, (low, high, _) in enumerate(law.desired_pieces) for at in (low, high))
-    numbers = {law.T_s: rational(step), law.M: rational(mass)}
-    slope = sp.diff(law.next_speed(law.v_i, law.u_i), law.v_i).xreplace(numbers)  # at v: a for v_i = v_prev = v
+    top = max(plant.desired_speed(at, i) for i, (low, high, _) in enumerate(plant.desired_pieces) for at in (low, high))
+    numbers = {plant.T_s: rational(step), plant.M: rational(mass)}
+    slope = sp.diff(plant.next_speed(plant.v_i, plant.u_i), plant.v_i).xreplace(numbers)  # at v: a for v_i = v_prev = v
     ends = []
     for sign, speed in ((1, top), (-1, sp.Integer(0))):
-        at = {b: mean + sign * swing for b, (mean, swing) in law.davis_newton.items()} | {law.v_i: speed}
+        at = {b: mean + sign * swing for b, (mean, swing) in plant.davis_newton.items()} | {plant.v_i: speed}
         ends.append(fraction(slope.xreplace({s: sp.sympify(v, strict=True) for s, v in at.items()})))
-    b = sp.diff(law.next_speed(law.v_i, law.unit * law.u_i), law.u_i).xreplace(numbers | {law.unit: rational(unit)})
+    b = sp.diff(plant.next_speed(plant.v_i, plant.unit * plant.u_i), plant.u_i).xreplace(numbers | {plant.unit: rational(unit)})
     return Train(ends[1], ends[0], fraction(b))
 
 
 def gain(train: Train, rho: Fraction, lamda: Fraction, estimate: Fraction) -> Fraction:
     """g of (14) with a fixed estimate."""
-    values = {law.rho: rational(rho), law.lamda: rational(lamda)}
-    return train.b * fraction(law.input_step(rational(estimate), sp.Integer(1)).xreplace(values))
+    values = {laws.rho: rational(rho), laws.lamda: rational(lamda)}
+    return train.b * fraction(laws.input_step(rational(estimate), sp.Integer(1)).xreplace(values))
 
 
 # --- certificates ---------------------------------------------------------------------------------------------------

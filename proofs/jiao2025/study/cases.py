@@ -17,13 +17,13 @@ from workbench.paper.mpc_comparison import MpcData
 from workbench.paper.study import Study
 from workbench.paper.tuning_record import Pairs, StudyTuning
 
-from .. import laws as paper
+from .. import laws, plant
 from ..laws import TRIAL_LAWS
 from .trials import Array, TrialPlan
 
 GRAVITY = 9.80665
-_speed_at = numeric((paper.k,), paper.desired_curve)
-_additional = numeric((paper.slope_coefficient, paper.slope_angle), paper.additional_resistance)
+_speed_at = numeric((plant.k,), plant.desired_curve)
+_additional = numeric((plant.slope_coefficient, plant.slope_angle), plant.additional_resistance)
 PRINTED_LAWS = ("jiao2025.icfdl", "jiao2025.pd")
 
 Trial = Annotated[int, Strict(), Field(ge=1, le=10_000)]
@@ -247,7 +247,7 @@ def concerns(variant: Change, law_id: str) -> bool:
     """Whether a variant changes anything that a law's run depends on."""
     law = TRIAL_LAWS[law_id]
     used = {"first_input", *map(str, law.parameters)}
-    used |= {"first_estimate"} if law.next_estimate != paper.phi_first else set()
+    used |= {"first_estimate"} if law.next_estimate != laws.phi_first else set()
     return any(not key.startswith("learning.") or key.removeprefix("learning.") in used for key in variant.set)
 
 
@@ -260,7 +260,7 @@ def plan(study: JiaoStudy, case: Case) -> TrialPlan:
     desired, positions = desired_trip(study, reading)
     law = TRIAL_LAWS[case.law]
     learning = study.learning
-    estimate = learning.kept_estimate if law is paper.fixed_estimate else learning.first_estimate
+    estimate = learning.kept_estimate if law is laws.fixed_estimate else learning.first_estimate
     fractions = [0.0, *(section.end_fraction for section in study.line.sections)]
     return TrialPlan(
         law=case.law, parameters={str(s): getattr(learning, str(s)) for s in law.parameters},

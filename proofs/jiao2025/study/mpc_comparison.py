@@ -17,7 +17,7 @@ from workbench.paper.mpc_comparison import KINDS_BESIDE, controller, counters_wo
 from workbench.paper.results import ResultTable
 from workbench.simulate.closed_loop import NOMINAL, Factors
 
-from .. import laws as paper
+from .. import plant
 from ..laws import TRIAL_LAWS
 from .cases import PRINTED_LAWS, Case, JiaoStudy, plan
 from .outcomes import Found, mse, outcome
@@ -76,7 +76,7 @@ def run_one(study: JiaoStudy, task: Task, factors: Factors = NOMINAL) -> Beside:
     of = true_plan(study, Case(name, PRINTED_LAWS[0], study.trials.seed), factors)
     assert data is not None
     data = data.model_copy(update={"period_s": of.step_s})
-    mean = [float(pair[0]) / stated.divisor for pair in paper.davis_newton.values()]
+    mean = [float(pair[0]) / stated.divisor for pair in plant.davis_newton.values()]
     curve = _curve(of.desired, of.step_s)
     mpc = controller(known(data, curve, stated.mass_kg, (mean[0], mean[1], mean[2]), curve.trip_time_s), kind)
     kernel, train = trial_kernel(PRINTED_LAWS[0], False), np.array([of.step_s, of.mass_kg, of.unit_n, of.divisor])

@@ -13,16 +13,16 @@ from numpy.typing import NDArray
 
 from workbench.compile.kernel import function_source, loop_module
 
-from .. import laws as paper
+from .. import laws, plant
 from ..laws import TRIAL_LAWS
 from . import trial_loop
 from .trial_loop import MOST_SPEED_MPS, SAMPLE_COLUMNS, SEEN_BY, TRIAL_COLUMNS, WORKING
 
 Array = NDArray[np.float64]
 
-_PLANT = (paper.T_s, paper.M, paper.unit, paper.divisor)
-_DATA = (paper.u_prev, paper.phi_prev, paper.phi_first, paper.Delta_u, paper.Delta_v, paper.e_next, paper.e_now,
-         paper.gamma, paper.gamma_prev2)
+_PLANT = (plant.T_s, plant.M, plant.unit, plant.divisor)
+_DATA = (plant.u_prev, laws.phi_prev, laws.phi_first, laws.Delta_u, laws.Delta_v, laws.e_next, laws.e_now,
+         laws.gamma, laws.gamma_prev2)
 
 
 @dataclass(frozen=True)
@@ -82,10 +82,10 @@ class TrialRun:
 def trial_kernel(law_id: str, opposed: bool) -> ModuleType:
     """The compiled loop of a law with the train, and its `learn_trial`."""
     law = TRIAL_LAWS[law_id]
-    speed = paper.step_speed_opposed if opposed else paper.step_speed
+    speed = plant.step_speed_opposed if opposed else plant.step_speed
     return loop_module(f"{law.source} and jiao2025 (1)-(3), (17)", [
-        function_source("step_speed", (paper.v_i, paper.u_i, paper.f_a, paper.k), _PLANT, [speed]),
-        function_source("step_position", (paper.s_i, paper.v_i), _PLANT, [paper.step_position]),
+        function_source("step_speed", (plant.v_i, plant.u_i, plant.f_a, plant.k), _PLANT, [speed]),
+        function_source("step_position", (plant.s_i, plant.v_i), _PLANT, [plant.step_position]),
         function_source("learn", _DATA, law.parameters, [law.next_input, law.next_estimate]),
     ], trial_loop)
 
