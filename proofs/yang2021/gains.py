@@ -33,7 +33,8 @@ from workbench.trains.scenario import Variant, changed_scenario
 from workbench.trains.train import a_star, b_star, c_star, f, single_particle_per_mass, u
 
 from . import laws as law
-from . import paper as claims
+from . import lyapunov
+from .error_dynamics import STATED_F_STAR, e_1, e_2, eps_star, epsilon, flow
 
 Values = dict[sp.Expr, sp.Expr]
 POSITION_M, SPEED_MPS = Fraction(1, 5), Fraction(3, 10)
@@ -51,14 +52,14 @@ def stated_values(stated: Stated) -> Values:
         s: rational(x) for s, x in zip(STARS, davis, strict=True)}
 
 
-def mu_of(proof: Any, values: Values) -> sp.Expr:
+def mu_of(values: Values) -> sp.Expr:
     """The decay rate (49)."""
-    return min(r.right.xreplace(values) for r in proof.slowest)
+    return min(r.right.xreplace(values) for r in lyapunov.slowest)
 
 
-def offset(proof: Any, values: Values, f_star: sp.Expr) -> sp.Expr:
+def offset(values: Values, f_star: sp.Expr) -> sp.Expr:
     """l of (50) without network: W* = 0, eps* = f*."""
-    return proof.l_stated.xreplace({proof.W_star_square: sp.Integer(0), proof.eps_star: f_star}).xreplace(values)
+    return lyapunov.l_stated.xreplace({lyapunov.W_star_square: sp.Integer(0), eps_star: f_star}).xreplace(values)
 
 
 def start_level(stated: Stated, values: Values) -> sp.Expr:
@@ -68,7 +69,7 @@ def start_level(stated: Stated, values: Values) -> sp.Expr:
     return sum((w**2 / (2 * values[lam]) for w, lam in zip(wrong, LAMBDAS, strict=True)), sp.Integer(0))
 
 
-def mean_square(proof: Any, values: Values, f_star: sp.Expr, share: Fraction, label: str) -> tuple[Quantity, Any]:
+def mean_square(values: Values, f_star: sp.Expr, share: Fraction, label: str) -> tuple[Quantity, Any]:
     """The best bound of the mean of e_2^2 along the loop itself: V' <= -q e_2^2 + l, q = (1 - share) beta.
 
     Unlike (51) it asks nothing of the estimates' decay, which at the stated gains is what makes (53) useless.
@@ -77,17 +78,17 @@ def mean_square(proof: Any, values: Values, f_star: sp.Expr, share: Fraction, la
     q = values[law.beta] - spent
     gains = {s: values[s] for s in GAINS}  # the train's coefficients stay symbols: the certificate holds for any
     of_leak = sum((gains[s] * x**2 / 4 for s, x in zip(SIGMAS, STARS, strict=True)), sp.Integer(0))
-    l_mean = proof.eps_star**2 / (4 * spent) + proof.W_star_square / 4 + of_leak
-    flow = {s: rate.xreplace(gains) for s, rate in proof.flow.items()}
-    rate, e_1, e_2 = D(proof.V.xreplace(gains)), proof.e_1, proof.e_2
+    l_mean = eps_star**2 / (4 * spent) + lyapunov.W_star_square / 4 + of_leak
+    along = {s: rate.xreplace(gains) for s, rate in flow.items()}
+    rate = D(lyapunov.V.xreplace(gains))
     barrier = values[law.alpha] * e_1**2 / (values[law.k] ** 2 - e_1**2)
-    inside = proof.inside.subs(values)
+    inside = lyapunov.inside.subs(values)
     claim = f"yang2021:mean_square.{label}"
     certificate = goal_certificate(claim, Goal(
-        (at_most(rate, -q * e_2**2 + l_mean),), (inside, *proof.error_bound), flow, lemmas=(
-            at_most(proof.epsilon**2, proof.eps_star**2), at_most(rate, -barrier - q * e_2**2 + l_mean))))
-    bound = l_mean.xreplace({proof.W_star_square: sp.Integer(0), proof.eps_star: f_star}).xreplace(values) / q
-    ultimate = sp.sqrt(2 * offset(proof, values, f_star) / mu_of(proof, values))
+        (at_most(rate, -q * e_2**2 + l_mean),), (inside, *lyapunov.error_bound), along, lemmas=(
+            at_most(epsilon**2, eps_star**2), at_most(rate, -barrier - q * e_2**2 + l_mean))))
+    bound = l_mean.xreplace({lyapunov.W_star_square: sp.Integer(0), eps_star: f_star}).xreplace(values) / q
+    ultimate = sp.sqrt(2 * offset(values, f_star) / mu_of(values))
     return Quantity(f"root mean square of e_2 in the long run, {label}", "m/s", float(ultimate), float(sp.sqrt(bound)),
                     claim, note="the paper's: its ultimate bound sqrt(2 l/mu) of (53)"), certificate
 
@@ -132,7 +133,7 @@ def proved_gains(found: dict[Any, sp.Rational], values: Values) -> Values:
         s: 1 / lambdas[lam] for s, lam in zip(SIGMAS, LAMBDAS, strict=True)}
 
 
-def wanted_bounds(proof: Any, stated: Stated, values: Values, f_star: sp.Expr) -> dict[str, Any]:
+def wanted_bounds(stated: Stated, values: Values, f_star: sp.Expr) -> dict[str, Any]:
     """The certificate that these gains keep |e_1| <= 0.2 m and |e_1'| <= 0.3 m/s at all times, from the stated start.
 
     V(0) and l/mu are at most LEVEL, so V is (theorem1.zeta); then e_2^2 <= 2 V and e_1^2 <= k^2 (1 - exp(-2 V))
@@ -141,8 +142,8 @@ def wanted_bounds(proof: Any, stated: Stated, values: Values, f_star: sp.Expr) -
     level = rational(LEVEL)
     reach = rational(simplest(float(values[law.k]) * (1 - np.exp(-2 * float(level))) ** 0.5 * 1.001, 5e-4))
     fast = rational(simplest((2 * float(level)) ** 0.5 * 1.001, 5e-4))
-    slowest = tuple(r.subs(values | {proof.mu: mu_of(proof, values)}) for r in proof.slowest)
-    shown = (*slowest, at_most(offset(proof, values, f_star), mu_of(proof, values) * level),
+    slowest = tuple(r.subs(values | {lyapunov.mu: mu_of(values)}) for r in lyapunov.slowest)
+    shown = (*slowest, at_most(offset(values, f_star), mu_of(values) * level),
              at_most(start_level(stated, values), level),
              at_most(values[law.k] ** 2 * (1 - sp.exp(-2 * level)), reach**2), at_most(2 * level, fast**2),
              at_most(reach, rational(POSITION_M)), at_most(fast + values[law.alpha] * reach, rational(SPEED_MPS)))
@@ -184,9 +185,9 @@ def delay_margin_s(values: Values, speed: Fraction) -> float:
     return float(np.radians(phase_deg) / crossover)
 
 
-def _conditions(proof: Any, values: Values, f_star: sp.Expr) -> list[Condition]:
-    mu = mu_of(proof, values)
-    level = offset(proof, values, f_star) / mu
+def _conditions(values: Values, f_star: sp.Expr) -> list[Condition]:
+    mu = mu_of(values)
+    level = offset(values, f_star) / mu
     most = values[law.k] * sp.sqrt(1 - sp.exp(-2 * level))
     speed = sp.sqrt(2 * level) + values[law.alpha] * most
     return [
@@ -201,24 +202,20 @@ def _conditions(proof: Any, values: Values, f_star: sp.Expr) -> list[Condition]:
 
 def report(stated: Stated) -> GainReport:
     """Conditions and bounds at the stated gains, and gains whose certified bounds meet 0.2 m and 0.3 m/s."""
-    proof = claims
     values = stated_values(stated)
-    stated_at = next(claim for claim in proof.paper.claims if claim.id == "yang2021:A2").at
-    assert stated_at is not None
-    f_star = stated_at[proof.f_star]
-    f_star = rational(Fraction(f_star))
+    f_star = rational(STATED_F_STAR)
     cruise = davis_cruise_speed(float(stated.number("reference.cruise_mps2")), *(float(values[s]) for s in STARS))
     speed = simplest(cruise, 1e-4)
     found = search(adaptation_problem(values, f_star, speed), backoff=1e-3)
     gains = proved_gains(found.values, values)
-    certificates = [found.certificate, wanted_bounds(proof, stated, gains, f_star)]
+    certificates = [found.certificate, wanted_bounds(stated, gains, f_star)]
     quantities = []
     for label, own in (("stated", values), ("found", gains)):
-        quantity, certificate = mean_square(proof, own, f_star, best_share(own, f_star), label)
+        quantity, certificate = mean_square(own, f_star, best_share(own, f_star), label)
         corrected, explicit, matrix = periods(own, speed)
         certified = float(simplest(0.95 * corrected, 0.02))
         certificates += [certificate, stability_certificate(f"yang2021:sampling.{label}", matrix(certified))]
-        level = offset(proof, own, f_star) / mu_of(proof, own)
+        level = offset(own, f_star) / mu_of(own)
         quantities += [
             quantity,
             Quantity(f"invariant level zeta of V, {label}", "", None, float(max(level, start_level(stated, own))),
@@ -231,7 +228,7 @@ def report(stated: Stated) -> GainReport:
                      "python-control"),
         ]
     return GainReport(
-        "yang2021", tuple(_conditions(proof, values, f_star)), tuple(quantities),
+        "yang2021", tuple(_conditions(values, f_star)), tuple(quantities),
         (GainSet("found", "slowest loop through the estimates with |e_1| <= 0.2 m and |e_1'| <= 0.3 m/s at all times",
                  {str(s): fraction(gains[s]) for s in GAINS}, "|e_1| <= 0.2 m, |e_1'| <= 0.3 m/s for all t >= 0",
                  "yang2021:bounds.found", {f"{CONTROLLER}.parameters.{s}": float(gains[s]) for s in GAINS}),),

@@ -1,4 +1,4 @@
-"""The laws of yang2021: RBFNN-POCRAC and POCRAC, as printed in (5), (16), (22)-(37)."""
+"""The laws of yang2021: RBFNN-POCRAC and POCRAC, as printed in (5), (16), (22)-(37), and RBFNN-PID."""
 
 from __future__ import annotations
 
@@ -16,6 +16,9 @@ from workbench.model.law import (
     speed,
 )
 
+from .network import center_step, center_step_as_printed, hidden_output
+from .rbf_pid import incremental_pid
+
 alpha, beta, chi, k = sp.symbols("alpha beta chi k", positive=True)
 lambda_1, lambda_2, lambda_3 = sp.symbols("lambda_1:4", positive=True)
 sigma_1, sigma_2, sigma_3 = sp.symbols("sigma_1:4", positive=True)
@@ -27,13 +30,6 @@ center_2 = sp.IndexedBase("c_2", real=True)[neuron]
 width = sp.IndexedBase("b_h", positive=True)[neuron]
 
 x_1, x_2 = position, speed
-
-
-def hidden_output(inputs: tuple[sp.Expr, ...], centers: tuple[sp.Expr, ...], b: sp.Expr) -> sp.Expr:
-    """Gaussian output of one hidden neuron, yang2021 (5)."""
-    squared_distance = sum(((x - c) ** 2 for x, c in zip(inputs, centers, strict=True)), sp.Integer(0))
-    return sp.exp(-squared_distance / (2 * b**2))
-
 
 h = hidden_output((x_1, x_2), (center_1, center_2), width)
 
@@ -78,3 +74,8 @@ pocrac = ControlLaw(
     domain=(k**2 - e_1**2,),
     errors={"e_1": e_1, "e_2": e_2},
 )
+
+rbf_pid = incremental_pid("yang2021.rbf_pid", "RBFNN-PID", "textbook RBF-PID with yang2021 (10)-(15), (14) corrected",
+                          center_step)
+rbf_pid_printed = incremental_pid("yang2021.rbf_pid_printed", "RBFNN-PID, (14) as printed",
+                                  "textbook RBF-PID with yang2021 (10)-(15) as printed", center_step_as_printed)

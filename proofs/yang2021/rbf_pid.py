@@ -6,11 +6,13 @@ whose network is updated by the gradient laws with momentum that yang2021 prints
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 import sympy as sp
 
 from workbench.model.law import ControlLaw, LawState, desired_position, neuron, over_neurons, period, position
 
-from .laws import hidden_output
+from .network import hidden_output, weight_step, width_step, with_momentum
 
 eta, momentum = sp.symbols("eta varpi", positive=True)
 eta_gain = sp.Symbol("eta_K", nonnegative=True)
@@ -31,43 +33,14 @@ c = tuple(_per_neuron(f"c_{i}") for i in range(1, INPUTS + 1))
 c_before = tuple(_per_neuron(f"c_before_{i}") for i in range(1, INPUTS + 1))
 
 
-# The gradient laws of yang2021 (10)-(15). `error` stands for f(x) - f_hat(x).
-def weight_step(rate: sp.Expr, error: sp.Expr, h: sp.Expr) -> sp.Expr:
-    """Step of an output weight, yang2021 (10)."""
-    return rate * error * h
-
-
-def width_step(rate: sp.Expr, error: sp.Expr, weight: sp.Expr, h: sp.Expr, squared_distance: sp.Expr,
-               width: sp.Expr) -> sp.Expr:
-    """Step of a neuron's width, yang2021 (12)."""
-    return rate * error * weight * h * squared_distance / width**3
-
-
-def center_step(rate: sp.Expr, error: sp.Expr, weight: sp.Expr, h: sp.Expr, x: sp.Expr, center: sp.Expr,
-                width: sp.Expr) -> sp.Expr:
-    """Step of one coordinate of a neuron's center: the gradient (yang2021 (14) prints center**2 in it)."""
-    return rate * error * weight * h * (x - center) / width**2
-
-
-def center_step_as_printed(rate: sp.Expr, error: sp.Expr, weight: sp.Expr, h: sp.Expr, x: sp.Expr,
-                           center: sp.Expr, width: sp.Expr) -> sp.Expr:
-    """Step of one coordinate of a neuron's center exactly as yang2021 (14) prints it."""
-    return rate * error * weight * h * (x - center**2) / width**2
-
-
-def with_momentum(value: sp.Expr, step: sp.Expr, factor: sp.Expr, before: sp.Expr) -> sp.Expr:
-    """Next value of an adapted parameter, yang2021 (11), (13), (15)."""
-    return value + step + factor * (value - before)
-
-
-def _law(law_id: str, title: str, source: str, printed_14: bool) -> ControlLaw:
+def incremental_pid(law_id: str, title: str, source: str, center_step: Callable[..., sp.Expr]) -> ControlLaw:
+    """The law with (14) as given: `center_step` or `center_step_as_printed` of the network."""
     error = desired_position - position
     inputs = (u_prev, error, e_prev)
     h = hidden_output(inputs, c, b)
     model_error = error - over_neurons(w * h)
     sensitivity = over_neurons(w * h * (c[0] - u_prev) / b**2)  # d(model output)/d(command)
     squared_distance = sum(((x - ci) ** 2 for x, ci in zip(inputs, c, strict=True)), sp.Integer(0))
-    move = center_step_as_printed if printed_14 else center_step
 
     proportional, integral = error - e_prev, error * period
     derivative = (error - 2 * e_prev + e_prev2) / period
@@ -87,7 +60,7 @@ def _law(law_id: str, title: str, source: str, printed_14: bool) -> ControlLaw:
         LawState(b, update=with_momentum(
             b, width_step(eta, model_error, w, h, squared_distance, b), momentum, b_before)),
         LawState(b_before, update=b),
-        *(LawState(ci, update=with_momentum(ci, move(eta, model_error, w, h, x, ci, b), momentum, before))
+        *(LawState(ci, update=with_momentum(ci, center_step(eta, model_error, w, h, x, ci, b), momentum, before))
           for ci, before, x in zip(c, c_before, inputs, strict=True)),
         *(LawState(before, update=ci) for ci, before in zip(c, c_before, strict=True)),
     )
@@ -97,8 +70,3 @@ def _law(law_id: str, title: str, source: str, printed_14: bool) -> ControlLaw:
                 LawState(e_prev, update=error), LawState(e_prev2, update=e_prev), *neurons),
         parameters=(eta, momentum, eta_gain),
     )
-
-
-rbf_pid = _law("rbf_pid", "RBFNN-PID", "textbook RBF-PID with yang2021 (10)-(15), (14) corrected", False)
-rbf_pid_printed = _law("rbf_pid.printed_14", "RBFNN-PID, (14) as printed",
-                       "textbook RBF-PID with yang2021 (10)-(15) as printed", True)
