@@ -14,11 +14,11 @@ from types import ModuleType
 import numpy as np
 import sympy as sp
 
-from proofs.jiao2025.study.trials import Array
 from workbench.compile.kernel import cars_source, function_source, loop_module, plant_source
 from workbench.compile.text import Form
 from workbench.contest.entrant import Entrant, Played, trial_errors
 from workbench.model.law import LawState
+from workbench.paper.results import Array
 from workbench.simulate import kernel_loop
 from workbench.simulate.closed_loop import Run, Setting, run_law
 from workbench.simulate.controllers import held_command
@@ -28,7 +28,7 @@ from workbench.trains.scenario import ControllerSpec, Scenario
 from workbench.trains.train import single_particle
 
 from . import laws as law
-from .study.cars_loop import COMPUTED
+from .simulation.cars_loop import COMPUTED
 
 _v_now, _v_last = sp.symbols("v_now v_last", real=True)
 # The acceleration of two measured speeds, through the low-pass of the study's rule.

@@ -28,8 +28,8 @@ from workbench.proof.claim import D, Goal, at_least, at_most, name_of
 
 from . import laws as law
 from .laws import c_1, c_2, c_3
+from .simulation.cars_trials import run_cars
 from .study import outcomes
-from .study.cars_trials import run_cars
 from .study.record import ChenStudy
 from .study.runs import plan
 

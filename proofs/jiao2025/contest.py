@@ -24,7 +24,7 @@ from workbench.trains.scenario import ControllerSpec, Scenario
 from workbench.trains.train import single_particle
 
 from .laws import TRIAL_LAWS
-from .study.trials import trial_kernel
+from .simulation.trials import trial_kernel
 
 # No law but a table: row 0 of the data holds the commands of the samples, row 1 takes the speeds that were measured.
 PLAYBACK = """

@@ -26,9 +26,9 @@ from workbench.paper.loading import Loaded
 from workbench.proof.claim import Goal, at_least, at_most
 
 from . import laws, plant
+from .simulation.trials import run_trials
 from .study import outcomes
 from .study.cases import Case, Change, JiaoStudy, changed, plan
-from .study.trials import run_trials
 
 x, w = sp.symbols("x w", real=True)
 p, contraction = sp.symbols("p theta_squared", real=True)

@@ -12,7 +12,7 @@ from workbench.paper.results import StudyResult
 from workbench.paper.study import Progress, StudyKind
 from workbench.simulate.process_pool import run_tasks
 
-from .cars_trials import CarsRun
+from ..simulation.cars_trials import CarsRun
 from .drivers import DRIVERS, WHERE, Task, run_tuned, stated_rows, tuned_findings, tuned_plots, tuned_table, tuned_tasks
 from .findings import all_findings
 from .mpc_comparison import beside_findings, beside_tables, growth, run_beside

@@ -16,7 +16,7 @@ from workbench.paper.results import Curve, Plot, ResultTable
 from workbench.simulate.closed_loop import NOMINAL, Factors
 
 from .. import laws as paper
-from .cars_trials import CarsRun, run_cars
+from ..simulation.cars_trials import CarsRun, run_cars
 from .mpc_comparison import Beside, jerk_rms, overtaken, run_beside
 from .outcomes import position_error, speed_error
 from .record import ChenStudy

@@ -8,7 +8,7 @@ import numpy as np
 
 from workbench.files.numbers import fixed, number
 
-from .cars_trials import CarsRun
+from ..simulation.cars_trials import CarsRun
 from .outcomes import (
     Found,
     allowed_change,

@@ -19,9 +19,9 @@ from workbench.paper.results import ResultTable
 from workbench.trains import multi_particle as of_train
 
 from .. import laws as law
-from . import held_cars_loop
-from .cars_trials import SLOPE_VALUES, VARIATION_VALUES, Array, CarsPlan
-from .held_cars_loop import HELD_COLUMNS
+from ..simulation import held_cars_loop
+from ..simulation.cars_trials import SLOPE_VALUES, VARIATION_VALUES, Array, CarsPlan
+from ..simulation.held_cars_loop import HELD_COLUMNS
 from .outcomes import Found, position_error, speed_error
 from .record import ChenStudy
 from .runs import car_data, plan

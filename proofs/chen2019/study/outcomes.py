@@ -12,7 +12,7 @@ import sympy as sp
 from workbench.trains.multi_particle import basic_resistance, coefficients, f_a, first, m, v
 
 from .. import laws as law
-from .cars_trials import Array, CarsRun
+from ..simulation.cars_trials import Array, CarsRun
 from .record import Change, ChenStudy
 from .runs import STATED, CostPoint, law_values
 

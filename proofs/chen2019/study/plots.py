@@ -7,7 +7,7 @@ import numpy as np
 from workbench.files.numbers import number
 from workbench.paper.results import Curve, Plot
 
-from .cars_trials import CarsRun
+from ..simulation.cars_trials import CarsRun
 from .outcomes import Found, allowed_change, cef_change, difference, grows_from, outcome, position_error, speed_error
 from .runs import STATED, title
 

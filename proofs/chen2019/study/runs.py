@@ -9,7 +9,7 @@ import numpy as np
 from workbench.trains.multi_particle import coefficients
 
 from .. import laws as law
-from .cars_trials import Array, CarsPlan, CarsRun, run_cars
+from ..simulation.cars_trials import Array, CarsPlan, CarsRun, run_cars
 from .record import ChenStudy, with_change
 
 # The change of the study with this number; the stated run has none.

@@ -9,7 +9,7 @@ from workbench.files.numbers import NOTHING, fixed, number
 from workbench.paper.results import ResultTable
 
 from .. import laws as law
-from .cars_trials import Array, CarsRun
+from ..simulation.cars_trials import Array, CarsRun
 from .outcomes import (
     NEAR_M,
     NEAR_MPS,

@@ -8,10 +8,10 @@ from dataclasses import replace
 import numpy as np
 
 from workbench.model.desired_curve import DesiredCurve
-from workbench.paper.tracking import Tracked
+from workbench.paper.tracked import Tracked
 
+from ..simulation.cars_trials import run_cars
 from . import runs
-from .cars_trials import run_cars
 from .record import ChenStudy
 
 

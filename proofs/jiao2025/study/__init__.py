@@ -10,6 +10,7 @@ from workbench.paper.results import StudyResult
 from workbench.paper.study import Progress, StudyKind
 from workbench.simulate.process_pool import run_tasks
 
+from ..simulation.trials import TrialRun, run_trials
 from .cases import Case, JiaoStudy, cases, plan
 from .drivers import DRIVERS, Task, run_tuned, tuned_findings, tuned_plots, tuned_table, tuned_tasks
 from .findings import all_findings
@@ -18,7 +19,6 @@ from .outcomes import Found, mse, outcome, peak, rises
 from .plots import all_plots
 from .tables import all_tables
 from .tracking import track
-from .trials import TrialRun, run_trials
 
 
 def run(study: JiaoStudy, workers: int, on_progress: Progress) -> StudyResult:

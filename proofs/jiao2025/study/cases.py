@@ -19,7 +19,7 @@ from workbench.paper.tuning_record import Pairs, StudyTuning
 
 from .. import laws, plant
 from ..laws import TRIAL_LAWS
-from .trials import Array, TrialPlan
+from ..simulation.trials import Array, TrialPlan
 
 GRAVITY = 9.80665
 _speed_at = numeric((plant.k,), plant.desired_curve)

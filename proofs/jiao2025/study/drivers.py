@@ -16,9 +16,9 @@ from workbench.paper.results import Curve, Plot, ResultTable
 from workbench.simulate.closed_loop import NOMINAL, Factors
 
 from ..laws import TRIAL_LAWS
+from ..simulation.trials import run_trials
 from .cases import PRINTED_LAWS, Case, JiaoStudy
 from .mpc_comparison import jerk_rms, run_one, true_plan
-from .trials import run_trials
 
 LAW_NAMES = {law.partition(".")[2]: law for law in PRINTED_LAWS}
 TITLES = {name: TRIAL_LAWS[law].title for name, law in LAW_NAMES.items()} | {

@@ -8,9 +8,9 @@ import numpy as np
 
 from workbench.files.numbers import number
 
+from ..simulation.trials import TrialRun
 from .cases import PRINTED_LAWS, Case, desired_trip
 from .outcomes import Found, at, ended, mse, outcome, peak, rises
-from .trials import TrialRun
 
 ICFDL, PD = PRINTED_LAWS
 

@@ -19,10 +19,10 @@ from workbench.simulate.closed_loop import NOMINAL, Factors
 
 from .. import plant
 from ..laws import TRIAL_LAWS
+from ..simulation.trial_loop import SEEN_BY
+from ..simulation.trials import Array, TrialPlan, TrialRun, trial_kernel
 from .cases import PRINTED_LAWS, Case, JiaoStudy, plan
 from .outcomes import Found, mse, outcome
-from .trial_loop import SEEN_BY
-from .trials import Array, TrialPlan, TrialRun, trial_kernel
 
 
 @dataclass(frozen=True)

@@ -10,8 +10,8 @@ import numpy as np
 from workbench.files.numbers import NOTHING, number
 
 from ..laws import TRIAL_LAWS
+from ..simulation.trials import Array, TrialRun
 from .cases import Case, JiaoStudy, Shown
-from .trials import Array, TrialRun
 
 # By what part of the first mean squared error a law is said to have learned, or hardly to learn.
 LEARNED, HARDLY = 0.01, 0.5

@@ -9,9 +9,9 @@ from workbench.files.numbers import number
 from workbench.paper.results import Curve, Plot
 
 from ..laws import TRIAL_LAWS
+from ..simulation.trials import Array, TrialRun
 from .cases import PRINTED_LAWS, Case, Reading, desired_trip, lengths, plan
 from .outcomes import Found, mse, outcome
-from .trials import Array, TrialRun
 
 FIGURE_OF = {"jiao2025.icfdl": "paper, Figure 5", "jiao2025.pd": "paper, Figure 6"}
 

@@ -10,9 +10,9 @@ from workbench.files.numbers import NOTHING, number
 from workbench.paper.results import ResultTable
 
 from ..laws import TRIAL_LAWS
+from ..simulation.trials import TrialRun
 from .cases import PRINTED_LAWS, Case, concerns, desired_trip
 from .outcomes import Found, at, ended, mse, outcome, peak, rises
-from .trials import TrialRun
 
 MSE = "MSE is the mean of e² over the samples of a trial, in m²/s²."
 MENDED = ("jiao2025.icfdl_remembering", "jiao2025.pd_difference", "jiao2025.cfdl")

@@ -8,10 +8,10 @@ from dataclasses import replace
 import numpy as np
 
 from workbench.model.desired_curve import DesiredCurve
-from workbench.paper.tracking import Tracked
+from workbench.paper.tracked import Tracked
 
+from ..simulation.trials import TrialPlan, TrialRun, run_trials
 from .cases import Case, JiaoStudy, plan
-from .trials import TrialPlan, TrialRun, run_trials
 
 
 def track(study: JiaoStudy, curve: DesiredCurve | None) -> Tracked:

@@ -1,0 +1,1 @@
+"""The trials of jiao2025 in compiled loops: its train under its laws, and under MPC."""
