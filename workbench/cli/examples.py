@@ -13,7 +13,7 @@ NAME = "examples"
 
 
 def command(directory: Annotated[Path, typer.Argument(help="A new or empty folder")]) -> None:
-    """Write the papers' folders, the shared lines, trains and contests into a folder of yours."""
+    """Write the papers' folders, and the lines, trains and contests they share, into a folder of yours."""
     from workbench.paper.examples import write_examples
 
     for line in write_examples(directory):

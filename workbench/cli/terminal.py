@@ -4,10 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from rich.box import SIMPLE_HEAD
-from rich.console import Console
+from rich.console import Console, Group
 from rich.markup import escape
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn
 from rich.table import Table
@@ -164,9 +165,21 @@ def _range(low: float | None, high: float | None, scale: float = 1e3) -> str:
 
 
 def papers_table(papers: Sequence[Contents]) -> Table:
-    """The papers found, and what each has."""
-    table = Table("paper", "has", "certificates", "study", "folder")
+    """The papers found, and what each has, its title below; folders as seen from the current one."""
+    table = Table(box=SIMPLE_HEAD, pad_edge=False)
+    table.add_column("paper", no_wrap=True, style="bold")
+    table.add_column("has")
+    table.add_column("certificates", justify="right", no_wrap=True)
+    table.add_column("folder", overflow="fold")
     for paper in papers:
-        table.add_row(escape(paper.name), ", ".join(paper.parts), str(paper.certificates or "none"),
-                      escape(paper.title), escape(str(paper.folder)))
+        title = [Text(paper.title, "dim", no_wrap=True, overflow="ellipsis")] if paper.title else []
+        has = Group(Text(", ".join(paper.parts) or "nothing yet"), *title)
+        table.add_row(paper.name, has, str(paper.certificates or "none"), Text(_from_here(paper.folder)))
     return table
+
+
+def _from_here(path: Path) -> str:
+    """A path relative to the current folder where it lies below it."""
+    here = Path.cwd()
+    full = path.resolve()
+    return str(full.relative_to(here) if full.is_relative_to(here) else full)

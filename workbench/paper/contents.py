@@ -6,14 +6,15 @@ import tomllib
 from dataclasses import dataclass
 from pathlib import Path
 
-from workbench.files.folders import STUDY_FILE
+from workbench.files.folders import CLAIMS_FOLDER, PAPER_FILE, STUDY_FILE
 from workbench.files.modules import has_module
 from workbench.files.text import read_text
 
 
 @dataclass(frozen=True)
 class Contents:
-    """A paper's name, its folder, which parts it has, how many certificates; title: of its study, empty without."""
+    """A paper's name, its folder, which parts it has, how many certificates, those of its gains too; title: its
+    study's, empty without one."""
 
     name: str
     folder: Path
@@ -31,7 +32,8 @@ def contents_of(folder: Path) -> Contents:
             title = str(tomllib.loads(read_text(study, "TOML")).get("title", ""))
         except ValueError:
             title = "(study.toml is not valid TOML)"
-    has = {"claims": (folder / "paper.py").is_file() or (folder / "claims").is_dir(), "study": study.is_file()}
-    has |= {part: has_module(folder, part) for part in ("laws", "gains", "contest")}
-    certificates = sum(path.name != "manifest.json" for path in (folder / "certificates").glob("*.json"))
+    has = {"claims": (folder / PAPER_FILE).is_file() or (folder / CLAIMS_FOLDER).is_dir()}
+    has |= {part: has_module(folder, part) for part in ("plant", "laws")}
+    has |= {"study": study.is_file()} | {part: has_module(folder, part) for part in ("gains", "contest")}
+    certificates = sum(path.name != "manifest.json" for path in (folder / "certificates").rglob("*.json"))
     return Contents(folder.name, folder, title, tuple(part for part, there in has.items() if there), certificates)

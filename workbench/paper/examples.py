@@ -3,10 +3,87 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from pathlib import Path
+from dataclasses import dataclass
+from pathlib import Path, PurePath
+
+import workbench
+from workbench.errors import InputError
+from workbench.files.folders import PAPERS_FOLDER
+
+SHARED_FOLDER = "benchmarks"
+
+
+@dataclass(frozen=True)
+class Example:
+    """A file that comes with the workbench: where it lies, and where it goes below the reader's folder."""
+
+    source: Path
+    place: PurePath
+
+
+def examples_root() -> Path:
+    """Where the examples lie: inside the package as it was installed, else in the checkout that it runs from.
+
+    Raises InputError where neither has them.
+    """
+    package = Path(workbench.__file__).resolve().parent
+    for root in (package / "examples", package.parent):
+        if (root / PAPERS_FOLDER).is_dir() and (root / SHARED_FOLDER).is_dir():
+            return root
+    raise InputError(package, "", "has no examples beside it: install the workbench from its wheel, or from a clone")
+
+
+def examples(root: Path) -> list[Example]:
+    """Every file of the papers, and the data that they share, by place; caches and scripts of our own are left out."""
+    found = []
+    for folder in (PAPERS_FOLDER, SHARED_FOLDER):
+        for path in sorted((root / folder).rglob("*")):
+            place = path.relative_to(root)
+            script = folder == SHARED_FOLDER and path.suffix == ".py"
+            cached = any(part.startswith(("__pycache__", ".")) for part in place.parts)
+            if path.is_file() and not script and not cached:
+                found.append(Example(path, PurePath(place)))
+    return found
 
 
 def write_examples(directory: Path) -> Iterator[str]:
-    """Lines for the reader."""
-    raise NotImplementedError
-    yield ""
+    """Write every example below a new or empty folder, and say what is there; lines for the reader.
+
+    Where a file cannot be written, those written before are removed again. Raises InputError for a folder that is not
+    empty, and for what cannot be written.
+    """
+    found = examples(examples_root())
+    made: list[Path] = []
+    try:
+        if directory.exists() and (not directory.is_dir() or any(directory.iterdir())):
+            what = "is not empty" if directory.is_dir() else "is a file"
+            raise InputError(directory, "", f"{what}: name a new or an empty folder")
+        for example in found:
+            _write(directory / example.place, example.source.read_bytes(), made)
+    except (OSError, ValueError) as trouble:  # a null character in a path is a ValueError
+        _remove(made)
+        why = trouble.strerror if isinstance(trouble, OSError) else trouble
+        raise InputError(directory, "", f"cannot be written ({why}): name another folder") from None
+    for folder in (PAPERS_FOLDER, SHARED_FOLDER):
+        inside = dict.fromkeys(example.place.parts[1] for example in found if example.place.parts[0] == folder)
+        yield f"{directory / folder}: {', '.join(inside)}"
+    yield f"{len(found)} files. To go on: cd {directory}; workbench list; workbench prove {PAPERS_FOLDER}"
+
+
+def _write(path: Path, content: bytes, made: list[Path]) -> None:
+    """Write a file, noting it and every folder that had to be made for it."""
+    missing = [folder for folder in path.parents if not folder.exists()]
+    for folder in reversed(missing):
+        folder.mkdir()
+        made.append(folder)
+    made.append(path)
+    path.write_bytes(content)
+
+
+def _remove(made: list[Path]) -> None:
+    """Remove files and the folders that were made for them, the last one first."""
+    for path in reversed(made):
+        if path.is_dir():
+            path.rmdir()
+        else:
+            path.unlink(missing_ok=True)
