@@ -11,7 +11,8 @@ from pathlib import Path
 from workbench.model.curve_table import read_rows
 from workbench.optimal.curve_request import requested_curve
 from workbench.optimal.export import write_csv
-from workbench.paper.tracking import Tracked, track
+from workbench.paper.tracked import Tracked
+from workbench.paper.tracking import track
 
 BENCHMARKS = Path(__file__).parent
 KWH_J = 3.6e6

@@ -2,18 +2,18 @@
 
 from functools import cache
 
-from scenarios import YANG
-from workbench.paper.registry import load_study
+from scenarios import SHARED
 
+from workbench.cli.loading import load
 from workbench.contest.record import Contest
 from workbench.trains.scenario import Scenario
 
-COMMON = YANG.parent / "common.toml"
+COMMON = SHARED / "common.toml"
 
 
 @cache
 def common() -> Contest:
-    found = load_study(COMMON)
+    found = load(COMMON).record
     assert isinstance(found, Contest)
     return found
 

@@ -3,17 +3,23 @@
 import tomllib
 from pathlib import Path
 
-from workbench.paper.registry import is_study
-
+from workbench.files.folders import held_in, papers_in
 from workbench.files.toml import validate_record
 from workbench.model.law import ControlLaw
-from workbench.simulate.controllers import LAWS
+from workbench.model.laws import GENERAL, law_named
 from workbench.trains.scenario import ControllerSpec, Scenario
 from workbench.trains.track import Track
 
-BENCHMARKS = [path for path in sorted((Path(__file__).parent.parent / "benchmarks").glob("*.toml"))
-              if not is_study(path)]
-YANG = Path(__file__).parent.parent / "benchmarks" / "yang2021.toml"
+ROOT = Path(__file__).resolve().parent.parent
+PROOFS, SHARED = ROOT / "proofs", ROOT / "benchmarks"
+PAPERS = [folder.name for folder in papers_in(PROOFS)]
+FILES = [*sorted(SHARED.glob("*.toml")), *(PROOFS / paper / "study.toml" for paper in PAPERS)]
+BENCHMARKS = [path for path in FILES if "kind" not in tomllib.loads(path.read_text(encoding="utf-8"))]
+STUDIES = [path for path in FILES if path not in BENCHMARKS]
+YANG = PROOFS / "yang2021" / "study.toml"
+
+# Every compiled law that ships, by its id.
+LAWS = GENERAL | {law.id: law for paper in PAPERS for law in held_in(PROOFS / paper, "laws", ControlLaw).values()}
 
 SHORT_LINE = {
     "name": "short line",
@@ -54,7 +60,7 @@ def short_scenario(**changes: object) -> Scenario:
         if "source" in table and last not in table["source"]:
             table["source"][last] = "assumed: a test"
         table[last] = value
-    return validate_record(data, Scenario, "short scenario")
+    return validate_record(data, Scenario, "short scenario").in_folder(YANG.parent)
 
 
 def with_law(scenario: Scenario, law: ControlLaw, period_s: float, estimates: str = "corrected") -> Scenario:
@@ -77,7 +83,7 @@ def values_for(law: ControlLaw) -> dict:
     """Values a law can run with: those of a shipped scenario's law of the same names, else plain ones."""
     for path in BENCHMARKS:
         for spec in tomllib.loads(path.read_text(encoding="utf-8"))["controllers"].values():
-            other = LAWS.get(spec["law"])
+            other = None if spec["law"].startswith("mpc.") else law_named(spec["law"], path.parent)
             if other and set(other.parameters) == set(law.parameters) and \
                     {s.symbol for s in other.states} == {s.symbol for s in law.states}:
                 return {key: spec[key] for key in ("parameters", "initial", "neurons") if key in spec}

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from workbench.errors import InputError, WorkbenchError
 from workbench.gains.result import GainReport
 from workbench.gains.stated import Stated
-from workbench.paper.gain_search import Row, Task
+from workbench.paper.gain_search import Row, Task, gain_search_of
 from workbench.paper.loading import Loaded
 from workbench.paper.study import Progress
 from workbench.simulate.process_pool import cores, run_tasks
@@ -26,7 +26,7 @@ class Effect:
 
 def gains_of(loaded: Loaded) -> GainReport:
     """Conditions, certificates and found gains of a paper; InputError naming file and key, or that it has none."""
-    search = loaded.gain_search()
+    search = gain_search_of(loaded)
     if search is None:
         raise InputError(loaded.folder, "gains.py", "is missing, or holds no GainSearch: the folder of a paper says "
                          "there what is searched")
@@ -43,7 +43,7 @@ def gains_of(loaded: Loaded) -> GainReport:
 def effects(loaded: Loaded, report: GainReport, workers: int | None = None,
             on_progress: Progress = lambda done, total, what: None) -> tuple[Effect, ...]:
     """Every found set of gains beside the stated ones, in the order of the paper's tasks."""
-    search = loaded.gain_search()
+    search = gain_search_of(loaded)
     tasks = search.tasks(report) if search else []
     found: dict[int, Effect] = {}
 
@@ -57,7 +57,7 @@ def effects(loaded: Loaded, report: GainReport, workers: int | None = None,
 
 def _run(loaded: Loaded, numbered: tuple[int, Task]) -> tuple[int, Effect]:
     number, task = numbered
-    search = loaded.gain_search()
+    search = gain_search_of(loaded)
     assert search is not None
     numbers, failed = search.run(loaded, task)
     finite: Row = {k: None if isinstance(v, float) and not math.isfinite(v) else v for k, v in numbers.items()}

@@ -4,13 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
+from workbench.files.folders import held_in, is_paper
 from workbench.gains.result import GainReport
 from workbench.gains.stated import Stated
-
-if TYPE_CHECKING:
-    from workbench.paper.loading import Loaded
+from workbench.paper.loading import Loaded
 
 Row = dict[str, float | str | None]
 
@@ -37,6 +36,12 @@ class GainSearch:
     report: Callable[[Stated], GainReport]
     tasks: Callable[[GainReport], list[Task]]
     run: Callable[[Loaded, Task], tuple[Row, str | None]]
+
+
+def gain_search_of(loaded: Loaded) -> GainSearch | None:
+    """How a paper's gains are looked at; None where its folder has no gains.py that says so."""
+    found = held_in(loaded.folder, "gains", GainSearch) if is_paper(loaded.folder) else {}
+    return next(iter(found.values()), None)
 
 
 def same_for_all(report: GainReport, setting: str) -> list[Task]:

@@ -8,9 +8,8 @@ from pathlib import Path
 from typing import Any
 
 from workbench.errors import InputError
-from workbench.files.folders import STUDY_FILE, held_in, is_paper
+from workbench.files.folders import STUDY_FILE, held_in
 from workbench.files.toml import read_toml, validate_record
-from workbench.paper.gain_search import GainSearch
 from workbench.paper.study import Study, StudyKind
 from workbench.trains.scenario import Scenario, build_scenario
 
@@ -48,11 +47,6 @@ class Loaded:
     def folder(self) -> Path:
         """Where the file lies."""
         return self.path.parent
-
-    def gain_search(self) -> GainSearch | None:
-        """How the paper's gains are looked at; None where its folder has no gains.py that says so."""
-        found = held_in(self.folder, "gains", GainSearch) if is_paper(self.folder) else {}
-        return next(iter(found.values()), None)
 
 
 def study_file(path: Path) -> Path:

@@ -15,7 +15,7 @@ from workbench.trains.scenario import known_version
 
 if TYPE_CHECKING:
     from workbench.model.desired_curve import DesiredCurve
-    from workbench.paper.tracking import Tracked
+    from workbench.paper.tracked import Tracked
 
 # (runs finished, runs in all, what was run last)
 Progress = Callable[[int, int, str], None]

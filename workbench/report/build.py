@@ -14,6 +14,7 @@ from workbench.files.folders import is_paper
 from workbench.files.json_output import write_json
 from workbench.gains.result import GainReport
 from workbench.paper.gain_effects import effects, gains_of
+from workbench.paper.gain_search import gain_search_of
 from workbench.paper.loading import Loaded
 from workbench.paper.results import StudyResult
 from workbench.paper.study import Study
@@ -54,7 +55,7 @@ class Asked:
         if loaded.kind is None:
             checked_variants(loaded.path, loaded.data, loaded.scenario, True)
         _require_folder(out)
-        gains = gains_of(loaded) if with_gains and loaded.gain_search() is not None else None
+        gains = gains_of(loaded) if with_gains and gain_search_of(loaded) is not None else None
         named = [str(loaded.path), *proofs]
         return cls(loaded, asked, out, gains, resume, workers, f"workbench report {' '.join(named)} --out {out}")
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 from workbench.model.desired_curve import DesiredCurve
-from workbench.paper.tracking import Tracked, of_run
+from workbench.paper.tracked import Tracked, of_run
 from workbench.simulate.closed_loop import run_law
 
 from .. import plant
