@@ -17,7 +17,7 @@ from workbench.model.sensing import Sensing
 from workbench.simulate.closed_loop import Factors, Run, setting_of
 from workbench.simulate.metrics import measure
 from workbench.simulate.process_pool import run_tasks
-from workbench.trains.scenario import Scenario
+from workbench.trains.scenario import Scenario, with_parameters
 from workbench.trains.track import Track
 
 Array = NDArray[np.float64]
@@ -72,24 +72,9 @@ def entries(contest: Contest, scenario: Scenario) -> tuple[Entry, ...]:
                  if not tuned or name in contest.tuning.found)
 
 
-def tunable(scenario: Scenario, name: str) -> dict[str, float]:
-    """What `with_parameters` can change of a controller, with its stated values."""
-    spec = scenario.controllers[name]
-    return spec.initial | spec.parameters
-
-
 def draws_of(contest: Contest, condition: str) -> int:
     """How many runs every entry has under a condition: one where nothing is drawn."""
     return contest.seeds if contest.conditions[condition].random else 1
-
-
-def with_parameters(scenario: Scenario, name: str, parameters: dict[str, float]) -> Scenario:
-    """The scenario with other parameters, or initial values where it has such, of one controller."""
-    spec = scenario.controllers[name]
-    started = {key: value for key, value in parameters.items() if key in spec.initial}
-    others = {key: value for key, value in parameters.items() if key not in started}
-    changed = spec.model_copy(update={"parameters": spec.parameters | others, "initial": spec.initial | started})
-    return scenario.model_copy(update={"controllers": scenario.controllers | {name: changed}})
 
 
 def run_match(scenario: Scenario, name: str, condition: Condition, draw: int, seed: int) -> Run:

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from workbench.contest.matches import Entry, of, with_parameters, world_of
+from workbench.contest.matches import Entry, of, world_of
 from workbench.contest.record import Condition
 from workbench.contest.tables import Told
 from workbench.files.numbers import number
@@ -15,7 +15,7 @@ from workbench.mpc.controller import MpcController
 from workbench.mpc.disturbance import Unknown, largest_bound, needed_bound
 from workbench.mpc.tube import Tube, TubeMpc
 from workbench.paper.results import ResultTable
-from workbench.trains.scenario import Scenario
+from workbench.trains.scenario import Scenario, with_parameters
 from workbench.trains.track import resistance_table
 
 LAW = "mpc.tube"

@@ -8,8 +8,8 @@ from pydantic import Field, PrivateAttr, Strict, model_validator
 
 from workbench.errors import InputError
 from workbench.files.toml import Count, Name, NonNegative, Positive, SourcedRecord, Text
+from workbench.model.tuning import Searched, Seed
 from workbench.paper.study import Study
-from workbench.paper.tuning_record import Searched, Seed
 from workbench.trains.scenario import ControllerSpec, Interval, Scenario
 
 Spread = Annotated[float, Strict(), Field(ge=0, lt=1, allow_inf_nan=False)]

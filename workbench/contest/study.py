@@ -14,7 +14,7 @@ from workbench.contest.energy import best_run
 from workbench.contest.entrants import check_entrants, entered, follows_curve, learns
 from workbench.contest.journal import matches_journal, matches_of
 from workbench.contest.learning import learning_findings, learning_plot, learning_tables
-from workbench.contest.matches import METRICS, Match, all_matches, draws_of, of, overspeed, run_match, tunable
+from workbench.contest.matches import METRICS, Match, all_matches, draws_of, of, overspeed, run_match
 from workbench.contest.premises import premises_findings, premises_table, words_of
 from workbench.contest.record import Contest
 from workbench.contest.tables import HEADINGS, UNITS, Told, all_tables
@@ -24,7 +24,7 @@ from workbench.files.numbers import number
 from workbench.paper.local_search import Tuned
 from workbench.paper.results import Curve, Plot, StudyResult
 from workbench.paper.study import Progress, StudyKind
-from workbench.trains.scenario import Scenario, load_scenario
+from workbench.trains.scenario import Scenario, load_scenario, tunable
 
 
 def located(contest: Contest, path: Path) -> Contest:

@@ -5,12 +5,12 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from workbench.contest.entrants import follows_curve
-from workbench.contest.matches import match_values, run_match, tunable, with_parameters
+from workbench.contest.matches import match_values, run_match
 from workbench.contest.record import Contest, Objective, WithoutCurve
 from workbench.errors import InputError
 from workbench.paper.local_search import Tuned, score, search
 from workbench.simulate.process_pool import results_of
-from workbench.trains.scenario import Scenario
+from workbench.trains.scenario import Scenario, tunable, with_parameters
 
 # Draws of the search lie far from those of the contest, so that no controller is judged by what it was tuned on.
 DRAWS_FROM = 1_000_000

@@ -33,7 +33,7 @@ def compare(path: Path, data: Mapping[str, Any], scenario: Scenario, with_varian
     on_progress(finished, total, what) is called after each run. A run that fails is a row that says so.
     Raises InputError or WorkbenchError for a scenario or variant that cannot be used.
     """
-    variants = scenario.variants if with_variants else ()
+    variants = scenario.all_variants if with_variants else ()
     scenarios = [scenario, *checked_variants(path, data, scenario, with_variants)]
     cases = [(0, name) for name in scenario.controllers]
     cases += [(i, name) for i, variant in enumerate(variants, start=1)
@@ -58,7 +58,7 @@ def compare(path: Path, data: Mapping[str, Any], scenario: Scenario, with_varian
 def checked_variants(path: Path, data: Mapping[str, Any], scenario: Scenario, with_variants: bool) -> list[Scenario]:
     """The scenario's variants; InputError for a controller, of the scenario or of one of them, that cannot be used."""
     check_controllers(scenario, path)
-    variants = scenario.variants if with_variants else ()
+    variants = scenario.all_variants if with_variants else ()
     scenarios = [changed_scenario(path, dict(data), variant, scenario) for variant in variants]
     for variant, changed in zip(variants, scenarios, strict=True):
         check_controllers(changed, f"{path}: variant '{variant.title}'")

@@ -26,6 +26,7 @@ from workbench.files.toml import (
 from workbench.model.curve_table import TableCurve
 from workbench.model.desired_curve import CruiseSpeed, DavisCruise, DesiredCurve, build_curve
 from workbench.model.events import Disturbance, Failure, Mode
+from workbench.model.tuning import Searched, TrackingObjective
 from workbench.trains.track import Track, load_track
 from workbench.trains.train import Train
 
@@ -114,6 +115,15 @@ class Variant(Record):
     controllers: tuple[Text, ...] = ()
 
 
+class ScenarioTuning(Searched):
+    """The tuning of a scenario's controllers: a run is the scenario as stated, with other parameters.
+
+    ranges: of initial values too, as the gains of a law that adapts them.
+    """
+
+    objective: TrackingObjective
+
+
 def known_version(value: Any) -> Any:
     """The version of a file's format as it is; ValueError for one that this workbench does not read."""
     if type(value) is not int or value != 1:
@@ -141,6 +151,7 @@ class Scenario(Record):
     printed_table: PrintedTable | None = None
     printed_values: tuple[PrintedValue, ...] = ()
     variants: tuple[Variant, ...] = ()
+    tuning: ScenarioTuning | None = None
     reproduction: Annotated[bool, Strict()] = False
     _folder: Path = PrivateAttr(default=Path())
 
@@ -180,7 +191,23 @@ class Scenario(Record):
             if name not in self.controllers:
                 raise ValueError(f"{key}: '{name}' is no controller of this scenario: "
                                  f"choose one of {', '.join(self.controllers)}")
+        for name, ranges in self.tuning.ranges.items() if self.tuning else ():
+            if name not in self.controllers:
+                raise ValueError(f"tuning.ranges.{name}: is no controller of this scenario: "
+                                 f"choose one of {', '.join(self.controllers)}")
+            for key in ranges.keys() - tunable(self, name).keys():
+                raise ValueError(f"tuning.ranges.{name}.{key}: is no parameter that this controller states: remove it")
         return self
+
+    @property
+    def all_variants(self) -> tuple[Variant, ...]:
+        """The stated changes of assumed values, and the controllers as `workbench tune` found them, where it did."""
+        found = self.tuning.found if self.tuning else {}
+        changed = {f"controllers.{name}.{'initial' if key in self.controllers[name].initial else 'parameters'}.{key}":
+                   value for name, values in found.items() for key, value in values.items()}
+        tuned = Variant(title=f"tuned, {self.tuning.runs} runs each", set=changed, controllers=tuple(found)
+                        ) if self.tuning and found else None
+        return (*self.variants, tuned) if tuned else self.variants
 
     def desired_curve(self) -> DesiredCurve:
         """The desired curve over the whole line, for the nominal train."""
@@ -189,6 +216,21 @@ class Scenario(Record):
         train = self.train
         davis = (train.davis_a_mps2, train.davis_b_per_s, train.davis_c_per_m)
         return build_curve(self.reference, self.track.length_m, davis)
+
+
+def tunable(scenario: Scenario, name: str) -> dict[str, float]:
+    """What `with_parameters` can change of a controller, with its stated values."""
+    spec = scenario.controllers[name]
+    return spec.initial | spec.parameters
+
+
+def with_parameters(scenario: Scenario, name: str, parameters: dict[str, float]) -> Scenario:
+    """The scenario with other parameters, or initial values where it has such, of one controller."""
+    spec = scenario.controllers[name]
+    started = {key: value for key, value in parameters.items() if key in spec.initial}
+    others = {key: value for key, value in parameters.items() if key not in started}
+    changed = spec.model_copy(update={"parameters": spec.parameters | others, "initial": spec.initial | started})
+    return scenario.model_copy(update={"controllers": scenario.controllers | {name: changed}})
 
 
 def load_scenario(path: Path) -> Scenario:
