@@ -37,7 +37,7 @@ def per_kilonewton(rule: str, curvature: float) -> float:
     if curvature == 0:
         return 0.0
     radius = 1 / abs(curvature)
-    if rule == "yang2021":
+    if rule == "inverse_radius":
         return 600 / radius
     return 650 / (radius - 55) if radius >= 300 else 500 / (radius - 30)
 
@@ -99,7 +99,7 @@ def test_clothoids_are_followed_within_the_stated_tolerance(rule, length):
 
 @pytest.mark.parametrize("front", [0.0, 20.0, 60.0, 149.0, 151.0, 400.0])
 def test_behind_the_start_the_first_curvature_holds(front):
-    eased = line(curves=((0.0, 1 / 400, 1 / 1000), (500.0, 1 / 1000, 1 / 1000)), curve_rule="yang2021")
+    eased = line(curves=((0.0, 1 / 400, 1 / 1000), (500.0, 1 / 1000, 1 / 1000)), curve_rule="inverse_radius")
     assert at(course(eased, TRAIN), front) == pytest.approx(plain_mean(eased, front, 150.0), rel=1e-3)
 
 

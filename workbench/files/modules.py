@@ -1,6 +1,6 @@
 """Python modules in a folder that a user names: imported as a package of its own, under a name made from its path.
 
-Modules of such a folder import each other relatively (`from .laws import pocrac`), so that files of one name in two
+Modules of such a folder import each other relatively (`from .laws import adaptive`), so that files of one name in two
 folders are not taken for each other, and a copy of a folder is a package of its own.
 """
 

@@ -32,7 +32,7 @@ class Filter:
 
 
 def fixed_gain(a: float, g: float | Array) -> Filter:
-    """(14) with a fixed estimate: e - z, z(k+1) = a z(k) + g e(k+1), in the form of `Filter` with w = z - g e."""
+    """Learning with a fixed gain g: e becomes e - z, z(k+1) = a z(k) + g e(k+1); as a `Filter` with w = z - g e."""
     return Filter(a, a * g, 1 - g)
 
 

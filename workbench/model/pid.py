@@ -1,4 +1,4 @@
-"""PID on the position error, the baseline of yang2021's comparison."""
+"""PID on the position error, the textbook law that others are compared with."""
 
 from __future__ import annotations
 

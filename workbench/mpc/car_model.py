@@ -1,4 +1,4 @@
-"""The train of several cars as MPC knows it: chen2019 (1)-(3) for any number of cars, and one period of it."""
+"""The train of several cars as MPC knows it, for any number of cars, and one period of it."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ FEWEST, MOST = 2, 64
 
 @dataclass(frozen=True)
 class CarTrain:
-    """Masses (kg) and limits of the force (N) of every car, shape (n,), and c_0, c_v, c_a, c_k, c_d of chen2019.
+    """Masses (kg) and limits of the force (N) of every car, shape (n,), and values of `multi_particle.coefficients`.
 
     Raises InputError for shapes that do not fit, too many cars or limits that are no range around zero.
     """

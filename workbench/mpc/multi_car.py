@@ -1,4 +1,4 @@
-"""MPC of a train of several cars with the limits of each car's force: chen2019's train, 2 to 64 cars.
+"""MPC of a train of several cars with the limits of each car's force, for 2 to 64 cars.
 
 Linear, around one speed, in the errors from a desired run that all cars share; the forces of the horizon are the
 unknowns of one program with bounds, whose Hessian is the same at every sample.

@@ -1,4 +1,4 @@
-"""The train of several cars as sympy expressions: car by car, tied to its neighbours by couplers (chen2019 (1)-(3)).
+"""The train of several cars as sympy expressions: car by car, coupled to its neighbours by springs and dampers.
 
 Symbols with the index j have one value per car; car 1 leads. At an end of the train the missing neighbour stands for
 the car itself (`compile.cars_source`), so that a coupler which is not there neither pulls nor stretches.
@@ -39,26 +39,26 @@ c_0, c_v, c_a, c_k, c_d = coefficients = sp.symbols("c_0 c_v c_a c_k c_d", real=
 
 
 def basic_resistance(mass: sp.Expr, speed: sp.Expr, pushing_air: sp.Expr = sp.S.Zero) -> sp.Expr:
-    """f^b of (2), N; the first car pushes the air for the mass of the whole train."""
+    """Davis resistance of a car as a force along the motion, N; the first car pushes the air of the whole train."""
     return -mass * (c_0 + c_v * speed) - pushing_air * c_a * speed**2
 
 
 def coupler_pull(front: tuple[sp.Expr, sp.Expr], rear: tuple[sp.Expr, sp.Expr]) -> sp.Expr:
-    """The force of (3), N, with which the coupler between two cars, each (s, v), pulls the rear one."""
+    """Spring and damper: the force, N, with which the coupler between two cars, each (s, v), pulls the rear one."""
     return c_k * (front[0] - rear[0]) + c_d * (front[1] - rear[1])
 
 
 def differences(x: sp.Indexed) -> sp.Expr:
-    """Row j of A x, with the matrix A of (7)."""
+    """Row j of the Laplacian of the chain of cars, applied to x."""
     return 2 * x - ahead(x) - behind(x)
 
 
-# What (1) adds to u: resistances of the car, and both couplers.
+# What acts on a car besides its own force u: its resistances and both couplers.
 rest_force = (basic_resistance(m, v, first * m_total) + f_a
               + coupler_pull((ahead(s), ahead(v)), (s, v)) - coupler_pull((s, v), (behind(s), behind(v))))
-rates: dict[sp.Expr, sp.Expr] = {s: v, v: (u + rest_force) / m}  # (1)
+rates: dict[sp.Expr, sp.Expr] = {s: v, v: (u + rest_force) / m}  # Newton's second law
 
-# Not in the paper: a wave of slopes along the line, and coefficients that change in time.
+# For trials: a wave of slopes along the line, and coefficients that change in time.
 grade, wave, gravity = sp.symbols("grade wave g", real=True)
 # The place at which a slope is met: the car's own (own = 1), or one that the line is read at for all cars (own = 0).
 own, common_place = sp.symbols("own s_common", real=True)

@@ -1,4 +1,4 @@
-"""A line as sections of grade, curve and tunnel, and the additional resistance they cause (yang2021 (3))."""
+"""A line as sections of grade, curve and tunnel, and the additional resistance they cause."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ grade_permille, curvature_per_m, tunnel_n_per_kn = sp.symbols("i kappa w_s", rea
 
 
 def additional_specific_resistance() -> sp.Expr:
-    """Resistance of grade, curve (600/R) and tunnel in N per kg of train, of (i, 1/R, w_s); yang2021 (3).
+    """Resistance of grade, curve (600/R) and tunnel in N per kg of train, of (i, 1/R, w_s).
 
     The curve term 600/R N/kN with R in m is the usual empirical one; straight track is 1/R = 0.
     """

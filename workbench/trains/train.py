@@ -1,4 +1,4 @@
-"""The single-particle train as sympy expressions: Newton's form and per unit of mass (yang2021 (1)-(4))."""
+"""The single-particle train as sympy expressions: Newton's second law with the Davis equation, and per unit of mass."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ a_star, b_star, c_star = sp.symbols("a_star b_star c_star", real=True)
 
 
 def davis_resistance(speed: sp.Expr, a: sp.Expr, b: sp.Expr, c: sp.Expr) -> sp.Expr:
-    """Basic resistance a + b v + c v^2, the Davis equation (yang2021 (2)); unit of a, v in m/s."""
+    """Basic resistance a + b v + c v^2, the Davis equation; unit of a, v in m/s."""
     return a + b * speed + c * speed**2
 
 
@@ -35,15 +35,16 @@ class Plant:
 
 
 def single_particle() -> Plant:
-    """The train as one mass with forces in N: yang2021 (1) with (2)."""
+    """The train as one mass with forces in N."""
     rates = {p: v, v: (F - davis_resistance(v, a_0, b_0, c_0) - f_add) / m}
-    return Plant(rates, F, f_add, (m, a_0, b_0, c_0), "yang2021 (1), (2)")
+    return Plant(rates, F, f_add, (m, a_0, b_0, c_0), "Newton's second law, Davis equation, in N")
 
 
 def single_particle_per_mass() -> Plant:
-    """The same train with u = F/m, g = -g(x_2)/m and f = -f_add/m, all in m/s^2: yang2021 (4)."""
+    """The same train with u = F/m, g = -g(x_2)/m and f = -f_add/m, all in m/s^2."""
     g = -davis_resistance(x_2, a_star, b_star, c_star)
-    return Plant({x_1: x_2, x_2: u + g + f}, u, f, (a_star, b_star, c_star), "yang2021 (4)")
+    rates = {x_1: x_2, x_2: u + g + f}
+    return Plant(rates, u, f, (a_star, b_star, c_star), "Newton's second law, Davis equation, per kg")
 
 
 # A train that resists with more than 10 m/s^2 at standstill or at 1 m/s has its coefficients in another unit.

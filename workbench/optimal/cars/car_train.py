@@ -20,8 +20,8 @@ class CarTrain:
     """A vehicle made of equal cars, car 1 leading; motors: for each car whether it has one.
 
     Traction and the electric brake are the motor cars' in equal parts, the friction brake every car's in equal parts.
-    The first car pushes the air of the whole train (chen2019 (2)). coupler_n_per_m, coupler_n_s_per_m: c_k and c_d of
-    (3).
+    The first car pushes the air of the whole train. coupler_n_per_m, coupler_n_s_per_m: stiffness and
+    damping of a coupler.
     """
 
     vehicle: Vehicle

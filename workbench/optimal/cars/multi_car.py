@@ -3,7 +3,7 @@
 Forces between cars cancel in their sum. So a run that is planned for the train as one body, with the line's forces
 averaged over it and the sums of the cars' limits, is a run of the cars too as long as they keep together, and
 `share_forces` says what each of them does. Couplers are springs, and the cars do not quite keep together: how far they
-part, what the couplers carry and what energy that takes is simulated with the cars' own equations (chen2019 (1)-(3)).
+part, what the couplers carry and what energy that takes is simulated with the cars' own equations.
 They are driven by the shared forces over time and by a weak correction that keeps their mean to the plan: beyond a
 summit a force over time alone holds no train, because whoever is late is pulled back and whoever is early runs ahead.
 

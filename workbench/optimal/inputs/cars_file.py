@@ -19,7 +19,7 @@ FASTEST_SWING, FASTEST_DAMPING = 100.0, 100.0
 class CarsTable(SourcedRecord):
     """Equal cars: together they are the train that the file states, its forces those of all motors and all brakes.
 
-    motor_pattern: 1 for a motor car, 0 for a trailer, repeated along the train as in chen2019.
+    motor_pattern: 1 for a motor car, 0 for a trailer, repeated along the train.
     """
 
     count: Annotated[int, Strict(), Field(ge=2, le=256)]

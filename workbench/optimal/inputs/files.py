@@ -68,7 +68,7 @@ def notes_together(line: Line, train: Vehicle) -> Notes:
 
 
 def from_track(track: tracks.Track) -> tuple[Line, Notes]:
-    """A line of this project's own format, with the curve resistance 600/R of yang2021, and notes."""
+    """A line of this project's own format, with the curve resistance 600/R, and notes."""
     notes = () if track.speed_limit else (f"line '{track.name}' states no speed limit: the train's own holds",)
     return Line(
         name=track.name, length_m=track.length_m, stops_m=track.stops_m or (0.0, track.length_m),
@@ -76,7 +76,7 @@ def from_track(track: tracks.Track) -> tuple[Line, Notes]:
         grades=tuple((s.start_m, s.grade_permille) for s in track.grade),
         curves=tuple((s.start_m, 1 / s.radius_m, 1 / s.radius_m) for s in track.curve),
         tunnels=tuple(Tunnel(s.start_m, s.end_m - s.start_m, None, s.resistance_n_per_kn) for s in track.tunnel),
-        curve_rule="yang2021",
+        curve_rule="inverse_radius",
     ), notes
 
 

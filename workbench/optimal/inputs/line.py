@@ -34,10 +34,10 @@ from workbench.trains.track import (
     tunnel_n_per_kn,
 )
 
-CurveRule = Literal["roeckl", "yang2021"]
+CurveRule = Literal["roeckl", "inverse_radius"]
 
 RULES: dict[CurveRule, Callable[[], sp.Expr]] = {
-    "roeckl": roeckl_specific_resistance, "yang2021": additional_specific_resistance,
+    "roeckl": roeckl_specific_resistance, "inverse_radius": additional_specific_resistance,
 }
 # Roeckl's formula changes here, so that a clothoid's resistance jumps where it passes this curvature.
 KNEE_PER_M = 1 / 300
