@@ -46,7 +46,7 @@ def main() -> None:
             shutil.rmtree(folder / "cache", ignore_errors=True)
             times[f"cold, {jobs} worker{'s' if jobs > 1 else ''}"] = seconds(paths, jobs, folder)
         claims = len(json.loads((folder / "claims.json").read_text(encoding="utf-8"))["claims"])
-        shutil.rmtree(folder / "cache" / "proofs" / "files")
+        shutil.rmtree(folder / "cache" / "decided-claims" / "files")
         times[f"goals made again, {many} workers"] = seconds(paths, many, folder)
         times["nothing changed"] = statistics.median(seconds(paths, many, folder) for _ in range(REPEATS_WARM))
     cold = next(iter(times.values()))

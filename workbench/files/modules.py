@@ -18,6 +18,7 @@ from typing import Any
 
 from workbench.errors import InputError
 from workbench.files.mistakes import mistake
+from workbench.files.text import read_source
 
 PREFIX = "workbench_folder_"
 
@@ -31,6 +32,10 @@ class SourceLoader(SourceFileLoader):
     def path_stats(self, path: Any) -> Mapping[str, Any]:
         """None that bytecode could be held against, as the import system asks for it."""
         raise OSError(f"{path}: no bytecode wanted")
+
+    def get_data(self, path: Any) -> bytes:
+        """The source, as the import system asks for it; InputError for what is no regular file or too large."""
+        return read_source(str(path))
 
 
 class _Finder:

@@ -5,8 +5,13 @@ from __future__ import annotations
 from pathlib import Path
 
 from workbench.errors import InputError
+from workbench.files.regular import LARGEST_DATA, LARGEST_TEXT, NotRegularError, TooLargeError, contents, size_words
+
+# What is not named here is data.
+_LIMITS = {"TOML": LARGEST_TEXT}
 
 _read: set[Path] = set()
+_sources: set[Path] = set()
 
 
 def inputs_read() -> frozenset[Path]:
@@ -14,17 +19,52 @@ def inputs_read() -> frozenset[Path]:
     return frozenset(_read)
 
 
-def read_text(path: Path, kind: str) -> str:
-    """A file's text, UTF-8 with or without a mark; kind: what it should hold, as 'TOML'. Raises InputError."""
+def sources_read() -> frozenset[Path]:
+    """The Python files of papers that this process has read."""
+    return frozenset(_sources)
+
+
+def read_text(path: Path, kind: str, where: str = "check the path") -> str:
+    """A file's text, UTF-8 with or without a mark, its lines ended by a line feed.
+
+    kind: what it should hold, as 'TOML', which also says how large it may be; where: what to do when there is none.
+    Raises InputError.
+    """
     _read.add(path.absolute())
     try:
-        return path.read_text(encoding="utf-8-sig")
-    except FileNotFoundError:
-        raise InputError(path, "", "no such file: check the path") from None
-    except IsADirectoryError:
-        raise InputError(path, "", f"is a folder: name a .{kind.lower()} file in it") from None
+        text = _contents(path, kind, where).decode("utf-8-sig")
     except UnicodeDecodeError:
         raise InputError(path, "", f"is not UTF-8 text: save it as UTF-8 {kind}") from None
+    return text.replace("\r\n", "\n").replace("\r", "\n")
+
+
+def read_source(path: str) -> bytes:
+    """The bytes of a Python file of a paper, whose encoding it states itself.
+
+    Raises InputError for one that is too large or no regular file, and OSError where there is none, which those who
+    show source lines expect.
+    """
+    _sources.add(Path(path).absolute())
+    try:
+        return contents(path, LARGEST_TEXT)
+    except (NotRegularError, TooLargeError) as trouble:
+        raise InputError(path, "", f"cannot be imported ({trouble.strerror}): name a regular file, or divide "
+                         "it") from None
+
+
+def _contents(path: Path, kind: str, where: str) -> bytes:
+    limit = _LIMITS.get(kind, LARGEST_DATA)
+    try:
+        return contents(path, limit)
+    except FileNotFoundError:
+        raise InputError(path, "", f"no such file: {where}") from None
+    except IsADirectoryError:
+        raise InputError(path, "", f"is a folder: name a .{kind.lower()} file in it") from None
+    except NotRegularError:
+        raise InputError(path, "", f"is a pipe, a device or a socket: name a regular {kind} file") from None
+    except TooLargeError:
+        raise InputError(path, "", f"is larger than {size_words(limit)}, the most that is read of {kind}: name "
+                         "another file, or make it smaller") from None
     except OSError as trouble:
         raise InputError(path, "", f"cannot be read ({trouble.strerror}): check its permissions") from None
     except ValueError as trouble:  # a null character in the path

@@ -159,11 +159,14 @@ def certificate_text(certificate: Certificate) -> str:
     return json.dumps(certificate, indent=1, sort_keys=True, ensure_ascii=False) + "\n"
 
 
-def write_certificates(certificates: Iterable[Certificate], folder: Path) -> None:
-    """Write each as <name>.json into the folder of its paper, with a manifest; InputError where that cannot be."""
+def write_certificates(certificates: Iterable[Certificate], folder: Path, within: Path | None = None) -> None:
+    """Write each as <name>.json into a folder, with a manifest; InputError where that cannot be.
+
+    within: the folder that was asked for, which no link may lead out of; by default the folder itself.
+    """
     papers: dict[str, dict[str, str]] = {}
     for certificate in certificates:
         paper, _, name = str(certificate["claim"]).partition(":")
         papers.setdefault(paper, {})[name] = certificate_text(certificate)
     for paper, written in papers.items():
-        write_folder(folder, paper, written, None)
+        write_folder(folder, within or folder, paper, written, None)

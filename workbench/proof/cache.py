@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import hashlib
 import json
-import shutil
 from collections.abc import Callable, Iterable
 from contextlib import suppress
 from dataclasses import dataclass, fields
@@ -16,7 +15,9 @@ from pathlib import Path
 from typing import Any, TypeVar
 
 from workbench.errors import ClaimError
-from workbench.files.cache_folder import cache_folder, write_whole
+from workbench.files.cache_folder import cache_folder, drop
+from workbench.files.regular import contents
+from workbench.files.writing import write_whole
 from workbench.proof.dependencies import changed_since, digest
 from workbench.proof.engine_digest import engine_digest
 from workbench.proof.verdict import Decision, Stated
@@ -76,15 +77,12 @@ class Kept:
         for folder, count in ((self._claims.parent, ENGINES_KEPT), (self.folder / "files", FILES_KEPT)):
             with suppress(OSError):  # another process may tidy up too
                 for old in sorted(folder.glob("*"), key=lambda p: p.stat().st_mtime_ns)[:-count]:
-                    if old.is_dir():
-                        shutil.rmtree(old, ignore_errors=True)
-                    else:
-                        old.unlink(missing_ok=True)
+                    drop(old)
 
 
 def kept() -> Kept | None:
     """The cache; None where none can be written or the deciders changed under this process."""
-    folder, engine = cache_folder("proofs"), engine_digest()
+    folder, engine = cache_folder("decided-claims"), engine_digest()
     return Kept(folder, engine) if folder and engine else None
 
 
@@ -114,7 +112,7 @@ def _write(path: Path, key: str, content: dict[str, Any]) -> None:
 
 def _read(path: Path, key: str, make: Callable[[dict[str, Any]], T]) -> T | None:
     try:
-        seal, text, rest = path.read_text(encoding="utf-8").split("\n")
+        seal, text, rest = contents(path, own=True).decode().split("\n")
         if seal != _sha256(text) or rest:
             return None
         entry = json.loads(text)

@@ -15,6 +15,7 @@ from pathlib import Path
 from typing import Any
 
 from workbench.files.modules import python_files
+from workbench.files.regular import sha256_of
 from workbench.files.text import inputs_read
 
 # What was read before this instant may have changed since without this process knowing.
@@ -86,7 +87,7 @@ def digest(path: str | Path) -> str | None:
         if file.is_dir():
             names = [found.relative_to(file).as_posix() for found in python_files(file)]
             return hashlib.sha256("\n".join(names).encode()).hexdigest()
-        return hashlib.sha256(file.read_bytes()).hexdigest() if file.is_file() else None
+        return sha256_of(file) if file.is_file() else None
     except OSError:
         return None
 

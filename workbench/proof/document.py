@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import hashlib
 import json
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, field
@@ -10,28 +9,34 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from workbench.errors import InputError
-from workbench.files.cache_folder import write_whole
-from workbench.proof.verdict import VERDICTS, Decision, Stated, is_equation
+from workbench.files.own_files import MANIFEST, read_manifest, replace_files, sha256
+from workbench.proof.verdict import VERDICTS, Decision, Stated, is_equation, is_paper_name
 
 if TYPE_CHECKING:
     from workbench.proof.prove import Proof
 
 CERTIFICATES = "certificates"
-
-
-MANIFEST = "manifest.json"
+ANOTHER_FOLDER = "name another folder by --certificates"
 
 
 @dataclass(frozen=True)
 class Places:
-    """Where certificates lie: <below>/<paper>/<equation>.json, or of papers named in `own` in that folder."""
+    """Where certificates lie: <below>/<paper>/<equation>.json, or of papers named in `own` in that folder.
+
+    roots: of these the paper's own folder, which nothing is written outside of.
+    """
 
     below: Path
     own: Mapping[str, Path] = field(default_factory=dict)
+    roots: Mapping[str, Path] = field(default_factory=dict)
 
     def folder(self, paper: str) -> Path:
         """The folder of a paper's certificates."""
         return self.own.get(paper, self.below / paper)
+
+    def root(self, paper: str) -> Path:
+        """The folder that was asked for, in which that of the certificates lies."""
+        return self.roots.get(paper, self.below)
 
     def path(self, claim: Stated) -> Path:
         """Where a claim's certificate stands."""
@@ -42,9 +47,10 @@ def places(proof: Proof, chosen: Path | None) -> Places:
     """Below the folder that is chosen, else in the papers' own folders, of a single proof file beside it."""
     if chosen is not None:
         return Places(chosen)
-    return Places(Path(CERTIFICATES), {
-        paper: path / CERTIFICATES if path.is_dir() else path.parent / CERTIFICATES / paper
-        for paper, path in proof.papers.items()})
+    own = {paper: path / CERTIFICATES if path.is_dir() else path.parent / CERTIFICATES / paper
+           for paper, path in proof.papers.items()}
+    return Places(Path(CERTIFICATES), own,
+                  {paper: path if path.is_dir() else path.parent for paper, path in proof.papers.items()})
 
 
 def certificate_text(decision: Decision) -> str:
@@ -62,45 +68,55 @@ def write_certificates(decisions: Sequence[Decision], where: Places, whole_paper
     for paper in dict.fromkeys(d.claim.paper for d in decisions):
         own = [d for d in decisions if d.claim.paper == paper]
         written = {d.claim.equation: certificate_text(d) for d in own if d.certificate}
-        write_folder(where.folder(paper), paper, written, None if whole_papers else {d.claim.equation for d in own})
+        write_folder(where.folder(paper), where.root(paper), paper, written,
+                     None if whole_papers else {d.claim.equation for d in own})
 
 
-def write_folder(folder: Path, paper: str, written: Mapping[str, str], decided: Collection[str] | None) -> None:
-    """Write certificates by their equations into a folder, and its manifest; decided: the equations of which an older
-    file may be dropped, None for all that the manifest names. Raises InputError where nothing can be written."""
+def write_folder(folder: Path, within: Path, paper: str, written: Mapping[str, str],
+                 decided: Collection[str] | None) -> None:
+    """Write certificates by their equations into a folder, and its manifest.
+
+    within: the folder that was asked for, which no link may lead out of; decided: the equations of which an older file
+    may be dropped, None for all that the manifest names. Raises InputError where nothing can be written, or a file of
+    someone else's is in the way.
+    """
+    for name in written:
+        if not is_paper_name(paper) or not is_equation(name):
+            raise InputError(folder, f"{paper}:{name}", "cannot name a certificate: use letters, digits and '_' for "
+                             "the paper, and '.', '+', '-' too for the claim")
+    before = _named(folder, paper)
+    stale = {name for name in before if name not in written and (decided is None or name in decided)}
+    digests = {name: digest for name, digest in before.items() if name not in stale}
+    digests |= {name: sha256(text) for name, text in written.items()}
+    manifest = {"version": 1, "paper": paper, "certificates": dict(sorted(digests.items()))}
+    replace_files(folder, within, json.dumps(manifest, indent=1, ensure_ascii=False) + "\n",
+                  {f"{name}.json": text for name, text in written.items()},
+                  {f"{name}.json": digest for name, digest in before.items()},
+                  {f"{name}.json": before[name] for name in stale},
+                  lambda name, data: _claim_of(data) == f"{paper}:{name.removesuffix('.json')}", ANOTHER_FOLDER)
+
+
+def _named(folder: Path, paper: str) -> dict[str, str]:
+    """What the manifest in a folder names, by equation; InputError where it is not this paper's."""
+    found = read_manifest(folder, ANOTHER_FOLDER)
+    if found is None:
+        return {}
+    certificates = found.get("certificates")
+    if found.get("version") != 1 or not isinstance(certificates, dict):
+        raise InputError(folder / MANIFEST, "", f"is no manifest of certificates: move it away, or {ANOTHER_FOLDER}")
+    if found.get("paper") != paper:
+        raise InputError(folder / MANIFEST, "", f"names the certificates of {str(found.get('paper'))[:60]!r}, not of "
+                         f"{paper!r}: remove that folder, or {ANOTHER_FOLDER}")
+    return {name: digest for name, digest in certificates.items() if is_equation(name) and isinstance(digest, str)}
+
+
+def _claim_of(data: bytes) -> str | None:
+    """The claim that a certificate is for, None where the bytes are no certificate."""
     try:
-        named = _manifest(folder, paper)
-        stale = {name for name in named if name not in written and (decided is None or name in decided)}
-        for name in stale:
-            (folder / f"{name}.json").unlink(missing_ok=True)
-        folder.mkdir(parents=True, exist_ok=True)
-        for name, text in written.items():
-            path = folder / f"{name}.json"
-            if not path.exists() or path.read_text(encoding="utf-8") != text:
-                write_whole(path, text)
-        kept = {name: digest for name, digest in named.items() if name not in stale}
-        kept |= {name: hashlib.sha256(text.encode()).hexdigest() for name, text in written.items()}
-        manifest = {"version": 1, "paper": paper, "certificates": dict(sorted(kept.items()))}
-        text = json.dumps(manifest, indent=1, ensure_ascii=False) + "\n"
-        path = folder / MANIFEST
-        if not path.exists() or path.read_text(encoding="utf-8") != text:
-            write_whole(path, text)
-    except (OSError, UnicodeDecodeError) as trouble:
-        why = getattr(trouble, "strerror", None) or str(trouble)
-        raise InputError(getattr(trouble, "filename", None) or folder, "", f"cannot be written ({why}): name another "
-                         "folder by --certificates") from None
-
-
-def _manifest(folder: Path, paper: str) -> dict[str, str]:
-    """What the manifest in a folder names, by equation; nothing where there is none that is this paper's."""
-    try:
-        found = json.loads((folder / MANIFEST).read_text(encoding="utf-8"))
-        if found["version"] == 1 and found["paper"] == paper:
-            return {name: digest for name, digest in found["certificates"].items()
-                    if is_equation(name) and isinstance(digest, str)}
-    except (FileNotFoundError, NotADirectoryError, ValueError, KeyError, TypeError, AttributeError):
-        pass
-    return {}
+        found = json.loads(data)
+    except (ValueError, RecursionError):
+        return None
+    return found.get("claim") if isinstance(found, dict) and "verdict" in found else None
 
 
 def claims_document(decisions: Sequence[Decision], where: Places) -> dict[str, Any]:

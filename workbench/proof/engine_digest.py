@@ -8,6 +8,7 @@ import sys
 from importlib import metadata
 from pathlib import Path
 
+from workbench.files.regular import sha256_of
 from workbench.proof.dependencies import STARTED_NS, changed_since
 
 SOURCES = Path(__file__).parent
@@ -23,7 +24,7 @@ def engine_digest(sources: Path = SOURCES) -> str | None:
     for path in sorted(p for p in sources.rglob("*") if p.is_file() and "__pycache__" not in p.parts):
         if changed_since(path, STARTED_NS):
             return None
-        body = hashlib.sha256(path.read_bytes()).hexdigest()
+        body = sha256_of(path)
         total.update(f"{path.relative_to(sources).as_posix()} {body}\n".encode())
     for name in LIBRARIES:
         total.update(f"{name} {_version(name)}\n".encode())

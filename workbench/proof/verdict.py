@@ -26,6 +26,11 @@ def is_equation(text: str) -> bool:
     return bool(_EQUATION.fullmatch(text)) and len(text) <= LONGEST_EQUATION and text.lower() != "manifest"
 
 
+def is_paper_name(text: str) -> bool:
+    """Whether a text can be a paper's name, which also names a folder: an identifier of Python without accents."""
+    return text.isidentifier() and text.isascii() and len(text) <= LONGEST_EQUATION
+
+
 @dataclass(frozen=True, kw_only=True)
 class Stated:
     """A claim as it is printed.
@@ -47,9 +52,9 @@ class Stated:
         paper, _, equation = self.id.partition(":")
         if not paper or not equation:
             raise ClaimError(f"claim id '{self.id}': write it as <paper>:<equation>")
-        if not (paper.isidentifier() and paper.isascii()):
+        if not is_paper_name(paper):
             raise ClaimError(f"claim id {self.id!r}: '{paper}' is no name of a paper: use letters, digits and "
-                             "underscores, a letter first")
+                             f"underscores, a letter first, at most {LONGEST_EQUATION} of them")
         if not is_equation(equation):
             raise ClaimError(f"claim id {self.id!r}: '{equation}' is no number of a claim: use letters, digits, '.', "
                              f"'_', '+' and '-', a letter or digit first, at most {LONGEST_EQUATION} of them")
