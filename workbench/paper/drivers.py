@@ -23,21 +23,27 @@ WEIGHTS = ("position_weight", "speed_weight", "command_weight", "change_weight")
 _CHANGES = ("changes", "sensitivity", "variants")
 
 
+def _as_the_file_says(study: Any, name: str) -> Mapping[str, Any]:
+    return {"": study}
+
+
 @dataclass(frozen=True)
 class Drivers:
     """How the controllers of a paper's study are driven one by one.
 
-    titles: controller -> its name in tables, MPC's begin with `mpc`; places: what a study runs in; stated: parameters
-    of a law that can be tuned; given: the study with others; drive(study, name, place, factors): one run of the train
-    whose mass and resistance differ by the factors from what controllers know, as a row with the keys of a comparison
-    and, of laws that learn, `trials`: an error of every trial, by the metric's name.
+    titles: controller -> its name in tables, MPC's begin with `mpc`; places(study): what a study runs in, place ->
+    words; stated: parameters of a law that can be tuned; given: the study with others; drive(study, name, place,
+    factors): one run of the train whose mass and resistance differ by the factors from what controllers know, as a row
+    with the keys of a comparison and, of laws that learn, `trials`: an error of every trial, by the metric's name.
+    variants(study, name): which studies drive a controller as stated, by the words that follow its title there.
     """
 
     titles: Mapping[str, str]
-    places: Callable[[Any], tuple[str, ...]]
+    places: Callable[[Any], Mapping[str, str]]
     stated: Callable[[Any, str], dict[str, float]]
     given: Callable[[Any, str, Mapping[str, float]], Any]
     drive: Callable[[Any, str, str, Factors], dict[str, Any]]
+    variants: Callable[[Any, str], Mapping[str, Any]] = _as_the_file_says
 
     def parameters(self, study: Any, name: str) -> dict[str, float]:
         """What can be tuned of a controller, with its stated values."""

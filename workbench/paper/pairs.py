@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from workbench.files.numbers import number
+from workbench.paper.cells import Cell, Column, Phrase
 from workbench.paper.drivers import Drivers, entries, shortened
 from workbench.paper.mpc_comparison import FOLLOWS_MPS
 from workbench.paper.results import ResultTable
@@ -153,7 +153,7 @@ def pairs_of(study: Any, drawn: Drawn) -> tuple[Pair, ...]:
     return tuple(found)
 
 
-def _cell(pair: Pair, metric: str, titles: Mapping[str, str], draws: int) -> str:
+def _cell(pair: Pair, metric: str, titles: Mapping[str, str], draws: int) -> Cell:
     difference, winner = pair.differences[metric], pair.winner(metric)
     verdict = "no win" if winner is None else titles[winner]
     failed = " and ".join(f"{titles[name]} fails in {count} of {draws}"
@@ -162,30 +162,31 @@ def _cell(pair: Pair, metric: str, titles: Mapping[str, str], draws: int) -> str
         return f"{failed}: {verdict}"
     if metric == "jerk_rms" and not failed and not all(pair.follow):
         verdict += " (the other does not follow)" if any(pair.follow) else " (neither follows)"
-    a, b = pair.means[metric]
-    return (f"{number(a)} − {number(b)} = {number(difference.mean)} [{number(difference.low)}, "
-            f"{number(difference.high)}]{f'; {failed}' if failed else ''}: {verdict}")
+    words = f"{{}} − {{}} = {{}} [{{}}, {{}}]{f'; {failed}' if failed else ''}: {verdict}"
+    return Phrase(words, (*pair.means[metric], difference.mean, difference.low, difference.high))
 
 
-def pair_table(study: Any, drivers: Drivers, pairs: Sequence[Pair], where: Mapping[str, str],
+def _ahead(pair: Pair) -> Cell:
+    words = ", ".join("no" if trial is None else f"{METRIC_NAMES[metric][0]} {{}}"
+                      for metric, trial in pair.overtakes.items())
+    return Phrase(words, tuple(trial for trial in pair.overtakes.values() if trial is not None)) if words else None
+
+
+def pair_table(study: Any, drivers: Drivers, pairs: Sequence[Pair], where: Mapping[str, str] | None = None,
                note: str = "") -> Iterator[ResultTable]:
-    """A row per place, law, MPC and state of tuning; nothing without pairs. where: place -> words."""
+    """A row per place, law, MPC and state of tuning; nothing without pairs. where: other words for the places."""
     if not pairs:
         return
-    stated, titles = study.pairs, drivers.titles
+    stated, titles, places = study.pairs, drivers.titles, where or drivers.places(study)
     metrics = tuple(pairs[0].differences)
     learns = any(pair.overtakes for pair in pairs)
-    rows = []
-    for pair in pairs:
-        cells = [_cell(pair, metric, titles, stated.draws) for metric in metrics]
-        if learns:
-            cells.append(", ".join("no" if trial is None else f"{METRIC_NAMES[metric][0]} {trial}"
-                                   for metric, trial in pair.overtakes.items()) or "—")
-        rows.append((where[pair.place], titles[pair.law], titles[pair.rival], STATES[pair.tuned], *cells))
-    header = ("run", "law", "MPC", "parameters", *(f"{METRIC_NAMES[m][0]} ({METRIC_NAMES[m][1]})" for m in metrics))
+    rows = [(places[pair.place], titles[pair.law], titles[pair.rival], STATES[pair.tuned],
+             *(_cell(pair, metric, titles, stated.draws) for metric in metrics),
+             *((_ahead(pair),) if learns else ())) for pair in pairs]
     yield ResultTable(
         "Law less MPC on the same drawn trains", "comparison",
-        (*header, "trial from which on the law is ahead") if learns else header, tuple(rows),
+        ("run", "law", "MPC", "parameters", *(Column(*METRIC_NAMES[metric]) for metric in metrics),
+         *(("trial from which on the law is ahead",) if learns else ())), tuple(rows),
         f"Means over {stated.draws} trains whose mass and resistance lie within ±{100 * stated.spread:g} % of what "
         f"MPC knows, their difference with the {100 * stated.confidence:g} % interval of a paired bootstrap, and who "
         "has less. A difference inside its interval is not called a win. A controller with runs that fail loses to "
@@ -193,8 +194,10 @@ def pair_table(study: Any, drivers: Drivers, pairs: Sequence[Pair], where: Mappi
         f"{FOLLOWS_MPS:g} m/s in speed RMS does not follow and wins nothing in jerk." + (f" {note}" if note else ""))
 
 
-def pair_findings(study: Any, drivers: Drivers, pairs: Sequence[Pair], where: Mapping[str, str]) -> Iterator[str]:
-    """Who wins with which, a sentence per place and law: as stated and as tuned."""
+def pair_findings(study: Any, drivers: Drivers, pairs: Sequence[Pair],
+                  where: Mapping[str, str] | None = None) -> Iterator[str]:
+    """Who wins with which, a sentence per place and law: as stated and as tuned. where: other words for the places."""
+    places = where or drivers.places(study)
     for place, law in dict.fromkeys((pair.place, pair.law) for pair in pairs):
         parts = []
         for tuned in (False, True):
@@ -208,5 +211,5 @@ def pair_findings(study: Any, drivers: Drivers, pairs: Sequence[Pair], where: Ma
                 parts.append(f"{METRIC_NAMES[metric][0]} {STATES[tuned]}: {', '.join(words)}")
             if of and of[0].failed[0]:
                 parts.append(f"{STATES[tuned]} it fails on {of[0].failed[0]} of them")
-        yield (f"{drivers.titles[law]} on {study.pairs.draws} drawn trains, {where[place]}, "
+        yield (f"{drivers.titles[law]} on {study.pairs.draws} drawn trains, {places[place]}, "
                f"±{100 * study.pairs.spread:g} %: {'; '.join(parts)}.")

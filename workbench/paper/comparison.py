@@ -1,0 +1,163 @@
+"""Laws and MPC side by side in all places of a study, as stated and as tuned: their runs, table, findings, plot."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from workbench.files.numbers import number
+from workbench.mpc.controller import KINDS
+from workbench.paper.cells import Cell, Column
+from workbench.paper.drivers import MPC_NAMES, Drivers, tuning_words
+from workbench.paper.mpc_comparison import best_words, counters_words
+from workbench.paper.results import Array, Curve, Plot, ResultTable
+from workbench.paper.stages import Stage
+from workbench.simulate.closed_loop import NOMINAL, Run
+from workbench.simulate.metrics import measure_run
+
+STEP = Column("time a step", "µs", 1e-6)
+COLUMNS = (Column("position RMS", "m"), Column("speed RMS", "m/s"), Column("largest |position error|", "m"),
+           Column("stopping error", "m"), Column("energy", "kWh", 3.6e6), Column("jerk RMS", "m/s³"),
+           Column("saturated"), STEP)
+# Points of an error over time that is sent between processes, and of one that is drawn.
+SENT, DRAWN = 1500, 200
+
+
+@dataclass(frozen=True)
+class Task:
+    """A controller in a place: in a variant of what is stated (see `Drivers.variants`), or as tuned."""
+
+    place: str
+    name: str
+    variant: str = ""
+    tuned: bool = False
+
+
+@dataclass(frozen=True)
+class ComparedRun:
+    """A run of the comparison: whose it is, and its row with the keys of `workbench compare`.
+
+    title: the controller as sentences have it; row: also `curve`, see `compared_row`, and `counters`, what MPC counted.
+    """
+
+    task: Task
+    title: str
+    row: Mapping[str, Any]
+
+    @property
+    def label(self) -> str:
+        """The controller as tables and figures have it."""
+        return f"{self.title}, tuned" if self.task.tuned else self.title
+
+
+def compared_row(run: Run, length_m: float) -> dict[str, Any]:
+    """The row of a run over a line of that length: its metrics, its position errors over time, what was counted."""
+    return measure_run(run, length_m).row() | {"curve": error_curve(run), "counters": run.counters}
+
+
+def error_curve(run: Run) -> tuple[Array, Array]:
+    """Times (s) and position errors (m) of a run, thinned and up to where they are finite."""
+    time, error = run.column("t_s"), run.column("s_m") - run.column("s_desired_m")
+    whole = len(error) if np.isfinite(error).all() else int(np.argmin(np.isfinite(error)))
+    keep = slice(None, whole, max(1, len(time) // SENT))
+    return time[keep], error[keep]
+
+
+def comparison_tasks(drivers: Drivers, study: Any) -> list[Task]:
+    """In every place every controller as stated and, where anything was found for it, as tuned; none without MPC."""
+    found = study.tuning.found if study.tuning else {}
+    return [] if study.mpc is None else [
+        task for place in drivers.places(study) for name in drivers.titles
+        for task in (*(Task(place, name, variant) for variant in drivers.variants(study, name)),
+                     *((Task(place, name, tuned=True),) if name in found else ()))]
+
+
+def comparison_stage(drivers: Drivers, study: Any) -> Stage:
+    """The runs of `comparison_tasks` as a stage of the study."""
+    places = drivers.places(study)
+    return Stage(_drive, (drivers, study), comparison_tasks(drivers, study),
+                 lambda task, _: f"{places[task.place]}, {drivers.titles[task.name]}")
+
+
+def _drive(shared: tuple[Drivers, Any], task: Task) -> Mapping[str, Any]:
+    drivers, study = shared
+    driven = drivers.tuned(study, task.name) if task.tuned else drivers.variants(study, task.name)[task.variant]
+    return drivers.drive(driven, task.name, task.place, NOMINAL)
+
+
+def compared_runs(drivers: Drivers, results: Mapping[Task, Mapping[str, Any]]) -> list[ComparedRun]:
+    """What `comparison_stage` gave, in its order."""
+    return [ComparedRun(task, drivers.titles[task.name] + task.variant, row) for task, row in results.items()]
+
+
+def comparison_table(drivers: Drivers, study: Any, runs: Sequence[ComparedRun], heading: str, note: str,
+                     told: Mapping[str, str] | None = None) -> Iterator[ResultTable]:
+    """A row per run; nothing without runs. heading: what a place is, left out of the words for it.
+
+    told: controller -> what it may know, of the laws, for a column of its own.
+    """
+    if not runs:
+        return
+    informed = {name: KINDS[kind].information for name, kind in MPC_NAMES.items()} | dict(told or {})
+    places = drivers.places(study)
+    rows = [(places[run.task.place].removeprefix(f"{heading} "), run.label,
+             *((informed[run.task.name],) if told else ()), *_cells(run.row)) for run in runs]
+    yield ResultTable("Beside MPC", "comparison",
+                      (heading, "controller", *(("is told",) if told else ()), *COLUMNS), tuple(rows), note)
+
+
+def _cells(row: Mapping[str, Any]) -> tuple[Cell, ...]:
+    step_s = row["step_us_median"] * STEP.si
+    if row["failed"] is not None:
+        return ("fails", *(None for _ in COLUMNS[1:-1]), step_s)
+    largest = max(abs(row["position_error_min"]), abs(row["position_error_max"]))
+    return (row["position_rms"], row["speed_rms"], largest, row["stopping_error"], row["energy_J"], row["jerk_rms"],
+            row["saturated_fraction"], step_s)
+
+
+def comparison_note(study: Any, runs: Sequence[ComparedRun], law_period_s: float, told: str = "",
+                    shorter: str = "") -> str:
+    """For the table: what MPC plans with and counted, how often laws without limits sample, what was tuned.
+
+    told: who knows what, a sentence; shorter: how the tuning's runs differ from these, a sentence.
+    """
+    data = study.mpc
+    parts = (f"MPC every {data.period_s:g} s, {data.horizon} samples ahead, limits of {data.max_traction_mps2:g} m/s², "
+             f"the laws every {law_period_s:g} s, without limits as in the paper.", told,
+             f"MPC counted {counters_words([run.row.get('counters', {}) for run in runs])}.",
+             f"{tuning_words(study.tuning)} {shorter}" if study.tuning else "")
+    return " ".join(part for part in parts if part)
+
+
+def comparison_findings(drivers: Drivers, study: Any, runs: Sequence[ComparedRun]) -> Iterator[str]:
+    """Who is nearest where, a sentence a place for all as stated and one for all as tuned; what a step of MPC takes."""
+    for place, where in drivers.places(study).items():
+        for tuned, state in ((False, "as stated"), (True, "tuned")):
+            rows = [(run.title, run.row) for run in runs if (run.task.place, run.task.tuned) == (place, tuned)]
+            if rows:
+                yield (f"Beside MPC, {where}, {state}: {best_words(rows, 'position_rms', 'position RMS')} m; "
+                       f"{best_words(rows, 'speed_rms', 'speed RMS')} m/s; "
+                       f"{best_words(rows, 'jerk_rms', 'jerk RMS')} m/s³.")
+    steps = [run.row["step_us_median"] for run in runs if run.task.name in MPC_NAMES]
+    if steps:
+        yield f"A step of MPC takes {number(min(steps))} to {number(max(steps))} µs here."
+
+
+def comparison_plot(runs: Sequence[ComparedRun], where: str) -> Iterator[Plot]:
+    """|Position error| over time of all runs that finish; nothing without any.
+
+    The largest of each stretch is drawn: on a logarithmic scale all zeros between would hide the rest.
+    """
+    curves = []
+    for run in runs:
+        if run.row["failed"] is None:
+            time, error = run.row["curve"]
+            parts = np.array_split(np.arange(len(error)), min(len(error), DRAWN))
+            largest = np.array([np.abs(error[part]).max() for part in parts])
+            curves.append(Curve(run.label, np.array([time[part[0]] for part in parts]), largest))
+    if curves:
+        yield Plot(f"Position error beside MPC, {where}", "not in the paper", "time (s)", "|position error| (m)",
+                   tuple(curves), f"The largest of each of {DRAWN} stretches.", log_y=True)
