@@ -3,12 +3,9 @@
 from __future__ import annotations
 
 import hashlib
-import importlib.util
 import keyword
 import sys
-import tempfile
 from collections.abc import Callable, Iterable, Sequence
-from pathlib import Path
 from types import ModuleType
 from typing import Any, Literal
 
@@ -16,9 +13,9 @@ import casadi as ca
 import sympy as sp
 from sympy.printing.pycode import PythonCodePrinter
 
+from workbench.compile.code_cache import imported_kernel
 from workbench.compile.text import AS_WRITTEN, Form, module_text
 from workbench.errors import CompileError
-from workbench.files.cache_folder import CACHE_VARIABLE, cache_folder, writable, write_whole
 from workbench.model.law import MEASUREMENTS, ControlLaw, neuron, neuron_count
 from workbench.trains.multi_particle import cars
 from workbench.trains.train import Plant
@@ -226,14 +223,6 @@ def cars_source(name: str, arguments: Sequence[sp.Symbol], parameters: Sequence[
     return "\n".join([*lines, *(f"        {place} = {value}" for place, value in zip(places, values, strict=True)), ""])
 
 
-def _kernel_folder() -> Path:
-    """Folder of compiled kernels: the cache, else a temporary one."""
-    folder = cache_folder("kernels") or writable(Path(tempfile.gettempdir()) / "workbench-kernels")
-    if folder is None:
-        raise CompileError(f"no writable folder for compiled kernels: set {CACHE_VARIABLE} to one")
-    return folder
-
-
 def kernel_module(plant: Plant, law: ControlLaw, loop: ModuleType, estimates: Estimates = "corrected",
                   form: Form = AS_WRITTEN) -> ModuleType:
     """The compiled module of a plant under a law, driven by the functions of `loop`; cached between runs."""
@@ -253,20 +242,7 @@ def loop_module(source: str, functions: Sequence[str], loop: ModuleType, form: F
     name = f"workbench_kernel_{digest}"
     if name in sys.modules:
         return sys.modules[name]
-    path = _kernel_folder() / f"{name}.py"
-    if not path.exists() or path.read_text(encoding="utf-8") != text:
-        write_whole(path, text)
-    spec = importlib.util.spec_from_file_location(name, path)
-    if spec is None or spec.loader is None:
-        raise CompileError(f"cannot import the generated kernel {path}: remove it and run again")
-    module = importlib.util.module_from_spec(spec)
-    sys.modules[name] = module
-    try:
-        spec.loader.exec_module(module)
-    except BaseException:
-        del sys.modules[name]
-        raise
-    return module
+    return imported_kernel(name, text)
 
 
 def casadi_function(name: str, arguments: Sequence[sp.Symbol], exprs: Sequence[sp.Expr]) -> Any:
