@@ -24,10 +24,11 @@ from workbench.gains.stated import Stated
 from workbench.paper.gain_search import GainSearch, Row, Task, same_for_all
 from workbench.paper.loading import Loaded
 from workbench.paper.study import with_values
-from workbench.proof.claim import D, Goal, at_least, at_most, name_of
+from workbench.proof.claim import D, Goal, at_least, at_most
 
 from . import laws as law
 from .laws import c_1, c_2, c_3
+from .one_car import one_car
 from .simulation.cars_trials import run_cars
 from .study import outcomes
 from .study.record import ChenStudy
@@ -37,13 +38,6 @@ Values = dict[sp.Expr, sp.Expr]
 
 P_11, P_12, P_22, GAIN = sp.symbols("p_11 p_12 p_22 gain_squared", real=True)
 e_s, e_v = sp.symbols("e_s e_v", real=True)
-
-
-def one_car(expr: sp.Expr) -> sp.Expr:
-    """An expression of car j with plain symbols for it."""
-    return expr.xreplace({s: sp.Symbol(name_of(s), real=True) for s in expr.atoms(sp.Indexed)})
-
-
 lam_1, lam_2, delta_u, z_1, z_2 = (one_car(s) for s in (law.lambda_1, law.lambda_2, law.Delta_u, law.z_1, law.z_2))
 AUXILIARY = {one_car(s): one_car(rate) for s, rate in law.auxiliary.items()}  # (9)
 OUTPUTS = {"position": lam_1, "speed": AUXILIARY[lam_1]}  # e_s and e_v while z = 0
@@ -174,7 +168,7 @@ def report(stated: Stated) -> GainReport:
         seconds)
 
 
-# --- the runs with found gains beside the stated ones ---------------------------------------------------------------
+# --- runs with the stated and the found gains -----------------------------------------------------------------------
 
 
 def tasks(report: GainReport) -> list[Task]:

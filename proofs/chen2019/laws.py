@@ -11,11 +11,6 @@ from dataclasses import dataclass
 import sympy as sp
 
 from workbench.trains.multi_particle import (
-    c_0,
-    c_a,
-    c_d,
-    c_k,
-    c_v,
     coefficients,
     differences,
     each_car,
@@ -29,6 +24,8 @@ from workbench.trains.multi_particle import (
     s,
     v,
 )
+
+from .plant import compact_force, compact_parameters
 
 v_dot, lambda_1, lambda_2, Delta_u, mu = each_car("v_dot lambda_1 lambda_2 Delta_u mu")
 z_1, z_2, phi, As, Av = each_car("z_1 z_2 phi As Av")
@@ -49,20 +46,7 @@ def limited(value: sp.Expr, low: sp.Expr, high: sp.Expr) -> sp.Expr:
     return sp.Min(sp.Max(value, low), high)
 
 
-# --- the model that the law estimates (7) ---------------------------------------------------------------------------
-
-
-def compact_force(parameters: tuple[sp.Expr, ...], speed: sp.Expr, air: sp.Expr, As_j: sp.Expr,
-                  Av_j: sp.Expr) -> sp.Expr:
-    """The forces of (7) on one car besides u, for (Theta_v, theta_a, theta_k, theta_d, eta)."""
-    rolling, aerodynamic, spring, damper, rest = parameters
-    return rolling * speed + aerodynamic * air + spring * As_j + damper * Av_j + rest
-
-
-def compact_parameters(mass: sp.Expr, total: sp.Expr, additional: sp.Expr) -> tuple[sp.Expr, ...]:
-    """Theta_v, theta_a, theta_k, theta_d and eta of one car, below (7)."""
-    return -c_v * mass, -c_a * total, -c_k, -c_d, additional - c_0 * mass
-
+# --- the parameters of (7), estimates and their errors ------------------------------------------------------------------
 
 true_parameters = (Theta, *theta, eta)
 estimates = (Theta_hat, *theta_hat, eta_hat)

@@ -25,14 +25,13 @@ from workbench.proof.claim import D, at_least, at_most
 from workbench.proof.derive import lie_derivative
 
 from . import laws as law
-from .laws import k_1, k_2, k_3
+from .laws import k_1, k_2, k_3, s_tilde, v_tilde
 from .plant import s, v
 from .study.record import LiuStudy
 from .study.runs import Case, run_case
 
 Values = dict[sp.Expr, sp.Expr]
 
-s_tilde, v_tilde = sp.symbols("s_tilde v_tilde", real=True)
 p, p_11, p_12, p_22 = sp.symbols("p p_11 p_12 p_22", real=True)
 noise, xi_tilde = sp.symbols("n xi_tilde", real=True)
 GAINS = (k_1, k_2, k_3)
@@ -164,7 +163,7 @@ def _found(stated: Stated, label: str, objective: str, rate: Fraction, column: i
 
 
 def report(stated: Stated) -> GainReport:
-    """Certificates and decay rates for all columns, and and gains that do better than columns 5 and 10."""
+    """Certificates and decay rates for all columns, and gains that do better than columns 5 and 10."""
     gains = {str(k): stated.numbers(f"gains.{k}") for k in GAINS}
     conditions, quantities, certificates, seconds = [], [], [], {}
     rates: list[Fraction] = []
@@ -234,7 +233,7 @@ def _refused(problem: Problem) -> dict[str, Any]:
     raise SolverError(f"{problem.id}: is not refused by an exact certificate: loosen it less")
 
 
-# --- the runs with found gains beside the stated ones ---------------------------------------------------------------
+# --- runs with the stated and the found gains -----------------------------------------------------------------------
 
 
 def tasks(report: GainReport) -> list[Task]:

@@ -1,6 +1,6 @@
 """The laws of liu2020: neural observer (12), (17)-(21) and output feedback controller (22), (23), (30)-(35).
 
-The expressions are those that `proofs/liu2020.py` decides. From them come the laws as printed and as corrected, in two
+The expressions are those that the claims decide. From them come the laws as printed and as corrected, in two
 readings of the observer's damping: (12) and (14) print k_3 v_tilde, while (18) and (25) have k_3 s_tilde'.
 """
 

@@ -1,0 +1,19 @@
+"""Relations and goals that several claims share."""
+
+from __future__ import annotations
+
+import sympy as sp
+
+from workbench.proof.claim import D, Goal, Relation, at_least, at_most, equal
+
+
+def within(value: sp.Expr, bound: sp.Expr) -> tuple[Relation, ...]:
+    """|value| <= bound."""
+    return at_most(value, bound), at_least(value, -bound)
+
+
+def moves_alike(estimate: sp.Expr, truth: sp.Expr, constant_truth: bool = False) -> Goal:
+    """The rate of estimate - truth against the rate of the estimate."""
+    rates = sp.symbols(f"{estimate}_rate {truth}_rate", real=True)
+    flow = {estimate: rates[0], truth: sp.Integer(0) if constant_truth else rates[1]}
+    return Goal((equal(D(estimate - truth), D(estimate)),), flow=flow)
