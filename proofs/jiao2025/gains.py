@@ -22,13 +22,15 @@ from workbench.gains.result import Condition, GainReport, GainSet, Quantity
 from workbench.gains.search import Found, largest, search
 from workbench.gains.stated import Stated
 from workbench.paper.gain_search import GainSearch, Row, Task, changes_of
+from workbench.paper.learning_comparison import rises
 from workbench.paper.loading import Loaded
 from workbench.proof.claim import Goal, at_least, at_most
 
 from . import laws, plant
+from .simulation.plans import Case, changed, plan
 from .simulation.trials import run_trials
-from .study import outcomes
-from .study.cases import Case, Change, JiaoStudy, changed, plan
+from .study.record import Change, JiaoStudy
+from .study.runs import outcome
 
 x, w = sp.symbols("x w", real=True)
 p, contraction = sp.symbols("p theta_squared", real=True)
@@ -250,10 +252,10 @@ def run(loaded: Loaded, task: Task) -> tuple[Row, str | None]:
     assert isinstance(study, JiaoStudy)
     other = changed(study, Change(title=task.gains, set=dict(task.changes)))
     run = run_trials(plan(other, Case(READING, task.values["law"], other.trials.seed)))
-    mse = outcomes.mse(run)
+    mse = run.mse
     numbers: Row = {f"mse_{n}": float(mse[n]) if n < len(mse) else None
                     for n in (0, *other.trials.compared, other.trials.count)}
-    numbers |= {"trials_worse": outcomes.rises(run), "outcome": outcomes.outcome(run)}
+    numbers |= {"trials_worse": rises(mse), "outcome": outcome(run)}
     return numbers, run.failed
 
 

@@ -76,3 +76,13 @@ def overtakes(trials: NDArray[np.float64], rival: NDArray[np.float64], resamples
             break
         found = trip + 1
     return found
+
+
+def ahead_from(errors: Array, rival: float, first_trial: int = 1) -> int | None:
+    """The trial from which on all errors of a learner are below a rival's, None where there is none.
+
+    first_trial: the number of the first one.
+    """
+    above = np.nonzero(errors >= rival)[0]
+    ahead = int(above[-1]) + 1 if len(above) else 0
+    return first_trial + ahead if ahead < len(errors) else None

@@ -69,6 +69,11 @@ class TrialRun:
     failed: str | None
     step_us: float
 
+    @property
+    def mse(self) -> Array:
+        """Mean squared error of every trial that ended, in m^2/s^2."""
+        return self.column("mse")
+
     def column(self, name: str) -> Array:
         """One of TRIAL_COLUMNS, trial by trial."""
         return self.rows[:, TRIAL_COLUMNS.index(name)]

@@ -1,30 +1,21 @@
-"""jiao2025's file as a record, the runs that it asks for, and each run as a plan."""
+"""jiao2025's study.toml as a record: train, line, trials, learning, the readings of its units, and what is varied."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from dataclasses import dataclass
 from itertools import pairwise
 from typing import Annotated, Any, Literal, Self
 
 import numpy as np
-from numpy.typing import NDArray
-from pydantic import BeforeValidator, Field, Strict, ValidationError, model_validator
+from pydantic import BeforeValidator, Field, Strict, model_validator
 
-from workbench.compile.kernel import numeric
 from workbench.files.toml import Name, Number, Positive, Record, SourcedRecord, Text
 from workbench.paper.mpc_comparison import MpcData
+from workbench.paper.results import Array
 from workbench.paper.study import Study
 from workbench.paper.tuning_record import Pairs, StudyTuning
 
-from .. import laws, plant
 from ..laws import TRIAL_LAWS
-from ..simulation.trials import Array, TrialPlan
-
-GRAVITY = 9.80665
-_speed_at = numeric((plant.k,), plant.desired_curve)
-_additional = numeric((plant.slope_coefficient, plant.slope_angle), plant.additional_resistance)
-PRINTED_LAWS = ("jiao2025.icfdl", "jiao2025.pd")
+from ..simulation.plans import changed
 
 Trial = Annotated[int, Strict(), Field(ge=1, le=10_000)]
 Share = Annotated[float, Strict(), Field(gt=0, le=1, allow_inf_nan=False)]
@@ -186,114 +177,5 @@ class JiaoStudy(Study):
             if entry.law not in TRIAL_LAWS:
                 raise ValueError(f"shown: there is no law '{entry.law}': choose one of {', '.join(TRIAL_LAWS)}")
         for variant in self.variants:
-            try:
-                changed(self, variant)
-            except (ValidationError, ValueError) as trouble:
-                why = str(trouble.errors()[0]["msg"]) if isinstance(trouble, ValidationError) else str(trouble)
-                raise ValueError(f"variants: '{variant.title}': {why}") from None
+            changed(self, variant)
         return self
-
-
-def changed(study: JiaoStudy, variant: Change) -> JiaoStudy:
-    """The study with a variant's values set; raises ValueError for a key that the study does not state."""
-    data = study.model_dump(exclude_unset=True)
-    for key, value in variant.set.items():
-        *parents, last = key.split(".")
-        table: Any = data
-        for parent in parents:
-            table = table.get(parent) if isinstance(table, dict) else None
-        if not isinstance(table, dict) or last not in table:
-            raise ValueError(f"{key}: no such key: name a value that the study states")
-        table[last] = value
-    return JiaoStudy.model_validate(data | {"variants": ()})
-
-
-@dataclass(frozen=True)
-class Case:
-    """One run: reading, law, seed of the lengths, variant (-1: as stated), another unit of u in m/s^2.
-
-    opposed: whether (3) opposes the motion backwards too, as it does not as printed.
-    """
-
-    reading: str
-    law: str
-    seed: int
-    variant: int = -1
-    unit_mps2: float | None = None
-    opposed: bool = False
-
-
-def cases(study: JiaoStudy) -> Iterator[Case]:
-    """All runs of a study, each once: every law in every reading, variants, seeds, units."""
-    seed = study.trials.seed
-    for reading in study.readings:
-        for law in TRIAL_LAWS:
-            yield Case(reading, law, seed)
-        for law in PRINTED_LAWS:
-            yield Case(reading, law, seed, opposed=True)
-    for entry in study.shown:
-        for place, variant in enumerate(study.variants):
-            if concerns(variant, entry.law):
-                yield Case(entry.reading, entry.law, seed, place)
-        for more in range(1, study.trials.seeds):
-            yield Case(entry.reading, entry.law, seed + more)
-    for reading in study.unit_sweep.readings:
-        for law in PRINTED_LAWS:
-            for unit in study.unit_sweep.units_mps2:
-                yield Case(reading, law, seed, unit_mps2=float(unit))
-
-
-def concerns(variant: Change, law_id: str) -> bool:
-    """Whether a variant changes anything that a law's run depends on."""
-    law = TRIAL_LAWS[law_id]
-    used = {"first_input", *map(str, law.parameters)}
-    used |= {"first_estimate"} if law.next_estimate != laws.phi_first else set()
-    return any(not key.startswith("learning.") or key.removeprefix("learning.") in used for key in variant.set)
-
-
-def plan(study: JiaoStudy, case: Case) -> TrialPlan:
-    """The plan of one run."""
-    if case.variant >= 0:
-        study = changed(study, study.variants[case.variant])
-    reading, mass = study.readings[case.reading], study.train.mass_kg
-    unit_n = reading.unit_n if case.unit_mps2 is None else case.unit_mps2 * mass
-    desired, positions = desired_trip(study, reading)
-    law = TRIAL_LAWS[case.law]
-    learning = study.learning
-    estimate = learning.kept_estimate if law is laws.fixed_estimate else learning.first_estimate
-    fractions = [0.0, *(section.end_fraction for section in study.line.sections)]
-    return TrialPlan(
-        law=case.law, parameters={str(s): getattr(learning, str(s)) for s in law.parameters},
-        lengths=lengths(study.trials, case.seed) * reading.per_k if law.random_lengths
-        else np.full(study.trials.count + 1, len(desired) - 1, dtype=np.int64),
-        first_input=learning.first_input,
-        first_estimate=reading.step_s * unit_n / mass if estimate == "derivative" else float(estimate),
-        desired=desired, desired_positions=positions, edges=np.array(fractions) * positions[-1],
-        additional_n=grade_newton(study), seen_by=study.line.seen_by, step_s=reading.step_s, mass_kg=mass,
-        unit_n=unit_n, divisor=mass if study.train.resistance == "as_printed" else 1.0,
-        opposed=case.opposed, k_per_sample=reading.k_per_sample, kept=_kept(study, case))
-
-
-def _kept(study: JiaoStudy, case: Case) -> tuple[int, ...]:
-    """The trials of which figures show every sample."""
-    drawn = [Case(entry.reading, entry.law, study.trials.seed) for entry in study.shown]
-    return tuple(sorted({*study.trials.compared, *study.trials.line_shown})) if case in drawn else ()
-
-
-def lengths(trials: Trials, seed: int) -> NDArray[np.int64]:
-    """T_0, T_1, ...: uniform from above the shortest length up to the desired one, in the k of (16)."""
-    drawn = np.random.default_rng(seed).integers(trials.shortest_length_k, trials.desired_length_k, trials.count + 1)
-    return drawn + 1
-
-
-def desired_trip(study: JiaoStudy, reading: Reading) -> tuple[Array, Array]:
-    """(16) at every sample in m/s, and the positions in m of a train that follows it."""
-    samples = np.arange(study.trials.desired_length_k * reading.per_k + 1)
-    speed = np.asarray(_speed_at(samples * reading.k_per_sample), dtype=float)
-    return speed, np.concatenate(([0.0], np.cumsum(speed[:-1]))) * reading.step_s
-
-
-def grade_newton(study: JiaoStudy) -> Array:
-    """(2) for every section in N: the weight times the sine of the slope."""
-    slope = np.arctan([section.grade_permille * 1e-3 for section in study.line.sections])
-    return np.asarray(_additional(study.train.mass_kg * GRAVITY, slope), dtype=float)
