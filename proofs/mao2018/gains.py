@@ -14,7 +14,6 @@ from typing import Any
 import numpy as np
 import sympy as sp
 
-from workbench.gains.certificate import goal_certificate
 from workbench.gains.exact import fraction, rational, simplest
 from workbench.gains.problem import Problem
 from workbench.gains.result import Condition, GainReport, GainSet, Quantity
@@ -23,65 +22,22 @@ from workbench.gains.search import search
 from workbench.gains.stated import Stated
 from workbench.paper.gain_search import GainSearch, Row, Task, changes_of
 from workbench.paper.loading import Loaded
-from workbench.proof.claim import D, Goal, at_least, at_most
+from workbench.proof.claim import at_least, at_most
 from workbench.simulate.closed_loop import run_law
 from workbench.simulate.metrics import measure_run
 
-from . import equations as of
-from . import leakage
-from . import paper as claims
-from .laws import KINDS, failure_law, train
-from .leakage import forgetting, leak
-from .study.numbers import initial, parameters, setting_of
+from . import active_mode as active
+from . import leakage, plant
+from .laws import KINDS, failure_law
+from .leakage import leak
+from .leakage_proof import leakage_certificates
 from .study.record import MaoStudy
+from .study.scenario import initial, parameters, setting_of
 
 Values = dict[sp.Expr, sp.Expr]
 BALL_M = Fraction(1, 10)  # wanted root mean square of z_1
 LEAK_SHARE = Fraction(1, 10)  # by how much of K the leakage may raise the bound of the mean
 TUNING = "scaled"
-mu = sp.Symbol("mu", positive=True)
-
-
-# --- the leakage and its proof --------------------------------------------------------------------------------------
-
-
-def _weighed(proof: Any, term: Any) -> sp.Expr:
-    """The sum of a term of (true, estimate) over all estimates, with the weights that fit in V_2 (claim 45)."""
-    scalars = [(x, hat, 1, gain) for x, hat, gain in zip(proof.trues, proof.hats, proof.gains, strict=True)]
-    scalars += [(proof.rho_k, proof.rho_k_hat, proof.m * proof.k_v, proof.Gamma_k),
-                (proof.rho_i, proof.rho_hat, proof.m * proof.k_v, proof.Gamma_m)]
-    failures = proof.over_basis(term(proof.xi, proof.xi_hat)) * proof.m / proof.Gamma_xi
-    return failures + sum((w * term(x, hat) / gain for x, hat, w, gain in scalars), sp.Integer(0))
-
-
-def leakage_certificates(proof: Any) -> list[dict[str, Any]]:
-    """V_2' <= -mu V_2 + K + leak E_0 with mu = min(2 r_1, 2 r_2, leak), along the loop itself, in three steps.
-
-    E_0 is what the estimates weigh in V_2 while they are zero. Between switches; a switch adds a finite amount (46).
-    """
-    flow = proof.uncertain_train(proof.rho_law_61_true)
-    flow |= forgetting({x: rate for x, rate in flow.items() if x not in (proof.z_1, proof.z_2)})
-    V = proof.V_true - proof.V_idle  # the idle modes' estimates rest
-    errors = _weighed(proof, lambda x, hat: (x - hat) ** 2 / 2)
-    zero = _weighed(proof, lambda x, hat: x**2 / 2)
-    pull = leak * _weighed(proof, lambda x, hat: (x - hat) * hat)
-    pulled = at_most(pull, -leak * errors + leak * zero)
-    damped = proof.z_2 * (proof.nu_damp - proof.drag)
-    along = at_most(D(V), proof.decay + damped + pull)
-    given = (*proof.filippov, *proof.disturbed, *proof.uncertain, at_most(proof.chi_d, 1),
-             at_least(proof.m * proof.k_v, proof.rho_0))
-    rate = Goal((at_most(D(V), proof.decay + proof.constant - leak * errors + leak * zero),), given, flow, lemmas=(
-        *proof.within, at_most(proof.Delta_b**2, proof.b_0**2), at_most(proof.Delta_c**2, proof.c_0**2),
-        at_most(damped, proof.constant), along, pulled))
-    whole = sp.Symbol("E", nonnegative=True)
-    slowest = (at_most(mu, 2 * proof.r_1), at_most(mu, 2 * proof.r_2), at_most(mu, leak))
-    decay = Goal((at_most(proof.decay - leak * whole, -mu * (proof.z_1**2 / 2 + proof.z_2**2 / 2 + whole)),), slowest)
-    t, V_t, w, V_0, offset = sp.symbols("t V_t w V_0 l", real=True)
-    bounded = Goal((at_most(V_t, offset / mu + (V_0 - offset / mu) * sp.exp(-mu * t)),), (),
-                   {t: sp.Integer(1), V_t: w}, (at_most(w, -mu * V_t + offset), at_least(t, 0)),
-                   {t: sp.Integer(0), V_t: V_0}, decreasing=sp.exp(mu * t) * (V_t - offset / mu))
-    return [goal_certificate(f"mao2018:leakage.{name}", goal)
-            for name, goal in (("rate", rate), ("decay", decay), ("bounded", bounded))]
 
 
 # --- the study's numbers, SI ----------------------------------------------------------------------------------------
@@ -103,9 +59,10 @@ def top_speed(stated: Stated) -> Fraction:
 
 def adaptation_gains(stated: Stated, regressors: str) -> Values:
     """The gains of (27)-(31), divided by the squares of the regressors' largest values where these are scaled."""
-    at = {of.x_2: rational(top_speed(stated)), of.g: rational(stated.number("train.gravity_mps2"))}
-    sizes = [sp.Integer(1) if regressors == "SI" else sp.sympify(by, strict=True).xreplace(at) for by in of.REGRESSORS]
-    return {gain: rational(stated.number("law.gain")) / size**2 for gain, size in zip(of.gains, sizes, strict=True)}
+    at = {plant.x_2: rational(top_speed(stated)), plant.g: rational(stated.number("train.gravity_mps2"))}
+    sizes = [sp.Integer(1) if regressors == "SI" else sp.sympify(by, strict=True).xreplace(at)
+             for by in active.REGRESSORS]
+    return {gain: rational(stated.number("law.gain")) / size**2 for gain, size in zip(active.gains, sizes, strict=True)}
 
 
 def estimates_at_zero(stated: Stated) -> Fraction:
@@ -134,7 +91,7 @@ def estimates_at_zero(stated: Stated) -> Fraction:
 def damping_problem(b_0: Fraction, c_0: Fraction, speed: Fraction, K: Fraction) -> Problem:
     """The least feedback k_1 v^2 + k_2 v^4 (1/s) of (62) at the top speed with b_0^2/(4 k_1) + c_0^2/(4 k_2) <= K."""
     t_1, t_2, x, y = sp.symbols("t_1 t_2 x y", real=True)
-    k_1, k_2 = of.k_1, of.k_2
+    k_1, k_2 = active.k_1, active.k_2
     v = rational(speed)
     scales = {k: b / (2 * K) * (b_0 + c_0 * speed) / speed**n for k, b, n in ((k_1, b_0, 1), (k_2, c_0, 2))}
     return Problem("mao2018:damping", (t_1, t_2, k_1, k_2), {
@@ -156,37 +113,37 @@ def _loop(stated: Stated, regressors: str, k_1: Fraction, k_2: Fraction) -> Any:
     """
     speed = rational(top_speed(stated))
     m = rational(stated.number("law.force_unit_n") / (1000 * stated.number("train.mass_t")))
-    errors = {of.z_1: of.x_1 - of.x_m, of.z_2: of.x_2 - of.alpha_1}
-    true = of.zeta.xreplace(dict(zip(of.hats, of.trues, strict=True)))
-    zero = dict.fromkeys((*of.hats, *of.trues, of.x_1, of.x_m, of.xddot_m), sp.Integer(0))
-    at = zero | adaptation_gains(stated, regressors) | dict.fromkeys(of.chis, sp.Integer(1)) | {
-        of.x_2: speed, of.xdot_m: speed, of.m: m, of.rho_hat: 1 / m, of.k_1: rational(k_1), of.k_2: rational(k_2),
-        of.g: rational(stated.number("train.gravity_mps2")),
-        of.r_1: rational(stated.number(f"tunings.{regressors}.r_1_per_s")),
-        of.r_2: rational(stated.number(f"tunings.{regressors}.r_2_per_s"))}
-    damped = of.nu_damp if k_1 else sp.Integer(0)
-    together = sum((sp.diff(of.zeta, hat) * rate for hat, rate in of.estimate_laws.items()), sp.Integer(0))
-    one = of.hats[0]  # in place of zeta, its regressor being 1
-    command = (of.rho_hat * (damped + of.wanted)).xreplace({of.zeta: one}).xreplace(errors)
-    return sampled_map({of.x_1: of.x_2, of.x_2: of.m * of.F - true}, of.F, command, {one: together.xreplace(errors)},
-                       at, "corrected")
+    errors = {plant.z_1: plant.x_1 - plant.x_m, plant.z_2: plant.x_2 - active.alpha_1}
+    true = active.zeta.xreplace(dict(zip(active.hats, active.trues, strict=True)))
+    zero = dict.fromkeys((*active.hats, *active.trues, plant.x_1, plant.x_m, plant.xddot_m), sp.Integer(0))
+    at = zero | adaptation_gains(stated, regressors) | dict.fromkeys(active.chis, sp.Integer(1)) | {
+        plant.x_2: speed, plant.xdot_m: speed, active.m: m, active.rho_hat: 1 / m,
+        active.k_1: rational(k_1), active.k_2: rational(k_2),
+        plant.g: rational(stated.number("train.gravity_mps2")),
+        plant.r_1: rational(stated.number(f"tunings.{regressors}.r_1_per_s")),
+        plant.r_2: rational(stated.number(f"tunings.{regressors}.r_2_per_s"))}
+    damped = active.nu_damp if k_1 else sp.Integer(0)
+    together = sum((sp.diff(active.zeta, hat) * rate for hat, rate in active.estimate_laws.items()), sp.Integer(0))
+    one = active.hats[0]  # in place of zeta, its regressor being 1
+    command = (active.rho_hat * (damped + active.wanted)).xreplace({active.zeta: one}).xreplace(errors)
+    return sampled_map({plant.x_1: plant.x_2, plant.x_2: active.m * plant.F - true}, plant.F, command,
+                       {one: together.xreplace(errors)}, at, "corrected")
 
 
 def report(stated: Stated) -> GainReport:
     """K and its ball for the study's k_1, k_2, the ones for a wanted ball, leakage with its proof, sampling periods."""
-    proof = claims
     b_0, c_0 = drag_bounds(stated)
     speed, r_1 = top_speed(stated), stated.number(f"tunings.{TUNING}.r_1_per_s")
     k = stated.number("law.k_1"), stated.number("law.k_2")
     wanted = r_1 * BALL_M**2
     found = search(damping_problem(b_0, c_0, speed, wanted), backoff=1e-3)
-    mine = fraction(found.values[of.k_1]), fraction(found.values[of.k_2])
+    mine = fraction(found.values[active.k_1]), fraction(found.values[active.k_2])
     E_0 = estimates_at_zero(stated)
     K_mine = constant_of(b_0, c_0, *mine)
     forget = simplest(float(LEAK_SHARE * K_mine / E_0), 0.05)
     slowest = min(2 * r_1, 2 * stated.number(f"tunings.{TUNING}.r_2_per_s"), forget)
     level = (K_mine + forget * E_0) / slowest
-    certificates = [found.certificate, *leakage_certificates(proof)]
+    certificates = [found.certificate, *leakage_certificates()]
     quantities, sampled = [], []
     for own in (k, mine):
         K = constant_of(b_0, c_0, *own)
@@ -208,7 +165,7 @@ def report(stated: Stated) -> GainReport:
         sampled.append(stability_certificate(f"mao2018:sampling.{label}", matrix(certified)))
         quantities.append(Quantity(f"sampling period, {words}", "s", None, certified, f"mao2018:sampling.{label}",
                                    limit, f"check: where the loop linearised at {float(speed):g} m/s loses stability"))
-    gains = {str(of.k_1): mine[0], str(of.k_2): mine[1]}
+    gains = {str(active.k_1): mine[0], str(active.k_2): mine[1]}
     changes = {f"law.{name}": float(x) for name, x in gains.items()}
     conditions = (
         Condition("theorem 5", "V_2 bounded by (65)", "V_2 = 1 + 2 t obeys (65)", False, "mao2018:65.bounded"),
@@ -235,7 +192,7 @@ def report(stated: Stated) -> GainReport:
 
 # --- the runs with found gains beside the stated ones ---------------------------------------------------------------
 
-CASE, TUNING = 5, "scaled"
+CASE = 5
 SETTLED_S = 20.0  # from when on the error at the start is over
 
 
@@ -261,7 +218,7 @@ def run(loaded: Loaded, task: Task) -> tuple[Row, str | None]:
     values = (np.array([named[str(s)] for s in law.parameters]),
               np.array([start[str(s.symbol)] for s in law.scalar_states]), np.zeros((0, 0)), np.zeros((0, 0)))
     run = run_law(law, values, setting_of(changed, case, tuning), tuning.period_s, changed.law.estimates,
-                  plant=train)
+                  plant=plant.train)
     found = measure_run(run, float(changed.reference.curve().length_m))
     late = run.column("t_s") >= SETTLED_S
     error = (run.column("s_m") - run.column("s_desired_m"))[late]

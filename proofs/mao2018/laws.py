@@ -22,9 +22,9 @@ from workbench.model.law import (
     speed,
     time,
 )
-from workbench.trains.train import F, Plant, a_0, b_0, c_0, f_add, m, p, v
 
-from . import equations as of
+from . import active_mode as active
+from . import plant
 
 MODES = (1, 2, 3, 4)
 SLOPE_MODE = 3
@@ -37,12 +37,6 @@ omega, phase = sp.symbols("omega phase", real=True)
 Sign = Literal["44", "54", "61"]
 Flow = dict[sp.Expr, sp.Expr]
 
-train = Plant(
-    {p: v, v: of.newton_1.xreplace({of.F: F, of.x_2: v, of.M: m, of.a_r: a_0, of.b_r: b_0, of.c_r: c_0,
-                                    of.vartheta: sp.Integer(0), of.D_c: sp.Integer(0), of.d_force: -f_add}) / m},
-    F, f_add, (m, a_0, b_0, c_0), "mao2018 (1)",
-)
-
 
 def _since(start: sp.Expr) -> sp.Expr:
     return sp.Piecewise((1, time >= start), (0, True))
@@ -52,13 +46,13 @@ def _since(start: sp.Expr) -> sp.Expr:
 indicators = tuple(begun - ended for begun, ended in zip(
     (sp.Integer(1), *map(_since, switch_times)), (*map(_since, switch_times), sp.Integer(0)), strict=True))
 # The slope's grows to 1 first.
-slope_indicator = indicators[SLOPE_MODE - 1] * sp.Min(1, of.slope_ramp(
-    ramp_rate, switch_times[SLOPE_MODE - 2]).xreplace({of.t: time}))
+slope_indicator = indicators[SLOPE_MODE - 1] * sp.Min(1, plant.slope_ramp(
+    ramp_rate, switch_times[SLOPE_MODE - 2]).xreplace({plant.t: time}))
 
 error = position - desired_position  # (18)
-_measured: Flow = {of.x_1: position, of.x_2: speed, of.x_m: desired_position, of.xdot_m: desired_speed,
-                   of.xddot_m: desired_acceleration}
-z_2 = speed - of.alpha_1.xreplace(_measured)  # (19)
+_measured: Flow = {plant.x_1: position, plant.x_2: speed, plant.x_m: desired_position, plant.xdot_m: desired_speed,
+                   plant.xddot_m: desired_acceleration}
+z_2 = speed - active.alpha_1.xreplace(_measured)  # (19)
 sign = sp.Piecewise((z_2 / (sp.Abs(z_2) + layer), layer > 0), (sp.sign(z_2), True))
 
 signals = (sp.Integer(1), sp.sin(omega * time + phase))  # varpi of (15) for the failures (67)
@@ -70,18 +64,18 @@ def _own(symbol: sp.Expr, mode: int) -> sp.Symbol:
     return sp.Symbol(f"{symbol}_{mode}", real=True, positive=symbol.is_positive)
 
 
-lambdas = tuple(_own(of.lambda_0, mode) for mode in MODES)
+lambdas = tuple(_own(active.lambda_0, mode) for mode in MODES)
 
 
 def in_mode(expr: sp.Expr, mode: int) -> sp.Expr:
     """An expression of the active mode with the symbols of mode 1 to 4, its indicators and what is measured."""
     chi = indicators[mode - 1]
-    own = {symbol: _own(symbol, mode) for symbol in (*of.hats, of.rho_hat, of.lambda_0, of.lambda_hat)}
-    chis = dict.fromkeys((*of.chis, of.chi_d), chi)
+    own = {symbol: _own(symbol, mode) for symbol in (*active.hats, active.rho_hat, active.lambda_0, active.lambda_hat)}
+    chis = dict.fromkeys((*active.chis, active.chi_d), chi)
     if mode == SLOPE_MODE:
-        chis[of.chis[of.REGRESSORS.index(of.g)]] = slope_indicator
-    return expr.xreplace({of.failure_hat: _xi_varpi, **own, **chis, of.s: sign, of.z_1: error, of.z_2: z_2}).xreplace(
-        _measured)
+        chis[active.chis[active.REGRESSORS.index(plant.g)]] = slope_indicator
+    return expr.xreplace({active.failure_hat: _xi_varpi, **own, **chis, plant.s: sign, plant.z_1: error,
+                         plant.z_2: z_2}).xreplace(_measured)
 
 
 def _over_modes(expr: sp.Expr) -> sp.Expr:
@@ -98,9 +92,9 @@ def _chi_m(mode: int) -> sp.Expr:
     return indicators[mode - 1]
 
 
-_common = (of.r_1, of.r_2, of.g, *of.gains, of.Gamma_m, of.rho_0)
+_common = (plant.r_1, plant.r_2, plant.g, *active.gains, active.Gamma_m, active.rho_0)
 _when = (*switch_times, ramp_rate, layer)
-_failing = (of.Gamma_k, of.Gamma_xi, motors, omega, phase)
+_failing = (active.Gamma_k, active.Gamma_xi, motors, omega, phase)
 _units = (nominal_mass, force_unit)
 
 
@@ -113,18 +107,19 @@ def _law(name: str, title: str, source: str, force: sp.Expr, states: tuple[LawSt
 
 
 healthy = _law(
-    "healthy", "healthy motors", "(27)-(33), (35)-(37)", _over_modes(of.F_35),
-    (*_states(of.estimate_laws), *_states({of.rho_hat: of.rho_law}, _chi_m)), lambdas)
+    "healthy", "healthy motors", "(27)-(33), (35)-(37)", _over_modes(active.F_35),
+    (*_states(active.estimate_laws), *_states({active.rho_hat: active.rho_law}, _chi_m)), lambdas)
 
 Kind = Literal["failures", "unparameterized", "unknown_bound", "damped"]
 # Of each law: its title, its equations, its signal nu_0, its own parameters, and the printed signs that are wrong.
 KINDS: dict[Kind, tuple[str, str, sp.Expr, tuple[sp.Symbol, ...], tuple[Sign, ...]]] = {
-    "failures": ("known bounds", "(41)-(44)", of.signal_of(of.nu_failed), lambdas, ("44",)),
+    "failures": ("known bounds", "(41)-(44)", active.signal_of(active.nu_failed), lambdas, ("44",)),
     "unparameterized": ("unparameterizable failures", "(41), (44), (48)-(50)",
-                        of.signal_of(of.nu_failed + of.nu_s_sum), (*lambdas, of.delta_0, of.rho_k0), ("44",)),
-    "unknown_bound": ("unknown bounds", "(41), (44), (54)-(56)", of.signal_of(of.nu_unknown), (of.Gamma_d,),
+                        active.signal_of(active.nu_failed + active.nu_s_sum),
+                        (*lambdas, active.delta_0, active.rho_k0), ("44",)),
+    "unknown_bound": ("unknown bounds", "(41), (44), (54)-(56)", active.signal_of(active.nu_unknown), (active.Gamma_d,),
                       ("44", "54")),
-    "damped": ("nonlinear damping", "(41), (43), (44), (60)-(62)", of.signal_60, (*lambdas, of.k_1, of.k_2),
+    "damped": ("nonlinear damping", "(41), (43), (44), (60)-(62)", active.signal_60, (*lambdas, active.k_1, active.k_2),
                ("44", "61")),
 }
 
@@ -140,14 +135,14 @@ def corrections(kind: Kind, mended: Collection[Sign]) -> str:
 def failure_law(kind: Kind, mended: Collection[Sign] = ()) -> ControlLaw:
     """A law of sections IV to VII with the signs of the equations named in `mended` turned, the others as printed."""
     title, source, signal, own, _ = KINDS[kind]
-    rho_k_law = of.rho_k_law_true if "44" in mended else of.rho_k_law
-    rho_law = of.rho_law if kind != "damped" else of.rho_law_61_true if "61" in mended else of.rho_law_61
-    states = (*_states(of.estimate_laws), *_states({of.rho_hat: rho_law}, _chi_m),
-              LawState(of.rho_k_hat, rate=in_mode(rho_k_law, MODES[0])),
-              *(LawState(xi, rate=in_mode(of.xi_law[of.xi_hat], MODES[0]).xreplace({of.varpi: by}))
+    rho_k_law = active.rho_k_law_true if "44" in mended else active.rho_k_law
+    rho_law = active.rho_law if kind != "damped" else active.rho_law_61_true if "61" in mended else active.rho_law_61
+    states = (*_states(active.estimate_laws), *_states({active.rho_hat: rho_law}, _chi_m),
+              LawState(active.rho_k_hat, rate=in_mode(rho_k_law, MODES[0])),
+              *(LawState(xi, rate=in_mode(active.xi_law[active.xi_hat], MODES[0]).xreplace({active.varpi: by}))
                 for xi, by in zip(xi_hats, signals, strict=True)))
     if kind == "unknown_bound":
-        states += _states({of.lambda_hat: of.lambda_law_true if "54" in mended else of.lambda_law})
+        states += _states({active.lambda_hat: active.lambda_law_true if "54" in mended else active.lambda_law})
     which = corrections(kind, mended)
     name = {"corrected": "corrected", "as printed": "printed"}.get(which, f"mended_{'_'.join(mended)}")
     # Every motor is told nu_0; a command is the force of all of them, failed ones included.

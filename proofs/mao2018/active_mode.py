@@ -1,33 +1,13 @@
-"""mao2018 as expressions: the train (1)-(6), and in the active mode the laws (18)-(62).
+"""mao2018: the laws (18)-(62) in the active mode, typed once: what the claims decide and what laws.py runs.
 
-What is typed here is what `proofs/mao2018.py` decides and what `mao2018_laws.py` runs. s is sgn(z_2) as Filippov has
-it; forces have the unit in which m_i turns them into m/s^2. A name that ends in `_true` is the law that fits V_2 where
-the printed one does not.
+s is sgn(z_2) as Filippov has it. A name that ends in `_true` is the law that fits V_2 where the printed one does not.
 """
 
 from __future__ import annotations
 
 import sympy as sp
 
-# --- the train ------------------------------------------------------------------------------------------------------
-
-x_1, x_2, x_m, xdot_m, xddot_m, z_1, z_2 = sp.symbols("x_1 x_2 x_m xdot_m xddot_m z_1 z_2", real=True)
-r_1, r_2, g = sp.symbols("r_1 r_2 g", positive=True)
-F, s, t = sp.symbols("F s t", real=True)
-curvature = sp.Rational(4, 1000)
-
-M, d_force = sp.Symbol("M", positive=True), sp.Symbol("d", real=True)
-a_r, b_r, c_r, vartheta, D_c = sp.symbols("a_r b_r c_r vartheta D_c", real=True)
-F_g, F_c = M * g * vartheta, curvature * D_c * M  # (2), (3)
-newton_1 = F - a_r - b_r * x_2 - c_r * x_2**2 - F_g - F_c + d_force  # the right side of (1)
-Delta_b, Delta_c = sp.symbols("Delta_b Delta_c", real=True)
-drag = Delta_b * x_2 + Delta_c * x_2**2  # what (59) adds to the resistance
-
-
-def slope_ramp(rate: sp.Expr, start: sp.Expr) -> sp.Expr:
-    """Section VIII's indicator of a slope that the train climbs onto from time `start` on: 0.25 (t - 800)."""
-    return rate * (t - start)
-
+from .plant import curvature, g, r_1, r_2, s, x_1, x_2, x_m, xddot_m, xdot_m, z_1, z_2
 
 # --- (18)-(37): the active mode, healthy motors ---------------------------------------------------------------------
 

@@ -1,0 +1,44 @@
+"""mao2018: the instants at which printed lines fail."""
+
+from __future__ import annotations
+
+import sympy as sp
+
+from workbench.proof.claim import Goal
+
+from .active_mode import (
+    Gamma_k,
+    Gamma_m,
+    Gamma_xi,
+    chi_d,
+    d,
+    failure_hat,
+    hats,
+    lambda_0,
+    m,
+    over_basis,
+    rho_0,
+    rho_hat,
+    trues,
+    xi_hat,
+)
+from .error_dynamics import Flow, d_0, failure, k_v, xi
+from .lyapunov import V_idle, m_idle
+from .plant import r_1, r_2, xddot_m, z_1
+
+# An easy instant: no resistance, its estimates exact, a constant desired speed, sixteen motors of which one failed.
+exact: Flow = dict.fromkeys((*trues, *hats, V_idle, xddot_m), sp.Integer(0))
+one_failed: Flow = {k_v: sp.Integer(15), m_idle: m * 3}  # 15 healthy motors, four modes of one mass (section VIII)
+stopped: Flow = dict.fromkeys((failure, failure_hat, over_basis((xi - xi_hat) ** 2), xi_hat), sp.Integer(0))
+unit_gains: Flow = {**dict.fromkeys((r_1, r_2, Gamma_k, Gamma_xi, Gamma_m, m, lambda_0, d_0, chi_d), sp.Integer(1)),
+                    d: sp.Integer(0), z_1: sp.Integer(0), rho_0: sp.Integer(15), rho_hat: sp.Rational(1, 15)}
+
+
+def already(goal: Goal, values: Flow) -> Goal:
+    """The goal at an instant at which symbols have these values: false there is false at large.
+
+    A moving one among them must be an exact estimate or z_1 = 0: it enters V_2 by a square that vanishes, so that its
+    rate does not matter.
+    """
+    return Goal(tuple(r.subs(values) for r in goal.show), tuple(r.subs(values) for r in goal.assume),
+                {state: rate.xreplace(values) for state, rate in goal.flow.items() if state not in values})

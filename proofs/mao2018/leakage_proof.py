@@ -1,0 +1,72 @@
+"""mao2018: V_2 is bounded with leakage, the signs of the laws mended (claims 45, 61, 65)."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+import sympy as sp
+
+from workbench.gains.certificate import goal_certificate
+from workbench.proof.claim import D, Goal, at_least, at_most
+
+from .active_mode import (
+    Gamma_k,
+    Gamma_m,
+    Gamma_xi,
+    chi_d,
+    gains,
+    hats,
+    m,
+    nu_damp,
+    over_basis,
+    rho_0,
+    rho_hat,
+    rho_k_hat,
+    rho_law_61_true,
+    trues,
+    xi_hat,
+)
+from .error_dynamics import b_0, c_0, disturbed, filippov, k_v, rho_i, rho_k, uncertain, uncertain_train, within, xi
+from .leakage import forgetting, leak
+from .lyapunov import V_0, V_idle, V_t, V_true, constant, decay
+from .plant import Delta_b, Delta_c, drag, r_1, r_2, t, z_1, z_2
+
+mu = sp.Symbol("mu", positive=True)
+
+
+def _weighed(term: Callable[[sp.Expr, sp.Expr], sp.Expr]) -> sp.Expr:
+    """The sum of a term of (true, estimate) over all estimates, with the weights that fit in V_2 (claim 45)."""
+    scalars = [(x, hat, 1, gain) for x, hat, gain in zip(trues, hats, gains, strict=True)]
+    scalars += [(rho_k, rho_k_hat, m * k_v, Gamma_k), (rho_i, rho_hat, m * k_v, Gamma_m)]
+    failures = over_basis(term(xi, xi_hat)) * m / Gamma_xi
+    return failures + sum((w * term(x, hat) / gain for x, hat, w, gain in scalars), sp.Integer(0))
+
+
+def leakage_certificates() -> list[dict[str, Any]]:
+    """V_2' <= -mu V_2 + K + leak E_0 with mu = min(2 r_1, 2 r_2, leak), along the loop itself, in three steps.
+
+    E_0 is what the estimates weigh in V_2 while they are zero. Between switches; a switch adds a finite amount (46).
+    """
+    flow = uncertain_train(rho_law_61_true)
+    flow |= forgetting({x: rate for x, rate in flow.items() if x not in (z_1, z_2)})
+    V = V_true - V_idle  # the idle modes' estimates rest
+    errors = _weighed(lambda x, hat: (x - hat) ** 2 / 2)
+    zero = _weighed(lambda x, hat: x**2 / 2)
+    pull = leak * _weighed(lambda x, hat: (x - hat) * hat)
+    pulled = at_most(pull, -leak * errors + leak * zero)
+    damped = z_2 * (nu_damp - drag)
+    along = at_most(D(V), decay + damped + pull)
+    given = (*filippov, *disturbed, *uncertain, at_most(chi_d, 1), at_least(m * k_v, rho_0))
+    rate = Goal((at_most(D(V), decay + constant - leak * errors + leak * zero),), given, flow, lemmas=(
+        *within, at_most(Delta_b**2, b_0**2), at_most(Delta_c**2, c_0**2), at_most(damped, constant),
+        along, pulled))
+    whole = sp.Symbol("E", nonnegative=True)
+    slowest = (at_most(mu, 2 * r_1), at_most(mu, 2 * r_2), at_most(mu, leak))
+    decayed = Goal((at_most(decay - leak * whole, -mu * (z_1**2 / 2 + z_2**2 / 2 + whole)),), slowest)
+    w, offset = sp.symbols("w l", real=True)
+    bounded = Goal((at_most(V_t, offset / mu + (V_0 - offset / mu) * sp.exp(-mu * t)),), (),
+                   {t: sp.Integer(1), V_t: w}, (at_most(w, -mu * V_t + offset), at_least(t, 0)),
+                   {t: sp.Integer(0), V_t: V_0}, decreasing=sp.exp(mu * t) * (V_t - offset / mu))
+    return [goal_certificate(f"mao2018:leakage.{name}", goal)
+            for name, goal in (("rate", rate), ("decay", decayed), ("bounded", bounded))]
