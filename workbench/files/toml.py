@@ -123,6 +123,7 @@ def _unknown_key(error: dict[str, Any], errors: list[Any]) -> str:
     name = str(error["loc"][-1])
     stem = name.split("_", 1)[0]
     close = difflib.get_close_matches(name, missing, n=1, cutoff=0.5)
+    close = close or difflib.get_close_matches(name, ["source"], cutoff=0.8)  # which may stand with every value
     close = close or [other for other in missing if other.split("_", 1)[0] == stem]
     if close:
         return f"unknown key; did you mean '{close[0]}' (the unit is part of the name)?"

@@ -56,12 +56,20 @@ def write_new(path: Path, text: str, remedy: str = ANOTHER_PLACE) -> None:
     _in_one_line(path, written, remedy)
 
 
-def make_folder(folder: Path, within: Path, remedy: str = ANOTHER_PLACE) -> None:
-    """Make a folder that is another one or lies in it; InputError where it cannot be made, or a link leads out."""
-    inside = Path(os.path.realpath(within)) / folder.relative_to(within)
-    if Path(os.path.realpath(folder)) != inside:
+def require_inside(folder: Path, within: Path, remedy: str = ANOTHER_PLACE) -> None:
+    """InputError where a link leads from a folder that was asked for to somewhere else than its own subfolder."""
+    try:
+        there, inside = os.path.realpath(folder), os.path.realpath(within)
+    except ValueError as trouble:  # a null character in the path
+        raise InputError(folder, "", f"is no path ({trouble}): correct the name") from None
+    if Path(there) != Path(inside) / folder.relative_to(within):
         raise InputError(folder, "", f"leads elsewhere by a link, through which nothing is written: remove the link, "
                          f"or {remedy}")
+
+
+def make_folder(folder: Path, within: Path, remedy: str = ANOTHER_PLACE) -> None:
+    """Make a folder that is another one or lies in it; InputError where it cannot be made, or a link leads out."""
+    require_inside(folder, within, remedy)
     _in_one_line(folder, lambda: folder.mkdir(parents=True, exist_ok=True), remedy)
 
 

@@ -7,6 +7,7 @@ curve is twice continuously differentiable and meets every row, however far apar
 from __future__ import annotations
 
 import csv
+import io
 import math
 from pathlib import Path
 from typing import Annotated, Literal, NamedTuple
@@ -15,6 +16,7 @@ import numpy as np
 from pydantic import Field
 
 from workbench.errors import InputError, WorkbenchError
+from workbench.files.text import read_text
 from workbench.files.toml import SourcedRecord, Text
 from workbench.model.desired_curve import FASTEST_MPS, DesiredCurve
 
@@ -61,24 +63,19 @@ def read_rows(path: Path) -> tuple[Row, ...]:
 
     Raises InputError naming the file, the row and the remedy.
     """
+    text = read_text(path, "CSV", "`workbench reference LINE TRAIN --time S --csv FILE` writes one")
     try:
-        with path.open(newline="", encoding="utf-8") as file:
-            lines = csv.DictReader(file)
-            missing = [name for name in COLUMNS if name not in (lines.fieldnames or ())]
-            if missing:
-                raise InputError(path, missing[0], f"is no column: the first line must name {', '.join(COLUMNS)}")
-            rows: list[Row] = []
-            for line in lines:
-                rows.append(_row(path, len(rows) + 1, line))
-                if len(rows) > MOST_ROWS:
-                    raise InputError(path, "", f"has more than {MOST_ROWS} rows: write them further apart")
-    except FileNotFoundError:
-        raise InputError(path, "", "no such file: `workbench reference LINE TRAIN --time S --csv FILE` writes "
-                         "one") from None
-    except (UnicodeDecodeError, csv.Error):
-        raise InputError(path, "", "is not CSV in UTF-8: write it anew") from None
-    except (OSError, ValueError) as trouble:
-        raise InputError(path, "", f"cannot be read ({trouble}): check path and permissions") from None
+        lines = csv.DictReader(io.StringIO(text))
+        missing = [name for name in COLUMNS if name not in (lines.fieldnames or ())]
+        if missing:
+            raise InputError(path, missing[0], f"is no column: the first line must name {', '.join(COLUMNS)}")
+        rows: list[Row] = []
+        for line in lines:
+            rows.append(_row(path, len(rows) + 1, line))
+            if len(rows) > MOST_ROWS:
+                raise InputError(path, "", f"has more than {MOST_ROWS} rows: write them further apart")
+    except csv.Error as trouble:
+        raise InputError(path, "", f"is not CSV ({trouble}): write it anew") from None
     try:
         curve_through(tuple(rows))
     except WorkbenchError as trouble:

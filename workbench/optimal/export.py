@@ -12,6 +12,7 @@ import control
 import numpy as np
 
 from workbench.errors import InputError
+from workbench.files.writing import write_text
 from workbench.optimal.course import Array, Course
 from workbench.optimal.reference import Reference
 from workbench.optimal.smooth import SmoothReference, SmoothRun, needed_force
@@ -90,16 +91,11 @@ def samples(vehicle: Vehicle, course: Course, run: SmoothRun, every_s: float) ->
 
 def write_csv(path: Path, rows: Array) -> None:
     """The rows under their header; raises InputError where the file cannot be written."""
-    try:
-        path.parent.mkdir(parents=True, exist_ok=True)
-        # At once, so that an interruption leaves no half of a table.
-        text = io.StringIO(newline="")
-        writer = csv.writer(text)
-        writer.writerow(COLUMNS)
-        writer.writerows([f"{value:.12g}" for value in row] for row in rows.tolist())
-        path.write_text(text.getvalue(), encoding="utf-8", newline="")
-    except OSError as trouble:
-        raise InputError(path, "", f"cannot be written ({trouble.strerror}): choose another file") from None
+    text = io.StringIO(newline="")
+    writer = csv.writer(text)
+    writer.writerow(COLUMNS)
+    writer.writerows([f"{value:.12g}" for value in row] for row in rows.tolist())
+    write_text(path, text.getvalue())
 
 
 def time_response(rows: Array) -> control.TimeResponseData:

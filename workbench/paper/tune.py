@@ -7,6 +7,8 @@ from pathlib import Path
 from typing import Any
 
 from workbench.errors import InputError
+from workbench.files.text import read_text
+from workbench.files.writing import write_text
 from workbench.paper.loading import Loaded
 from workbench.paper.scenario_tuning import tune_scenario
 from workbench.simulate.process_pool import cores
@@ -53,12 +55,12 @@ def _write(path: Path, tables: dict[str, dict[str, float]]) -> None:
     lines = [_before_found(path), "", BEGIN]
     for name, values in tables.items():
         lines += [f"[tuning.found.{name}]", *(f"{key} = {value!r}" for key, value in values.items()), ""]
-    path.write_text("\n".join([*lines[:-1], END]) + "\n", encoding="utf-8")
+    write_text(path, "\n".join([*lines[:-1], END]) + "\n", "check its permissions")
 
 
 def _before_found(path: Path) -> str:
     """What stands before the markers; InputError where something stands after them, which would be lost."""
-    text = path.read_text(encoding="utf-8")
+    text = read_text(path, "TOML")
     if END in text and text.partition(END)[2].strip():
         raise InputError(path, END, "something stands after it: move it before the first marker")
     return text.partition(BEGIN)[0].rstrip()

@@ -12,22 +12,29 @@ from typing import Any
 from workbench.errors import InputError
 from workbench.files.folders import is_paper
 from workbench.files.json_output import write_json
+from workbench.files.outputs import check_outputs
+from workbench.files.own_files import read_manifest
+from workbench.files.writing import make_folder, require_inside, write_text
 from workbench.gains.result import GainReport
 from workbench.paper.gain_effects import effects, gains_of
 from workbench.paper.gain_search import gain_search_of
 from workbench.paper.loading import Loaded
 from workbench.paper.results import StudyResult
 from workbench.paper.study import Study
-from workbench.proof.document import Places, claims_document, write_certificates
+from workbench.proof.document import CERTIFICATES, Places, claims_document, write_certificates
 from workbench.proof.prove import prove
 from workbench.proof.selection import Target, targets
 from workbench.report.gains import gains_document, gains_result
 from workbench.report.page import ReportContent, build_page
-from workbench.report.study_page import StudyContent, build_study_page, write_curves
+from workbench.report.study_page import ANOTHER_OUT, CURVES, StudyContent, build_study_page, write_curves
 from workbench.simulate.compare import Comparison, checked_variants, compare
 from workbench.simulate.process_pool import cores
 from workbench.simulate.sweep import SweepSummary, summarise, sweep
 
+MONTE_CARLO = "monte_carlo"
+# What a report writes in its folder, certificates and curves apart, which their manifests name.
+FILES = ("report.html", "claims.json", "compare.json", "gains.json", f"{MONTE_CARLO}/sweep.csv",
+         f"{MONTE_CARLO}/sweep.journal.jsonl", "matches.journal.jsonl")
 # (what is being done, done, total); total 0 while it is not known
 Progress = Callable[[str, int, int], None]
 
@@ -54,7 +61,7 @@ class Asked:
         asked = tuple(targets(list(proofs))) if proofs else tuple(_own(loaded))
         if loaded.kind is None:
             checked_variants(loaded.path, loaded.data, loaded.scenario, True)
-        _require_folder(out)
+        _require_folder(loaded, out)
         gains = gains_of(loaded) if with_gains and gain_search_of(loaded) is not None else None
         named = [str(loaded.path), *proofs]
         return cls(loaded, asked, out, gains, resume, workers, f"workbench report {' '.join(named)} --out {out}")
@@ -101,7 +108,7 @@ def build_report(asked: Asked, runs: int | None = None, seed: int | None = None,
     runs = scenario.uncertainty.runs if runs is None else runs
     seed = scenario.uncertainty.seed if seed is None else seed
     with _timed(timings, "Monte Carlo"):
-        rows = sweep(scenario, loaded.path, runs, seed, out=out / "monte_carlo", resume=asked.resume, workers=workers,
+        rows = sweep(scenario, loaded.path, runs, seed, out=out / MONTE_CARLO, resume=asked.resume, workers=workers,
                      on_progress=lambda done, total, _: on_progress("Monte Carlo", done, total))
     content = ReportContent(
         scenario=scenario, claims=claims, runs=comparison.runs, metrics=comparison.metrics, sweep=rows,
@@ -109,7 +116,7 @@ def build_report(asked: Asked, runs: int | None = None, seed: int | None = None,
         commands=(f"{asked.command} --runs {runs}",), gains=_gains(asked, on_progress, timings))
     page = out / "report.html"
     with _timed(timings, "page"):
-        page.write_text(build_page(content), encoding="utf-8")
+        write_text(page, build_page(content), ANOTHER_OUT)
     return Report(page, claims, comparison, summarise(rows, scenario), timings)
 
 
@@ -122,12 +129,12 @@ def build_study_report(asked: Asked, on_progress: Progress = lambda what, done, 
     with _timed(timings, "runs"):
         result = run_study(loaded, asked.workers, on_progress, out, asked.resume)
         write_json(out / "compare.json", study_document(study, result))
-    write_curves(result.plots, out / "curves")
+    write_curves(result.plots, out)
     found = _gains(asked, on_progress, timings)
     page = out / "report.html"
     with _timed(timings, "page"):
         text = build_study_page(StudyContent(study, result, claims, timings, (asked.command,), found))
-        page.write_text(text, encoding="utf-8")
+        write_text(page, text, ANOTHER_OUT)
     return StudyReport(page, claims, study, result, timings)
 
 
@@ -183,7 +190,7 @@ def _decide(asked: Asked, on_progress: Progress, timings: dict[str, float]) -> d
     with _timed(timings, "proof"):
         decisions = prove(asked.proofs, asked.workers,
                           on_progress=lambda *step: on_progress("claims", *step)).decisions
-        places = Places(asked.out / "certificates")
+        places = Places(asked.out / CERTIFICATES)
         write_certificates(decisions, places)
         claims = claims_document(decisions, places)
         write_json(asked.out / "claims.json", claims)
@@ -201,14 +208,17 @@ def _gains(asked: Asked, on_progress: Progress, timings: dict[str, float]) -> St
     return gains_result(asked.gains, done)
 
 
-def _require_folder(out: Path) -> None:
-    try:
-        out.mkdir(parents=True, exist_ok=True)
-        probe = out / ".writable"
-        probe.touch()
-        probe.unlink()
-    except OSError as trouble:
-        raise InputError(out, "--out", f"cannot be written ({trouble.strerror}): name another folder") from None
+def _require_folder(loaded: Loaded, out: Path) -> None:
+    """InputError unless the report can be written there, beside or over nothing that it is made from."""
+    check_outputs({}, [loaded.path], {"--out": (out, FILES)})
+    if is_paper(loaded.folder) and out.is_dir() and (
+            out.samefile(loaded.folder) or out.resolve().is_relative_to((loaded.folder / CERTIFICATES).resolve())):
+        raise InputError(out, "--out", "is the paper's own folder, which a report would mix with its own files: name "
+                         "another folder")
+    for part in (CERTIFICATES, CURVES, MONTE_CARLO):
+        require_inside(out / part, out, ANOTHER_OUT)
+    read_manifest(out / CURVES, ANOTHER_OUT)
+    make_folder(out, out, ANOTHER_OUT)
 
 
 @contextmanager

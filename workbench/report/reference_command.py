@@ -10,6 +10,7 @@ import numpy as np
 
 from workbench.errors import InputError
 from workbench.files.json_output import write_json
+from workbench.files.outputs import check_outputs
 from workbench.optimal.bound_document import write_certificate
 from workbench.optimal.cars.car_train import CarTrain
 from workbench.optimal.cars.cars_document import cars_document, write_cars_csv
@@ -60,7 +61,7 @@ class Request:
 
 def reference_run(asked: Request) -> Iterator[str]:
     """Lines for the reader as they come; raises InputError and InfeasibleRunError before anything is written."""
-    _require_own_files(asked)
+    _check_outputs(asked)
     if not 0 < asked.every_s < float("inf"):
         raise InputError("", "--every", f"{asked.every_s:g} s is no step of a table: give a positive number of seconds")
     line, notes = load_line(asked.track)
@@ -135,21 +136,29 @@ def _told(asked: Request, line: Line, vehicle: Vehicle, run: Course, notes: tupl
     yield from _written(asked, vehicle, run, found, smooth, cars)
 
 
-def _require_own_files(asked: Request) -> None:
+def _check_outputs(asked: Request) -> None:
     """Raises InputError where an output would be written over an input or over another output."""
-    taken = {asked.track.resolve(): "the line's file", asked.train.resolve(): "the train's file"}
-    for name, path in (("--json", asked.json), ("--csv", _table(asked)), ("--figure", asked.figure),
-                       ("--certificate", asked.certificate)):
-        if path is None:
-            continue
-        if path.resolve() in taken:
-            raise InputError(path, name, f"is {taken[path.resolve()]} too: give each output a file of its own")
-        taken[path.resolve()] = f"the file of {name}"
+    check_outputs({"--json": asked.json, "--figure": asked.figure})  # of which other names are made
+    inputs = [path for path in (asked.track, asked.train, asked.timetable) if path]
+    table, figure = _table(asked), asked.figure
+    check_outputs({"--json": asked.json, "--csv": table, "cars of --csv": table and _of_cars_file(table),
+                   "--figure": figure, "couplers of --figure": figure and _couplers_file(figure),
+                   "--certificate": asked.certificate}, inputs)
 
 
 def _table(asked: Request) -> Path | None:
     """Where the smooth reference goes: by default beside the JSON."""
     return asked.csv or (asked.json.with_suffix(".csv") if asked.json else None)
+
+
+def _of_cars_file(table: Path) -> Path:
+    """Where what the cars do goes: beside the smooth reference."""
+    return table.with_name(f"{table.stem}_cars.csv")
+
+
+def _couplers_file(figure: Path) -> Path:
+    """Where the couplers are drawn: beside the figure of the run."""
+    return figure.with_name(f"{figure.stem}_couplers{figure.suffix}")
 
 
 def _solve(asked: Request, vehicle: Vehicle, run: Course, dwell_s: float) -> tuple[Reference, SmoothReference]:
@@ -227,7 +236,7 @@ def _written(asked: Request, vehicle: Vehicle, run: Course, found: Reference, sm
         yield f"reference: {table}"
     more = {}
     if table and cars:
-        of_cars = table.with_name(f"{table.stem}_cars.csv")
+        of_cars = _of_cars_file(table)
         write_cars_csv(of_cars, cars, asked.every_s)
         more = {"cars": cars_document(cars) | {"csv": str(of_cars)}}
         yield f"cars: {of_cars}"
@@ -242,6 +251,6 @@ def _written(asked: Request, vehicle: Vehicle, run: Course, found: Reference, sm
                     f"{found.profile.trip_time_s:.0f} s, {found.energy_j / KWH_J:.2f} kWh", found.timetable)
         yield f"figure: {asked.figure}"
     if asked.figure and cars:
-        couplers = asked.figure.with_name(f"{asked.figure.stem}_couplers{asked.figure.suffix}")
+        couplers = _couplers_file(asked.figure)
         saved(couplers, lambda faint: couplers_figure(cars, faint))
         yield f"figure: {couplers}"

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import io
 import math
 from collections.abc import Callable
 from itertools import pairwise
@@ -14,8 +15,8 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Patch
 from numpy.typing import NDArray
 
-from workbench.errors import InputError
 from workbench.files.numbers import number
+from workbench.files.writing import write_bytes
 from workbench.optimal.profile import Profile
 from workbench.optimal.regimes import REGIMES, regimes
 from workbench.optimal.timetable import Timetable, TimingPoint
@@ -100,9 +101,6 @@ def saved(path: Path, make: Callable[[str], Figure]) -> None:
     """Write what `make` draws with a faint colour that shows away from a page; raises InputError where it cannot."""
     grey = dict.fromkeys(("axes.edgecolor", "grid.color", "xtick.color", "ytick.color"), PAPER_GREY)
     with drawing("reference"), mpl.rc_context(grey):
-        figure = make(PAPER_GREY)
-        try:
-            path.parent.mkdir(parents=True, exist_ok=True)
-            figure.savefig(path, dpi=150)
-        except OSError as trouble:
-            raise InputError(path, "", f"cannot be written ({trouble.strerror}): choose another file") from None
+        drawn = io.BytesIO()
+        make(PAPER_GREY).savefig(drawn, dpi=150, format=path.suffix.lower().removeprefix("."))
+    write_bytes(path, drawn.getvalue())

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import csv
+import io
+import json
 import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
@@ -11,7 +13,7 @@ from typing import Any
 
 from markupsafe import Markup
 
-from workbench.errors import InputError
+from workbench.files.own_files import read_manifest, replace_files, sha256
 from workbench.paper.results import Plot, StudyResult
 from workbench.paper.study import Study
 from workbench.report import headline
@@ -20,6 +22,9 @@ from workbench.report.sources import sourced_values
 from workbench.report.study_figures import study_plot
 from workbench.report.table_view import caption, gains_view, table_views
 from workbench.report.template import PageFigure, render
+
+CURVES, CURVES_FILE = "curves", re.compile(r"[0-9]{2,3}-[a-z0-9-]*\.csv")
+ANOTHER_OUT = "name another folder by --out"
 
 
 @dataclass(frozen=True)
@@ -48,25 +53,31 @@ def build_study_page(content: StudyContent) -> str:
         failures=result.failures)
 
 
-def write_curves(plots: Sequence[Plot], folder: Path) -> None:
-    """One CSV a plot: curve, x, y, every point as it was computed; those of an earlier report are taken away.
+def write_curves(plots: Sequence[Plot], out: Path) -> None:
+    """One CSV a plot in the folder `curves` of a report: curve, x, y, every point as it was computed; with a manifest,
+    by which those of an earlier report are known and taken away.
 
     Raises InputError where they cannot be written.
     """
-    try:
-        folder.mkdir(parents=True, exist_ok=True)
-        for old in folder.glob("[0-9][0-9]-*.csv"):
-            old.unlink()
-        for number, plot in enumerate(plots, start=1):
-            words = re.sub(r"[^a-z0-9]+", "-", plot.title.lower()).strip("-")[:60]
-            with (folder / f"{number:02d}-{words}.csv").open("w", encoding="utf-8", newline="") as stream:
-                rows = csv.writer(stream, lineterminator="\n")
-                rows.writerow(("curve", plot.x_label, plot.y_label))
-                for curve in plot.curves:
-                    rows.writerows((curve.label, f"{x:.10g}", f"{y:.10g}")
-                                   for x, y in zip(curve.x, curve.y, strict=True))
-    except OSError as trouble:
-        raise InputError(folder, "", f"cannot be written ({trouble.strerror}): name another folder") from None
+    folder = out / CURVES
+    files = {f"{number:02d}-{re.sub(r'[^a-z0-9]+', '-', plot.title.lower()).strip('-')[:60]}.csv": _curves_text(plot)
+             for number, plot in enumerate(plots, start=1)}
+    found = (read_manifest(folder, ANOTHER_OUT) or {}).get("curves")
+    before = {name: digest for name, digest in (found if isinstance(found, dict) else {}).items()
+              if CURVES_FILE.fullmatch(name) and isinstance(digest, str)}
+    manifest = {"version": 1, "curves": {name: sha256(text) for name, text in files.items()}}
+    replace_files(folder, out, json.dumps(manifest, indent=1) + "\n", files, before,
+                  {name: digest for name, digest in before.items() if name not in files},
+                  lambda name, data: data.startswith(b"curve,"), ANOTHER_OUT)
+
+
+def _curves_text(plot: Plot) -> str:
+    text = io.StringIO(newline="")
+    rows = csv.writer(text, lineterminator="\n")
+    rows.writerow(("curve", plot.x_label, plot.y_label))
+    for curve in plot.curves:
+        rows.writerows((curve.label, f"{x:.10g}", f"{y:.10g}") for x, y in zip(curve.x, curve.y, strict=True))
+    return text.getvalue()
 
 
 def _figure(number: int, plot: Plot) -> PageFigure:

@@ -15,6 +15,7 @@ from jinja2 import Environment, FileSystemLoader, StrictUndefined
 from markupsafe import Markup
 
 from workbench.files.numbers import number
+from workbench.files.regular import contents
 from workbench.report.claims import claim_views, counts
 from workbench.report.sources import SourcedValue, stated
 
@@ -77,7 +78,7 @@ def render(template: str, document: Mapping[str, Any], sources: Sequence[Sourced
     return environment.get_template(template).render(
         claims=claims, counts=counts(claims),
         sources={kind: [s for s in sources if s.kind == kind] for kind in ("assumed", "paper", "convention")},
-        versions=_versions(), style=Markup((folder / "page.css").read_text(encoding="utf-8")), script=Markup(SCRIPT),
+        versions=_versions(), style=Markup(contents(folder / "page.css").decode()), script=Markup(SCRIPT),
         script_hash=_hash(SCRIPT), **values)
 
 

@@ -6,7 +6,6 @@ import csv
 import hashlib
 import io
 import json
-import tempfile
 from collections.abc import Callable, Sequence
 from contextlib import nullcontext
 from dataclasses import asdict, dataclass, fields
@@ -16,6 +15,7 @@ import numpy as np
 from pydantic import TypeAdapter, ValidationError
 
 from workbench.errors import InputError
+from workbench.files.writing import write_text
 from workbench.model.desired_curve import CruiseSpeed
 from workbench.simulate.closed_loop import Factors, check_controllers, simulate
 from workbench.simulate.journal import REMEDY, Journal, code_digest, laws_digest
@@ -155,7 +155,7 @@ def sweep(scenario: Scenario, scenario_path: Path, runs: int, seed: int, control
             run_tasks(run_pair, (scenario, seed), todo, workers or cores(), record)
     rows = [done[pair] for pair in pairs]
     if out is not None:
-        _replace(Path(out) / CSV_NAME, csv_text(rows))
+        write_text(Path(out) / CSV_NAME, csv_text(rows), "name another --out")
     return rows
 
 
@@ -221,15 +221,6 @@ def _journalled(journal: Journal) -> dict[Pair, SweepRow]:
     except ValidationError:
         raise InputError(journal.path, "", f"holds a record that is no row of a sweep: {REMEDY}") from None
     return {(row.run, row.controller): row for row in rows}
-
-
-def _replace(path: Path, text: str) -> None:
-    """Write a file so that no reader ever sees half of it."""
-    with tempfile.NamedTemporaryFile("w", encoding="utf-8", newline="", dir=path.parent, suffix=".tmp",
-                                     delete=False) as stream:
-        stream.write(text)
-    Path(stream.name).chmod(0o644)
-    Path(stream.name).replace(path)
 
 
 def _compile_kernels(scenario: Scenario) -> None:

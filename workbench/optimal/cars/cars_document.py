@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import csv
+import io
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from workbench.errors import InputError
+from workbench.files.writing import write_text
 from workbench.optimal.cars.cars_steady import steady_state
 from workbench.optimal.cars.multi_car import CarsRun
 
@@ -45,10 +47,8 @@ def write_cars_csv(path: Path, cars: CarsRun, every_s: float) -> None:
     rows = np.column_stack((cars.time_s, cars.force_n, cars.coupler_n))[kept]
     count = cars.train.cars
     header = ["t_s", *(f"u{j}_N" for j in range(1, count + 1)), *(f"coupler{j}_N" for j in range(1, count))]
-    try:
-        with path.open("w", newline="", encoding="utf-8") as file:
-            writer = csv.writer(file)
-            writer.writerow(header)
-            writer.writerows([f"{value:.9g}" for value in row] for row in rows.tolist())
-    except OSError as trouble:
-        raise InputError(path, "", f"cannot be written ({trouble.strerror}): choose another file") from None
+    text = io.StringIO(newline="")
+    writer = csv.writer(text)
+    writer.writerow(header)
+    writer.writerows([f"{value:.9g}" for value in row] for row in rows.tolist())
+    write_text(path, text.getvalue())
