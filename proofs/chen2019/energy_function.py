@@ -32,7 +32,7 @@ def estimation_terms(z: sp.Expr, wrong: tuple[sp.Expr, ...]) -> tuple[sp.Expr, .
             c_3 * over_cars(z * inertia * v_dot))
 
 
-# Values of the iterations i and i - 1 and of the first at one instant, as plain symbols: of V and E, and the integrals of
-# z_1^2, z_2^2 (Z) with their sums up to i - 1 (S).
+# At one instant, as plain symbols: V and E of the iterations i, i - 1 and 1, the integrals Z of z_1^2 and z_2^2, and
+# the sums S of those integrals up to i - 1.
 V_now, V_before, E_now, E_before, E_1 = sp.symbols("V_i V_prev E_i E_prev E_1", real=True)
 Z_1, Z_2, S_1, S_2 = sp.symbols("Z_1 Z_2 S_1 S_2", real=True)

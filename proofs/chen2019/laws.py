@@ -46,7 +46,7 @@ def limited(value: sp.Expr, low: sp.Expr, high: sp.Expr) -> sp.Expr:
     return sp.Min(sp.Max(value, low), high)
 
 
-# --- the parameters of (7), estimates and their errors ------------------------------------------------------------------
+# --- the parameters of (7), estimates and their errors --------------------------------------------------------------
 
 true_parameters = (Theta, *theta, eta)
 estimates = (Theta_hat, *theta_hat, eta_hat)

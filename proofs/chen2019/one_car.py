@@ -1,4 +1,4 @@
-"""One car of the closed loop in plain symbols: its input through the acceleration, and its estimate of the mass (22)."""
+"""One car of the closed loop in plain symbols: its input by the acceleration, and its estimate of the mass (22)."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ def one_car(expr: sp.Expr) -> sp.Expr:
 
 g, h, g_low, g_high = sp.symbols("g h g_low g_high", real=True)  # a number, and the bounds of its projection
 
-# The loop through the acceleration: mu = kappa + (M_hat - 1/c_3) v', M v' = u + rho; a, b and u_a, u_b are two solutions.
+# The algebraic loop: mu = kappa + (M_hat - 1/c_3) v', M v' = u + rho; a, b and u_a, u_b are two solutions.
 kappa, rest, a, b, u_a, u_b, u_low, u_high = sp.symbols("kappa rho a b u_a u_b u_low u_high", real=True)
 mass, mass_hat = sp.symbols("M M_hat", positive=True)
 room = sp.Symbol("w", positive=True)  # m + 1/c_3 - m_hat, where the estimate is below the singular one

@@ -64,8 +64,8 @@ def v_1_rate() -> Goal:
 
 
 delta_u = u_of_7 - mu
-missing = v_dot - v_r_dot - alpha_dot + c_2 * lambda_2
-bracket_14 = c_3 * mu + c_3 * (compact_force(true_parameters, v, phi, As, Av) - M * v_dot) + missing
+unforced_rate = v_dot - v_r_dot - alpha_dot + c_2 * lambda_2  # what is left of z_2' without c_3 Delta_u
+bracket_14 = c_3 * mu + c_3 * (compact_force(true_parameters, v, phi, As, Av) - M * v_dot) + unforced_rate
 
 
 @paper.claim("14", "Rate of z_2", "identity",
@@ -75,7 +75,7 @@ bracket_14 = c_3 * mu + c_3 * (compact_force(true_parameters, v, phi, As, Av) - 
                                   "has the unit 1/kg; factors 1/s^2 and 1/s of value 1 before z_1 are left out.")
 def z_2_rate() -> Goal:
     """D(z_2) along (7), (9), for any mu; both lines of (14)."""
-    first_line = (c_3 * (u_of_7 + compact_force(true_parameters, v, phi, As, Av)) - c_3 * M * v_dot + missing
+    first_line = (c_3 * (u_of_7 + compact_force(true_parameters, v, phi, As, Av)) - c_3 * M * v_dot + unforced_rate
                   - c_3 * delta_u)
     rate = D(one_car(errors[z_2]))
     return Goal((equal(rate, one_car(first_line)), equal(rate, one_car(bracket_14))),
@@ -89,7 +89,7 @@ def z_2_rate() -> Goal:
              note="With tilde = hat minus true for all of them; the extracted text has a hat on the error of Theta_v.")
 def v_2_rate() -> Goal:
     """D(V_2) along (7), (9), for any mu: both sides of the second equality."""
-    with_hats = c_3 * mu + c_3 * (compact_force(estimates, v, phi, As, Av) - M_hat * v_dot) + missing
+    with_hats = c_3 * mu + c_3 * (compact_force(estimates, v, phi, As, Av) - M_hat * v_dot) + unforced_rate
     wrong = tuple(hat - true for hat, true in zip((*estimates, M_hat), (*true_parameters, M), strict=True))
     z = errors[z_2]
     return Goal((equal(D(V_of(z)), over_cars(z * bracket_14)),

@@ -217,10 +217,10 @@ changes, V_rate, C_rate = sp.symbols("C w_V w_C", real=True)
 z_1_square, z_2_square = sp.symbols("z_1_square z_2_square", nonnegative=True)
 
 
-def _cef_step(kept: bool) -> Goal:
+def _cef_step(with_v_before: bool) -> Goal:
     """E_i - E_{i-1} = V_i - V_{i-1} + C, C being the changes of the integrals (27)-(31), (34)."""
     rates = {V_now: V_rate, changes: C_rate, Z_1: z_1_square, Z_2: z_2_square}
-    bound = -c_1 * Z_1 - c_2 * Z_2 - (V_before if kept else 0)
+    bound = -c_1 * Z_1 - c_2 * Z_2 - (V_before if with_v_before else 0)
     always = (at_most(V_rate + C_rate, -c_1 * z_1_square - c_2 * z_2_square), at_least(z_1_square, 0),
               at_least(z_2_square, 0), at_least(V_before, 0))
     goal = integrated(rates, at_most(V_now - V_before + changes, bound), always, (c_1, c_2),
@@ -228,12 +228,12 @@ def _cef_step(kept: bool) -> Goal:
     return replace(goal, assume=(*goal.assume, at_least(V_before, 0)))
 
 
-def _cef_claim(equation: str, title: str, kept: str, note: str) -> None:
+def _cef_claim(equation: str, title: str, term: str, note: str) -> None:
     @paper.claim(equation, title, "implication",
-                 rf"\Delta E_i \le {kept}-c_1\int_0^t\|z_{{1,i}}\|^2d\tau - c_2\int_0^t\|z_{{2,i}}\|^2d\tau", "proved",
+                 rf"\Delta E_i \le {term}-c_1\int_0^t\|z_{{1,i}}\|^2d\tau - c_2\int_0^t\|z_{{2,i}}\|^2d\tau", "proved",
                  premises=("24", "27", "28", "29", "30", "31", "34", "A3.lambda"), note=note)
     def cef_step() -> Goal:
-        return _cef_step(kept=bool(kept))
+        return _cef_step(with_v_before=bool(term))
 
 
 _cef_claim("35", "The CEF does not increase", "",

@@ -12,12 +12,13 @@ from ..laws import c_1, c_2
 from ..paper import paper
 
 
-def _telescoped(kept: bool) -> Goal:
+def _telescoped(with_v_before: bool) -> Goal:
     """From i-1 to i; at i = 1 the sums are empty."""
     S_V = sp.Symbol("S_V", real=True)
-    tail = S_V if kept else sp.S.Zero
-    step = -c_1 * Z_1 - c_2 * Z_2 - (V_before if kept else 0)
-    return Goal((at_most(E_now, E_1 - c_1 * (S_1 + Z_1) - c_2 * (S_2 + Z_2) - (tail + V_before if kept else 0)),),
+    tail = S_V if with_v_before else sp.S.Zero
+    step = -c_1 * Z_1 - c_2 * Z_2 - (V_before if with_v_before else 0)
+    whole_tail = tail + V_before if with_v_before else 0
+    return Goal((at_most(E_now, E_1 - c_1 * (S_1 + Z_1) - c_2 * (S_2 + Z_2) - whole_tail),),
                 (at_most(E_now - E_before, step), at_most(E_before, E_1 - c_1 * S_1 - c_2 * S_2 - tail)))
 
 
@@ -25,12 +26,12 @@ SUMS_46 = r"c_1\sum_{k=2}^i\int_0^t\|z_{1,k}\|^2d\tau - c_2\sum_{k=2}^i\int_0^t\
 LIMITS_47 = rf"\lim_{{i\to\infty}}({SUMS_46.replace(' - ', ' + ')})"
 
 
-def _telescoped_claim(equation: str, title: str, kept: str, premise: str) -> None:
-    @paper.claim(equation, title, "implication", rf"E_i \le E_1 - {kept}{SUMS_46}", "proved", premises=(premise,),
+def _telescoped_claim(equation: str, title: str, term: str, premise: str) -> None:
+    @paper.claim(equation, title, "implication", rf"E_i \le E_1 - {term}{SUMS_46}", "proved", premises=(premise,),
                  note="The step of the induction over i; S_1, S_2 (and S_V) are the sums up to i - 1, empty at the "
                       "start.")
     def telescoped() -> Goal:
-        return _telescoped(kept=bool(kept))
+        return _telescoped(with_v_before=bool(term))
 
 
 _telescoped_claim("46", "The CEF after i iterations", "", "35")

@@ -54,7 +54,7 @@ z_in_errors = tuple(one_car(expr.xreplace({v: e_v + v_r}).xreplace({s: e_s + s_r
 def _on_a_path() -> Goal:
     """(53) for one car on e_s = tau^2 (a_0 + b_0 tau), T = 1, where z = lambda: the right side is |z + lambda|^2."""
     path = tau**2 * (path_a + path_b * tau)
-    put = {e_s: path, e_v: sp.diff(path, tau), lam_1: sp.S.Zero, lam_2: sp.S.Zero}  # z + lambda is z with lambda left out
+    put = {e_s: path, e_v: sp.diff(path, tau), lam_1: sp.S.Zero, lam_2: sp.S.Zero}  # z + lambda is z without lambda
     sides = ((1 + c_1) * e_s**2 + e_v**2, sum((z**2 for z in z_in_errors), sp.S.Zero))
     return Goal((at_most(*(sp.integrate(sp.expand(side.xreplace(put)), (tau, 0, 1)) for side in sides)),))
 
