@@ -2,7 +2,7 @@
 
 from scenarios import YANG
 
-LINE = YANG.parent / "lines" / "yang2021.toml"
+LINE = YANG.parent / "line.toml"
 TEXT, LINE_TEXT = YANG.read_text(encoding="utf-8"), LINE.read_text(encoding="utf-8")
 GRADES = LINE_TEXT[LINE_TEXT.index("grade = ["):LINE_TEXT.index("curve = [")]
 
@@ -61,11 +61,10 @@ SCENARIO_MISTAKES = {
     ),
     "no sources": ("[train.source]", "[train.sources]", "train.sources", "did you mean 'source'"),
     "unknown law": (
-        'law = "pid"', 'law = "lqr"', "controllers.pid.law", "choose one of yang2021.rbfnn_pocrac",
+        'law = "pid"', 'law = "lqr"', "controllers.pid.law", "choose one of pid, ",
     ),
     "missing parameter": (
-        "K_p = 0.75, K_i = 0.125, K_d = 1.5 }\ninitial = { eta_e",
-        "K_p = 1.0, K_d = 1.5 }\ninitial = { eta_e", "controllers.pid.parameters", "'K_i' is missing: add it",
+        "eta = 0.2, varpi = 0.04", "eta = 0.2", "controllers.rbf_pid.parameters", "'varpi' is missing: add it",
     ),
     "unknown parameter": (
         "chi = 0.1,", "chi = 0.1, xi = 0.1,", "controllers.rbfnn_pocrac.parameters",
@@ -136,8 +135,8 @@ SCENARIO_MISTAKES = {
     "unclosed bracket": ("factors = [", "factors = [[", "", "is not valid TOML"),
     "an integer without end": ("seed = 2021", f"seed = {'9' * 5000}", "", "is not valid TOML"),
     "brackets without end": ("seed = 2021", f"seed = {'[' * 5000}", "", "nested too deeply"),
-    "track is no name": ('track = "lines/yang2021.toml"', "track = 3", "track", "name the line's TOML file"),
-    "no track": ('track = "lines/yang2021.toml"\n', "", "track", "name the line's TOML file"),
+    "track is no name": ('track = "line.toml"', "track = 3", "track", "name the line's TOML file"),
+    "no track": ('track = "line.toml"\n', "", "track", "name the line's TOML file"),
     "a name that is no file name": (
         'name = "yang2021"', 'name = "../yang"', "name", "is no name: use letters",
     ),

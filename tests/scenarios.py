@@ -3,11 +3,11 @@
 import tomllib
 from pathlib import Path
 
-from workbench.files.folders import held_in, papers_in
-from workbench.files.toml import validate_record
+from workbench.files.folders import STUDY_FILE, held_in, papers_in
+from workbench.files.toml import read_toml, validate_record
 from workbench.model.law import ControlLaw
 from workbench.model.laws import GENERAL, law_named
-from workbench.trains.scenario import ControllerSpec, Scenario
+from workbench.trains.scenario import ControllerSpec, Scenario, Variant, changed_scenario, load_scenario
 from workbench.trains.track import Track
 
 ROOT = Path(__file__).resolve().parent.parent
@@ -17,6 +17,23 @@ FILES = [*sorted(SHARED.glob("*.toml")), *(PROOFS / paper / "study.toml" for pap
 BENCHMARKS = [path for path in FILES if "kind" not in tomllib.loads(path.read_text(encoding="utf-8"))]
 STUDIES = [path for path in FILES if path not in BENCHMARKS]
 YANG = PROOFS / "yang2021" / "study.toml"
+
+
+
+def name_of(path: Path) -> str:
+    """What a shipped file is called among the others: its paper, or its own name."""
+    return path.parent.name if path.name == STUDY_FILE else path.stem
+
+
+# Every line that ships: the shared ones, and those of papers.
+LINES = [*sorted(SHARED.glob("lines/*.toml")), *(PROOFS / paper / "line.toml" for paper in PAPERS)]
+TRAINS = sorted(SHARED.glob("trains/*.toml"))
+
+
+def line_name(path: Path) -> str:
+    """What a shipped line is called among the others: its paper, or its own name."""
+    return path.parent.name if path.name == "line.toml" else path.stem
+
 
 # Every compiled law that ships, by its id.
 LAWS = GENERAL | {law.id: law for paper in PAPERS for law in held_in(PROOFS / paper, "laws", ControlLaw).values()}
@@ -61,6 +78,11 @@ def short_scenario(**changes: object) -> Scenario:
             table["source"][last] = "assumed: a test"
         table[last] = value
     return validate_record(data, Scenario, "short scenario").in_folder(YANG.parent)
+
+
+def variant_of(path: Path, variant: Variant) -> Scenario:
+    """The scenario of a file with one variant's values set."""
+    return changed_scenario(path, read_toml(path), variant, load_scenario(path))
 
 
 def with_law(scenario: Scenario, law: ControlLaw, period_s: float, estimates: str = "corrected") -> Scenario:

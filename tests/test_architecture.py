@@ -94,15 +94,6 @@ def test_no_import_runs_in_a_circle():
     assert set(order) >= set(PATHS)
 
 
-def test_the_package_names_no_paper():
-    papers = [folder.name for folder in (ROOT.parent / "proofs").iterdir() if folder.is_dir() and folder.name[0] != "_"]
-    assert len(papers) >= 5
-    files = [path for path in ROOT.rglob("*") if path.is_file() and "__pycache__" not in path.parts]
-    naming = [f"{path.relative_to(ROOT)}: {paper}" for path in files for paper in papers
-              if paper in f"{path.relative_to(ROOT)}\n{path.read_text(encoding='utf-8')}"]
-    assert naming == []
-
-
 @pytest.mark.parametrize("module", PATHS)
 def test_the_package_knows_no_paper_file_no_benchmark_and_no_test(module):
     roots = {name.partition(".")[0] for name in imported(module)}

@@ -6,13 +6,13 @@ import numpy as np
 import pytest
 import sympy as sp
 from plain_loop import plain_run
-from scenarios import BENCHMARKS, YANG, short_scenario, values_for, with_law
+from scenarios import BENCHMARKS, LAWS, YANG, name_of, short_scenario, values_for, with_law
 
 from workbench.errors import InputError, WorkbenchError
 from workbench.model.law import ControlLaw, LawState, desired_position, position, speed
+from workbench.model.laws import GENERAL
 from workbench.simulate import closed_loop
 from workbench.simulate.closed_loop import Factors, setting_of, simulate
-from workbench.simulate.controllers import LAWS
 from workbench.simulate.metrics import measure
 from workbench.trains.scenario import load_scenario
 
@@ -178,7 +178,7 @@ BAD_LAWS = {
 
 @pytest.mark.parametrize("law", BAD_LAWS.values(), ids=BAD_LAWS.keys())
 def test_a_law_that_diverges_stops_its_run_and_is_reported(law, monkeypatch):
-    monkeypatch.setitem(LAWS, law.id, law)
+    monkeypatch.setitem(GENERAL, law.id, law)
     scenario = with_law(short_scenario(), law, 0.01)
     run = simulate(scenario, "only")
     assert re.match(rf"{re.escape(law.id)} diverged at t = \d", run.failed)
@@ -197,7 +197,7 @@ def test_a_controller_that_is_not_there_is_named_with_those_that_are():
 def test_timing_counts_steps_and_not_the_compiler(monkeypatch, tmp_path):
     law = ControlLaw("test.fresh", "fresh", "a test", "full state, model unknown",
                      (desired_position - position) / 8)
-    monkeypatch.setitem(LAWS, law.id, law)
+    monkeypatch.setitem(GENERAL, law.id, law)
     monkeypatch.setenv("WORKBENCH_CACHE", str(tmp_path))  # so that this kernel must be compiled here and now
     run = simulate(with_law(short_scenario(), law, 0.01), "only")
     assert run.failed is None
@@ -207,7 +207,7 @@ def test_timing_counts_steps_and_not_the_compiler(monkeypatch, tmp_path):
 
 
 @pytest.mark.parametrize(("path", "name"), [
-    pytest.param(path, name, id=f"{path.stem}-{name}")
+    pytest.param(path, name, id=f"{name_of(path)}-{name}")
     for path in BENCHMARKS for name in load_scenario(path).controllers
 ])
 def test_every_shipped_controller_obeys_the_laws_of_the_loop(path, name):

@@ -8,6 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 import sympy as sp
+from scenarios import LAWS
 
 from workbench.compile.kernel import casadi_function, kernel_module, law_source, numeric, plant_source
 from workbench.errors import CompileError
@@ -127,9 +128,10 @@ def test_generated_source_does_not_depend_on_the_order_of_hashes():
     script = ("import sys\nsys.path.insert(0, sys.argv[1])\nfrom scenarios import LAWS\n"
               "from workbench.compile.kernel import law_source\n"
               "print([law_source(law, e) for law in LAWS.values() for e in ('corrected', 'explicit')])")
+    command = [sys.executable, "-c", script, str(Path(__file__).parent)]
     first, second = (
-        subprocess.run([sys.executable, "-c", script, str(Path(__file__).parent)], env=os.environ | {"PYTHONHASHSEED": seed},
-                       capture_output=True, text=True, check=True).stdout
+        subprocess.run(command, env=os.environ | {"PYTHONHASHSEED": seed}, capture_output=True, text=True,
+                       check=True).stdout
         for seed in ("1", "2"))
     assert first == second
     assert first.count("def control_step") == 2 * len(LAWS)

@@ -6,12 +6,12 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from scenarios import LAWS
 
 from workbench.compile.kernel import kernel_module, loop_module
 from workbench.compile.text import CALLED, MARKER, PUT_IN, Form, loop_text, module_text
 from workbench.errors import CompileError
 from workbench.simulate import kernel_loop
-from workbench.simulate.controllers import LAWS
 from workbench.simulate.setting_loop import COUNTED, STAGES
 from workbench.trains.train import single_particle
 

@@ -8,25 +8,25 @@ import pytest
 from contests import COMMON, few, only
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from scenarios import YANG
-from workbench.contest.tune_command import BEGIN, tune_run
-from workbench.paper.registry import load_study
+from scenarios import SHARED
 
+from workbench.cli.loading import load
 from workbench.contest.energy import best_run
 from workbench.contest.matches import METRICS, all_matches, entries, match_values, run_match
 from workbench.contest.record import Contest
-from workbench.contest.study import KIND, located
+from workbench.contest.study import KIND
 from workbench.contest.tune import DRAWS_FROM, tune
 from workbench.errors import InputError, WorkbenchError
 from workbench.paper.statistics import mean_interval, resampled, winners
-from workbench.trains.scenario import Scenario, load_scenario
+from workbench.paper.tune import BEGIN, tune_run
+from workbench.trains.scenario import Scenario
 
 QUICK = ("pid", "pocrac", "mpc_linear")
 
 
 @pytest.fixture(scope="module")
 def scenario(contest: Contest) -> Scenario:
-    return only(load_scenario(Path(contest.scenario)), *QUICK)
+    return only(contest.world, *QUICK)
 
 
 def test_every_controller_meets_the_same_train_and_noise(contest: Contest, scenario: Scenario) -> None:
@@ -121,10 +121,8 @@ def test_tuning_never_makes_worse_keeps_its_budget_and_repeats_itself(
         assert low * 0.999 <= found[key] <= high * 1.001
 
 
-def test_a_small_contest_is_told_whole(contest: Contest, scenario: Scenario, tmp_path: Path,
-                                       monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("workbench.contest.study.entered", lambda _: scenario)
-    small = few(contest, "nominal", "late_command")
+def test_a_small_contest_is_told_whole(contest: Contest, scenario: Scenario) -> None:
+    small = few(contest, "nominal", "late_command").with_world(scenario)
     result = KIND.run(small, 1, lambda *_: None)
     assert {row["controller"] for row in result.rows} == set(QUICK)
     assert {row["condition"] for row in result.rows} == {"nominal", "late_command"}
@@ -150,7 +148,7 @@ def test_no_run_takes_less_than_the_bound(contest: Contest, scenario: Scenario) 
 
 
 def test_mistakes_in_a_contest_are_one_line(contest: Contest, tmp_path: Path) -> None:
-    text = COMMON.read_text(encoding="utf-8").replace("common_run.toml", str(YANG.parent / "common_run.toml"))
+    text = COMMON.read_text(encoding="utf-8").replace("common_run.toml", str(SHARED / "common_run.toml"))
     text = text.partition(BEGIN)[0]
     for before, after, message in (
             ("[tuning.ranges.pid]", "[tuning.ranges.nobody]", "is no controller of the scenario"),
@@ -169,22 +167,22 @@ def test_mistakes_in_a_contest_are_one_line(contest: Contest, tmp_path: Path) ->
         path = tmp_path / "broken.toml"
         path.write_text(text.replace(before, after, 2 if before.startswith("entrants") else 1), encoding="utf-8")
         with pytest.raises(WorkbenchError, match=message) as trouble:
-            load_study(path)
+            load(path)
         assert "\n" not in str(trouble.value)
-    with pytest.raises(InputError, match="paper: there is no study of"):
-        list(tune_run(YANG.parent / "common_run.toml", [], False, 1, lambda *_: None))
+    with pytest.raises(InputError, match="tuning: is missing: state budget"):
+        list(tune_run(load(SHARED / "common_run.toml"), [], False, 1, lambda *_: None))
 
 
 def test_found_parameters_are_written_and_take_part(contest: Contest, scenario: Scenario, tmp_path: Path) -> None:
-    text = COMMON.read_text(encoding="utf-8").replace("common_run.toml", str(YANG.parent / "common_run.toml"))
+    text = COMMON.read_text(encoding="utf-8").replace("common_run.toml", str(SHARED / "common_run.toml"))
     path = tmp_path / "own.toml"
     path.write_text(text.partition(BEGIN)[0].replace("runs = 240", "runs = 6"), encoding="utf-8")
-    lines = list(tune_run(path, ["pid"], True, 1, lambda *_: None))
+    lines = list(tune_run(load(path), ["pid"], True, 1, lambda *_: None))
     assert lines[-1] == f"written: {path}"
-    again = load_study(path)
+    again = load(path).record
     assert isinstance(again, Contest)
     assert again.tuning.found.keys() == {"pid"}
     assert [entry.name for entry in entries(again, scenario)] == ["pid", "pid+", "pocrac", "mpc_linear"]
-    list(tune_run(path, ["pocrac"], True, 1, lambda *_: None))
-    assert located(load_study(path), path).tuning.found.keys() == {"pid", "pocrac"}
+    list(tune_run(load(path), ["pocrac"], True, 1, lambda *_: None))
+    assert load(path).record.tuning.found.keys() == {"pid", "pocrac"}
     assert path.read_text(encoding="utf-8").count(BEGIN) == 1

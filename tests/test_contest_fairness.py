@@ -1,13 +1,9 @@
 """A contest's own word: delays that hit all alike, differences too small to see, and where a tube's promise holds."""
 
-from pathlib import Path
-
 import numpy as np
 import pytest
-from scenarios import YANG
-from workbench.paper.registry import load_study
+from contests import COMMON
 
-from workbench.contest.entrants import entered
 from workbench.contest.matches import Match, all_matches, draws_of, entries, run_match, world_of
 from workbench.contest.premises import premises_findings, premises_table, words_of
 from workbench.contest.record import Contest
@@ -16,22 +12,12 @@ from workbench.contest.tables import Told
 from workbench.errors import InputError
 from workbench.paper.statistics import resampled, winners
 
-COMMON = YANG.parent / "common.toml"
-
-
-@pytest.fixture(scope="module")
-def contest() -> Contest:
-    found = load_study(COMMON)
-    assert isinstance(found, Contest)
-    return found
-
 
 @pytest.mark.parametrize("key", ["measurement_delay_s", "command_delay_s"])
 def test_a_delay_that_would_not_hit_all_alike_is_refused(contest: Contest, key: str) -> None:
     """40 ms are 8 samples of the laws at 5 ms and none of MPC's at 100 ms: it would see the train at once."""
     late = contest.conditions["ten"].model_copy(update={key: 0.04})
-    changed = contest.model_copy(update={"conditions": contest.conditions | {"ten": late},
-                                         "scenario": Path(contest.scenario).name})
+    changed = contest.model_copy(update={"conditions": contest.conditions | {"ten": late}})
     words = rf"conditions\.ten\.{key}: 0\.04 s is no whole number of the 0\.1 s"
     with pytest.raises(InputError, match=words) as trouble:
         located(changed, COMMON)
@@ -40,7 +26,7 @@ def test_a_delay_that_would_not_hit_all_alike_is_refused(contest: Contest, key: 
 
 def test_all_sample_alike_where_a_condition_says_so(contest: Contest) -> None:
     """Every contestant's command then changes at the stated period's multiples alone."""
-    stated, scenario = contest.conditions["sampled"], entered(contest)
+    stated, scenario = contest.conditions["sampled"], contest.world
     world = world_of(scenario, stated)
     assert {spec.period_s for spec in world.controllers.values()} == {stated.period_s}
     assert len({spec.period_s for spec in world_of(scenario, contest.conditions["ten"]).controllers.values()}) > 1
@@ -50,7 +36,7 @@ def test_all_sample_alike_where_a_condition_says_so(contest: Contest) -> None:
         changed = np.flatnonzero(np.diff(run.column("u_mps2"))) + 1
         assert len(changed) > 100
         assert set((changed % 20).tolist()) == {0}
-    odd = contest.model_copy(update={"scenario": Path(contest.scenario).name, "conditions": contest.conditions | {
+    odd = contest.model_copy(update={"conditions": contest.conditions | {
         "sampled": stated.model_copy(update={"period_s": 0.0125})}})
     with pytest.raises(InputError, match=r"conditions\.sampled\.period_s: 0\.0125 is not a whole number"):
         located(odd, COMMON)
@@ -67,7 +53,7 @@ def test_a_difference_that_no_table_shows_is_no_win() -> None:
 
 def test_a_tubes_promise_is_told_by_condition_and_kept(contest: Contest) -> None:
     """On the level a bound of the gusts alone; with the line's grades no bound leaves room within the power limit."""
-    whole = entered(contest)
+    whole = contest.world
     spec = whole.controllers["mpc_tube"]
     gusts = spec.model_copy(update={"parameters": spec.parameters | {"disturbance_mps2": 0.021}})
     scenario = whole.model_copy(update={"controllers": {"mpc_tube": gusts}})

@@ -2,18 +2,18 @@
 
 import json
 from dataclasses import replace
-from pathlib import Path
 
 import numpy as np
 import pytest
 from contests import COMMON, few, only
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
+from scenarios import LAWS
 
 from workbench.compile.kernel import kernel_module
 from workbench.contest.effort import mpc_table
 from workbench.contest.energy import best_run
-from workbench.contest.entrants import entered, follows_curve, play
+from workbench.contest.entrants import follows_curve, play
 from workbench.contest.learning import learning_tables
 from workbench.contest.matches import (
     OF_CURVE,
@@ -36,7 +36,6 @@ from workbench.mpc import linear, terminal, transcription, tube
 from workbench.mpc.controller import KINDS
 from workbench.simulate import kernel_loop
 from workbench.simulate.closed_loop import Setting, run_law, setting_of, simulate_in
-from workbench.simulate.controllers import LAWS
 from workbench.simulate.law_values import law_values
 from workbench.simulate.setting_loop import COUNTED, MOST_ROWS, law_loop, setting_form
 from workbench.trains.scenario import Scenario
@@ -48,7 +47,7 @@ KEPT = (terminal.lqr, tube._extents, linear._linearised, transcription._program)
 
 @pytest.fixture(scope="module")
 def scenario(contest: Contest) -> Scenario:
-    return entered(contest)
+    return contest.world
 
 
 def short(scenario: Scenario, end_s: float = 30.0, **sensing: float) -> Setting:
@@ -217,4 +216,4 @@ def test_it_is_tuned_for_what_it_is_for(contest: Contest, scenario: Scenario) ->
     with pytest.raises(InputError, match="which follows no curve"):
         tune(contest.model_copy(update={"tuning": without}), scenario, FREE)
     with pytest.raises(InputError, match="which follows no curve"):
-        located(contest.model_copy(update={"tuning": without, "scenario": Path(contest.scenario).name}), COMMON)
+        located(contest.model_copy(update={"tuning": without}), COMMON)

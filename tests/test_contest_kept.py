@@ -5,6 +5,7 @@ from pathlib import Path
 
 import pytest
 from contests import COMMON, common, few
+from scenarios import PROOFS
 from typer.testing import CliRunner
 
 from workbench.cli.app import app
@@ -88,11 +89,11 @@ def test_a_record_that_is_no_match_is_refused(contest: Contest, played: Path, tm
 
 
 @pytest.mark.parametrize(("arguments", "words"), [
-    (["common.toml", "--resume"], "needs the folder"),
-    (["liu2020.toml", "--out", "x"], "--out: is for contests"),
-    (["yang2021.toml", "--resume"], "--resume: is for contests"),
+    ([COMMON, "--resume"], "needs the folder"),
+    ([PROOFS / "liu2020", "--out", "x"], "--out: is for contests"),
+    ([PROOFS / "yang2021", "--resume"], "--resume: is for contests"),
 ])
-def test_where_nothing_is_kept_the_options_are_refused(arguments: list[str], words: str) -> None:
-    asked = RUNNER.invoke(app, ["compare", str(COMMON.parent / arguments[0]), *arguments[1:]])
+def test_where_nothing_is_kept_the_options_are_refused(arguments: list[object], words: str) -> None:
+    asked = RUNNER.invoke(app, ["compare", *map(str, arguments)])
     assert isinstance(asked.exception, InputError)
     assert words in str(asked.exception)

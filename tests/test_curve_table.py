@@ -1,5 +1,6 @@
 """References read from a table: the curve between its rows, what is refused, and scenarios that use one."""
 
+import shutil
 import tomllib
 from pathlib import Path
 
@@ -7,6 +8,7 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from scenarios import PROOFS, YANG
 
 from workbench.errors import InputError, WorkbenchError
 from workbench.model.curve_table import COLUMNS, Row, curve_through, read_rows
@@ -14,7 +16,6 @@ from workbench.model.desired_curve import start_cruise_stop
 from workbench.simulate.closed_loop import simulate
 from workbench.trains.scenario import load_scenario
 
-BENCHMARKS = Path(__file__).parent.parent / "benchmarks"
 CURVE = start_cruise_stop(2000.0, 20.0, 0.5, 0.6, 4.0)
 
 
@@ -99,21 +100,19 @@ def test_a_missing_folder_or_binary_file_is_said(tmp_path):
 
 def with_table(tmp_path: Path, name: str, rows) -> Path:
     """yang2021's scenario with a table as its reference, beside its line."""
-    text = (BENCHMARKS / "yang2021.toml").read_text(encoding="utf-8")
+    text = YANG.read_text(encoding="utf-8")
     start, end = text.index("[reference]"), text.index("[simulation]")
     table = f'[reference]\nkind = "table"\nfile = "{name}"\n\n[reference.source]\nkind = "convention: x"\n'
     path = tmp_path / "scenario.toml"
     path.write_text(text[:start] + table + 'file = "assumed: x"\n\n' + text[end:].partition("[[variants]]")[0],
                     encoding="utf-8")
-    (tmp_path / "lines").mkdir()
-    line = (BENCHMARKS / "lines" / "yang2021.toml").read_text(encoding="utf-8")
-    (tmp_path / "lines" / "yang2021.toml").write_text(line, encoding="utf-8")
+    shutil.copy(YANG.parent / "line.toml", tmp_path / "line.toml")
     written(tmp_path / "curve.csv", rows)
     return path
 
 
 def test_a_scenario_reads_the_same_curve_from_a_table_as_from_its_rule(tmp_path):
-    own = load_scenario(BENCHMARKS / "yang2021.toml")
+    own = load_scenario(YANG)
     curve = own.desired_curve()
     times = np.unique(np.concatenate((curve.breaks_s, np.linspace(0, curve.trip_time_s, 500))))
     read = load_scenario(with_table(tmp_path, "curve.csv", rows_of(curve, times)))
@@ -143,8 +142,7 @@ def test_rows_do_not_stand_in_the_scenario_itself(tmp_path):
 
 
 def test_the_bundled_tables_are_named_by_bundled_files():
-    tables = sorted(path.name for path in (BENCHMARKS / "references").glob("*.csv"))
-    rules = sorted(path.stem for path in (BENCHMARKS / "references").glob("*.toml"))
-    assert tables == [f"{name}.csv" for name in rules]
-    assert all("source" in tomllib.loads(p.read_text(encoding="utf-8")) for p in
-               (BENCHMARKS / "references").rglob("*.toml"))
+    tables, rules = (sorted(PROOFS.glob(f"*/*.{ending}")) for ending in ("csv", "toml"))
+    rules = [path for path in rules if path.stem == "reference"]
+    assert tables == [path.with_suffix(".csv") for path in rules] != []
+    assert all("source" in tomllib.loads(path.read_text(encoding="utf-8")) for path in rules)

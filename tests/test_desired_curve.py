@@ -5,7 +5,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from numpy.polynomial import polynomial as poly
-from scenarios import BENCHMARKS, YANG
+from scenarios import BENCHMARKS, YANG, name_of
 from scipy.integrate import quad
 
 from workbench.errors import InputError, WorkbenchError
@@ -21,7 +21,7 @@ from workbench.model.desired_curve import (
 from workbench.trains.scenario import load_scenario
 
 CURVES = {
-    **{path.stem: load_scenario(path).desired_curve() for path in BENCHMARKS},
+    **{name_of(path): load_scenario(path).desired_curve() for path in BENCHMARKS},
     "levels": speed_levels((0.0, 60.0, 130.0, 200.0), (12.0, 20.0, 8.0, 0.0), 0.4, 8.0, 260.0),
     "levels from a late start to the very end": speed_levels((5.0, 50.0), (10.0, 0.0), 0.5, 10.0, 80.0),
     "short": start_cruise_stop(900.0, 15.0, 0.4, 0.5, 6.0),
@@ -63,7 +63,7 @@ def test_acceleration_is_lipschitz_so_that_it_cannot_jump(curve):
     assert rise.max() <= steepest * 1.01 + 1e-9
 
 
-@pytest.mark.parametrize("path", BENCHMARKS, ids=lambda p: p.stem)
+@pytest.mark.parametrize("path", BENCHMARKS, ids=name_of)
 def test_a_shipped_curve_covers_its_line_from_standstill_to_standstill(path):
     scenario = load_scenario(path)
     curve = scenario.desired_curve()

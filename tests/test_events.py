@@ -5,14 +5,14 @@ from itertools import pairwise
 
 import numpy as np
 import pytest
-from scenarios import short_scenario, with_law
+from scenarios import LAWS, short_scenario, with_law
 from scipy.integrate import solve_ivp
 
 from workbench.errors import InputError
 from workbench.model.desired_curve import DesiredCurve
 from workbench.model.events import Failure, Mode, PushTerm, failure_rows, mode_rows, push_rows
 from workbench.simulate.closed_loop import Setting, run_law, simulate
-from workbench.simulate.controllers import LAWS, held_command
+from workbench.simulate.controllers import held_command
 
 MASS, END_S = 4e5, 60.0
 # Each entry: from, to, offset, amplitude, omega, phase, and the power of the speed or the share of the motors.

@@ -2,13 +2,13 @@
 
 import json
 from dataclasses import replace
-from pathlib import Path
 
 import cvxpy as cp
 import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from scenarios import LINES, SHARED, YANG, line_name
 from scipy.integrate import solve_ivp
 from typer.testing import CliRunner
 
@@ -25,9 +25,8 @@ from workbench.optimal.reference import least_time
 from workbench.optimal.smooth import SmoothRun, smooth_reference
 from workbench.optimal.vehicle import ForceLimit
 
-BENCHMARKS = Path(__file__).parent.parent / "benchmarks"
-TRAIN = BENCHMARKS / "trains" / "chen2019_cars.toml"
-LINE = load_line(BENCHMARKS / "lines" / "yang2021.toml")[0]
+TRAIN = SHARED / "trains" / "chen2019_cars.toml"
+LINE = load_line(YANG.parent / "line.toml")[0]
 
 
 def of_cars(count: int, **changes: object) -> CarTrain:
@@ -195,7 +194,7 @@ def test_the_simulated_cars_follow_the_plan(count, rule):
     assert found.stretch_m >= 0.99 * np.abs(found.planned_coupler_n).max() / train.coupler_n_per_m / 2
 
 
-@pytest.mark.parametrize("path", sorted(BENCHMARKS.glob("lines/*.toml")), ids=lambda path: path.stem)
+@pytest.mark.parametrize("path", LINES, ids=line_name)
 def test_the_cars_keep_to_the_plan_on_every_bundled_line_and_stop_where_it_stops(path):
     train, (line, _) = of_cars(6), load_line(path)
     stops = line.stops_between(0.0, line.length_m)
@@ -262,7 +261,7 @@ def test_what_stands_ahead_is_carried():
 
 
 def test_a_train_without_cars_has_none():
-    assert load_cars(BENCHMARKS / "trains" / "chen2019.toml") is None
+    assert load_cars(SHARED / "trains" / "chen2019.toml") is None
     train = load_cars(TRAIN)
     assert train.motors == (True, False) * 3 and train.vehicle == load_vehicle(TRAIN)[0]
     limits = car_limits(train, np.zeros(1))
@@ -291,7 +290,7 @@ def test_what_is_wrong_with_cars_is_said_in_one_line(tmp_path, old, new, key):
 def test_the_command_gives_the_cars_too(tmp_path):
     out, figure = tmp_path / "run.json", tmp_path / "run.svg"
     done = CliRunner().invoke(app, [
-        "reference", str(BENCHMARKS / "lines" / "yang2021.toml"), str(TRAIN), "--time", "420", "--to-m", "9500",
+        "reference", str(YANG.parent / "line.toml"), str(TRAIN), "--time", "420", "--to-m", "9500",
         "--intervals", "150", "--json", str(out), "--figure", str(figure)])
     assert done.exit_code == 0, done.output
     document = json.loads(out.read_text(encoding="utf-8"))

@@ -1,31 +1,30 @@
 """The papers' energy-optimal references: made by their rules, the same work of less energy, and followed."""
 
+import shutil
 from dataclasses import replace
-from pathlib import Path
 
 import numpy as np
 import pytest
-from workbench.paper.registry import load_study
+from proofs.chen2019.study.cars_trials import run_cars
+from scenarios import PAPERS, PROOFS, SHARED, YANG, variant_of
 
 from proofs.chen2019.study import runs as chen2019_runs
-from proofs.chen2019.study.cars_trials import run_cars
+from workbench.cli.loading import load
 from workbench.errors import InputError
 from workbench.model.curve_table import curve_through, read_rows
 from workbench.optimal.curve_request import requested_curve
 from workbench.paper.tracking import track
 from workbench.simulate.closed_loop import simulate
-from workbench.trains.scenario import load_scenario, load_variant
+from workbench.trains.scenario import load_scenario
 
-BENCHMARKS = Path(__file__).parent.parent / "benchmarks"
-RULES = sorted((BENCHMARKS / "references").glob("*.toml"))
-PAPERS = ("chen2019", "jiao2025", "liu2020", "mao2018", "yang2021")
+RULES = sorted(PROOFS.glob("*/reference.toml"))
 
 
 def test_every_paper_has_one():
-    assert {path.stem for path in RULES} >= set(PAPERS)
+    assert {path.parent.name for path in RULES} >= set(PAPERS)
 
 
-@pytest.mark.parametrize("rule", RULES, ids=lambda path: path.stem)
+@pytest.mark.parametrize("rule", RULES, ids=lambda path: path.parent.name)
 def test_the_stored_table_is_what_its_rule_gives(rule):
     made = requested_curve(rule)
     assert made.reference.optimal.gap < 1e-3 and made.reference.optimal.status == "optimal"
@@ -42,8 +41,8 @@ def test_the_stored_table_is_what_its_rule_gives(rule):
 
 @pytest.mark.parametrize("paper", ["jiao2025", "liu2020", "mao2018", "yang2021"])
 def test_its_main_controller_follows_the_optimal_reference_about_as_well_as_its_own(paper):
-    path = BENCHMARKS / f"{paper}.toml"
-    own, best = track(path), track(path, read_rows(BENCHMARKS / "references" / f"{paper}.csv"))
+    loaded = load(PROOFS / paper)
+    own, best = track(loaded), track(loaded, read_rows(PROOFS / paper / "reference.csv"))
     assert own.failed is None and best.failed is None
     assert best.length_m == pytest.approx(own.length_m, abs=1.0)
     assert best.speed_rms_mps < 2 * own.speed_rms_mps
@@ -54,10 +53,10 @@ def test_its_main_controller_follows_the_optimal_reference_about_as_well_as_its_
 
 
 def test_a_variant_of_the_scenario_takes_the_table():
-    path = BENCHMARKS / "yang2021.toml"
+    path = YANG
     own = load_scenario(path)
     variant = next(v for v in own.variants if "reference" in v.set)
-    changed = load_variant(path, variant)
+    changed = variant_of(path, variant)
     assert changed.desired_curve().length_m == pytest.approx(53_880.0, abs=1.0)
     energy = [simulate(scenario, "pid").totals["traction_work_j"] for scenario in (own, changed)]
     assert energy[1] < energy[0]
@@ -65,14 +64,13 @@ def test_a_variant_of_the_scenario_takes_the_table():
 
 @pytest.mark.parametrize(("old", "new", "key"), [
     ("trip_time_s = 1785.0", "trip_time_s = -1.0", "trip_time_s"), ("window_s = 8.0", "window_s = 0.0", "window_s"),
-    ('track = "../lines/yang2021.toml"', 'track = "none.toml"', "none.toml"),
+    ('track = "line.toml"', 'track = "none.toml"', "none.toml"),
     ("every_s = 2.0", "every_s = 2.0\nforce_share = 1.5", "force_share"), ("every_s = 2.0", "", "every_s"),
 ])
 def test_what_is_wrong_with_a_rule_is_said_in_one_line(tmp_path, old, new, key):
-    text = (BENCHMARKS / "references" / "yang2021.toml").read_text(encoding="utf-8")
-    for name in ("lines", "trains"):
-        text = text.replace(f'"../{name}/', f'"{(BENCHMARKS / name).as_posix()}/')
-    old = old.replace("../lines", (BENCHMARKS / "lines").as_posix())
+    text = (YANG.parent / "reference.toml").read_text(encoding="utf-8")
+    text = text.replace('"../../benchmarks/', f'"{SHARED.as_posix()}/')
+    shutil.copy(YANG.parent / "line.toml", tmp_path / "line.toml")
     path = tmp_path / "rule.toml"
     assert old in text
     path.write_text(text.replace(old, new), encoding="utf-8")
@@ -82,8 +80,8 @@ def test_what_is_wrong_with_a_rule_is_said_in_one_line(tmp_path, old, new, key):
 
 
 def test_the_cars_of_chen2019_learn_the_optimal_reference():
-    study = load_study(BENCHMARKS / "chen2019.toml")
-    curve = curve_through(read_rows(BENCHMARKS / "references" / "chen2019.csv"))
+    study = load(PROOFS / "chen2019").record
+    curve = curve_through(read_rows(PROOFS / "chen2019" / "reference.csv"))
     times = np.arange(study.samples, dtype=float) * study.sampling.period_s
     plan = replace(chen2019_runs.plan(study), reference=np.stack(curve.at(times), axis=1), trials=3, kept=())
     run = run_cars(plan)

@@ -2,14 +2,14 @@
 
 import numpy as np
 import pytest
-from scenarios import short_scenario, with_law
+from scenarios import LAWS, short_scenario, with_law
 from scipy.integrate import solve_ivp
 
 from workbench.compile.kernel import kernel_module
 from workbench.model.sensing import PERFECT
 from workbench.simulate import kernel_loop
 from workbench.simulate.closed_loop import simulate
-from workbench.simulate.controllers import LAWS, held_command
+from workbench.simulate.controllers import held_command
 from workbench.simulate.kernel_loop import ACCUMULATORS, DIVERGED, LOG_COLUMNS
 from workbench.simulate.metrics import measure
 from workbench.trains.track import resistance_table

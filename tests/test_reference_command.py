@@ -5,7 +5,7 @@ import json
 from pathlib import Path
 
 import pytest
-from scenarios import YANG
+from scenarios import LINES, SHARED, TRAINS, YANG, line_name
 from typer.testing import CliRunner
 
 from workbench.cli.app import app
@@ -13,10 +13,7 @@ from workbench.errors import WorkbenchError
 from workbench.optimal.bound_checker import main as check_bounds
 from workbench.optimal.inputs.files import load_vehicle
 
-BENCHMARKS = YANG.parent
-LINES = sorted((BENCHMARKS / "lines").glob("*.toml"))
-TRAINS = sorted((BENCHMARKS / "trains").glob("*.toml"))
-HILLS, TRAIN = BENCHMARKS / "lines" / "hills.toml", BENCHMARKS / "trains" / "yang2021.toml"
+HILLS, TRAIN = SHARED / "lines" / "hills.toml", SHARED / "trains" / "yang2021.toml"
 KEYS = {"version", "energy_J", "lower_bound_J", "gap", "trip_time_s", "solver", "solve_s", "status"}
 
 
@@ -36,7 +33,7 @@ def least_time(line: Path, train: Path) -> float:
 
 
 @pytest.mark.parametrize("train", TRAINS, ids=lambda path: path.stem)
-@pytest.mark.parametrize("line", LINES, ids=lambda path: path.stem)
+@pytest.mark.parametrize("line", LINES, ids=line_name)
 def test_every_bundled_train_runs_on_every_bundled_line(line: Path, train: Path, tmp_path: Path) -> None:
     time = 1.15 * least_time(line, train)
     said(line, train, "--time", time, "--json", tmp_path / "r.json")
@@ -68,10 +65,10 @@ def test_all_outputs_of_one_run(tmp_path: Path) -> None:
 
 
 def test_stops_on_the_way_take_their_time(tmp_path: Path) -> None:
-    line = BENCHMARKS / "lines" / "metro.toml"
+    line = SHARED / "lines" / "metro.toml"
     text = line.read_text(encoding="utf-8")
     assert "stops_m" in text, "the metro line must have stops for this test"
-    train = BENCHMARKS / "trains" / "jiao2025.toml"
+    train = SHARED / "trains" / "jiao2025.toml"
     energies = []
     for option in ((), ("--stops", "--dwell", 20)):
         said(line, train, "--time", 3 * least_time(line, train) + 100, "--json", tmp_path / "r.json", *option)
@@ -86,7 +83,7 @@ def test_stops_on_the_way_take_their_time(tmp_path: Path) -> None:
     ((HILLS, TRAIN, "--time", 1e9), "is it in seconds"),
     ((HILLS, TRAIN), "--time: is missing: give a trip time of"),
     ((TRAIN, HILLS, "--time", 2600), "yang2021.toml: grade: is missing: this is not a line's file"),
-    ((HILLS, YANG, "--time", 2600), "yang2021.toml: mass_kg: is missing: this is a scenario"),
+    ((HILLS, YANG, "--time", 2600), "study.toml: mass_kg: is missing: this is a scenario"),
     ((HILLS, "nowhere.toml", "--time", 2600), "nowhere.toml: no such file"),
     ((HILLS, "nowhere.txt", "--time", 2600), "neither .toml .* nor .json"),
     ((HILLS, TRAIN, "--time", 2600, "--from-m", 9e9), "is no run of a metre or more"),

@@ -7,6 +7,7 @@ from html.parser import HTMLParser
 from xml.etree import ElementTree
 
 import pytest
+from scenarios import variant_of
 from test_sweep import write_scenario
 
 from workbench.files import numbers
@@ -19,7 +20,7 @@ from workbench.report.tables import nominal_table
 from workbench.simulate.closed_loop import simulate
 from workbench.simulate.metrics import measure
 from workbench.simulate.sweep import sweep
-from workbench.trains.scenario import load_scenario, load_variant
+from workbench.trains.scenario import load_scenario
 
 HOSTILE = "<script>alert('x')</script><img src=x onerror=alert(1)>\"'&"
 VOID = {"meta", "link", "br", "img", "input", "hr", "wbr"}
@@ -48,7 +49,7 @@ def content(tmp_path_factory):
     path = write_scenario(tmp_path_factory.mktemp("report"), EXTRA)
     scenario = load_scenario(path)
     runs = [simulate(scenario, name) for name in scenario.controllers]
-    changed = load_variant(path, scenario.variants[0])
+    changed = variant_of(path, scenario.variants[0])
     claims = [
         {"id": f"yang2021:{number}", "paper": "yang2021", "equation": str(number), "kind": "identity",
          "statement": rf"e_{{{number}}} = \frac{{a}}{{b}}", "verdict": verdict, "method": "a method",
@@ -62,7 +63,7 @@ def content(tmp_path_factory):
     claims.append({"id": "yang2021:bare"})
     return ReportContent(
         scenario=scenario, claims={"version": 1, "claims": claims, "summary": {}}, runs=runs,
-        metrics=[measure(run, scenario) for run in runs], sweep=sweep(path, 2, 7, workers=1), sweep_seed=7,
+        metrics=[measure(run, scenario) for run in runs], sweep=sweep(scenario, path, 2, 7, workers=1), sweep_seed=7,
         variants=[(scenario.variants[0],
                    [measure(simulate(changed, name), changed) for name in changed.controllers])],
         timings={"proof": 1.5}, commands=["workbench report a<b"],

@@ -7,6 +7,7 @@ import pytest
 from scenarios import YANG
 
 from workbench.errors import WorkbenchError
+from workbench.model.pid import pid
 from workbench.model.sensing import PERFECT, Sensing
 from workbench.simulate import closed_loop, kernel_loop
 from workbench.simulate.closed_loop import Run, law_values, run_law, setting_of
@@ -22,7 +23,7 @@ def scenario() -> Scenario:
 
 def pid_run(scenario: Scenario, sensing: Sensing, end_s: float = 60.0) -> Run:
     name, spec = next((n, s) for n, s in scenario.controllers.items() if s.law == "pid")
-    law = closed_loop.LAWS["pid"]
+    law = pid
     setting = closed_loop.replace(setting_of(scenario), end_s=end_s, log_every_s=PERIOD_S, sensing=sensing)
     return run_law(law, law_values(law, spec, name), setting, PERIOD_S)
 

@@ -12,7 +12,7 @@ import pytest
 from workbench.errors import InputError
 from workbench.simulate.closed_loop import Factors
 from workbench.simulate.process_pool import run_tasks
-from workbench.simulate.sweep import JOURNAL_NAME, draw_factors, summarise, sweep
+from workbench.simulate.sweep import JOURNAL_NAME, SweepRow, draw_factors, summarise, sweep
 from workbench.trains.scenario import load_scenario
 
 RUNS, SEED = 3, 7
@@ -135,6 +135,11 @@ stopping_accuracy_m = 0.4
     return path
 
 
+def sweep_of(path: Path, *arguments: object, **options: object) -> list[SweepRow]:
+    """The sweep of a scenario's file."""
+    return sweep(load_scenario(path), path, *arguments, **options)
+
+
 @pytest.fixture(scope="module")
 def scenario_path(tmp_path_factory):
     return write_scenario(tmp_path_factory.mktemp("tiny"))
@@ -144,7 +149,7 @@ def scenario_path(tmp_path_factory):
 def whole(scenario_path, tmp_path_factory):
     """The folder and rows of an uninterrupted run in one process."""
     out = tmp_path_factory.mktemp("whole")
-    return out, sweep(scenario_path, RUNS, SEED, out=out, workers=1)
+    return out, sweep_of(scenario_path, RUNS, SEED, out=out, workers=1)
 
 
 def test_rows_are_ordered_and_paired(whole, scenario_path):
@@ -172,7 +177,7 @@ def test_factors_are_drawn_for_named_ones_only_within_the_spread(scenario_path):
 def test_two_workers_write_the_same_bytes(whole, scenario_path, tmp_path):
     out, _ = whole
     seen = []
-    sweep(scenario_path, RUNS, SEED, out=tmp_path, workers=2, on_progress=lambda *step: seen.append(step[:2]))
+    sweep_of(scenario_path, RUNS, SEED, out=tmp_path, workers=2, on_progress=lambda *step: seen.append(step[:2]))
     assert (tmp_path / "sweep.csv").read_bytes() == (out / "sweep.csv").read_bytes()
     assert seen == [(i, 9) for i in range(1, 10)]
 
@@ -183,7 +188,7 @@ def test_resuming_a_cut_journal_gives_the_same_bytes(whole, scenario_path, tmp_p
     text = (out / JOURNAL_NAME).read_text().splitlines(keepends=True)
     (tmp_path / JOURNAL_NAME).write_text("".join(text[:lines]) + text[lines][:9])
     fresh = []
-    sweep(scenario_path, RUNS, SEED, out=tmp_path, resume=True, workers=1,
+    sweep_of(scenario_path, RUNS, SEED, out=tmp_path, resume=True, workers=1,
           on_progress=lambda *step: fresh.append(step))
     assert (tmp_path / "sweep.csv").read_bytes() == (out / "sweep.csv").read_bytes()
     assert len(fresh) == 9 - max(0, lines - 1)
@@ -193,9 +198,9 @@ def test_resuming_a_cut_journal_gives_the_same_bytes(whole, scenario_path, tmp_p
 def test_a_finished_journal_serves_fewer_and_more_runs(whole, scenario_path, tmp_path):
     out, rows = whole
     (tmp_path / JOURNAL_NAME).write_bytes((out / JOURNAL_NAME).read_bytes())
-    assert sweep(scenario_path, 2, SEED, ["pid"], tmp_path, resume=True) == [
+    assert sweep_of(scenario_path, 2, SEED, ["pid"], tmp_path, resume=True) == [
         row for row in rows if row.controller == "pid" and row.run < 2]
-    more = sweep(scenario_path, RUNS + 1, SEED, ["pid"], tmp_path, resume=True, workers=1)
+    more = sweep_of(scenario_path, RUNS + 1, SEED, ["pid"], tmp_path, resume=True, workers=1)
     assert [row.run for row in more] == [0, 1, 2, 3]
 
 
@@ -205,10 +210,10 @@ def test_an_interruption_keeps_what_is_finished(whole, scenario_path, tmp_path):
             raise KeyboardInterrupt
 
     with pytest.raises(KeyboardInterrupt):
-        sweep(scenario_path, RUNS, SEED, out=tmp_path, workers=1, on_progress=stop)
+        sweep_of(scenario_path, RUNS, SEED, out=tmp_path, workers=1, on_progress=stop)
     assert not (tmp_path / "sweep.csv").exists()
     assert len((tmp_path / JOURNAL_NAME).read_text().splitlines()) == 5
-    sweep(scenario_path, RUNS, SEED, out=tmp_path, resume=True, workers=1)
+    sweep_of(scenario_path, RUNS, SEED, out=tmp_path, resume=True, workers=1)
     assert (tmp_path / "sweep.csv").read_bytes() == (whole[0] / "sweep.csv").read_bytes()
 
 
@@ -216,24 +221,24 @@ def test_a_journal_of_something_else_is_refused_with_a_remedy(whole, scenario_pa
     journal = tmp_path / JOURNAL_NAME
     journal.write_bytes((whole[0] / JOURNAL_NAME).read_bytes())
     with pytest.raises(InputError, match=r"seed 7, not 8.*without resume"):
-        sweep(scenario_path, RUNS, SEED + 1, out=tmp_path, resume=True)
+        sweep_of(scenario_path, RUNS, SEED + 1, out=tmp_path, resume=True)
     folder = tmp_path / "other"
     folder.mkdir()
     other = write_scenario(folder)
     line = folder / "line.toml"
     line.write_text(line.read_text().replace("grade_permille = 2.0", "grade_permille = 3.0"))
     with pytest.raises(InputError, match=r"values, line and code.*without resume"):
-        sweep(other, RUNS, SEED, out=tmp_path, resume=True)
+        sweep_of(other, RUNS, SEED, out=tmp_path, resume=True)
     for text in ("not json\n", '{"a": 1}\n', journal.read_text() + '{"run": "x"}\n', "[1]\n"):
         journal.write_text(text)
         with pytest.raises(InputError, match="without resume"):
-            sweep(scenario_path, RUNS, SEED, out=tmp_path, resume=True)
+            sweep_of(scenario_path, RUNS, SEED, out=tmp_path, resume=True)
 
 
 def test_starting_anew_keeps_the_old_journal_beside(whole, scenario_path, tmp_path):
     journal = tmp_path / JOURNAL_NAME
     journal.write_text("precious\n")
-    sweep(scenario_path, 1, SEED, ["pid"], tmp_path, workers=1)
+    sweep_of(scenario_path, 1, SEED, ["pid"], tmp_path, workers=1)
     assert journal.with_name(JOURNAL_NAME + ".before").read_text() == "precious\n"
 
 
@@ -243,7 +248,7 @@ def test_starting_anew_keeps_the_old_journal_beside(whole, scenario_path, tmp_pa
 ])
 def test_unusable_options_are_named(scenario_path, options, key):
     with pytest.raises(InputError, match=key):
-        sweep(scenario_path, **({"runs": 1, "seed": 1} | options))
+        sweep_of(scenario_path, **({"runs": 1, "seed": 1} | options))
 
 
 def test_failed_runs_are_rows_without_meaningless_numbers(whole):

@@ -7,7 +7,8 @@ from pathlib import Path
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from test_reference_command import BENCHMARKS, HILLS, TRAIN, said
+from scenarios import SHARED as BENCHMARKS
+from test_reference_command import HILLS, TRAIN, said
 
 from workbench.errors import InputError, WorkbenchError
 from workbench.optimal.bound_checker import main as check_bounds

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from scenarios import BENCHMARKS, SHORT_LINE, YANG, short_scenario
+from scenarios import BENCHMARKS, SHORT_LINE, YANG, name_of, short_scenario
 
 from workbench.trains.scenario import load_scenario
 from workbench.trains.track import (
@@ -93,7 +93,7 @@ def test_a_value_holds_from_its_border_on_and_beyond_the_ends():
     assert (low, high) == (first, last)
 
 
-@pytest.mark.parametrize("path", BENCHMARKS, ids=lambda p: p.stem)
+@pytest.mark.parametrize("path", BENCHMARKS, ids=name_of)
 def test_every_shipped_line_has_a_finite_plausible_resistance_everywhere(path):
     track = load_scenario(path).track
     table = resistance_table(track)

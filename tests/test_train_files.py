@@ -2,17 +2,18 @@
 
 import math
 import tomllib
-from dataclasses import replace
 from pathlib import Path
+from dataclasses import replace
 
 import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from workbench.paper.registry import load_study
+from scenarios import LINES, PAPERS, PROOFS, SHARED, TRAINS, line_name
 
 from proofs.liu2020.study.record import LiuStudy
 from proofs.liu2020.study.runs import davis_newton
+from workbench.cli.loading import load
 from workbench.errors import InputError
 from workbench.optimal.inputs.files import load_line, load_vehicle
 from workbench.optimal.inputs.line import course
@@ -20,13 +21,9 @@ from workbench.optimal.inputs.plausible import plausible
 from workbench.optimal.vehicle import ForceLimit, Vehicle
 from workbench.trains.track import load_track, resistance_table
 
-BENCHMARKS = Path(__file__).parent.parent / "benchmarks"
-LINES, TRAINS = sorted(BENCHMARKS.glob("lines/*.toml")), sorted(BENCHMARKS.glob("trains/*.toml"))
-PAPERS = ("chen2019", "jiao2025", "liu2020", "mao2018", "yang2021")
-
 
 def stated(paper: str) -> dict:
-    return tomllib.loads((BENCHMARKS / f"{paper}.toml").read_text(encoding="utf-8"))
+    return tomllib.loads((PROOFS / paper / "study.toml").read_text(encoding="utf-8"))
 
 
 def test_every_paper_has_its_train():
@@ -34,7 +31,7 @@ def test_every_paper_has_its_train():
 
 
 @pytest.mark.parametrize("train", TRAINS, ids=lambda p: p.stem)
-@pytest.mark.parametrize("path", LINES, ids=lambda p: p.stem)
+@pytest.mark.parametrize("path", LINES, ids=line_name)
 def test_every_bundled_train_can_run_on_every_bundled_line(path, train):
     (line, _), (vehicle, _) = load_line(path), load_vehicle(train)
     found = course(line, vehicle, 0.0, line.length_m, line.stops_between(0.0, line.length_m))
@@ -44,7 +41,7 @@ def test_every_bundled_train_can_run_on_every_bundled_line(path, train):
     assert all(v <= vehicle.max_speed_mps for v in found.limit_mps)
 
 
-@pytest.mark.parametrize("path", LINES, ids=lambda p: p.stem)
+@pytest.mark.parametrize("path", LINES, ids=line_name)
 def test_a_point_meets_on_a_line_what_a_scenario_meets(path):
     line, _ = load_line(path)
     table = resistance_table(load_track(path))
@@ -56,7 +53,7 @@ def test_a_point_meets_on_a_line_what_a_scenario_meets(path):
 
 
 def test_the_trains_are_those_of_the_studies():
-    found = {paper: load_vehicle(BENCHMARKS / "trains" / f"{paper}.toml")[0] for paper in PAPERS}
+    found = {paper: load_vehicle(SHARED / "trains" / f"{paper}.toml")[0] for paper in PAPERS}
     for paper in ("yang2021", "liu2020", "jiao2025"):
         assert found[paper].mass_kg == stated(paper)["train"]["mass_kg"]
     yang, chen = stated("yang2021")["train"], stated("chen2019")["train"]
@@ -75,7 +72,7 @@ def test_the_trains_are_those_of_the_studies():
     # kN per tonne is N per kg.
     assert found["mao2018"].davis_n == pytest.approx(
         [4e5 * mao["modes"][0][key] for key in ("a_kn", "b_kn_s_per_m", "c_kn_s2_per_m2")], rel=1e-14)
-    study = load_study(BENCHMARKS / "liu2020.toml")
+    study = load(PROOFS / "liu2020").record
     assert isinstance(study, LiuStudy)
     liu = study.train
     assert found["liu2020"].davis_n == pytest.approx(davis_newton(liu), rel=1e-12)
@@ -136,7 +133,7 @@ def test_a_value_of_a_train_file_needs_a_source(tmp_path):
         load_vehicle(path)
 
 
-METRO = (BENCHMARKS / "lines" / "metro.toml").read_text(encoding="utf-8")
+METRO = (SHARED / "lines" / "metro.toml").read_text(encoding="utf-8")
 
 
 @pytest.mark.parametrize(("old", "new", "words"), [
@@ -161,13 +158,13 @@ def test_a_mistake_in_a_lines_limits_or_stops_is_named(tmp_path, old, new, words
 
 
 @pytest.mark.parametrize(("load", "path", "words"), [
-    (load_line, "yang2021.toml", "scenario"), (load_vehicle, "liu2020.toml", "study"),
+    (load_line, "../proofs/yang2021/study.toml", "scenario"), (load_vehicle, "../proofs/liu2020/study.toml", "study"),
     (load_line, "trains/yang2021.toml", "not a line's file"), (load_vehicle, "lines/metro.toml", "not a train's file"),
     (load_line, "missing.toml", "no such file"), (load_vehicle, "lines", ".toml"),
 ])
 def test_another_file_than_the_one_wanted_is_told(load, path, words):
     with pytest.raises(InputError, match=words):
-        load(BENCHMARKS / path)
+        load(SHARED / path)
 
 
 JUNK = st.sampled_from(["", "nan", "inf", "-1.0", "0.0", "1e300", "true", '"x"', "[]", "[[]]", "{}", "9" * 400,
@@ -187,7 +184,7 @@ def test_a_mutated_train_file_loads_or_is_refused_in_one_line(tmp_path_factory, 
 
 
 def test_what_a_vehicle_cannot_be_is_refused():
-    good = load_vehicle(BENCHMARKS / "trains" / "jiao2025.toml")[0]
+    good = load_vehicle(SHARED / "trains" / "jiao2025.toml")[0]
     for change in ({"tunnel_drag": ((24.0, 8.0), (24.0, 9.0))}, {"tunnel_drag": ((0.0, 8.0),)},
                    {"traction": ForceLimit(math.nan)}, {"length_m": math.nan}, {"mass_kg": math.inf}):
         with pytest.raises(InputError):

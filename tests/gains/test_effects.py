@@ -5,10 +5,10 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from workbench.paper.registry import load_study
+from proofs.jiao2025.study.trials import run_trials
 
 from proofs.jiao2025.study import cases
-from proofs.jiao2025.study.trials import run_trials
+from workbench.cli.loading import load
 from workbench.paper.gain_effects import Effect, checked_gains, effects
 from workbench.report.gains import compared, gains_document, gains_result
 
@@ -44,7 +44,7 @@ def test_where_trials_repeat_the_law_contracts_as_fast_as_is_certified(done):
     report = done[0]
     found = next(s for s in report.found if s.name == "difference")
     certified = next(q for q in report.quantities if q.certificate == "jiao2025:difference")
-    study = load_study(FILE)
+    study = load(FILE).record
     repeated = {"line.seen_by": "desired", "trials.shortest_length_k": 1999}
     changed = cases.changed(study, cases.Change(title="test", set={**found.changes, **repeated}))
     mse = run_trials(cases.plan(changed, cases.Case("kN", "jiao2025.pd_difference", 0))).column("mse")[:13]

@@ -4,10 +4,9 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from scenarios import YANG
-from workbench.paper.registry import load_study
+from scenarios import SHARED
 
-from workbench.contest.entrants import entered
+from workbench.cli.loading import load
 from workbench.contest.matches import play_match, with_parameters
 from workbench.contest.premises import lacks, unknown_of
 from workbench.errors import InputError
@@ -89,8 +88,8 @@ def test_an_unknown_that_cannot_be_is_refused(changes):
 
 def test_yang2021s_bound_covers_its_drawn_trains_and_they_stay_in_the_tube():
     """The stated bound of the shipped contest: its premises hold, and draws keep to the tube that follows."""
-    contest = load_study(YANG.parent / "yang2021_contest.toml")
-    scenario, condition = entered(contest), contest.conditions["ten"]
+    contest = load(SHARED / "yang2021_contest.toml").record
+    scenario, condition = contest.world, contest.conditions["ten"]
     made = MpcController(scenario, scenario.controllers["mpc_tube"], "mpc_tube")
     around = made.tracker.around
     needed = needed_bound(made.problem, made.ahead, unknown_of(scenario, condition))
