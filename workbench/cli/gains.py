@@ -25,15 +25,18 @@ def command(paper: PaperOrFile, json: JsonFile = None,
     from workbench.files.outputs import check_outputs
     from workbench.gains.certificate import write_certificates
     from workbench.paper.gain_effects import effects, gains_of
+    from workbench.proof.document import CERTIFICATES, check_places
     from workbench.report.gains import gains_document, gains_result
 
     loaded = load(paper)
     check_outputs({"--json": json})
+    check_places([], certificates, {"--json": json})
+    check_places([loaded.folder] if write else [], None, {"--json": json})
     found = gains_of(loaded)
     if certificates:
-        write_certificates(found.certificates, certificates / found.paper)
+        write_certificates(found.certificates, certificates / found.paper, certificates)
     if write:
-        write_certificates(found.certificates, loaded.folder / "certificates" / "gains")
+        write_certificates(found.certificates, loaded.folder / CERTIFICATES / "gains", loaded.folder)
     with progress() as show:
         done = effects(loaded, found, workers, lambda at, total, _: show("runs", at, total)) if runs else ()
     if json:

@@ -9,7 +9,6 @@ import typer
 
 from workbench.cli.options import JsonFile
 from workbench.cli.terminal import claim_card, claims_table, err_console, out_console, progress, verdict_line
-from workbench.errors import InputError
 
 NAME = "prove"
 
@@ -26,14 +25,13 @@ def command(paths: Annotated[list[str] | None, typer.Argument(
     """Decide every claim; exit 0 when each verdict is the recorded one, 1 when one differs, 2 on bad input."""
     from workbench.files.json_output import write_json
     from workbench.files.outputs import check_outputs
-    from workbench.proof.document import claims_document, places, write_certificates
+    from workbench.proof.document import check_places, claims_document, places, write_certificates
     from workbench.proof.prove import prove as run_prove
     from workbench.proof.selection import targets
 
     found = targets(paths or ["proofs"])
-    if certificates is not None and certificates.exists() and not certificates.is_dir():
-        raise InputError(certificates, "--certificates", "is a file: name a folder")
     check_outputs({"--json": json}, [file for target in found for file in target.inputs()])
+    check_places([file for target in found for file in target.files], certificates, {"--json": json})
     with progress() as show:
         proof = run_prove(found, jobs, cache, lambda done, total: show("claims", done, total))
     single = any(target.pattern is not None for target in found)

@@ -21,11 +21,13 @@ def command(paper: PaperOrFile,
             resume: Annotated[bool, typer.Option(help="Go on after an interruption.")] = False,
             workers: Workers = None) -> None:
     """Monte Carlo over the scenario's uncertainty: one row a run, the same bytes for the same seed."""
-    from workbench.simulate.sweep import summarise
+    from workbench.files.outputs import check_outputs
+    from workbench.simulate.sweep import CSV_NAME, JOURNAL_NAME, summarise
     from workbench.simulate.sweep import sweep as run_sweep
 
     loaded = load(paper)
     scenario = loaded.scenario
+    check_outputs({}, folders={"--out": (out, (CSV_NAME, JOURNAL_NAME))})
     seed = scenario.uncertainty.seed if seed is None else seed
     with progress() as show:
         rows = run_sweep(scenario, loaded.path, runs, seed, controller, out=out, resume=resume, workers=workers,

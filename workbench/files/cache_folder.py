@@ -13,6 +13,7 @@ import shutil
 import stat
 import sys
 import tempfile
+from contextlib import suppress
 from functools import cache
 from pathlib import Path
 
@@ -62,6 +63,13 @@ def private(folder: Path) -> Path | None:
             return folder
     except (OSError, ValueError):
         return None
+
+
+def keep(path: Path, text: str) -> None:
+    """Write a file into a cache; a full disk costs time, not the result."""
+    with suppress(OSError):
+        path.parent.mkdir(parents=True, exist_ok=True)
+        write_whole(path, text)
 
 
 def drop(path: Path) -> None:

@@ -38,6 +38,13 @@ def check_outputs(files: Mapping[str, Path | None], inputs: Iterable[Path] = (),
                 taken.take(option, folder[0] / name)
 
 
+def check_rewritten(path: Path) -> None:
+    """InputError unless a file that was read may be written anew."""
+    if not os.access(path, os.W_OK):
+        raise InputError(path, "", "may not be written: change its permissions, or copy it")
+    _require_writable("", path, path.resolve().parent)
+
+
 def is_stream(path: Path) -> bool:
     """Whether a path names a stream of the shell or the system, which is written as it is and never replaced."""
     return str(path.absolute()).startswith(STREAMS) or (path.exists() and not path.is_file() and not path.is_dir())

@@ -6,8 +6,9 @@ import errno
 import os
 import secrets
 import stat
-from collections.abc import Callable
-from pathlib import Path
+from collections.abc import Callable, Mapping
+from contextlib import suppress
+from pathlib import Path, PurePath
 
 from workbench.errors import InputError
 from workbench.files.outputs import is_stream
@@ -37,8 +38,27 @@ def write_bytes(path: Path, data: bytes, remedy: str = ANOTHER_PLACE) -> None:
     _in_one_line(path, written, remedy)
 
 
-def write_new(path: Path, text: str, remedy: str = ANOTHER_PLACE) -> None:
-    """Write a file that is not there yet; InputError where it is, or cannot be written."""
+def write_tree(folder: Path, files: Mapping[PurePath, bytes], remedy: str = ANOTHER_PLACE) -> None:
+    """Write new files below a folder, by their places in it; where one is there already or cannot be written, what
+    this call has made is removed again, and InputError."""
+    made: list[Path] = []
+    try:
+        for place, data in files.items():
+            path = folder / place
+            made += reversed([above for above in path.parents if not above.exists() and above not in made])
+            _write_new(path, data, remedy)
+            made.append(path)
+    except BaseException:
+        for path in reversed(made):
+            with suppress(OSError, ValueError):  # a folder that was not made, or is not empty, stays as it is
+                if path.is_dir():
+                    path.rmdir()
+                else:
+                    path.unlink(missing_ok=True)
+        raise
+
+
+def _write_new(path: Path, data: bytes, remedy: str) -> None:
     def written() -> None:
         path.parent.mkdir(parents=True, exist_ok=True)
         try:
@@ -46,7 +66,7 @@ def write_new(path: Path, text: str, remedy: str = ANOTHER_PLACE) -> None:
         except FileExistsError:
             raise InputError(path, "", "exists already: give another name, or move it away first") from None
         try:
-            _all(handle, text.encode())
+            _all(handle, data)
         except BaseException:
             path.unlink(missing_ok=True)
             raise
@@ -62,6 +82,8 @@ def require_inside(folder: Path, within: Path, remedy: str = ANOTHER_PLACE) -> N
         there, inside = os.path.realpath(folder), os.path.realpath(within)
     except ValueError as trouble:  # a null character in the path
         raise InputError(folder, "", f"is no path ({trouble}): correct the name") from None
+    if not folder.is_relative_to(within):
+        raise InputError(folder, "", f"lies outside of {within}, where nothing is written: {remedy}")
     if Path(there) != Path(inside) / folder.relative_to(within):
         raise InputError(folder, "", f"leads elsewhere by a link, through which nothing is written: remove the link, "
                          f"or {remedy}")

@@ -22,6 +22,8 @@ from pathlib import Path
 from typing import Any
 
 MOST_HALVINGS = 60
+# In bytes: no certificate comes near it.
+LARGEST = 64 * 2**20
 
 
 def nonnegative(coefficients: tuple[Fraction, ...], low: Fraction, high: Fraction) -> bool:
@@ -146,17 +148,29 @@ def _jumps(jumps: dict[str, Any], count: int) -> Fraction:
     return sum((fall * (fastest if fall < 0 else slowest) ** 2 / 2 for fall, slowest, fastest in rows), Fraction(0))
 
 
+def _contents(path: Path) -> bytes:
+    """A regular file's bytes; ValueError for a pipe or a device, which may never end, and for what is too large."""
+    if not path.is_file():
+        raise ValueError("is no regular file")
+    with path.open("rb") as stream:
+        found = stream.read(LARGEST + 1)
+    if len(found) > LARGEST:
+        raise ValueError(f"is larger than {LARGEST} bytes")
+    return found
+
+
 def main(arguments: list[str]) -> int:
     """Check the files named; prints a line each; 0 when every one proves the bound that it states."""
     wrong = 0
     for name in arguments:
         try:
-            certificate = json.loads(Path(name).read_text(encoding="utf-8"))
+            certificate = json.loads(_contents(Path(name)))
             bound = checked_bound(certificate)
             if bound < Fraction(certificate["lower_bound_J"]):
                 raise ValueError(f"it proves {float(bound):.9g} J, not {certificate['lower_bound_J']:.9g} J")
             sys.stdout.write(f"{name}: proves {float(bound):.9g} J\n")
-        except (ValueError, KeyError, IndexError, TypeError, OSError, ZeroDivisionError, OverflowError) as trouble:
+        except (ValueError, KeyError, IndexError, TypeError, OSError, ZeroDivisionError, OverflowError,
+                RecursionError) as trouble:
             sys.stdout.write(f"{name}: INVALID: {trouble}\n")
             wrong += 1
     return 1 if wrong or not arguments else 0

@@ -9,6 +9,9 @@ from pathlib import Path, PurePath
 import workbench
 from workbench.errors import InputError
 from workbench.files.folders import PAPERS_FOLDER
+from workbench.files.outputs import check_outputs
+from workbench.files.regular import contents
+from workbench.files.writing import write_tree
 
 SHARED_FOLDER = "benchmarks"
 
@@ -53,37 +56,11 @@ def write_examples(directory: Path) -> Iterator[str]:
     empty, and for what cannot be written.
     """
     found = examples(examples_root())
-    made: list[Path] = []
-    try:
-        if directory.exists() and (not directory.is_dir() or any(directory.iterdir())):
-            what = "is not empty" if directory.is_dir() else "is a file"
-            raise InputError(directory, "", f"{what}: name a new or an empty folder")
-        for example in found:
-            _write(directory / example.place, example.source.read_bytes(), made)
-    except (OSError, ValueError) as trouble:  # a null character in a path is a ValueError
-        _remove(made)
-        why = trouble.strerror if isinstance(trouble, OSError) else trouble
-        raise InputError(directory, "", f"cannot be written ({why}): name another folder") from None
+    check_outputs({}, folders={"DIRECTORY": (directory, ())})
+    if directory.is_dir() and any(directory.iterdir()):
+        raise InputError(directory, "", "is not empty: name a new or an empty folder")
+    write_tree(directory, {example.place: contents(example.source) for example in found}, "name another folder")
     for folder in (PAPERS_FOLDER, SHARED_FOLDER):
         inside = dict.fromkeys(example.place.parts[1] for example in found if example.place.parts[0] == folder)
         yield f"{directory / folder}: {', '.join(inside)}"
     yield f"{len(found)} files. To go on: cd {directory}; workbench list; workbench prove {PAPERS_FOLDER}"
-
-
-def _write(path: Path, content: bytes, made: list[Path]) -> None:
-    """Write a file, noting it and every folder that had to be made for it."""
-    missing = [folder for folder in path.parents if not folder.exists()]
-    for folder in reversed(missing):
-        folder.mkdir()
-        made.append(folder)
-    made.append(path)
-    path.write_bytes(content)
-
-
-def _remove(made: list[Path]) -> None:
-    """Remove files and the folders that were made for them, the last one first."""
-    for path in reversed(made):
-        if path.is_dir():
-            path.rmdir()
-        else:
-            path.unlink(missing_ok=True)

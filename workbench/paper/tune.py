@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import Any
 
 from workbench.errors import InputError
+from workbench.files.outputs import check_rewritten
 from workbench.files.text import read_text
 from workbench.files.writing import write_text
 from workbench.paper.loading import Loaded
@@ -39,6 +40,7 @@ def tune_run(loaded: Loaded, names: list[str], write: bool, workers: int | None,
                              "that stands in it; leave one of the two out")
         record = record.model_copy(update={"tuning": budget.model_copy(update={"runs": runs})})
     if write:
+        check_rewritten(path)
         _before_found(path)
     found = tune(record, chosen, workers or cores(), on_progress)
     for name, (values, cost, stated) in found.items():
@@ -55,7 +57,7 @@ def _write(path: Path, tables: dict[str, dict[str, float]]) -> None:
     lines = [_before_found(path), "", BEGIN]
     for name, values in tables.items():
         lines += [f"[tuning.found.{name}]", *(f"{key} = {value!r}" for key, value in values.items()), ""]
-    write_text(path, "\n".join([*lines[:-1], END]) + "\n", "check its permissions")
+    write_text(path.resolve(), "\n".join([*lines[:-1], END]) + "\n", "check its permissions")
 
 
 def _before_found(path: Path) -> str:

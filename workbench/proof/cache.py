@@ -15,9 +15,8 @@ from pathlib import Path
 from typing import Any, TypeVar
 
 from workbench.errors import ClaimError
-from workbench.files.cache_folder import cache_folder, drop
+from workbench.files.cache_folder import cache_folder, drop, keep
 from workbench.files.regular import contents
-from workbench.files.writing import write_whole
 from workbench.proof.dependencies import changed_since, digest
 from workbench.proof.engine_digest import engine_digest
 from workbench.proof.verdict import Decision, Stated
@@ -105,9 +104,7 @@ def _file_content(record: dict[str, Any]) -> dict[str, Any]:
 
 def _write(path: Path, key: str, content: dict[str, Any]) -> None:
     text = json.dumps({"key": key, "content": content}, ensure_ascii=False)
-    with suppress(OSError):  # a full disk costs time, not the result
-        path.parent.mkdir(parents=True, exist_ok=True)
-        write_whole(path, f"{_sha256(text)}\n{text}\n")
+    keep(path, f"{_sha256(text)}\n{text}\n")
 
 
 def _read(path: Path, key: str, make: Callable[[dict[str, Any]], T]) -> T | None:

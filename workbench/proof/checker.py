@@ -1061,6 +1061,7 @@ def check(certificate: dict[str, Any]) -> None:
 
 
 MANIFEST = "manifest.json"
+LARGEST = 64 * 2**20
 
 
 def check_folder(folder: Path) -> list[tuple[Path, str, str | None]]:
@@ -1077,7 +1078,7 @@ def check_folder(folder: Path) -> list[tuple[Path, str, str | None]]:
     for path in sorted(path for path in folder.rglob("*.json") if path.name != MANIFEST):
         verdict = "?"
         try:
-            text = path.read_text(encoding="utf-8")
+            text = _text(path)
             certificate = json.loads(text, object_pairs_hook=_unique)
             verdict = str(certificate.get("verdict")) if isinstance(certificate, dict) else "?"
             paper, digests = named.get(path.parent, (path.resolve().parent.name, {}))
@@ -1096,10 +1097,21 @@ def check_folder(folder: Path) -> list[tuple[Path, str, str | None]]:
 def _manifest(path: Path) -> tuple[str, dict[str, str]]:
     """The paper and the digests of its certificates by their names; of a damaged manifest none."""
     try:
-        found = json.loads(path.read_text(encoding="utf-8"), object_pairs_hook=_unique)
+        found = json.loads(_text(path), object_pairs_hook=_unique)
         return str(found["paper"]), {str(name): str(digest) for name, digest in found["certificates"].items()}
     except (CertificateError, ValueError, KeyError, TypeError, AttributeError, RecursionError, OSError):
         return "", {}
+
+
+def _text(path: Path) -> str:
+    """A regular file's text; a pipe would keep its reader waiting, and a device may never end."""
+    if not path.is_file():
+        raise CertificateError("is no regular file")
+    with path.open(encoding="utf-8") as stream:
+        text = stream.read(LARGEST + 1)
+    if len(text) > LARGEST:
+        raise CertificateError(f"is longer than {LARGEST} characters")
+    return text
 
 
 def _unique(pairs: list[tuple[str, Any]]) -> dict[str, Any]:

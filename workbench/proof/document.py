@@ -3,13 +3,16 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Collection, Mapping, Sequence
+import os
+from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from workbench.errors import InputError
+from workbench.files.outputs import check_outputs
 from workbench.files.own_files import MANIFEST, read_manifest, replace_files, sha256
+from workbench.files.writing import require_inside
 from workbench.proof.verdict import VERDICTS, Decision, Stated, is_equation, is_paper_name
 
 if TYPE_CHECKING:
@@ -51,6 +54,23 @@ def places(proof: Proof, chosen: Path | None) -> Places:
            for paper, path in proof.papers.items()}
     return Places(Path(CERTIFICATES), own,
                   {paper: path if path.is_dir() else path.parent for paper, path in proof.papers.items()})
+
+
+def check_places(papers: Iterable[Path], chosen: Path | None, others: Mapping[str, Path | None]) -> None:
+    """InputError unless the certificates of folders and proof files can go where `places` puts them, and no other
+    output, by its option, lies among them."""
+    check_outputs({}, folders={"--certificates": None if chosen is None else (chosen, ())})
+    roots = dict.fromkeys(path if path.is_dir() else path.parent for path in papers)
+    for root in [chosen] if chosen is not None else roots:
+        folder = root if chosen is not None else root / CERTIFICATES
+        require_inside(folder, root, ANOTHER_FOLDER)
+        if folder.exists() and not folder.is_dir():
+            raise InputError(folder, "", f"is a file, where certificates go: {ANOTHER_FOLDER}")
+        for option, other in others.items():
+            above = None if other is None else Path(os.path.realpath(other.parent))
+            if above is not None and above.is_relative_to(os.path.realpath(folder)) and (
+                    chosen is None or above != Path(os.path.realpath(folder))):
+                raise InputError(other or "", option, f"lies among the certificates in {folder}: name another place")
 
 
 def certificate_text(decision: Decision) -> str:

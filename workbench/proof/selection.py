@@ -26,8 +26,9 @@ class Target:
     pattern: str | None = None
 
     def inputs(self) -> list[Path]:
-        """The Python files that are read for it."""
-        return [file for path in self.files for file in (python_files(path) if path.is_dir() else [path])]
+        """The Python files that may be read for it: of a folder all, of a single file those beside it too."""
+        return [file for path in self.files
+                for file in (python_files(path) if path.is_dir() else sorted(path.parent.glob("*.py")))]
 
 
 def targets(arguments: Sequence[str | Path], none_is_fine: bool = False) -> list[Target]:

@@ -10,7 +10,7 @@ import numpy as np
 
 from workbench.errors import InputError
 from workbench.files.json_output import write_json
-from workbench.files.outputs import check_outputs
+from workbench.files.outputs import check_outputs, is_stream
 from workbench.optimal.bound_document import write_certificate
 from workbench.optimal.cars.car_train import CarTrain
 from workbench.optimal.cars.cars_document import cars_document, write_cars_csv
@@ -139,6 +139,8 @@ def _told(asked: Request, line: Line, vehicle: Vehicle, run: Course, notes: tupl
 def _check_outputs(asked: Request) -> None:
     """Raises InputError where an output would be written over an input or over another output."""
     check_outputs({"--json": asked.json, "--figure": asked.figure})  # of which other names are made
+    if asked.json and is_stream(asked.json) and not asked.csv:
+        raise InputError("", "--csv", f"is missing: {asked.json} has no folder for a table beside it, name a file")
     inputs = [path for path in (asked.track, asked.train, asked.timetable) if path]
     table, figure = _table(asked), asked.figure
     check_outputs({"--json": asked.json, "--csv": table, "cars of --csv": table and _of_cars_file(table),

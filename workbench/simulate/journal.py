@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import errno
 import hashlib
 import json
 import os
+from contextlib import suppress
 from functools import cache
 from pathlib import Path
 from types import TracebackType
@@ -13,10 +15,14 @@ from typing import Any, Self
 from workbench.errors import InputError
 from workbench.files.folders import is_paper, paper_named
 from workbench.files.modules import python_files
+from workbench.files.regular import LARGEST_JOURNAL, contents
+from workbench.files.text import read_source
 from workbench.trains.scenario import Scenario
 
 FORMAT = "workbench journal 1"
 REMEDY = "start anew without resume, or name another output folder"
+# How a journal begins.
+_START = json.dumps({"format": FORMAT})[:-1].encode()
 
 
 @cache
@@ -26,7 +32,7 @@ def code_digest(*patterns: str) -> bytes:
     package = Path(__file__).parents[1]
     for pattern in patterns:
         for file in sorted(package.glob(pattern)):
-            digest.update(file.read_bytes())
+            digest.update(contents(file))
     return digest.digest()
 
 
@@ -35,7 +41,7 @@ def laws_digest(scenario: Scenario) -> bytes:
     digest = hashlib.sha256()
     names = {spec.law for spec in scenario.controllers.values()}
     for path in sorted({file for name in names for file in _sources(scenario.folder, name)}):
-        digest.update(path.read_bytes())
+        digest.update(read_source(str(path)))
     return digest.digest()
 
 
@@ -46,6 +52,11 @@ def _sources(near: Path, law: str) -> list[Path]:
     paper, dot, _ = law.partition(".")
     folder = near if is_paper(near) else paper_named(paper, near) if dot else None
     return python_files(folder) if folder else []
+
+
+def _is_ours(path: Path) -> bool:
+    """Whether a file begins as a journal does, or as one that was cut off at once."""
+    return _START.startswith(contents(path, LARGEST_JOURNAL)[:len(_START)])
 
 
 class Journal:
@@ -61,10 +72,12 @@ class Journal:
         self.records: list[dict[str, Any]] = []
         header = {"format": FORMAT} | settings
         try:
-            path.parent.mkdir(parents=True, exist_ok=True)
+            if resume:
+                self._require_ours(path)
             kept = self._read(header) if resume and path.exists() else 0
-            if not resume and path.exists():
-                path.replace(path.with_name(path.name + ".before"))
+            path.parent.mkdir(parents=True, exist_ok=True)
+            if not resume:
+                self._set_aside()
             # Unbuffered: a record is one write, which an interruption cannot split.
             self._stream = path.open("r+b" if kept else "wb", buffering=0)
             self._stream.seek(kept)
@@ -72,20 +85,49 @@ class Journal:
             if not kept:
                 self._write(header)
         except OSError as trouble:
-            raise InputError(path, "", f"cannot be used as a journal ({trouble.strerror}): "
-                                       f"name another output folder") from None
+            raise self._unusable(trouble) from None
+        except ValueError as trouble:  # a null character in the path
+            raise InputError(path, "", f"is no path ({trouble}): name another output folder") from None
 
     def append(self, record: dict[str, Any]) -> None:
-        """Add a record; it is on its way to the disk when this returns."""
-        self._write(record)
+        """Add a record; it is on its way to the disk when this returns. InputError where the disk takes no more."""
+        try:
+            self._write(record)
+        except OSError as trouble:
+            raise self._unusable(trouble) from None
 
     def _write(self, record: dict[str, Any]) -> None:
-        self._stream.write(json.dumps(record, allow_nan=False).encode() + b"\n")
-        os.fsync(self._stream.fileno())
+        line, start = json.dumps(record, allow_nan=False).encode() + b"\n", self._stream.tell()
+        try:
+            if self._stream.write(line) != len(line):
+                raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
+            os.fsync(self._stream.fileno())
+        except OSError:
+            with suppress(OSError):  # half a record
+                self._stream.seek(start)
+                self._stream.truncate()
+            raise
+
+    def _unusable(self, trouble: OSError) -> InputError:
+        return InputError(self.path, "", f"cannot be used as a journal ({trouble.strerror}): name another output "
+                          "folder")
+
+    def _set_aside(self) -> None:
+        """Keep what stands there under another name, where only an older journal may stand."""
+        before = self.path.with_name(self.path.name + ".before")
+        if self.path.exists() or self.path.is_symlink():
+            self._require_ours(before)
+            self.path.replace(before)
+
+    @staticmethod
+    def _require_ours(path: Path) -> None:
+        """InputError where a link, or a file that is no journal, would be written to."""
+        if path.is_symlink() or (path.exists() and not _is_ours(path)):
+            raise InputError(path, "", f"is not a journal of this program: {REMEDY}")
 
     def _read(self, header: dict[str, Any]) -> int:
         """Fill `records`; returns the length in bytes of the part that can be kept."""
-        text = self.path.read_bytes()
+        text = contents(self.path, LARGEST_JOURNAL)
         # A kill may cut the last line anywhere; only what a newline ends was written whole.
         kept = text.rfind(b"\n") + 1
         lines = text[:kept].splitlines()
