@@ -176,10 +176,10 @@ def test_figures_are_small_and_the_same_every_time():
 def test_what_is_known_of_gains_stands_on_the_page(tiny, tmp_path, monkeypatch):
     from workbench.gains.result import Condition, GainReport
     from workbench.paper.gain_effects import Effect
-    from workbench.proof.new_paper import write_new_paper
+    from workbench.paper.new_paper import write_new_paper
     from workbench.report import build
 
-    paper = tmp_path / "tiny2026.py"
+    paper = tmp_path / "tiny2026"
     write_new_paper("tiny2026", tmp_path)
     found = GainReport("tiny2026", (Condition("k < 2 & more", "the paper's <own>", "k = 3", False, "", ""),), (), (),
                        (), ("A remark.",), {})

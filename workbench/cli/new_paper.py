@@ -10,13 +10,21 @@ import typer
 from workbench.cli.terminal import out_console
 
 NAME = "new-paper"
+VERBS = ("prove", "compare", "sweep --out FOLDER", "report --out FOLDER")
 
 
 def command(name: Annotated[str, typer.Argument(help="The paper's name, as in doe2026")],
-            directory: Annotated[Path, typer.Option(help="Where the file goes.")] = Path()) -> None:
-    """Write a proof file to start from: it runs, and shows an example of each kind of claim."""
-    from workbench.proof.new_paper import write_new_paper
+            directory: Annotated[Path, typer.Option(help="Where its folder goes.")] = Path()) -> None:
+    """Write a paper's folder to start from: each kind of claim, a law, and a study that runs it beside PID and MPC."""
+    from workbench.paper.new_paper import write_new_paper
 
-    path = write_new_paper(name, directory)
-    out_console.print(f"written: {path}", soft_wrap=True, markup=False, highlight=False)
-    out_console.print(f"decide it: workbench prove {path}", soft_wrap=True, markup=False, highlight=False)
+    folder = write_new_paper(name, directory)
+    files = ", ".join(path.relative_to(folder).as_posix() for path in sorted(folder.rglob("*.*")))
+    lines = f"written: {folder} ({files})", *(f"to go on: workbench {_with(verb, folder)}" for verb in VERBS)
+    for line in lines:
+        out_console.print(line, soft_wrap=True, markup=False, highlight=False)
+
+
+def _with(verb: str, folder: Path) -> str:
+    name, _, options = verb.partition(" ")
+    return f"{name} {folder} {options}".strip()

@@ -1,0 +1,41 @@
+"""A paper's folder to start from: claims that are decided and a law that runs, from the first minute."""
+
+from __future__ import annotations
+
+import keyword
+import sys
+from pathlib import Path, PurePath
+from string import Template
+
+from workbench.errors import InputError
+from workbench.files.regular import contents
+from workbench.files.writing import write_tree
+
+TEMPLATE = Path(__file__).parent / "template"
+ANOTHER = "name it with letters, digits and underscores, as in doe2026"
+LONGEST_NAME = 100
+
+
+def template_files() -> list[PurePath]:
+    """The files of a new paper, below its folder."""
+    found = (path.relative_to(TEMPLATE) for path in TEMPLATE.rglob("*") if path.suffix in (".py", ".toml"))
+    return sorted(PurePath(path) for path in found)
+
+
+def write_new_paper(name: str, directory: Path) -> Path:
+    """Write the commented folder <name> with claims, a law and a study; the path of the folder.
+
+    Raises InputError for a name that cannot be a module's, where something of that name stands already, and for what
+    cannot be written; then what was written before is removed again.
+    """
+    if not (name.isidentifier() and name.isascii()) or keyword.iskeyword(name) or len(name) > LONGEST_NAME:
+        raise InputError("new-paper", name, f"is no name of a Python module: {ANOTHER}")
+    if name.startswith("_") or name in sys.stdlib_module_names or name in ("sympy", "workbench"):
+        raise InputError("new-paper", name, f"would hide another module, or be hidden: {ANOTHER}")
+    folder = directory / name
+    if folder.exists() or folder.is_symlink():
+        raise InputError(folder, "", "exists already: name another paper, or move it away first")
+    texts = {place: contents(TEMPLATE / place).decode() for place in template_files()}
+    write_tree(folder, {place: Template(text).substitute(name=name).encode() for place, text in texts.items()},
+               "name another --directory")
+    return folder
