@@ -11,19 +11,25 @@ from proofs.mao2018 import gains as mao2018
 from proofs.yang2021 import gains as yang2021
 from proofs.yang2021 import laws as law
 from workbench.errors import SolverError
+from workbench.files.toml import read_toml
 from workbench.gains.sampling import largest_period_s, sampled_map, stability_certificate
 from workbench.gains.stated import Stated
 from workbench.model.law import desired_acceleration, desired_position, desired_speed
 from workbench.proof.checker import check
 from workbench.trains.train import f, single_particle_per_mass, u
 
-BENCHMARKS = Path(__file__).parents[2] / "benchmarks"
+PROOFS = Path(__file__).parents[2] / "proofs"
 SPEED = sp.Rational(326, 10)
+
+
+def stated_of(paper):
+    file = PROOFS / paper / "study.toml"
+    return Stated(file, read_toml(file))
 
 
 @pytest.fixture(scope="module")
 def values():
-    return yang2021.stated_values(Stated(BENCHMARKS / "yang2021.toml"))
+    return yang2021.stated_values(stated_of("yang2021"))
 
 
 x, command = sp.symbols("x command", real=True)
@@ -85,7 +91,7 @@ def test_the_border_at_the_stated_gains_is_that_of_the_paper_files_rule(values):
 
 def test_maos_estimate_of_c_needs_the_period_that_theory_says():
     """(27)-(31) in SI units turn at sqrt(gain (1 + v^2 + v^4 + ...)); the corrected order bears 2 over that."""
-    stated = Stated(BENCHMARKS / "mao2018.toml")
+    stated = stated_of("mao2018")
     matrix = mao2018._loop(stated, "SI", yang2021.Fraction(0), yang2021.Fraction(0))
     speed = float(mao2018.top_speed(stated))
     turns = (2 * (1 + speed**2 + speed**4 + 9.81**2 + 0.004**2)) ** 0.5

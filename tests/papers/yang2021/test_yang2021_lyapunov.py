@@ -4,37 +4,28 @@ V is (38) of yang2021 and its derivative is derived from (38), the plant and the
 sampled loop holds its command for one step, so the two agree up to the step, and twice as well at half of it.
 """
 
-import sys
-
 import numpy as np
-import pytest
 import sympy as sp
-from scenarios import YANG, short_scenario
+from scenarios import short_scenario
 
+from proofs.yang2021 import error_dynamics, laws, lyapunov
+from proofs.yang2021.claims.section_5_2 import v_rate_closed
 from workbench.compile.kernel import kernel_module
 from workbench.model.law import neuron, neuron_count
+from workbench.proof.claim import D
 from workbench.proof.derive import lie_derivative
-from workbench.proof.paper import collect_papers
 from workbench.simulate import kernel_loop
 from workbench.simulate.closed_loop import _arrays, law_values, setting_of
-from workbench.simulate.controllers import LAWS
 from workbench.trains.track import resistance_table
 from workbench.trains.train import single_particle
 
 START_S, DURATION_S = 1.0, 2.0
-PROOF = YANG.parents[1] / "proofs" / "yang2021.py"
-
-
-@pytest.fixture(scope="module")
-def proof():
-    collect_papers([PROOF])
-    return sys.modules["workbench_proofs_yang2021"]
 
 
 def trajectory(step_s: float):
     """Rows of (t, x_1, x_2, x_d, xdot_d, estimates) and weights at every step of a compiled RBFNN-POCRAC run."""
     scenario = short_scenario(simulation__plant_step_s=step_s, simulation__log_every_s=step_s)
-    law, spec = LAWS["yang2021.rbfnn_pocrac"], scenario.controllers["rbfnn_pocrac"]
+    law, spec = laws.rbfnn_pocrac, scenario.controllers["rbfnn_pocrac"]
     parameters, scalars, neurons, data = law_values(law, spec, "rbfnn_pocrac")
     arrays = _arrays(setting_of(scenario), step_s, law)
     kernel = kernel_module(single_particle(), law, kernel_loop, spec.estimates).closed_loop
@@ -50,7 +41,7 @@ def trajectory(step_s: float):
     return scenario, np.array(rows)[keep], np.array(weights)[keep], data, parameters, law
 
 
-def lyapunov_mismatch(proof, step_s: float) -> float:
+def lyapunov_mismatch(step_s: float) -> float:
     """Largest |dV/dt numerical - V' derived| over the window, relative to the largest |V'|."""
     scenario, rows, weights, data, parameters, law = trajectory(step_s)
     t, x_1, x_2 = rows[:, 0], rows[:, 1], rows[:, 2]
@@ -70,8 +61,8 @@ def lyapunov_mismatch(proof, step_s: float) -> float:
         **{name: np.full(len(t), value) for name, value in gains.items()},
     }
     per_neuron = {"W_tilde": weights - ideal, "W_star": np.broadcast_to(ideal, weights.shape), "h": hidden}
-    v = evaluate(proof.V, values, per_neuron)
-    v_rate = evaluate(lie_derivative(proof.V, proof.flow), values, per_neuron)
+    v = evaluate(lyapunov.V, values, per_neuron)
+    v_rate = evaluate(lie_derivative(lyapunov.V, error_dynamics.flow), values, per_neuron)
     numerical = (v[2:] - v[:-2]) / (2 * step_s)
     return float(np.max(np.abs(numerical - v_rate[1:-1])) / np.max(np.abs(v_rate)))
 
@@ -92,17 +83,23 @@ def evaluate(expr, values, per_neuron):
     return sp.lambdify(symbols, rest, "numpy")(*(found[str(s)] for s in symbols))
 
 
-def test_v_changes_at_the_derived_rate(proof):
-    coarse, fine = lyapunov_mismatch(proof, 2e-4), lyapunov_mismatch(proof, 1e-4)
+def test_claim_41_decides_the_rate_of_this_v_along_this_loop():
+    goal = v_rate_closed()
+    assert goal.show[0].left == D(lyapunov.V)
+    assert goal.flow == error_dynamics.flow
+
+
+def test_v_changes_at_the_derived_rate():
+    coarse, fine = lyapunov_mismatch(2e-4), lyapunov_mismatch(1e-4)
     assert fine < 5e-3
     assert 1.8 < coarse / fine < 2.2  # first order: nothing but the held command stands between them
 
 
-def test_a_wrong_rate_is_noticed(proof):
+def test_a_wrong_rate_is_noticed():
     """The comparison above can fail: with one sign of the adaptation turned, it does."""
-    honest = dict(proof.flow)
+    honest = dict(error_dynamics.flow)
     try:
-        proof.flow[proof.tildes[0]] = -honest[proof.tildes[0]]
-        assert lyapunov_mismatch(proof, 2e-4) > 0.05
+        error_dynamics.flow[error_dynamics.tildes[0]] = -honest[error_dynamics.tildes[0]]
+        assert lyapunov_mismatch(2e-4) > 0.05
     finally:
-        proof.flow.update(honest)
+        error_dynamics.flow.update(honest)

@@ -7,18 +7,27 @@ from pathlib import Path
 import numpy as np
 import pytest
 import sympy as sp
-from workbench.paper.registry import load_study
 
-from proofs.mao2018 import equations as of
+from proofs.mao2018 import active_mode
 from proofs.mao2018 import gains as mao2018
-from proofs.mao2018.laws import KINDS, LAWS, failure_law, train
+from proofs.mao2018.laws import KINDS, LAWS, failure_law
 from proofs.mao2018.leakage import leak, leaky
-from proofs.mao2018.study.numbers import initial, parameters, setting_of
+from proofs.mao2018.plant import train
+from proofs.mao2018.study.scenario import initial, parameters, setting_of
 from workbench.gains.search import search
 from workbench.gains.stated import Stated
+from workbench.paper.loading import load
 from workbench.simulate.closed_loop import run_law
 
-FILE = Path(__file__).parents[2] / "benchmarks" / "mao2018.toml"
+
+@pytest.fixture(scope="module")
+def loaded():
+    return load(Path(__file__).parents[3] / "proofs" / "mao2018")
+
+
+@pytest.fixture(scope="module")
+def stated(loaded):
+    return Stated(loaded.path, loaded.data)
 
 
 def test_the_constant_of_65_is_the_largest_push_of_the_drag():
@@ -31,12 +40,11 @@ def test_the_constant_of_65_is_the_largest_push_of_the_drag():
     assert push.max() == pytest.approx(most, rel=1e-3)
 
 
-def test_no_other_damping_of_the_same_ball_feeds_back_less():
-    stated = Stated(FILE)
+def test_no_other_damping_of_the_same_ball_feeds_back_less(stated):
     b_0, c_0 = mao2018.drag_bounds(stated)
     speed, K = mao2018.top_speed(stated), Fraction(1, 100)
     found = search(mao2018.damping_problem(b_0, c_0, speed, K), 1e-3)
-    k_1, k_2 = (Fraction(str(found.values[k])) for k in (of.k_1, of.k_2))
+    k_1, k_2 = (Fraction(str(found.values[k])) for k in (active_mode.k_1, active_mode.k_2))
     assert mao2018.constant_of(b_0, c_0, k_1, k_2) <= K
     theory = float(b_0 * speed + c_0 * speed**2) ** 2 / (4 * float(K))  # by Cauchy
     assert theory * (1 - 1e-9) <= float(k_1 * speed**2 + k_2 * speed**4) <= theory * 1.005
@@ -54,8 +62,7 @@ def test_leakage_adds_what_it_says_to_every_estimate(law):
         assert sp.expand(added / (leak * before.symbol)).free_symbols.isdisjoint({leak, before.symbol})
 
 
-def run_of(leak_per_s, seconds=30.0):
-    study = load_study(FILE)
+def run_of(study, leak_per_s, seconds=30.0):
     case, tuning = study.cases[4], study.tunings["scaled"]
     law = failure_law("damped", KINDS["damped"][-1])
     named, start = parameters(study, case, tuning), initial(study, case)
@@ -67,28 +74,28 @@ def run_of(leak_per_s, seconds=30.0):
     return run_law(law, values, setting, tuning.period_s, study.law.estimates, plant=train)
 
 
-def test_without_leakage_the_leaky_law_is_the_law():
-    plain, none = run_of(None), run_of(0.0)
+def test_without_leakage_the_leaky_law_is_the_law(loaded):
+    plain, none = run_of(loaded.study, None), run_of(loaded.study, 0.0)
     for name in ("s_m", "v_mps", "u_mps2", "rho_hat_1", "xi_hat_0"):
         assert none.column(name) == pytest.approx(plain.column(name), rel=1e-9, abs=1e-12)
 
 
-def test_with_leakage_an_idle_modes_estimates_rest_and_the_active_ones_are_drawn_to_zero():
-    some = run_of(0.5)
+def test_with_leakage_an_idle_modes_estimates_rest_and_the_active_ones_are_drawn_to_zero(loaded):
+    some = run_of(loaded.study, 0.5)
     assert np.ptp(some.column("rho_hat_3")) == 0
-    assert abs(some.column("rho_hat_1")[-1]) < abs(run_of(None).column("rho_hat_1")[-1])
+    assert abs(some.column("rho_hat_1")[-1]) < abs(run_of(loaded.study, None).column("rho_hat_1")[-1])
 
 
-def test_e_0_is_what_the_estimates_weigh_while_they_are_zero():
+def test_e_0_is_what_the_estimates_weigh_while_they_are_zero(loaded, stated):
     """By the study's own parameters and true values, summed here in floats."""
-    study = load_study(FILE)
+    study = loaded.study
     case, tuning = study.cases[4], study.tunings["scaled"]
     named, right = parameters(study, case, tuning), initial(study, case.model_copy(update={"estimate_share": 1.0}))
     worst = 0.0
     for mode in (1, 2, 3, 4):
         worst = max(worst, sum(right[f"{hat}_{mode}"] ** 2 / (2 * named[str(gain)])
-                               for hat, gain in zip(of.hats, of.gains, strict=True)))
+                               for hat, gain in zip(active_mode.hats, active_mode.gains, strict=True)))
     healthy, n = 15, 16
     push = 2e5 / 4e5
     expected = worst + 2 * n * (push / n) ** 2 / (2 * 2.0) + healthy * (1 / healthy) ** 2 / (2 * 2.0) * 2
-    assert float(mao2018.estimates_at_zero(Stated(FILE))) == pytest.approx(expected, rel=1e-3)
+    assert float(mao2018.estimates_at_zero(stated)) == pytest.approx(expected, rel=1e-3)

@@ -6,24 +6,28 @@ from pathlib import Path
 import numpy as np
 import pytest
 import sympy as sp
-from workbench.paper.gains_registry import gains_of
+from scenarios import variant_of
 
 from proofs.yang2021 import gains as yang2021
+from workbench.files.toml import read_toml
 from workbench.gains.search import search
+from workbench.gains.stated import Stated
+from workbench.paper.gain_effects import gains_of
+from workbench.paper.loading import load
 from workbench.simulate.closed_loop import simulate
-from workbench.trains.scenario import Variant, load_variant
+from workbench.trains.scenario import Variant
 
-FILE = Path(__file__).parents[2] / "benchmarks" / "yang2021.toml"
+FILE = Path(__file__).parents[3] / "proofs" / "yang2021" / "study.toml"
 
 
 @pytest.fixture(scope="module")
 def report():
-    return gains_of(FILE)
+    return gains_of(load(FILE))
 
 
 def run_with(changes, period_s):
     key = f"{yang2021.CONTROLLER}.period_s"
-    return simulate(load_variant(FILE, Variant(title="test", set={**changes, key: period_s})), "rbfnn_pocrac")
+    return simulate(variant_of(FILE, Variant(title="test", set={**changes, key: period_s})), "rbfnn_pocrac")
 
 
 def proved(report, name):
@@ -66,7 +70,7 @@ def test_no_other_adaptation_of_that_level_is_slower():
 
 
 def test_the_best_share_is_the_best_of_a_finer_grid(report):
-    values = yang2021.stated_values(yang2021.Stated(FILE))
+    values = yang2021.stated_values(Stated(FILE, read_toml(FILE)))
     share = float(yang2021.best_share(values, sp.Rational(6, 100)))
     beta, leak = 0.51, 0.005 * (0.3**2 + 4e-3**2 + 1.6e-4**2) / 4
 
