@@ -114,7 +114,7 @@ def test_a_file_without_permission_is_named(monkeypatch):
     def refuse(*_, **__):
         raise PermissionError(13, "Permission denied")
 
-    monkeypatch.setattr(Path, "read_text", refuse)  # file modes do not stop root, who may run the tests
+    monkeypatch.setattr("workbench.files.text.contents", refuse)  # file modes do not stop root, who may run the tests
     message = refusal(load_scenario, YANG)
     assert message == f"{YANG}: cannot be read (Permission denied): check its permissions"
 

@@ -15,11 +15,13 @@ from proofs.liu2020.study.record import LiuStudy
 from proofs.liu2020.study.runs import davis_newton
 from workbench.cli.loading import load
 from workbench.errors import InputError
+from workbench.files.toml import load_record
 from workbench.optimal.inputs.files import load_line, load_vehicle
+from workbench.optimal.inputs.train_file import TrainFile
 from workbench.optimal.inputs.line import course
 from workbench.optimal.inputs.plausible import plausible
 from workbench.optimal.vehicle import ForceLimit, Vehicle
-from workbench.trains.track import load_track, resistance_table
+from workbench.trains.track import Track, load_track, resistance_table
 
 
 def stated(paper: str) -> dict:
@@ -125,12 +127,18 @@ def test_a_mistake_in_a_train_file_is_named(tmp_path, change, words):
     assert str(caught.value).startswith(f"{path}: ") and words in str(caught.value) and str(caught.value).isprintable()
 
 
-def test_a_value_of_a_train_file_needs_a_source(tmp_path):
+def test_a_value_of_a_train_file_needs_a_source_where_a_paper_is_reproduced(tmp_path):
     path = written(tmp_path / "mine.toml", VALUES)
     text = path.read_text(encoding="utf-8")
     path.write_text(text.replace('length_m = "assumed: a test"\n', ""), encoding="utf-8")
+    assert load_vehicle(path)[0].length_m == 120.0
     with pytest.raises(InputError, match=r"source\.length_m is missing"):
-        load_vehicle(path)
+        load_record(path, TrainFile, reproduction=True)
+
+
+@pytest.mark.parametrize("path", [*LINES, *TRAINS], ids=lambda p: f"{p.parent.name}-{p.stem}")
+def test_every_value_of_what_ships_has_its_source(path):
+    load_record(path, Track if path in LINES else TrainFile, reproduction=True)
 
 
 METRO = (SHARED / "lines" / "metro.toml").read_text(encoding="utf-8")

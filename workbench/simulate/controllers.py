@@ -13,6 +13,8 @@ from workbench.mpc.controller import KINDS
 from workbench.mpc.tracking import TrackingMpc
 from workbench.trains.scenario import ControllerSpec, Scenario
 
+MOST_NAMED = 7  # laws of one paper or family in a message
+
 _held = sp.Symbol("u_held", real=True)
 held_command = ControlLaw(
     id="held", title="held command", source="zero-order hold", information="full state, nominal model",
@@ -44,9 +46,13 @@ def compiled_law(scenario: Scenario, spec: ControllerSpec) -> ControlLaw | None:
 
 
 def known_laws(scenario: Scenario) -> str:
-    """All laws that a scenario may name, those of a paper or family with its name once: `mpc.linear | nonlinear`."""
+    """All laws that a scenario may name, those of a paper or family with its name once: `mpc.linear | nonlinear`.
+
+    Of a family of many the first ones stand for all.
+    """
     families: dict[str, list[str]] = {}
     for law in (*laws_near(scenario.folder), *SAMPLED):
         family, dot, own = law.partition(".")
         families.setdefault(family + dot, []).append(own)
-    return ", ".join(family + " | ".join(members) for family, members in families.items())
+    return ", ".join(family + " | ".join(members if len(members) <= MOST_NAMED else [*members[:3], "..."])
+                     for family, members in families.items())
