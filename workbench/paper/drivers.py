@@ -10,14 +10,14 @@ from typing import Any
 from workbench.errors import InputError
 from workbench.mpc.controller import KINDS
 from workbench.paper.local_search import Tuned, score, search
-from workbench.paper.mpc_comparison import KINDS_BESIDE
+from workbench.paper.mpc_comparison import MPC_KINDS
 from workbench.paper.study import Progress, Study, with_values
 from workbench.paper.tuning_record import Pairs, StudyTuning
 from workbench.simulate.closed_loop import NOMINAL, Factors
 from workbench.simulate.process_pool import results_of
 
 # By which names files know the kinds of MPC beside a law.
-MPC_NAMES = {kind.replace(".", "_"): kind for kind in KINDS_BESIDE}
+MPC_NAMES = {kind.replace(".", "_"): kind for kind in MPC_KINDS}
 WEIGHTS = ("position_weight", "speed_weight", "command_weight", "change_weight")
 # What a study changes by itself: of no use where one of its values is changed for tuning.
 _CHANGES = ("changes", "sensitivity", "variants")

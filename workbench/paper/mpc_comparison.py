@@ -1,32 +1,27 @@
-"""A study's own scenario beside MPC: what MPC knows of the train, its runs in the study's setting, its rows."""
+"""MPC in a study's own scenario: what it knows of the train, its runs in the study's setting, who is best."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from typing import Annotated, Any
 
-import numpy as np
 from pydantic import Field, Strict
 
-from workbench.files.numbers import NOTHING, number
+from workbench.files.numbers import number
 from workbench.files.toml import NonNegative, Positive, SourcedRecord
 from workbench.model.desired_curve import DesiredCurve
 from workbench.mpc.controller import KINDS, MpcController
-from workbench.paper.results import Array, Curve, Plot
 from workbench.simulate.closed_loop import Run, Setting, simulate_in
 from workbench.trains.scenario import ControllerSpec, Interval, Scenario, Simulation
 from workbench.trains.train import Plant, Train
 
 # Offset-free MPC has an observer, the linear one has none and costs the least.
-KINDS_BESIDE = ("mpc.linear", "mpc.offset_free")
-HEADER = ("position RMS (m)", "speed RMS (m/s)", "largest |position error| (m)", "stopping error (m)", "energy (kWh)",
-          "jerk RMS (m/s³)", "saturated", "µs a step")
+MPC_KINDS = ("mpc.linear", "mpc.offset_free")
+KINDS_BESIDE = MPC_KINDS  # until jiao2025 says MPC_KINDS
 JOULE_PER_KWH = 3.6e6
 # Whose speed errs by more (RMS) does not follow: a train that stands still has no jerk.
 FOLLOWS_MPS = 1.0
-# Points of a curve that is kept, and of one that is drawn.
-DRAWN, STRETCHES = 1500, 200
 
 
 class MpcData(SourcedRecord):
@@ -69,14 +64,14 @@ def known(data: MpcData, curve: DesiredCurve, mass_kg: float, davis_n: tuple[flo
     common = {"horizon": float(data.horizon), "band_price": data.band_price, **{
         f"{name}_weight": getattr(data, f"{name}_weight") for name in ("position", "speed", "command", "change")}}
     controllers = {}
-    for kind in KINDS_BESIDE:
+    for kind in MPC_KINDS:
         given = common | dict.fromkeys(KINDS[kind].parameters, data.observer_gain)
         controllers[kind] = ControllerSpec.model_construct(
             law=kind, title=None, period_s=data.period_s, estimates="corrected", initial={}, neurons=None,
             parameters=given)
     simulation = Simulation.model_construct(position_band_m=data.band_m,
                                             dwell_s=max(0.0, end_s - curve.trip_time_s))
-    return _OnCurve.model_construct(name="beside_mpc", train=train, simulation=simulation, controllers=controllers,
+    return _OnCurve.model_construct(name="mpc", train=train, simulation=simulation, controllers=controllers,
                                     drawn=curve)
 
 
@@ -85,21 +80,11 @@ def controller(of: Scenario, kind: str) -> MpcController:
     return MpcController(of, of.controllers[kind], kind)
 
 
-def run_beside(of: Scenario, kind: str, setting: Setting, plant: Plant | None = None) -> Run:
+def run_mpc(of: Scenario, kind: str, setting: Setting, plant: Plant | None = None) -> Run:
     """MPC in a study's setting, under the limits that it knows."""
     train = of.train
     limits = (train.max_traction_n, train.max_braking_n, setting.limits[2])
     return simulate_in(of, kind, replace(setting, nominal_mass_kg=train.mass_kg, limits=limits), plant)
-
-
-def cells(row: Mapping[str, Any]) -> tuple[str, ...]:
-    """A row with the keys of a comparison as the cells of HEADER."""
-    if row["failed"] is not None:
-        return ("fails", *(NOTHING for _ in HEADER[1:-1]), number(row["step_us_median"]))
-    largest = max(abs(row["position_error_min"]), abs(row["position_error_max"]))
-    return tuple(map(number, (
-        row["position_rms"], row["speed_rms"], largest, row["stopping_error"], row["energy_J"] / JOULE_PER_KWH,
-        row["jerk_rms"], row["saturated_fraction"], row["step_us_median"])))
 
 
 def follows(row: Mapping[str, Any]) -> bool:
@@ -118,31 +103,6 @@ def best_words(rows: Sequence[tuple[str, Mapping[str, Any]]], metric: str, what:
         return f"no run that ends and follows has a {what}" if metric == "jerk_rms" else "no run ends"
     words = f"{able[0][1]} has the smallest {what}, {number(able[0][0])}"
     return words + (f", then {able[1][1]} with {number(able[1][0])}" if len(able) > 1 else "")
-
-
-def error_curve(run: Run) -> tuple[Array, Array]:
-    """Times (s) and position errors (m) of a run, thinned and up to where they are finite."""
-    time, error = run.column("t_s"), run.column("s_m") - run.column("s_desired_m")
-    whole = len(error) if np.isfinite(error).all() else int(np.argmin(np.isfinite(error)))
-    keep = slice(None, whole, max(1, len(time) // DRAWN))
-    return time[keep], error[keep]
-
-
-def error_plot(rows: Sequence[tuple[str, Mapping[str, Any]]], where: str) -> Iterator[Plot]:
-    """|Position error| over time of all (name, row) that finish, rows with `curve`; nothing without any.
-
-    The largest of each stretch is drawn: on a logarithmic scale all zeros between would hide the rest.
-    """
-    curves = []
-    for name, row in rows:
-        if row["failed"] is None:
-            time, error = row["curve"]
-            parts = np.array_split(np.arange(len(error)), min(len(error), STRETCHES))
-            largest = np.array([np.abs(error[part]).max() for part in parts])
-            curves.append(Curve(name, np.array([time[part[0]] for part in parts]), largest))
-    if curves:
-        yield Plot(f"Position error beside MPC, {where}", "not in the paper", "time (s)", "|position error| (m)",
-                   tuple(curves), f"The largest of each of {STRETCHES} stretches.", log_y=True)
 
 
 def counters_words(counters: Sequence[Mapping[str, int]]) -> str:

@@ -2,73 +2,47 @@
 
 from __future__ import annotations
 
+from workbench.paper.comparison import (
+    compared_runs,
+    comparison_findings,
+    comparison_plot,
+    comparison_stage,
+    comparison_table,
+)
 from workbench.paper.drivers import checked, tune_with
-from workbench.paper.pairs import drawn_rows, pair_findings, pair_table, pair_tasks, pairs_of
+from workbench.paper.pairs import compared_pairs, pair_findings, pair_stage, pair_table
 from workbench.paper.results import StudyResult
+from workbench.paper.stages import Stage, run_stages
 from workbench.paper.study import Progress, StudyKind
-from workbench.simulate.process_pool import results_of
 
-from ..laws import KINDS
-from .drivers import DRIVERS, where
-from .findings import findings
-from .mpc_comparison import beside_findings, beside_plots, beside_table, beside_tasks, run_one
-from .outcomes import Found
-from .plots import all_plots
-from .record import CaseData, MaoStudy
-from .runs import Asked, Signs, obtain
+from .comparison import DRIVERS, note, with_own_runs
+from .figures import all_plots
+from .findings import all_findings
+from .outcomes import Results
+from .record import MaoStudy
+from .runs import run_case, run_cases, steps_of, track
 from .tables import all_tables
-from .tracking import track
-
-
-def variants(case: CaseData) -> tuple[Signs, ...]:
-    """The signs that a case's runs have mended: none, each but one, all."""
-    if case.law == "healthy":
-        return ((),)
-    wrong = KINDS[case.law][-1]
-    return tuple(dict.fromkeys(((), *(tuple(sign for sign in wrong if sign != left) for left in wrong), wrong)))
-
-
-def plan(study: MaoStudy) -> list[Asked]:
-    """All runs: every case in every tuning, the sampling periods, the changes of assumed values."""
-    runs = [Asked(number, tuning, mended) for tuning in study.tunings
-            for number, case in enumerate(study.cases, start=1) for mended in variants(case)]
-    of = study.sampling
-    runs += [Asked(of.case, of.tuning, variants(study.cases[of.case - 1])[-1], 0, period, r_2, of.end_s)
-             for r_2 in of.r_2_per_s for period in of.periods_s]
-    for number, change in enumerate(study.sensitivity, start=1):
-        for case in change.cases:
-            every = variants(study.cases[case - 1])
-            chosen = {"corrected": every[-1:], "printed": every[:1], "both": (every[0], every[-1])}[change.laws]
-            runs += [Asked(case, change.tuning, mended, number) for mended in dict.fromkeys(chosen)]
-    return runs
 
 
 def run(study: MaoStudy, workers: int, on_progress: Progress) -> StudyResult:
     """All runs of the study in `workers` processes; a run that diverges is told and stops no other."""
-    asked, more = plan(study), beside_tasks(study)
-    before = len(asked) + len(more)
-    total = before + len(pair_tasks(DRIVERS, study))
-    # The longest first, so that no process is left alone with one.
-    found = results_of(obtain, study, sorted(asked, key=lambda one: _steps(study, one), reverse=True), workers,
-                       lambda done, _, result: on_progress(done, total, result.name))
-    beside = results_of(run_one, study, more, workers, lambda done, _, one: on_progress(
-        len(asked) + done, total, f"case {one.case}, {one.title}"))
-    others = [beside[task] for task in more]
-    pairs = pairs_of(study, drawn_rows(DRIVERS, study, workers, on_progress, before))
-    everything = Found(study, {one: found[one] for one in asked})
+    runs, compared, drawn = run_stages((
+        Stage(run_case, study, run_cases(study), lambda _, run: run.name, lambda case: steps_of(study, case)),
+        comparison_stage(DRIVERS, study), pair_stage(DRIVERS, study)), workers, on_progress)
+    results = Results(study, runs)
+    comparison = with_own_runs(results, compared_runs(DRIVERS, compared))
+    shown = study.tuning.places[0] if study.tuning else None
+    pairs = compared_pairs(DRIVERS, study, drawn)
     return StudyResult(
-        rows=tuple(found[one].row for one in asked),
-        tables=(*all_tables(everything), *beside_table(everything, others),
-                *pair_table(study, DRIVERS, pairs, where(study))),
-        plots=(*all_plots(everything), *beside_plots(everything, others)),
-        findings=(*findings(everything), *beside_findings(everything, others),
-                  *pair_findings(study, DRIVERS, pairs, where(study))),
-        failures=tuple((found[one].name, found[one].failed or "") for one in asked if found[one].failed))
-
-
-def _steps(study: MaoStudy, asked: Asked) -> float:
-    period = asked.period_s or study.tunings[asked.tuning].period_s
-    return (asked.end_s or study.horizon.end_s) / period
+        rows=tuple(run.row for run in runs.values()),
+        tables=(*all_tables(results),
+                *comparison_table(DRIVERS, study, comparison, "case", note(study, comparison) if comparison else ""),
+                *pair_table(study, DRIVERS, pairs)),
+        plots=(*all_plots(results), *(comparison_plot([run for run in comparison if run.task.place == shown],
+                                                      f"case {shown}"))),
+        findings=(*all_findings(results), *comparison_findings(DRIVERS, study, comparison),
+                  *pair_findings(study, DRIVERS, pairs)),
+        failures=tuple((run.name, run.failed) for run in runs.values() if run.failed))
 
 
 KIND = StudyKind(MaoStudy, run, checked(DRIVERS), tune_with(DRIVERS), track=track)

@@ -2,144 +2,142 @@
 
 from __future__ import annotations
 
-from .outcomes import Found, ended, kilonewtons, largest, left, length, settled
-from .runs import Obtained
+from workbench.paper.cells import cell_text
+
+from .outcomes import Results, ended, force, length, outcome
+from .runs import RunResult
 
 
-def findings(found: Found) -> tuple[str, ...]:
+def all_findings(results: Results) -> tuple[str, ...]:
     """A sentence or two each."""
-    scaled, si = found.study.tunings
-    return (_healthy(found), *(_signs(found, tuning) for tuning in (scaled, si)), _estimates(found, si),
-            _single_signs(found, scaled), _gains(found), _sampling(found), _units(found), _chattering(found, scaled),
-            _forces(found, scaled))
+    scaled, si = results.study.tunings
+    return (_healthy(results), _signs(results, scaled), _signs(results, si), _estimates(results, si),
+            _single_signs(results, scaled), _gains(results), _sampling(results), _units(results),
+            _chattering(results, scaled), _forces(results, scaled))
 
 
 def _listed(words: list[str]) -> str:
     return words[0] if len(words) == 1 else f"{', '.join(words[:-1])} and {words[-1]}"
 
 
-def _outcome(run: Obtained) -> str:
-    return ended(run) if run.failed else f"up to {length(largest(run))}, settling to {length(settled(run))}"
+def _case(run: RunResult) -> str:
+    return f"case {run.case.number} {outcome(run)}"
 
 
-def _healthy(found: Found) -> str:
-    words = [f"{_outcome(found.printed(1, tuning))} ({tuning})" for tuning in found.study.tunings]
+def _healthy(results: Results) -> str:
+    words = [f"{outcome(results.printed(1, tuning))} ({tuning})" for tuning in results.study.tunings]
     return ("Healthy motors: the law (35)-(37) follows the curve as Theorem 1 says; position errors after the start: "
             f"{_listed(words)}.")
 
 
-def _signs(found: Found, tuning: str) -> str:
+def _signs(results: Results, tuning: str) -> str:
     """The laws as printed beside the corrected ones."""
-    cases = range(2, len(found.study.cases) + 1)
-    printed = [found.printed(number, tuning) for number in cases]
-    corrected = [found.corrected(number, tuning) for number in cases]
-    lost = [f"case {run.asked.case} {ended(run)}" for run in printed if run.failed]
-    alike = [f"case {run.asked.case} ({_outcome(run)}; corrected {_outcome(other)})"
+    corrected = results.all_corrected(tuning)[1:]
+    printed = [results.printed(run.case.number, tuning) for run in corrected]
+    lost = [f"case {run.case.number} {cell_text(ended(run))}" for run in printed if run.failed]
+    alike = [f"case {run.case.number} ({outcome(run)}; corrected {outcome(other)})"
              for run, other in zip(printed, corrected, strict=True) if not run.failed]
-    first = min((part.from_s for part in found.study.failure), default=0.0)
+    first = min((part.from_s for part in results.study.failure), default=0.0)
     early = sum(bool(run.failed) and run.row["end_s"] < first for run in printed)
-    title = found.study.tunings[tuning].title
+    title = results.study.tunings[tuning].title
     text = f"{title[0].upper()}{title[1:]}, laws as printed: "
     if lost:
         text += _listed(lost) + {0: "", len(lost): f", before a motor fails at {first:.0f} s"}.get(
             early, f"; {early} of them before a motor fails at {first:.0f} s") + ". "
     if alike:
         text += ("No divergence in " if lost else "no divergence: ") + _listed(alike) + ". "
-    kept = [run for run in corrected if not run.failed]
-    if lost and kept:
-        text += (f"With the signs corrected {len(kept)} of {len(corrected)} cases run to the end: position errors up "
-                 f"to {length(max(map(largest, kept)))} after the events, settling to at most "
-                 f"{length(max(map(settled, kept)))}.")
+    ending = [run for run in corrected if not run.failed]
+    if lost and ending:
+        text += (f"With the signs corrected {len(ending)} of {len(corrected)} cases run to the end: position errors up "
+                 f"to {length(max(run.largest_m for run in ending))} after the events, settling to at most "
+                 f"{length(max(run.settled_m for run in ending))}.")
     return text.strip()
 
 
-def _estimates(found: Found, tuning: str) -> str:
+def _estimates(results: Results, tuning: str) -> str:
     """How much of the failure its own estimates take, where the other estimates are fast."""
-    learned = [abs(run.row["failure_learned_n"]) for number in range(2, len(found.study.cases) + 1)
-               for run in (found.printed(number, tuning), found.corrected(number, tuning))
+    learned = [abs(run.row["failure_learned_n"]) for number in results.numbers[1:]
+               for run in (results.printed(number, tuning), results.corrected(number, tuning))
                if run.row["failure_learned_n"] is not None]
-    part = found.study.failure[0]
-    return (f"Why the sign of (44) can go unnoticed: with {found.study.tunings[tuning].title} the estimates of the "
+    part = results.study.failure[0]
+    return (f"Why the sign of (44) can go unnoticed: with {results.study.tunings[tuning].title} the estimates of the "
             f"resistance, that of c above all, take up the failure at once. From {part.from_s:.0f} s to "
-            f"{part.to_s:.0f} s the failed motor gives {kilonewtons(part.offset)}, and its own estimate changes by at "
+            f"{part.to_s:.0f} s the failed motor gives {force(part.offset)}, and its own estimate changes by at "
             f"most {max(learned, default=0.0):.2g} N; so what (44) makes of it hardly enters.")
 
 
-def _single_signs(found: Found, tuning: str) -> str:
+def _single_signs(results: Results, tuning: str) -> str:
     """What each wrong sign does alone, where a law has two."""
     words = []
-    for run in found.stated(tuning):
-        wrong = found.wrong(run.asked.case)
-        if len(wrong) > 1 and 0 < len(run.asked.mended) < len(wrong):
-            words.append(f"case {run.asked.case} with {left(run, wrong)} {_outcome(run)} (all corrected: "
-                         f"{_outcome(found.corrected(run.asked.case, tuning))})")
-    return f"One wrong sign alone, {found.study.tunings[tuning].title}: {'; '.join(words)}."
+    for run in results.stated(tuning):
+        number, wrong = run.case.number, results.wrong(run.case.number)
+        if len(wrong) > 1 and 0 < len(run.case.mended) < len(wrong):
+            words.append(f"case {number} with {results.left(run)} {outcome(run)} (all corrected: "
+                         f"{outcome(results.corrected(number, tuning))})")
+    return f"One wrong sign alone, {results.study.tunings[tuning].title}: {'; '.join(words)}."
 
 
-def _gains(found: Found) -> str:
+def _gains(results: Results) -> str:
     """For which gains of the failure's estimates the printed sign of (44) shows."""
     words = []
-    for number, change in enumerate(found.study.sensitivity, start=1):
+    for number, change in enumerate(results.study.sensitivity, start=1):
         if change.laws == "both" and len(change.cases) == 1 and {"law.gain_xi", "law.gain_rho_k"} == set(change.set):
-            printed, corrected = found.changed(number)
-            words.append(f"{change.set['law.gain_xi']:g}: {_outcome(printed)} (corrected {_outcome(corrected)})")
+            printed, corrected = results.changed(number)
+            words.append(f"{change.set['law.gain_xi']:g}: {outcome(printed)} (corrected {outcome(corrected)})")
     return ("How strong the failure's estimates must be for the sign of (44) to show, case 2 by the gains of (41) and "
             f"(44): {'; '.join(words)}.") if words else "The gains of (41) and (44) were not varied."
 
 
-def _sampling(found: Found) -> str:
-    words, again = [], []
-    for damping in found.study.sampling.r_2_per_s:
-        borne = [run.row["period_s"] for run in found.sampled() if run.asked.r_2_per_s == damping and not run.failed]
+def _sampling(results: Results) -> str:
+    study, words, again = results.study, [], []
+    for damping in study.sampling.r_2_per_s:
+        borne = [run.row["period_s"] for run in results.sampled() if run.case.r_2_per_s == damping and not run.failed]
         words.append(f"r_2 = {damping:g}/s: " + (f"{1e3 * max(borne):g} ms" if borne else "none of those tried"))
-    for number, change in enumerate(found.study.sensitivity, start=1):
+    for number, change in enumerate(study.sensitivity, start=1):
         if change.laws == "printed" and len(change.set) == 1 and next(iter(change.set)).endswith("period_s"):
-            again.append(f"{change.title}: " + _listed([f"case {run.asked.case} {_outcome(run)}"
-                                                       for run in found.changed(number)]))
-    return (f"Sampling: the stated gain of {found.study.law.gain:g} multiplies v⁴ in the loop of c (29). The longest "
-            f"period that case {found.study.sampling.case}, corrected, bears beyond the failure with SI units is, for "
+            again.append(f"{change.title}: {_listed([_case(run) for run in results.changed(number)])}")
+    return (f"Sampling: the stated gain of {study.law.gain:g} multiplies v⁴ in the loop of c (29). The longest "
+            f"period that case {study.sampling.case}, corrected, bears beyond the failure with SI units is, for "
             f"{_listed(words)}; the paper states no step. What the printed laws do with scaled regressors is not the "
             f"sampling's doing; {'; '.join(again) or 'no other period was run'}.")
 
 
-def _changes(found: Found, key: str, case: int) -> list[Obtained]:
-    return [run for number, change in enumerate(found.study.sensitivity, start=1) if set(change.set) == {key}
-            for run in found.changed(number) if run.asked.case == case]
+def _changes(results: Results, key: str, case: int) -> list[RunResult]:
+    return [run for number, change in enumerate(results.study.sensitivity, start=1) if set(change.set) == {key}
+            for run in results.changed(number) if run.case.number == case]
 
 
-def _units(found: Found) -> str:
+def _units(results: Results) -> str:
     """What the ambiguous units change."""
-    tuning = next(iter(found.study.tunings))
-    words = [f"case {case}, {text}: {_outcome(run)}" for case, key, text in (
+    words = [f"case {case}, {text}: {outcome(run)}" for case, key, text in (
         (2, "readings.resistance", "resistance of the whole train in kN"), (5, "readings.resistance", "the same"),
         (2, "readings.angle", "slope in radians"), (2, "readings.disturbance_unit_n", "disturbance in kN"))
-        for run in _changes(found, key, case)]
+        for run in _changes(results, key, case)]
+    stated = "; ".join(f"case {case}: {outcome(results.corrected(case, results.first_tuning))}" for case in (2, 5))
     return (f"Units: how the table is read changes the errors little, because the estimates adapt to either. As read "
-            f"here, case 2: {_outcome(found.corrected(2, tuning))}; case 5: {_outcome(found.corrected(5, tuning))}. "
-            f"Otherwise read, {'; '.join(words)}.") if words else "Units: no other reading was run."
+            f"here, {stated}. Otherwise read, {'; '.join(words)}.") if words else "Units: no other reading was run."
 
 
-def _chattering(found: Found, tuning: str) -> str:
-    runs = [found.corrected(number, tuning) for number in range(1, len(found.study.cases) + 1)]
-    if all(run.failed for run in runs):
+def _chattering(results: Results, tuning: str) -> str:
+    runs = [run for run in results.all_corrected(tuning) if not run.failed]
+    if not runs:
         return "Chattering: no corrected run reached its end."
-    run = max((run for run in runs if not run.failed), key=lambda run: run.row["command_change_mps2"])
-    layers = _changes(found, "law.layer_mps", run.asked.case)
+    run = max(runs, key=lambda run: run.row["command_change_mps2"])
     softer = "".join(f"; with a boundary layer by {other.row['command_change_mps2']:.1e} m/s², settling to "
-                     f"{length(settled(other))}" for other in layers)
-    return (f"Chattering: with sgn(z_2) as printed the command of case {run.asked.case} changes by "
+                     f"{length(other.settled_m)}" for other in _changes(results, "law.layer_mps", run.case.number))
+    return (f"Chattering: with sgn(z_2) as printed the command of case {run.case.number} changes by "
             f"{run.row['command_change_mps2']:.1e} m/s² from sample to sample in the mean and turns "
-            f"{run.row['command_reversals_per_s']:.0f} times a second, settling to {length(settled(run))}{softer}.")
+            f"{run.row['command_reversals_per_s']:.0f} times a second, settling to {length(run.settled_m)}{softer}.")
 
 
-def _forces(found: Found, tuning: str) -> str:
-    mass = 1e3 * found.study.train.mass_t
-    runs = [run for number in range(1, len(found.study.cases) + 1)
-            for run in (found.corrected(number, tuning),) if not run.failed]
+def _forces(results: Results, tuning: str) -> str:
+    def most(run: RunResult) -> float:
+        return max(abs(run.row["command_min"]), abs(run.row["command_max"]))
+
+    runs = [run for run in results.all_corrected(tuning) if not run.failed]
     if not runs:
         return "Forces: no corrected run reached its end."
-    run = max(runs, key=lambda run: max(abs(run.row["command_min"]), abs(run.row["command_max"])))
-    most = mass * max(abs(run.row["command_min"]), abs(run.row["command_max"]))
-    return (f"Forces: nothing limits them. The corrected laws ask for up to {kilonewtons(most)} (case "
-            f"{run.asked.case}), {most / mass:.1f} m/s²; adhesion gives a train about 1 m/s². One failed motor's "
-            f"200 kN in (67) are 0.5 m/s² of {found.study.train.mass_t:g} t.")
+    run, mass_t = max(runs, key=most), results.study.train.mass_t
+    return (f"Forces: nothing limits them. The corrected laws ask for up to {force(1e3 * mass_t * most(run))} (case "
+            f"{run.case.number}), {most(run):.1f} m/s²; adhesion gives a train about 1 m/s². One failed motor's "
+            f"200 kN in (67) are 0.5 m/s² of {mass_t:g} t.")

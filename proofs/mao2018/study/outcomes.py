@@ -1,78 +1,89 @@
-"""The runs of mao2018's study by what tables, figures and findings ask for."""
+"""The runs of mao2018's study by what tables, figures and findings ask for, and how they say how a run went."""
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 
-from ..laws import KINDS
+from workbench.paper.cells import FORCES, Cell, Phrase, Quantity, Scaled, cell_text
+
 from .record import MaoStudy
-from .runs import Asked, Obtained, Signs
+from .runs import RunCase, RunResult
+from .scenario import Signs, wrong_signs
 
 
 @dataclass(frozen=True)
-class Found:
+class Results:
     """A study with all its runs."""
 
     study: MaoStudy
-    runs: dict[Asked, Obtained]
+    runs: Mapping[RunCase, RunResult]
 
-    def wrong(self, case: int) -> Signs:
+    @property
+    def numbers(self) -> range:
+        """The cases, from 1."""
+        return range(1, len(self.study.cases) + 1)
+
+    @property
+    def first_tuning(self) -> str:
+        """The tuning that figures and the comparison show, by name."""
+        return next(iter(self.study.tunings))
+
+    def wrong(self, number: int) -> Signs:
         """The equations of a case's law whose printed sign is wrong."""
-        law = self.study.cases[case - 1].law
-        return () if law == "healthy" else KINDS[law][-1]
+        return wrong_signs(self.study.cases[number - 1])
 
-    def printed(self, case: int, tuning: str) -> Obtained:
+    def printed(self, number: int, tuning: str) -> RunResult:
         """The run of a case with the law as printed."""
-        return self.runs[Asked(case, tuning)]
+        return self.runs[RunCase(number, tuning)]
 
-    def corrected(self, case: int, tuning: str) -> Obtained:
+    def corrected(self, number: int, tuning: str) -> RunResult:
         """The run of a case with all signs corrected; for the healthy law, which has none wrong, the only one."""
-        return self.runs[Asked(case, tuning, self.wrong(case))]
+        return self.runs[RunCase(number, tuning, self.wrong(number))]
 
-    def stated(self, tuning: str) -> list[Obtained]:
+    def all_corrected(self, tuning: str) -> list[RunResult]:
+        """Of every case the run with all signs corrected."""
+        return [self.corrected(number, tuning) for number in self.numbers]
+
+    def stated(self, tuning: str) -> list[RunResult]:
         """The runs of a tuning without any change, case by case."""
-        return [run for asked, run in self.runs.items()
-                if asked.tuning == tuning and not asked.change and asked.end_s is None]
+        return [run for of, run in self.runs.items()
+                if of.tuning == tuning and not of.change and of.end_s is None]
 
-    def sampled(self) -> list[Obtained]:
+    def sampled(self) -> list[RunResult]:
         """The runs that vary the sampling period and the damping."""
-        return [run for asked, run in self.runs.items() if asked.end_s is not None]
+        return [run for of, run in self.runs.items() if of.end_s is not None]
 
-    def changed(self, number: int) -> list[Obtained]:
+    def changed(self, number: int) -> list[RunResult]:
         """The runs of the sensitivity's entry `number`, from 1."""
-        return [run for asked, run in self.runs.items() if asked.change == number]
+        return [run for of, run in self.runs.items() if of.change == number]
+
+    def left(self, run: RunResult) -> str:
+        """Which wrong signs a run still has."""
+        return ", ".join(f"({sign})" for sign in self.wrong(run.case.number) if sign not in run.case.mended) or "none"
 
 
-def left(run: Obtained, wrong: Signs) -> str:
-    """Which wrong signs a run still has."""
-    return ", ".join(f"({sign})" for sign in wrong if sign not in run.asked.mended) or "none"
+def ended(run: RunResult) -> Cell:
+    """When a run diverged; nothing for one that came to its end."""
+    end = run.row["end_s"]
+    return Phrase("diverged at {} s", (Quantity(end, decimals=3 if end < 10 else 1),)) if run.failed else None
+
+
+def summary(run: RunResult) -> Cell:
+    """The largest error after the first event and what it settles to, or when it diverged."""
+    return ended(run) if run.failed else Phrase("{}, settles to {}", (Scaled(run.largest_m), Scaled(run.settled_m)))
+
+
+def outcome(run: RunResult) -> str:
+    """The same in a sentence's words."""
+    return cell_text(ended(run)) if run.failed else f"up to {length(run.largest_m)}, settling to {length(run.settled_m)}"
 
 
 def length(metres: float) -> str:
-    """An error with two digits and the unit that fits it."""
-    unit, size = next(((unit, size) for unit, size in (("m", 1.0), ("mm", 1e-3), ("µm", 1e-6)) if metres >= size),
-                      ("nm", 1e-9))
-    value = metres / size
-    return f"{value:.0f} {unit}" if value >= 10 else f"{value:.2g} {unit}"
+    """An error as sentences have it."""
+    return cell_text(Scaled(metres))
 
 
-def kilonewtons(newtons: float) -> str:
-    """A force in kN without decimals, in MN beyond 10,000 kN."""
-    return f"{newtons / 1e3:.0f} kN" if abs(newtons) < 1e7 else f"{newtons / 1e6:.2g} MN"
-
-
-def ended(run: Obtained) -> str:
-    """When a run diverged, or a dash."""
-    end = run.row["end_s"]
-    return f"diverged at {end:.{3 if end < 10 else 1}f} s" if run.failed else "—"
-
-
-def largest(run: Obtained) -> float:
-    """The largest |position error| after the first event, else of the whole run: the start's error is given."""
-    later = [stretch.largest_m for stretch in run.stretches[1:]]
-    return max(later or [max(abs(run.row["position_error_min"]), abs(run.row["position_error_max"]))])
-
-
-def settled(run: Obtained) -> float:
-    """The largest of the errors that a run settles to before each event."""
-    return max(stretch.settled_m for stretch in run.stretches)
+def force(newtons: float) -> str:
+    """A force as sentences have it."""
+    return cell_text(Scaled(newtons, FORCES))

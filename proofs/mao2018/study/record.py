@@ -2,27 +2,17 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from itertools import pairwise
 from typing import Annotated, Any, Literal, Self
 
 from pydantic import Field, Strict, model_validator
 
-from workbench.errors import InputError
-from workbench.files.toml import (
-    Count,
-    Name,
-    NonNegative,
-    Number,
-    Positive,
-    Record,
-    SourcedRecord,
-    Text,
-    validate_record,
-)
+from workbench.files.toml import Count, Name, NonNegative, Number, Positive, Record, SourcedRecord, Text
 from workbench.model.desired_curve import SpeedLevels
 from workbench.model.events import Term
 from workbench.paper.mpc_comparison import MpcData
-from workbench.paper.study import Study
+from workbench.paper.study import Study, with_values
 from workbench.paper.tuning_record import Pairs, StudyTuning
 from workbench.trains.scenario import Interval
 
@@ -196,38 +186,44 @@ class MaoStudy(Study):
         self._modes_fit()
         self._cases_fit()
         self._runs_are_finite()
-        names: list[tuple[str, str, dict[str, Any]]] = [("sampling.tuning", self.sampling.tuning, self.tunings)]
-        names += [(f"cases[{i}].disturbance", case.disturbance, self.disturbances)
-                  for i, case in enumerate(self.cases)]
-        names += [(f"sensitivity[{i}].tuning", change.tuning, self.tunings)
-                  for i, change in enumerate(self.sensitivity)]
-        for key, name, known in names:
-            if name not in known:
-                raise ValueError(f"{key}: there is no '{name}': choose one of {', '.join(known)}")
-        asked = [("sampling.case", self.sampling.case)]
-        asked += [(f"sensitivity[{i}].cases", number) for i, change in enumerate(self.sensitivity)
-                  for number in change.cases]
-        for key, number in asked:
-            if number > len(self.cases):
-                raise ValueError(f"{key}: there is no case {number}: choose one of 1 to {len(self.cases)}")
         end = self.reference.end_s
         if not self.horizon.end_s <= end or not self.sampling.end_s <= end:
             raise ValueError(f"horizon.end_s or sampling.end_s lies beyond the desired curve's end at {end:g} s")
         if any(after.from_s < (before.to_s or end) for before, after in pairwise(self.failure)):
             raise ValueError("failure: its parts overlap, though they are one motor: order them by time")
         for i, change in enumerate(self.sensitivity):
-            try:
-                self.changed(change.set)
-            except InputError as trouble:
-                raise ValueError(f"sensitivity[{i}].set: {trouble}") from None
+            self.changed(change.set, f"sensitivity[{i}].set")
         return self
 
+    def _modes_fit(self) -> None:
+        if len(self.modes) != len(MODES):
+            raise ValueError(f"modes: the laws have estimates for {len(MODES)}, not for {len(self.modes)}")
+        if self.modes[0].start_s != 0 or any(b.start_s <= a.start_s for a, b in pairwise(self.modes)):
+            raise ValueError("modes: start_s must begin at 0 and increase from mode to mode")
+        for number, mode in zip(MODES, self.modes, strict=True):
+            if (mode.slope_ramp_per_s is not None) != (number == SLOPE_MODE):
+                raise ValueError(f"modes[{number - 1}].slope_ramp_per_s: the laws know a slope that grows in mode "
+                                 f"{SLOPE_MODE}, and there alone")
+
     def _cases_fit(self) -> None:
+        """Tunings and cases are those that tables show, and what names one of them names one that there is."""
         if [tuning.regressors for tuning in self.tunings.values()] != ["scaled", "SI"]:
             raise ValueError("tunings: give two, the first with scaled regressors, the second with those in SI units")
-        if not 2 <= len(self.cases) <= MOST_CASES or [case.law for case in self.cases].count("healthy") != 1 or (
-                self.cases[0].law != "healthy"):
+        laws = [case.law for case in self.cases]
+        if not 2 <= len(laws) <= MOST_CASES or laws[0] != "healthy" or "healthy" in laws[1:]:
             raise ValueError(f"cases: give the healthy one first, then one to {MOST_CASES - 1} with a law for failures")
+        changes = list(enumerate(self.sensitivity))
+        named: list[tuple[str, str, Mapping[str, Any]]] = [
+            ("sampling.tuning", self.sampling.tuning, self.tunings),
+            *((f"cases[{i}].disturbance", case.disturbance, self.disturbances) for i, case in enumerate(self.cases)),
+            *((f"sensitivity[{i}].tuning", change.tuning, self.tunings) for i, change in changes)]
+        for key, name, known in named:
+            if name not in known:
+                raise ValueError(f"{key}: there is no '{name}': choose one of {', '.join(known)}")
+        for key, number in (("sampling.case", self.sampling.case), *(
+                (f"sensitivity[{i}].cases", number) for i, change in changes for number in change.cases)):
+            if number > len(laws):
+                raise ValueError(f"{key}: there is no case {number}: choose one of 1 to {len(laws)}")
 
     def _runs_are_finite(self) -> None:
         """Longer runs and logs than any train's would not end, or not fit in memory."""
@@ -240,26 +236,6 @@ class MaoStudy(Study):
             raise ValueError(f"horizon.log_every_s = {self.horizon.log_every_s:g}: gives more than {MOST_LOG_ROWS:.0e} "
                              f"rows: log less often")
 
-    def _modes_fit(self) -> None:
-        if len(self.modes) != len(MODES):
-            raise ValueError(f"modes: the laws have estimates for {len(MODES)}, not for {len(self.modes)}")
-        if self.modes[0].start_s != 0 or any(b.start_s <= a.start_s for a, b in pairwise(self.modes)):
-            raise ValueError("modes: start_s must begin at 0 and increase from mode to mode")
-        for number, mode in zip(MODES, self.modes, strict=True):
-            if (mode.slope_ramp_per_s is not None) != (number == SLOPE_MODE):
-                raise ValueError(f"modes[{number - 1}].slope_ramp_per_s: the laws know a slope that grows in mode "
-                                 f"{SLOPE_MODE}, and there alone")
-
-    def changed(self, values: dict[str, Any]) -> MaoStudy:
-        """The study with other values by dotted key, without its sensitivity; InputError for one that does not fit."""
-        data = self.model_dump(exclude_unset=True)
-        data["sensitivity"] = ()
-        for key, value in values.items():
-            *parents, last = key.split(".")
-            table: Any = data
-            for parent in parents:
-                table = table.get(parent) if isinstance(table, dict) else None
-            if not isinstance(table, dict) or last not in table:
-                raise InputError("", "", f"no key '{key}': name a value that the file states")
-            table[last] = value
-        return validate_record(data, type(self), "")
+    def changed(self, values: Mapping[str, Any], where: str = "set") -> Self:
+        """The study with other values by dotted key, without its sensitivity; ValueError for one that does not fit."""
+        return with_values(self.model_copy(update={"sensitivity": ()}), values, where)

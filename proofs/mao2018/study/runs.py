@@ -1,41 +1,37 @@
-"""One run of mao2018's study, and what is kept of it."""
+"""The runs of mao2018's study: which there are, and what each of them leaves."""
 
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import pairwise
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
-from workbench.model.law import ControlLaw
-from workbench.paper.results import Curve
-from workbench.simulate.closed_loop import Run, run_law
+from workbench.model.desired_curve import DesiredCurve
+from workbench.paper.results import Curve, thinned
+from workbench.paper.tracked import Tracked, of_run
+from workbench.simulate.closed_loop import Run
 from workbench.simulate.metrics import measure_run
 
 from .. import laws
-from .numbers import KILONEWTON, TONNE, setting_of, values_of
 from .record import CaseData, MaoStudy, Tuning
+from .scenario import KILONEWTON, TONNE, Signs, law_of, run_under, setting_of, wrong_signs
 
-Array = NDArray[np.float64]
-Signs = tuple[laws.Sign, ...]
-# Points of a curve: the largest and the smallest of each of so many stretches.
-STRETCHES = 1000
-# What is kept in full, s.
+# What is drawn in full, s.
 START_S = 5.0
 
 
 @dataclass(frozen=True)
-class Asked:
+class RunCase:
     """A run: case (from 1), tuning, wrong signs that are mended, and which change of the study it belongs to.
 
     change: 0 for the study as stated, i for its i-th sensitivity; period_s, r_2_per_s and end_s replace the tuning's
     and the horizon's where they are given.
     """
 
-    case: int
+    number: int
     tuning: str
     mended: Signs = ()
     change: int = 0
@@ -54,19 +50,56 @@ class Stretch:
 
 
 @dataclass(frozen=True)
-class Obtained:
-    """What is kept of a run: a row of numbers, its stretches between events (those it finished), curves over time.
+class RunResult:
+    """What a run leaves: a row of numbers, its stretches between events (those it finished), curves over time.
 
     name: the run in words; law: `as printed`, `corrected` or which signs are.
     """
 
-    asked: Asked
+    case: RunCase
     name: str
     law: str
     row: dict[str, Any]
     stretches: tuple[Stretch, ...]
     curves: dict[str, Curve]
     failed: str | None
+
+    @property
+    def largest_m(self) -> float:
+        """The largest |position error| after the first event, else of the whole run: the start's error is given."""
+        later = [stretch.largest_m for stretch in self.stretches[1:]]
+        return max(later or [max(abs(self.row["position_error_min"]), abs(self.row["position_error_max"]))])
+
+    @property
+    def settled_m(self) -> float:
+        """The largest of the errors that a run settles to before each event."""
+        return max(stretch.settled_m for stretch in self.stretches)
+
+
+def variants(case: CaseData) -> tuple[Signs, ...]:
+    """The signs that a case's runs have mended: none, each but one, all."""
+    wrong = wrong_signs(case)
+    return tuple(dict.fromkeys(((), *(tuple(sign for sign in wrong if sign != left) for left in wrong), wrong)))
+
+
+def run_cases(study: MaoStudy) -> list[RunCase]:
+    """All runs: every case in every tuning, the sampling periods, the changes of assumed values."""
+    runs = [RunCase(number, tuning, mended) for tuning in study.tunings
+            for number, case in enumerate(study.cases, start=1) for mended in variants(case)]
+    of = study.sampling
+    runs += [RunCase(of.case, of.tuning, wrong_signs(study.cases[of.case - 1]), 0, period, r_2, of.end_s)
+             for r_2 in of.r_2_per_s for period in of.periods_s]
+    for number, change in enumerate(study.sensitivity, start=1):
+        for case in change.cases:
+            wrong = wrong_signs(study.cases[case - 1])
+            chosen = {"corrected": (wrong,), "printed": ((),), "both": ((), wrong)}[change.laws]
+            runs += [RunCase(case, change.tuning, mended, number) for mended in dict.fromkeys(chosen)]
+    return runs
+
+
+def steps_of(study: MaoStudy, case: RunCase) -> float:
+    """How many samples a run has."""
+    return (case.end_s or study.horizon.end_s) / (case.period_s or study.tunings[case.tuning].period_s)
 
 
 def event_times(study: MaoStudy) -> tuple[float, ...]:
@@ -75,30 +108,30 @@ def event_times(study: MaoStudy) -> tuple[float, ...]:
     return tuple(sorted(time for time in times if time <= study.horizon.end_s))
 
 
-def law_of(case: CaseData, mended: Signs) -> ControlLaw:
-    """The law of a case, with some of its wrong signs mended."""
-    return laws.healthy if case.law == "healthy" else laws.failure_law(case.law, mended)
+def _tuning(study: MaoStudy, of: RunCase) -> Tuning:
+    own = {"period_s": of.period_s, "r_2_per_s": of.r_2_per_s}
+    return study.tunings[of.tuning].model_copy(update={key: value for key, value in own.items() if value})
 
 
-def tuning_of(study: MaoStudy, asked: Asked) -> Tuning:
-    """The tuning of a run, with its own period and damping."""
-    own = {"period_s": asked.period_s, "r_2_per_s": asked.r_2_per_s}
-    return study.tunings[asked.tuning].model_copy(update={key: value for key, value in own.items() if value})
-
-
-def simulate(study: MaoStudy, asked: Asked) -> Run:
+def simulate(study: MaoStudy, of: RunCase) -> Run:
     """The run itself, with its whole log."""
-    changed = study.changed(study.sensitivity[asked.change - 1].set) if asked.change else study
-    case, tuning = changed.cases[asked.case - 1], tuning_of(changed, asked)
-    law = law_of(case, asked.mended)
-    return run_law(law, values_of(law, changed, case, tuning), setting_of(changed, case, tuning, asked.end_s),
-                   tuning.period_s, changed.law.estimates, title=law.title, plant=laws.train)
+    changed = study.changed(study.sensitivity[of.change - 1].set) if of.change else study
+    case, tuning = changed.cases[of.number - 1], _tuning(changed, of)
+    return run_under(law_of(case, of.mended), changed, case, tuning, setting_of(changed, case, tuning, of.end_s))
 
 
-def obtain(study: MaoStudy, asked: Asked) -> Obtained:
-    """Run and keep what tables and figures need; a run that failed has its numbers up to its end."""
-    run = simulate(study, asked)
-    case = study.cases[asked.case - 1]
+def track(study: MaoStudy, curve: DesiredCurve | None) -> Tracked:
+    """The healthy train of case 1 under the first tuning, on a curve or on the study's own."""
+    case, tuning = study.cases[0], next(iter(study.tunings.values()))
+    setting = setting_of(study, case, tuning)
+    setting = replace(setting, curve=curve or setting.curve)
+    run = run_under(law_of(case, ()), study, case, tuning, setting)
+    return of_run("mao2018", replace(run, controller=law_of(case, ()).id), setting.curve)
+
+
+def run_case(study: MaoStudy, of: RunCase) -> RunResult:
+    """Run, and take what tables and figures need; a run that failed has its numbers up to its end."""
+    run, case = simulate(study, of), study.cases[of.number - 1]
     time, error = run.column("t_s"), run.column("s_m") - run.column("s_desired_m")
     stretches, edges = [], event_times(study)
     for start, end in pairwise(edges):
@@ -107,19 +140,23 @@ def obtain(study: MaoStudy, asked: Asked) -> Obtained:
         within = np.abs(error[(time >= start) & (time < end)])
         last = np.abs(error[(time >= end - study.horizon.settled_window_s) & (time < end)])
         stretches.append(Stretch(start, float(within.max()), float(last.max())))
-    curves = {"error": _curve("position error", time, error)}
-    if asked.change == 0 and asked.end_s is None:
+    curves = {"error": thinned("position error", time, error)}
+    if of.change == 0 and of.end_s is None:
         curves |= _more_curves(study, case, run)
-    which = "as printed" if case.law == "healthy" else laws.corrections(case.law, asked.mended)
-    row = measure_run(run, float(study.reference.curve().length_m)).row()
-    totals = run.totals
-    row |= {"controller": run.controller, "case": asked.case, "tuning": asked.tuning, "law": which,
-            "change": study.sensitivity[asked.change - 1].title if asked.change else None, "period_s": run.period_s,
-            "end_s": run.end_s, "command_reversals_per_s": totals["command_reversals"] / max(run.end_s, run.period_s),
-            "command_change_mps2": totals["command_variation_mps2"] / max(1.0, totals["commands"]),
-            "loop_gain": _loop_gain(study, case, run), "failure_learned_n": _failure_learned(study, case, run)}
+    which = "as printed" if case.law == "healthy" else laws.corrections(case.law, of.mended)
+    change = study.sensitivity[of.change - 1].title if of.change else None
+    row = measure_run(run, float(study.reference.curve().length_m)).row() | {
+        "controller": run.controller, "case": of.number, "tuning": of.tuning, "law": which, "change": change,
+        "period_s": run.period_s, "end_s": run.end_s,
+        "command_reversals_per_s": run.totals["command_reversals"] / max(run.end_s, run.period_s),
+        "command_change_mps2": run.totals["command_variation_mps2"] / max(1.0, run.totals["commands"]),
+        "loop_gain": _loop_gain(study, case, run), "failure_learned_n": _failure_learned(study, case, run)}
     row = {key: None if isinstance(value, float) and not math.isfinite(value) else value for key, value in row.items()}
-    return Obtained(asked, _name(study, asked, which), which, row, tuple(stretches), curves, run.failed)
+    words = [f"case {of.number}", which, study.tunings[of.tuning].title, *([change] if change else ())]
+    if of.end_s is not None:
+        tuning = _tuning(study, of)
+        words.append(f"period {1e3 * tuning.period_s:g} ms, r_2 = {tuning.r_2_per_s:g}/s, until {of.end_s:g} s")
+    return RunResult(of, ", ".join(words), which, row, tuple(stretches), curves, run.failed)
 
 
 def _loop_gain(study: MaoStudy, case: CaseData, run: Run) -> float:
@@ -141,37 +178,16 @@ def _failure_learned(study: MaoStudy, case: CaseData, run: Run) -> float | None:
     return float(study.train.motors * study.law.force_unit_n * grown)
 
 
-def _name(study: MaoStudy, asked: Asked, which: str) -> str:
-    words = [f"case {asked.case}", which, study.tunings[asked.tuning].title]
-    if asked.change:
-        words.append(study.sensitivity[asked.change - 1].title)
-    if asked.end_s is not None:
-        tuning = tuning_of(study, asked)
-        words.append(f"period {1e3 * tuning.period_s:g} ms, r_2 = {tuning.r_2_per_s:g}/s, until {asked.end_s:g} s")
-    return ", ".join(words)
-
-
-def _curve(label: str, x: Array, y: Array) -> Curve:
-    """A curve whose extremes are kept where its points are thinned; it ends before what is not finite."""
-    whole = int(np.argmin(np.isfinite(y))) if not np.isfinite(y).all() else len(y)
-    x, y = x[:max(1, whole)], y[:max(1, whole)]
-    if len(x) <= 2 * STRETCHES:
-        return Curve(label, x, y)
-    parts = np.array_split(np.arange(len(x)), STRETCHES)
-    kept = sorted({int(part[pick(y[part])]) for part in parts for pick in (np.argmin, np.argmax)} | {0, len(x) - 1})
-    return Curve(label, x[kept], y[kept])
-
-
 def _more_curves(study: MaoStudy, case: CaseData, run: Run) -> dict[str, Curve]:
     """Start, distance, command and, of laws that estimate failures, the force they take the failed motor to give."""
     time = run.column("t_s")
     first = time <= START_S
-    curves = {"start": _curve("start", time[first], (run.column("s_m") - run.column("s_desired_m"))[first]),
-              "distance": _curve("distance", time, run.column("s_m")),
-              "desired": _curve("desired distance", time, run.column("s_desired_m")),
-              "command": _curve("command", time, run.column("u_mps2"))}
+    curves = {"start": thinned("start", time[first], (run.column("s_m") - run.column("s_desired_m"))[first]),
+              "distance": thinned("distance", time, run.column("s_m")),
+              "desired": thinned("desired distance", time, run.column("s_desired_m")),
+              "command": thinned("command", time, run.column("u_mps2"))}
     if case.law != "healthy":
         varpi = np.sin(study.law.omega_rad_s * time + study.law.phase_rad)
         estimate = study.train.motors * (run.column("xi_hat_0") + run.column("xi_hat_1") * varpi)
-        curves["failure"] = _curve("estimate", time, study.law.force_unit_n / KILONEWTON * estimate)
+        curves["failure"] = thinned("estimate", time, study.law.force_unit_n / KILONEWTON * estimate)
     return curves

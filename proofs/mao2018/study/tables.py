@@ -2,77 +2,72 @@
 
 from __future__ import annotations
 
+from workbench.paper.cells import FORCES, Cell, Column, Quantity, Scaled
 from workbench.paper.results import ResultTable
+from workbench.paper.study_tables import sensitivity_table
 
-from .outcomes import Found, ended, kilonewtons, largest, left, length, settled
-from .runs import Obtained, event_times
+from .outcomes import Results, ended, summary
+from .runs import RunCase, event_times
 
-NOTHING = "—"
 FIGURES = {1: "Figure 1", 2: "Figure 2 (a)", 3: "Figure 2 (b)", 4: "Figure 2 (c)", 5: "Figure 2 (d)"}
+SIGNS_LEFT = "wrong signs left"
 
 
-def all_tables(found: Found) -> tuple[ResultTable, ...]:
+def all_tables(results: Results) -> tuple[ResultTable, ...]:
     """Printed and obtained; the cases in every tuning; sampling; commands; assumed values."""
-    return (_printed(found), *(_cases(found, tuning) for tuning in found.study.tunings), _sampling(found),
-            _commands(found), _sensitivity(found))
+    return (_printed(results), *(_cases(results, tuning) for tuning in results.study.tunings), _sampling(results),
+            _commands(results), _sensitivity(results))
 
 
-def summary(run: Obtained) -> str:
-    """A run in one cell: the largest error after the first event and what it settles to, or when it diverged."""
-    return ended(run) if run.failed else f"{length(largest(run))}, settles to {length(settled(run))}"
-
-
-def _printed(found: Found) -> ResultTable:
-    first, rows = event_times(found.study)[1], []
-    for number, case in enumerate(found.study.cases, start=1):
-        cells = [summary(run) for tuning in found.study.tunings
-                 for run in (found.printed(number, tuning), found.corrected(number, tuning))]
+def _printed(results: Results) -> ResultTable:
+    study, rows = results.study, []
+    for number, case in enumerate(study.cases, start=1):
         said = "follows the desired curve" if number == 1 else "transients at changes and failures, then settles"
-        rows.append((FIGURES.get(number, f"case {number}"), case.title, said, *cells))
-    header = ("figure", "case", "the paper says", *(f"{law}, {tuning}" for tuning in found.study.tunings
-                                                   for law in ("law as printed", "corrected")))
+        rows.append((FIGURES.get(number, f"case {number}"), case.title, said, *(
+            summary(run) for tuning in study.tunings
+            for run in (results.printed(number, tuning), results.corrected(number, tuning)))))
+    tunings = " ".join(f"{name}: {tuning.title}, r_1 = {tuning.r_1_per_s:g}/s, r_2 = {tuning.r_2_per_s:g}/s, "
+                       f"{1e3 * tuning.period_s:g} ms." for name, tuning in study.tunings.items())
     return ResultTable(
-        "Tracking errors, printed and obtained", "paper, section VIII, Figures 1 and 2", header, tuple(rows),
-        f"The paper prints curves and no numbers. Obtained: the largest position error after {first:.0f} s, when the "
-        f"error of the start is over, and the largest to which it settles before an event. {_tunings(found)}")
+        "Tracking errors, printed and obtained", "paper, section VIII, Figures 1 and 2",
+        ("figure", "case", "the paper says", *(f"{law}, {tuning}" for tuning in study.tunings
+                                              for law in ("law as printed", "corrected"))), tuple(rows),
+        f"The paper prints curves and no numbers. Obtained: the largest position error after "
+        f"{event_times(study)[1]:.0f} s, when the error of the start is over, and the largest to which it settles "
+        f"before an event. {tunings}")
 
 
-def _tunings(found: Found) -> str:
-    return " ".join(f"{name}: {tuning.title}, r_1 = {tuning.r_1_per_s:g}/s, r_2 = {tuning.r_2_per_s:g}/s, "
-                    f"{1e3 * tuning.period_s:g} ms." for name, tuning in found.study.tunings.items())
-
-
-def _cases(found: Found, tuning: str) -> ResultTable:
+def _cases(results: Results, tuning: str) -> ResultTable:
     """Every law of every case, from event to event."""
-    times, rows = event_times(found.study)[:-1], []
-    for run in found.stated(tuning):
-        number = run.asked.case
-        missing = [NOTHING] * (len(times) - len(run.stretches))
-        start = (str(number), left(run, found.wrong(number)), ended(run))
-        rows.append((*start, "largest", *(length(one.largest_m) for one in run.stretches), *missing))
+    times, rows = event_times(results.study)[:-1], []
+    for run in results.stated(tuning):
+        start: tuple[Cell, ...] = (run.case.number, results.left(run), ended(run))
+        missing = [None] * (len(times) - len(run.stretches))
+        rows.append((*start, "largest", *(Scaled(one.largest_m) for one in run.stretches), *missing))
         if run.stretches:
-            rows.append((*start, "settled", *(length(one.settled_m) for one in run.stretches), *missing))
+            rows.append((*start, "settled", *(Scaled(one.settled_m) for one in run.stretches), *missing))
     return ResultTable(
-        f"The cases, {found.study.tunings[tuning].title}", "paper, section VIII, cases 1 to 5",
-        ("case", "wrong signs left", "end", "position error", *(f"from {time:.0f} s" for time in times)), tuple(rows),
+        f"The cases, {results.study.tunings[tuning].title}", "paper, section VIII, cases 1 to 5",
+        ("case", SIGNS_LEFT, "end", "position error", *(f"from {time:.0f} s" for time in times)), tuple(rows),
         "From each event to the next: the largest position error, and what it has settled to, the largest of the last "
-        f"{found.study.horizon.settled_window_s:g} s. 400 s: tunnel; 600 s: a motor gives 200 kN; 800 s: curve and "
+        f"{results.study.horizon.settled_window_s:g} s. 400 s: tunnel; 600 s: a motor gives 200 kN; 800 s: curve and "
         "slope; 1000 s: its force varies; 1200 s: it stops; 1400 s: open, level track.")
 
 
-def _sampling(found: Found) -> ResultTable:
-    study = found.study
+def _sampling(results: Results) -> ResultTable:
+    study = results.study
     fastest = max(study.reference.speeds_mps)
-    rows = [(f"{1e3 * run.row['period_s']:g} ms", f"{run.asked.r_2_per_s:g}/s",
-             f"{run.row['period_s'] * (study.law.gain * fastest**4) ** 0.5:.2f}",
-             ended(run) if run.failed else "none",
-             *((NOTHING,) * 3 if run.failed else (
-                 f"{run.row['loop_gain']:.2f}",
-                 f"{run.row['period_s'] * (run.row['loop_gain'] * study.law.gain * fastest**4) ** 0.5:.2f}",
-                 length(largest(run))))) for run in found.sampled()]
+    rows: list[tuple[Cell, ...]] = []
+    for run in results.sampled():
+        period, gain = run.row["period_s"], run.row["loop_gain"]
+        after: tuple[Cell, ...] = (None, None, None) if run.failed else (
+            gain, period * (gain * study.law.gain * fastest**4) ** 0.5, Scaled(run.largest_m))
+        rows.append((period, run.case.r_2_per_s, period * (study.law.gain * fastest**4) ** 0.5,
+                     ended(run) if run.failed else "none", *after))
     return ResultTable(
         "Which sampling the stated gains bear", "sampling, not in the paper",
-        ("period", "r_2", "period × √2 v²", "diverged", "m k_ν ρ̂ at the end", "period × √(2 m k_ν ρ̂) v²",
+        (Column("period", "ms", 1e-3, None), Column("r_2", "1/s", digits=None), Column("period × √2 v²", decimals=2),
+         "diverged", Column("m k_ν ρ̂ at the end", decimals=2), Column("period × √(2 m k_ν ρ̂) v²", decimals=2),
          "largest error"), tuple(rows),
         f"Case {study.sampling.case}, corrected, until {study.sampling.end_s:g} s, regressors in SI units. With a gain "
         f"of {study.law.gain:g} the loop of z_2 and the estimate of c oscillates at √{study.law.gain:g} v² rad/s, "
@@ -81,39 +76,37 @@ def _sampling(found: Found) -> ResultTable:
         "the estimate ρ̂ down until 2 rad are met, or the run is lost, as where a new mode brings its own ρ̂.")
 
 
-def _commands(found: Found) -> ResultTable:
+def _commands(results: Results) -> ResultTable:
     """Chattering and the forces that are asked for, of the runs that ended."""
-    runs = [run for tuning in found.study.tunings for run in found.stated(tuning)]
-    runs += [run for number, change in enumerate(found.study.sensitivity, start=1) if "law.layer_mps" in change.set
-             for run in found.changed(number)]
-    mass, rows = 1e3 * found.study.train.mass_t, []
+    study = results.study
+    layers = {number: change.set["law.layer_mps"] for number, change in enumerate(study.sensitivity, start=1)
+              if "law.layer_mps" in change.set}
+    runs = [run for tuning in study.tunings for run in results.stated(tuning)]
+    runs += [run for number in layers for run in results.changed(number)]
+    mass, rows = 1e3 * study.train.mass_t, []
     for run in runs:
-        if run.failed:
-            continue
-        layer = found.study.law.layer_mps
-        if run.asked.change:
-            layer = found.study.sensitivity[run.asked.change - 1].set["law.layer_mps"]
-        row = run.row
-        rows.append((str(run.asked.case), left(run, found.wrong(run.asked.case)), run.asked.tuning,
-                     f"{1e3 * layer:g} mm/s" if layer else "sgn", f"{row['command_reversals_per_s']:.0f}",
-                     f"{row['command_change_mps2']:.1e}", kilonewtons(mass * row["command_min"]),
-                     kilonewtons(mass * row["command_max"]), length(settled(run))))
+        if not run.failed:
+            layer, row = layers.get(run.case.change, study.law.layer_mps), run.row
+            rows.append((run.case.number, results.left(run), run.case.tuning,
+                         Quantity(layer, "mm/s", 1e-3, None) if layer else "sgn", row["command_reversals_per_s"],
+                         row["command_change_mps2"], Scaled(mass * row["command_min"], FORCES),
+                         Scaled(mass * row["command_max"], FORCES), Scaled(run.settled_m)))
     return ResultTable(
         "What the command does", "chattering and forces, not in the paper",
-        ("case", "wrong signs left", "gains", "sign", "reversals a second", "mean change a sample (m/s²)",
-         "least force", "largest force", "settles to"), tuple(rows),
+        ("case", SIGNS_LEFT, "gains", "sign", Column("reversals a second", decimals=0),
+         Column("mean change a sample", "m/s²", digits=2), "least force", "largest force", "settles to"), tuple(rows),
         f"A reversal: the command rises after it fell, or falls after it rose. The force is what all "
-        f"{found.study.train.motors} motors would give; nothing limits it.")
+        f"{study.train.motors} motors would give; nothing limits it.")
 
 
-def _sensitivity(found: Found) -> ResultTable:
-    rows = []
-    for number, change in enumerate(found.study.sensitivity, start=1):
-        for run in found.changed(number):
-            as_stated = found.runs.get(type(run.asked)(run.asked.case, run.asked.tuning, run.asked.mended))
-            rows.append((change.title, str(run.asked.case), left(run, found.wrong(run.asked.case)), summary(run),
-                         summary(as_stated) if as_stated else NOTHING))
-    return ResultTable(
-        "How much the assumed values matter", "sensitivity, not in the paper",
-        ("change", "case", "wrong signs left", "obtained", "without the change"), tuple(rows),
+def _sensitivity(results: Results) -> ResultTable:
+    entries = []
+    for number, change in enumerate(results.study.sensitivity, start=1):
+        runs = results.changed(number)
+        stated = [results.runs.get(RunCase(run.case.number, run.case.tuning, run.case.mended)) for run in runs]
+        entries.append((change.title, [
+            (run.case.number, results.left(run), summary(run), summary(as_stated) if as_stated else None)
+            for run, as_stated in zip(runs, stated, strict=True)]))
+    return sensitivity_table(
+        "How much the assumed values matter", ("case", SIGNS_LEFT, "obtained", "without the change"), entries,
         "The largest error after the first event and what it settles to, as above.")

@@ -1,4 +1,4 @@
-"""mao2018's study in SI units: the train and its events, and the numbers of a law, for one case."""
+"""mao2018's section VIII in SI units: the train and its events, a law with its numbers, and their run, for a case."""
 
 from __future__ import annotations
 
@@ -7,17 +7,15 @@ from typing import Any
 
 import numpy as np
 import sympy as sp
-from numpy.typing import NDArray
 
 from workbench.model.events import Failure, Mode, PushTerm, Term, failure_rows, mode_rows, push_rows
 from workbench.model.law import ControlLaw
-from workbench.simulate.closed_loop import Setting
+from workbench.simulate.closed_loop import Array, Run, Setting, run_law
 
-from .. import equations as of
-from .. import laws
+from .. import active_mode, laws, plant
 from .record import CaseData, MaoStudy, ModeData, Tuning
 
-Array = NDArray[np.float64]
+Signs = tuple[laws.Sign, ...]
 Values = tuple[Array, Array, Array, Array]
 TONNE, KILONEWTON = 1e3, 1e3
 
@@ -52,11 +50,12 @@ def _modes(study: MaoStudy) -> list[Mode]:
     """(1)-(3) per unit of mass, the slope's force growing with its indicator."""
     scale, found = per_mass(study), []
     for mode in study.modes:
-        at = {of.M: 1.0, of.g: study.train.gravity_mps2, of.vartheta: slope(study, mode), of.D_c: mode.curve_deg}
+        at = {plant.M: 1.0, plant.g: study.train.gravity_mps2, plant.vartheta: slope(study, mode),
+              plant.D_c: mode.curve_deg}
         values = {
             "from_s": mode.start_s, "davis_a_mps2": scale * mode.a_kn, "davis_b_per_s": scale * mode.b_kn_s_per_m,
-            "davis_c_per_m": scale * mode.c_kn_s2_per_m2, "grade_mps2": _number(of.F_g, at),
-            "curve_mps2": _number(of.F_c, at),
+            "davis_c_per_m": scale * mode.c_kn_s2_per_m2, "grade_mps2": _number(plant.F_g, at),
+            "curve_mps2": _number(plant.F_c, at),
             "grade_ramp_s": 1 / mode.slope_ramp_per_s if mode.slope_ramp_per_s else 0.0,
         }
         found.append(Mode(**_sourced(values)))
@@ -97,9 +96,9 @@ def setting_of(study: MaoStudy, case: CaseData, tuning: Tuning, end_s: float | N
 def _scales(study: MaoStudy, tuning: Tuning) -> tuple[float, ...]:
     """By what the regressors of a, b, c, vartheta, D are divided: nothing, or their largest values."""
     if tuning.regressors == "SI":
-        return (1.0,) * len(of.REGRESSORS)
-    at = {of.x_2: max(study.reference.speeds_mps), of.g: study.train.gravity_mps2}
-    return tuple(_number(by, at) for by in of.REGRESSORS)
+        return (1.0,) * len(active_mode.REGRESSORS)
+    at = {plant.x_2: max(study.reference.speeds_mps), plant.g: study.train.gravity_mps2}
+    return tuple(_number(by, at) for by in active_mode.REGRESSORS)
 
 
 def parameters(study: MaoStudy, case: CaseData, tuning: Tuning) -> dict[str, float]:
@@ -109,7 +108,8 @@ def parameters(study: MaoStudy, case: CaseData, tuning: Tuning) -> dict[str, flo
     starts = [mode.start_s for mode in study.modes]
     bounds = study.disturbances[case.disturbance].bounds.by_mode
     healthy = 1 if case.law == "healthy" else study.train.motors - 1
-    values = {str(gain): law.gain / scale**2 for gain, scale in zip(of.gains, _scales(study, tuning), strict=True)}
+    values = {str(gain): law.gain / scale**2
+              for gain, scale in zip(active_mode.gains, _scales(study, tuning), strict=True)}
     values |= {str(symbol): study.readings.disturbance_unit_n * bound / (law.lower_bound_share * mass)
                for symbol, bound in zip(laws.lambdas, bounds, strict=True)}
     values |= {str(symbol): start for symbol, start in zip(laws.switch_times, starts[1:], strict=True)}
@@ -132,11 +132,21 @@ def initial(study: MaoStudy, case: CaseData) -> dict[str, float]:
     for number, mode, bound in zip(laws.MODES, study.modes, bounds, strict=True):
         of_mode = (scale * mode.a_kn, scale * mode.b_kn_s_per_m, scale * mode.c_kn_s2_per_m2, slope(study, mode),
                    mode.curve_deg)
-        right |= {f"{hat}_{number}": value for hat, value in zip(of.hats, of_mode, strict=True)}
+        right |= {f"{hat}_{number}": value for hat, value in zip(active_mode.hats, of_mode, strict=True)}
         right[f"rho_hat_{number}"] = mass / (study.law.force_unit_n * motors)
         right[f"lambda_hat_{number}"] = study.readings.disturbance_unit_n * bound / mass
     return {name: case.estimate_share * value for name, value in right.items()} | {
         "xi_hat_0": study.law.failure_start_n / (study.law.force_unit_n * study.train.motors), "xi_hat_1": 0.0}
+
+
+def wrong_signs(case: CaseData) -> Signs:
+    """The equations of a case's law whose printed sign is wrong."""
+    return () if case.law == "healthy" else laws.KINDS[case.law][-1]
+
+
+def law_of(case: CaseData, mended: Signs) -> ControlLaw:
+    """The law of a case, with some of its wrong signs mended."""
+    return laws.healthy if case.law == "healthy" else laws.failure_law(case.law, mended)
 
 
 def values_of(law: ControlLaw, study: MaoStudy, case: CaseData, tuning: Tuning) -> Values:
@@ -144,3 +154,9 @@ def values_of(law: ControlLaw, study: MaoStudy, case: CaseData, tuning: Tuning) 
     named, start = parameters(study, case, tuning), initial(study, case)
     return (np.array([named[str(symbol)] for symbol in law.parameters]),
             np.array([start[str(state.symbol)] for state in law.scalar_states]), np.zeros((0, 0)), np.zeros((0, 0)))
+
+
+def run_under(law: ControlLaw, study: MaoStudy, case: CaseData, tuning: Tuning, setting: Setting) -> Run:
+    """The run of a law with the numbers of a case, in a setting."""
+    return run_law(law, values_of(law, study, case, tuning), setting, tuning.period_s, study.law.estimates,
+                   plant=plant.train)

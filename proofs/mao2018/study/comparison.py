@@ -1,0 +1,97 @@
+"""mao2018's cases under law and MPC alike: the same train, modes, disturbances and failed motor."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
+from typing import Any
+
+from workbench.mpc.controller import KINDS
+from workbench.paper.comparison import ComparedRun, Task, compared_row, comparison_note
+from workbench.paper.drivers import MPC_NAMES, Drivers
+from workbench.paper.mpc_comparison import known, run_mpc
+from workbench.simulate.closed_loop import NOMINAL, Factors, Run
+
+from ..plant import train
+from .outcomes import Results
+from .record import MaoStudy
+from .scenario import law_of, run_under, setting_of, wrong_signs
+
+LAW = "law"
+RATES = ("r_1_per_s", "r_2_per_s")
+GAINS = ("gain", "gain_rho", "gain_rho_k", "gain_xi", "gain_lambda", "k_1", "k_2", "layer_mps")
+
+
+def places(study: MaoStudy) -> dict[str, str]:
+    """The cases, from 1."""
+    return {str(number): f"case {number}, {case.title}" for number, case in enumerate(study.cases, start=1)}
+
+
+def stated(study: MaoStudy, name: str) -> dict[str, float]:
+    """What the laws of all cases share in the first tuning."""
+    tuning = next(iter(study.tunings.values()))
+    return {key: float(getattr(tuning, key)) for key in RATES} | {key: float(getattr(study.law, key)) for key in GAINS}
+
+
+def given(study: MaoStudy, name: str, values: Mapping[str, float]) -> MaoStudy:
+    """The study with other gains in its first tuning."""
+    first, tuning = next(iter(study.tunings.items()))
+    rates, gains = ({key: value for key, value in values.items() if key in keys} for keys in (RATES, GAINS))
+    return study.model_copy(update={"tunings": study.tunings | {first: tuning.model_copy(update=rates)},
+                                    "law": study.law.model_copy(update=gains)})
+
+
+def drive_case(study: MaoStudy, name: str, number: int, factors: Factors = NOMINAL) -> Run:
+    """A case under the law with its signs corrected or under MPC.
+
+    MPC knows the healthy train in its first mode, and neither later modes nor failures; factors: by which the train's
+    mass and resistance differ from what controllers know.
+    """
+    case, tuning = study.cases[number - 1], next(iter(study.tunings.values()))
+    nominal = setting_of(study, case, tuning)
+    changes = nominal.changes.copy()
+    changes[:, 1:4] *= (factors.davis_a, factors.davis_b, factors.davis_c)
+    setting = replace(nominal, mass_kg=nominal.mass_kg * factors.mass, changes=changes)
+    if name == LAW:
+        return run_under(law_of(case, wrong_signs(case)), study, case, tuning, setting)
+    assert study.mpc is not None
+    a, b, c = (float(value) for value in nominal.changes[0, 1:4])
+    return run_mpc(known(study.mpc, nominal.curve, nominal.mass_kg, (a, b, c), nominal.end_s), MPC_NAMES[name],
+                   setting, train)
+
+
+def drive(study: MaoStudy, name: str, place: str, factors: Factors = NOMINAL) -> dict[str, Any]:
+    """One run of a case."""
+    return compared_row(drive_case(study, name, int(place), factors), float(study.reference.curve().length_m))
+
+
+def variants(study: MaoStudy, name: str) -> dict[str, MaoStudy]:
+    """Of MPC as the file says; the law's stated runs are the study's own, see `with_own_runs`."""
+    return {} if name == LAW else {"": study}
+
+
+DRIVERS = Drivers({LAW: "signs corrected"} | {name: KINDS[kind].title for name, kind in MPC_NAMES.items()},
+                  places, stated, given, drive, variants)
+
+
+def with_own_runs(results: Results, others: Sequence[ComparedRun]) -> list[ComparedRun]:
+    """The runs of the comparison with the study's own of its first tuning, case by case; none without others."""
+    own = []
+    for number in results.numbers if others else ():
+        chosen = {"the law": results.corrected(number, results.first_tuning)}
+        if results.wrong(number):
+            chosen = {"as printed": results.printed(number, results.first_tuning),
+                      DRIVERS.titles[LAW]: results.corrected(number, results.first_tuning)}
+        own += [ComparedRun(Task(str(number), LAW), title, run.row | {
+            "curve": (run.curves["error"].x, run.curves["error"].y)}) for title, run in chosen.items()]
+    return sorted((*own, *others), key=lambda run: (int(run.task.place), run.task.tuned))
+
+
+def note(study: MaoStudy, runs: Sequence[ComparedRun]) -> str:
+    """For the table of the comparison."""
+    tuning = next(iter(study.tunings.values()))
+    return f"{tuning.title}; " + comparison_note(
+        study, runs, tuning.period_s,
+        f"MPC: {KINDS['mpc.offset_free'].information}, that of mode (i) with all motors healthy; the laws: full state, "
+        "parameters unknown, times of the modes and frequencies of the failure known.",
+        "The tuning's runs are shorter than these and of some of the cases, see the file.")
