@@ -30,9 +30,9 @@ from . import laws as law
 from .laws import c_1, c_2, c_3
 from .one_car import one_car
 from .simulation.cars_trials import run_cars
-from .study import outcomes
+from .simulation.plans import plan
 from .study.record import ChenStudy
-from .study.runs import plan
+from .study.runs import outcome
 
 Values = dict[sp.Expr, sp.Expr]
 
@@ -184,14 +184,14 @@ def run(loaded: Loaded, task: Task) -> tuple[Row, str | None]:
     run = run_cars(replace(plan(changed), kept=()))
     if not len(run.totals):
         return {}, run.failed
-    position, speed = outcomes.position_error(run), outcomes.speed_error(run)
+    position, speed = run.position_error, run.speed_error
     whole = changed.reference.trip_time_s * changed.train.cars
     return {
         "position_error_first": float(position[0]), "position_error_last": float(position[-1]),
         "speed_error_first": float(speed[0]), "speed_error_last": float(speed[-1]),
         "position_rms": float(np.sqrt(run.total("position_error_square_s")[-1] / whole)),
         "speed_rms": float(np.sqrt(run.total("speed_error_square_s")[-1] / whole)),
-        "bound_used": bound_used(run, changed), "outcome": outcomes.outcome(run)}, run.failed
+        "bound_used": bound_used(run, changed), "outcome": outcome(run)}, run.failed
 
 
 def bound_used(run: Any, study: ChenStudy) -> float:

@@ -37,7 +37,7 @@ class CarsPlan:
 
     acceleration: one of ACCELERATION_RULES; memory: one of MEMORY_RULES; slope: one of SLOPE_SEEN. reference: position,
     speed and acceleration of every sample, shape (samples, 3); cars: rows by CAR_DATA, shape (6, cars); values: by the
-    names of the symbols of `controllers.chen2019.VALUES`; slope_values, variation: grade, wave and g, and swing and
+    names of the symbols of `laws.VALUES`; slope_values, variation: grade, wave and g, and swing and
     beat, by name. start: first value of (lambda_1, lambda_2) of every car in every trial. kept: numbers of the trials
     (from 1) that are logged, one row in log_every samples.
     """
@@ -72,6 +72,25 @@ class CarsRun:
     failed: str | None
     step_us: Array
     memory_bytes: int
+
+    @property
+    def position_error(self) -> Array:
+        """Largest position error of all cars, trial by trial, m."""
+        return np.maximum(-self.of_cars("position_error_min"), self.of_cars("position_error_max")).max(axis=1)
+
+    @property
+    def speed_error(self) -> Array:
+        """Largest speed error of all cars, trial by trial, m/s."""
+        return np.maximum(-self.of_cars("speed_error_min"), self.of_cars("speed_error_max")).max(axis=1)
+
+    @property
+    def difference(self) -> Array:
+        """Largest |Delta u| of all cars, trial by trial, N."""
+        return self.of_cars("difference_max").max(axis=1)
+
+    def rms(self, name: str, seconds: float) -> Array:
+        """RMS of the `position` or `speed` errors over so many seconds of all cars together, trial by trial."""
+        return np.asarray(np.sqrt(self.total(f"{name}_error_square_s") / seconds))
 
     def total(self, name: str) -> Array:
         """One of TRIAL_COLUMNS, trial by trial."""

@@ -2,90 +2,37 @@
 
 from __future__ import annotations
 
-from typing import Any
-
-import numpy as np
-
 from workbench.paper.drivers import checked, tune_with
-from workbench.paper.pairs import drawn_rows, pair_findings, pair_table, pair_tasks, pairs_of
+from workbench.paper.pairs import compared_pairs, pair_findings, pair_stage, pair_table
 from workbench.paper.results import StudyResult
+from workbench.paper.stages import Stage, run_stages
 from workbench.paper.study import Progress, StudyKind
-from workbench.simulate.process_pool import run_tasks
 
-from ..simulation.cars_trials import CarsRun
-from .drivers import DRIVERS, WHERE, Task, run_tuned, stated_rows, tuned_findings, tuned_plots, tuned_table, tuned_tasks
+from .comparison import COMPARISON, DRIVERS, mpc_findings, mpc_tables, stated_tasks, with_stated
 from .findings import all_findings
-from .mpc_comparison import beside_findings, beside_tables, growth, run_beside
-from .outcomes import Found, difference, outcome, position_error, speed_error
 from .plots import all_plots
 from .record import ChenStudy
-from .runs import STATED, changed, cost, run_number, title
+from .runs import STATED, Results, changed, measure, run_number, run_row, title, track
 from .tables import all_tables
-from .tracking import track
-
-# What a run that failed has no numbers for.
-NUMBERS = ("position_error_min", "position_error_max", "speed_error_min", "speed_error_max", "position_rms",
-           "speed_rms", "stopping_error", "energy_J", "saturated_fraction", "difference_max_N", "position_error_first",
-           "speed_error_first")
 
 
 def run(study: ChenStudy, workers: int, on_progress: Progress) -> StudyResult:
     """All runs of the study in `workers` processes; a run that ends early is told and stops no other."""
-    asked = range(STATED, len(study.changes))
-    runs: dict[int, CarsRun] = {}
-    before = len(asked) + 1 + len(tuned_tasks(study))
-    total = before + len(pair_tasks(DRIVERS, study))
-
-    def record(result: tuple[int, CarsRun]) -> None:
-        runs[result[0]] = result[1]
-        on_progress(len(runs), total, title(study, result[0]))
-
-    # The longest first, so that no process is left alone with one.
-    run_tasks(run_number, study, sorted(asked, key=lambda i: -changed(study, i).samples), workers, record)
-    # By itself, so that nothing else takes time from what is measured.
-    found = Found(study, {i: runs[i] for i in asked}, cost(study))
-    trip, longer = (run_beside(study), growth(study)) if study.mpc else (None, ())
-    on_progress(len(asked) + 1, total, "cost of a sample")
-    tuned = stated_rows(study, found.stated, trip)
-    left = [task for task in tuned_tasks(study) if task not in tuned]
-
-    def keep(result: tuple[Task, dict[str, Any]]) -> None:
-        tuned[result[0]] = result[1]
-        on_progress(len(asked) + 1 + len(tuned), total, "stated and tuned")
-
-    run_tasks(run_tuned, study, left, workers, keep)
-    rows = [(task, tuned[task]) for task in tuned_tasks(study)]
-    pairs = pairs_of(study, drawn_rows(DRIVERS, study, workers, on_progress, before))
+    runs, measured, tuned, drawn = run_stages((
+        Stage(run_number, study, range(STATED, len(study.changes)), lambda task, _: title(study, task),
+              lambda task: changed(study, task).samples),
+        Stage(measure, study, ("cost",), lambda task, _: "cost of a sample"),
+        COMPARISON.stage(study, stated_tasks(study)), pair_stage(DRIVERS, study)), workers, on_progress)
+    results, pairs = Results(study, runs, measured["cost"]), compared_pairs(DRIVERS, study, drawn)
+    rows = with_stated(results, tuned)
     return StudyResult(
-        rows=tuple(_row(study, i, runs[i]) for i in asked),
-        tables=(*all_tables(found), *beside_tables(found, trip, longer), *tuned_table(study, rows),
-                *pair_table(study, DRIVERS, pairs, WHERE)),
-        plots=(*all_plots(found), *tuned_plots(study, rows)),
-        findings=(*all_findings(found), *beside_findings(found, trip), *tuned_findings(study, rows),
-                  *pair_findings(study, DRIVERS, pairs, WHERE)),
-        failures=tuple((title(study, i), str(runs[i].failed)) for i in asked if runs[i].failed is not None))
-
-
-def _row(study: ChenStudy, number: int, done: CarsRun) -> dict[str, Any]:
-    """A run as data, of its last finished trial; SI units, over all cars."""
-    of = changed(study, number)
-    row: dict[str, Any] = {"controller": f"chen2019.{of.sampling.acceleration}", "run": title(study, number),
-                           "memory": of.sampling.memory, "period_s": of.sampling.period_s, "trials": len(done.totals)}
-    row |= dict.fromkeys(NUMBERS)
-    if done.failed is None:
-        whole, samples = of.reference.trip_time_s * of.train.cars, of.samples * of.train.cars
-        row |= {f"{name}_error_{end}": float(values[-1].min() if end == "min" else values[-1].max())
-                for name in ("position", "speed") for end in ("min", "max")
-                for values in (done.of_cars(f"{name}_error_{end}"),)}
-        row |= {f"{name}_rms": float(np.sqrt(done.total(f"{name}_error_square_s")[-1] / whole))
-                for name in ("position", "speed")}
-        row |= {"stopping_error": float(done.total("stopping_error_m")[-1]),
-                "energy_J": float(done.total("traction_work_j")[-1]),
-                "saturated_fraction": float(done.of_cars("saturated_samples")[-1].sum() / samples),
-                "difference_max_N": float(difference(done)[-1]),
-                "position_error_first": float(position_error(done)[0]),
-                "speed_error_first": float(speed_error(done)[0])}
-    return row | {"outcome": outcome(done), "step_us_median": float(np.median(done.step_us)), "failed": done.failed}
+        rows=tuple(run_row(study, i, one) for i, one in runs.items()),
+        tables=(*all_tables(results), *mpc_tables(results), *COMPARISON.tables(study, rows),
+                *pair_table(study, DRIVERS, pairs)),
+        plots=(*all_plots(results), *COMPARISON.plots(study, rows)),
+        findings=(*all_findings(results), *mpc_findings(results), *COMPARISON.findings(study, rows),
+                  *pair_findings(study, DRIVERS, pairs)),
+        failures=tuple((title(study, i), one.failed) for i, one in runs.items() if one.failed is not None))
 
 
 KIND = StudyKind(ChenStudy, run, checked(DRIVERS), tune_with(DRIVERS), track=track)

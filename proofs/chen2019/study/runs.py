@@ -1,32 +1,83 @@
-"""chen2019's runs: the stated one, its changes and the longer trains as plans, and each as numbers."""
+"""The runs of chen2019's study by the number of their change, and what counts as learning in them."""
 
 from __future__ import annotations
 
+import math
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 
-from workbench.trains.multi_particle import coefficients
+from workbench.model.desired_curve import DesiredCurve
+from workbench.paper.learning_comparison import rises
+from workbench.paper.tracked import Tracked
 
-from .. import laws as law
-from ..simulation.cars_trials import Array, CarsPlan, CarsRun, run_cars
-from .record import ChenStudy, with_change
+from ..simulation.cars_trials import Array, CarsRun, run_cars
+from ..simulation.mpc_trip import MpcTrip, run_mpc
+from ..simulation.plans import plan
+from .record import Change, ChenStudy, with_change
 
 # The change of the study with this number; the stated run has none.
 STATED = -1
+# By what factor the largest error has to come back to be said to grow again.
+AGAIN = 1.02
 
 
 @dataclass(frozen=True)
-class CostPoint:
-    """What a sample of a train costs: cars, time of a sample and of a sample and car (microseconds)."""
+class Measured:
+    """What is measured with nothing beside it: MPC's trip where the study has one, and what a sample costs.
 
-    cars: int
-    step_us: float
+    sample_s: cars of a train -> time of a sample, s; longer: MPC on the beginning of the trip with such trains.
+    """
+
+    sample_s: Mapping[int, float]
+    trip: MpcTrip | None
+    longer: tuple[MpcTrip, ...]
 
     @property
-    def car_us(self) -> float:
-        """Time of a sample and car."""
-        return self.step_us / self.cars
+    def exponent(self) -> float:
+        """The power of the number of cars with which the time of a sample grows, by least squares of logarithms."""
+        return float(np.polyfit(np.log(list(self.sample_s)), np.log(list(self.sample_s.values())), 1)[0])
+
+
+@dataclass(frozen=True)
+class Results:
+    """The study and its runs, by the number of the change."""
+
+    study: ChenStudy
+    runs: Mapping[int, CarsRun]
+    measured: Measured
+
+    @property
+    def stated(self) -> CarsRun:
+        """The run as stated."""
+        return self.runs[STATED]
+
+    @property
+    def train_seconds(self) -> float:
+        """Seconds of a trip times cars, over which errors are averaged."""
+        return self.study.reference.trip_time_s * self.study.train.cars
+
+    def group(self, name: str) -> list[tuple[Change, CarsRun]]:
+        """The runs of a group of changes."""
+        return [(change, self.runs[i]) for i, change in enumerate(self.study.changes) if change.group == name]
+
+    def find(self, **values: object) -> CarsRun | None:
+        """The run with exactly these values changed (dots as double underscores), if the study has it."""
+        wanted = {key.replace("__", "."): value for key, value in values.items()}
+        return next((self.runs[i] for i, change in enumerate(self.study.changes) if change.set == wanted), None)
+
+    def with_more_trials(self) -> list[tuple[int, CarsRun]]:
+        """Runs that differ by the number of their trials alone, with it."""
+        return [(change.set["trials.count"], run) for change, run in self.group("assumed")
+                if set(change.set) == {"trials.count"}]
+
+    @property
+    def motors_and_trailers(self) -> tuple[list[int], list[int]]:
+        """Motor cars and trailers, counted from 0."""
+        motors = [car for car in range(self.study.train.cars) if self.study.train.has_motor(car)]
+        return motors, [car for car in range(self.study.train.cars) if car not in motors]
 
 
 def changed(study: ChenStudy, number: int) -> ChenStudy:
@@ -39,59 +90,83 @@ def title(study: ChenStudy, number: int) -> str:
     return "as stated" if number == STATED else study.changes[number].title
 
 
-def reference(study: ChenStudy) -> Array:
-    """Position (m), speed (m/s) and acceleration (m/s^2) of every sample, shape (samples, 3)."""
-    times: Array = np.arange(study.samples, dtype=float) * study.sampling.period_s
-    return np.stack(study.reference.curve().at(times), axis=1)
-
-
-def car_data(study: ChenStudy) -> Array:
-    """Rows by CAR_DATA, shape (6, cars): masses, which is first, limits (4), (5) and bounds (Assumption 1)."""
-    train = study.train
-    rows = {law.m: [train.car_mass_kg] * train.cars, law.first: [1.0] + [0.0] * (train.cars - 1),
-            law.u_low: [-train.braking_n] * train.cars,
-            law.u_high: [train.traction_n if train.has_motor(car) else 0.0 for car in range(train.cars)],
-            law.m_low: [study.mass_bounds.low_kg] * train.cars, law.m_high: [study.mass_bounds.high_kg] * train.cars}
-    return np.array([rows[row] for row in law.CAR_DATA])
-
-
-def law_values(study: ChenStudy) -> dict[str, float]:
-    """The numbers of `controllers.chen2019.VALUES` by name."""
-    train = study.train
-    table_1 = (train.c_0_n_per_kg, train.c_v_n_s_per_m_kg, train.c_a_n_s2_per_m2_kg, train.coupler_n_per_m,
-               train.coupler_n_s_per_m)
-    values = {str(symbol): value for symbol, value in zip(coefficients, table_1, strict=True)}
-    gains = {str(symbol): float(getattr(study.gains, str(symbol))) for symbol in (*law.gains, *law.learning_gains)}
-    return values | gains | {"m_total": train.cars * train.car_mass_kg, "T_s": study.sampling.period_s,
-                             "tau": study.sampling.filter_s}
-
-
-def plan(study: ChenStudy) -> CarsPlan:
-    """The plan of a study's stated run."""
-    sampling, line = study.sampling, study.line
-    return CarsPlan(
-        acceleration=sampling.acceleration, memory=sampling.memory, slope=line.seen_by, reference=reference(study),
-        period_s=sampling.period_s, cars=car_data(study), values=law_values(study),
-        slope_values={"grade": line.slope_permille / 1000, "wave": line.wave_m, "g": line.gravity_mps2},
-        variation={"swing": study.variation.swing, "beat": study.variation.beat_s},
-        start=(study.trials.lambda_1_m, study.trials.lambda_2_mps), trials=study.trials.count,
-        kept=study.trials.shown, log_every=round(sampling.log_every_s / sampling.period_s))
-
-
-def run_number(study: ChenStudy, number: int) -> tuple[int, CarsRun]:
+def run_number(study: ChenStudy, number: int) -> CarsRun:
     """Run the stated study or one of its changes; those about what else is assumed leave no log."""
     made = plan(changed(study, number))
     logged = number == STATED or study.changes[number].group == "rules"
-    return number, run_cars(made if logged else replace(made, kept=()))
+    return run_cars(made if logged else replace(made, kept=()))
 
 
-def cost(study: ChenStudy) -> tuple[CostPoint, ...]:
-    """Time per sample of trains of several lengths, one after the other in this process."""
-    points = []
-    for cars in study.cost.cars:
-        longer = study.model_copy(update={"train": study.train.model_copy(update={"cars": cars})})
+def measure(study: ChenStudy, _: object) -> Measured:
+    """Time per sample of trains of several lengths, MPC's trip, and its beginning with such trains, one by one."""
+    trains = {cars: study.model_copy(update={"train": study.train.model_copy(update={"cars": cars})})
+              for cars in study.cost.cars}
+    sample_s = {}
+    for cars, longer in trains.items():
         whole = plan(longer)
         short = replace(whole, reference=whole.reference[: round(study.cost.end_s / study.sampling.period_s)],
                         trials=study.cost.trials, kept=())
-        points.append(CostPoint(cars, float(run_cars(short).step_us.min())))
-    return tuple(points)
+        sample_s[cars] = float(run_cars(short).step_us.min()) * 1e-6
+    if study.mpc is None:
+        return Measured(sample_s, None, ())
+    return Measured(sample_s, run_mpc(study), tuple(run_mpc(one, study.cost.end_s) for one in trains.values()))
+
+
+def grows_from(errors: Array) -> int | None:
+    """The trial with the least error, when it came back by more than AGAIN until the last one; else None."""
+    if len(errors) == 0 or not errors[-1] > AGAIN * errors.min():
+        return None
+    return int(np.argmin(errors)) + 1
+
+
+def outcome(run: CarsRun) -> str:
+    """What became of a run, in a few words."""
+    if run.failed is not None:
+        why = "no unique acceleration" if "unique" in run.failed else "diverges"
+        return f"trial {len(run.totals) + 1}: {why}"
+    turns = [turn for turn in map(grows_from, (run.position_error, run.speed_error, run.difference)) if turn]
+    if turns:
+        return f"grows again from trial {min(turns)} on"
+    return "falls" if rises(run.position_error) + rises(run.speed_error) == 0 else "falls, not in every trial"
+
+
+def run_row(study: ChenStudy, number: int, run: CarsRun) -> dict[str, Any]:
+    """A run as data, of its last finished trial; SI units, over all cars; None for what one that failed has not."""
+    of = changed(study, number)
+    cars, whole = of.train.cars, of.reference.trip_time_s * of.train.cars
+
+    def values() -> dict[str, float]:
+        ends = {f"{name}_error_{end}": float(getattr(run.of_cars(f"{name}_error_{end}")[-1], end)())
+                for name in ("position", "speed") for end in ("min", "max")}
+        return ends | {f"{name}_rms": float(run.rms(name, whole)[-1]) for name in ("position", "speed")} | {
+            "stopping_error": float(run.total("stopping_error_m")[-1]),
+            "energy_J": float(run.total("traction_work_j")[-1]),
+            "saturated_fraction": float(run.of_cars("saturated_samples")[-1].sum() / (of.samples * cars)),
+            "difference_max_N": float(run.difference[-1]), "position_error_first": float(run.position_error[0]),
+            "speed_error_first": float(run.speed_error[0])}
+
+    return {"controller": f"chen2019.{of.sampling.acceleration}", "run": title(study, number),
+            "memory": of.sampling.memory, "period_s": of.sampling.period_s, "trials": len(run.totals),
+            **(values() if run.failed is None else dict.fromkeys(NUMBERS)), "outcome": outcome(run),
+            "step_us_median": float(np.median(run.step_us)), "failed": run.failed}
+
+
+# What a run that failed has no numbers for.
+NUMBERS = ("position_error_min", "position_error_max", "speed_error_min", "speed_error_max", "position_rms",
+           "speed_rms", "stopping_error", "energy_J", "saturated_fraction", "difference_max_N", "position_error_first",
+           "speed_error_first")
+
+
+def track(study: ChenStudy, curve: DesiredCurve | None) -> Tracked:
+    """The stated run on a reference, its own where curve is None; the last of its trials."""
+    curve = curve or study.reference.curve()
+    times = np.arange(study.samples, dtype=float) * study.sampling.period_s
+    run = run_cars(replace(plan(study), reference=np.stack(curve.at(times), axis=1), kept=()))
+    of_trip = "chen2019", "AILC" if run.failed else f"AILC, trial {study.trials.count}", curve.trip_time_s
+    if run.failed:
+        nan = math.nan
+        return Tracked(*of_trip, curve.length_m, nan, nan, nan, nan, nan, run.failed)
+    whole = study.reference.trip_time_s * study.train.cars
+    return Tracked(*of_trip, curve.length_m, float(run.position_error[-1]), float(run.rms("position", whole)[-1]),
+                   float(run.speed_error[-1]), float(run.rms("speed", whole)[-1]),
+                   float(run.total("traction_work_j")[-1]), None)

@@ -2,232 +2,194 @@
 
 from __future__ import annotations
 
-import numpy as np
-from numpy.typing import NDArray
+from collections.abc import Sequence
 
-from workbench.files.numbers import NOTHING, fixed, number
+import numpy as np
+
+from workbench.files.numbers import fixed, number
+from workbench.paper.cells import Cell, Column, Phrase, Quantity
+from workbench.paper.learning_comparison import rises, statement_table
 from workbench.paper.results import ResultTable
 
 from .. import laws as law
 from ..simulation.cars_trials import Array, CarsRun
-from .outcomes import (
-    NEAR_M,
-    NEAR_MPS,
-    Found,
-    allowed_change,
-    cef_change,
-    difference,
-    exponent,
-    first_cef,
-    grows_from,
-    needed_force,
-    outcome,
-    position_error,
-    rises,
-    speed_error,
-    trailer_force,
-)
-from .runs import STATED, law_values, title
+from ..simulation.formulas import allowed_change, cef_change, first_cef, needed_force, trailer_force
+from ..simulation.plans import law_values
+from .runs import STATED, Results, grows_from, outcome, title
 
 LARGEST = "Largest values of all cars over the whole trip."
+# How near to the reference a car is said to be on it.
+NEAR_M, NEAR_MPS = 1.0, 0.1
+# The tables of one change each: group, title, source, note.
+GROUPS = (
+    ("rules", "How the law is sampled", "the paper states neither step nor rule; claims 16.loop to 16.learning",
+     "As stated: every millisecond, the acceleration that solves the loop (claim 16.exists), an estimate corrected by "
+     "the error to which its sample led."),
+    ("gains", "Stated and repaired gains", "claims 49.stated, 16.stated",
+     "c_λ > 0, the paper's own condition below (49), needs c_1 > 1/2."),
+    ("masses", "Bounds of the mass and the loop through the acceleration", "Assumption 1; claims 16.unique, 16.stated",
+     "An unsaturated car answers its law as if it weighed m + 1/c_3 less the estimate."),
+    ("assumed", "How much the assumed data matter", "assumed values", ""))
 
 
-def all_tables(found: Found) -> tuple[ResultTable, ...]:
+def all_tables(results: Results) -> tuple[ResultTable, ...]:
     """All tables, in the order of the page."""
-    return (statements(found), rules(found), gains(found), masses(found), assumed(found), bounds(found), forces(found),
-            cost(found))
+    return (statements(results), *(group_table(results, *group) for group in GROUPS), bounds(results), forces(results),
+            cost(results))
 
 
-def at(values: Array, trial: int, digits: int = 3, scale: float = 1.0) -> str:
-    """A value of a trial, counted from 1; a dash where the run had ended."""
-    return number(scale * float(values[trial - 1]), digits) if trial <= len(values) else NOTHING
-
-
-def _trials(found: Found) -> tuple[int, ...]:
+def _trials(results: Results) -> tuple[int, ...]:
     """The trials that the tables show: the paper's, and some between."""
-    first, last = min(found.study.trials.shown), max(found.study.trials.shown)
+    first, last = min(results.study.trials.shown), max(results.study.trials.shown)
     return tuple(sorted({first, last, *(trial for trial in (10, 20) if first < trial < last)}))
 
 
-def _fall(values: Array, unit: str, scale: float = 1.0) -> str:
+def _at(values: Array, trials: Sequence[int]) -> tuple[float | None, ...]:
+    """Values of trials, counted from 1; None where the run had ended."""
+    return tuple(float(values[trial - 1]) if trial <= len(values) else None for trial in trials)
+
+
+def _fall(values: Array, unit: str, si: float = 1.0) -> Cell:
     """First and last value of a run, and whether it fell."""
     if len(values) < 2:
-        return NOTHING
-    word = "yes" if values[-1] < values[0] else "no"
-    return f"{word}: {number(scale * float(values[0]))} → {number(scale * float(values[-1]))} {unit}"
+        return None
+    words = "yes: {} → {}" if values[-1] < values[0] else "no: {} → {}"
+    return Phrase(words, (Quantity(float(values[0]), "", si), Quantity(float(values[-1]), unit, si)))
 
 
-def statements(found: Found) -> ResultTable:
+def statements(results: Results) -> ResultTable:
     """What section IV says of its figures beside what the runs gave."""
-    chosen = [STATED, *(i for i, change in enumerate(found.study.changes)
+    study = results.study
+    chosen = [STATED, *(i for i, change in enumerate(study.changes)
                         if change.group == "rules" and change.set.get("sampling.memory") == "same_sample"
                         and "sampling.period_s" not in change.set)]
-    runs = [found.runs[i] for i in chosen]
-    motors, trailers = found.motors_and_trailers
+    runs = [results.runs[i] for i in chosen]
+    motors, trailers = results.motors_and_trailers
 
-    def every(run: CarsRun) -> str:
-        count, steps = rises(position_error(run)) + rises(speed_error(run)), 2 * (len(run.totals) - 1)
+    def every(run: CarsRun) -> Cell:
+        count, steps = rises(run.position_error) + rises(run.speed_error), 2 * (len(run.totals) - 1)
         early = f"; {outcome(run)}" if run.failed else ""
-        return ("yes" if count == 0 else f"no: rises in {count} of {steps} steps") + early
+        return f"yes{early}" if count == 0 else Phrase(f"no: rises in {{}} of {{}} steps{early}", (count, steps))
 
-    def zero(run: CarsRun) -> str:
-        return f"yes: {number(float(speed_error(run)[-1]))} m/s" if len(run.totals) else NOTHING
+    def zero(run: CarsRun) -> Cell:
+        return Phrase("yes: {} m/s", (float(run.speed_error[-1]),)) if len(run.totals) else None
 
-    def near(run: CarsRun) -> str:
-        shown = [trial for trial in found.study.trials.shown if trial in run.logs]
-        if not shown or max(shown) != found.study.trials.count:
-            return NOTHING
-        speed, position = run.log(max(shown), "speed_error_mps"), run.log(max(shown), "position_error_m")
-        return (f"within {NEAR_MPS:g} m/s for {_share(np.abs(speed) < NEAR_MPS)}, within {NEAR_M:g} m for "
-                f"{_share(np.abs(position) < NEAR_M)} of the trip")
+    def near(run: CarsRun) -> Cell:
+        last = max((trial for trial in study.trials.shown if trial in run.logs), default=None)
+        if last != study.trials.count:
+            return None
+        shares = tuple(100 * float(np.mean(np.abs(run.log(last, name)) < border))
+                       for name, border in (("speed_error_mps", NEAR_MPS), ("position_error_m", NEAR_M)))
+        return Phrase(f"within {NEAR_MPS:g} m/s for {{}} %, within {NEAR_M:g} m for {{}} % of the trip", shares)
 
-    def traction(run: CarsRun) -> str:
+    def traction(run: CarsRun) -> Cell:
         most = float(run.of_cars("force_max")[:, trailers].max()) if trailers and len(run.totals) else 0.0
-        return f"{'yes' if most <= 0 else 'no'}: trailers at most {number(most)} N"
+        return Phrase(f"{'yes' if most <= 0 else 'no'}: trailers at most {{}} N", (most,))
 
-    def braking(run: CarsRun) -> str:
+    def braking(run: CarsRun) -> Cell:
         if not len(run.totals):
-            return NOTHING
-        weakest = [-float(run.of_cars("force_min")[trial].max()) / 1e3 for trial in (0, -1)]
-        return (f"{'yes' if min(weakest) > 0 else 'no'}: each up to {number(weakest[0])} kN or more in the first, "
-                f"{number(weakest[1])} kN or more in the last trial")
+            return None
+        weakest = [-float(run.of_cars("force_min")[trial].max()) for trial in (0, -1)]
+        words = "each up to {} or more in the first, {} or more in the last trial"
+        return Phrase(f"{'yes' if min(weakest) > 0 else 'no'}: {words}",
+                      tuple(Quantity(force, "kN", 1e3) for force in weakest))
 
-    def more(run: CarsRun) -> str:
-        if run.failed is not None or grows_from(difference(run)) is not None:
+    def more(run: CarsRun) -> Cell:
+        if run.failed is not None or grows_from(run.difference) is not None:
             return f"no: {outcome(run)}"
-        longer = next((other for change, other in found.group("assumed") if set(change.set) == {"trials.count"}), None)
-        if run is not found.stated or longer is None or longer.failed is not None:
-            return "yes, as far as they ran" if rises(position_error(run)) == 0 else f"no: {outcome(run)}"
-        return (f"{number(float(position_error(longer)[-1]))} m and {number(float(speed_error(longer)[-1]))} m/s after "
-                f"{len(longer.totals)} ({outcome(longer)})")
+        longer = next((other for _, other in results.with_more_trials()), None)
+        if run is not results.stated or longer is None or longer.failed is not None:
+            return "yes, as far as they ran" if rises(run.position_error) == 0 else f"no: {outcome(run)}"
+        return Phrase(f"{{}} m and {{}} m/s after {{}} ({outcome(longer)})",
+                      (float(longer.position_error[-1]), float(longer.speed_error[-1]), len(longer.totals)))
 
-    rows = [
-        ("the position errors shrink from the first to the last iteration", "yes (Figures 1-5)",
-         *(_fall(position_error(run), "m") for run in runs)),
-        ("so do the speed errors", "yes (Figures 1-5)", *(_fall(speed_error(run), "m/s") for run in runs)),
-        ("the largest errors fall from iteration to iteration", "yes (Figure 5)", *map(every, runs)),
-        ("the largest speed error is not eliminated", "yes (Figure 5)", *map(zero, runs)),
-        ("the errors stay around zero in most of the last trip", "yes (Figure 4)", *map(near, runs)),
-        (f"traction comes from the motor cars alone ({', '.join(str(car + 1) for car in motors)})",
-         "yes (Figures 6, 7)", *map(traction, runs)),
-        ("all cars brake", "yes (Figures 6, 7)", *map(braking, runs)),
-        ("the difference between actual and unsaturated input shrinks", "yes (Figures 8, 9)",
-         *(_fall(difference(run), "kN", 1e-3) for run in runs)),
-        ("more iterations would reduce the errors further", "yes (section IV)", *map(more, runs)),
-    ]
-    return ResultTable(
+    return statement_table(
         "What the paper says of its figures, and what came out", "paper, section IV, Figures 1-9",
-        ("Statement", "Printed", *(title(found.study, i) for i in chosen)), tuple(rows),
+        [title(study, i) for i in chosen], [
+            ("the position errors shrink from the first to the last iteration", "yes (Figures 1-5)",
+             *(_fall(run.position_error, "m") for run in runs)),
+            ("so do the speed errors", "yes (Figures 1-5)", *(_fall(run.speed_error, "m/s") for run in runs)),
+            ("the largest errors fall from iteration to iteration", "yes (Figure 5)", *map(every, runs)),
+            ("the largest speed error is not eliminated", "yes (Figure 5)", *map(zero, runs)),
+            ("the errors stay around zero in most of the last trip", "yes (Figure 4)", *map(near, runs)),
+            (f"traction comes from the motor cars alone ({', '.join(str(car + 1) for car in motors)})",
+             "yes (Figures 6, 7)", *map(traction, runs)),
+            ("all cars brake", "yes (Figures 6, 7)", *map(braking, runs)),
+            ("the difference between actual and unsaturated input shrinks", "yes (Figures 8, 9)",
+             *(_fall(run.difference, "kN", 1e3) for run in runs)),
+            ("more iterations would reduce the errors further", "yes (section IV)", *map(more, runs))],
         f"The paper prints no number of an error; its figures are not in the text. {LARGEST}")
 
 
-def _share(which: NDArray[np.bool_]) -> str:
-    return f"{number(100 * float(np.mean(which)))} %"
-
-
-def _runs_table(found: Found, name: str, source: str, group: str, note: str) -> ResultTable:
-    trials = _trials(found)
-    first, last = trials[0], trials[-1]
-    rows = []
-    for label, run in (("as stated", found.stated), *((c.title, run) for c, run in found.group(group))):
-        rows.append((
-            label, *(at(position_error(run), trial) for trial in trials), at(speed_error(run), first),
-            at(speed_error(run), last), at(difference(run), first, scale=1e-3), at(difference(run), last, scale=1e-3),
-            outcome(run)))
-    header = ("Run", *(f"|e_s| (m), trial {trial}" for trial in trials), f"|e_v| (m/s), trial {first}",
-              f"|e_v| (m/s), trial {last}", f"|Δu| (kN), trial {first}", f"|Δu| (kN), trial {last}", "Outcome")
+def group_table(results: Results, group: str, name: str, source: str, note: str) -> ResultTable:
+    """The stated run and those of a group of changes."""
+    trials = _trials(results)
+    ends = trials[0], trials[-1]
+    rows = [(label, *_at(run.position_error, trials), *_at(run.speed_error, ends), *_at(run.difference, ends),
+             outcome(run))
+            for label, run in (("as stated", results.stated), *((c.title, run) for c, run in results.group(group)))]
+    header: tuple[Column | str, ...] = (
+        "Run", *(f"|e_s| (m), trial {trial}" for trial in trials),
+        *(f"|e_v| (m/s), trial {trial}" for trial in ends),
+        *(Column(f"|Δu| (kN), trial {trial}", si=1e3) for trial in ends), "Outcome")
     return ResultTable(name, source, header, tuple(rows), f"{LARGEST} {note}".strip())
 
 
-def rules(found: Found) -> ResultTable:
-    """How the continuous law is sampled."""
-    return _runs_table(
-        found, "How the law is sampled", "the paper states neither step nor rule; claims 16.loop to 16.learning",
-        "rules", "As stated: every millisecond, the acceleration that solves the loop (claim 16.exists), an estimate "
-        "corrected by the error to which its sample led.")
-
-
-def gains(found: Found) -> ResultTable:
-    """The stated gains beside the repaired ones."""
-    return _runs_table(found, "Stated and repaired gains", "claims 49.stated, 16.stated", "gains",
-                       "c_λ > 0, the paper's own condition below (49), needs c_1 > 1/2.")
-
-
-def masses(found: Found) -> ResultTable:
-    """The bounds of Assumption 1, on which the loop through the acceleration depends."""
-    return _runs_table(
-        found, "Bounds of the mass and the loop through the acceleration", "Assumption 1; claims 16.unique, 16.stated",
-        "masses", "An unsaturated car answers its law as if it weighed m + 1/c_3 less the estimate.")
-
-
-def assumed(found: Found) -> ResultTable:
-    """One assumed value changed at a time."""
-    return _runs_table(found, "How much the assumed data matter", "assumed values", "assumed", "")
-
-
-def bounds(found: Found) -> ResultTable:
+def bounds(results: Results) -> ResultTable:
     """The inequalities of the proof along the stated run."""
-    study, run = found.study, found.stated
+    study, run = results.study, results.stated
     values = {symbol: law_values(study)[str(symbol)] for symbol in law.gains}
     c_lambda = min(float(x.subs(values)) for x in law.c_lambda_candidates)
-    c_z = min(study.gains.c_1, study.gains.c_2)
-    any_gains = float(law.any_gains.subs(values))
+    c_z, any_gains = min(study.gains.c_1, study.gains.c_2), float(law.any_gains.subs(values))
     change, allowed = cef_change(run), allowed_change(study, run)
     energy = first_cef(study) + np.concatenate([[0.0], np.cumsum(change)])
     lamda, differences = run.total("lambda_square_s"), run.total("difference_square_s")
     plain = study.line.seen_by == "nowhere" and study.variation.swing == 0
-    rows = []
-    for trial in (trial for trial in _trials(found) if trial <= len(run.totals)):
-        i = trial - 1
-        bound = 2 / c_z * energy[i] + 2 * any_gains * differences[i]
-        rows.append((
-            str(trial), number(float(change[i])), number(float(allowed[i])),
-            number(float(lamda[i] / differences[i])), number(any_gains), number(study.gains.c_3 / (2 * c_lambda)),
-            number(float(run.total("position_error_square_s")[i])), number(float(bound)) if plain else NOTHING))
+    shown = [trial - 1 for trial in _trials(results) if trial <= len(run.totals)]
     return ResultTable(
         "The inequalities of the proof along the stated run", "claims 35, 51, 51.any_gains, theorem1.3.stated",
         ("Trial", "E_i − E_{i−1}", "at most, by (35)", "∫|λ|² / ∫|Δu|²", "at most, for all gains", "as (51) prints it",
-         "∫|e_s|² (m² s)", "at most, by the corrected (54)"), tuple(rows),
+         Column("∫|e_s|²", "m² s"), "at most, by the corrected (54)"),
+        tuple((i + 1, float(change[i]), float(allowed[i]), float(lamda[i] / differences[i]), any_gains,
+               study.gains.c_3 / (2 * c_lambda), float(run.total("position_error_square_s")[i]),
+               float(2 / c_z * energy[i] + 2 * any_gains * differences[i]) if plain else None) for i in shown),
         "At t = T, SI units. (51) and (54) as printed are for c_λ > 0; the stated gains give c_λ = "
         f"{number(c_lambda)}. E holds the squared error of the coupler's stiffness, of which hardly anything is "
         "learned since the couplers hardly stretch; so (54) bounds little.")
 
 
-def forces(found: Found) -> ResultTable:
+def forces(results: Results) -> ResultTable:
     """What the reference asks of the train on level track."""
-    study = found.study
-    ref, train = study.reference, study.train
-    motors, _ = found.motors_and_trailers
-    rows = []
+    study, ref, train = results.study, results.study.reference, results.study.train
+    rows: list[tuple[Cell, ...]] = []
     for what, speed, rate in (
             ("start", 0.0, ref.acceleration_mps2), ("end of the acceleration", ref.cruise_mps, ref.acceleration_mps2),
             ("cruise", ref.cruise_mps, 0.0), ("begin of the braking", ref.cruise_mps, -ref.braking_mps2),
             ("end of the braking", 0.0, -ref.braking_mps2)):
-        need = needed_force(study, speed, rate)
-        given = len(motors) * train.traction_n if need > 0 else train.cars * train.braking_n
-        trailer = trailer_force(study, speed, rate)
-        stretch = f"{number(1e3 * trailer / train.coupler_n_per_m)} mm" if trailer > 0 else "brakes itself"
-        rows.append((what, fixed(speed, 1), fixed(rate, 2), fixed(need / 1e3, 1), fixed(given / 1e3, 0),
-                     f"{number(100 * abs(need) / given)} %", fixed(trailer / 1e3, 2), stretch))
+        need, trailer = needed_force(study, speed, rate), trailer_force(study, speed, rate)
+        limit = len(results.motors_and_trailers[0]) * train.traction_n if need > 0 else train.cars * train.braking_n
+        stretch = Quantity(trailer / train.coupler_n_per_m, "mm", 1e-3) if trailer > 0 else "brakes itself"
+        rows.append((what, speed, rate, need, limit, Quantity(abs(need) / limit, "%", 0.01), trailer, stretch))
     return ResultTable(
         "What the reference asks of the train", "claim A2; Table 1, limits of section IV, level track",
-        ("Phase", "Speed (m/s)", "Acceleration (m/s²)", "All cars (kN)", "Available (kN)", "Used", "Each trailer (kN)",
-         "Coupler pulling one trailer"), tuple(rows),
+        ("Phase", Column("Speed", "m/s", decimals=1), Column("Acceleration", "m/s²", decimals=2),
+         Column("All cars", "kN", 1e3, decimals=1), Column("Available", "kN", 1e3, decimals=0), "Used",
+         Column("Each trailer", "kN", 1e3, decimals=2), "Coupler pulling one trailer"), tuple(rows),
         "The train as a whole can follow its reference; a trailer cannot: whatever it needs forwards must come through "
         "a coupler, which pulls only when the cars are not at the same place.")
 
 
-def cost(found: Found) -> ResultTable:
+def cost(results: Results) -> ResultTable:
     """Time of a sample against the number of cars."""
-    run, study = found.stated, found.study
-    rows = [(str(p.cars), number(p.step_us), number(p.car_us), number(p.step_us * study.samples * study.trials.count
-                                                                      / 1e6),
-             number(8e-6 * study.samples * (3 * p.cars + 3))) for p in found.cost]
+    run, study, measured = results.stated, results.study, results.measured
     return ResultTable(
         "What a sample costs", f"trains of {' '.join(study.train.motor_pattern)} …, {study.cost.end_s:g} s, fastest of "
         f"{study.cost.trials} trials",
-        ("Cars", "µs a sample", "µs a sample and car", f"{study.trials.count} trials of "
-         f"{study.reference.trip_time_s:g} s (s)", "Memory of the estimates (MB)"), tuple(rows),
+        ("Cars", Column("a sample", "µs", 1e-6), Column("a sample and car", "µs", 1e-6),
+         Column(f"{study.trials.count} trials of {study.reference.trip_time_s:g} s", "s"),
+         Column("Memory of the estimates", "MB", 1e6)),
+        tuple((cars, step_s, step_s / cars, step_s * study.samples * study.trials.count,
+               8.0 * study.samples * (3 * cars + 3)) for cars, step_s in measured.sample_s.items()),
         f"Train and law together, one core, compiling left out. The time grows as the number of cars to the power "
-        f"{fixed(exponent(found.cost), 2)}. The stated run itself: {number(float(run.step_us.min()))} µs a sample in "
+        f"{fixed(measured.exponent, 2)}. The stated run itself: {number(float(run.step_us.min()))} µs a sample in "
         "its fastest trial.")

@@ -1,0 +1,161 @@
+"""chen2019's law beside MPC of several cars, which knows the train and drives it once: as stated, and both tuned."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+
+from workbench.files.numbers import number
+from workbench.mpc.multi_car import MultiCarMpc
+from workbench.paper.cells import Column
+from workbench.paper.comparison import STEP
+from workbench.paper.drivers import Drivers
+from workbench.paper.learning_comparison import LearningComparison, Task, jerk_rms, row_cells
+from workbench.paper.mpc_comparison import counters_words
+from workbench.paper.results import ResultTable
+from workbench.paper.statistics import ahead_from
+from workbench.simulate.closed_loop import NOMINAL, Factors
+
+from .. import laws
+from ..simulation.cars_trials import CarsRun, run_cars
+from ..simulation.mpc_trip import MpcTrip, run_mpc
+from ..simulation.plans import plan
+from .record import ChenStudy
+from .runs import Results
+
+LAW, MPC, PLACE = "law", "mpc_multi_car", "trip"
+WEIGHTS = ("position_weight", "speed_weight", "command_weight")
+COLUMNS = {
+    "position_rms": Column("position RMS", "m"), "speed_rms": Column("speed RMS", "m/s"),
+    "largest_position_error": Column("largest |position error|", "m"),
+    "largest_speed_error": Column("largest |speed error|", "m/s"), "stopping_error": Column("stopping error", "m"),
+    "energy_J": Column("energy", "kWh", 3.6e6), "jerk_rms": Column("jerk RMS", "m/s³"),
+    "stretch_m": Column("coupler stretch", "m"), "at_limit": Column("at a limit"), "step_s": STEP}
+
+
+def places(study: ChenStudy) -> dict[str, str]:
+    """There is one trip."""
+    return {PLACE: "the train"}
+
+
+def stated(study: ChenStudy, name: str) -> dict[str, float]:
+    """The law's gains and learning gains, or the weights of MPC of several cars."""
+    if name == LAW:
+        return {str(key): float(getattr(study.gains, str(key))) for key in (*laws.gains, *laws.learning_gains)}
+    return {key: float(getattr(study.mpc, key)) for key in WEIGHTS}
+
+
+def given(study: ChenStudy, name: str, values: Mapping[str, float]) -> ChenStudy:
+    """The study with other gains or weights."""
+    if name == LAW:
+        return study.model_copy(update={"gains": study.gains.model_copy(update=dict(values))})
+    assert study.mpc is not None
+    return study.model_copy(update={"mpc": study.mpc.model_copy(update=dict(values))})
+
+
+def drive(study: ChenStudy, name: str, place: str, factors: Factors = NOMINAL) -> dict[str, Any]:
+    """MPC's only trip, or all trials of the law, of which the last is measured.
+
+    factors: by which masses and coefficients of resistance of the train differ; bounds stay as they are.
+    """
+    train = study.train
+    true = study.model_copy(update={"train": train.model_copy(update={
+        "car_mass_kg": train.car_mass_kg * factors.mass, "c_0_n_per_kg": train.c_0_n_per_kg * factors.davis_a,
+        "c_v_n_s_per_m_kg": train.c_v_n_s_per_m_kg * factors.davis_b,
+        "c_a_n_s2_per_m2_kg": train.c_a_n_s2_per_m2_kg * factors.davis_c})})
+    if name == MPC:
+        return mpc_row(study, run_mpc(true, known=study))
+    return law_row(true, run_cars(replace(plan(true), kept=(true.trials.count,))))
+
+
+def mpc_row(study: ChenStudy, trip: MpcTrip) -> dict[str, Any]:
+    """A trip under MPC."""
+    total, whole = trip.totals, study.reference.trip_time_s * study.train.cars
+    return {"failed": None, "position_rms": (total["position_error_square_s"] / whole) ** 0.5,
+            "speed_rms": (total["speed_error_square_s"] / whole) ** 0.5,
+            "largest_position_error": total["largest_position_error_m"],
+            "largest_speed_error": total["largest_speed_error_mps"], "stopping_error": total["stopping_error_m"],
+            "energy_J": total["traction_work_j"], "jerk_rms": trip.jerk, "stretch_m": total["coupler_stretch_m"],
+            "at_limit": total["car_steps_at_limit"] / (study.samples * study.train.cars), "step_s": trip.step_s}
+
+
+def law_row(study: ChenStudy, run: CarsRun) -> dict[str, Any]:
+    """The last trial of a run, and its errors trial by trial; of one that failed only why."""
+    if run.failed is not None:
+        return {"failed": run.failed, "step_s": float(np.median(run.step_us)) * 1e-6}
+    whole = study.reference.trip_time_s * study.train.cars
+    return trial_row(study, run, len(run.totals)) | {
+        "trials": {f"{name}_rms": run.rms(name, whole) for name in ("position", "speed")}}
+
+
+def trial_row(study: ChenStudy, run: CarsRun, trial: int) -> dict[str, Any]:
+    """A finished trial of a run, from 1; its jerk where it was logged."""
+    i, cars = trial - 1, study.train.cars
+    whole = study.reference.trip_time_s * cars
+    jerk = jerk_rms(run.log(trial, "v_mps"), study.sampling.log_every_s) if trial in run.logs else None
+    return {"failed": None, "position_rms": float(run.rms("position", whole)[i]),
+            "speed_rms": float(run.rms("speed", whole)[i]), "largest_position_error": float(run.position_error[i]),
+            "largest_speed_error": float(run.speed_error[i]),
+            "stopping_error": float(run.total("stopping_error_m")[i]),
+            "energy_J": float(run.total("traction_work_j")[i]), "jerk_rms": jerk,
+            "stretch_m": float(run.total("coupler_stretch_m")[i]),
+            "at_limit": float(run.of_cars("saturated_samples")[i].sum() / (study.samples * cars)),
+            "step_s": float(np.median(run.step_us)) * 1e-6}
+
+
+DRIVERS = Drivers({LAW: "the law", MPC: MultiCarMpc.title}, places, stated, given, drive)
+COMPARISON = LearningComparison(DRIVERS, COLUMNS, ("position_rms", "speed_rms"), 1)
+
+
+def stated_tasks(study: ChenStudy) -> list[Task]:
+    """What the comparison need not run again: the law as stated where its last trial is logged, and MPC's trip."""
+    logged = study.trials.count in study.trials.shown
+    return [*([(PLACE, LAW, False)] if logged else []), *([(PLACE, MPC, False)] if study.mpc else [])]
+
+
+def with_stated(results: Results, rows: Mapping[Task, Mapping[str, Any]]) -> dict[Task, Mapping[str, Any]]:
+    """The comparison's rows, those of `stated_tasks` from the runs that there are, in the order of its tasks."""
+    study, trip = results.study, results.measured.trip
+    every = dict(rows) | {(PLACE, LAW, False): law_row(study, results.stated)} | (
+        {(PLACE, MPC, False): mpc_row(study, trip)} if trip else {})
+    return {task: rows.get(task, every[task]) for task in COMPARISON.tasks(study)}
+
+
+def mpc_tables(results: Results) -> Iterator[ResultTable]:
+    """The law's first and last trial beside MPC's trip, and what a step of both costs; nothing without MPC."""
+    study, run, measured = results.study, results.stated, results.measured
+    if measured.trip is None or study.mpc is None:
+        return
+    trials = sorted({1, *study.trials.shown} & set(range(1, len(run.totals) + 1)))
+    yield ResultTable(
+        "Beside MPC", "comparison", ("controller", *COLUMNS.values()),
+        (*((f"the law, trial {trial}", *row_cells(trial_row(study, run, trial), COLUMNS)) for trial in trials),
+         (MultiCarMpc.title, *row_cells(mpc_row(study, measured.trip), COLUMNS))),
+        f"All {study.train.cars} cars, with the same limits of every car. MPC every {study.mpc.period_s:g} s, "
+        f"{study.mpc.horizon} samples ahead: {MultiCarMpc.information}; the law every {study.sampling.period_s:g} s: "
+        f"full state of all cars, model unknown, earlier trials. MPC counted "
+        f"{counters_words([measured.trip.counters])}.")
+    yield ResultTable(
+        "A step of MPC for trains of several lengths", "comparison",
+        ("cars", Column("a step of MPC", "µs", 1e-6), Column("p99", "µs", 1e-6),
+         Column("a sample of the law", "µs", 1e-6)),
+        tuple((one.cars, one.step_s, one.step_s_p99, measured.sample_s[one.cars]) for one in measured.longer),
+        f"The first {study.cost.end_s:g} s of the trip, {study.mpc.horizon} samples ahead.")
+
+
+def mpc_findings(results: Results) -> Iterator[str]:
+    """At which trial learning overtakes MPC, or that it does not."""
+    trip, run = results.measured.trip, results.stated
+    if trip is None or run.failed is not None:
+        return
+    for name, unit in (("position", "m"), ("speed", "m/s")):
+        ours, rival = run.rms(name, results.train_seconds), mpc_row(results.study, trip)[f"{name}_rms"]
+        trial = ahead_from(ours, rival)
+        words = f"overtakes MPC at trial {trial}" if trial is not None else (
+            f"does not overtake MPC in {len(ours)} trials")
+        yield (f"Beside multi-car MPC, which knows the train and drives it once: in {name} RMS the law {words}; its "
+               f"first trial has {number(float(ours[0]))} {unit}, its last {number(float(ours[-1]))} {unit}, MPC "
+               f"{number(rival)} {unit}.")
