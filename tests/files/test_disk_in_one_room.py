@@ -1,4 +1,4 @@
-"""Everything that touches the disk stands in workbench/files, where it is safe; few others may, each with its reason."""
+"""Whatever touches the disk stands in workbench/files, where it is safe; few others may, each with its reason."""
 
 import ast
 from pathlib import Path

@@ -13,9 +13,17 @@ PAPER_FILE, CLAIMS_FOLDER, STUDY_FILE, PAPERS_FOLDER = "paper.py", "claims", "st
 T = TypeVar("T")
 
 
+def is_folder(path: Path) -> bool:
+    """Whether a path names a folder; not so where it cannot be a path, as where it is too long."""
+    try:
+        return path.is_dir()
+    except OSError:
+        return False
+
+
 def is_paper(folder: Path) -> bool:
     """Whether a folder is a paper's: it has a paper.py, claims, or a study."""
-    return folder.is_dir() and ((folder / PAPER_FILE).is_file() or (folder / STUDY_FILE).is_file()
+    return is_folder(folder) and ((folder / PAPER_FILE).is_file() or (folder / STUDY_FILE).is_file()
                                 or any((folder / CLAIMS_FOLDER).glob("*.py")))
 
 

@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from workbench.errors import InputError
-from workbench.files.folders import STUDY_FILE, held_in
+from workbench.files.folders import STUDY_FILE, held_in, is_folder
 from workbench.files.toml import read_toml, validate_record
 from workbench.paper.study import Study, StudyKind
 from workbench.trains.scenario import Scenario, build_scenario
@@ -51,7 +51,7 @@ class Loaded:
 
 def study_file(path: Path) -> Path:
     """The TOML file that a path names: itself, or the study of a paper's folder. Raises InputError without one."""
-    if not path.is_dir():
+    if not is_folder(path):
         return path
     if not (path / STUDY_FILE).is_file():
         raise InputError(path, "", f"has no {STUDY_FILE}, which states the values of its runs: write one, or name a "

@@ -9,7 +9,7 @@ from fnmatch import fnmatchcase
 from pathlib import Path
 
 from workbench.errors import InputError
-from workbench.files.folders import CLAIMS_FOLDER, PAPER_FILE, is_paper, paper_named, papers_in
+from workbench.files.folders import CLAIMS_FOLDER, PAPER_FILE, is_folder, is_paper, paper_named, papers_in
 from workbench.files.modules import python_files
 from workbench.proof.verdict import Stated
 
@@ -56,10 +56,10 @@ def _target(argument: str) -> Target:
     files: tuple[Path, ...]
     if is_paper(path):
         files = (path,) if states_claims(path) else ()
-    elif path.is_dir():
+    elif is_folder(path):
         single = [p for p in path.glob("*.py") if not p.name.startswith("_")]
         files = tuple(sorted([*single, *(p for p in papers_in(path) if states_claims(p))]))
-    elif path.suffix == ".py" and path.is_file():
+    elif path.suffix == ".py" and _is_file(path):
         files = (path,)
     else:
         near = paper_named(name, Path.cwd()) if name.isidentifier() else None
@@ -67,6 +67,13 @@ def _target(argument: str) -> Target:
             raise InputError(path, "", "no such paper: name a paper's folder, a proof file, or a folder of them")
         path, files = near, (near,)
     return Target(path, files, pattern if separator else None)
+
+
+def _is_file(path: Path) -> bool:
+    try:
+        return path.is_file()
+    except OSError:  # no name that could be
+        return False
 
 
 def files_of(found: Sequence[Target]) -> list[Path]:
