@@ -11,7 +11,6 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scenarios import PAPERS, PROOFS, SHARED
 
-from proofs.chen2019 import contest as chen2019
 from workbench.cli.loading import load
 from workbench.contest.entrant import Entrant
 from workbench.contest.entrants import check_entrants, learns, play
@@ -87,30 +86,6 @@ def test_a_second_trip_of_jiao2025_moves_inputs_as_14_says(scenario: Scenario) -
     gain = p["rho"] * p["first_estimate"] / (p["lamda"] + p["first_estimate"] ** 2)
     wanted = p["unit_mps2"] * (p["first_input"] + gain * error[1:])
     assert play(of, "jiao2025", setting).run.column("u_mps2")[:-1] == pytest.approx(wanted, rel=1e-9)
-
-
-def test_one_car_of_chen2019_without_learning_is_a_plain_backstepping_law(scenario: Scenario) -> None:
-    """(9), (10), (12), (16) typed again; with next to no learning gains and mass bounds that meet."""
-    name, mass = "chen2019", 5e4
-    still = {key: 1e-12 for key in scenario.controllers[name].parameters if key.startswith("gamma")}
-    of = with_parameters(scenario, name, still | {"trials": 1.0, "m_low_kg": mass, "m_high_kg": mass})
-    p = of.controllers[name].parameters
-    setting = replace(short(of), log_every_s=0.005, end_s=10.0)
-    log = play(of, name, setting).run
-    t, s, v, u = (log.column(key) for key in ("t_s", "s_m", "v_mps", "u_mps2"))
-    x, xdot, xddot = setting.curve.at(t)
-    lam1 = lam2 = accel = 0.0
-    c1, c2, c3, T = p["c_1"], p["c_2"], p["c_3"], 0.005
-    most = mass / of.train.mass_kg * np.array([-of.train.max_braking_n, of.train.max_traction_n])
-    for k in range(len(t)):
-        if k:
-            accel += (1 - math.exp(-T / p["tau"])) * ((v[k] - v[k - 1]) / T - accel)
-        alpha, alpha_dot = -c1 * (s[k] - x[k]), -c1 * (v[k] - xdot[k])
-        z1 = s[k] - x[k] - lam1
-        mu = -(c2 * (v[k] - xdot[k] - alpha) + accel - xddot[k] - alpha_dot + z1) / c3 + mass * accel
-        assert u[k] == pytest.approx(mu / mass, rel=1e-6, abs=1e-6)
-        lost = float(np.clip(mu, *most)) - mu
-        lam1, lam2 = lam1 + T * (lam2 - c1 * lam1), lam2 + T * (c3 * lost - c2 * lam2)
 
 
 def test_trips_are_learned_from(contest: Contest, scenario: Scenario) -> None:
@@ -191,7 +166,3 @@ def test_the_contest_of_yang2021_reads_and_its_entrants_fit() -> None:
     assert {"mpc", "mpc_offset_free", "mpc_tube", "rbfnn_pocrac"} <= set(of.controllers)
     told = Told(found, of, (), None)
     assert not list(learning_tables(told)) and not learners(told) and not list(energy_table(told))
-
-
-def test_the_room_of_a_sample_is_what_its_source_says() -> None:
-    assert chen2019.STEP.count(f"- {chen2019.ROOM}") == 1

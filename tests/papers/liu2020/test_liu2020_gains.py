@@ -10,18 +10,19 @@ import sympy as sp
 from proofs.liu2020 import gains as liu2020
 from proofs.liu2020.laws import k_1, k_2, k_3
 from workbench.errors import SolverError
+from workbench.files.toml import read_toml
 from workbench.gains.frequency import abscissa, linear
 from workbench.gains.search import Infeasible, search
 from workbench.gains.stated import Stated
 from workbench.proof.checker import check
 
-FILE = Path(__file__).parents[2] / "benchmarks" / "liu2020.toml"
+FILE = Path(__file__).parents[3] / "proofs" / "liu2020" / "study.toml"
 COLUMNS = range(1, 11)
 
 
 @pytest.fixture(scope="module")
 def table():
-    stated = Stated(FILE)
+    stated = Stated(FILE, read_toml(FILE))
     return {str(k): stated.numbers(f"gains.{k}") for k in liu2020.GAINS}
 
 
