@@ -54,7 +54,7 @@ def test_its_law_runs_beside_pid_and_mpc_and_keeps_to_the_desired_curve(mine):
     rows = {row["controller"]: row for row in json.loads((mine.parent / "compared.json").read_text())["rows"]}
     assert list(rows) == ["adaptive_pd", "pid", "mpc"]
     assert all(row["failed"] is None for row in rows.values())
-    assert rows["adaptive_pd"]["largest_position_error"] < 0.1
+    assert -0.1 < rows["adaptive_pd"]["position_error_min"] < rows["adaptive_pd"]["position_error_max"] < 0.1
 
 
 def test_it_is_swept_with_the_draws_that_its_study_states(mine):
