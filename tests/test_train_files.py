@@ -2,8 +2,8 @@
 
 import math
 import tomllib
-from pathlib import Path
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -17,9 +17,9 @@ from workbench.cli.loading import load
 from workbench.errors import InputError
 from workbench.files.toml import load_record
 from workbench.optimal.inputs.files import load_line, load_vehicle
-from workbench.optimal.inputs.train_file import TrainFile
 from workbench.optimal.inputs.line import course
 from workbench.optimal.inputs.plausible import plausible
+from workbench.optimal.inputs.train_file import TrainFile
 from workbench.optimal.vehicle import ForceLimit, Vehicle
 from workbench.trains.track import Track, load_track, resistance_table
 

@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 
-from workbench.proof.document import claims_document, write_certificates
+from workbench.proof.document import Places, claims_document, write_certificates
 from workbench.proof.engine_digest import SOURCES
 from workbench.proof.prove import Proof, prove
 from workbench.proof.selection import targets
@@ -74,7 +74,7 @@ def proved(*arguments: object, jobs: int = 1, use_cache: bool = True) -> Proof:
 
 def document(proof: Proof, seconds: bool = True) -> dict:
     """The document of `workbench prove --json`."""
-    made = claims_document(proof.decisions, Path("certificates"))
+    made = claims_document(proof.decisions, Places(Path("certificates")))
     if not seconds:
         for row in made["claims"]:
             del row["seconds"]
@@ -83,7 +83,7 @@ def document(proof: Proof, seconds: bool = True) -> dict:
 
 def certificates(proof: Proof, folder: Path) -> dict[str, bytes]:
     """The bytes of all certificates as they are written."""
-    write_certificates(proof.decisions, folder)
+    write_certificates(proof.decisions, Places(folder))
     return {str(path.relative_to(folder)): path.read_bytes() for path in folder.rglob("*.json")}
 
 

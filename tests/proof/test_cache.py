@@ -10,7 +10,7 @@ import sys
 import pytest
 from small_papers import IDS, TEXT, certificates, deciders_at_rest, document, proved, write_paper
 
-from workbench.proof import kept as kept_module
+from workbench.proof import cache as kept_module
 from workbench.proof.engine_digest import engine_digest
 
 DECIDED = set(IDS[:4])  # an axiom is decided by reading it
@@ -21,7 +21,7 @@ def cache(tmp_path, monkeypatch):
     monkeypatch.setenv("WORKBENCH_CACHE", str(tmp_path / "cache"))
     # So that nothing here depends on whether somebody edits a decider meanwhile.
     monkeypatch.setattr(kept_module, "engine_digest", lambda: "these deciders")
-    return tmp_path / "cache" / "decided-claims"
+    return tmp_path / "cache" / "proofs"
 
 
 def decided_now(proof):
@@ -56,7 +56,7 @@ def test_without_the_proof_file_s_entry_each_claim_is_found_by_itself(tmp_path, 
 
 def test_a_second_run_needs_neither_sympy_nor_the_deciders(tmp_path):
     path = write_paper(tmp_path)
-    code = ("import sys; sys.argv = ['workbench', 'prove', sys.argv[1]]; from workbench.cli import main\n"
+    code = ("import sys; sys.argv = ['workbench', 'prove', sys.argv[1]]; from workbench.cli.app import main\n"
             "try: main()\nfinally: sys.stdout.write('loaded: ' + ' '.join(sorted(sys.modules)))")
     with deciders_at_rest():
         for _ in range(2):

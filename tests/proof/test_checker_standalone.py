@@ -7,9 +7,11 @@ import subprocess
 import sys
 from pathlib import Path
 
+import pytest
+
 ROOT = Path(__file__).parents[2]
 CHECKER = ROOT / "workbench" / "proof" / "checker.py"
-CERTIFICATES = ROOT / "proofs" / "certificates"
+PROOFS = ROOT / "proofs"
 
 
 def run(folder):
@@ -29,14 +31,16 @@ def test_it_imports_the_standard_library_only():
 
 
 def test_all_committed_certificates_hold():
-    done = run(CERTIFICATES)
+    done = run(PROOFS)
     assert done.returncode == 0, done.stdout
-    assert len(done.stdout.splitlines()) == len(list(CERTIFICATES.rglob("*.json"))) > 0
+    assert len(done.stdout.splitlines()) == len([p for p in PROOFS.rglob("*.json") if p.name != "manifest.json"]) > 0
     assert done.stderr == ""
 
 
-def test_one_tampered_certificate_is_named_and_fails_the_run(tmp_path):
-    shutil.copytree(CERTIFICATES, tmp_path / "c")
+@pytest.mark.parametrize(("with_manifest", "reason"), [(True, "names another content for it"), (False, "")])
+def test_one_tampered_certificate_is_named_and_fails_the_run(tmp_path, with_manifest, reason):
+    shutil.copytree(PROOFS / "yang2021" / "certificates", tmp_path / "c" / "yang2021",
+                    ignore=shutil.ignore_patterns("gains", *(() if with_manifest else ("manifest.json",))))
     path = tmp_path / "c" / "yang2021" / "20.json"
     certificate = json.loads(path.read_text(encoding="utf-8"))
     certificate["goal"]["show"] = [text.replace(">", "<") for text in certificate["goal"]["show"]]
@@ -45,7 +49,8 @@ def test_one_tampered_certificate_is_named_and_fails_the_run(tmp_path):
     assert done.returncode == 1
     invalid = [line for line in done.stdout.splitlines() if line.startswith("INVALID")]
     assert len(invalid) == 1
-    assert "20.json: " in invalid[0]
+    assert "20.json: " in invalid[0] and reason in invalid[0]
+    assert with_manifest or "manifest" not in invalid[0]
 
 
 def test_an_empty_or_missing_folder_is_no_success(tmp_path):

@@ -1,5 +1,7 @@
 """Every claim of every proof file: decided as recorded, certified, and confirmed by other means."""
 
+import hashlib
+import json
 import re
 from fractions import Fraction
 from pathlib import Path
@@ -8,15 +10,16 @@ import numpy as np
 import pytest
 import sympy as sp
 from independent import Evaluated, model_breaks
+from scenarios import PAPERS, PROOFS
 
+from workbench.files.own_files import MANIFEST
 from workbench.proof.claim import FAILED
 from workbench.proof.decide.engine import decide_all
-from workbench.proof.document import certificate_path, certificate_text, claims_document
+from workbench.proof.document import CERTIFICATES, Places, certificate_text, claims_document
 from workbench.proof.paper import collect_papers
 from workbench.report.formulas import formula
 
-PROOFS = Path(__file__).parents[2] / "proofs"
-CERTIFICATES = PROOFS / "certificates"
+PLACES = Places(PROOFS, {paper: PROOFS / paper / CERTIFICATES for paper in PAPERS})
 CLAIMS = [claim for paper in collect_papers([PROOFS]) for claim in paper.claims]
 IDS = [claim.id for claim in CLAIMS]
 POINTS = 200
@@ -37,7 +40,7 @@ def test_claim_is_decided_as_recorded(claim, decisions):
 @pytest.mark.parametrize("claim", CLAIMS, ids=IDS)
 def test_committed_certificate_is_the_one_that_is_found_today(claim, decisions):
     decision = decisions[claim.id]
-    path = certificate_path(decision, CERTIFICATES)
+    path = PLACES.path(decision.claim)
     if decision.certificate is None:
         assert not path.exists()
         assert decision.verdict in ("assumed", "undecided")
@@ -47,12 +50,21 @@ def test_committed_certificate_is_the_one_that_is_found_today(claim, decisions):
 
 
 def test_no_certificate_is_left_of_a_claim_that_is_no_longer_made(decisions):
-    wanted = {certificate_path(d, CERTIFICATES) for d in decisions.values() if d.certificate}
-    assert set(CERTIFICATES.rglob("*.json")) == wanted
+    wanted = {PLACES.path(d.claim) for d in decisions.values() if d.certificate}
+    assert {path for path in PROOFS.glob(f"*/{CERTIFICATES}/*.json") if path.name != MANIFEST} == wanted
+
+
+@pytest.mark.parametrize("paper", PAPERS)
+def test_the_manifest_names_what_stands_beside_it(paper):
+    folder = PROOFS / paper / CERTIFICATES
+    manifest = json.loads((folder / MANIFEST).read_text(encoding="utf-8"))
+    found = {path.stem: hashlib.sha256(path.read_bytes()).hexdigest() for path in folder.glob("*.json")}
+    del found[Path(MANIFEST).stem]
+    assert manifest == {"version": 1, "paper": paper, "certificates": found}
 
 
 def test_document_has_the_stable_keys(decisions):
-    document = claims_document(list(decisions.values()), CERTIFICATES)
+    document = claims_document(list(decisions.values()), PLACES)
     assert set(document) == {"version", "claims", "summary"}
     assert document["version"] == 1
     assert all(set(row) == KEYS for row in document["claims"])

@@ -12,6 +12,7 @@ from pathlib import Path
 
 import pytest
 
+from workbench.files.folders import papers_in
 from workbench.proof.mutate import KINDS
 
 ROOT = Path(__file__).parents[2]
@@ -41,15 +42,15 @@ def test_broken_mutants_are_refuted(outcomes, capsys):
 
 
 def test_the_sample_has_all_papers_and_all_kinds_of_change(outcomes):
-    papers = {path.stem for path in (ROOT / "proofs").glob("*.py") if not path.name.startswith("_")}
+    papers = {folder.name for folder in papers_in(ROOT / "proofs")}
     assert {o.paper for o in outcomes} == papers
     assert {o.change for o in outcomes} == set(KINDS)
 
 
 def test_the_plan_is_the_same_for_the_same_seed():
-    one, two = (plan([ROOT / "proofs" / "yang2021.py"], 12, 5) for _ in range(2))
+    one, two = (plan([ROOT / "proofs" / "yang2021"], 12, 5) for _ in range(2))
     assert one == two
-    assert one != plan([ROOT / "proofs" / "yang2021.py"], 12, 6)
+    assert one != plan([ROOT / "proofs" / "yang2021"], 12, 6)
 
 
 def _collected(_phase: str, _info: dict[str, int]) -> None:

@@ -7,7 +7,7 @@ from small_papers import IDS, TEXT, document, proved, write_paper
 
 from workbench.cli.app import app
 from workbench.errors import InputError
-from workbench.proof import kept as kept_module
+from workbench.proof import cache as kept_module
 
 
 @pytest.fixture(autouse=True)

@@ -20,16 +20,15 @@ import sympy as sp
 from independent import Evaluated, model_breaks, path_obeys
 from verdicts import accepted
 
-from workbench.proof.checker import check_folder
+from workbench.proof.checker import MANIFEST, check_folder
 from workbench.proof.claim import D, Goal, Relation
 from workbench.proof.decide.engine import pinned
 from workbench.proof.paper import collect_papers
 from workbench.proof.text import goal_text
 
 PROOFS = Path(__file__).parents[2] / "proofs"
-CERTIFICATES = PROOFS / "certificates"
-FILES = sorted(CERTIFICATES.rglob("*.json"))
-NAMES = [f"{path.parent.name}:{path.stem}" for path in FILES]
+FILES = sorted(path for path in PROOFS.glob("*/certificates/*.json") if path.name != MANIFEST)
+NAMES = [f"{path.parents[1].name}:{path.stem}" for path in FILES]
 TURNED = {" <= ": " > ", " >= ": " < ", " < ": " >= ", " > ": " <= ", " == ": " != ", " != ": " == "}
 SHOWN_BY = ("proofs", "example", "point", "functions", "path", "duration", "always", "fails")
 PARTS = ("goal", *SHOWN_BY, "correction", "repair")
@@ -237,8 +236,9 @@ def test_most_corruptions_are_refused(capsys):
 
 def test_another_claims_certificate_is_refused_under_this_claims_name(tmp_path):
     for path, other in zip(FILES, [*FILES[1:], FILES[0]], strict=True):
-        (tmp_path / path.parent.name).mkdir(exist_ok=True)
-        (tmp_path / path.parent.name / path.name).write_bytes(other.read_bytes())
+        paper = path.parents[1].name
+        (tmp_path / paper).mkdir(exist_ok=True)
+        (tmp_path / paper / path.name).write_bytes(other.read_bytes())
     results = check_folder(tmp_path)
     assert len(results) == len(FILES)
     assert all(reason and "another claim's name" in reason for _, _, reason in results)
