@@ -9,7 +9,7 @@ import numpy as np
 
 from workbench.contest.entrants import held_samples
 from workbench.contest.matches import Entry, Match
-from workbench.files.numbers import number
+from workbench.paper.cells import Cell, Column
 from workbench.paper.results import ResultTable
 from workbench.simulate.controllers import SAMPLED
 from workbench.trains.scenario import Scenario
@@ -17,11 +17,12 @@ from workbench.trains.scenario import Scenario
 # Of `mpc.fallback`: what is shown of its counters, in the order of a sample's fate.
 SHOWN = {"qp_failed": "no plan", "late": "too late", "shifted_plan": "last plan, shifted", "lqr": "LQR",
          "feedforward": "feedforward"}
+MICRO = 1e-6
 
 
 def mpc_table(scenario: Scenario, taking_part: Sequence[Entry], matches: Sequence[Match]) -> Iterator[ResultTable]:
     """A row per MPC over all its runs; none without MPC."""
-    rows = []
+    rows: list[tuple[Cell, ...]] = []
     for entry in taking_part:
         spec = scenario.controllers[entry.controller]
         if spec.law not in SAMPLED:
@@ -35,13 +36,13 @@ def mpc_table(scenario: Scenario, taking_part: Sequence[Entry], matches: Sequenc
         middle, slow = (float(np.median([getattr(match, name) for match in own]))
                         for name in ("step_us", "step_p99_us"))
         period_s = spec.period_s * held_samples(scenario, entry.controller)
-        rows.append((entry.name, f"{1e3 * period_s:g}", number(middle), number(slow),
-                     number(100 * slow / (1e6 * period_s)), f"{counters['qp']}",
-                     *(f"{counters[key]}" for key in SHOWN)))
+        rows.append((entry.name, period_s, middle * MICRO, slow * MICRO, slow * MICRO / period_s, counters["qp"],
+                     *(counters[key] for key in SHOWN)))
     if rows:
         yield ResultTable(
             "What MPC takes, and who answered instead", "samples of all runs", (
-                "controller", "period (ms)", "median step (µs)", "99th percentile (µs)",
-                "99th percentile / period (%)", "samples asked", *SHOWN.values()), tuple(rows),
+                "controller", Column("period", "ms", 1e-3, None), Column("median step", "µs", MICRO),
+                Column("99th percentile", "µs", MICRO), Column("99th percentile / period", "%", 0.01),
+                "samples asked", *SHOWN.values()), tuple(rows),
             "Times: the medians over the runs of each run's median and 99th percentile, call by call; they differ from "
             "run to run and are no part of what repeats. No deadline is set unless a controller's parameters do.")

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from workbench.contest.entrants import follows_curve, learns
 from workbench.contest.matches import of
 from workbench.contest.tables import Told
-from workbench.files.numbers import number
+from workbench.paper.cells import Cell, Column, Phrase
 from workbench.paper.results import Curve, Plot, ResultTable
 from workbench.paper.statistics import overtakes
 
@@ -43,32 +43,32 @@ def learning_tables(told: Told) -> Iterator[ResultTable]:
         return
     names = [entry.name for entry in told.entries]
     for column, heading, metric, unit in ERRORS:
-        rows = []
+        rows: list[tuple[Cell, ...]] = []
         for learner in learners(told):
             for condition, stated in told.contest.conditions.items():
                 trials = _trials(told, condition, learner, column)
                 if trials is None:
-                    rows.append((learner, stated.title, "a run fails", *("—" for _ in rivals)))
+                    rows.append((learner, stated.title, "a run fails", *(None for _ in rivals)))
                     continue
                 values = dict(zip(names, told.values(condition, metric), strict=True))
-                change = f"{number(float(trials[:, 0].mean()))} → {number(float(trials[:, -1].mean()))}"
-                rows.append((learner, stated.title, f"{change}, {trials.shape[1]} trips",
+                change = float(trials[:, 0].mean()), float(trials[:, -1].mean())
+                rows.append((learner, stated.title, Phrase("{} → {}, {} trips", (*change, trials.shape[1])),
                              *(_cell(told, trials, values[rival]) for rival in rivals)))
         yield ResultTable(
             f"When learning overtakes MPC: {heading}", "the learners' trips",
-            ("learner", "condition", f"first → last trip ({unit})", *rivals), tuple(rows),
+            ("learner", "condition", Column("first → last trip", unit), *rivals), tuple(rows),
             "The trip from which on the learner is ahead by more than chance; no: not within its trips, and how many "
             "times MPC's error its last trip has. All trips of a run have the same train, line and disturbance.")
 
 
-def _cell(told: Told, trials: NDArray[np.float64], rival: NDArray[np.float64] | None) -> str:
+def _cell(told: Told, trials: NDArray[np.float64], rival: NDArray[np.float64] | None) -> Cell:
     if rival is None:
         return "MPC fails"
     contest = told.contest
     found = overtakes(trials, rival, contest.resamples, contest.seed, contest.confidence)
     if found is not None:
-        return f"trip {found}"
-    return f"no, {number(float(trials[:, -1].mean() / rival[: len(trials)].mean()))}×"
+        return Phrase("trip {}", (found,))
+    return Phrase("no, {}×", (float(trials[:, -1].mean() / rival[: len(trials)].mean()),))
 
 
 def learning_findings(told: Told) -> Iterator[str]:

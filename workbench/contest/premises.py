@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
@@ -10,10 +11,10 @@ import numpy as np
 from workbench.contest.matches import Entry, of, world_of
 from workbench.contest.record import Condition
 from workbench.contest.tables import Told
-from workbench.files.numbers import number
 from workbench.mpc.controller import MpcController
 from workbench.mpc.disturbance import Unknown, largest_bound, needed_bound
 from workbench.mpc.tube import Tube, TubeMpc
+from workbench.paper.cells import Column, Phrase
 from workbench.paper.results import ResultTable
 from workbench.trains.scenario import Scenario, with_parameters
 from workbench.trains.track import resistance_table
@@ -93,15 +94,17 @@ def _word(told: Told, place: int, entry: Entry, name: str) -> Word:
 
 def premises_table(told: Told, found: Sequence[Word]) -> Iterator[ResultTable]:
     """A row per tube and condition; none without a tube."""
-    rows = [(word.entry, told.contest.conditions[word.condition].title, number(word.around.disturbance_mps2),
-             number(word.needed), number(word.largest), number(word.around.position_m), number(word.largest_error_m),
-             f"{word.beyond} of {word.samples}", word.why or "holds") for word in found]
+    rows = [(word.entry, told.contest.conditions[word.condition].title, word.around.disturbance_mps2,
+             *(bound if math.isfinite(bound) else None for bound in (word.needed, word.largest)),
+             word.around.position_m, word.largest_error_m, Phrase("{} of {}", (word.beyond, word.samples)),
+             word.why or "holds") for word in found]
     if rows:
         yield ResultTable(
             "Where the tube's word holds", "computed from line, train and conditions; errors and samples of all runs", (
-                "controller", "condition", "stated bound (m/s²)", "bound that covers all trains (m/s²)",
-                "largest bound with all premises (m/s²)", "tube: largest |position error| (m)",
-                "runs: largest |position error| (m)", "samples pushed by more than stated", "the promise"), tuple(rows),
+                "controller", "condition", Column("stated bound", "m/s²"),
+                Column("bound that covers all trains", "m/s²"), Column("largest bound with all premises", "m/s²"),
+                Column("tube: largest |position error|", "m"), Column("runs: largest |position error|", "m"),
+                "samples pushed by more than stated", "the promise"), tuple(rows),
             f"The promise: whatever is within the stated bound, the position error stays below "
             f"{told.scenario.simulation.position_band_m:g} m. It needs a bound that covers grades, curves, gusts and "
             "every drawn train at once (— : none below 5 m/s² does, since the feedback itself disturbs a train of "

@@ -17,7 +17,7 @@ from workbench.contest.learning import learning_findings, learning_plot, learnin
 from workbench.contest.matches import METRICS, Match, all_matches, draws_of, of, overspeed, run_match
 from workbench.contest.premises import premises_findings, premises_table, words_of
 from workbench.contest.record import Contest
-from workbench.contest.tables import HEADINGS, UNITS, Told, all_tables
+from workbench.contest.tables import COLUMNS, Told, all_tables
 from workbench.contest.tune import tune_all
 from workbench.errors import InputError
 from workbench.files.numbers import number
@@ -160,9 +160,9 @@ def _findings(told: Told) -> Iterator[str]:
     for metric in told.metrics:
         if wins[metric]:
             words = ", ".join(f"{name} in {n}" for name, n in wins[metric].most_common())
-            yield f"{HEADINGS[metric]}, alone best of {count} conditions: {words}."
+            yield f"{COLUMNS[metric].heading}, alone best of {count} conditions: {words}."
         else:
-            yield f"{HEADINGS[metric]}: no controller is alone best in any condition."
+            yield f"{COLUMNS[metric].heading}: no controller is alone best in any condition."
     for name, stated in told.contest.conditions.items():
         failed = Counter(match.entry for match in told.matches if match.condition == name and match.failed)
         if failed:
@@ -225,7 +225,7 @@ def _gain(told: Told, controller: str, tuned: str) -> Iterator[str]:
                      ("energy_J", "energy {} kWh → {} kWh"))
     before, after = (told.values(condition, metric)[names.index(name)] for name in (controller, tuned))
     if before is not None and after is not None:
-        change = words.format(*(number(float(value.mean()) / UNITS.get(metric, 1.0)) for value in (before, after)))
+        change = words.format(*(number(float(value.mean()) / COLUMNS[metric].si) for value in (before, after)))
         yield (f"Tuning of {controller} ({told.contest.tuning.runs} runs): {change} under "
                f"{told.contest.conditions[condition].title}.")
 

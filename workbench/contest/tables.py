@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 
 import numpy as np
@@ -13,16 +13,20 @@ from workbench.contest.entrants import follows_curve, held_samples, information
 from workbench.contest.matches import METRICS, OF_CURVE, Entry, Match, entries, of
 from workbench.contest.record import Contest
 from workbench.files.numbers import number
+from workbench.paper.cells import Cell, Column, Phrase, Quantity
+from workbench.paper.comparison import STEP
 from workbench.paper.results import ResultTable
 from workbench.paper.statistics import mean_interval, resampled, winners
 from workbench.trains.scenario import Scenario
 
-HEADINGS = {"position_rms": "position RMS (m)", "speed_rms": "speed RMS (m/s)",
-            "largest_position_error": "largest |position error| (m)", "stopping_error": "|stopping error| (m)",
-            "energy_J": "energy (kWh)", "jerk_rms": "jerk RMS (m/s³)", "saturated_fraction": "saturated",
-            "band_share": "beyond the band", "switchings_per_s": "traction/brake changes (1/s)",
-            "late_s": "still moving after the arrival time (s)", "overspeed_mps": "beyond the speed limits (m/s)"}
-UNITS = {"energy_J": 3.6e6}
+# Metrics of a match, SI.
+COLUMNS = {"position_rms": Column("position RMS", "m"), "speed_rms": Column("speed RMS", "m/s"),
+           "largest_position_error": Column("largest |position error|", "m"),
+           "stopping_error": Column("|stopping error|", "m"), "energy_J": Column("energy", "kWh", 3.6e6),
+           "jerk_rms": Column("jerk RMS", "m/s³"), "saturated_fraction": Column("saturated"),
+           "band_share": Column("beyond the band"), "switchings_per_s": Column("traction/brake changes", "1/s"),
+           "late_s": Column("still moving after the arrival time", "s"),
+           "overspeed_mps": Column("beyond the speed limits", "m/s")}
 # A run that ends farther from the end of the line has not made the trip: what it saves is no merit.
 ARRIVED_M = 5.0
 # Means that differ by a smaller share are one number in the tables: where nothing is drawn, an interval has no width.
@@ -92,29 +96,29 @@ def condition_table(told: Told, condition: str) -> ResultTable:
     for i, entry in enumerate(told.entries):
         matches = of(told.matches, condition, entry.name)
         failed = sum(match.failed is not None for match in matches)
-        cells = [entry.name]
+        cells: list[Cell] = [entry.name]
         for metric in told.metrics:
             value = columns[metric][i]
             mark = " ●" if entry.name in best[metric] else "" if told.judged(entry, metric) else " (follows no curve)"
-            cells.append("—" if value is None else _interval(metric, value, chosen, told.contest.confidence) + mark)
-        rows.append((*cells, f"{failed} of {len(matches)}"))
+            cells.append(None if value is None else _interval(value, chosen, told.contest.confidence, mark))
+        rows.append((*cells, Phrase("{} of {}", (failed, len(matches)))))
     runs = told.contest.seeds if stated.random else 1
     noisy = stated.position_noise_m or stated.speed_noise_mps
     noise = " Noise is drawn anew at every sample, so that who samples more often has more to average." if noisy else ""
     return ResultTable(
         stated.title, f"{runs} run{'s' if runs > 1 else ''} each, the same draws for all",
-        ("controller", *(HEADINGS[metric] for metric in told.metrics), "failed"), tuple(rows),
+        ("controller", *(COLUMNS[metric] for metric in told.metrics), "failed"), tuple(rows),
         f"Means, in brackets their {100 * told.contest.confidence:g} % bootstrap interval. ● the best, and every one "
         "whose paired difference from it may be chance. A controller with a run that fails, or that misses the end by "
         f"more than {ARRIVED_M:g} m, is not ranked; nor is one by errors from a curve that it does not follow."
         + noise)
 
 
-def _interval(metric: str, values: NDArray[np.float64], chosen: NDArray[np.intp], confidence: float) -> str:
-    found = mean_interval(values / UNITS.get(metric, 1.0), chosen, confidence)
+def _interval(values: NDArray[np.float64], chosen: NDArray[np.intp], confidence: float, mark: str) -> Cell:
+    found = mean_interval(values, chosen, confidence)
     if len(values) == 1:
-        return number(found.mean)
-    return f"{number(found.mean)} [{number(found.low)}, {number(found.high)}]"
+        return Phrase(f"{{}}{mark}", (found.mean,)) if mark else found.mean
+    return Phrase(f"{{}} [{{}}, {{}}]{mark}", (found.mean, found.low, found.high))
 
 
 def winners_table(told: Told) -> ResultTable:
@@ -128,7 +132,8 @@ def winners_table(told: Told) -> ResultTable:
                          f"tie: {', '.join(found)}" if len(found) <= NAMED else f"tie of {len(found)}")
         rows.append((condition.title, *cells))
     return ResultTable(
-        "Who wins where", "the tables below", ("condition", *(HEADINGS[m] for m in told.metrics)), tuple(rows),
+        "Who wins where", "the tables below", ("condition", *(COLUMNS[metric].heading for metric in told.metrics)),
+        tuple(rows),
         "A difference inside its interval, or of less than a thousandth, is no win: then all that may be best are "
         "named or counted. Ranked are those "
         f"whose runs all end within {ARRIVED_M:g} m of the end of the line. A trailing + marks the tuned parameters.")
@@ -142,12 +147,16 @@ def contestants_table(told: Told) -> ResultTable:
         steps = [match.step_us for match in told.matches if match.entry == entry.name]
         parameters = told.contest.tuning.found[entry.controller] if entry.tuned else {}
         rows.append((entry.name, spec.title or spec.law, information(told.scenario, entry.controller),
-                     f"{1e3 * spec.period_s * held_samples(told.scenario, entry.controller):g}",
-                     number(float(np.median(steps))),
-                     ", ".join(f"{key} = {value:g}" for key, value in parameters.items()) or "as stated"))
+                     spec.period_s * held_samples(told.scenario, entry.controller), float(np.median(steps)) * STEP.si,
+                     _parameters(parameters) if parameters else "as stated"))
     return ResultTable("The contestants", "the contest's file", (
-        "controller", "law", "is told", "period (ms)", "µs a step", "parameters"), tuple(rows),
-        "µs a step: a compiled law in blocks with the plant, MPC call by call without it.")
+        "controller", "law", "is told", Column("period", "ms", 1e-3, None), STEP, "parameters"), tuple(rows),
+        "Time a step: a compiled law in blocks with the plant, MPC call by call without it.")
+
+
+def _parameters(values: Mapping[str, float]) -> Cell:
+    return Phrase(", ".join(f"{key} = {{}}" for key in values),
+                  tuple(Quantity(value, digits=None) for value in values.values()))
 
 
 def energy_table(told: Told) -> Iterator[ResultTable]:
@@ -155,22 +164,22 @@ def energy_table(told: Told) -> Iterator[ResultTable]:
     if told.lower_bound_j is None:
         return
     condition = next(iter(told.contest.conditions))
-    rows = []
+    rows: list[tuple[Cell, ...]] = []
     for entry, energy, miss, late, arrived in zip(
             told.entries, told.values(condition, "energy_J"), told.values(condition, "stopping_error"),
             told.values(condition, "late_s"), told.arrives(condition), strict=True):
         if energy is None or miss is None or late is None:
-            rows.append((entry.name, "—", "—", "—", "fails"))
+            rows.append((entry.name, None, None, None, "fails"))
             continue
-        above = 100 * (float(energy.mean()) / told.lower_bound_j - 1)
-        rows.append((entry.name, number(float(energy.mean()) / UNITS["energy_J"]), number(above) if arrived else "—",
-                     number(float(late.mean())),
-                     "arrives" if arrived else f"misses the end by {number(float(miss.max()))} m"))
+        above = float(energy.mean()) / told.lower_bound_j - 1
+        rows.append((entry.name, float(energy.mean()), above if arrived else None, float(late.mean()),
+                     "arrives" if arrived else Phrase("misses the end by {} m", (float(miss.max()),))))
     yield ResultTable(
         "Energy against the certified lower bound", f"condition: {told.contest.conditions[condition].title}",
-        ("controller", "energy (kWh)", "above the bound (%)", HEADINGS["late_s"], "the trip"), tuple(rows),
+        ("controller", COLUMNS["energy_J"], Column("above the bound", "%", 0.01), COLUMNS["late_s"], "the trip"),
+        tuple(rows),
         f"No run of the nominal train over this line in the desired curve's time takes less than "
-        f"{number(told.lower_bound_j / UNITS['energy_J'])} kWh of traction. Who tracks the curve pays for the "
+        f"{number(told.lower_bound_j / COLUMNS['energy_J'].si)} kWh of traction. Who tracks the curve pays for the "
         "curve; a run that takes longer than the curve is not held by the bound.")
 
 

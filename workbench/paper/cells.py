@@ -60,10 +60,13 @@ class Scaled:
 
 @dataclass(frozen=True)
 class Phrase:
-    """Words with numbers in them, `Phrase("{} → {}", (235.0, 9.56))`: plain numbers are of the column's unit."""
+    """Words with numbers in them, `Phrase("{} → {}", (235.0, 9.56))`: plain numbers are of the column's unit.
+
+    numbers: words too, where what stands in a place is no number.
+    """
 
     words: str
-    numbers: tuple[float | Quantity | Scaled | None, ...]
+    numbers: tuple[str | float | Quantity | Scaled | None, ...]
 
 
 # A plain number is of the column's unit; None: there is no such number.

@@ -122,8 +122,10 @@ def comparison_note(study: Any, runs: Sequence[ComparedRun], law_period_s: float
                     shorter: str = "") -> str:
     """For the table: what MPC plans with and counted, how often laws without limits sample, what was tuned.
 
-    told: who knows what, a sentence; shorter: how the tuning's runs differ from these, a sentence.
+    told: who knows what, a sentence; shorter: how the tuning's runs differ from these, a sentence. Empty without runs.
     """
+    if not runs:
+        return ""
     data = study.mpc
     parts = (f"MPC every {data.period_s:g} s, {data.horizon} samples ahead, limits of {data.max_traction_mps2:g} m/s², "
              f"the laws every {law_period_s:g} s, without limits as in the paper.", told,

@@ -6,8 +6,8 @@ from collections.abc import Sequence
 from fractions import Fraction
 from typing import Any
 
-from workbench.files.numbers import exact, number
 from workbench.gains.result import GainReport, GainSet
+from workbench.paper.cells import Cell, Phrase, Quantity
 from workbench.paper.gain_effects import Effect
 from workbench.paper.results import ResultTable, StudyResult
 
@@ -53,29 +53,30 @@ def _conditions(report: GainReport) -> ResultTable:
 def _quantities(report: GainReport) -> ResultTable:
     return ResultTable("what is proved", "certificates by the semidefinite program, re-checked exactly",
                        ("quantity", "by the paper", "proved", "check", "remark"), tuple(
-                           (q.name + (f" ({q.unit})" if q.unit else ""), number(q.papers), _seven(q.proved),
-                            _seven(q.check), q.note) for q in report.quantities))
+                           (q.name + (f" ({q.unit})" if q.unit else ""), q.papers, _near_one(q.proved),
+                            _near_one(q.check), q.note) for q in report.quantities))
 
 
-def _seven(value: float | None) -> str:
+def _near_one(value: float | None) -> Cell:
     """Near 1 the digits after it are what counts."""
-    return number(value, 9) if value is not None and 0 < abs(1 - value) < 1e-3 else number(value)
+    return Quantity(value, digits=9) if value is not None and 0 < abs(1 - value) < 1e-3 else value
 
 
 def _found(report: GainReport) -> ResultTable:
     return ResultTable("gains found", "best for an objective under what is proved",
                        ("name", "objective", "gains", "proved"), tuple(
-                           (s.name, s.objective, gains_text(s), s.proved) for s in report.found))
+                           (s.name, s.objective, _gains(s), s.proved) for s in report.found))
 
 
-def gains_text(found: GainSet) -> str:
-    """Gains as fractions where these are short, else as decimals."""
-    return ", ".join(f"{name} = {_value(value)}" for name, value in found.values.items())
+def _gains(found: GainSet) -> Cell:
+    return Phrase(", ".join(f"{name} = {{}}" for name in found.values), tuple(map(_gain, found.values.values())))
 
 
-def _value(value: Fraction) -> str:
-    text = str(value)
-    return exact(float(value)) if value.denominator == 1 else text if len(text) <= LONG else number(float(value), 4)
+def _gain(value: Fraction) -> str | Quantity:
+    """As a fraction where that is short, else as a decimal."""
+    if value.denominator != 1 and len(str(value)) <= LONG:
+        return str(value)
+    return Quantity(float(value), digits=None if value.denominator == 1 else 4)
 
 
 def _effects(effects: Sequence[Effect]) -> list[ResultTable]:
@@ -84,7 +85,7 @@ def _effects(effects: Sequence[Effect]) -> list[ResultTable]:
     for setting in dict.fromkeys(e.setting for e in effects):
         own = [e for e in effects if e.setting == setting]
         names = list(dict.fromkeys(name for e in own for name in e.numbers))
-        rows = tuple((e.gains, *(_shown(e.numbers.get(name)) for name in names), "failed" if e.failed else "to the end")
+        rows = tuple((e.gains, *(e.numbers.get(name) for name in names), "failed" if e.failed else "to the end")
                      for e in own)
         tables.append(ResultTable(f"simulated: {setting}", "the paper's own, SI units", (
             "gains", *(name.replace("_", " ") for name in names), "run"), rows))
@@ -116,7 +117,3 @@ def compared(effects: Sequence[Effect]) -> list[str]:
                          f"'{stated.numbers['outcome']}'")
         sentences.append(f"{name}: {'; '.join(words) or 'no difference to speak of'}.")
     return sentences
-
-
-def _shown(value: float | str | None) -> str:
-    return value if isinstance(value, str) else number(value)
