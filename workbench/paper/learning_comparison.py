@@ -38,12 +38,6 @@ def trial_curve(label: str, errors: Array, first_trial: int) -> Curve:
     return Curve(label, np.arange(len(errors), dtype=float) + first_trial, errors)
 
 
-def statement_table(title: str, source: str, columns: Sequence[str], rows: Sequence[Sequence[Cell]],
-                    note: str) -> ResultTable:
-    """What a paper says beside what came out: (statement, as printed, a cell for each column)."""
-    return ResultTable(title, source, ("Statement", "Printed", *columns), tuple(map(tuple, rows)), note)
-
-
 def row_cells(row: Mapping[str, Any], columns: Mapping[str, Column]) -> tuple[Cell, ...]:
     """A run's row as cells under columns by its keys; of one that failed only that it did, and the time of a step."""
     if row["failed"] is None:

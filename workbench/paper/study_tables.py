@@ -1,4 +1,4 @@
-"""Tables that most studies have: printed numbers beside obtained ones, and what changes of assumed values do."""
+"""Tables that most studies have: what is printed beside what was obtained, and what changes of assumed values do."""
 
 from __future__ import annotations
 
@@ -20,6 +20,12 @@ def printed_cells(pairs: Iterable[tuple[float | None, float | None]], ratio: boo
     """The cells under `printed_columns` of (printed, obtained) in SI; None for what there is not."""
     return tuple(cell for printed, obtained in pairs for cell in (
         printed, obtained, *((obtained / printed if printed and obtained is not None else None,) if ratio else ())))
+
+
+def statement_table(title: str, source: str, columns: Sequence[str], rows: Iterable[Sequence[Cell]],
+                    note: str) -> ResultTable:
+    """What a paper says in words beside what came out; rows: the statement, what is printed, a cell for each column."""
+    return ResultTable(title, source, ("Statement", "Printed", *columns), tuple(map(tuple, rows)), note)
 
 
 def sensitivity_table(title: str, header: Sequence[Column | str],

@@ -13,7 +13,7 @@ from workbench.mpc.multi_car import MultiCarMpc
 from workbench.paper.cells import Column
 from workbench.paper.comparison import STEP
 from workbench.paper.drivers import Drivers
-from workbench.paper.learning_comparison import LearningComparison, Task, jerk_rms, row_cells
+from workbench.paper.learning_comparison import LearningComparison, Task, row_cells
 from workbench.paper.mpc_comparison import counters_words
 from workbench.paper.results import ResultTable
 from workbench.paper.statistics import ahead_from
@@ -24,7 +24,7 @@ from ..simulation.cars_trials import CarsRun, run_cars
 from ..simulation.mpc_trip import MpcTrip, run_mpc
 from ..simulation.plans import plan
 from .record import ChenStudy
-from .runs import Results
+from .runs import Results, trial_row, trip_row
 
 LAW, MPC, PLACE = "law", "mpc_multi_car", "trip"
 WEIGHTS = ("position_weight", "speed_weight", "command_weight")
@@ -73,37 +73,16 @@ def drive(study: ChenStudy, name: str, place: str, factors: Factors = NOMINAL) -
 
 def mpc_row(study: ChenStudy, trip: MpcTrip) -> dict[str, Any]:
     """A trip under MPC."""
-    total, whole = trip.totals, study.reference.trip_time_s * study.train.cars
-    return {"failed": None, "position_rms": (total["position_error_square_s"] / whole) ** 0.5,
-            "speed_rms": (total["speed_error_square_s"] / whole) ** 0.5,
-            "largest_position_error": total["largest_position_error_m"],
-            "largest_speed_error": total["largest_speed_error_mps"], "stopping_error": total["stopping_error_m"],
-            "energy_J": total["traction_work_j"], "jerk_rms": trip.jerk, "stretch_m": total["coupler_stretch_m"],
-            "at_limit": total["car_steps_at_limit"] / (study.samples * study.train.cars), "step_s": trip.step_s}
+    return trip_row(study, trip.totals, trip.totals["car_steps_at_limit"], trip.jerk, trip.step_s)
 
 
 def law_row(study: ChenStudy, run: CarsRun) -> dict[str, Any]:
     """The last trial of a run, and its errors trial by trial; of one that failed only why."""
     if run.failed is not None:
-        return {"failed": run.failed, "step_s": float(np.median(run.step_us)) * 1e-6}
+        return {"failed": run.failed, "step_s": 1e-6 * float(np.median(run.step_us))}
     whole = study.reference.trip_time_s * study.train.cars
     return trial_row(study, run, len(run.totals)) | {
         "trials": {f"{name}_rms": run.rms(name, whole) for name in ("position", "speed")}}
-
-
-def trial_row(study: ChenStudy, run: CarsRun, trial: int) -> dict[str, Any]:
-    """A finished trial of a run, from 1; its jerk where it was logged."""
-    i, cars = trial - 1, study.train.cars
-    whole = study.reference.trip_time_s * cars
-    jerk = jerk_rms(run.log(trial, "v_mps"), study.sampling.log_every_s) if trial in run.logs else None
-    return {"failed": None, "position_rms": float(run.rms("position", whole)[i]),
-            "speed_rms": float(run.rms("speed", whole)[i]), "largest_position_error": float(run.position_error[i]),
-            "largest_speed_error": float(run.speed_error[i]),
-            "stopping_error": float(run.total("stopping_error_m")[i]),
-            "energy_J": float(run.total("traction_work_j")[i]), "jerk_rms": jerk,
-            "stretch_m": float(run.total("coupler_stretch_m")[i]),
-            "at_limit": float(run.of_cars("saturated_samples")[i].sum() / (study.samples * cars)),
-            "step_s": float(np.median(run.step_us)) * 1e-6}
 
 
 DRIVERS = Drivers({LAW: "the law", MPC: MultiCarMpc.title}, places, stated, given, drive)
@@ -152,7 +131,8 @@ def mpc_findings(results: Results) -> Iterator[str]:
     if trip is None or run.failed is not None:
         return
     for name, unit in (("position", "m"), ("speed", "m/s")):
-        ours, rival = run.rms(name, results.train_seconds), mpc_row(results.study, trip)[f"{name}_rms"]
+        ours = law_row(results.study, run)["trials"][f"{name}_rms"]
+        rival = mpc_row(results.study, trip)[f"{name}_rms"]
         trial = ahead_from(ours, rival)
         words = f"overtakes MPC at trial {trial}" if trial is not None else (
             f"does not overtake MPC in {len(ours)} trials")

@@ -10,9 +10,10 @@ from typing import Any
 import numpy as np
 
 from workbench.model.desired_curve import DesiredCurve
-from workbench.paper.learning_comparison import rises
+from workbench.paper.learning_comparison import jerk_rms, rises
 from workbench.paper.tracked import Tracked
 
+from ..simulation.cars_loop import TRIAL_COLUMNS
 from ..simulation.cars_trials import Array, CarsRun, run_cars
 from ..simulation.mpc_trip import MpcTrip, run_mpc
 from ..simulation.plans import plan
@@ -53,11 +54,6 @@ class Results:
     def stated(self) -> CarsRun:
         """The run as stated."""
         return self.runs[STATED]
-
-    @property
-    def train_seconds(self) -> float:
-        """Seconds of a trip times cars, over which errors are averaged."""
-        return self.study.reference.trip_time_s * self.study.train.cars
 
     def group(self, name: str) -> list[tuple[Change, CarsRun]]:
         """The runs of a group of changes."""
@@ -130,31 +126,42 @@ def outcome(run: CarsRun) -> str:
     return "falls" if rises(run.position_error) + rises(run.speed_error) == 0 else "falls, not in every trial"
 
 
+def trip_row(study: ChenStudy, total: Mapping[str, float], at_limit: float, jerk: float | None, step_s: float
+             ) -> dict[str, Any]:
+    """A trip by the sums over all cars that both loops keep; at_limit: in how many samples a car was at a limit."""
+    whole = study.reference.trip_time_s * study.train.cars
+    return {"failed": None, "position_rms": math.sqrt(total["position_error_square_s"] / whole),
+            "speed_rms": math.sqrt(total["speed_error_square_s"] / whole),
+            "largest_position_error": total["largest_position_error_m"],
+            "largest_speed_error": total["largest_speed_error_mps"], "stopping_error": total["stopping_error_m"],
+            "energy_J": total["traction_work_j"], "jerk_rms": jerk, "stretch_m": total["coupler_stretch_m"],
+            "at_limit": at_limit / (study.samples * study.train.cars), "step_s": step_s}
+
+
+def trial_row(study: ChenStudy, run: CarsRun, trial: int) -> dict[str, Any]:
+    """A finished trial of a run, from 1; its jerk where it was logged."""
+    i = trial - 1
+    total = {name: float(run.total(name)[i]) for name in TRIAL_COLUMNS} | {
+        "largest_position_error_m": float(run.position_error[i]), "largest_speed_error_mps": float(run.speed_error[i])}
+    jerk = jerk_rms(run.log(trial, "v_mps"), study.sampling.log_every_s) if trial in run.logs else None
+    return trip_row(study, total, float(run.of_cars("saturated_samples")[i].sum()), jerk,
+                    1e-6 * float(np.median(run.step_us)))
+
+
 def run_row(study: ChenStudy, number: int, run: CarsRun) -> dict[str, Any]:
-    """A run as data, of its last finished trial; SI units, over all cars; None for what one that failed has not."""
-    of = changed(study, number)
-    cars, whole = of.train.cars, of.reference.trip_time_s * of.train.cars
-
-    def values() -> dict[str, float]:
-        ends = {f"{name}_error_{end}": float(getattr(run.of_cars(f"{name}_error_{end}")[-1], end)())
-                for name in ("position", "speed") for end in ("min", "max")}
-        return ends | {f"{name}_rms": float(run.rms(name, whole)[-1]) for name in ("position", "speed")} | {
-            "stopping_error": float(run.total("stopping_error_m")[-1]),
-            "energy_J": float(run.total("traction_work_j")[-1]),
-            "saturated_fraction": float(run.of_cars("saturated_samples")[-1].sum() / (of.samples * cars)),
-            "difference_max_N": float(run.difference[-1]), "position_error_first": float(run.position_error[0]),
-            "speed_error_first": float(run.speed_error[0])}
-
+    """A run as data, of its last trial; SI units, over all cars; None for what one that failed does not have."""
+    of, ended = changed(study, number), run.failed is None
+    last = trial_row(of, run, len(run.totals)) if ended else {}
+    ends = {f"{name}_error_{end}": float(getattr(run.of_cars(f"{name}_error_{end}")[-1], end)()) if ended else None
+            for name in ("position", "speed") for end in ("min", "max")}
     return {"controller": f"chen2019.{of.sampling.acceleration}", "run": title(study, number),
-            "memory": of.sampling.memory, "period_s": of.sampling.period_s, "trials": len(run.totals),
-            **(values() if run.failed is None else dict.fromkeys(NUMBERS)), "outcome": outcome(run),
+            "memory": of.sampling.memory, "period_s": of.sampling.period_s, "trials": len(run.totals), **ends,
+            **{key: last.get(key) for key in ("position_rms", "speed_rms", "stopping_error", "energy_J")},
+            "saturated_fraction": last.get("at_limit"),
+            "difference_max_N": float(run.difference[-1]) if ended else None,
+            "position_error_first": float(run.position_error[0]) if ended else None,
+            "speed_error_first": float(run.speed_error[0]) if ended else None, "outcome": outcome(run),
             "step_us_median": float(np.median(run.step_us)), "failed": run.failed}
-
-
-# What a run that failed has no numbers for.
-NUMBERS = ("position_error_min", "position_error_max", "speed_error_min", "speed_error_max", "position_rms",
-           "speed_rms", "stopping_error", "energy_J", "saturated_fraction", "difference_max_N", "position_error_first",
-           "speed_error_first")
 
 
 def track(study: ChenStudy, curve: DesiredCurve | None) -> Tracked:
@@ -162,11 +169,8 @@ def track(study: ChenStudy, curve: DesiredCurve | None) -> Tracked:
     curve = curve or study.reference.curve()
     times = np.arange(study.samples, dtype=float) * study.sampling.period_s
     run = run_cars(replace(plan(study), reference=np.stack(curve.at(times), axis=1), kept=()))
-    of_trip = "chen2019", "AILC" if run.failed else f"AILC, trial {study.trials.count}", curve.trip_time_s
-    if run.failed:
-        nan = math.nan
-        return Tracked(*of_trip, curve.length_m, nan, nan, nan, nan, nan, run.failed)
-    whole = study.reference.trip_time_s * study.train.cars
-    return Tracked(*of_trip, curve.length_m, float(run.position_error[-1]), float(run.rms("position", whole)[-1]),
-                   float(run.speed_error[-1]), float(run.rms("speed", whole)[-1]),
-                   float(run.total("traction_work_j")[-1]), None)
+    last = trial_row(study, run, study.trials.count) if run.failed is None else {}
+    position, position_rms, speed, speed_rms, work = (float(last.get(key, math.nan)) for key in (
+        "largest_position_error", "position_rms", "largest_speed_error", "speed_rms", "energy_J"))
+    return Tracked("chen2019", "AILC" if run.failed else f"AILC, trial {study.trials.count}", curve.trip_time_s,
+                   curve.length_m, position, position_rms, speed, speed_rms, work, run.failed)

@@ -8,8 +8,9 @@ import numpy as np
 
 from workbench.files.numbers import fixed, number
 from workbench.paper.cells import Cell, Column, Phrase, Quantity
-from workbench.paper.learning_comparison import rises, statement_table
+from workbench.paper.learning_comparison import rises
 from workbench.paper.results import ResultTable
+from workbench.paper.study_tables import statement_table
 
 from .. import laws as law
 from ..simulation.cars_trials import Array, CarsRun

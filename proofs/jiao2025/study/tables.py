@@ -5,8 +5,9 @@ from __future__ import annotations
 import numpy as np
 
 from workbench.paper.cells import Cell, Column, Phrase
-from workbench.paper.learning_comparison import rises, statement_table
+from workbench.paper.learning_comparison import rises
 from workbench.paper.results import ResultTable
+from workbench.paper.study_tables import statement_table
 
 from ..laws import TRIAL_LAWS
 from ..simulation.plans import desired_trip
