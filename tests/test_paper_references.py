@@ -5,10 +5,10 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from proofs.chen2019.study.cars_trials import run_cars
 from scenarios import PAPERS, PROOFS, SHARED, YANG, variant_of
 
-from proofs.chen2019.study import runs as chen2019_runs
+from proofs.chen2019.simulation import plans as chen2019_plans
+from proofs.chen2019.simulation.cars_trials import run_cars
 from workbench.cli.loading import load
 from workbench.errors import InputError
 from workbench.model.curve_table import curve_through, read_rows
@@ -83,11 +83,11 @@ def test_the_cars_of_chen2019_learn_the_optimal_reference():
     study = load(PROOFS / "chen2019").record
     curve = curve_through(read_rows(PROOFS / "chen2019" / "reference.csv"))
     times = np.arange(study.samples, dtype=float) * study.sampling.period_s
-    plan = replace(chen2019_runs.plan(study), reference=np.stack(curve.at(times), axis=1), trials=3, kept=())
+    plan = replace(chen2019_plans.plan(study), reference=np.stack(curve.at(times), axis=1), trials=3, kept=())
     run = run_cars(plan)
     assert run.failed is None
     errors = run.total("position_error_square_s")
     assert errors[2] < errors[1] < errors[0]
     # Less work than on the reference of the same way and time that the study assumes.
-    own = run_cars(replace(chen2019_runs.plan(study), trials=3, kept=()))
+    own = run_cars(replace(chen2019_plans.plan(study), trials=3, kept=()))
     assert run.total("traction_work_j")[2] < 0.8 * own.total("traction_work_j")[2]

@@ -15,9 +15,8 @@ from scenarios import YANG
 from workbench.contest.tune_command import BEGIN, tune_run
 from workbench.paper.registry import is_study, load_study, study_kind
 
-from proofs.chen2019.study import drivers as chen2019_tuned
-from proofs.jiao2025.study import drivers as jiao2025_tuned
-from proofs.jiao2025.study.outcomes import mse
+from proofs.chen2019.study import comparison as chen2019_tuned
+from proofs.jiao2025.study import comparison as jiao2025_tuned
 from proofs.liu2020.study import drivers as liu2020_tuned
 from proofs.mao2018.study import drivers as mao2018_tuned
 from workbench.contest.record import Contest
@@ -28,7 +27,6 @@ from workbench.paper.local_search import score, search
 from workbench.paper.mpc_comparison import FOLLOWS_MPS, best_words
 from workbench.paper.pairs import drawn_rows, factors_of, pair_findings, pair_table, pairs_of
 from workbench.paper.results import ResultTable
-from workbench.report.study_figures import study_plot
 from workbench.simulate.closed_loop import NOMINAL, Factors, simulate_in
 
 BENCHMARKS = YANG.parent
@@ -141,21 +139,7 @@ def test_a_drawn_train_changes_the_run_and_the_nominal_one_does_not(name: str) -
         assert plain == same != other
 
 
-def test_a_heavier_train_is_the_file_with_another_mass_to_laws_that_know_none() -> None:
-    """chen2019's and jiao2025's laws are told no mass, so a factor must do what the file's own value does."""
-    for name, law, key in (("jiao2025", "icfdl", "mass_kg"), ("chen2019", "law", "car_mass_kg")):
-        of, drivers = short(name), DRIVERS[name]
-        heavy = of.model_copy(update={"train": of.train.model_copy(update={key: 1.06 * getattr(of.train, key)})})
-        drawn = drivers.drive(of, law, place_of(name), Factors(mass=1.06))
-        assert drawn["speed_rms"] == drivers.drive(heavy, law, place_of(name), NOMINAL)["speed_rms"]
-
-
 def test_driving_is_what_the_studies_run() -> None:
-    jiao = study("jiao2025")
-    run = jiao2025_tuned.run_trials(jiao2025_tuned.true_plan(jiao, jiao2025_tuned.Case(
-        "N", "jiao2025.pd", jiao.trials.seed), NOMINAL))
-    row = jiao2025_tuned.drive(jiao, "pd", "N")
-    assert row["speed_rms"] ** 2 == pytest.approx(mse(run)[-1]) and len(row["trials"]["speed_rms"]) == len(run.rows)
     mao = short("mao2018")
     asked = mao2018_tuned.run_case(mao, "mpc_linear", 2, Factors(mass=1.1))
     case, tuning = mao.cases[1], next(iter(mao.tunings.values()))
@@ -253,25 +237,6 @@ def test_learners_are_ahead_from_the_trial_after_which_none_is_worse() -> None:
     pair = pairs_of(few, {("N", "pd", True): rows_of(fine, errors[:, -1], fine, trials=errors),
                           ("N", "mpc_linear", True): rows_of(fine, np.full(20, 0.55), fine)})[0]
     assert pair.overtakes == {"speed_rms": 6}  # 0.5 is the sixth, the first below
-    assert jiao2025_tuned.ahead_from(errors.mean(axis=0), 0.55) == 5  # trials of jiao2025 begin with 0
-    assert jiao2025_tuned.ahead_from(errors.mean(axis=0), -1.0) is None
-
-
-def test_stated_and_tuned_stand_side_by_side() -> None:
-    of = short("jiao2025")
-    runs = [jiao2025_tuned.run_tuned(of, task) for task in jiao2025_tuned.tuned_tasks(of)]
-    table = next(jiao2025_tuned.tuned_table(of, runs))
-    names = [row[1] for row in table.rows]
-    assert len(names) == 8 and all(f"{name}, tuned" in names for name in names if not name.endswith("tuned"))
-    assert len(list(jiao2025_tuned.tuned_findings(of, runs))) == 2
-    plot = next(jiao2025_tuned.tuned_plots(of, runs))
-    assert len(plot.curves) == 8 and "<svg" in study_plot(plot, "learning")
-    cars = short("chen2019")
-    done = [chen2019_tuned.run_tuned(cars, task) for task in chen2019_tuned.tuned_tasks(cars)]
-    assert [row[0] for row in next(chen2019_tuned.tuned_table(cars, done)).rows] == [
-        "the law", "the law, tuned", "multi-car MPC", "multi-car MPC, tuned"]
-    assert len(list(chen2019_tuned.tuned_plots(cars, done))) == 2
-    assert len(list(chen2019_tuned.tuned_findings(cars, done))) == 2
 
 
 def test_studies_without_tuning_or_mpc_tell_nothing_of_it() -> None:
@@ -279,8 +244,6 @@ def test_studies_without_tuning_or_mpc_tell_nothing_of_it() -> None:
         for missing in ("tuning", "mpc"):
             bare = study(name).model_copy(update={missing: None, "pairs": None})
             assert entries(bare, drivers) == () and drawn_rows(drivers, bare, 1, lambda *_: None) == {}
-    bare = study("jiao2025").model_copy(update={"tuning": None})
-    assert jiao2025_tuned.tuned_tasks(bare) == [] and list(jiao2025_tuned.tuned_table(bare, [])) == []
 
 
 def test_tuning_a_study_repeats_itself_and_is_written(tmp_path: Path) -> None:

@@ -2,6 +2,7 @@
 
 import json
 import math
+import shutil
 import sys
 from dataclasses import replace
 from pathlib import Path
@@ -10,45 +11,43 @@ import numpy as np
 import plain_cars
 import pytest
 import sympy as sp
-from workbench.paper.registry import load_study
 
 from proofs.chen2019 import laws as law
-from proofs.chen2019.study import run
-from proofs.chen2019.study.cars_trials import run_cars
-from proofs.chen2019.study.outcomes import (
+from proofs.chen2019.simulation.cars_trials import run_cars
+from proofs.chen2019.simulation.formulas import (
     allowed_change,
     alternating_growth,
     cef_change,
-    difference,
     first_cef,
-    grows_from,
     needed_force,
-    outcome,
-    position_error,
-    rises,
-    speed_error,
 )
+from proofs.chen2019.simulation.plans import plan
+from proofs.chen2019.study import run
 from proofs.chen2019.study.record import ChenStudy
-from proofs.chen2019.study.runs import STATED, plan, run_number, title
+from proofs.chen2019.study.runs import STATED, grows_from, outcome, run_number, title
 from workbench.cli import app as cli
+from workbench.cli.loading import load
 from workbench.compile.kernel import cars_source
 from workbench.errors import CompileError, InputError
 from workbench.files.toml import validate_record
+from workbench.paper.cells import numbers_in
+from workbench.paper.learning_comparison import rises
 from workbench.paper.study import with_values
-from workbench.report.build import build_study_report, study_document
+from workbench.report.build import study_document
 from workbench.report.sources import sourced_values
+from workbench.report.study_page import StudyContent, build_study_page, write_curves
 from workbench.trains import multi_particle as of_train
 
-FILE = Path(__file__).parent.parent / "benchmarks" / "chen2019.toml"
+FOLDER = Path(__file__).parents[3] / "proofs" / "chen2019"
 # A stronger train that is at its cruise speed soon, and fewer trips.
 SHORT = {"train.traction_n": 2e5, "train.braking_n": 2e5, "reference.acceleration_mps2": 1.0,
          "reference.braking_mps2": 1.0, "reference.trip_time_s": 200.0, "trials.count": 12, "trials.shown": (1, 12),
          "cost.end_s": 2.0}
 
 
-@pytest.fixture(scope="module")
+@pytest.fixture(scope="session")
 def study():
-    return load_study(FILE)
+    return load(FOLDER).study
 
 
 def changed(study, **values):
@@ -57,7 +56,7 @@ def changed(study, **values):
                        {key.replace("__", "."): value for key, value in values.items()}, "test")
 
 
-@pytest.fixture(scope="module")
+@pytest.fixture(scope="session")
 def short(study):
     """The stated study on a short trip, with the changes that the tests look at."""
     wanted = ("c_1 = 1, acceleration of the sample before", "c_3 = 1/100, the repair of claim 16.stated",
@@ -68,12 +67,12 @@ def short(study):
                                    "pairs": study.pairs.model_copy(update={"draws": 2, "set": {}})})
 
 
-@pytest.fixture(scope="module")
+@pytest.fixture(scope="session")
 def runs(short):
     """Of every change by its title, and the stated one."""
     found = {}
     for i in range(STATED, len(short.changes)):
-        found[title(short, i)] = run_number(short, i)[1]
+        found[title(short, i)] = run_number(short, i)
     return found
 
 
@@ -112,9 +111,9 @@ def test_compiled_trips_are_those_of_plain_vectors(study, values):
     assert done.log(2, "v_mps") == pytest.approx(v, rel=1e-7, abs=1e-6)
     assert done.log(2, "u_n") == pytest.approx(u, rel=1e-4, abs=5)
     assert done.log(2, "difference_n") == pytest.approx(delta, rel=1e-4, abs=5)
-    assert difference(done)[-1] == pytest.approx(np.abs(delta).max(), rel=1e-4)
+    assert done.difference[-1] == pytest.approx(np.abs(delta).max(), rel=1e-4)
     errors = s - made.reference[:, :1]
-    assert position_error(done)[-1] == pytest.approx(np.abs(errors).max(), rel=1e-6)
+    assert done.position_error[-1] == pytest.approx(np.abs(errors).max(), rel=1e-6)
     assert done.total("position_error_square_s")[-1] == pytest.approx(np.sum(errors**2) * 1e-3, rel=1e-6)
     if not values:
         energies = [plain_cars.energy(made, x) for x in (before, estimates)]
@@ -124,8 +123,8 @@ def test_compiled_trips_are_those_of_plain_vectors(study, values):
 def test_a_step_of_half_the_length_gives_the_same_trip(short):
     one = run_cars(plan(changed(short, trials__count=2, trials__shown=(1, 2))))
     other = run_cars(plan(changed(short, trials__count=2, trials__shown=(1, 2), sampling__period_s=0.0005)))
-    assert position_error(one) == pytest.approx(position_error(other), rel=1e-2)
-    assert speed_error(one) == pytest.approx(speed_error(other), rel=1e-2)
+    assert one.position_error == pytest.approx(other.position_error, rel=1e-2)
+    assert one.speed_error == pytest.approx(other.speed_error, rel=1e-2)
 
 
 def test_the_forces_that_run_are_those_of_a_train_that_is_written_out():
@@ -157,11 +156,11 @@ def test_an_index_that_is_no_neighbour_is_refused():
 def test_errors_fall_from_trip_to_trip_and_so_does_the_difference(runs):
     stated = runs["as stated"]
     assert stated.failed is None
-    assert rises(position_error(stated)) == 0
-    assert rises(speed_error(stated)) == 0
-    assert position_error(stated)[-1] < 0.5 * position_error(stated)[0]
-    assert difference(stated)[-1] < difference(stated)[0]
-    assert speed_error(stated)[-1] > 0.01
+    assert rises(stated.position_error) == 0
+    assert rises(stated.speed_error) == 0
+    assert stated.position_error[-1] < 0.5 * stated.position_error[0]
+    assert stated.difference[-1] < stated.difference[0]
+    assert stated.speed_error[-1] > 0.01
     assert outcome(stated) == "falls"
 
 
@@ -189,20 +188,20 @@ def test_the_auxiliary_state_is_bounded_by_the_saturation_as_the_corrected_claim
 def test_the_repaired_c_1_starts_with_far_smaller_position_errors(runs):
     repaired = runs["c_1 = 1, acceleration of the sample before"]
     assert repaired.failed is None
-    assert position_error(repaired)[0] < 0.2 * position_error(runs["as stated"])[0]
+    assert repaired.position_error[0] < 0.2 * runs["as stated"].position_error[0]
 
 
 def test_a_smaller_c_3_starts_better_and_learns_less(runs):
     smaller, stated = runs["c_3 = 1/100, the repair of claim 16.stated"], runs["as stated"]
-    assert position_error(smaller)[0] < position_error(stated)[0]
-    assert position_error(smaller)[-1] / position_error(smaller)[0] > position_error(stated)[-1] / position_error(
-        stated)[0]
+    assert smaller.position_error[0] < stated.position_error[0]
+    left = [run.position_error[-1] / run.position_error[0] for run in (smaller, stated)]
+    assert left[0] > left[1]
 
 
 def test_slopes_that_are_met_where_the_train_is_are_learned_too(runs):
     for name in ("slopes as a function of time", "slopes where the car is"):
         assert runs[name].failed is None
-        assert position_error(runs[name])[-1] < position_error(runs[name])[0]
+        assert runs[name].position_error[-1] < runs[name].position_error[0]
 
 
 # --- what it depends on ---------------------------------------------------------------------------------------------
@@ -243,8 +242,8 @@ def test_sampled_errors_of_the_same_sample_break_the_energy_function_that_those_
     coarse = changed(short, trials__count=12, sampling__acceleration="sampled", gains__gamma_a=0.03)
     same = run_cars(plan(changed(coarse, sampling__memory="same_sample")))
     fine = run_cars(plan(changed(coarse, sampling__memory="same_sample", sampling__period_s=0.00025)))
-    assert same.failed is not None or grows_from(difference(same)) is not None
-    assert grows_from(difference(fine)) is None
+    assert same.failed is not None or grows_from(same.difference) is not None
+    assert grows_from(fine.difference) is None
     assert fine.failed is None
 
 
@@ -283,7 +282,7 @@ def test_memory_grows_as_the_number_of_cars(study):
 # --- the study ------------------------------------------------------------------------------------------------------
 
 
-@pytest.fixture(scope="module")
+@pytest.fixture(scope="session")
 def result(short):
     return run(changed_count(short, 3), 1, lambda done, total, what: None)
 
@@ -356,8 +355,9 @@ def test_a_mistake_names_file_key_and_remedy(study, key, value, message):
 
 
 def test_a_change_of_what_is_not_stated_ends_with_exit_code_2(tmp_path, capsys, monkeypatch):
-    path = tmp_path / "mine.toml"
-    path.write_text(FILE.read_text(encoding="utf-8").replace('set = { "gains.gamma_a" = 0.005 }',
+    path = tmp_path / "chen2019" / "study.toml"
+    shutil.copytree(FOLDER, path.parent, ignore=shutil.ignore_patterns("certificates", "__pycache__"))
+    path.write_text(path.read_text(encoding="utf-8").replace('set = { "gains.gamma_a" = 0.005 }',
                                                              'set = { "gains.gamma_b" = 0.005 }'), encoding="utf-8")
     monkeypatch.setattr(sys, "argv", ["workbench", "compare", str(path)])
     with pytest.raises(SystemExit) as end:
@@ -367,12 +367,15 @@ def test_a_change_of_what_is_not_stated_ends_with_exit_code_2(tmp_path, capsys, 
     assert "changes: 'gamma_a a quarter': gains.gamma_b: no such key" in said
 
 
-def test_the_report_is_one_page_with_every_figure(tmp_path, short, monkeypatch):
-    small = changed_count(short, 2)
-    small = small.model_copy(update={"changes": small.changes[:1]})
-    monkeypatch.setattr("workbench.report.build.load_study", lambda path: small)
-    made = build_study_report(FILE, [], tmp_path / "out", workers=1)
-    page = made.page.read_text(encoding="utf-8")
-    assert page.count("<figure") >= len(made.result.plots)
+def test_the_page_shows_every_figure_and_the_tables_hold_numbers(tmp_path, short, result):
+    page = build_study_page(StudyContent(short, result, {}, {"runs": 1.0}, ("workbench compare",), None))
+    assert page.count("<figure") >= len(result.plots)
     assert "http://" not in page.replace("http://www.w3.org", "")
-    assert len(list((tmp_path / "out" / "curves").glob("*.csv"))) == len(made.result.plots)
+    write_curves(result.plots, tmp_path)
+    assert len(list(tmp_path.glob("*.csv"))) == len(result.plots)
+    for table in result.tables:
+        assert len(table.values) == len(table.text)
+        assert any(True for row in table.rows for cell in row for _ in numbers_in(cell))
+    forces = next(table for table in result.tables if table.title == "What the reference asks of the train")
+    assert (forces.header[4].heading, forces.rows[0][4]) == ("Available (kN)", 3 * short.train.traction_n)
+    assert forces.values[0][4] == pytest.approx(3e-3 * short.train.traction_n)

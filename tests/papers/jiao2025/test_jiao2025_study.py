@@ -1,9 +1,7 @@
 """jiao2025 runs: the compiled trials against plain Python; what the paper says where it holds, and where not."""
 
-import importlib.util
 import json
 import re
-import sys
 from dataclasses import replace
 from pathlib import Path
 
@@ -11,27 +9,30 @@ import numpy as np
 import plain_trials
 import pytest
 from refusals import changed_copy, refusal
-from workbench.paper.registry import load_study
 
 from proofs.jiao2025 import laws as paper
+from proofs.jiao2025 import stated_values
 from proofs.jiao2025.laws import TRIAL_LAWS
-from proofs.jiao2025.study import name_of, run
-from proofs.jiao2025.study.cases import Case, cases, changed, concerns, plan
-from proofs.jiao2025.study.outcomes import Found, mse, outcome, rises
-from proofs.jiao2025.study.trials import run_trials
+from proofs.jiao2025.simulation.plans import Case, changed, plan
+from proofs.jiao2025.simulation.trials import run_trials
+from proofs.jiao2025.study import run
+from proofs.jiao2025.study.record import JiaoStudy
+from proofs.jiao2025.study.runs import Results, cases, concerns, name_of, outcome
+from workbench.cli.loading import load
+from workbench.files.toml import read_toml, validate_record
+from workbench.paper.learning_comparison import rises
 from workbench.report.build import study_document
 from workbench.report.sources import sourced_values
 
-ROOT = Path(__file__).parent.parent
-FILE = ROOT / "benchmarks" / "jiao2025.toml"
+FOLDER = Path(__file__).parents[3] / "proofs" / "jiao2025"
 
 
-@pytest.fixture(scope="module")
+@pytest.fixture(scope="session")
 def study():
-    return load_study(FILE)
+    return load(FOLDER).study
 
 
-@pytest.fixture(scope="module")
+@pytest.fixture(scope="session")
 def small(study):
     """All trials of the short readings and of one with ten samples a k, few seeds, units and variants."""
     keep = ("N", "kN", "mass", "N_1s")
@@ -44,14 +45,14 @@ def small(study):
         "pairs": study.pairs.model_copy(update={"draws": 2})})
 
 
-@pytest.fixture(scope="module")
+@pytest.fixture(scope="session")
 def result(small):
     return run(small, 1, lambda done, total, what: None)
 
 
-@pytest.fixture(scope="module")
-def found(small):
-    return Found(small, {case: run_trials(plan(small, case)) for case in cases(small) if case.unit_mps2 is None})
+@pytest.fixture(scope="session")
+def results(small):
+    return Results(small, {case: run_trials(plan(small, case)) for case in cases(small) if case.unit_mps2 is None})
 
 
 # --- the compiled trials --------------------------------------------------------------------------------------
@@ -70,7 +71,7 @@ def test_compiled_trials_are_those_of_a_plain_loop(study, law, reading, seen_by,
     done = run_trials(made)
     squares, speeds, estimates = plain_trials.run(made)
     assert done.failed is None
-    assert mse(done) == pytest.approx(squares, rel=1e-7)
+    assert done.mse == pytest.approx(squares, rel=1e-7)
     last = int(made.lengths[-1])
     assert done.sample(trials - 1, "speed") == pytest.approx(speeds[: last + 1], rel=1e-6, abs=1e-6)
     assert done.sample(trials - 1, "estimate")[:-1] == pytest.approx(estimates[:last], rel=1e-6, abs=1e-12)
@@ -81,7 +82,7 @@ def test_ten_samples_a_k_and_a_resistance_as_printed(study):
     made = plan(as_printed, Case("N_long", "jiao2025.pd", 5))
     made = replace(made, lengths=made.lengths[:2])
     assert len(made.desired) == 20_001 and made.divisor == study.train.mass_kg
-    assert mse(run_trials(made)) == pytest.approx(plain_trials.run(made)[0], rel=1e-7)
+    assert run_trials(made).mse == pytest.approx(plain_trials.run(made)[0], rel=1e-7)
 
 
 def test_desired_curve_and_grades_are_those_of_the_paper(study):
@@ -92,8 +93,7 @@ def test_desired_curve_and_grades_are_those_of_the_paper(study):
     assert made.edges[-1] == pytest.approx(0.1 * made.desired[:-1].sum())
 
 
-def test_lengths_are_drawn_from_all_hundred_and_from_no_other():
-    study = load_study(FILE)
+def test_lengths_are_drawn_from_all_hundred_and_from_no_other(study):
     drawn = np.concatenate([plan(study, Case("N", "jiao2025.pd", seed)).lengths for seed in range(40)])
     assert set(drawn) == set(range(1901, 2001))
 
@@ -101,11 +101,8 @@ def test_lengths_are_drawn_from_all_hundred_and_from_no_other():
 # --- what the file states -------------------------------------------------------------------------------------
 
 
-def test_the_file_states_the_numbers_that_the_claims_are_decided_for(study, monkeypatch):
-    source = importlib.util.spec_from_file_location("jiao2025_claims", ROOT / "proofs" / "jiao2025.py")
-    claims = importlib.util.module_from_spec(source)
-    monkeypatch.setitem(sys.modules, source.name, claims)
-    source.loader.exec_module(claims)
+def test_the_file_states_the_numbers_that_the_claims_are_decided_for(study):
+    claims = stated_values
     stated = {str(symbol): float(value) for symbol, value in claims.STATED.items()}
     learning = study.learning.model_dump()
     assert {name: learning[name] for name in ("rho", "lamda", "mu", "eta", "epsilon", "K_p", "K_d")} == {
@@ -149,8 +146,8 @@ def test_every_value_says_where_it_comes_from(study):
     ('mu = "paper, Table 1"\n', "", "learning: source.mu is missing"),
 ])
 def test_bad_input_is_one_line_with_file_and_key(tmp_path, old, new, message):
-    path = changed_copy(FILE, tmp_path, old, new)
-    said = refusal(load_study, path)
+    path = changed_copy(FOLDER / "study.toml", tmp_path, old, new)
+    said = refusal(lambda: validate_record(read_toml(path), JiaoStudy, path))
     assert said.startswith(f"{path}: ") and message.lower() in said.lower()
 
 
@@ -160,86 +157,86 @@ def test_bad_input_is_one_line_with_file_and_key(tmp_path, old, new, message):
 @pytest.mark.parametrize(("reading", "law"), [
     ("N", "jiao2025.icfdl"), ("N", "jiao2025.pd"), ("kN", "jiao2025.icfdl"), ("N_1s", "jiao2025.icfdl"),
     ("N_1s", "jiao2025.pd")])
-def test_trial_100_is_better_than_trial_50_where_a_law_ends(found, reading, law):
-    errors = mse(found.run(reading, law))
+def test_trial_100_is_better_than_trial_50_where_a_law_ends(results, reading, law):
+    errors = results.run(reading, law).mse
     assert errors[150] < errors[100] < errors[50] < errors[0]
 
 
-def test_better_every_time_does_not_hold(found):
+def test_better_every_time_does_not_hold(results):
     for reading, law in (("N", "jiao2025.icfdl"), ("N", "jiao2025.pd"), ("kN", "jiao2025.icfdl")):
-        assert rises(found.run(reading, law)) > 30
+        assert rises(results.run(reading, law).mse) > 30
 
 
-def test_learning_is_not_better_than_pd_in_any_unit_in_which_both_end(found):
+def test_learning_is_not_better_than_pd_in_any_unit_in_which_both_end(results):
     for reading in ("N", "N_1s"):
-        assert np.all(mse(found.run(reading, "jiao2025.icfdl"))[20:] > mse(found.run(reading, "jiao2025.pd"))[20:])
+        assert np.all(results.run(reading, "jiao2025.icfdl").mse[20:] > results.run(reading, "jiao2025.pd").mse[20:])
 
 
-def test_learning_is_better_than_pd_where_each_has_the_unit_it_learns_in(found):
-    assert np.all(mse(found.run("kN", "jiao2025.icfdl"))[40:] < mse(found.run("N", "jiao2025.pd"))[40:])
+def test_learning_is_better_than_pd_where_each_has_the_unit_it_learns_in(results):
+    assert np.all(results.run("kN", "jiao2025.icfdl").mse[40:] < results.run("N", "jiao2025.pd").mse[40:])
 
 
-def test_the_error_grows_before_it_falls(found):
-    errors = mse(found.run("kN", "jiao2025.icfdl"))
+def test_the_error_grows_before_it_falls(results):
+    errors = results.run("kN", "jiao2025.icfdl").mse
     assert errors.argmax() == 1 and errors[1] > 5 * errors[0] and errors[-1] < 1e-3 * errors[0]
 
 
-def test_no_law_as_printed_survives_forces_per_mass(found):
+def test_no_law_as_printed_survives_forces_per_mass(results):
     for law in TRIAL_LAWS:
-        assert len(found.run("mass", law).rows) == 1
+        assert len(results.run("mass", law).rows) == 1
     # Claim intro.growth: one trial can multiply the norm by ten, also without a resistance that drives the train.
-    opposed = mse(found.run("mass", "jiao2025.icfdl", opposed=True))
+    opposed = results.run("mass", "jiao2025.icfdl", opposed=True).mse
     assert opposed.max() > 1e3 * opposed[0]
 
 
-def test_the_first_sample_learns_what_the_claims_say(found):
-    newton, kilonewton = (found.run(name, "jiao2025.fixed_estimate").column("first_error") for name in ("N", "kN"))
+def test_the_first_sample_learns_what_the_claims_say(results):
+    newton, kilonewton = (results.run(name, "jiao2025.fixed_estimate").column("first_error") for name in ("N", "kN"))
     for reading, left in (("N", newton), ("kN", kilonewton)):
-        b = found.study.readings[reading].unit_n * 0.1 / 350_000
+        b = results.study.readings[reading].unit_n * 0.1 / 350_000
         gain = 0.245 * b**2 / (0.00005 + b**2)
         assert left == pytest.approx(left[0] * (1 - gain) ** np.arange(151), rel=1e-9)
     # Claim intro.slow.any: with u in N no estimates change the first error by 0.1 per cent in 150 trials.
-    adapted = found.run("N", "jiao2025.icfdl").column("first_error")
+    adapted = results.run("N", "jiao2025.icfdl").column("first_error")
     assert np.abs(adapted / adapted[0] - 1).max() < 1e-3
 
 
-def test_a_kept_estimate_is_monotone_just_where_the_claims_prove_it(found):
+def test_a_kept_estimate_is_monotone_just_where_the_claims_prove_it(results):
     for reading in ("N", "N_1s"):  # claims intro.monotone.N and intro.monotone.N.1s
-        assert rises(found.run(reading, "jiao2025.fixed_estimate")) == 0
-    assert rises(found.run("kN", "jiao2025.fixed_estimate")) > 0
+        assert rises(results.run(reading, "jiao2025.fixed_estimate").mse) == 0
+    assert rises(results.run("kN", "jiao2025.fixed_estimate").mse) > 0
 
 
-def test_pd_with_a_difference_learns_where_pd_as_printed_diverges(found):
-    assert found.run("kN", "jiao2025.pd").failed is not None
-    mended = mse(found.run("kN", "jiao2025.pd_difference"))
-    assert mended[-1] < 0.1 and mended[-1] < 0.1 * mse(found.run("kN", "jiao2025.icfdl"))[-1]
+def test_pd_with_a_difference_learns_where_pd_as_printed_diverges(results):
+    assert results.run("kN", "jiao2025.pd").failed is not None
+    mended = results.run("kN", "jiao2025.pd_difference").mse
+    assert mended[-1] < 0.1 and mended[-1] < 0.1 * results.run("kN", "jiao2025.icfdl").mse[-1]
 
 
-def test_full_lengths_are_the_law_without_gaps(found):
+def test_full_lengths_are_the_law_without_gaps(results):
     """(13)-(15) with every trial complete are (11)-(13)."""
-    place = next(i for i, v in enumerate(found.study.variants) if "trials.shortest_length_k" in v.set)
-    whole = found.runs[Case("kN", "jiao2025.icfdl", found.study.trials.seed, place)]
-    assert np.array_equal(mse(whole), mse(found.run("kN", "jiao2025.cfdl")))
+    place = next(i for i, v in enumerate(results.study.variants) if "trials.shortest_length_k" in v.set)
+    whole = results.runs[Case("kN", "jiao2025.icfdl", results.study.trials.seed, place)]
+    assert np.array_equal(whole.mse, results.run("kN", "jiao2025.cfdl").mse)
 
 
-def test_the_first_estimate_decides_how_it_ends(found):
-    place = next(i for i, v in enumerate(found.study.variants) if v.title == "first estimate 1")
-    other = found.runs[Case("kN", "jiao2025.icfdl", found.study.trials.seed, place)]
+def test_the_first_estimate_decides_how_it_ends(results):
+    place = next(i for i, v in enumerate(results.study.variants) if v.title == "first estimate 1")
+    other = results.runs[Case("kN", "jiao2025.icfdl", results.study.trials.seed, place)]
     assert outcome(other) == "falls, then grows again"
-    assert mse(other)[-1] > 100 * mse(found.run("kN", "jiao2025.icfdl"))[-1]
-    assert not concerns(found.study.variants[place], "jiao2025.pd")
+    assert other.mse[-1] > 100 * results.run("kN", "jiao2025.icfdl").mse[-1]
+    assert not concerns(results.study.variants[place], "jiao2025.pd")
 
 
-def test_the_outcome_hardly_hangs_on_the_drawn_lengths(found):
-    for entry in found.study.shown:
-        assert {outcome(done) for done in found.of_seeds(entry)} == {outcome(found.run(entry.reading, entry.law))}
+def test_the_outcome_hardly_hangs_on_the_drawn_lengths(results):
+    for entry in results.study.shown:
+        assert {outcome(done) for done in results.of_seeds(entry)} == {outcome(results.run(entry.reading, entry.law))}
 
 
 # --- runs that fail, and what is told -------------------------------------------------------------------------
 
 
-def test_a_run_that_diverges_says_where_and_stops_no_other(found, result, small):
-    failed = found.run("mass", "jiao2025.icfdl").failed
+def test_a_run_that_diverges_says_where_and_stops_no_other(results, result, small):
+    failed = results.run("mass", "jiao2025.icfdl").failed
     assert re.fullmatch(r"jiao2025\.icfdl diverged in trial 1 at sample \d+ \(t = [\d.]+ s\): v = -[\d.e+]+ m/s under "
                         r"u = -[\d.e+]+", failed)
     asked = list(cases(small))
@@ -253,7 +250,7 @@ def test_a_run_that_diverges_says_where_and_stops_no_other(found, result, small)
 def test_the_result_is_plain_data_without_nan(result, small):
     text = json.dumps(study_document(small, result), allow_nan=False)
     assert "nan" not in text.lower()
-    assert all(cell for table in result.tables for row in table.rows for cell in row)
+    assert all(cell for table in result.tables for row in table.text for cell in row)
 
 
 def test_plots_cover_the_figures_of_the_paper(result):
@@ -263,10 +260,10 @@ def test_plots_cover_the_figures_of_the_paper(result):
     assert len(lengths.y) == 151 and lengths.y.min() >= 1901 and lengths.y.max() <= 2000
 
 
-def test_findings_tell_what_the_runs_gave(result, found):
+def test_findings_tell_what_the_runs_gave(result, results):
     text = "\n".join(result.findings)
     assert "that holds in none of them" in text
-    last = mse(found.run("kN", "jiao2025.icfdl"))[-1]
+    last = results.run("kN", "jiao2025.icfdl").mse[-1]
     assert f"{last:.2f}" in text and "nan" not in text.lower()
 
 

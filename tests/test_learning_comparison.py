@@ -1,0 +1,72 @@
+"""From which trial on a learner is ahead, and what is said of learners beside MPC."""
+
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from workbench.paper.cells import Column, Phrase
+from workbench.paper.comparison import STEP
+from workbench.paper.drivers import Drivers
+from workbench.paper.learning_comparison import LearningComparison, jerk_rms, rises, row_cells, trial_curve
+from workbench.paper.statistics import ahead_from
+
+COLUMNS = {"speed_rms": Column("speed RMS", "m/s"), "jerk_rms": Column("jerk RMS", "m/s³"), "step_s": STEP}
+DRIVERS = Drivers({"learner": "the learner", "mpc_linear": "linear MPC"}, lambda study: {"here": "the line"},
+                  lambda study, name: {}, lambda study, name, values: study, lambda *_: {})
+STUDY = SimpleNamespace(
+    trials=SimpleNamespace(count=3),
+    tuning=SimpleNamespace(set={}, runs=1, objective=SimpleNamespace(units={"speed_rms": 0.1})))
+
+
+@settings(max_examples=80, deadline=None)
+@given(st.lists(st.floats(0.0, 10.0), min_size=1, max_size=30), st.floats(0.1, 10.0), st.integers(0, 1))
+def test_ahead_is_the_first_trial_from_which_all_are_below(errors, rival, first):
+    plain = next((first + i for i in range(len(errors)) if all(e < rival for e in errors[i:])), None)
+    assert ahead_from(np.array(errors), rival, first) == plain
+
+
+def test_jerk_is_the_second_difference_of_all_columns():
+    t = np.arange(50) * 0.1
+    assert jerk_rms(0.5 * 3.0 * t**2, 0.1) == pytest.approx(3.0)
+    assert jerk_rms(np.stack([1.5 * t**2, 0 * t], axis=1), 0.1) == pytest.approx(3.0 / 2**0.5)
+
+
+def test_rises_and_curves_count_trials():
+    errors = np.array([3.0, 4.0, 2.0, 2.0, 2.5])
+    assert rises(errors) == 2
+    assert trial_curve("x", errors, 1).x.tolist() == [1.0, 2.0, 3.0, 4.0, 5.0]
+
+
+def test_a_failed_run_has_no_numbers_but_the_time_of_a_step():
+    assert row_cells({"failed": "at once", "step_s": 2e-6}, COLUMNS) == ("fails", None, 2e-6)
+    assert row_cells({"failed": None, "speed_rms": 0.5, "jerk_rms": 1.0, "step_s": 2e-6}, COLUMNS) == (0.5, 1.0, 2e-6)
+
+
+@pytest.mark.parametrize(("first", "trial"), [(0, 2), (1, 3)])
+def test_learners_are_ahead_from_the_same_trial_in_table_and_sentence(first, trial):
+    learner = {"failed": None, "speed_rms": 0.1, "jerk_rms": 0.3, "step_s": 1e-6,
+               "trials": {"speed_rms": np.array([0.9, 0.5, 0.2, 0.1])}}
+    rival = {"failed": None, "speed_rms": 0.4, "jerk_rms": 0.2, "step_s": 5e-5}
+    rows = {("here", "learner", False): learner, ("here", "mpc_linear", False): rival}
+    compared = LearningComparison(DRIVERS, COLUMNS, ("speed_rms",), first)
+    table = next(compared.tables(STUDY, rows))
+    assert [row[-1] for row in table.rows] == [Phrase("trial {}", (trial,)), None]
+    assert table.text[1] == ("linear MPC", "0.400", "0.200", "50.0", "—")
+    (sentence,) = compared.findings(STUDY, rows)
+    assert sentence.startswith("As stated: the learner has the smallest speed RMS, 0.100, then linear MPC with 0.400")
+    assert sentence.endswith(f"the learner is ahead of linear MPC from trial {trial} on.")
+    (plot,) = compared.plots(STUDY, rows)
+    assert [curve.x[0] for curve in plot.curves] == [first, first]
+
+
+def test_a_rival_that_fails_is_no_rival():
+    learner = {"failed": None, "speed_rms": 0.1, "jerk_rms": 0.3, "step_s": 1e-6,
+               "trials": {"speed_rms": np.array([0.9, 0.1])}}
+    rows = {("here", "learner", True): learner, ("here", "mpc_linear", True): {"failed": "lost", "step_s": 5e-5}}
+    compared = LearningComparison(DRIVERS, COLUMNS, ("speed_rms",), 1)
+    assert [row[-1] for row in next(compared.tables(STUDY, rows)).rows] == [None, None]
+    assert "ahead" not in next(compared.findings(STUDY, rows))
+    assert len(next(compared.plots(STUDY, rows)).curves) == 1
