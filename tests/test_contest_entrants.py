@@ -9,7 +9,7 @@ import pytest
 from contests import few, only
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from scenarios import PAPERS, PROOFS, SHARED
+from scenarios import PAPERS, PROOFS
 
 from workbench.cli.loading import load
 from workbench.contest.entrant import Entrant
