@@ -13,7 +13,8 @@ from workbench.trains.track import Track
 ROOT = Path(__file__).resolve().parent.parent
 PROOFS, SHARED = ROOT / "proofs", ROOT / "benchmarks"
 PAPERS = [folder.name for folder in papers_in(PROOFS)]
-FILES = [*sorted(SHARED.glob("*.toml")), *(PROOFS / paper / "study.toml" for paper in PAPERS)]
+FILES = [*sorted(SHARED.glob("*.toml")), *(PROOFS / paper / "study.toml" for paper in PAPERS),
+         *sorted(PROOFS.glob("*/contest.toml"))]
 BENCHMARKS = [path for path in FILES if "kind" not in tomllib.loads(path.read_text(encoding="utf-8"))]
 STUDIES = [path for path in FILES if path not in BENCHMARKS]
 YANG = PROOFS / "yang2021" / "study.toml"

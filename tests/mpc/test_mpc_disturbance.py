@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from scenarios import SHARED
+from scenarios import PROOFS
 
 from workbench.cli.loading import load
 from workbench.contest.matches import play_match, with_parameters
@@ -88,7 +88,7 @@ def test_an_unknown_that_cannot_be_is_refused(changes):
 
 def test_yang2021s_bound_covers_its_drawn_trains_and_they_stay_in_the_tube():
     """The stated bound of the shipped contest: its premises hold, and draws keep to the tube that follows."""
-    contest = load(SHARED / "yang2021_contest.toml").record
+    contest = load(PROOFS / "yang2021" / "contest.toml").record
     scenario, condition = contest.world, contest.conditions["ten"]
     made = MpcController(scenario, scenario.controllers["mpc_tube"], "mpc_tube")
     around = made.tracker.around
