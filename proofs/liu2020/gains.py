@@ -28,7 +28,7 @@ from . import laws as law
 from .laws import k_1, k_2, k_3, s_tilde, v_tilde
 from .plant import s, v
 from .study.record import LiuStudy
-from .study.runs import Case, run_case
+from .study.runs import RunCase, run_case
 
 Values = dict[sp.Expr, sp.Expr]
 
@@ -251,7 +251,7 @@ def run(loaded: Loaded, task: Task) -> tuple[Row, str | None]:
     study = loaded.study
     assert isinstance(study, LiuStudy)
     changed = with_values(study.model_copy(update={"changes": ()}), task.changes, str(loaded.path))
-    case = Case(task.values["column"], "liu2020.corrected_rate", study.runs.table_3_disturbance)
+    case = RunCase(task.values["column"], "liu2020.corrected_rate", study.runs.table_3_disturbance)
     found = run_case(changed, case)
     names = ("s_tilde_m", "v_tilde_mps", "position_m", "speed_mps", "energy_J", "reversals")
     return {f"{n}_rms" if n not in ("energy_J", "reversals") else n: found.numbers.get(n) for n in names}, found.failed

@@ -63,7 +63,8 @@ def with_values(study: S, values: Mapping[str, Any], where: str) -> S:
         return type(study).model_validate(data).in_folder(study.folder)
     except ValidationError as trouble:
         first = trouble.errors()[0]
-        raise ValueError(f"{where}: {'.'.join(map(str, first['loc']))}: {first['msg']}: correct it") from None
+        what = first["msg"].removeprefix("Value error, ")
+        raise ValueError(f"{where}: {'.'.join(map(str, first['loc']))}: {what}: correct it") from None
 
 
 @dataclass(frozen=True)

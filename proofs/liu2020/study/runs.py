@@ -1,44 +1,45 @@
-"""liu2020's runs: a case as a setting and a law's values, run and measured."""
+"""The runs of liu2020's study: which there are, and what each of them leaves."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
-import sympy as sp
-from numpy.typing import NDArray
 
-from workbench.compile.kernel import numeric
-from workbench.model.desired_curve import DesiredCurve, start_cruise_stop
-from workbench.model.law import ControlLaw
-from workbench.simulate.closed_loop import Run, Setting, run_law
-from workbench.trains.track import STANDARD_GRAVITY_MPS2, ResistanceTable
+from workbench.model.desired_curve import DesiredCurve
+from workbench.paper.tracked import Tracked, of_run
+from workbench.simulate.closed_loop import Array, Run
 
-from .. import laws as paper
-from .. import plant as of_train
-from .record import FEEDBACK_GAINS, Line, LiuStudy, Section, Train
+from ..laws import LAWS
+from .record import COLUMNS, LiuStudy
+from .scenario import run_under, setting_of
 
-Array = NDArray[np.float64]
-
-KMH_PER_MPS = 3.6
-SLOPE_UNITS = {"percent": 1e-2, "permille": 1e-3}
+ALL_COLUMNS = tuple(range(1, COLUMNS + 1))
+CORRECTED, BY_RATE, PRINTED, FEEDBACK = (
+    f"liu2020.{name}" for name in ("corrected", "corrected_rate", "printed", "feedback"))
+# Laws that run through all columns of Table 2, those whose curves are drawn, and those of Table 4.
+TABLE_LAWS = (CORRECTED, BY_RATE, PRINTED, "liu2020.printed_rate", FEEDBACK, "liu2020.feedback_rate",
+              "liu2020.position_only_speed", "liu2020.position_only")
+DRAWN_LAWS = (CORRECTED, BY_RATE)
+TABLE_4_LAWS = (CORRECTED, BY_RATE, PRINTED, FEEDBACK)
+# Where the signs of (19), (21), (32) and (35) are wrong, one by one.
+SIGN_LAWS = (PRINTED, "liu2020.wrong_leakage", "liu2020.wrong_learning", CORRECTED)
 # One row in so many of the log is drawn.
 DRAWN = 5
-
-
-_davis = numeric((of_train.v, of_train.a_0, of_train.a_1, of_train.a_2), of_train.davis(of_train.v))
-_newton = numeric((of_train.u, of_train.f_d, of_train.d, of_train.chi, of_train.M), of_train.acceleration)
-_opposing = numeric((of_train.additional, of_train.d, of_train.chi, of_train.M), of_train.opposing_force)
+# What a row of the study has of a run's numbers, by the names of `workbench compare` where it has one.
+ROW = {"position_m_min": "position_error_min", "position_m_max": "position_error_max",
+       "speed_mps_min": "speed_error_min", "speed_mps_max": "speed_error_max", "position_m": "position_rms",
+       "speed_mps": "speed_rms", "s_tilde_m": "s_tilde_rms", "v_tilde_mps": "v_tilde_rms"} | {
+    name: name for name in ("energy_J", "energy_both_J", "input_n_min", "input_n_max", "reversals")}
 
 
 @dataclass(frozen=True)
-class Case:
-    """One run: column of Table 2, law, disturbance; change: number of the study's changes, -1 as stated.
+class RunCase:
+    """A run: column of Table 2, law, disturbance; change: number of the study's changes, -1 as stated.
 
-    drawn: whether its curves are kept; leak_rate_per_s: in place of the stated one.
+    drawn: whether its curves are wanted; leak_rate_per_s: in place of the stated one.
     """
 
     column: int
@@ -50,13 +51,13 @@ class Case:
 
 
 @dataclass(frozen=True)
-class Outcome:
+class RunResult:
     """A run as numbers (SI units); curves by name of a thinned log, empty unless asked for.
 
     The numbers of a run that failed are None, but for the time and the largest position error until then.
     """
 
-    case: Case
+    case: RunCase
     numbers: dict[str, float | None]
     end_s: float
     largest_position_error_m: float
@@ -65,137 +66,60 @@ class Outcome:
     curves: dict[str, Array]
 
 
-def davis_newton(train: Train) -> tuple[float, float, float]:
-    """The coefficients of (61) in N, N s/m, N s^2/m^2, by the unit that they are read in."""
-    per_mass = 1.0 if train.davis_unit.startswith("N/kg") else STANDARD_GRAVITY_MPS2 / 1000
-    per_speed = KMH_PER_MPS if train.davis_unit.endswith("km/h") else 1.0
-    a, b, c = (train.mass_kg * per_mass * value for value in train.davis)
-    return a, b * per_speed, c * per_speed**2
+def table_3_case(study: LiuStudy, column: int, law: str) -> RunCase:
+    """A column of Table 2 as Table 3 runs it."""
+    return RunCase(column, law, study.runs.table_3_disturbance, drawn=law in DRAWN_LAWS)
 
 
-def davis_at(train: Train, speed_mps: float) -> float:
-    """The general resistance (8), N."""
-    return float(_davis(speed_mps, *davis_newton(train)))
+def table_4_case(study: LiuStudy, disturbance: str, law: str) -> RunCase:
+    """The column of Table 4 under one of its disturbances."""
+    return RunCase(study.table_4_column, law, disturbance, drawn=law in DRAWN_LAWS)
 
 
-def section_force(section: Section, line: Line, train: Train) -> float:
-    """The additional resistance (2)-(4) in a section, N.
-
-    (3) is read with the centre angle in degrees: 0.1029 is the 10.5 N/kN per degree and metre of the rule that it
-    states, times g/1000. The tunnel has no restricted ramp, since no row of Table 1 has both.
-    """
-    values: dict[sp.Basic, float] = {
-        of_train.M: train.mass_kg, of_train.g: STANDARD_GRAVITY_MPS2,
-        of_train.slope_angle: math.atan(section.slope * SLOPE_UNITS[line.slope_unit])}
-    force = of_train.slope_force
-    if section.curve_radius_m is not None:  # of any length, the angle over the length is 1/R
-        values |= {of_train.centre_angle: math.degrees(1 / section.curve_radius_m), of_train.curve_length: 1.0}
-        force += of_train.curve_force
-    if section.tunnel_length_m > 0:
-        values[of_train.tunnel_length] = section.tunnel_length_m
-        force += of_train.tunnel_force
-    return float(force.xreplace({symbol: sp.Float(value) for symbol, value in values.items()}))
+def divergence_case(study: LiuStudy, column: int, law: str, leak_rate_per_s: float) -> RunCase:
+    """A column under a leak rate, with the adaptation of `runs.divergence_change`."""
+    number = [change.title for change in study.changes].index(study.runs.divergence_change)
+    return RunCase(column, law, study.runs.table_3_disturbance, number, leak_rate_per_s=leak_rate_per_s)
 
 
-def line_table(study: LiuStudy) -> ResistanceTable:
-    """The additional resistance by position, N per kg of mass M."""
-    edges, values = [0.0], [0.0]
-    for section in study.line.sections:
-        edges += [section.from_m, section.to_m]
-        values += [section_force(section, study.line, study.train) / study.train.mass_kg, 0.0]
-    keep = [i for i, edge in enumerate(edges) if i + 1 == len(edges) or edges[i + 1] > edge]
-    return ResistanceTable(np.array([edges[i] for i in keep]), np.array([values[i] for i in keep]))
+def change_cases(study: LiuStudy, number: int) -> list[RunCase]:
+    """The runs of a change of the assumed values."""
+    change, runs = study.changes[number], study.runs
+    return [RunCase(column, change.law or runs.sensitivity_law, runs.table_3_disturbance, number)
+            for column in change.columns or runs.sensitivity_columns]
 
 
-def rates(study: LiuStudy) -> tuple[float, float]:
-    """Acceleration and braking rate of the reference, m/s^2: (9) at the ends of the input's range."""
-    ref, train = study.reference, study.train
-    highest = _newton(ref.highest_input_n, davis_at(train, ref.cruise_mps), 0.0, train.chi, train.mass_kg)
-    lowest = _newton(ref.lowest_input_n, davis_at(train, 0.0), 0.0, train.chi, train.mass_kg)
-    return float(highest), -float(lowest)
+def run_cases(study: LiuStudy) -> list[RunCase]:
+    """All runs, each once."""
+    found = [table_3_case(study, column, law) for law in TABLE_LAWS for column in ALL_COLUMNS]
+    found += [table_4_case(study, name, law) for law in TABLE_4_LAWS for name in study.disturbances]
+    if study.changes:
+        found += [divergence_case(study, column, law, rate) for column in study.runs.divergence_columns
+                  for law in SIGN_LAWS for rate in study.runs.divergence_leak_rates_per_s]
+    found += [case for number in range(len(study.changes)) for case in change_cases(study, number)]
+    return list(dict.fromkeys(found))
 
 
-def desired_curve(study: LiuStudy) -> DesiredCurve:
-    """The reference; raises WorkbenchError when the line is too short for it."""
-    acceleration, braking = rates(study)
-    return start_cruise_stop(study.line.length_m, study.reference.cruise_mps, acceleration, braking,
-                             study.reference.ramp_s)
+def title_of(study: LiuStudy, case: RunCase) -> str:
+    """A run in words: law, column, and what is not as in Table 3."""
+    words = [f"{case.law}, Value {case.column}"]
+    if case.disturbance != study.runs.table_3_disturbance:
+        words.append(study.disturbances[case.disturbance].title)
+    if case.leak_rate_per_s is not None:
+        words.append(f"leak rate {case.leak_rate_per_s:g} 1/s")
+    if case.change >= 0:
+        words.append(study.changes[case.change].title)
+    return ", ".join(words)
 
 
-def disturbance_rows(study: LiuStudy, name: str) -> Array:
-    """The disturbance as the kernel reads it: the part -(M/chi) d of `opposing_force`, per kg of mass M."""
-    push, train = study.disturbances[name], study.train
-    force = _opposing(0.0, push.largest_n / train.mass_kg, train.chi, train.mass_kg)
-    row = [push.from_s, math.inf, 0.0, force / train.mass_kg, push.omega_rad_s, push.phase_rad, 0.0]
-    return np.array([row] if force else []).reshape(-1, 7)
-
-
-def setting_of(study: LiuStudy, disturbance: str) -> Setting:
-    """What the runs happen in. The paper names no limits of force, so there are none."""
-    curve, train, sampling = desired_curve(study), study.train, study.sampling
-    return Setting(
-        curve=curve, mass_kg=train.mass_kg, nominal_mass_kg=train.mass_kg, davis_n=davis_newton(train),
-        plant_step_s=sampling.period_s, end_s=curve.trip_time_s, log_every_s=sampling.log_every_s,
-        position_band_m=math.inf, line=line_table(study), terms=disturbance_rows(study, disturbance),
-        plant_values=(train.chi,))
-
-
-def centers(study: LiuStudy) -> Array:
-    """Centres of both networks on the study's desired curve."""
-    return centers_along(desired_curve(study), scales(study), study.networks.neurons)
-
-
-def centers_along(curve: DesiredCurve, scale: Mapping[str, float], neurons: int) -> Array:
-    """Centres of both networks, shape (3 + 6, neurons): z_1 and z_2 on a desired curve, evenly in position; u = 0."""
-    time = np.linspace(0.0, curve.trip_time_s, 100_001)
-    position, speed, acceleration = curve.at(time)
-    wanted = np.linspace(0.0, curve.length_m, neurons)
-    index = np.clip(np.searchsorted(position, wanted - 1e-9 * curve.length_m), 0, len(time) - 1)
-    s, v, a = wanted / scale["s_scale"], speed[index] / scale["v_scale"], acceleration[index] / scale["a_scale"]
-    return np.array([s, v, np.zeros_like(s), s, v, v, s, v, a])
-
-
-def scales(study: LiuStudy) -> dict[str, float]:
-    """What makes the networks' inputs of order one: line length, cruise speed, starting rate, highest input."""
-    return {"s_scale": study.line.length_m, "v_scale": study.reference.cruise_mps, "a_scale": rates(study)[0],
-            "u_scale": study.reference.highest_input_n}
-
-
-def law_values(study: LiuStudy, law: ControlLaw, column: int,
-               leak_rate_per_s: float | None = None) -> tuple[Array, Array, Array, Array]:
-    """Parameters, initial scalar states, initial weights and centres of a law for a column of Table 2."""
-    adapt, start = study.adaptation, study.start
-    leak = adapt.leak_rate_per_s if leak_rate_per_s is None else leak_rate_per_s
-    given: dict[str, float] = {name: getattr(study.gains, name)[column - 1] for name in FEEDBACK_GAINS}
-    given |= scales(study) | {
-        "M": study.train.mass_kg, "tau": study.sampling.speed_filter_s, "b_h": study.networks.width,
-        "Gamma_f": adapt.gamma_f_per_s2, "alpha_1": adapt.alpha_1_per_s2, "kappa_1": adapt.kappa_1_mps,
-        "Gamma_v": adapt.gamma_v_n_per_m, "alpha_2": adapt.alpha_2_n_per_m, "kappa_2": adapt.kappa_2_mps,
-        "sigma_f": leak / adapt.gamma_f_per_s2, "beta_1": leak / adapt.alpha_1_per_s2,
-        "sigma_v": leak / adapt.gamma_v_n_per_m, "beta_2": leak / adapt.alpha_2_n_per_m,
-        "W_f_prior": start.weights, "W_v_prior": start.weights, "delta_0": start.robust, "theta_0": start.robust,
-    }
-    shifted = start.v_hat_mps + given["k_3"] * start.s_hat_m  # xi of claim 12 with the train at position 0
-    first = {"s_hat": start.s_hat_m, "v_hat": start.v_hat_mps, "xi": shifted, "s_tilde": start.s_hat_m,
-             "v_tilde": start.v_hat_mps, "delta_hat": start.robust, "theta_hat": start.robust}
-    count = study.networks.neurons if law.neuron_data else 0
-    return (np.array([given[str(p)] for p in law.parameters], dtype=float),
-            np.array([first.get(str(state.symbol), 0.0) for state in law.scalar_states], dtype=float),
-            np.full((len(law.neuron_states), count), start.weights),
-            centers(study) if law.neuron_data else np.zeros((0, 0)))
-
-
-def run_case(study: LiuStudy, case: Case) -> Outcome:
+def run_case(study: LiuStudy, case: RunCase) -> RunResult:
     """Run a case and measure it; a run that diverges is reported failed."""
     changed = study if case.change < 0 else study.with_change(study.changes[case.change])
-    law = paper.LAWS[case.law]
-    run = run_law(law, law_values(changed, law, case.column, case.leak_rate_per_s),
-                  setting_of(changed, case.disturbance), changed.sampling.period_s, "explicit", plant=of_train.model())
-    return measured(case, run, changed.train.mass_kg)
+    run = run_under(LAWS[case.law], changed, case.column, setting_of(changed, case.disturbance), case.leak_rate_per_s)
+    return _measured(case, run, changed.train.mass_kg)
 
 
-def measured(case: Case, run: Run, mass_kg: float) -> Outcome:
-    """A run as numbers and, where it is to be drawn, as curves."""
+def _measured(case: RunCase, run: Run, mass_kg: float) -> RunResult:
     total, samples = run.totals, max(1.0, run.totals["samples"])
     largest = max(abs(total["position_error_min"]), abs(total["position_error_max"]))
     errors = {"s_tilde_m": run.column("s_tilde"), "v_tilde_mps": run.column("v_tilde"),
@@ -216,4 +140,27 @@ def measured(case: Case, run: Run, mass_kg: float) -> Outcome:
         curves = {name: values[::DRAWN] for name, values in errors.items()}
         curves |= {name: run.column(name)[::DRAWN] for name in (
             "t_s", "s_m", "v_mps", "s_desired_m", "v_desired_mps")}
-    return Outcome(case, numbers, run.end_s, largest, run.failed, float(np.median(run.step_us)), curves)
+    return RunResult(case, numbers, run.end_s, largest, run.failed, float(np.median(run.step_us)), curves)
+
+
+def run_row(study: LiuStudy, result: RunResult) -> dict[str, Any]:
+    """A run as data, SI units; inputs in N."""
+    case = result.case
+    return {
+        "controller": case.law, "column": case.column, "disturbance": case.disturbance,
+        "change": study.changes[case.change].title if case.change >= 0 else None,
+        "leak_rate_per_s": case.leak_rate_per_s, **{key: result.numbers.get(name) for name, key in ROW.items()},
+        "largest_position_error": result.largest_position_error_m, "end_s": result.end_s,
+        "step_us_median": result.step_us, "failed": result.failed}
+
+
+def track(study: LiuStudy, curve: DesiredCurve | None) -> Tracked:
+    """The last column of Table 2 with the signs corrected, on a curve or on the study's own.
+
+    The networks stay where the study puts them.
+    """
+    law, setting = LAWS[CORRECTED], setting_of(study, study.runs.table_3_disturbance)
+    if curve:
+        setting = replace(setting, curve=curve, end_s=curve.trip_time_s)
+    run = run_under(law, study, study.table_4_column, setting)
+    return of_run("liu2020", replace(run, controller=f"{law.id}, Value {study.table_4_column}"), setting.curve)

@@ -36,10 +36,10 @@ def run(study: MaoStudy, workers: int, on_progress: Progress) -> StudyResult:
     return StudyResult(
         rows=tuple(run.row for run in runs.values()),
         tables=(*all_tables(results),
-                *comparison_table(DRIVERS, study, comparison, "case", note(study, comparison) if comparison else ""),
+                *comparison_table(DRIVERS, study, comparison, "case", note(study, comparison)),
                 *pair_table(study, DRIVERS, pairs)),
-        plots=(*all_plots(results), *(comparison_plot([run for run in comparison if run.task.place == shown],
-                                                      f"case {shown}"))),
+        plots=(*all_plots(results), *comparison_plot([run for run in comparison if run.task.place == shown],
+                                                     f"case {shown}")),
         findings=(*all_findings(results), *comparison_findings(DRIVERS, study, comparison),
                   *pair_findings(study, DRIVERS, pairs)),
         failures=tuple((run.name, run.failed) for run in runs.values() if run.failed))
