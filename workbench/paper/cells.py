@@ -29,8 +29,9 @@ class Column:
 
     @property
     def heading(self) -> str:
-        """As the table is headed."""
-        return f"{self.title} ({self.unit})" if self.unit else self.title
+        """As the table is headed: the title and, unless it names it itself, the unit."""
+        shown = f"({self.unit})"
+        return f"{self.title} {shown}" if self.unit and shown not in self.title else self.title
 
 
 @dataclass(frozen=True)

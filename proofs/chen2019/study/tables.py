@@ -129,10 +129,9 @@ def group_table(results: Results, group: str, name: str, source: str, note: str)
     rows = [(label, *_at(run.position_error, trials), *_at(run.speed_error, ends), *_at(run.difference, ends),
              outcome(run))
             for label, run in (("as stated", results.stated), *((c.title, run) for c, run in results.group(group)))]
-    header: tuple[Column | str, ...] = (
-        "Run", *(f"|e_s| (m), trial {trial}" for trial in trials),
-        *(f"|e_v| (m/s), trial {trial}" for trial in ends),
-        *(Column(f"|Δu| (kN), trial {trial}", si=1e3) for trial in ends), "Outcome")
+    header = (Column("Run"), *(Column(f"|e_s| (m), trial {trial}", "m") for trial in trials),
+              *(Column(f"|e_v| (m/s), trial {trial}", "m/s") for trial in ends),
+              *(Column(f"|Δu| (kN), trial {trial}", "kN", 1e3) for trial in ends), Column("Outcome"))
     return ResultTable(name, source, header, tuple(rows), f"{LARGEST} {note}".strip())
 
 
