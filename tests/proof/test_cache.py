@@ -21,7 +21,7 @@ def cache(tmp_path, monkeypatch):
     monkeypatch.setenv("WORKBENCH_CACHE", str(tmp_path / "cache"))
     # So that nothing here depends on whether somebody edits a decider meanwhile.
     monkeypatch.setattr(kept_module, "engine_digest", lambda: "these deciders")
-    return tmp_path / "cache" / "proofs"
+    return tmp_path / "cache" / "decided-claims"
 
 
 def decided_now(proof):

@@ -90,7 +90,7 @@ def run(arguments):
 
 def test_a_folder_without_files_and_a_path_that_is_not_there(tmp_path):
     for path in (tmp_path, tmp_path / "missing.py", tmp_path / "missing"):
-        with pytest.raises(InputError, match=r"name a \.py file"):
+        with pytest.raises(InputError, match=r"name a paper's folder"):
             collect_papers([path])
     with pytest.raises(SystemExit) as left:
         run(["prove", str(tmp_path)])

@@ -45,9 +45,12 @@ def test_a_pattern_names_several_and_files_are_decided_once(tmp_path):
     assert [d.claim.id for d in proved(path, path, f"{path}::1").decisions] == IDS
 
 
-def test_an_equation_that_looks_like_a_pattern_is_found_by_its_name(tmp_path):
-    path = write_paper(tmp_path, TEXT.replace('paper.claim("4"', 'paper.claim("4[a]"').replace('("4",)', '("4[a]",)'))
-    assert [d.claim.equation for d in proved(f"{path}::4[a]").decisions] == ["4[a]"]
+@pytest.mark.parametrize("equation", ["4[a]", "4*", "4?"])
+def test_an_equation_that_looks_like_a_pattern_is_refused(tmp_path, equation):
+    path = write_paper(tmp_path, TEXT.replace('paper.claim("4"', f'paper.claim("{equation}"').replace(
+        '("4",)', f'("{equation}",)'))
+    with pytest.raises(InputError, match="is no number of a claim: use letters, digits"):
+        proved(path)
 
 
 @pytest.mark.parametrize(("pattern", "near"), [("44", "such as 4"), ("small2020:33", "name one of its 5"), ("", "5")])
@@ -77,15 +80,21 @@ def test_certificates_of_other_claims_stay(tmp_path, capsys):
     path = write_paper(tmp_path)
     folder = tmp_path / "certificates" / "small2020"
     assert command(capsys, path)[0] == 0
-    assert sorted(p.stem for p in folder.iterdir()) == ["1", "2", "3", "4"]
+    assert sorted(p.stem for p in folder.iterdir()) == ["1", "2", "3", "4", "manifest"]
     (folder / "1.json").write_text("something else")
     (folder / "stale.json").write_text("{}")
     assert command(capsys, f"{path}::2")[0] == 0
     assert (folder / "1.json").read_text() == "something else"
     assert (folder / "stale.json").exists()
     assert command(capsys, path)[0] == 0
-    assert not (folder / "stale.json").exists()
     assert (folder / "1.json").read_text() != "something else"
+    assert (folder / "stale.json").exists(), "no manifest of ours names it"
+    write_paper(tmp_path, TEXT.replace('paper.claim("1"', 'paper.claim("9"').replace('("1",)', '("9",)'))
+    assert command(capsys, f"{path}::2")[0] == 0
+    assert (folder / "1.json").exists()
+    assert command(capsys, path)[0] == 0
+    assert not (folder / "1.json").exists()
+    assert (folder / "9.json").exists() and (folder / "stale.json").exists()
 
 
 def test_a_folder_that_cannot_be_written_is_said(tmp_path, capsys):

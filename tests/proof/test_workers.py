@@ -18,6 +18,14 @@ STUCK = '''
     time.sleep(600)
 '''
 
+# The command line, interruptible though whoever started the tests ignores Ctrl-C, as a shell does in the background.
+INTERRUPTIBLE = """
+import signal
+signal.signal(signal.SIGINT, signal.default_int_handler)
+from workbench.cli.app import main
+main()
+"""
+
 
 @pytest.fixture(autouse=True)
 def cache(tmp_path, monkeypatch):
@@ -84,7 +92,7 @@ def test_a_worker_that_dies_is_said_in_one_line(tmp_path):
 @pytest.mark.parametrize("jobs", ["1", "2"])
 def test_an_interruption_leaves_no_process_behind(tmp_path, jobs):
     path = write_paper(tmp_path, TEXT.replace('    """The note of 3."""\n', STUCK[1:]))
-    command = [sys.executable, "-m", "workbench", "prove", str(path), "--jobs", jobs]
+    command = [sys.executable, "-c", INTERRUPTIBLE, "prove", str(path), "--jobs", jobs]
     with subprocess.Popen(command, cwd=tmp_path, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
                           start_new_session=True) as running:
         worker = stuck_worker(tmp_path / "pid")
