@@ -8,13 +8,15 @@ from __future__ import annotations
 import sys
 from pathlib import Path
 
+from workbench.cli.loading import load
+from workbench.files.folders import papers_in
 from workbench.model.curve_table import read_rows
 from workbench.optimal.curve_request import requested_curve
 from workbench.optimal.export import write_csv
 from workbench.paper.tracked import Tracked
 from workbench.paper.tracking import track
 
-BENCHMARKS = Path(__file__).parent
+PROOFS = Path(__file__).resolve().parent.parent / "proofs"
 KWH_J = 3.6e6
 
 
@@ -29,20 +31,20 @@ def line(found: Tracked, which: str) -> str:
 
 def main(arguments: list[str]) -> None:
     """Write the tables where asked, then print errors and energy on the own and on the optimal reference."""
-    papers = [a for a in arguments if not a.startswith("-")] or sorted(
-        path.stem for path in BENCHMARKS.glob("references/*.toml"))
+    papers = [a for a in arguments if not a.startswith("-")] or [folder.name for folder in papers_in(PROOFS)]
     if "--write" in arguments:
         for paper in papers:
-            made = requested_curve(BENCHMARKS / "references" / f"{paper}.toml")
-            write_csv(BENCHMARKS / "references" / f"{paper}.csv", made.rows)
+            made = requested_curve(PROOFS / paper / "reference.toml")
+            write_csv(PROOFS / paper / "reference.csv", made.rows)
             best = made.reference.optimal
             print(f"{paper:9} {made.reference.energy_j / KWH_J:.3f} kWh at the supply, the run below it "
                   f"{best.energy_j / KWH_J:.3f}, at least {best.lower_bound_j / KWH_J:.3f}: gap {100 * best.gap:.3f} %")
     print("paper     reference  time    distance  position largest, rms    speed largest, rms      traction work")
     for paper in papers:
-        rows = read_rows(BENCHMARKS / "references" / f"{paper}.csv")
-        print(line(track(BENCHMARKS / f"{paper}.toml"), "own"), flush=True)
-        print(line(track(BENCHMARKS / f"{paper}.toml", rows), "optimal"), flush=True)
+        rows = read_rows(PROOFS / paper / "reference.csv")
+        loaded = load(PROOFS / paper)
+        print(line(track(loaded), "own"), flush=True)
+        print(line(track(loaded, rows), "optimal"), flush=True)
 
 
 if __name__ == "__main__":

@@ -18,9 +18,10 @@ from pathlib import Path
 
 from workbench.model.desired_curve import CruiseSpeed
 from workbench.simulate.closed_loop import simulate
-from workbench.simulate.controllers import LAWS
+from workbench.simulate.controllers import SAMPLED
 from workbench.trains.scenario import Scenario, load_scenario
 
+STATED = Path(__file__).resolve().parent.parent / "proofs" / "yang2021" / "study.toml"
 INTERPRETED_M = 60.0
 REPEATS = 3
 
@@ -51,7 +52,7 @@ def seconds_per_step(scenario: Scenario, name: str) -> tuple[float, float, int]:
 def interpreted(path: Path, names: list[str]) -> dict[str, float]:
     """Seconds per step of the same source without compilation, from a process of its own."""
     code = ("import json, sys; from pathlib import Path; sys.path.insert(0, str(Path(sys.argv[1]).parent)); "
-            "import simulation_speed as s; from workbench.scenario import load_scenario; "
+            "import simulation_speed as s; from workbench.trains.scenario import load_scenario; "
             "sc = s.shortened(load_scenario(Path(sys.argv[2])), s.INTERPRETED_M); "
             "print(json.dumps({n: s.seconds_per_step(sc, n)[1] for n in json.loads(sys.argv[3])}))")
     answer = subprocess.run([sys.executable, "-c", code, __file__, str(path), json.dumps(names)], check=True,
@@ -61,10 +62,10 @@ def interpreted(path: Path, names: list[str]) -> dict[str, float]:
 
 def main() -> None:
     """Print one line a controller."""
-    path = Path(sys.argv[1]) if len(sys.argv) > 1 else Path(__file__).parent / "yang2021.toml"
+    path = Path(sys.argv[1]) if len(sys.argv) > 1 else STATED
     scenario = load_scenario(path)
     names = list(scenario.controllers)
-    baseline = interpreted(path, [n for n in names if scenario.controllers[n].law in LAWS])
+    baseline = interpreted(path, [n for n in names if scenario.controllers[n].law not in SAMPLED])
     print("controller           steps   run (s)   µs/step  interpreted µs/step   ratio")
     for name in names:
         run_s, step_s, steps = seconds_per_step(scenario, name)
