@@ -18,7 +18,6 @@ from workbench.trains.train import Plant, Train
 
 # Offset-free MPC has an observer, the linear one has none and costs the least.
 MPC_KINDS = ("mpc.linear", "mpc.offset_free")
-KINDS_BESIDE = MPC_KINDS  # until jiao2025 says MPC_KINDS
 JOULE_PER_KWH = 3.6e6
 # Whose speed errs by more (RMS) does not follow: a train that stands still has no jerk.
 FOLLOWS_MPS = 1.0

@@ -13,7 +13,7 @@ from workbench.paper.cells import Column, Phrase
 from workbench.paper.comparison import STEP
 from workbench.paper.drivers import MPC_NAMES, Drivers
 from workbench.paper.learning_comparison import LearningComparison, jerk_rms
-from workbench.paper.mpc_comparison import KINDS_BESIDE, counters_words
+from workbench.paper.mpc_comparison import MPC_KINDS, counters_words
 from workbench.paper.results import ResultTable
 from workbench.paper.statistics import ahead_from
 from workbench.simulate.closed_loop import NOMINAL, Factors
@@ -80,7 +80,7 @@ def _of_trip(study: JiaoStudy, reading: str) -> tuple[float, float]:
 def mpc_tasks(study: JiaoStudy) -> list[tuple[str, str]]:
     """Every kind on every trip that differs; none where the file states no MPC."""
     trips = {_of_trip(study, name): name for name in reversed(study.readings)}
-    return [(name, kind) for name in study.readings if name in trips.values() for kind in KINDS_BESIDE
+    return [(name, kind) for name in study.readings if name in trips.values() for kind in MPC_KINDS
             ] if study.mpc else []
 
 
@@ -114,14 +114,14 @@ def mpc_table(results: Results, trips: Sequence[MpcTrip]) -> Iterator[ResultTabl
                 *(_overtaken(trip.mse, _ahead_from(run, trip), ended) for trip in rivals),
                 Phrase(listed, tuple(trip.jerk for trip in rivals)),
                 Phrase(listed, tuple(trip.step_s for trip in rivals)), run.step_us * 1e-6))
-    titles = [KINDS[kind].title for kind in KINDS_BESIDE]
+    titles = [KINDS[kind].title for kind in MPC_KINDS]
     yield ResultTable(
         "Beside MPC: at which trial learning overtakes it", "comparison",
         ("reading", "law", "MSE, last trial", *(f"{title}, MSE: overtaken" for title in titles),
          Column("jerk RMS of MPC", "m/s³"), Column("a step of MPC", "µs", 1e-6),
          Column("a sample of the law", "µs", 1e-6)), tuple(rows),
         f"In m²/s². No: not within {results.study.trials.count} trials. MPC drives the same train once, at T_s, "
-        f"{results.study.mpc.horizon} samples ahead: {KINDS[KINDS_BESIDE[0]].information}; the laws: speeds of earlier "
+        f"{results.study.mpc.horizon} samples ahead: {KINDS[MPC_KINDS[0]].information}; the laws: speeds of earlier "
         f"trials, model unknown. Neither has limits. MPC counted {counters_words([one.counters for one in trips])}.")
 
 
@@ -130,7 +130,7 @@ def mpc_findings(results: Results, trips: Sequence[MpcTrip]) -> Iterator[str]:
     for law in PRINTED_LAWS if trips else ():
         finish = [name for name in results.study.readings if results.run(name, law).failed is None]
         words = []
-        for kind in KINDS_BESIDE:
+        for kind in MPC_KINDS:
             when = [_ahead_from(results.run(name, law), trip) for name in finish
                     for trip in _rivals(results, trips, name) if trip.kind == kind]
             ahead = sorted(trial for trial in when if trial is not None)

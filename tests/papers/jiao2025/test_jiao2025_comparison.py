@@ -11,7 +11,7 @@ from proofs.jiao2025.simulation.trials import run_trials
 from proofs.jiao2025.study.comparison import COMPARISON, DRIVERS, mpc_tasks
 from workbench.cli.loading import load
 from workbench.paper.drivers import shortened
-from workbench.paper.mpc_comparison import KINDS_BESIDE
+from workbench.paper.mpc_comparison import MPC_KINDS
 from workbench.paper.stages import run_stages
 from workbench.report.study_figures import study_plot
 from workbench.simulate.closed_loop import NOMINAL, Factors
@@ -33,7 +33,7 @@ def short(study):
 def test_every_trip_that_differs_is_driven_once(study):
     tasks = mpc_tasks(study)
     trips = {(r.step_s, r.k_per_sample) for r in study.readings.values()}
-    assert len(tasks) == len(set(tasks)) == len(trips) * len(KINDS_BESIDE)
+    assert len(tasks) == len(set(tasks)) == len(trips) * len(MPC_KINDS)
     assert {(study.readings[name].step_s, study.readings[name].k_per_sample) for name, _ in tasks} == trips
     trip = run_mpc(study, tasks[0])
     desired = plan(study, Case(tasks[0][0], "jiao2025.icfdl", 0)).desired
