@@ -14,7 +14,7 @@ STATED: dict[sp.Expr, Fraction] = {
     rho: Fraction("0.245"), lamda: Fraction("0.00005"), mu: Fraction("0.1"), eta: Fraction(1),
     epsilon: Fraction(1, 100000), K_p: Fraction("4.46"), K_d: Fraction(1000), T_s: Fraction(1, 10), M: Fraction(350000)}
 FIRST_INPUT, LENGTH, TRIALS = 1500, 2000, 150
-LONG = "every length of the trial, time-varying train"
+EVERY_LENGTH = "every length of the trial, time-varying train"
 
 
 def stated(*symbols: sp.Expr) -> dict[sp.Expr, Fraction]:
@@ -38,10 +38,10 @@ class Reading:
 
 
 MASS = STATED[M]
-tenth, second = STATED[T_s], Fraction(1)
-newton = Reading("N", "u in N, k in samples of 0.1 s, as (1) is printed", tenth, 1 / MASS)
-newton_1s = Reading("N.1s", "u in N, k in seconds", second, 1 / MASS)
-kilonewton = Reading("kN", "u in kN, k in samples of 0.1 s", tenth, 1000 / MASS)
-kilonewton_1s = Reading("kN.1s", "u in kN, k in seconds", second, 1000 / MASS)
-per_mass = Reading("mass", "u in N/kg, as (17) is divided by M, k in samples of 0.1 s", tenth, Fraction(1))
-per_mass_1s = Reading("mass.1s", "u in N/kg, k in seconds", second, Fraction(1))
+SAMPLE_S, SECOND_S = STATED[T_s], Fraction(1)
+newton = Reading("N", "u in N, k in samples of 0.1 s, as (1) is printed", SAMPLE_S, 1 / MASS)
+newton_1s = Reading("N.1s", "u in N, k in seconds", SECOND_S, 1 / MASS)
+kilonewton = Reading("kN", "u in kN, k in samples of 0.1 s", SAMPLE_S, 1000 / MASS)
+kilonewton_1s = Reading("kN.1s", "u in kN, k in seconds", SECOND_S, 1000 / MASS)
+per_mass = Reading("mass", "u in N/kg, as (17) is divided by M, k in samples of 0.1 s", SAMPLE_S, Fraction(1))
+per_mass_1s = Reading("mass.1s", "u in N/kg, k in seconds", SECOND_S, Fraction(1))

@@ -11,16 +11,16 @@ from workbench.proof.claim import Goal, Verdict, at_least, at_most, differ, equa
 from ..laws import Delta_u, e_prev, epsilon, estimate_step, eta, gamma, input_step, lamda, mu, phi, phi_prev, rho
 from ..paper import paper
 from ..plant import next_speed, u_i, v_i
-from ..stated_values import LONG, STATED, TRIALS, Reading, newton, per_mass, per_mass_1s, stated
+from ..stated_values import EVERY_LENGTH, STATED, TRIALS, Reading, newton, per_mass, per_mass_1s, stated
 from .section_2a_train import a, b, f_a_i, f_a_prev, p
 from .section_2b_algorithm import weight
 from .section_3a_random_lengths import p_k
 
 phi_c, phi_hat = sp.symbols("phi_c phi_hat_c", positive=True)  # by Assumption 4 and (13), with a positive first estimate
-low, most = sp.symbols("epsilon_bar Phi", positive=True)
+phi_lower, phi_upper = sp.symbols("epsilon_bar Phi", positive=True)
 g = sp.Symbol("g", positive=True)
 contraction = rho * phi_c * phi_hat / (lamda + phi_hat**2)
-balance = (greater(4 * lamda, rho**2 * phi_c**2), greater(lamda + phi_hat**2, rho * phi_c * phi_hat))
+contraction_lemmas = (greater(4 * lamda, rho**2 * phi_c**2), greater(lamda + phi_hat**2, rho * phi_c * phi_hat))
 
 
 @paper.claim("theorem1.estimate", "The estimate is a mean of the last one and phi_c", "identity",
@@ -40,9 +40,9 @@ def estimate_is_mean() -> Goal:
 def estimate_bounded() -> Goal:
     """A mean of two numbers lies between them; a reset to phi_hat(k,1) too."""
     mean = (1 - weight) * phi_prev + weight * phi
-    return Goal((at_most(mean, most), at_least(mean, 0)), (
-        at_least(weight, 0), at_most(weight, 1), at_most(phi_prev, most), at_least(phi_prev, 0),
-        at_most(phi, most), at_least(phi, 0)))
+    return Goal((at_most(mean, phi_upper), at_least(mean, 0)), (
+        at_least(weight, 0), at_most(weight, 1), at_most(phi_prev, phi_upper), at_least(phi_prev, 0),
+        at_most(phi, phi_upper), at_least(phi, 0)))
 
 
 @paper.claim("theorem1.step", "Error of the next trial", "identity",
@@ -62,11 +62,11 @@ def lambda_min_exists() -> Goal:
     """The square (phi_hat - rho phi_c/2)^2 does it."""
     return Goal((greater(contraction, 0), less(contraction, 1)),
                 (at_most(phi_c, p), greater(lamda, rho**2 * p**2 / 4)),
-                lemmas=balance)
+                lemmas=contraction_lemmas)
 
 
-lowest = rho * low * epsilon / (lamda + most**2)
-apart = (at_least(phi_c * phi_hat, low * epsilon), at_least(most**2, phi_hat**2))
+lowest = rho * phi_lower * epsilon / (lamda + phi_upper**2)
+uniform_lemmas = (at_least(phi_c * phi_hat, phi_lower * epsilon), at_least(phi_upper**2, phi_hat**2))
 
 
 @paper.claim("theorem1.low", "The contraction is uniform", "implication",
@@ -74,8 +74,8 @@ apart = (at_least(phi_c * phi_hat, low * epsilon), at_least(most**2, phi_hat**2)
              r"\frac{\rho\bar\varepsilon\varepsilon}{\lambda + \Phi^2}", "proved", premises=("A4", "13", "theorem1.estimate.bounded"))
 def contraction_uniform() -> Goal:
     """Numerator and denominator one by one."""
-    return Goal((at_least(contraction, lowest),), (greater(phi_c, low), greater(phi_hat, epsilon), at_most(phi_hat, most)),
-                lemmas=apart)
+    return Goal((at_least(contraction, lowest),), (greater(phi_c, phi_lower), greater(phi_hat, epsilon), at_most(phi_hat, phi_upper)),
+                lemmas=uniform_lemmas)
 
 
 @paper.claim("theorem1.whole", "From (6), (14) and the assumptions to the contraction, in one certificate", "implication",
@@ -87,10 +87,10 @@ def contraction_whole() -> Goal:
     """(6) with (14) at gamma = 1 and at gamma = 0."""
     after = e_prev - phi_c * input_step(phi_hat, gamma * e_prev)
     learned, kept = (after.xreplace({gamma: sp.Integer(value)}) for value in (1, 0))
-    given = (at_least(e_prev, 0), at_most(phi_c, p), greater(lamda, rho**2 * p**2 / 4), greater(phi_c, low),
-             greater(phi_hat, epsilon), at_most(phi_hat, most))
+    given = (at_least(e_prev, 0), at_most(phi_c, p), greater(lamda, rho**2 * p**2 / 4), greater(phi_c, phi_lower),
+             greater(phi_hat, epsilon), at_most(phi_hat, phi_upper))
     return Goal((at_least(learned, 0), at_most(learned, (1 - lowest) * e_prev), equal(kept, e_prev)), given,
-                lemmas=(*balance, *apart))
+                lemmas=(*contraction_lemmas, *uniform_lemmas))
 
 
 q_1 = sp.Symbol("q_1", real=True)
@@ -123,7 +123,7 @@ def expectation_converges() -> Goal:
                 lemmas=(at_most((1 + x_rate * i_trial) * m_now, m_0), at_least(x_rate * i_trial * delta, m_0)))
 
 
-late = sp.Symbol("theta", nonnegative=True)
+geometric_term = sp.Symbol("theta", nonnegative=True)
 
 
 @paper.claim("theorem1", "Theorem 1: under Assumptions 1 to 4 the expected error converges to zero", "limit",
@@ -138,8 +138,8 @@ late = sp.Symbol("theta", nonnegative=True)
                   "train is another matter: the train breaks Assumptions 2 and 4.")
 def same_length_always() -> Goal:
     """E{e}/e_0 when T_i = T_1 for all i, from the trial on at which (1-g)^i <= delta."""
-    mean = (1 - p_k) + p_k * late
-    return Goal((at_most(mean, 2 * delta),), (greater(p_k, 0), less(p_k, 1), at_most(late, delta)))
+    mean = (1 - p_k) + p_k * geometric_term
+    return Goal((at_most(mean, 2 * delta),), (greater(p_k, 0), less(p_k, 1), at_most(geometric_term, delta)))
 
 
 @paper.claim("theorem1.train.lambda", "For the train no lambda_min makes (14) contract at every sample", "inequality",
@@ -161,13 +161,13 @@ m_prev, z_now = sp.symbols("m_prev z", nonnegative=True)
 
 @paper.claim("theorem1.train", "The train's expected errors converge, sample after sample, for a fixed gain", "implication",
              r"E|e(k+1,i)| \le c\,E|e(k+1,i-1)| + E|\Delta v(k,i)|,\ E|\Delta v(k,i)| \le Zr^i \Rightarrow E|e(k+1,i)| \le Cr^i,\ "
-             r"E|\Delta v(k+1,i)| \le 2Cr^{i-1}", "proved", premises=("5.trials", "gamma.mean"), scope=LONG,
+             r"E|\Delta v(k+1,i)| \le 2Cr^{i-1}", "proved", premises=("5.trials", "gamma.mean"), scope=EVERY_LENGTH,
              note="Not the paper's argument, and what is left of Theorem 1 for the train: for a fixed estimate with |1 - g| < 1, 0 <= a <= 1, independent lengths, the same start "
                   "and f_a in every trial, c = 1 - p(k+1) min(g, 2-g) < r < 1, induction over k with C >= m_0 and C >= Z r/(r - c). So the limit exists, but C grows from "
                   "sample to sample: see intro.growth. theta is r^(i-1).")
 def train_converges() -> Goal:
     """One trial on, in powers of r; then the difference that the next sample is disturbed by."""
-    power = late
+    power = geometric_term
     given = (less(c_rate, r_rate), less(r_rate, 1), at_most(m_prev, C * power), at_most(z_now, Z * r_rate * power),
              at_least(C * (r_rate - c_rate), Z * r_rate), at_most(m_now, c_rate * m_prev + z_now))
     return Goal((at_most(m_now, C * r_rate * power), at_most(m_now + m_prev, 2 * C * power)), given,

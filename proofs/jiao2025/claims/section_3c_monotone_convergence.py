@@ -13,8 +13,9 @@ from ..laws import input_step, lamda, rho
 from ..paper import paper
 from ..plant import M, T_s, u_i, u_prev, v_i, v_prev
 from ..stated_values import (
+    EVERY_LENGTH,
     LENGTH,
-    LONG,
+    SAMPLE_S,
     TRIALS,
     Reading,
     kilonewton,
@@ -24,10 +25,9 @@ from ..stated_values import (
     per_mass,
     per_mass_1s,
     stated,
-    tenth,
 )
 from .section_2a_train import a, b, secant, secant_loss, two_trials
-from .section_3b_theorem_1 import g, late, phi_hat
+from .section_3b_theorem_1 import g, geometric_term, phi_hat
 
 x_in, z_k, z_old = sp.symbols("x z_next z_k", real=True)
 y_old, slope = sp.symbols("y Delta_y", real=True)
@@ -35,7 +35,7 @@ y_old, slope = sp.symbols("y Delta_y", real=True)
 
 @paper.claim("intro.lift", "The train under (14) with a fixed estimate, lifted", "identity",
              r"e_i = e_{i-1} - z,\ z(k+1) = a z(k) + g\,e_{i-1}(k+1),\ g = \frac{T_s}{M}\frac{\rho\hat\phi}{\lambda + \hat\phi^2}",
-             "proved", premises=("5.trials", "14"), scope=LONG,
+             "proved", premises=("5.trials", "14"), scope=EVERY_LENGTH,
              note="Not printed: a trial of full length, z = Delta v(.,i), z(0) = 0. e_i = (I - G L) e_(i-1) with G the train's lower triangular map. The introduction promises "
                   "monotone convergence in the 2-norm, which theorem1.step would give sample by sample; here it is held against the train.")
 def lifted_step() -> Goal:
@@ -47,7 +47,7 @@ def lifted_step() -> Goal:
 
 @paper.claim("intro.energy", "What one sample takes from the squared error", "identity",
              r"e_{i-1}^2 - e_i^2 = \tfrac1g\left[z(k+1)^2 - a^2z(k)^2 + g^2e_{i-1}^2\right] - z(k+1)^2", "proved", premises=("intro.lift",),
-             scope=LONG, note="Summed over the samples the first two terms leave z(N)^2 + sum (1-a^2) z^2 >= 0 when |a| <= 1.")
+             scope=EVERY_LENGTH, note="Summed over the samples the first two terms leave z(N)^2 + sum (1-a^2) z^2 >= 0 when |a| <= 1.")
 def energy_per_sample() -> Goal:
     """With z(k+1) = a z(k) + g e."""
     return Goal((equal(x_in**2 - (x_in - z_k)**2, (z_k**2 - a**2 * z_old**2 + g**2 * x_in**2) / g - z_k**2),),
@@ -59,7 +59,7 @@ k_count, Q, squares = sp.symbols("k Q S", positive=True)
 
 @paper.claim("intro.reach", "How far the speed change can build up", "implication",
              r"z(k)^2 \le k\,g^2\sum_{j \le k}e_{i-1}(j)^2 \Rightarrow z(k+1)^2 \le (k+1)\,g^2\sum_{j \le k+1}e_{i-1}(j)^2", "proved",
-             premises=("intro.lift",), scope=LONG, note="For every |a(k)| <= 1; in units of g, y = z/g, with Q the sum up to k.")
+             premises=("intro.lift",), scope=EVERY_LENGTH, note="For every |a(k)| <= 1; in units of g, y = z/g, with Q the sum up to k.")
 def builds_up() -> Goal:
     """The step of the induction, by a completed square."""
     return Goal((at_most((a * y_old + x_in) ** 2, (k_count + 1) * (Q + x_in**2)),),
@@ -70,7 +70,7 @@ N = sp.Symbol("N", positive=True)
 
 
 @paper.claim("intro.small", "A gain that is small for the length is monotone in the 2-norm", "implication",
-             r"g\,\tfrac{N(N+1)}{2} \le 1 \Rightarrow \|e_i\|_2 \le \|e_{i-1}\|_2", "proved", premises=("intro.energy", "intro.reach"), scope=LONG,
+             r"g\,\tfrac{N(N+1)}{2} \le 1 \Rightarrow \|e_i\|_2 \le \|e_{i-1}\|_2", "proved", premises=("intro.energy", "intro.reach"), scope=EVERY_LENGTH,
              note="Q = |e_(i-1)|^2, S = |z|^2/g^2 <= N(N+1)/2 Q by intro.reach, summed over k = 1..N.")
 def small_gain_monotone() -> Goal:
     """g Q - g^2 S, the least that intro.energy leaves."""
@@ -96,7 +96,7 @@ _monotone(newton_1s)
 
 
 @paper.claim("intro.slow", "What is left after one trial", "implication",
-             r"\|e_i\|_2 \ge (1 - gN)\|e_{i-1}\|_2", "proved", premises=("intro.lift", "intro.reach"), scope=LONG,
+             r"\|e_i\|_2 \ge (1 - gN)\|e_{i-1}\|_2", "proved", premises=("intro.lift", "intro.reach"), scope=EVERY_LENGTH,
              note="By the triangle inequality and |z| <= g N |e_(i-1)| (intro.reach summed, N >= 1).")
 def little_learned() -> Goal:
     """Norms n_i and n_prev, and that of z."""
@@ -194,13 +194,13 @@ def _not_monotone(reading: Reading) -> None:
         return Goal((at_least(hat_gain(GAIN_AT_TRUTH), 0),))
 
 
-for not_monotone in (kilonewton, kilonewton_1s, per_mass, per_mass_1s):
-    _not_monotone(not_monotone)
+for reading in (kilonewton, kilonewton_1s, per_mass, per_mass_1s):
+    _not_monotone(reading)
 
 
 @paper.claim("intro.monotone.seven", "The same, on seven samples written out (u in N/kg)", "condition",
              r"\|e_i\|_2 \le \|e_{i-1}\|_2\ \text{for}\ e_{i-1} = (1, 1, 1, 1, -1, -1, -1)", "violated", premises=("intro.lift",),
-             at={**stated(rho, lamda), b: per_mass.gain, a: 1 - secant_loss(tenth)},
+             at={**stated(rho, lamda), b: per_mass.gain, a: 1 - secant_loss(SAMPLE_S)},
              note="The first samples of a longer trial are not touched by later ones, so that the 2-norm of the whole map is above 1 for every trial of at "
                   "least seven samples, 0.7 s.")
 def seven_samples() -> Goal:
@@ -210,7 +210,7 @@ def seven_samples() -> Goal:
     return Goal((at_most(sp.Add(*(e**2 for e in after)), sp.Add(*(e**2 for e in errors))),))
 
 
-keep = sp.Symbol("alpha", positive=True)
+alpha = sp.Symbol("alpha", positive=True)
 
 
 @paper.claim("intro.impulse", "An error at the first sample alone, for any estimates at the other samples", "implication",
@@ -219,7 +219,7 @@ keep = sp.Symbol("alpha", positive=True)
                   "error over the whole trip.")
 def impulse_grows() -> Goal:
     """The sum is at least (N-1) alpha."""
-    return Goal((greater((1 - g) ** 2 + g**2 * squares, 1),), (at_least(squares, (N - 1) * keep), at_least((N - 1) * keep * g, 2)),
+    return Goal((greater((1 - g) ** 2 + g**2 * squares, 1),), (at_least(squares, (N - 1) * alpha), at_least((N - 1) * alpha * g, 2)),
                 lemmas=(at_least(g * squares, 2),))
 
 
@@ -231,13 +231,13 @@ n_count = sp.Symbol("n", nonnegative=True)
              note="Not printed; Bernoulli's inequality, its step; theta is a^(2n).")
 def bernoulli() -> Goal:
     """From n to n + 1."""
-    return Goal((at_least(late * (1 - loss) ** 2, 1 - 2 * (n_count + 1) * loss),), (at_least(late, 1 - 2 * n_count * loss), at_most(loss, 1)))
+    return Goal((at_least(geometric_term * (1 - loss) ** 2, 1 - 2 * (n_count + 1) * loss),), (at_least(geometric_term, 1 - 2 * n_count * loss), at_most(loss, 1)))
 
 
 @paper.claim("intro.growth", "One trial can multiply the error norm by ten (u in N/kg)", "condition",
              r"\|e_i\|_2^2 \ge (1-g)^2 + (N-1)(1 - 2Nc)\,g^2 \ge 100\,\|e_{i-1}\|_2^2,\ e_{i-1} = (1, 0, \ldots, 0)", "proved",
              premises=("intro.lift", "intro.bernoulli"),
-             at={**stated(rho, lamda), b: per_mass.gain, loss: secant_loss(tenth), N: Fraction(LENGTH)},
+             at={**stated(rho, lamda), b: per_mass.gain, loss: secant_loss(SAMPLE_S), N: Fraction(LENGTH)},
              note="Not printed. The errors converge in the end (theorem1.train), but the way there leads through much larger ones.")
 def growth_in_one_trial() -> Goal:
     """The error at the first sample alone, with what is left of its effect after N samples."""
@@ -252,5 +252,5 @@ def growth_in_one_trial() -> Goal:
 def monotone_or_learning() -> Goal:
     """The witness must not grow, so g is small."""
     numbers = {m_peak: sp.Integer(LENGTH // 2),
-               loss: sp.Rational(secant_loss(tenth).numerator, secant_loss(tenth).denominator)}
+               loss: sp.Rational(secant_loss(SAMPLE_S).numerator, secant_loss(SAMPLE_S).denominator)}
     return Goal((at_most(TRIALS * g, sp.Rational(1, 100)),), (at_least(hat_gain(g).xreplace(numbers), 0),))

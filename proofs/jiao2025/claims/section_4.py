@@ -13,7 +13,7 @@ from workbench.proof.derive import lie_derivative
 from ..laws import K_d, K_p, e_next, e_now, pd_step
 from ..paper import paper
 from ..plant import T_s, b_0k, desired_pieces, desired_speed, k, u_prev
-from ..stated_values import FIRST_INPUT, LENGTH, Reading, kilonewton_1s, newton, per_mass, per_mass_1s, stated, tenth
+from ..stated_values import FIRST_INPUT, LENGTH, SAMPLE_S, Reading, kilonewton_1s, newton, per_mass, per_mass_1s, stated
 from .section_2a_train import SPEED_MAX, a, b, secant_loss
 from .section_3a_random_lengths import T_d
 from .section_3b_theorem_1 import e_one, e_two
@@ -32,8 +32,8 @@ def starts_at_rest() -> Goal:
     return Goal((equal(desired_speed(0, 0), 0),))
 
 
-for border, before, stands in ((338, 0, 70), (700, 1, 72), (1000, 2, 69), (1600, 3, 70)):
-    _junction(border, before, stands)
+for border, before, speed in ((338, 0, 70), (700, 1, 72), (1000, 2, 69), (1600, 3, 70)):
+    _junction(border, before, speed)
 
 
 @paper.claim("16.2000", "The desired curve ends at rest", "identity", r"v_d(2000) = 0", "proved")
@@ -132,7 +132,7 @@ opposite = {e_one: sp.Integer(1), e_two: sp.Integer(-1)}
 
 @paper.claim("18.monotone", "(18) gets better from trial to trial (u in N, as printed)", "condition",
              r"\|e_i\|_2 \le \|e_{i-1}\|_2\ \text{for}\ e_{i-1} = (1, -1, \ldots)", "violated", premises=("5.trials",),
-             at={**stated(K_p, K_d), b: newton.gain, a: 1 - secant_loss(tenth), e_one: Fraction(1), e_two: Fraction(-1)},
+             at={**stated(K_p, K_d), b: newton.gain, a: 1 - secant_loss(SAMPLE_S), e_one: Fraction(1), e_two: Fraction(-1)},
              note="The text reads off Figures 5 and 6 that tracking gets better every time. Two samples suffice, as later ones do not act on them.")
 def pd_monotone() -> Goal:
     """The first two samples."""
