@@ -92,7 +92,6 @@ def test_streams_are_no_files(tmp_path):
 def paper(tmp_path, monkeypatch):
     """A paper of one's own, new, as the current folder's."""
     monkeypatch.chdir(tmp_path)
-    monkeypatch.setenv("WORKBENCH_CACHE", str(tmp_path / "cache"))
     done = CliRunner().invoke(app, ["new-paper", "doe2026"])
     assert done.exit_code == 0, done.output
     for name, source in (("line.toml", LINE), ("train.toml", TRAIN)):
@@ -142,13 +141,13 @@ REFUSED = {
 }
 
 
-SAID = ("it would be overwritten", "is a file", "name another folder", "name a folder", "lies among the certificates",
-        "exists already", "is not empty")
+SAID = ("it would be overwritten", "is a file", "Not a directory", "name another folder", "name a folder",
+        "lies among the certificates", "exists already", "is not empty")
 
 
 def everything(folder: Path) -> dict[str, bytes]:
     return {str(path.relative_to(folder)): path.read_bytes() for path in sorted(folder.rglob("*"))
-            if path.is_file() and "cache" not in path.parts and "__pycache__" not in path.parts}
+            if path.is_file() and "__pycache__" not in path.parts}
 
 
 @pytest.mark.parametrize("arguments", REFUSED.values(), ids=REFUSED)

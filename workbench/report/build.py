@@ -58,10 +58,11 @@ class Asked:
 
         proofs: papers whose claims are on the page; without any the paper's own. Raises InputError.
         """
+        _check_folder(loaded, out)
         asked = tuple(targets(list(proofs))) if proofs else tuple(_own(loaded))
         if loaded.kind is None:
             checked_variants(loaded.path, loaded.data, loaded.scenario, True)
-        _require_folder(loaded, out)
+        make_folder(out, out, ANOTHER_OUT)
         gains = gains_of(loaded) if with_gains and gain_search_of(loaded) is not None else None
         named = [str(loaded.path), *proofs]
         return cls(loaded, asked, out, gains, resume, workers, f"workbench report {' '.join(named)} --out {out}")
@@ -208,7 +209,7 @@ def _gains(asked: Asked, on_progress: Progress, timings: dict[str, float]) -> St
     return gains_result(asked.gains, done)
 
 
-def _require_folder(loaded: Loaded, out: Path) -> None:
+def _check_folder(loaded: Loaded, out: Path) -> None:
     """InputError unless the report can be written there, beside or over nothing that it is made from."""
     check_outputs({}, [loaded.path], {"--out": (out, FILES)})
     if is_paper(loaded.folder) and out.is_dir() and (
@@ -218,7 +219,6 @@ def _require_folder(loaded: Loaded, out: Path) -> None:
     for part in (CERTIFICATES, CURVES, MONTE_CARLO):
         require_inside(out / part, out, ANOTHER_OUT)
     read_manifest(out / CURVES, ANOTHER_OUT)
-    make_folder(out, out, ANOTHER_OUT)
 
 
 @contextmanager
