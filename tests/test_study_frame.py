@@ -4,20 +4,17 @@ import csv
 import json
 import re
 import sys
-from types import ModuleType
 
 import numpy as np
 import pytest
+from refusals import refusal
 from test_report import read
-from workbench.paper.registry import is_study, load_study
 
 from workbench.cli import app as cli
-from workbench.errors import InputError
-from workbench.files.toml import Positive, SourcedRecord
-from workbench.paper import registry
+from workbench.cli.loading import load
 from workbench.paper.results import Curve, Plot, ResultTable, StudyResult
-from workbench.paper.study import Study, StudyKind
-from workbench.report.build import build_study_report, run_study, study_document
+from workbench.paper.stages import Stage, run_stages
+from workbench.report.build import Asked, build_study_report, run_study, study_document
 from workbench.report.sources import sourced_values
 from workbench.report.study_figures import study_plot
 
@@ -26,7 +23,7 @@ version = 1
 kind = "study"
 name = "tiny"
 title = "Decay of x < y & more"
-paper = "tiny2026"
+paper = "tiny"
 citation = "A. Author, 2026"
 [decay]
 rate_per_s = 0.5
@@ -39,56 +36,97 @@ start_m = "paper, Table 1"
 """
 
 
-class Decay(SourcedRecord):
-    """How fast."""
+CODE = '''
+import numpy as np
 
+from workbench.files.toml import Positive, SourcedRecord
+from workbench.paper.cells import Column
+from workbench.paper.results import Curve, Plot, ResultTable, StudyResult
+from workbench.paper.stages import Stage, run_stages
+from workbench.paper.study import Study, StudyKind
+
+
+class Decay(SourcedRecord):
     rate_per_s: Positive
 
 
 class Case(SourcedRecord):
-    """From where."""
-
     start_m: Positive
 
 
 class TinyStudy(Study):
-    """x' = -rate x from several starts."""
-
     decay: Decay
     cases: tuple[Case, ...]
 
 
+TIME = np.linspace(0.0, 4.0, 5000)
+
+
+def decay(study, start_m):
+    return start_m * np.exp(-study.decay.rate_per_s * TIME)
+
+
 def run(study, workers, on_progress):
-    time = np.linspace(0.0, 4.0, 5000)
-    curves = [Curve("desired", time, np.zeros_like(time) + 1e-3)]
-    rows = []
-    for case in study.cases:
-        curves.append(Curve(f"from {case.start_m:g} m", time, case.start_m * np.exp(-study.decay.rate_per_s * time)))
-        rows.append({"case": f"{case.start_m:g} m", "end_m": float(curves[-1].y[-1]), "failed": None})
-    on_progress(1, 1, f"{workers} workers")
+    starts = [case.start_m for case in study.cases]
+    (ways,) = run_stages((Stage(decay, study, starts, lambda start, _: f"{start:g} m"),), workers, on_progress)
+    curves = [Curve("desired", TIME, np.zeros_like(TIME) + 1e-3),
+              *(Curve(f"from {start:g} m", TIME, way) for start, way in ways.items())]
+    rows = [{"case": f"{start:g} m", "end_m": float(way[-1]), "failed": None} for start, way in ways.items()]
     rows.append({"case": "wild", "end_m": None, "failed": "diverged at t = 1.000 s"})
-    table = ResultTable("Ends & <b>means</b>", "paper, Table 2", ("case", "printed", "obtained"),
-                        tuple((row["case"], "0.1", "—" if row["end_m"] is None else f"{row['end_m']:.3f}")
-                              for row in rows))
+    table = ResultTable("Ends & <b>means</b>", "paper, Table 2", ("case", Column("printed", "mm", 1e-3),
+                        Column("obtained", "mm", 1e-3)), tuple((row["case"], 0.1, row["end_m"]) for row in rows))
     plot = Plot("x over time", "paper, Figure 1", "time (s)", "x (m)", tuple(curves), "A note.", log_y=True)
     return StudyResult(tuple(rows), (table,), (plot,), ("It decays to 0.135 m.",), (("wild", "diverged at t = 1 s"),))
 
 
-@pytest.fixture
-def tiny(monkeypatch, tmp_path):
-    module = ModuleType("tiny_study_of_the_test")
-    module.KIND = StudyKind(TinyStudy, run)
-    monkeypatch.setitem(sys.modules, module.__name__, module)
-    monkeypatch.setitem(registry.STUDIES, "tiny2026", module.__name__)
-    path = tmp_path / "tiny.toml"
-    path.write_text(FILE)
-    return path
+KIND = StudyKind(TinyStudy, run)
+'''
+
+GAINS = '''
+from workbench.gains.result import Condition, GainReport, GainSet
+from workbench.paper.gain_search import GainSearch, same_for_all
 
 
-def test_a_study_becomes_a_page_with_its_data_beside_it(tiny, tmp_path):
-    out = tmp_path / "out"
-    made = build_study_report(tiny, [], out, workers=1)
-    page = made.page.read_text(encoding="utf-8")
+def report(stated):
+    conditions = (Condition("k < 2 & more", "the paper's <own>", "k = 3", False, "", ""),)
+    found = GainSet("found", "the least", {}, "nothing", "", {})
+    return GainReport("tiny", conditions, (), (found,), (), ("A remark.",), {})
+
+
+def run(loaded, task):
+    return {"rms": 2.0 if task.gains == "stated" else 1.0}, None
+
+
+SEARCH = GainSearch(report, lambda report: same_for_all(report, "alone"), run)
+'''
+
+
+def written(folder, **modules):
+    """A folder with the study's file and its modules."""
+    (folder / "study").mkdir(parents=True)
+    (folder / "study.toml").write_text(FILE)
+    (folder / "study" / "__init__.py").write_text(CODE)
+    for name, text in modules.items():
+        (folder / f"{name}.py").write_text(text)
+    return folder
+
+
+@pytest.fixture(scope="session")
+def tiny(tmp_path_factory):
+    """A paper's folder with a study and a search of gains, for tests that only read it."""
+    return written(tmp_path_factory.mktemp("papers") / "tiny", gains=GAINS)
+
+
+@pytest.fixture(scope="session")
+def made(tiny, tmp_path_factory):
+    """The study's report, and where it lies."""
+    out = tmp_path_factory.mktemp("report") / "out"
+    return build_study_report(Asked.of(load(tiny), [], out, workers=1)), out
+
+
+def test_a_study_becomes_a_page_with_its_data_beside_it(made):
+    report, out = made
+    page = report.page.read_text(encoding="utf-8")
     reader = read(page)
     assert len(reader.ids) == len(set(reader.ids))
     assert all(link.startswith("#") and link[1:] in reader.ids for link in reader.links)
@@ -100,57 +138,88 @@ def test_a_study_becomes_a_page_with_its_data_beside_it(tiny, tmp_path):
         rows = list(csv.reader(stream))
     assert rows[0] == ["curve", "time (s)", "x (m)"] and len(rows) == 1 + 2 * 5000
     document = json.loads((out / "compare.json").read_text(encoding="utf-8"))
-    assert document == study_document(made.study, made.result)
+    assert document == study_document(report.study, report.result)
     assert (document["version"], document["scenario"]) == (1, "tiny")
     assert [row["failed"] for row in document["rows"]] == [None, "diverged at t = 1.000 s"]
-    assert document["tables"][0]["rows"][0] == ["1 m", "0.1", "0.135"]
 
 
-def test_every_value_is_listed_with_its_source(tiny, tmp_path):
-    values = {value.key: value for value in sourced_values(load_study(tiny))}
+def test_tables_are_told_as_text_and_as_numbers_in_their_units(made):
+    (table,) = json.loads((made[1] / "compare.json").read_text(encoding="utf-8"))["tables"]
+    assert table["header"] == ["case", "printed (mm)", "obtained (mm)"] and table["units"] == ["", "mm", "mm"]
+    assert table["rows"] == [["1 m", "100", "135"], ["wild", "100", "—"]]
+    assert table["values"][0][2] == pytest.approx(1e3 * np.exp(-2.0)) and table["values"][1][2] is None
+
+
+def test_every_value_is_listed_with_its_source(tiny, made):
+    values = {value.key: value for value in sourced_values(load(tiny).study)}
     assert values["decay.rate_per_s"].kind == "assumed" and values["cases[0].start_m"].words == "Table 1"
-    page = build_study_report(tiny, [], tmp_path / "out", workers=1).page.read_text(encoding="utf-8")
-    text = page.replace("<wbr>", "")
+    text = made[0].page.read_text(encoding="utf-8").replace("<wbr>", "")
     for value in values.values():
         assert value.key in text and value.words in text
 
 
-def test_the_command_line_knows_studies_from_scenarios(tiny, tmp_path, monkeypatch, capsys):
+def test_the_command_line_knows_studies_from_scenarios(tmp_path, monkeypatch, capsys):
+    own = written(tmp_path / "tiny")
+
     def command(*words):
         monkeypatch.setattr(sys, "argv", ["workbench", *map(str, words)])
         with pytest.raises(SystemExit) as end:
             cli.main()
         return end.value.code, re.sub(r"\s+", " ", capsys.readouterr().err)
 
-    code, error = command("compare", tiny, "--json", tmp_path / "c.json", "--workers", 1)
+    code, error = command("compare", own, "--json", tmp_path / "c.json", "--workers", 1)
     assert code == 0 and "wild: diverged" in error
     assert json.loads((tmp_path / "c.json").read_text())["findings"] == ["It decays to 0.135 m."]
-    assert command("report", tiny, "--out", tmp_path / "r", "--workers", 1)[0] == 0
-    assert command("compare", tiny, "--variants") == (
+    assert command("compare", own, "--variants") == (
         2, "workbench: --variants: is for scenarios; a study's file states its own runs: leave it out ")
-    tiny.write_text(FILE.replace("rate_per_s = 0.5", "rate = 0.5"))
-    code, error = command("compare", tiny)
-    assert code == 2 and "tiny.toml: decay.rate: unknown key; did you mean 'rate_per_s'" in error
+    (own / "study.toml").write_text(FILE.replace("rate_per_s = 0.5", "rate = 0.5"))
+    code, error = command("compare", own)
+    assert code == 2 and "study.toml: decay.rate: unknown key; did you mean 'rate_per_s'" in error
+
+
+@pytest.fixture(scope="module")
+def broken(tmp_path_factory):
+    """A folder for tests to write wrong files into."""
+    return written(tmp_path_factory.mktemp("broken") / "tiny")
 
 
 @pytest.mark.parametrize(("old", "new", "message"), [
     ('kind = "study"', 'kind = "stduy"', "kind: 'stduy' is not known"),
-    ('paper = "tiny2026"', 'paper = "nobody2026"', "paper: there is no study of 'nobody2026': choose one of"),
-    ('paper = "tiny2026"', "", "paper: name the paper"),
-    ("start_m = 1.0", "start_m = -1.0", r"cases\[0\].start_m"),
+    ('paper = "tiny"', "", "paper: is missing"),
+    ("start_m = 1.0", "start_m = -1.0", "cases[0].start_m"),
     ("version = 1", "version = 2", "version: 2 is not known"),
 ])
-def test_a_file_that_is_no_study_says_why(tiny, old, new, message):
-    tiny.write_text(FILE.replace(old, new))
-    with pytest.raises(InputError, match=f"tiny.toml: {message}"):
-        assert is_study(tiny)
-        load_study(tiny)
+def test_a_file_that_is_no_study_says_why(broken, old, new, message):
+    (broken / "study.toml").write_text(FILE.replace(old, new))
+    assert f"study.toml: {message}" in refusal(load, broken)
+
+
+def test_a_study_without_code_beside_it_says_what_is_missing(tmp_path):
+    (tmp_path / "study.toml").write_text(FILE)
+    assert "no study/__init__.py lies beside this file" in refusal(load, tmp_path)
 
 
 def test_progress_comes_through(tiny):
     steps = []
-    run_study(load_study(tiny), 3, lambda *step: steps.append(step))
+    run_study(load(tiny), 3, lambda *step: steps.append(step))
     assert steps == [("runs", 1, 1)]
+
+
+def _square(offset, task):
+    return offset + task * task
+
+
+@pytest.mark.parametrize("workers", [1, 2])
+def test_stages_run_one_after_the_other_with_one_count(workers):
+    steps = []
+    numbers, none, more = run_stages((
+        Stage(_square, 1, (1, 3, 2), lambda task, result: f"{task}: {result}", work=lambda task: task),
+        Stage(_square, 0, (), lambda *_: "never"), Stage(_square, 0, (5,), lambda task, _: f"{task}")),
+        workers, lambda *step: steps.append(step))
+    assert (list(numbers.items()), dict(none), dict(more)) == ([(1, 2), (3, 10), (2, 5)], {}, {5: 25})
+    assert [step[:2] for step in steps] == [(1, 4), (2, 4), (3, 4), (4, 4)] and steps[-1][2] == "5"
+    if workers == 1:
+        assert [step[2] for step in steps[:3]] == ["3: 10", "2: 5", "1: 2"], "the longest first"
 
 
 @pytest.mark.parametrize("make", [
@@ -173,24 +242,10 @@ def test_figures_are_small_and_the_same_every_time():
     assert len(study_plot(plot, "a")) < 300_000
 
 
-def test_what_is_known_of_gains_stands_on_the_page(tiny, tmp_path, monkeypatch):
-    from workbench.gains.result import Condition, GainReport
-    from workbench.paper.gain_effects import Effect
-    from workbench.paper.new_paper import write_new_paper
-    from workbench.report import build
-
-    paper = tmp_path / "tiny2026"
-    write_new_paper("tiny2026", tmp_path)
-    found = GainReport("tiny2026", (Condition("k < 2 & more", "the paper's <own>", "k = 3", False, "", ""),), (), (),
-                       (), ("A remark.",), {})
-    monkeypatch.setitem(build.PAPERS, "tiny2026", "workbench.gains.tiny")
-    monkeypatch.setattr(build, "checked_gains", lambda path, proofs: found)
-    monkeypatch.setattr(build, "effects", lambda *_: (Effect("stated", "alone", {"rms": 2.0}, None),
-                                                      Effect("found", "alone", {"rms": 1.0}, None)))
-    with_them, without = (build_study_report(tiny, [paper], tmp_path / name, 1, with_gains=wanted)
-                          for name, wanted in (("with", True), ("without", False)))
+def test_what_is_known_of_gains_stands_on_the_page(tiny, made, tmp_path):
+    with_them = build_study_report(Asked.of(load(tiny), [], tmp_path / "with", with_gains=True, workers=1))
     text = with_them.page.read_text(encoding="utf-8")
     assert 'id="gains"' in text and "k &lt; 2 &amp; more" in text and "better in rms" in text
-    assert 'id="gains"' not in without.page.read_text(encoding="utf-8")
+    assert 'id="gains"' not in made[0].page.read_text(encoding="utf-8")
     assert json.loads((tmp_path / "with" / "gains.json").read_text(encoding="utf-8"))["conditions"][0]["met"] is False
-    assert not (tmp_path / "without" / "gains.json").exists()
+    assert not (made[1] / "gains.json").exists()

@@ -3,7 +3,10 @@
 from __future__ import annotations
 
 import math
+import re
+import shutil
 from collections.abc import Mapping
+from functools import cache
 from pathlib import Path
 from typing import Any
 
@@ -11,28 +14,24 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from scenarios import YANG
-from workbench.contest.tune_command import BEGIN, tune_run
-from workbench.paper.registry import is_study, load_study, study_kind
+from refusals import changed, refusal
+from scenarios import PAPERS, PROOFS, SHARED
 
-from proofs.chen2019.study import comparison as chen2019_tuned
-from proofs.jiao2025.study import comparison as jiao2025_tuned
-from proofs.liu2020.study import drivers as liu2020_tuned
-from proofs.mao2018.study import drivers as mao2018_tuned
+from workbench.cli.loading import load
 from workbench.contest.record import Contest
 from workbench.errors import InputError
-from workbench.files.toml import read_toml
+from workbench.files.folders import held_in
+from workbench.files.modules import module_in
 from workbench.paper.drivers import Drivers, entries, shortened, tune_with
 from workbench.paper.local_search import score, search
 from workbench.paper.mpc_comparison import FOLLOWS_MPS, best_words
-from workbench.paper.pairs import drawn_rows, factors_of, pair_findings, pair_table, pairs_of
+from workbench.paper.pairs import compared_pairs, factors_of, pair_findings, pair_stage, pair_table, pairs_of
 from workbench.paper.results import ResultTable
-from workbench.simulate.closed_loop import NOMINAL, Factors, simulate_in
+from workbench.paper.stages import run_stages
+from workbench.paper.study import StudyKind
+from workbench.paper.tune import BEGIN, tune_run
+from workbench.simulate.closed_loop import NOMINAL, Factors
 
-BENCHMARKS = YANG.parent
-DRIVERS: dict[str, Drivers] = {
-    "chen2019": chen2019_tuned.DRIVERS, "jiao2025": jiao2025_tuned.DRIVERS, "liu2020": liu2020_tuned.DRIVERS,
-    "mao2018": mao2018_tuned.DRIVERS}
 # Short enough for a test: each paper's train over the first part of what its file states.
 SHORT: dict[str, dict[str, Any]] = {
     "chen2019": {"train.cars": 2, "reference.cruise_mps": 5.0, "reference.acceleration_mps2": 0.15,
@@ -41,10 +40,13 @@ SHORT: dict[str, dict[str, Any]] = {
     "liu2020": {"line.length_m": 12000.0, "line.sections": [], "reference.cruise_mps": 30.0},
     "mao2018": {"horizon.end_s": 30.0, "sampling.end_s": 30.0},
 }
+STUDIES = [paper for paper in PAPERS if held_in(PROOFS / paper, "study", StudyKind)]
+DRIVERS: dict[str, Drivers] = {paper: module_in(PROOFS / paper, "study.comparison").DRIVERS for paper in STUDIES}
 
 
+@cache
 def study(name: str) -> Any:
-    return load_study(BENCHMARKS / f"{name}.toml")
+    return load(PROOFS / name).study
 
 
 def short(name: str) -> Any:
@@ -55,12 +57,8 @@ def place_of(name: str) -> str:
     return str(study(name).tuning.places[0])
 
 
-STUDIES = [path.stem for path in sorted(BENCHMARKS.glob("*.toml")) if is_study(path)
-           and read_toml(path)["paper"] != "contest"]
-
-
 def test_every_paper_that_has_a_study_is_tuned_here() -> None:
-    assert sorted(DRIVERS) == STUDIES
+    assert sorted(DRIVERS) == STUDIES == sorted(SHORT)
 
 
 @settings(max_examples=40, deadline=None)
@@ -106,9 +104,9 @@ def test_law_and_mpc_have_one_budget_ranges_around_what_is_stated_and_something_
             assert low * 0.999 <= tuning.found[controller][key] <= high * 1.001
         # No dead key: what was found arrives where the controller's parameters are read.
         assert drivers.parameters(drivers.tuned(of, controller), controller).items() >= tuning.found[controller].items()
-    assert study_kind(name).tune is not None
+    assert load(PROOFS / name).kind.tune is not None
     assert of.pairs.draws >= 10 and not isinstance(of, Contest)
-    common = load_study(BENCHMARKS / "common.toml")
+    common = load(SHARED / "common.toml").study
     assert isinstance(common, Contest)
     for unit, value in tuning.objective.units.items():
         assert value == {"position_rms": common.tuning.objective.position_m,
@@ -137,18 +135,6 @@ def test_a_drawn_train_changes_the_run_and_the_nominal_one_does_not(name: str) -
         plain, same, other = (drivers.drive(of, controller, place, factors)["speed_rms"] for factors in (
             NOMINAL, Factors(), Factors(1.08, 1.1, 1.1, 1.1)))
         assert plain == same != other
-
-
-def test_driving_is_what_the_studies_run() -> None:
-    mao = short("mao2018")
-    asked = mao2018_tuned.run_case(mao, "mpc_linear", 2, Factors(mass=1.1))
-    case, tuning = mao.cases[1], next(iter(mao.tunings.values()))
-    setting = mao2018_tuned.setting_of(mao, case, tuning)
-    a, b, c = setting.changes[0, 1:4]
-    of = mao2018_tuned.known(mao.mpc, setting.curve, setting.mass_kg, (a, b, c), setting.end_s)
-    heavy = mao2018_tuned.replace(setting, mass_kg=1.1 * setting.mass_kg, limits=(
-        of.train.max_traction_n, of.train.max_braking_n, np.inf))
-    assert np.array_equal(asked.log, simulate_in(of, "mpc.linear", heavy, mao2018_tuned.laws.train).log)
 
 
 def rows_of(position: Any, speed: Any, jerk: Any, failed: int = 0, trials: Any = None) -> list[dict[str, Any]]:
@@ -186,17 +172,18 @@ def test_who_fails_or_stands_still_wins_nothing() -> None:
     few, pair = liu_pairs(rows_of(fine, fine, fine, failed=3), rows_of(fine + 1, fine, fine + 1))
     assert {pair.winner(metric) for metric in pair.differences} == {"mpc_linear"} and pair.failed == (3, 0)
     table = next(pair_table(few, DRIVERS["liu2020"], [pair], {"fast": "fast"}))
-    assert "−1.00 [−1.00, −1.00]; " in table.rows[0][4], "over the nine trains on which both arrive"
-    assert table.rows[0][4].endswith("fails in 3 of 12: linear MPC")
+    assert "−1.00 [−1.00, −1.00]; " in table.text[0][4], "over the nine trains on which both arrive"
+    assert table.values[0][4][2:] == pytest.approx([-1.0, -1.0, -1.0]) and table.columns[4].unit == "m"
+    assert table.text[0][4].endswith("fails in 3 of 12: linear MPC")
     few, none = liu_pairs(rows_of(fine, fine, fine, failed=11), rows_of(fine + 1, fine, fine + 1))
     assert set(none.differences.values()) == {None} and none.winner("jerk_rms") == "mpc_linear"
-    assert next(pair_table(few, DRIVERS["liu2020"], [none], {"fast": "fast"})).rows[0][4].endswith(
+    assert next(pair_table(few, DRIVERS["liu2020"], [none], {"fast": "fast"})).text[0][4].endswith(
         "fails in 11 of 12: linear MPC")
     _, both = liu_pairs(rows_of(fine, fine, fine, failed=3), rows_of(fine, fine, fine, failed=1))
     assert {both.winner(metric) for metric in both.differences} == {None}
     few, still = liu_pairs(rows_of(lost, lost, 0 * fine), rows_of(fine, fine, fine))
     assert still.winner("jerk_rms") == "mpc_linear"
-    assert "does not follow" in next(pair_table(few, DRIVERS["liu2020"], [still], {"fast": "fast"})).rows[0][-1]
+    assert "does not follow" in next(pair_table(few, DRIVERS["liu2020"], [still], {"fast": "fast"})).text[0][-1]
     assert "beats" not in next(pair_findings(few, DRIVERS["liu2020"], [still], {"fast": "fast"}))
     rows: list[tuple[str, Mapping[str, Any]]] = [
         ("still", {"failed": None, "speed_rms": 20.0, "jerk_rms": 0.0, "position_rms": 9.0}),
@@ -218,15 +205,15 @@ def test_pairs_are_the_same_with_any_number_of_processes_and_become_a_table() ->
     of = study("jiao2025")
     few = of.model_copy(update={"pairs": of.pairs.model_copy(update={"draws": 2, "set": SHORT["jiao2025"]})})
     drivers = DRIVERS["jiao2025"]
-    one, two = (drawn_rows(drivers, few, workers, lambda *_: None) for workers in (1, 2))
-    assert list(one) == [("N", *entry) for entry in entries(few, drivers)] == list(two)
-    plain = [[[row[m] for m in ("speed_rms", "jerk_rms")] for row in rows] for rows in one.values()]
-    assert plain == [[[row[m] for m in ("speed_rms", "jerk_rms")] for row in rows] for rows in two.values()]
-    pairs = pairs_of(few, one)
+    (one,), (two,) = (run_stages((pair_stage(drivers, few),), workers, lambda *_: None) for workers in (1, 2))
+    assert list(one) == [(draw, "N", *entry) for draw in range(2) for entry in entries(few, drivers)] == list(two)
+    plain = [[row[m] for m in ("speed_rms", "jerk_rms")] for row in one.values()]
+    assert plain == [[row[m] for m in ("speed_rms", "jerk_rms")] for row in two.values()]
+    pairs = compared_pairs(drivers, few, one)
     assert len(pairs) == 2 * 2 * 2  # laws, kinds of MPC, stated and tuned
-    table = next(pair_table(few, drivers, pairs, {"N": "reading N"}))
+    table = next(pair_table(few, drivers, pairs))
     assert isinstance(table, ResultTable) and {row[3] for row in table.rows} == {"as stated", "tuned"}
-    assert len(list(pair_findings(few, drivers, pairs, {"N": "reading N"}))) == 2
+    assert len(list(pair_findings(few, drivers, pairs))) == 2
 
 
 def test_learners_are_ahead_from_the_trial_after_which_none_is_worse() -> None:
@@ -243,50 +230,60 @@ def test_studies_without_tuning_or_mpc_tell_nothing_of_it() -> None:
     for name, drivers in DRIVERS.items():
         for missing in ("tuning", "mpc"):
             bare = study(name).model_copy(update={missing: None, "pairs": None})
-            assert entries(bare, drivers) == () and drawn_rows(drivers, bare, 1, lambda *_: None) == {}
+            assert entries(bare, drivers) == () and not pair_stage(drivers, bare).tasks
+            assert compared_pairs(drivers, bare, {}) == ()
 
 
-def test_tuning_a_study_repeats_itself_and_is_written(tmp_path: Path) -> None:
-    text = (BENCHMARKS / "jiao2025.toml").read_text(encoding="utf-8").partition(BEGIN)[0]
-    path = tmp_path / "own.toml"
-    path.write_text(text.replace("runs = 300", "runs = 8"), encoding="utf-8")
-    of: Any = load_study(path)
+TEXT = (PROOFS / "jiao2025" / "study.toml").read_text(encoding="utf-8").partition(BEGIN)[0]
+
+
+@pytest.fixture(scope="module")
+def copied(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A copy of jiao2025's folder, for tests to write other files into."""
+    folder = tmp_path_factory.mktemp("copied") / "jiao2025"
+    shutil.copytree(PROOFS / "jiao2025", folder, ignore=shutil.ignore_patterns("certificates", "__pycache__", "claims"))
+    return folder
+
+
+def test_tuning_a_study_repeats_itself_and_is_written(copied: Path) -> None:
+    path = copied / "study.toml"
+    path.write_text(TEXT.replace("runs = 300", "runs = 8"), encoding="utf-8")
+    of: Any = load(copied).study
     names = ["pd", "icfdl"]
     tune = tune_with(DRIVERS["jiao2025"])
     alone, apart = (tune(of, names, workers, lambda *_: None) for workers in (1, 2))
     assert alone == apart and list(alone) == names
     assert all(cost <= first for _, cost, first in alone.values())
-    lines = list(tune_run(path, names, True, 1, lambda *_: None))
+    lines = list(tune_run(load(copied), names, True, 1, lambda *_: None))
     assert lines[-1] == f"written: {path}" and len(lines) == 3
-    again: Any = load_study(path)
+    again: Any = load(copied).study
     assert {name: values for name, (values, *_) in alone.items()} == again.tuning.found
     assert [entry for entry in entries(again, DRIVERS["jiao2025"]) if entry[1]] == [("icfdl", True), ("pd", True)]
 
 
-def test_mistakes_are_one_line(tmp_path: Path) -> None:
-    text = (BENCHMARKS / "jiao2025.toml").read_text(encoding="utf-8").partition(BEGIN)[0]
-    path = tmp_path / "broken.toml"
-    for before, after, message in (
-            ("[tuning.ranges.pd]", "[tuning.ranges.pid]", "tuning.ranges.pid: is no controller of the study"),
-            ("K_p = [0.0446, 446000.0]", "K_q = [0.0446, 446000.0]", "K_q: is no parameter"),
-            ("K_p = [0.0446, 446000.0]", "K_p = [2.0, 1.0]", "is no range"),
-            ('places = ["N"]', 'places = ["M"]', "tuning.places: 'M' is none"),
-            ("set = {}", 'set = { "trials.counts" = 3 }', "tuning.set: trials.counts: no such key"),
-            ("set = {}", 'set = { "trials.count" = 0 }', "tuning.set: trials.count"),
-            ("draws = 100", "draws = 1", "pairs.draws"),
-            ("spread = 0.1", "spread = 1.5", "pairs.spread"),
-            ("speed_mps = 0.1", "speed_mps = -0.1", "tuning.objective.speed_mps")):
-        assert before in text
-        path.write_text(text.replace(before, after, 1), encoding="utf-8")
-        with pytest.raises(InputError, match=message) as trouble:
-            load_study(path)
-        assert "\n" not in str(trouble.value) and str(path) in str(trouble.value)
-    without = text[: text.index("[tuning]")]
-    path.write_text(without + text[text.index("[pairs]"):], encoding="utf-8")
-    with pytest.raises(InputError, match=r"pairs: needs the tables \[mpc\] and \[tuning\]"):
-        load_study(path)
+@pytest.mark.parametrize(("before", "after", "message"), [
+    ("[tuning.ranges.pd]", "[tuning.ranges.pid]", "tuning.ranges.pid: is no controller of the study"),
+    ("K_p = [0.0446, 446000.0]", "K_q = [0.0446, 446000.0]", "K_q: is no parameter"),
+    ("K_p = [0.0446, 446000.0]", "K_p = [2.0, 1.0]", "is no range"),
+    ('places = ["N"]', 'places = ["M"]', "tuning.places: 'M' is none"),
+    ("set = {}", 'set = { "trials.counts" = 3 }', "tuning.set: trials.counts: no such key"),
+    ("set = {}", 'set = { "trials.count" = 0 }', "tuning.set: trials.count"),
+    ("draws = 100", "draws = 1", "pairs.draws"),
+    ("spread = 0.1", "spread = 1.5", "pairs.spread"),
+    ("speed_mps = 0.1", "speed_mps = -0.1", "tuning.objective.speed_mps")])
+def test_mistakes_are_one_line(copied: Path, before: str, after: str, message: str) -> None:
+    path = copied / "study.toml"
+    path.write_text(changed(TEXT, before, after), encoding="utf-8")
+    said = refusal(load, copied)
+    assert message in said and str(path) in said
+
+
+def test_pairs_need_tuning_and_tuning_its_table(copied: Path) -> None:
+    path, without = copied / "study.toml", TEXT[: TEXT.index("[tuning]")]
+    path.write_text(without + TEXT[TEXT.index("[pairs]"):], encoding="utf-8")
+    assert "pairs: needs the tables [mpc] and [tuning]" in refusal(load, copied)
     path.write_text(without, encoding="utf-8")
-    with pytest.raises(InputError, match="tuning: is missing"):
-        list(tune_run(path, [], False, 1, lambda *_: None))
-    with pytest.raises(InputError, match=r"tuning\.ranges\.nobody: is missing"):
-        list(tune_run(BENCHMARKS / "jiao2025.toml", ["nobody"], False, 1, lambda *_: None))
+    for folder, names, message in ((copied, [], "tuning: is missing"),
+                                   (PROOFS / "jiao2025", ["nobody"], "tuning.ranges.nobody: is missing")):
+        with pytest.raises(InputError, match=re.escape(message)):
+            list(tune_run(load(folder), names, False, 1, lambda *_: None))

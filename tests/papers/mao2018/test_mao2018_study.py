@@ -4,6 +4,7 @@ import json
 import math
 import re
 import tomllib
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -12,32 +13,40 @@ import pytest
 import sympy as sp
 from refusals import changed_copy, refusal
 from scipy.integrate import solve_ivp
-from workbench.paper.registry import load_study
 
-from proofs.mao2018 import laws
-from proofs.mao2018.study import plan, run, variants
-from proofs.mao2018.study.drivers import DRIVERS
-from proofs.mao2018.study.mpc_comparison import beside_tasks
-from proofs.mao2018.study.numbers import initial, parameters, setting_of
+from proofs.mao2018 import laws, plant
+from proofs.mao2018.study import run
+from proofs.mao2018.study.comparison import DRIVERS, drive_case
 from proofs.mao2018.study.record import MaoStudy
-from proofs.mao2018.study.runs import Asked, obtain, simulate
-from workbench.files.toml import validate_record
+from proofs.mao2018.study.runs import RunCase, run_case, run_cases, simulate
+from proofs.mao2018.study.scenario import initial, parameters, setting_of, wrong_signs
+from workbench.cli.loading import load
+from workbench.files.toml import read_toml, validate_record
+from workbench.paper.cells import numbers_in
+from workbench.paper.comparison import comparison_tasks
+from workbench.paper.mpc_comparison import MPC_KINDS, known, run_mpc
 from workbench.paper.pairs import pair_tasks
 from workbench.report.build import study_document
+from workbench.simulate.closed_loop import Factors, simulate_in
 from workbench.trains.train import single_particle
 
-FILE = Path(__file__).parent.parent / "benchmarks" / "mao2018.toml"
+FILE = Path(__file__).parents[3] / "proofs" / "mao2018" / "study.toml"
 CASES = (1, 2, 3, 4, 5)
 FASTER = 200
 
 
-@pytest.fixture(scope="module")
+@pytest.fixture(scope="session")
 def study():
-    return load_study(FILE)
+    return load(FILE.parent).study
+
+
+def read(path):
+    """A file as the study's record, without a folder of code beside it."""
+    return validate_record(read_toml(path), MaoStudy, path)
 
 
 def all_wrong(study, case):
-    return variants(study.cases[case - 1])[-1]
+    return wrong_signs(study.cases[case - 1])
 
 
 def two_hundred_times_faster(**law):
@@ -96,7 +105,7 @@ def test_the_readings_of_the_units(study):
 
 
 def test_the_train_is_that_of_the_other_papers():
-    own, other = laws.train, single_particle()
+    own, other = plant.train, single_particle()
     assert (own.command, own.disturbance, own.parameters) == (other.command, other.disturbance, other.parameters)
     assert all(sp.simplify(rate - other.rates[state]) == 0 for state, rate in own.rates.items())
 
@@ -165,7 +174,7 @@ def _plain(study, case, mended, period):
 def test_compiled_cases_are_those_of_plain_python(case, corrected, layer):
     fast = two_hundred_times_faster(layer_mps=layer)
     mended = all_wrong(fast, case) if corrected else ()
-    done = simulate(fast, Asked(case, "scaled", mended))
+    done = simulate(fast, RunCase(case, "scaled", mended))
     # As printed the laws leave the curve soon, and double every rounding error many times.
     steps = 9_900 if done.failed is None else min(9_900, int(0.85 * done.end_s / 0.001))
     expected = plain.run(*_plain(fast, case, mended, 0.001), 0.001, steps, 10)
@@ -187,7 +196,7 @@ def test_short_periods_come_near_the_continuous_closed_loop(study, corrected, en
     flow = plain.rates(train, law, curve)
     true = solve_ivp(flow, (0.0, end_s), start, method="LSODA", rtol=1e-9, atol=1e-11, max_step=0.01).y[:, -1]
     quick = smooth.changed({"tunings.scaled.period_s": period, "horizon.log_every_s": 0.01})
-    done = simulate(quick, Asked(2, "scaled", mended, end_s=end_s + 0.02))
+    done = simulate(quick, RunCase(2, "scaled", mended, end_s=end_s + 0.02))
     row = round(end_s / 0.01)
     assert done.column("s_m")[row] == pytest.approx(true[0], rel=1e-3, abs=1e-4)
     assert done.column("v_mps")[row] == pytest.approx(true[1], rel=1e-3, abs=1e-4)
@@ -200,7 +209,7 @@ def test_short_periods_come_near_the_continuous_closed_loop(study, corrected, en
 
 def test_healthy_motors_track_as_theorem_1_says(study):
     for tuning, most in (("scaled", 1e-3), ("SI", 2e-5)):
-        done = obtain(study, Asked(1, tuning, end_s=600.0 if tuning == "SI" else None))
+        done = run_case(study, RunCase(1, tuning, end_s=600.0 if tuning == "SI" else None))
         assert done.failed is None
         assert done.stretches[0].largest_m == 0.55
         assert all(stretch.largest_m < most for stretch in done.stretches[1:])
@@ -209,14 +218,14 @@ def test_healthy_motors_track_as_theorem_1_says(study):
 
 @pytest.mark.parametrize("case", CASES[1:])
 def test_corrected_laws_track_through_failures_and_printed_ones_do_not(study, case):
-    corrected = obtain(study, Asked(case, "scaled", all_wrong(study, case)))
+    corrected = run_case(study, RunCase(case, "scaled", all_wrong(study, case)))
     assert corrected.failed is None
     assert all(stretch.largest_m < 0.05 for stretch in corrected.stretches[1:])
     assert all(stretch.settled_m < 0.003 for stretch in corrected.stretches)
     # Each event is seen: the motor that fails at 600 s, and its force that varies from 1000 s on.
     errors = {stretch.start_s: stretch for stretch in corrected.stretches}
     assert min(errors[600.0].largest_m, errors[1000.0].largest_m) > 1e-3
-    printed = obtain(study, Asked(case, "scaled"))
+    printed = run_case(study, RunCase(case, "scaled"))
     assert "diverged at t = " in printed.failed and printed.law == "as printed"
     # From a start without error the printed law of case 3 holds until the failure moves.
     assert 1000 < printed.row["end_s"] < 1010 if case == 3 else printed.row["end_s"] < 1
@@ -224,43 +233,43 @@ def test_corrected_laws_track_through_failures_and_printed_ones_do_not(study, ca
 
 def test_with_weak_failure_estimates_the_sign_of_44_goes_unnoticed(study):
     weak = study.changed({"law.gain_xi": 0.02, "law.gain_rho_k": 0.02})
-    printed, corrected = (obtain(weak, Asked(2, "scaled", mended, end_s=1100.0)) for mended in ((), ("44",)))
+    printed, corrected = (run_case(weak, RunCase(2, "scaled", mended, end_s=1100.0)) for mended in ((), ("44",)))
     assert printed.failed is None
     for one, other in zip(printed.stretches, corrected.stretches, strict=True):
         assert one.largest_m == pytest.approx(other.largest_m, rel=0.02)
 
 
 def test_with_the_stated_gains_in_si_units_the_other_estimates_take_up_the_failure(study):
-    printed = obtain(study, Asked(2, "SI", end_s=1000.5))
+    printed = run_case(study, RunCase(2, "SI", end_s=1000.5))
     assert printed.failed is None
     assert abs(printed.row["failure_learned_n"]) < 100  # of 200 kN
     assert all(stretch.largest_m < 1e-6 for stretch in printed.stretches[1:])
-    scaled = obtain(study, Asked(2, "scaled", ("44",), end_s=1000.5))
+    scaled = run_case(study, RunCase(2, "scaled", ("44",), end_s=1000.5))
     assert abs(scaled.row["failure_learned_n"]) > 5e4
 
 
 def test_the_sign_of_54_leaves_errors_that_do_not_settle(study):
-    wrong, right = (obtain(study, Asked(4, "scaled", mended, end_s=650.0)) for mended in (("44",), ("44", "54")))
+    wrong, right = (run_case(study, RunCase(4, "scaled", mended, end_s=650.0)) for mended in (("44",), ("44", "54")))
     assert wrong.failed is None
     assert min(stretch.settled_m for stretch in wrong.stretches) > 10 * max(s.settled_m for s in right.stretches)
-    lost = obtain(study, Asked(4, "SI", ("44",), end_s=650.0))
+    lost = run_case(study, RunCase(4, "SI", ("44",), end_s=650.0))
     assert lost.failed and lost.row["end_s"] < 600  # no motor has failed yet
 
 
 def test_the_sign_of_61_turns_the_damping_into_a_drive(study):
-    done = obtain(study, Asked(5, "scaled", ("44",), end_s=900.0))
+    done = run_case(study, RunCase(5, "scaled", ("44",), end_s=900.0))
     assert done.failed and 600 < done.row["end_s"] < 900
 
 
 def test_longer_periods_do_not_bear_the_stated_gains_in_si_units(study):
-    lost, kept = (obtain(study, Asked(2, "SI", ("44",), period_s=period, end_s=450.0)) for period in (1e-3, 5e-4))
+    lost, kept = (run_case(study, RunCase(2, "SI", ("44",), period_s=period, end_s=450.0)) for period in (1e-3, 5e-4))
     assert lost.failed and 399 < lost.row["end_s"] < 410  # the tunnel brings estimates that have not given way yet
     assert kept.failed is None
 
 
 def test_a_boundary_layer_ends_the_chattering(study):
     soft = study.changed({"law.layer_mps": 1e-3})
-    hard, soft = (obtain(which, Asked(3, "scaled", ("44",), end_s=700.0)) for which in (study, soft))
+    hard, soft = (run_case(which, RunCase(3, "scaled", ("44",), end_s=700.0)) for which in (study, soft))
     assert hard.row["command_change_mps2"] > 1000 * soft.row["command_change_mps2"]
     assert hard.row["command_reversals_per_s"] > 100
     assert soft.stretches[-1].settled_m < 1e-3
@@ -269,22 +278,33 @@ def test_a_boundary_layer_ends_the_chattering(study):
 # --- the study as a whole -----------------------------------------------------------------------------------------
 
 
-@pytest.fixture(scope="module")
+@pytest.fixture(scope="session")
 def short(study):
     """The first seconds of everything, and few changes."""
-    kept = [change for change in study.sensitivity if change.laws != "corrected" or len(change.cases) > 1]
+    some = [change for change in study.sensitivity if change.laws != "corrected" or len(change.cases) > 1]
     return study.model_copy(update={
         "horizon": study.horizon.model_copy(update={"end_s": 1.5, "settled_window_s": 0.5}),
-        "sampling": study.sampling.model_copy(update={"end_s": 1.0}), "sensitivity": tuple(kept),
+        "sampling": study.sampling.model_copy(update={"end_s": 1.0}), "sensitivity": tuple(some),
         "pairs": study.pairs.model_copy(update={"draws": 2, "set": {}})})
 
 
-def test_a_study_has_every_figure_and_no_nan_and_says_what_failed(short):
+@pytest.fixture(scope="session")
+def told(short):
+    """The short study's result, and what was told of its progress."""
     steps = []
-    result = run(short, 1, lambda done, total, what: steps.append((done, total, what)))
-    more = len(beside_tasks(short)) + len(pair_tasks(DRIVERS, short))
-    assert len(result.rows) == len(plan(short)) == len(steps) - more
-    assert [done for done, *_ in steps] == list(range(1, len(steps) + 1)) and steps[-1][1] == len(steps)
+    return run(short, 1, lambda *step: steps.append(step)), steps
+
+
+def test_progress_counts_all_runs(short, told):
+    result, steps = told
+    more = len(comparison_tasks(DRIVERS, short)) + len(pair_tasks(DRIVERS, short))
+    assert len(result.rows) == len(run_cases(short)) == len(steps) - more
+    assert [(done, total) for done, total, _ in steps] == [(i + 1, len(steps)) for i in range(len(steps))]
+    assert steps[-1][2].startswith("drawn train ")
+
+
+def test_a_study_has_every_figure_and_no_nan_and_says_what_failed(short, told):
+    result, _ = told
     assert json.dumps(study_document(short, result), allow_nan=False)
     sources = [plot.source for plot in result.plots]
     assert sources[:5] == ["paper, Figure 1", *(f"paper, Figure 2 ({letter})" for letter in "abcd")]
@@ -297,19 +317,37 @@ def test_a_study_has_every_figure_and_no_nan_and_says_what_failed(short):
     assert "case 2 diverged at 0.301 s" in text and "nan" not in text and "None" not in text
 
 
+def test_tables_hold_numbers_in_si_and_show_them_in_units_that_fit(short, told):
+    tables = {table.title: table for table in told[0].tables}
+    assert all(any(True for row in table.rows for cell in row for _ in numbers_in(cell)) for table in tables.values())
+    printed = tables["Tracking errors, printed and obtained"]
+    assert printed.text[1][3] == "diverged at 0.301 s" and printed.values[1][3] == [pytest.approx(0.301)]
+    assert printed.text[0][4] == "550 mm, settles to 10 mm" or " mm, settles to " in printed.text[0][4]
+    periods = tables["Which sampling the stated gains bear"]
+    assert periods.headings[:2] == ("period (ms)", "r_2 (1/s)")
+    assert periods.rows[0][0] == 1e-3 and (periods.text[0][0], periods.values[0][0]) == ("1", 1.0)
+    beside = tables["Beside MPC"]
+    titles = [(row[0], row[1]) for row in beside.rows]
+    assert titles[:3] == [("1, healthy", "the law"), ("1, healthy", "linear MPC"),
+                          ("1, healthy", "offset-free nonlinear MPC")]
+    of_case_2 = [name for case, name in titles if case.startswith("2")]
+    assert of_case_2[:2] == ["as printed", "signs corrected"] and of_case_2[4] == "signs corrected, tuned"
+    assert beside.rows[of_case_2.index("as printed") + 6][2] == "fails"
+
+
 def test_the_same_study_twice_is_the_same(short):
-    asked = Asked(4, "scaled", ("44", "54"))
-    one, other = obtain(short, asked), obtain(short, asked)
+    asked = RunCase(4, "scaled", ("44", "54"))
+    one, other = run_case(short, asked), run_case(short, asked)
     assert one.row | {"step_us_median": 0, "step_us_p99": 0} == other.row | {"step_us_median": 0, "step_us_p99": 0}
     assert one.curves["error"].y.tobytes() == other.curves["error"].y.tobytes()
 
 
 def test_every_case_runs_printed_corrected_and_with_each_sign_alone(study):
-    asked = plan(study)
+    asked = run_cases(study)
     assert len(asked) == len(set(asked))
     for tuning in study.tunings:
         for case, ways in zip(CASES, (1, 2, 2, 4, 4), strict=True):
-            runs = [one for one in asked if (one.case, one.tuning, one.change, one.end_s) == (case, tuning, 0, None)]
+            runs = [one for one in asked if (one.number, one.tuning, one.change, one.end_s) == (case, tuning, 0, None)]
             assert len(runs) == ways
 
 
@@ -328,12 +366,39 @@ def test_every_case_runs_printed_corrected_and_with_each_sign_alone(study):
     ("end_s = 700.0", "end_s = 7000.0", "horizon.end_s or sampling.end_s lies beyond"),
     ("starts_s = [0.0, 500.0", "starts_s = [0.0, 100.0", "reference: desired curve: the change to 50 m/s"),
     ("cases = [2, 5]", "cases = [2, 6]", r"sensitivity\[\d+\].cases: there is no case 6"),
-    ('"law.omega_rad_s" = 0.1', '"law.omega" = 0.1', r"sensitivity\[\d+\].set: no key 'law.omega'"),
-    ('"law.layer_mps" = 0.01', '"law.layer_mps" = -0.01', r"sensitivity\[\d+\].set: law.layer_mps: input should be"),
+    ('"law.omega_rad_s" = 0.1', '"law.omega" = 0.1', r"sensitivity\[\d+\].set: law.omega: no such key"),
+    ('"law.layer_mps" = 0.01', '"law.layer_mps" = -0.01', r"sensitivity\[\d+\].set: law.layer_mps: Input should be"),
     ('"reference.rate_mps2" = 0.6', '"reference.rate_mps2" = 0.1', r"sensitivity\[\d+\].set: reference: desired curve"),
     ("to_s = 1000.0", "to_s = 1100.0", "failure: its parts overlap"),
     ("gain = 2.0\n", "gains = 2.0\n", "law.gains: unknown key; did you mean 'gain'"),
     ('gain = "paper', 'gain = "guess', "law: source.gain = 'guess"),
 ])
 def test_a_file_that_cannot_be_used_names_the_key(tmp_path, old, new, message):
-    assert re.search(f"mao2018.toml: {message}", refusal(load_study, changed_copy(FILE, tmp_path, old, new)))
+    assert re.search(f"study.toml: {message}", refusal(read, changed_copy(FILE, tmp_path, old, new)))
+
+
+# --- the comparison with MPC --------------------------------------------------------------------------------------
+
+
+def test_offset_free_mpc_forgets_a_failed_motor_and_linear_mpc_does_not(study):
+    tuning = next(iter(study.tunings.values()))
+    setting = replace(setting_of(study, study.cases[1], tuning, 900.0), log_every_s=1.0)
+    a, b, c = setting.changes[0, 1:4]
+    of = known(study.mpc, setting.curve, setting.mass_kg, (a, b, c), setting.end_s)
+    offset = {}
+    for kind in MPC_KINDS:
+        done = run_mpc(of, kind, setting, plant.train)
+        time, error = done.column("t_s"), done.column("s_m") - done.column("s_desired_m")
+        offset[kind] = np.abs(error[(time > 700) & (time < 790)]).max()
+    # 200 kN of one motor, less its share of what the others give: 0.5 m/s^2 that the linear one must lean against.
+    assert offset["mpc.offset_free"] < 0.01 * offset["mpc.linear"]
+
+
+def test_mpc_drives_a_heavier_train_than_it_knows(short):
+    driven = drive_case(short, "mpc_linear", 2, Factors(mass=1.1))
+    setting = setting_of(short, short.cases[1], next(iter(short.tunings.values())))
+    a, b, c = setting.changes[0, 1:4]
+    of = known(short.mpc, setting.curve, setting.mass_kg, (a, b, c), setting.end_s)
+    heavy = replace(setting, mass_kg=1.1 * setting.mass_kg,
+                    limits=(of.train.max_traction_n, of.train.max_braking_n, np.inf))
+    assert np.array_equal(driven.log, simulate_in(of, "mpc.linear", heavy, plant.train).log)

@@ -10,18 +10,17 @@ import pytest
 import sympy as sp
 from refusals import changed_copy, refusal
 from scipy.integrate import solve_ivp
-from workbench.paper.registry import load_study
 
 from proofs.liu2020 import plant as of_train
 from proofs.liu2020.laws import LAWS
 from proofs.liu2020.study import KIND, run
-from proofs.liu2020.study.cases import DRAWN_LAWS, Found, cases, title_of
+from proofs.liu2020.study.comparison import drawn_runs, variants
+from proofs.liu2020.study.figures import all_plots
 from proofs.liu2020.study.findings import all_findings
-from proofs.liu2020.study.plots import all_plots
-from proofs.liu2020.study.record import Section
-from proofs.liu2020.study.runs import (
-    Case,
-    Outcome,
+from proofs.liu2020.study.outcomes import Results
+from proofs.liu2020.study.record import LiuStudy, Section
+from proofs.liu2020.study.runs import DRAWN_LAWS, RunCase, RunResult, run_case, run_cases, title_of
+from proofs.liu2020.study.scenario import (
     centers,
     davis_at,
     davis_newton,
@@ -30,30 +29,40 @@ from proofs.liu2020.study.runs import (
     law_values,
     line_table,
     rates,
-    run_case,
     scales,
     section_force,
     setting_of,
 )
 from proofs.liu2020.study.steady import eigenvalues, implied, largest_step_s
 from proofs.liu2020.study.tables import all_tables
+from workbench.cli.loading import load
 from workbench.compile.kernel import law_source
+from workbench.files.toml import read_toml, validate_record
 from workbench.model.law import speed
+from workbench.paper.cells import numbers_in
+from workbench.paper.comparison import ComparedRun, Task
+from workbench.paper.mpc_comparison import known, run_mpc
 from workbench.report.build import study_document
 from workbench.report.sources import sourced_values
 from workbench.report.study_page import StudyContent, build_study_page
 from workbench.simulate.closed_loop import run_law
+from workbench.trains.track import ResistanceTable
 
-FILE = Path(__file__).parent.parent / "benchmarks" / "liu2020.toml"
+FILE = Path(__file__).parents[3] / "proofs" / "liu2020" / "study.toml"
 G = 9.80665
 
 
-@pytest.fixture(scope="module")
+@pytest.fixture(scope="session")
 def study():
-    return load_study(FILE)
+    return load(FILE.parent).study
 
 
-@pytest.fixture(scope="module")
+def read(path):
+    """A file as the study's record, without a folder of code beside it."""
+    return validate_record(read_toml(path), LiuStudy, path)
+
+
+@pytest.fixture(scope="session")
 def short(study):
     """12 km with a slope, networks that matter, steps of 5 ms: a run takes a fraction of a second."""
     source = dict.fromkeys(("from_m", "to_m", "slope"), "assumed: a test")
@@ -67,7 +76,7 @@ def short(study):
 
 
 def outcome_of(study, column, law, disturbance="fast", leak=None):
-    outcome = run_case(study, Case(column, f"liu2020.{law}", disturbance, leak_rate_per_s=leak))
+    outcome = run_case(study, RunCase(column, f"liu2020.{law}", disturbance, leak_rate_per_s=leak))
     assert outcome.failed is None, outcome.failed
     return outcome.numbers
 
@@ -324,7 +333,7 @@ def test_learning_tracks_better_than_feedback_alone(short):
 
 def test_the_printed_leakage_diverges_and_the_corrected_one_does_not(short):
     for law in ("printed", "wrong_leakage"):
-        outcome = run_case(short, Case(5, f"liu2020.{law}", "fast", leak_rate_per_s=1.0))
+        outcome = run_case(short, RunCase(5, f"liu2020.{law}", "fast", leak_rate_per_s=1.0))
         assert outcome.numbers == {}
         assert f"liu2020.{law} diverged at t = " in outcome.failed and " m, v = " in outcome.failed
         assert 5 < outcome.end_s < 60
@@ -349,7 +358,7 @@ def test_value_10_needs_the_step_that_its_eigenvalues_say(short):
     assert largest_step_s(eigenvalues(short, 10, "s_tilde'")) == pytest.approx(2 / 314.89, rel=1e-3)
     coarse = short.model_copy(update={"sampling": short.sampling.model_copy(update={"period_s": 0.01})})
     outcome_of(coarse, 10, "feedback")
-    assert run_case(coarse, Case(10, "liu2020.feedback_rate", "fast")).failed is not None
+    assert run_case(coarse, RunCase(10, "liu2020.feedback_rate", "fast")).failed is not None
 
 
 def test_the_printed_tables_imply_one_acceleration_and_one_step(study):
@@ -368,7 +377,7 @@ def test_the_printed_tables_imply_one_acceleration_and_one_step(study):
 @pytest.mark.parametrize("column", [4, 5, 7, 8, 9])
 def test_table_3_comes_out_by_feedback_alone_with_ten_times_its_gain(study, column):
     number = [change.title for change in study.changes].index(study.runs.inferred_changes[0])
-    numbers = run_case(study, Case(column, "liu2020.feedback", "fast", number)).numbers
+    numbers = run_case(study, RunCase(column, "liu2020.feedback", "fast", number)).numbers
     for name, within in (("s_tilde_m", 0.1), ("v_tilde_mps", 0.1), ("position_m", 0.3)):
         assert numbers[name] == pytest.approx(getattr(study.table_3, name)[column - 1], rel=within), name
     assert numbers["speed_mps"] > 1.5 * study.table_3.speed_mps[column - 1]  # where it does not
@@ -377,7 +386,7 @@ def test_table_3_comes_out_by_feedback_alone_with_ten_times_its_gain(study, colu
 # --- the study --------------------------------------------------------------------------------------------------------
 
 
-@pytest.fixture(scope="module")
+@pytest.fixture(scope="session")
 def small(short):
     """The short line with the changes that tables need, two leak rates."""
     wanted = (*short.runs.inferred_changes, short.runs.divergence_change, "steps of 0.01 s, k₃s̃′")
@@ -385,7 +394,7 @@ def small(short):
     return short.model_copy(update={"runs": runs, "changes": tuple(c for c in short.changes if c.title in wanted)})
 
 
-@pytest.fixture(scope="module")
+@pytest.fixture(scope="session")
 def result(small):
     steps = []
     found = run(small, 1, lambda done, total, what: steps.append((done, total, what)))
@@ -394,7 +403,7 @@ def result(small):
 
 
 def test_the_study_runs_and_reports_those_that_fail(small, result):
-    asked = cases(small)
+    asked = run_cases(small)
     assert len(result.rows) == len(asked) == len(set(asked))
     failed = [row for row in result.rows if row["failed"]]
     assert 0 < len(failed) == len(result.failures) < len(asked)
@@ -410,12 +419,43 @@ def test_every_figure_and_both_tables_of_the_paper_are_there(small, result):
     titles = [table.title for table in result.tables]
     assert any(title.startswith("Table 3") for title in titles) and any(title.startswith("Table 4") for title in titles)
     third = next(table for table in result.tables if table.title.startswith("Table 3, signs corrected"))
-    assert [row[3] for row in third.rows[:9]] == [
+    assert [row[3] for row in third.text[:9]] == [
         "51.9592", "38.3612", "26.3685", "2.4269", "0.6257", "0.6022", "0.0299", "0.0288", "0.0108"]
-    assert third.rows[9][3].startswith("5") and third.rows[9][3].endswith("10⁻⁵")
+    assert third.rows[9][3] == 5e-5 and third.text[9][3].endswith("10⁻⁵")
+    assert third.headings[1:5] == ("energy printed (10¹¹)", "obtained (10¹¹)", "s̃ printed (m)", "obtained (m)")
+    assert third.rows[0][1] == 1.8799e11 and third.values[0][1] == pytest.approx(1.8799)
+    fourth = next(table for table in result.tables if table.title.startswith("Table 4"))
+    assert fourth.text[0][:3] == ("no disturbance", "energy (10¹¹ J)", "1.6383") and fourth.values[0][2] == 1.6383e11
+    assert all(any(True for row in table.rows for cell in row for _ in numbers_in(cell)) for table in result.tables)
     assert len(result.findings) >= 10
     page = build_study_page(StudyContent(small, result))
     assert "Value 10 under the same disturbance" in page and "nan" not in page.lower().split()
+
+
+def test_laws_stand_beside_mpc_with_two_columns_of_gains_and_tuned(small, result):
+    table = next(table for table in result.tables if table.title == "Beside MPC")
+    law = LAWS["liu2020.corrected"]
+    of_none = [row for row in table.rows if row[0] == "no disturbance"]
+    assert [row[1] for row in of_none[:3]] == [f"{law.title}, Value 9", f"{law.title}, Value 10", f"{law.title}, tuned"]
+    assert {row[2] for row in of_none[:3]} == {law.information} and len(of_none) == 10
+    assert {of.table_4_column for of in variants(small, "corrected").values()} == {9, 10}
+    runs = [ComparedRun(Task(place, name, variant), name, {}) for place in small.disturbances
+            for name in ("corrected", "mpc_linear") for variant in variants(small, name)]
+    assert [run.task for run in drawn_runs(small, runs)] == [Task("fast", "corrected", ", Value 10"),
+                                                             Task("fast", "mpc_linear")]
+
+
+def test_the_plant_is_a_single_particle_of_the_mass_that_mpc_knows(study):
+    setting = replace(setting_of(study, "fast"), end_s=200.0)
+    chi, mass = study.train.chi, study.train.mass_kg / study.train.chi
+    of = known(study.mpc, setting.curve, mass, davis_newton(study.train), setting.end_s)
+    terms = setting.terms.copy()
+    terms[:, 2:4] *= chi  # N per kg of M become N per kg of M/chi
+    line = ResistanceTable(setting.line.position_m, setting.line.specific_force * chi)
+    plain = replace(setting, mass_kg=mass, line=line, terms=terms, plant_values=())
+    one = run_mpc(of, "mpc.offset_free", setting, of_train.model())
+    other = run_mpc(of, "mpc.offset_free", plain)
+    assert one.log[:, 1:3] == pytest.approx(other.log[:, 1:3], rel=1e-9, abs=1e-9)
 
 
 def test_a_study_whose_runs_all_fail_still_reports(small):
@@ -423,11 +463,11 @@ def test_a_study_whose_runs_all_fail_still_reports(small):
     few = dict.fromkeys(("t_s", "s_m", "v_mps", "s_desired_m", "v_desired_mps"), np.arange(3.0))
     broken = np.array([0.0, np.nan, np.inf])
     curves = few | dict.fromkeys(("s_tilde_m", "v_tilde_mps", "position_m", "speed_mps", "input_n"), broken)
-    outcomes = {case: Outcome(case, {}, 1.0, 5.0, why, 1.0, curves if case.law in DRAWN_LAWS else {})
-                for case in cases(small)}
-    found = Found(small, outcomes)
-    assert all_tables(found) and all_plots(found)
-    assert not any("None" in text for text in all_findings(found))
+    outcomes = {case: RunResult(case, {}, 1.0, 5.0, why, 1.0, curves if case.law in DRAWN_LAWS else {})
+                for case in run_cases(small)}
+    results = Results(small, outcomes)
+    assert all_tables(results) and all_plots(results)
+    assert not any("None" in text for text in all_findings(results))
     assert all(title_of(small, case) for case in outcomes)
 
 
@@ -475,5 +515,5 @@ def test_every_value_has_its_source(study):
 ])
 def test_mistakes_are_named(tmp_path, old, new, key, words):
     path = changed_copy(FILE, tmp_path, old, new)
-    said = refusal(load_study, path)
+    said = refusal(read, path)
     assert said.startswith(f"{path}: ") and key in said and words in said
