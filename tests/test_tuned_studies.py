@@ -171,20 +171,20 @@ def test_who_fails_or_stands_still_wins_nothing() -> None:
     fine, lost = np.full(12, 0.2), np.full(12, FOLLOWS_MPS * 20)
     few, pair = liu_pairs(rows_of(fine, fine, fine, failed=3), rows_of(fine + 1, fine, fine + 1))
     assert {pair.winner(metric) for metric in pair.differences} == {"mpc_linear"} and pair.failed == (3, 0)
-    table = next(pair_table(few, DRIVERS["liu2020"], [pair], {"fast": "fast"}))
+    table = next(pair_table(few, DRIVERS["liu2020"], [pair]))
     assert "−1.00 [−1.00, −1.00]; " in table.text[0][4], "over the nine trains on which both arrive"
     assert table.values[0][4][2:] == pytest.approx([-1.0, -1.0, -1.0]) and table.columns[4].unit == "m"
     assert table.text[0][4].endswith("fails in 3 of 12: linear MPC")
     few, none = liu_pairs(rows_of(fine, fine, fine, failed=11), rows_of(fine + 1, fine, fine + 1))
     assert set(none.differences.values()) == {None} and none.winner("jerk_rms") == "mpc_linear"
-    assert next(pair_table(few, DRIVERS["liu2020"], [none], {"fast": "fast"})).text[0][4].endswith(
+    assert next(pair_table(few, DRIVERS["liu2020"], [none])).text[0][4].endswith(
         "fails in 11 of 12: linear MPC")
     _, both = liu_pairs(rows_of(fine, fine, fine, failed=3), rows_of(fine, fine, fine, failed=1))
     assert {both.winner(metric) for metric in both.differences} == {None}
     few, still = liu_pairs(rows_of(lost, lost, 0 * fine), rows_of(fine, fine, fine))
     assert still.winner("jerk_rms") == "mpc_linear"
-    assert "does not follow" in next(pair_table(few, DRIVERS["liu2020"], [still], {"fast": "fast"})).text[0][-1]
-    assert "beats" not in next(pair_findings(few, DRIVERS["liu2020"], [still], {"fast": "fast"}))
+    assert "does not follow" in next(pair_table(few, DRIVERS["liu2020"], [still])).text[0][-1]
+    assert "beats" not in next(pair_findings(few, DRIVERS["liu2020"], [still]))
     rows: list[tuple[str, Mapping[str, Any]]] = [
         ("still", {"failed": None, "speed_rms": 20.0, "jerk_rms": 0.0, "position_rms": 9.0}),
         ("good", {"failed": None, "speed_rms": 0.1, "jerk_rms": 0.2, "position_rms": 0.1})]

@@ -14,10 +14,8 @@ from workbench.paper.mpc_comparison import FOLLOWS_MPS
 from workbench.paper.results import ResultTable
 from workbench.paper.stages import Stage
 from workbench.paper.statistics import Interval, mean_interval, overtakes, resampled
-from workbench.paper.study import Progress
 from workbench.paper.tuning_record import Pairs
 from workbench.simulate.closed_loop import Factors
-from workbench.simulate.process_pool import run_tasks
 
 METRIC_NAMES = {"position_rms": ("position RMS", "m"), "speed_rms": ("speed RMS", "m/s"),
                 "jerk_rms": ("jerk RMS", "m/s³")}
@@ -99,29 +97,6 @@ def compared_pairs(drivers: Drivers, study: Any, results: Mapping[Task, Mapping[
                     if results else {})
 
 
-def drawn_rows(drivers: Drivers, study: Any, workers: int, on_progress: Progress, before: int = 0) -> Drawn:
-    """The runs of `pair_tasks`; before: how many runs of the study come before them in its progress."""
-    tasks = pair_tasks(drivers, study)
-    if not tasks:
-        return {}
-    found: dict[Task, Mapping[str, Any]] = {}
-
-    def record(result: tuple[Task, Mapping[str, Any]]) -> None:
-        found[result[0]] = result[1]
-        on_progress(before + len(found), before + len(tasks), f"drawn train {result[0][0] + 1}")
-
-    pairs: Pairs = study.pairs
-    run_tasks(_one, (drivers, shortened(study, pairs.set, "pairs.set")), tasks, workers, record)
-    return {(place, name, tuned): [found[draw, place, name, tuned] for draw in range(pairs.draws)]
-            for place in pairs.places for name, tuned in entries(study, drivers)}
-
-
-def _one(shared: tuple[Drivers, Any], task: Task) -> tuple[Task, Mapping[str, Any]]:
-    (drivers, study), (draw, place, name, tuned) = shared, task
-    driven = drivers.tuned(study, name) if tuned else study
-    return task, drivers.drive(driven, name, place, factors_of(study.pairs, draw))
-
-
 def pairs_of(study: Any, drawn: Drawn) -> tuple[Pair, ...]:
     """Every law against every MPC in the same state of tuning."""
     if not drawn:
@@ -172,12 +147,11 @@ def _ahead(pair: Pair) -> Cell:
     return Phrase(words, tuple(trial for trial in pair.overtakes.values() if trial is not None)) if words else None
 
 
-def pair_table(study: Any, drivers: Drivers, pairs: Sequence[Pair], where: Mapping[str, str] | None = None,
-               note: str = "") -> Iterator[ResultTable]:
-    """A row per place, law, MPC and state of tuning; nothing without pairs. where: other words for the places."""
+def pair_table(study: Any, drivers: Drivers, pairs: Sequence[Pair]) -> Iterator[ResultTable]:
+    """A row per place, law, MPC and state of tuning; nothing without pairs."""
     if not pairs:
         return
-    stated, titles, places = study.pairs, drivers.titles, where or drivers.places(study)
+    stated, titles, places = study.pairs, drivers.titles, drivers.places(study)
     metrics = tuple(pairs[0].differences)
     learns = any(pair.overtakes for pair in pairs)
     rows = [(places[pair.place], titles[pair.law], titles[pair.rival], STATES[pair.tuned],
@@ -191,13 +165,12 @@ def pair_table(study: Any, drivers: Drivers, pairs: Sequence[Pair], where: Mappi
         f"MPC knows, their difference with the {100 * stated.confidence:g} % interval of a paired bootstrap, and who "
         "has less. A difference inside its interval is not called a win. A controller with runs that fail loses to "
         "one without, and the numbers are of the trains on which both arrive; who errs by more than "
-        f"{FOLLOWS_MPS:g} m/s in speed RMS does not follow and wins nothing in jerk." + (f" {note}" if note else ""))
+        f"{FOLLOWS_MPS:g} m/s in speed RMS does not follow and wins nothing in jerk.")
 
 
-def pair_findings(study: Any, drivers: Drivers, pairs: Sequence[Pair],
-                  where: Mapping[str, str] | None = None) -> Iterator[str]:
-    """Who wins with which, a sentence per place and law: as stated and as tuned. where: other words for the places."""
-    places = where or drivers.places(study)
+def pair_findings(study: Any, drivers: Drivers, pairs: Sequence[Pair]) -> Iterator[str]:
+    """Who wins with which, a sentence per place and law: as stated and as tuned."""
+    places = drivers.places(study)
     for place, law in dict.fromkeys((pair.place, pair.law) for pair in pairs):
         parts = []
         for tuned in (False, True):
