@@ -96,10 +96,10 @@ def test_stops_on_the_way_take_their_time(tmp_path: Path) -> None:
     ((HILLS, TRAIN, "--time", 2600, "--json", "/proc/nothing/r.json"), "cannot be written"),
     ((HILLS, TRAIN, "--time", 2600, "--every", 0), "--every: 0 s is no step"),
     ((HILLS, TRAIN, "--time", 2600, "--window", 5000), "smoothing over 5000 s leave nothing of 2600 s to run"),
-    ((HILLS, TRAIN, "--time", 2600, "--json", "x.out", "--csv", "x.out"), "x.out: --csv: is the file of --json too"),
-    ((HILLS, TRAIN, "--time", 2600, "--json", "x.csv"), "x.csv: --csv: is the file of --json too"),
-    ((HILLS, TRAIN, "--time", 2600, "--json", HILLS), "hills.toml: --json: is the line's file too"),
-    ((HILLS, TRAIN, "--time", 2600, "--figure", TRAIN), "yang2021.toml: --figure: is the train's file too"),
+    ((HILLS, TRAIN, "--time", 2600, "--json", "x.out", "--csv", "x.out"), "x.out: --csv: is what --json writes too"),
+    ((HILLS, TRAIN, "--time", 2600, "--json", "x.csv"), "x.csv: --csv: is what --json writes too"),
+    ((HILLS, TRAIN, "--time", 2600, "--json", HILLS), "hills.toml: --json: is a .toml file"),
+    ((HILLS, TRAIN, "--time", 2600, "--figure", TRAIN), "yang2021.toml: --figure: is a .toml file"),
 ], ids=str)
 def test_mistakes_are_one_line_with_a_remedy(arguments: tuple[object, ...], message: str) -> None:
     with pytest.raises(WorkbenchError, match=message) as trouble:

@@ -47,7 +47,7 @@ def check_rewritten(path: Path) -> None:
 
 def is_stream(path: Path) -> bool:
     """Whether a path names a stream of the shell or the system, which is written as it is and never replaced."""
-    return str(path.absolute()).startswith(STREAMS) or (path.exists() and not path.is_file() and not path.is_dir())
+    return path.exists() and not path.is_dir() and (str(path.absolute()).startswith(STREAMS) or not path.is_file())
 
 
 class _Taken:

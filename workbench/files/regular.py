@@ -19,7 +19,7 @@ LARGEST_DATA = 64 * MEBIBYTE
 LARGEST_JOURNAL = 1024 * MEBIBYTE
 
 _WITHOUT_WAITING = getattr(os, "O_NONBLOCK", 0) | getattr(os, "O_CLOEXEC", 0) | getattr(os, "O_BINARY", 0)
-_PIECE = MEBIBYTE
+_PIECE, _SMALL = MEBIBYTE, 4096
 
 
 class NotRegularError(OSError):
@@ -57,7 +57,7 @@ def contents(path: str | Path, limit: int = LARGEST_DATA, own: bool = False) -> 
         if own and not belongs_to_us(found):
             raise PermissionError(errno.EPERM, "it belongs to another user", str(path))
         pieces, length = [], 0
-        while piece := stream.read(_PIECE):
+        while piece := stream.read(min(_PIECE, found.st_size + _SMALL)):
             pieces.append(piece)
             length += len(piece)
             if length > limit:  # it grew, or does not know its size
