@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import copy
 import difflib
 import tomllib
 from pathlib import Path
@@ -59,8 +60,24 @@ class SourcedRecord(Record):
 R = TypeVar("R", bound=BaseModel)
 
 
+# A paper's claims take their numbers from the file that the command line has read already: it is opened once.
+_tables: dict[tuple[str, int, int, int], dict[str, Any]] = {}
+
+
 def read_toml(path: Path) -> dict[str, Any]:
-    """The table in a TOML file; raises InputError when it is missing, unreadable or not TOML."""
+    """The table in a TOML file, read once as long as it does not change; InputError when it is missing, unreadable or
+    not TOML."""
+    try:
+        status = path.stat()
+        key = str(path.resolve()), status.st_ino, status.st_mtime_ns, status.st_size
+    except (OSError, ValueError):  # what is wrong is for the reader to say
+        return _table(path)
+    if key not in _tables:
+        _tables[key] = _table(path)
+    return copy.deepcopy(_tables[key])
+
+
+def _table(path: Path) -> dict[str, Any]:
     text = read_text(path, "TOML")
     if not text.strip():
         raise InputError(path, "", "is empty: a TOML table is expected")
