@@ -30,6 +30,10 @@ def _place(trouble: BaseException, file: Path) -> str:
     if isinstance(trouble, SyntaxError) and trouble.filename and trouble.lineno:
         other = "" if Path(trouble.filename).name == file.name else f"{Path(trouble.filename).name}, "
         return f"{other}line {trouble.lineno}: "
-    lines = [frame.lineno for frame in traceback.extract_tb(trouble.__traceback__)
-             if Path(frame.filename).name == file.name]
-    return f"line {lines[-1]}: " if lines else ""
+    frames = traceback.extract_tb(trouble.__traceback__)
+    beside = [frame for frame in frames if Path(frame.filename).parent == file.parent]
+    own = beside or [frame for frame in frames if Path(frame.filename).name == file.name]
+    if not own:
+        return ""
+    last = Path(own[-1].filename).name
+    return f"{'' if last == file.name else f'{last}, '}line {own[-1].lineno}: "

@@ -78,7 +78,7 @@ def module_in(folder: Path, name: str) -> ModuleType:
     if dotted in sys.modules:
         return sys.modules[dotted]
     path = folder.joinpath(*name.split("."))
-    where = path.with_suffix(".py") if path.with_suffix(".py").is_file() else path
+    where = path.with_suffix(".py") if path.with_suffix(".py").is_file() else path / "__init__.py"
     try:
         return importlib.import_module(dotted)
     except InputError:
@@ -97,7 +97,8 @@ def sources_of(folder: Path) -> frozenset[str]:
 def python_files(folder: Path) -> list[Path]:
     """All Python files of a folder and its subfolders, hidden ones and those of caches left out, in a fixed order."""
     return sorted(path for path in folder.rglob("*.py")
-                  if not any(part.startswith((".", "__pycache__")) for part in path.relative_to(folder).parts))
+                  if not any(part.startswith((".", "__pycache__")) for part in path.relative_to(folder).parts)
+                  and not path.is_dir())
 
 
 class KnownFolders:

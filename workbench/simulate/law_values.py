@@ -56,6 +56,8 @@ def check_controllers(scenario: Scenario, where: str | Path = "") -> None:
         try:
             _check_controller(scenario, name)
         except InputError as trouble:
+            if trouble.where:  # a law's own file
+                raise
             raise trouble.within(where or f"scenario {scenario.name}") from None
 
 
