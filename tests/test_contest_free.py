@@ -153,7 +153,7 @@ def test_who_follows_no_curve_is_not_ranked_by_errors_from_it(
     for metric in told.metrics:
         assert (FREE in flattered.winners("nominal", metric)) <= (metric not in OF_CURVE)
     assert told.winners("nominal", "energy_J") == [FREE]
-    row = next(row for row in condition_table(told, "nominal").rows if row[0] == FREE)
+    row = next(row for row in condition_table(told, "nominal").text if row[0] == FREE)
     marked = [metric for metric, cell in zip(told.metrics, row[1:-1], strict=True) if "follows no curve" in cell]
     assert tuple(marked) == tuple(m for m in told.metrics if m in OF_CURVE)
     assert len(winners_table(told).rows[0]) == 1 + len(told.metrics)
@@ -175,7 +175,7 @@ def test_steps_are_told_beside_their_period_with_who_answered_instead(contest: C
                     for draw in range(3) for name in of.controllers)
     (table,) = mpc_table(of, entries(small, of), matches)
     assert len(table.rows) == 1  # no other than MPC
-    name, period, middle, slow, share, asked, *rest = table.rows[0]
+    name, period, middle, slow, share, asked, *rest = table.text[0]
     assert (name, period, middle, slow) == ("mpc_linear", "100", "20.0", "1000")
     assert float(share) == pytest.approx(1.0)  # 1 ms of 100 ms
     assert asked == "1200" and rest == ["9", "6", "12", "3", "0"]
