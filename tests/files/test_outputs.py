@@ -160,6 +160,30 @@ def test_every_verb_refuses_before_anything_runs(arguments, paper):
     assert everything(paper) == before
 
 
+EVIL = """
+import sympy as sp
+from workbench.proof.claim import Goal, equal
+from workbench.proof.paper import Paper
+x = sp.Symbol("x", real=True)
+paper = Paper("NAME", "a citation")
+@paper.claim("NUMBER", "a title", "identity", "x", "proved")
+def one():
+    return Goal((equal(x, x),))
+"""
+
+
+@pytest.mark.parametrize(("name", "number"), [("..", "1"), ("doe2026", "../../mine"), ("/tmp", "1"), ("a/../..", "1"),
+                                              ("doe2026", "manifest")])
+def test_a_paper_named_like_a_path_writes_and_deletes_nothing(name, number, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "mine.json").write_text("{}")
+    (tmp_path / "evil.py").write_text(EVIL.replace("NAME", name).replace("NUMBER", number))
+    before = everything(tmp_path)
+    done = CliRunner().invoke(app, ["prove", "evil.py", "--jobs", "1", "--no-cache"])
+    assert isinstance(done.exception, InputError) and "claim id" in str(done.exception)
+    assert everything(tmp_path) == before
+
+
 def test_a_pipe_as_an_input_of_any_verb_is_one_line(paper):
     os.mkfifo("pipe.toml")
     os.mkfifo("pipe.py")

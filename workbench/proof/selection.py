@@ -64,6 +64,8 @@ def _target(argument: str) -> Target:
     else:
         near = paper_named(name, Path.cwd()) if name.isidentifier() else None
         if near is None:
+            if path.is_symlink() or _is_there(path):
+                raise InputError(path, "", "is neither a paper's folder nor a regular .py file: name one of these")
             raise InputError(path, "", "no such paper: name a paper's folder, a proof file, or a folder of them")
         path, files = near, (near,)
     return Target(path, files, pattern if separator else None)
@@ -73,6 +75,13 @@ def _is_file(path: Path) -> bool:
     try:
         return path.is_file()
     except OSError:  # no name that could be
+        return False
+
+
+def _is_there(path: Path) -> bool:
+    try:
+        return path.exists()
+    except OSError:
         return False
 
 
