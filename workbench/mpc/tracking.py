@@ -15,6 +15,7 @@ import numpy as np
 
 from workbench.compile.kernel import casadi_function
 from workbench.errors import InputError, SolverError
+from workbench.mpc.buffered_program import BufferedProgram
 from workbench.trains.scenario import ControllerSpec, Scenario
 from workbench.trains.train import single_particle_per_mass
 
@@ -119,7 +120,7 @@ class TrackingMpc:
         if solver not in SOLVERS:
             raise SolverError(f"unknown QP solver '{solver}': choose one of {', '.join(SOLVERS)}")
         try:
-            return ca.qpsol("mpc", solver, problem, OPTIONS | SOLVERS[solver])
+            return BufferedProgram(ca.qpsol("mpc", solver, problem, OPTIONS | SOLVERS[solver]))
         except RuntimeError:
             raise SolverError(f"this casadi has no QP solver '{solver}': choose '{SOLVER}'") from None
 
