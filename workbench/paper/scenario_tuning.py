@@ -14,7 +14,17 @@ from workbench.trains.scenario import Scenario, tunable, with_parameters
 
 def tune_scenario(scenario: Scenario, names: list[str], workers: int,
                   on_progress: Callable[[int, int, str], None]) -> dict[str, Tuned]:
-    """The best parameters found for each of the controllers, in parallel processes, in the order of the names."""
+    """The best parameters found for each of the controllers, in parallel processes, in the order of the names.
+
+    Raises InputError for a name that is no controller, and for ranges of what it does not state.
+    """
+    for name in names:
+        if name not in scenario.controllers:
+            raise InputError("", f"tuning.ranges.{name}", "is no controller of this scenario: choose one of "
+                             f"{', '.join(scenario.controllers)}")
+        for key in scenario.tuning.ranges[name].keys() - tunable(scenario, name).keys() if scenario.tuning else ():
+            raise InputError("", f"tuning.ranges.{name}.{key}", "is no parameter that this controller states: remove "
+                             "it")
     return results_of(_tune, scenario, names, workers, lambda done, name, _: on_progress(done, len(names), name))
 
 

@@ -42,7 +42,10 @@ def tune_run(loaded: Loaded, names: list[str], write: bool, workers: int | None,
     if write:
         check_rewritten(path)
         _before_found(path)
-    found = tune(record, chosen, workers or cores(), on_progress)
+    try:
+        found = tune(record, chosen, workers or cores(), on_progress)
+    except InputError as trouble:
+        raise trouble if str(trouble.where) else trouble.within(path) from None
     for name, (values, cost, stated) in found.items():
         words = ", ".join(f"{key} = {value:g}" for key, value in values.items())
         yield f"{name}: cost {stated:.4g} as stated, {cost:.4g} tuned: {words}"

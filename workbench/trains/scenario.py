@@ -191,20 +191,15 @@ class Scenario(Record):
             if name not in self.controllers:
                 raise ValueError(f"{key}: '{name}' is no controller of this scenario: "
                                  f"choose one of {', '.join(self.controllers)}")
-        for name, ranges in self.tuning.ranges.items() if self.tuning else ():
-            if name not in self.controllers:
-                raise ValueError(f"tuning.ranges.{name}: is no controller of this scenario: "
-                                 f"choose one of {', '.join(self.controllers)}")
-            for key in ranges.keys() - tunable(self, name).keys():
-                raise ValueError(f"tuning.ranges.{name}.{key}: is no parameter that this controller states: remove it")
         return self
 
     @property
     def all_variants(self) -> tuple[Variant, ...]:
         """The stated changes of assumed values, and the controllers as `workbench tune` found them, where it did."""
         found = self.tuning.found if self.tuning else {}
-        changed = {f"controllers.{name}.{'initial' if key in self.controllers[name].initial else 'parameters'}.{key}":
-                   value for name, values in found.items() for key, value in values.items()}
+        started = {name: spec.initial for name, spec in self.controllers.items()}
+        changed = {f"controllers.{name}.{'initial' if key in started.get(name, {}) else 'parameters'}.{key}": value
+                   for name, values in found.items() for key, value in values.items()}
         tuned = Variant(title=f"tuned, {self.tuning.runs} runs each", set=changed, controllers=tuple(found)
                         ) if self.tuning and found else None
         return (*self.variants, tuned) if tuned else self.variants
