@@ -3,23 +3,29 @@ PYTHON ?= python3
 VENV := .venv
 BIN := $(VENV)/bin
 STAMP := $(VENV)/.installed
+TOOLS := $(VENV)/.installed-tools
 
 .PHONY: install demo test lint prove clean
 
-install: $(STAMP)
+install: $(TOOLS)
 
-# The stamp is newer than the two files that say what to install, so that a second call does nothing.
+# A stamp is newer than the two files that say what to install, so that a second call does nothing. What the package
+# needs to run comes first: the demo waits for no tool that only tests and style need.
 $(STAMP): pyproject.toml constraints.txt
 	@$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11))' 2>/dev/null || \
 		{ echo "$(PYTHON) is missing or older than 3.11: install Python 3.11 or newer, or name one: make install PYTHON=python3.12" >&2; exit 1; }
 	@$(PYTHON) -c 'import ensurepip, venv' 2>/dev/null || \
 		{ echo "$(PYTHON) has no venv module: install it (on Debian or Ubuntu: apt install python3-venv)" >&2; exit 1; }
 	@$(PYTHON) -m venv $(VENV)
+	@$(BIN)/python -m pip install -qq --disable-pip-version-check -c constraints.txt -e .
+	@touch $@
+
+$(TOOLS): $(STAMP)
 	@$(BIN)/python -m pip install -qq --disable-pip-version-check -c constraints.txt -e ".[test]"
 	@touch $@
 
-demo: install
-	@$(BIN)/workbench report benchmarks/yang2021.toml proofs/yang2021.py --out out/ --runs 20
+demo: $(STAMP)
+	@$(BIN)/workbench report proofs/yang2021 --out out/ --runs 5
 
 test: install
 	@$(BIN)/python -m pytest -n 2
@@ -28,9 +34,9 @@ lint: install
 	@$(BIN)/ruff check
 	@$(BIN)/mypy
 
-prove: install
+prove: $(STAMP)
 	@$(BIN)/workbench prove proofs
 
 clean:
 	rm -rf $(VENV) out .cache .hypothesis .mypy_cache .pytest_cache .ruff_cache build *.egg-info
-	find workbench proofs tests benchmarks -name __pycache__ -type d -prune -exec rm -rf {} +
+	find workbench proofs tests benchmarks docs -name __pycache__ -type d -prune -exec rm -rf {} +
