@@ -34,6 +34,7 @@ def contents_of(folder: Path) -> Contents:
             title = "(study.toml is not valid TOML)"
     has = {"claims": (folder / PAPER_FILE).is_file() or (folder / CLAIMS_FOLDER).is_dir()}
     has |= {part: has_module(folder, part) for part in ("plant", "laws")}
-    has |= {"study": study.is_file()} | {part: has_module(folder, part) for part in ("gains", "contest")}
+    has |= {"study": study.is_file(), "gains": has_module(folder, "gains"),
+            "contest": has_module(folder, "contest") or (folder / "contest.toml").is_file()}
     certificates = sum(path.name != "manifest.json" for path in (folder / "certificates").rglob("*.json"))
     return Contents(folder.name, folder, title, tuple(part for part, there in has.items() if there), certificates)
