@@ -5,6 +5,9 @@ from __future__ import annotations
 import traceback
 from pathlib import Path
 
+# How the modules of a paper's folder are called.
+OF_A_FOLDER = "workbench_folder_"
+
 REMEDIES: tuple[tuple[str, str], ...] = (
     ("SyntaxError", "correct that line"),
     ("ModuleNotFoundError", "install it, or put it beside the proof file"),
@@ -30,10 +33,12 @@ def _place(trouble: BaseException, file: Path) -> str:
     if isinstance(trouble, SyntaxError) and trouble.filename and trouble.lineno:
         other = "" if Path(trouble.filename).name == file.name else f"{Path(trouble.filename).name}, "
         return f"{other}line {trouble.lineno}: "
-    frames = traceback.extract_tb(trouble.__traceback__)
-    beside = [frame for frame in frames if Path(frame.filename).parent == file.parent]
-    own = beside or [frame for frame in frames if Path(frame.filename).name == file.name]
+    frames = [(Path(frame.f_code.co_filename), str(frame.f_globals.get("__name__", "")), line)
+              for frame, line in traceback.walk_tb(trouble.__traceback__)]
+    beside = [(path, line) for path, module, line in frames
+              if path.parent == file.parent or module.startswith(OF_A_FOLDER)]
+    own = beside or [(path, line) for path, _, line in frames if path.name == file.name]
     if not own:
         return ""
-    last = Path(own[-1].filename).name
-    return f"{'' if last == file.name else f'{last}, '}line {own[-1].lineno}: "
+    last, line = own[-1]
+    return f"{'' if last.name == file.name else f'{last.name}, '}line {line}: "

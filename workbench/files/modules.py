@@ -10,6 +10,7 @@ import hashlib
 import importlib
 import re
 import sys
+import time
 from collections.abc import Mapping, Sequence
 from importlib.machinery import FileFinder, ModuleSpec, SourceFileLoader
 from pathlib import Path
@@ -17,12 +18,16 @@ from types import ModuleType
 from typing import Any
 
 from workbench.errors import InputError
-from workbench.files.mistakes import mistake
-from workbench.files.text import read_source
+from workbench.files.mistakes import OF_A_FOLDER, mistake
+from workbench.files.text import inputs_read, read_source
 
-PREFIX = "workbench_folder_"
+PREFIX = OF_A_FOLDER
+
+# Files are stamped by a clock that is behind by up to a few milliseconds.
+TICK_NS = 50_000_000
 
 _folders: dict[str, Path] = {}
+_imported_ns: dict[str, int] = {}
 
 
 class SourceLoader(SourceFileLoader):
@@ -74,9 +79,11 @@ def has_module(folder: Path, name: str) -> bool:
 def module_in(folder: Path, name: str) -> ModuleType:
     """A module of a folder, `study.record` for `study/record.py`; InputError, naming file and line, where it cannot be
     imported."""
-    dotted = f"{package_of(folder)}.{name}"
+    package = package_of(folder)
+    dotted = f"{package}.{name}"
     if dotted in sys.modules:
         return sys.modules[dotted]
+    _imported_ns.setdefault(package, time.time_ns())
     path = folder.joinpath(*name.split("."))
     where = path.with_suffix(".py") if path.with_suffix(".py").is_file() else path / "__init__.py"
     try:
@@ -85,6 +92,27 @@ def module_in(folder: Path, name: str) -> ModuleType:
         raise
     except (Exception, SystemExit) as trouble:  # a file that exits would end the run
         raise InputError(where, "", f"cannot be imported: {mistake(trouble, where)}") from trouble
+
+
+def forget_changed(folder: Path) -> None:
+    """Forget a folder's modules where a file of it, or one that this process has read, was written since they were
+    imported: what is asked for next is imported anew."""
+    package = package_of(folder)
+    since = _imported_ns.get(package)
+    own = (path for path in (folder, *folder.rglob("*")) if "certificates" not in path.relative_to(folder).parts)
+    if since is None or not any(_written_ns(path) > since - TICK_NS for path in (*own, *inputs_read())):
+        return
+    for name in [name for name in sys.modules if name.partition(".")[0] == package]:
+        del sys.modules[name]
+    del _imported_ns[package]
+
+
+def _written_ns(path: Path) -> int:
+    try:
+        found = path.stat()
+    except OSError:
+        return 0
+    return max(found.st_mtime_ns, found.st_ctime_ns)
 
 
 def sources_of(folder: Path) -> frozenset[str]:

@@ -15,7 +15,7 @@ from workbench.errors import ClaimError, InputError
 from workbench.files.folders import CLAIMS_FOLDER, PAPER_FILE
 from workbench.files.mistakes import mistake
 from workbench.files.modules import PREFIX as FOLDER_PREFIX
-from workbench.files.modules import SourceLoader, module_in, sources_of
+from workbench.files.modules import SourceLoader, forget_changed, module_in, sources_of
 from workbench.proof.dependencies import reading, reads
 
 PREFIX = "workbench_proofs_"
@@ -47,6 +47,8 @@ class ProofFile:
     """
 
     def __init__(self, path: Path) -> None:
+        if path.is_dir():
+            forget_changed(path)
         self.path = path
         self.sources = {str(path.absolute())}
         self._beside = None if path.is_dir() else _Beside(path.absolute().parent)
