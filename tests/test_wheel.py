@@ -17,6 +17,8 @@ import pytest
 
 ROOT = Path(__file__).resolve().parent.parent
 SHORT_M = 4600.0
+# Reports start worker processes, which find laws by their folder; what else is run here does without their start.
+ONE = ("--workers", "1")
 
 # The law that the README shows.
 (LAWS,) = re.findall(r"## A law of your own beside MPC.*?```python\n(.*?)```",
@@ -177,15 +179,15 @@ def test_a_copied_paper_is_proved_compared_tuned_and_reported_under_another_name
     claims = json.loads((place / "page" / "claims.json").read_text())
     assert len(claims["claims"]) > 50 and all(c["verdict"] == c["recorded"] for c in claims["claims"])
     run(place, "prove", copied, "--json", "claims.json")  # from what the report has kept
-    run(place, "compare", copied, "--json", "compared.json")
+    run(place, "compare", copied, "--json", "compared.json", *ONE)
     rows = {row["controller"]: row for row in json.loads((place / "compared.json").read_text())["rows"]}
     assert set(rows) == {"rbfnn_pocrac", "pocrac", "rbf_pid", "pid", "mpc"}
     assert not any(row["failed"] for row in rows.values())
-    run(place, "sweep", copied, "--runs", "1", "--out", "mc", "--controller", "pid")
+    run(place, "sweep", copied, "--runs", "1", "--out", "mc", "--controller", "pid", *ONE)
     assert (place / "mc" / "sweep.csv").read_bytes().splitlines()[1] in (
         place / "page" / "monte_carlo" / "sweep.csv").read_bytes().splitlines()
     assert "tuned" in run(place, "tune", copied, "--runs", "2", "--controller", "pid")
-    run(place, "gains", copied, "--json", "gains.json")
+    run(place, "gains", copied, "--json", "gains.json", *ONE)
     gains = json.loads((place / "gains.json").read_text())
     assert gains["found"] and gains["effects"] and not any(effect["failed"] for effect in gains["effects"])
 
@@ -199,7 +201,7 @@ def test_a_law_of_ones_own_beside_mpc_needs_one_file(place):
     rows = {row["controller"]: row for row in json.loads((place / "mine_page" / "compare.json").read_text())["rows"]}
     assert not any(row["failed"] for row in rows.values())
     assert rows["spring"]["position_rms"] == rows["same_by_file"]["position_rms"] > rows["mpc"]["position_rms"]
-    run(place, "sweep", "papers/mine", "--runs", "2", "--out", "mine_mc")
+    run(place, "sweep", "papers/mine", "--runs", "2", "--out", "mine_mc", *ONE)
     assert "written" in run(place, "tune", "papers/mine", "--write")
-    assert "tuned, 3 runs each" in run(place, "compare", "papers/mine", "--variants")
+    assert "tuned, 3 runs each" in run(place, "compare", "papers/mine", "--variants", *ONE)
     assert "mine" in run(place, "list", "papers")
