@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import hashlib
 from pathlib import Path
 
 from workbench.errors import InputError
@@ -12,6 +13,7 @@ _LIMITS = {"TOML": LARGEST_TEXT}
 
 _read: set[Path] = set()
 _sources: set[Path] = set()
+_digests: dict[str, str] = {}
 
 
 def inputs_read() -> frozenset[Path]:
@@ -24,6 +26,11 @@ def sources_read() -> frozenset[Path]:
     return frozenset(_sources)
 
 
+def digest_read(path: str | Path) -> str | None:
+    """The sha256 of a file's bytes as this process has read them last; None where it has not."""
+    return _digests.get(str(Path(path).absolute()))
+
+
 def read_text(path: Path, kind: str, where: str = "check the path") -> str:
     """A file's text, UTF-8 with or without a mark, its lines ended by a line feed.
 
@@ -32,7 +39,7 @@ def read_text(path: Path, kind: str, where: str = "check the path") -> str:
     """
     _read.add(path.absolute())
     try:
-        text = _contents(path, kind, where).decode("utf-8-sig")
+        text = _remembered(path, _contents(path, kind, where)).decode("utf-8-sig")
     except UnicodeDecodeError:
         raise InputError(path, "", f"is not UTF-8 text: save it as UTF-8 {kind}") from None
     return text.replace("\r\n", "\n").replace("\r", "\n")
@@ -46,10 +53,15 @@ def read_source(path: str) -> bytes:
     """
     _sources.add(Path(path).absolute())
     try:
-        return contents(path, LARGEST_TEXT)
+        return _remembered(path, contents(path, LARGEST_TEXT))
     except (NotRegularError, TooLargeError) as trouble:
         raise InputError(path, "", f"cannot be imported ({trouble.strerror}): name a regular file, or divide "
                          "it") from None
+
+
+def _remembered(path: str | Path, data: bytes) -> bytes:
+    _digests[str(Path(path).absolute())] = hashlib.sha256(data).hexdigest()
+    return data
 
 
 def _contents(path: Path, kind: str, where: str) -> bytes:

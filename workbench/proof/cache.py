@@ -17,6 +17,7 @@ from typing import Any, TypeVar
 from workbench.errors import ClaimError
 from workbench.files.cache_folder import cache_folder, drop, keep
 from workbench.files.regular import contents
+from workbench.files.text import digest_read
 from workbench.proof.dependencies import changed_since, digest
 from workbench.proof.engine_digest import engine_digest
 from workbench.proof.verdict import Decision, Stated
@@ -62,7 +63,8 @@ class Kept:
 
     def keep_file(self, path: Path, entry: FileEntry, paths_read: Iterable[str], since_ns: int) -> None:
         """Keep the decisions of a proof file; not when a file that it reads has changed since that instant."""
-        reads = {name: digest(name) for name in sorted(paths_read)}
+        # What was read is what counts, and need not be read again.
+        reads = {name: digest_read(name) or digest(name) for name in sorted(paths_read)}
         if any(found and changed_since(name, since_ns) for name, found in reads.items()):
             return
         _write(self._file(path), f"{self.engine} {path.resolve()}",

@@ -16,7 +16,7 @@ from workbench.errors import InputError
 from workbench.files.folders import is_paper, paper_named
 from workbench.files.modules import python_files
 from workbench.files.regular import LARGEST_JOURNAL, contents
-from workbench.files.text import read_source
+from workbench.files.text import digest_read, read_source
 from workbench.trains.scenario import Scenario
 
 FORMAT = "workbench journal 1"
@@ -41,7 +41,9 @@ def laws_digest(scenario: Scenario) -> bytes:
     digest = hashlib.sha256()
     names = {spec.law for spec in scenario.controllers.values()}
     for path in sorted({file for name in names for file in _sources(scenario.folder, name)}):
-        digest.update(read_source(str(path)))
+        if digest_read(path) is None:  # what was imported is not read again
+            read_source(str(path))
+        digest.update(str(digest_read(path)).encode())
     return digest.digest()
 
 

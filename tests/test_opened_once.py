@@ -1,0 +1,111 @@
+"""A file is read once: in one process no verb opens an input of a paper's folder twice."""
+
+import json
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+from scenarios import ROOT
+from small_folders import small_folder, small_scenario, with_claims
+from test_curve_table import rows_of, written
+
+from workbench.trains.scenario import load_scenario
+
+WATCHED = """
+import json, sys
+from collections import Counter
+from pathlib import Path
+folder, report, *arguments = sys.argv[1:]
+opened = Counter()
+
+def remember(event, given):
+    if event == "open" and isinstance(given[0], (str, bytes)) and watching:
+        path, mode, flags = given
+        name = path if isinstance(path, str) else path.decode()
+        writes = any(c in mode for c in "wax+") if isinstance(mode, str) else bool((flags or 0) & 3)
+        if str(Path(name).absolute()).startswith(folder) and not writes:
+            opened[str(Path(name).absolute())[len(folder) + 1:]] += 1
+
+watching = True
+sys.addaudithook(remember)
+sys.argv = ["workbench", *arguments]
+from workbench.cli.app import main
+try:
+    main()
+finally:
+    watching = False
+    Path(report).write_text(json.dumps(opened))
+"""
+GAINS = '''
+from workbench.gains.result import GainReport
+from workbench.paper.gain_search import GainSearch
+
+from .laws import pd
+from .numbers import SHARE
+
+
+def report(stated):
+    """Nothing is searched; numbers of the file and of the folder are looked at."""
+    assert stated.number("train.mass_kg") > 0 and SHARE
+    return GainReport("doe2030", (), (), (), (), (pd.title,))
+
+
+KIND = GainSearch(report, lambda found: [], lambda loaded, task: ({}, None))
+'''
+
+
+def opened(folder: Path, *arguments: object) -> dict[str, int]:
+    """How often a verb opened each file of the folder for reading."""
+    counted = folder.parent / "opened.json"
+    command = [sys.executable, "-c", WATCHED, str(folder), str(counted), *map(str, arguments)]
+    done = subprocess.run(command, cwd=folder.parent, capture_output=True, text=True, check=False,
+                          env=os.environ | {"PYTHONPATH": str(ROOT)})
+    assert done.returncode == 0, done.stderr
+    return json.loads(counted.read_text(encoding="utf-8"))
+
+
+@pytest.fixture
+def paper(tmp_path: Path) -> Path:
+    folder = with_claims(small_folder(tmp_path / "doe2030"), "section_2", "section_3")
+    (folder / "gains.py").write_text(GAINS, encoding="utf-8")
+    curve = load_scenario(folder / "study.toml").desired_curve()
+    times = np.unique(np.concatenate((curve.breaks_s, np.linspace(0, curve.trip_time_s, 60))))
+    written(folder / "curve.csv", rows_of(curve, times))
+    head, _, rest = small_scenario().partition("[reference]")
+    rest = rest[rest.index("[simulation]"):]
+    text = f'{head}[reference]\nkind = "table"\nfile = "curve.csv"\n{rest}'
+    (folder / "study.toml").write_text(text + TUNING, encoding="utf-8")
+    return folder
+
+
+TUNING = """
+[[variants]]
+title = "a lighter train"
+set = { "train.mass_kg" = 150000.0 }
+"""
+STUDY = {"study.toml", "line.toml", "curve.csv", "laws.py", "numbers.py"}
+CLAIMS = {"paper.py", "claims/section_2.py", "claims/section_3.py", "laws.py", "numbers.py"}
+
+
+@pytest.mark.parametrize(("arguments", "needed"), [
+    (("compare", "doe2030", "--variants", "--workers", 1), STUDY),
+    (("sweep", "doe2030", "--runs", 1, "--out", "out", "--workers", 1), STUDY),
+    (("gains", "doe2030", "--no-runs"), STUDY | {"gains.py"}),
+    (("prove", "doe2030", "--jobs", 1), CLAIMS),
+    (("prove", "doe2030", "--jobs", 1, "--no-cache"), CLAIMS),
+    (("report", "doe2030", "--runs", 1, "--out", "out", "--workers", 1), STUDY | CLAIMS | {"gains.py"}),
+], ids=lambda given: given[0] if isinstance(given, tuple) else "")
+def test_no_input_is_opened_twice_in_a_process(paper, arguments, needed):
+    found = opened(paper, *arguments)
+    inputs = {name: count for name, count in found.items() if not name.startswith("certificates/")}
+    assert set(inputs) >= needed
+    assert {name: count for name, count in inputs.items() if count > 1} == {}
+
+
+def test_a_file_that_is_opened_twice_would_be_seen(paper):
+    (paper / "numbers.py").write_text("from pathlib import Path\nfor _ in range(2):\n"
+                                      "    Path(__file__).with_name('line.toml').read_text()\nSHARE = 1\n")
+    assert opened(paper, "gains", "doe2030", "--no-runs")["line.toml"] == 3
