@@ -64,7 +64,8 @@ def short(study):
               "50.03 to 55 t: the lower bound 30 kg above the mass", "acceleration filtered with 0.1 s")
     base = changed(study, **{key.replace(".", "__"): value for key, value in SHORT.items()})
     return base.model_copy(update={"changes": tuple(c for c in study.changes if c.title in wanted),
-                                   "pairs": study.pairs.model_copy(update={"draws": 2, "set": {}})})
+                                   "pairs": study.pairs.model_copy(update={"draws": 2, "set": {
+                                       "reference.cruise_mps": 30.0, "reference.trip_time_s": 80.0}})})
 
 
 @pytest.fixture(scope="session")
@@ -309,7 +310,8 @@ def test_the_study_has_every_figure_and_tells_what_failed(result, short):
 def test_a_stated_run_that_ends_in_its_first_trip_is_reported_and_stops_nothing(short):
     lost = changed(short, mass_bounds__low_kg=50030.0, mass_bounds__high_kg=50040.0, trials__count=2,
                    trials__shown=(1, 2))
-    lost = lost.model_copy(update={"changes": tuple(c for c in short.changes if c.set == {"gains.c_3": 0.01})})
+    lost = lost.model_copy(update={"changes": tuple(c for c in short.changes if c.set == {"gains.c_3": 0.01}),
+                                   "pairs": None})
     found = run(lost, 1, lambda done, total, what: None)
     assert found.rows[0]["failed"] is not None
     assert found.rows[0]["trials"] == 0
@@ -372,10 +374,14 @@ def test_the_page_shows_every_figure_and_the_tables_hold_numbers(tmp_path, short
     assert page.count("<figure") >= len(result.plots)
     assert "http://" not in page.replace("http://www.w3.org", "")
     write_curves(result.plots, tmp_path)
-    assert len(list(tmp_path.glob("*.csv"))) == len(result.plots)
-    for table in result.tables:
-        assert len(table.values) == len(table.text)
-        assert any(True for row in table.rows for cell in row for _ in numbers_in(cell))
+    assert len(list((tmp_path / "curves").glob("*.csv"))) == len(result.plots)
+    words_alone = {table.title for table in result.tables
+                   if not any(True for row in table.rows for cell in row for _ in numbers_in(cell))}
+    assert words_alone <= {"Law less MPC on the same drawn trains"}, "there the law may fail on every train"
     forces = next(table for table in result.tables if table.title == "What the reference asks of the train")
     assert (forces.header[4].heading, forces.rows[0][4]) == ("Available (kN)", 3 * short.train.traction_n)
     assert forces.values[0][4] == pytest.approx(3e-3 * short.train.traction_n)
+    rules = next(table for table in result.tables if table.title == "How the law is sampled")
+    assert [column.unit for column in rules.columns] == ["", "m", "m", "m/s", "m/s", "kN", "kN", ""]
+    assert rules.headings[-2] == "|Δu| (kN), trial 3"
+    assert rules.rows[0][-2] == pytest.approx(1e3 * rules.values[0][-2]) == result.rows[0]["difference_max_N"]
