@@ -2,13 +2,17 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 from workbench.optimal.course import Course
 from workbench.optimal.envelope import InfeasibleRunError
 from workbench.optimal.inputs.files import from_track
 from workbench.optimal.inputs.line import course
-from workbench.optimal.reference import Reference, find_reference
 from workbench.optimal.vehicle import ForceLimit, Vehicle
 from workbench.trains.scenario import Scenario
+
+if TYPE_CHECKING:
+    from workbench.optimal.reference import Reference
 
 # Of the desired curve's highest speed: the bound holds for all runs that are no faster.
 FASTEST = 1.2
@@ -19,6 +23,8 @@ def best_run(scenario: Scenario) -> Reference | None:
 
     None where the train cannot make it in that time.
     """
+    from workbench.optimal.reference import find_reference  # noqa: PLC0415 - cvxpy, which no other match needs
+
     train, curve = scenario.train, scenario.desired_curve()
     top = float(curve.at(curve.breaks_s)[1].max()) * FASTEST
     vehicle = Vehicle(scenario.name, train.mass_kg, train.davis_newton,

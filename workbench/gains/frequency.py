@@ -4,11 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
-import control
 import numpy as np
 import sympy as sp
 from numpy.typing import NDArray
+
+if TYPE_CHECKING:
+    import control
 
 Array = NDArray[np.float64]
 
@@ -39,6 +42,8 @@ def linear(rates: Mapping[sp.Expr, sp.Expr], inputs: Sequence[sp.Symbol], output
 
 def system(of: Linear) -> control.StateSpace:
     """The system as python-control knows it."""
+    import control  # noqa: PLC0415 - importing it takes seconds, and most commands need none of it
+
     return control.ss(of.A, of.B, of.C, of.D)
 
 
@@ -46,6 +51,8 @@ def h_infinity_norm(of: Linear) -> float:
     """The largest gain over all frequencies, which is the least L2 gain; infinite for an unstable system."""
     if abscissa(of) >= 0:
         return float("inf")
+    import control  # noqa: PLC0415 - as above
+
     return float(control.norm(system(of), p="inf", tol=1e-8))
 
 
@@ -56,5 +63,7 @@ def abscissa(of: Linear) -> float:
 
 def margins(of: Linear) -> tuple[float, float, float]:
     """Gain margin, phase margin (degrees) and the crossover of the latter (rad/s) of a loop opened at its input."""
+    import control  # noqa: PLC0415 - as above
+
     gain, phase, _, crossover = control.margin(system(of))
     return float(gain), float(phase), float(crossover)

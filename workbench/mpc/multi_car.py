@@ -9,12 +9,12 @@ from __future__ import annotations
 from collections import Counter
 from dataclasses import dataclass
 
-import control
 import numpy as np
 
 from workbench.errors import InputError, SolverError
 from workbench.mpc.box_program import BoxProgram
 from workbench.mpc.car_model import CarTrain, period, resistance
+from workbench.mpc.lqr import dlqr
 from workbench.mpc.problem import LARGEST_WEIGHT, LONGEST_HORIZON, SMALLEST_WEIGHT, Array
 
 MOST_UNKNOWNS = 4000
@@ -61,7 +61,7 @@ class MultiCarMpc:
         self._q = np.concatenate([np.full(n, weights.position), np.full(n, weights.speed)])
         self._r = weights.command
         try:
-            gain, cost, _ = control.dlqr(self._of.A, self._of.B, np.diag(self._q), self._r * np.eye(n))
+            gain, cost = dlqr(self._of.A, self._of.B, np.diag(self._q), self._r * np.eye(n))
         except (ValueError, np.linalg.LinAlgError):
             raise InputError("", "weights", "no LQR follows from these: choose weights nearer to each other") from None
         self.gain, self.terminal = np.asarray(gain), (np.asarray(cost) + np.asarray(cost).T) / 2

@@ -6,10 +6,10 @@ from dataclasses import dataclass
 from functools import lru_cache
 
 import casadi as ca
-import control
 import numpy as np
 
 from workbench.errors import InputError
+from workbench.mpc.lqr import dlqr
 from workbench.mpc.model import model
 from workbench.mpc.problem import Array, Problem
 
@@ -51,7 +51,7 @@ def lqr(problem: Problem) -> Lqr:
     w = problem.weights
     q, r = np.diag([w.position, w.speed, w.force + w.change]), np.array([[w.command + w.change]])
     try:
-        gain, cost, _ = control.dlqr(A, B, q, r, np.array([[0.0], [0.0], [-w.change]]))
+        gain, cost = dlqr(A, B, q, r, np.array([[0.0], [0.0], [-w.change]]))
     except (ValueError, np.linalg.LinAlgError):
         raise InputError("", "weights", "no LQR follows from these: choose weights nearer to each other") from None
     cost = np.asarray(cost)

@@ -10,12 +10,12 @@ import math
 from typing import Any
 
 import casadi as ca
-import control
 import numpy as np
 
 from workbench.compile.kernel import casadi_function
 from workbench.errors import InputError, SolverError
 from workbench.mpc.buffered_program import BufferedProgram
+from workbench.mpc.lqr import dlqr
 from workbench.trains.scenario import ControllerSpec, Scenario
 from workbench.trains.train import single_particle_per_mass
 
@@ -193,7 +193,7 @@ def _lqr(values: dict[str, float], period_s: float, where: str) -> tuple[Any, An
     A, B = np.array([[1, T], [0, 1]]), np.array([[T**2 / 2], [T]])
     q = np.diag([values["position_weight"], values["speed_weight"]])
     try:
-        gain, terminal, _ = control.dlqr(A, B, q, np.array([[values["command_weight"]]]))
+        gain, terminal = dlqr(A, B, q, np.array([[values["command_weight"]]]))
     except ValueError:
         raise InputError("", where, "no LQR follows from these weights: choose weights nearer to each other"
                          ) from None

@@ -12,12 +12,12 @@ import math
 from dataclasses import dataclass, replace
 from functools import lru_cache
 
-import control
 import numpy as np
 
 from workbench.errors import InputError
 from workbench.mpc.kernels import kernels
 from workbench.mpc.linear import LinearMpc
+from workbench.mpc.lqr import dlqr
 from workbench.mpc.problem import Array, Problem
 from workbench.mpc.solution import Solution
 
@@ -92,7 +92,7 @@ def feedback(problem: Problem, slope_per_s: float) -> Array:
     """K, shape (2,): the LQR of the errors for the problem's weights of position, speed and command."""
     A, B = held(slope_per_s, problem.period_s)
     w = problem.weights
-    gain, _, _ = control.dlqr(A, B.reshape(2, 1), np.diag([w.position, w.speed]), np.array([[w.command]]))
+    gain, _ = dlqr(A, B.reshape(2, 1), np.diag([w.position, w.speed]), np.array([[w.command]]))
     return np.asarray(gain).ravel()
 
 

@@ -6,9 +6,8 @@ import csv
 import io
 import math
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-import control
 import numpy as np
 
 from workbench.errors import InputError
@@ -17,6 +16,9 @@ from workbench.optimal.course import Array, Course
 from workbench.optimal.reference import Reference
 from workbench.optimal.smooth import SmoothReference, SmoothRun, needed_force
 from workbench.optimal.vehicle import Vehicle
+
+if TYPE_CHECKING:
+    import control
 
 COLUMNS = ("t_s", "s_m", "v_mps", "a_mps2", "u_N")
 MOST_ROWS = 2_000_000
@@ -100,5 +102,7 @@ def write_csv(path: Path, rows: Array) -> None:
 
 def time_response(rows: Array) -> control.TimeResponseData:
     """The rows as python-control's time series: position, speed and acceleration as outputs, the force as input."""
+    import control  # noqa: PLC0415 - importing it takes seconds, and most commands need none of it
+
     return control.TimeResponseData(rows[:, 0], rows[:, 1:4].T, None, rows[:, 4:5].T, issiso=False,
                                     output_labels=list(COLUMNS[1:4]), input_labels=[COLUMNS[4]])
