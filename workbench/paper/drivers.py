@@ -16,7 +16,7 @@ from workbench.paper.tuning_record import Pairs, StudyTuning
 from workbench.simulate.closed_loop import NOMINAL, Factors
 from workbench.simulate.process_pool import results_of
 
-# By which names files know the kinds of MPC beside a law.
+# By which names files know the kinds of MPC.
 MPC_NAMES = {kind.replace(".", "_"): kind for kind in MPC_KINDS}
 WEIGHTS = ("position_weight", "speed_weight", "command_weight", "change_weight")
 # What a study changes by itself: of no use where one of its values is changed for tuning.
@@ -63,7 +63,7 @@ class Drivers:
 
 
 def mpc_stated(study: Any, name: str) -> dict[str, float]:
-    """The parameters of an MPC beside a law that can be tuned."""
+    """The parameters of an MPC that can be tuned."""
     keys = (*WEIGHTS, "observer_gain") if "observer_gain" in KINDS[MPC_NAMES[name]].parameters else WEIGHTS
     return {key: float(getattr(study.mpc, key)) for key in keys}
 

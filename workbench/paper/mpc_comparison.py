@@ -24,7 +24,7 @@ FOLLOWS_MPS = 1.0
 
 
 class MpcData(SourcedRecord):
-    """MPC beside the paper's laws: sampling, horizon, weights as in `mpc.controller`, and limits that it knows.
+    """MPC in a study: sampling, horizon, weights as in `mpc.controller`, and limits that it knows.
 
     band_m: beyond which position errors are priced.
     """
