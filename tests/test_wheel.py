@@ -188,8 +188,9 @@ def test_a_copied_paper_is_proved_compared_tuned_and_reported_under_another_name
         place / "page" / "monte_carlo" / "sweep.csv").read_bytes().splitlines()
     assert "tuned" in run(place, "tune", copied, "--runs", "2", "--controller", "pid")
     run(place, "gains", copied, "--json", "gains.json", *ONE)
-    gains = json.loads((place / "gains.json").read_text())
-    assert gains["found"] and gains["effects"] and not any(effect["failed"] for effect in gains["effects"])
+    effects = json.loads((place / "gains.json").read_text())["effects"]
+    better = [effect for effect in effects if effect["gains"] == "found"]
+    assert better and len(better) < len(effects) and not any(effect["failed"] for effect in better)
 
 
 def test_a_law_of_ones_own_beside_mpc_needs_one_file(place):
