@@ -7,9 +7,8 @@ import sys
 from pathlib import Path
 
 import pytest
-from scenarios import YANG
+from scenarios import PROOFS, ROOT
 
-ROOT = YANG.parents[1]
 ROW_KEYS = {"controller", "position_error_min", "position_error_max", "speed_error_min", "speed_error_max",
             "position_rms", "speed_rms", "stopping_error", "energy_J", "jerk_rms", "saturated_fraction",
             "limit_violations", "step_us_median", "step_us_p99", "deadline_misses", "failed"}
@@ -127,7 +126,8 @@ def test_the_example_of_the_readme_is_decided(tmp_path):
 
 
 def test_a_verdict_that_differs_from_the_record_is_exit_code_1(tmp_path):
-    code = re.findall(r"```python\n(.*?)```", (ROOT / "README.md").read_text(), re.DOTALL)[0]
+    section = (ROOT / "README.md").read_text().partition("## State your own claim")[2].partition("\n## ")[0]
+    (code,) = re.findall(r"```python\n(.*?)```", section, re.DOTALL)
     (tmp_path / "my_paper.py").write_text(code.replace('"proved"', '"refuted"'))
     result = run("prove", "my_paper.py", folder=tmp_path)
     assert result.returncode == 1
@@ -168,7 +168,7 @@ def test_report_of_a_short_scenario_without_a_proof(short, tmp_path):
 def test_bad_input_is_one_line_and_exit_code_2(short, tmp_path):
     missing = tmp_path / "missing.toml"
     assert "missing.toml" in one_line(run("compare", missing))
-    assert "no such proof file" in one_line(run("prove", tmp_path / "missing.py"))
+    assert "no such paper: name a paper's folder, a proof file" in one_line(run("prove", tmp_path / "missing.py"))
     assert "no certificate" in one_line(run("check-certificates", tmp_path / "nothing"))
     short.write_text(short_toml().replace("mass_kg = 200000.0", "mass_kg = -1.0"))
     line = one_line(run("compare", short))
@@ -176,7 +176,7 @@ def test_bad_input_is_one_line_and_exit_code_2(short, tmp_path):
     occupied = tmp_path / "file"
     occupied.write_text("")
     short.write_text(short_toml())
-    assert "another folder" in one_line(run("report", short, "--out", occupied / "out"))
+    assert "name another place" in one_line(run("report", short, "--out", occupied / "out"))
 
 
 def test_a_broken_proof_file_is_one_line(tmp_path):
@@ -187,9 +187,11 @@ def test_a_broken_proof_file_is_one_line(tmp_path):
 
 
 def test_a_tampered_certificate_is_named(tmp_path):
-    folder = tmp_path / "certificates"
+    folder = tmp_path / "yang2021"
     folder.mkdir()
-    path = ROOT / "proofs" / "certificates" / "yang2021" / "43.json"
+    path = PROOFS / "yang2021" / "certificates" / "43.json"
+    (folder / "43.json").write_text(path.read_text())
+    assert run("check-certificates", folder).returncode == 0
     (folder / "43.json").write_text(path.read_text().replace('"1/2"', '"1/3"'))
     result = run("check-certificates", folder)
     assert result.returncode == 1 and "43.json" in result.stderr

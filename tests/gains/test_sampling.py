@@ -1,15 +1,15 @@
 """Sampled loops: the linear map against the nonlinear loop itself, its border against theory, its proof."""
 
-from pathlib import Path
-
 import numpy as np
 import pytest
 import sympy as sp
+from scenarios import PROOFS
 from scipy.integrate import solve_ivp
 
 from proofs.mao2018 import gains as mao2018
 from proofs.yang2021 import gains as yang2021
 from proofs.yang2021 import laws as law
+from workbench.cli.loading import load
 from workbench.errors import SolverError
 from workbench.files.toml import read_toml
 from workbench.gains.sampling import largest_period_s, sampled_map, stability_certificate
@@ -25,6 +25,11 @@ SPEED = sp.Rational(326, 10)
 def stated_of(paper):
     file = PROOFS / paper / "study.toml"
     return Stated(file, read_toml(file))
+
+
+def stated(paper):
+    loaded = load(PROOFS / paper)
+    return Stated(loaded.path, loaded.data)
 
 
 @pytest.fixture(scope="module")
@@ -92,8 +97,8 @@ def test_the_border_at_the_stated_gains_is_that_of_the_paper_files_rule(values):
 def test_maos_estimate_of_c_needs_the_period_that_theory_says():
     """(27)-(31) in SI units turn at sqrt(gain (1 + v^2 + v^4 + ...)); the corrected order bears 2 over that."""
     stated = stated_of("mao2018")
-    matrix = mao2018._loop(stated, "SI", yang2021.Fraction(0), yang2021.Fraction(0))
-    speed = float(mao2018.top_speed(stated))
+    matrix = mao2018._loop(found, "SI", yang2021.Fraction(0), yang2021.Fraction(0))
+    speed = float(mao2018.top_speed(found))
     turns = (2 * (1 + speed**2 + speed**4 + 9.81**2 + 0.004**2)) ** 0.5
     assert largest_period_s(matrix) == pytest.approx(2 / turns, rel=5e-3)
 
