@@ -16,30 +16,25 @@ PROOFS = Path(__file__).resolve().parents[1] / "proofs"
 class Alias:
     """Finds `proofs.NAME...` as the module of the package that a paper's folder is."""
 
-    @staticmethod
-    def find_spec(name, path=None, target=None):
-        root, _, rest = name.partition(".")
-        if root != "proofs":
-            return None
-        return ModuleSpec(name, Alias, is_package=not rest)
+    def __init__(self):
+        self.specs = {}
 
-    @staticmethod
-    def create_module(spec):
+    def find_spec(self, name, path=None, target=None):
+        root, _, rest = name.partition(".")
+        return ModuleSpec(name, self, is_package=not rest) if root == "proofs" else None
+
+    def create_module(self, spec):
         paper, _, rest = spec.name.removeprefix("proofs").removeprefix(".").partition(".")
         if not paper:
             return None
         package = package_of(PROOFS / paper)
         module = importlib.import_module(f"{package}.{rest}" if rest else package)
-        Alias.own[spec.name] = module.__spec__
+        self.specs[spec.name] = module.__spec__
         return module
 
-    @staticmethod
-    def exec_module(module):
-        name = next((n for n, spec in Alias.own.items() if n == module.__spec__.name), None)
-        if name is not None:
-            module.__spec__ = Alias.own[name]
-
-    own = {}
+    def exec_module(self, module):
+        """The import system has given the module the alias's spec: it keeps its own, by which it imports others."""
+        module.__spec__ = self.specs.get(module.__spec__.name, module.__spec__)
 
 
-sys.meta_path.insert(0, Alias)
+sys.meta_path.insert(0, Alias())

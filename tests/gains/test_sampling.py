@@ -97,8 +97,8 @@ def test_the_border_at_the_stated_gains_is_that_of_the_paper_files_rule(values):
 def test_maos_estimate_of_c_needs_the_period_that_theory_says():
     """(27)-(31) in SI units turn at sqrt(gain (1 + v^2 + v^4 + ...)); the corrected order bears 2 over that."""
     stated = stated_of("mao2018")
-    matrix = mao2018._loop(found, "SI", yang2021.Fraction(0), yang2021.Fraction(0))
-    speed = float(mao2018.top_speed(found))
+    matrix = mao2018._loop(stated, "SI", yang2021.Fraction(0), yang2021.Fraction(0))
+    speed = float(mao2018.top_speed(stated))
     turns = (2 * (1 + speed**2 + speed**4 + 9.81**2 + 0.004**2)) ** 0.5
     assert largest_period_s(matrix) == pytest.approx(2 / turns, rel=5e-3)
 
