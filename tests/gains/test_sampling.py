@@ -18,7 +18,6 @@ from workbench.model.law import desired_acceleration, desired_position, desired_
 from workbench.proof.checker import check
 from workbench.trains.train import f, single_particle_per_mass, u
 
-PROOFS = Path(__file__).parents[2] / "proofs"
 SPEED = sp.Rational(326, 10)
 
 
