@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 from scenarios import LINES, PAPERS, PROOFS, SHARED, TRAINS, line_name
 
 from proofs.liu2020.study.record import LiuStudy
-from proofs.liu2020.study.runs import davis_newton
+from proofs.liu2020.study.scenario import davis_newton
 from workbench.cli.loading import load
 from workbench.errors import InputError
 from workbench.files.toml import load_record
