@@ -29,6 +29,11 @@ def name_of(path: Path) -> str:
 # Every line that ships: the shared ones, and those of papers.
 LINES = [*sorted(SHARED.glob("lines/*.toml")), *(PROOFS / paper / "line.toml" for paper in PAPERS)]
 TRAINS = sorted(SHARED.glob("trains/*.toml"))
+# Lines that every train can run, and with them each paper's own line under its own train.
+LINES_FOR_ALL = [*sorted(SHARED.glob("lines/*.toml")), PROOFS / "yang2021" / "line.toml"]
+DRIVEN = [(line, train) for line in LINES_FOR_ALL for train in TRAINS]
+DRIVEN += [(PROOFS / train.stem / "line.toml", train) for train in TRAINS
+           if train.stem in PAPERS and PROOFS / train.stem / "line.toml" not in LINES_FOR_ALL]
 
 
 def line_name(path: Path) -> str:

@@ -139,11 +139,10 @@ def test_economic_mpc_saves_energy_stops_and_keeps_the_limits_without_following(
 
 
 def test_who_follows_no_curve_is_not_ranked_by_errors_from_it(
-        contest: Contest, scenario: Scenario, monkeypatch: pytest.MonkeyPatch) -> None:
+        contest: Contest, scenario: Scenario) -> None:
     of = only(scenario, "pid", FREE, "mpc_offset_free", "chen2019")
     of = with_parameters(of, "chen2019", {"trials": 2.0})
-    monkeypatch.setattr("workbench.contest.study.entered", lambda _: of)
-    small = few(contest, "nominal", seeds=1)
+    small = few(contest, "nominal", seeds=1).with_world(of)
     told = Told(small, of, all_matches(small, of, 1, lambda *_: None), None)
     assert [follows_curve(of, name) for name in of.controllers] == [True, False, True, True]
     # Errors from the curve made the least of all, it would still not be their winner; energy is its own.
@@ -162,8 +161,7 @@ def test_who_follows_no_curve_is_not_ranked_by_errors_from_it(
     findings = KIND.run(small, 1, lambda *_: None).findings
     assert any(finding.startswith(f"{FREE}, which follows no curve") for finding in findings)
     assert not any("desired curve itself" in finding for finding in findings)
-    monkeypatch.setattr("workbench.contest.study.entered", lambda _: hurried(only(scenario, "pid")))
-    findings = KIND.run(small, 1, lambda *_: None).findings
+    findings = KIND.run(small.with_world(hurried(only(scenario, "pid"))), 1, lambda *_: None).findings
     assert any("The desired curve itself is up to 1.06 m/s faster" in finding for finding in findings)
 
 

@@ -114,7 +114,9 @@ def test_a_file_without_permission_is_named(monkeypatch):
     def refuse(*_, **__):
         raise PermissionError(13, "Permission denied")
 
-    monkeypatch.setattr("workbench.files.text.contents", refuse)  # file modes do not stop root, who may run the tests
+    # File modes do not stop root, who may run the tests; and nothing shall have been read before.
+    monkeypatch.setattr("workbench.files.text.contents", refuse)
+    monkeypatch.setattr("workbench.files.toml._tables", {})
     message = refusal(load_scenario, YANG)
     assert message == f"{YANG}: cannot be read (Permission denied): check its permissions"
 

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from scenarios import LINES, SHARED, YANG, line_name
+from scenarios import LINES_FOR_ALL, SHARED, YANG, line_name
 from scipy.integrate import solve_ivp
 from typer.testing import CliRunner
 
@@ -194,7 +194,7 @@ def test_the_simulated_cars_follow_the_plan(count, rule):
     assert found.stretch_m >= 0.99 * np.abs(found.planned_coupler_n).max() / train.coupler_n_per_m / 2
 
 
-@pytest.mark.parametrize("path", LINES, ids=line_name)
+@pytest.mark.parametrize("path", LINES_FOR_ALL, ids=line_name)
 def test_the_cars_keep_to_the_plan_on_every_bundled_line_and_stop_where_it_stops(path):
     train, (line, _) = of_cars(6), load_line(path)
     stops = line.stops_between(0.0, line.length_m)

@@ -5,7 +5,7 @@ import json
 from pathlib import Path
 
 import pytest
-from scenarios import LINES, SHARED, TRAINS, YANG, line_name
+from scenarios import DRIVEN, SHARED, YANG, line_name
 from typer.testing import CliRunner
 
 from workbench.cli.app import app
@@ -32,8 +32,7 @@ def least_time(line: Path, train: Path) -> float:
     return float(str(trouble.value).partition("a trip time of ")[2].partition(" s")[0])
 
 
-@pytest.mark.parametrize("train", TRAINS, ids=lambda path: path.stem)
-@pytest.mark.parametrize("line", LINES, ids=line_name)
+@pytest.mark.parametrize(("line", "train"), DRIVEN, ids=line_name)
 def test_every_bundled_train_runs_on_every_bundled_line(line: Path, train: Path, tmp_path: Path) -> None:
     time = 1.15 * least_time(line, train)
     said(line, train, "--time", time, "--json", tmp_path / "r.json")

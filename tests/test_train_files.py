@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from scenarios import LINES, PAPERS, PROOFS, SHARED, TRAINS, line_name
+from scenarios import DRIVEN, LINES, PAPERS, PROOFS, SHARED, TRAINS, line_name
 
 from proofs.liu2020.study.record import LiuStudy
 from proofs.liu2020.study.scenario import davis_newton
@@ -32,8 +32,7 @@ def test_every_paper_has_its_train():
     assert {path.stem for path in TRAINS} >= set(PAPERS)
 
 
-@pytest.mark.parametrize("train", TRAINS, ids=lambda p: p.stem)
-@pytest.mark.parametrize("path", LINES, ids=line_name)
+@pytest.mark.parametrize(("path", "train"), DRIVEN, ids=line_name)
 def test_every_bundled_train_can_run_on_every_bundled_line(path, train):
     (line, _), (vehicle, _) = load_line(path), load_vehicle(train)
     found = course(line, vehicle, 0.0, line.length_m, line.stops_between(0.0, line.length_m))

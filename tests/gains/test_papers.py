@@ -109,9 +109,16 @@ def test_tampered_statements_and_proofs_are_refused(paper):
 
 def test_a_certificate_under_another_name_is_refused(tmp_path):
     certificate = report_of("liu2020").certificates[0]
-    (path,) = write_certificates([certificate], tmp_path)
+    write_certificates([certificate], tmp_path)
     assert [reason for *_, reason in check_folder(tmp_path)] == [None]
+    path = tmp_path / f"{certificate['claim'].partition(':')[2]}.json"
     path.rename(path.with_name("decay.value2.json"))
+    found = {place.name: reason for place, _, reason in check_folder(tmp_path)}
+    assert "missing" in found[path.name] and "names no such certificate" in found["decay.value2.json"]
+    (tmp_path / "manifest.json").unlink()
+    named = tmp_path / "liu2020"
+    named.mkdir()
+    path.with_name("decay.value2.json").rename(named / "decay.value2.json")
     assert "another claim's name" in check_folder(tmp_path)[0][2]
 
 
@@ -175,7 +182,8 @@ def test_the_command_writes_its_document(tmp_path):
     assert document["paper"] == "chen2019"
     assert not next(c for c in document["conditions"] if c["name"] == "c_lambda")["met"]
     assert {s["name"] for s in document["found"]} == {"repaired", "best"}
-    assert len(list((tmp_path / "c").rglob("*.json"))) == len(document["certificates"])
+    written = [path for path in (tmp_path / "c").rglob("*.json") if path.name != "manifest.json"]
+    assert len(written) == len(document["certificates"])
     assert "c_lambda" in done.stdout
 
 

@@ -74,8 +74,9 @@ class _Taken:
 
 def _keys(path: Path) -> list[object]:
     """The path without links, and the file's number on its device where it is there."""
+    found: list[object] = [str(path)]  # of a name that is no path, such as one with a null character
     try:
-        found: list[object] = [os.path.realpath(path)]
+        found = [os.path.realpath(path)]
         status = path.stat()
         found.append((status.st_dev, status.st_ino))
     except (OSError, ValueError):
