@@ -1,5 +1,6 @@
 """From which trial on a learner is ahead, and what is said of learners beside MPC."""
 
+from dataclasses import replace
 from types import SimpleNamespace
 
 import numpy as np
@@ -51,7 +52,7 @@ def test_learners_are_ahead_from_the_same_trial_in_table_and_sentence(first, tri
                "trials": {"speed_rms": np.array([0.9, 0.5, 0.2, 0.1])}}
     rival = {"failed": None, "speed_rms": 0.4, "jerk_rms": 0.2, "step_s": 5e-5}
     rows = {("here", "learner", False): learner, ("here", "mpc_linear", False): rival}
-    compared = LearningComparison(DRIVERS, COLUMNS, ("speed_rms",), first)
+    compared = LearningComparison(replace(DRIVERS, first_trial=first), COLUMNS, ("speed_rms",))
     table = next(compared.tables(STUDY, rows))
     assert [row[-1] for row in table.rows] == [Phrase("trial {}", (trial,)), None]
     assert table.text[1] == ("linear MPC", "0.400", "0.200", "50.0", "—")
@@ -66,7 +67,7 @@ def test_a_rival_that_fails_is_no_rival():
     learner = {"failed": None, "speed_rms": 0.1, "jerk_rms": 0.3, "step_s": 1e-6,
                "trials": {"speed_rms": np.array([0.9, 0.1])}}
     rows = {("here", "learner", True): learner, ("here", "mpc_linear", True): {"failed": "lost", "step_s": 5e-5}}
-    compared = LearningComparison(DRIVERS, COLUMNS, ("speed_rms",), 1)
+    compared = LearningComparison(DRIVERS, COLUMNS, ("speed_rms",))
     assert [row[-1] for row in next(compared.tables(STUDY, rows)).rows] == [None, None]
     assert "ahead" not in next(compared.findings(STUDY, rows))
     assert len(next(compared.plots(STUDY, rows)).curves) == 1

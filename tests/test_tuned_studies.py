@@ -224,6 +224,9 @@ def test_learners_are_ahead_from_the_trial_after_which_none_is_worse() -> None:
     pair = pairs_of(few, {("N", "pd", True): rows_of(fine, errors[:, -1], fine, trials=errors),
                           ("N", "mpc_linear", True): rows_of(fine, np.full(20, 0.55), fine)})[0]
     assert pair.overtakes == {"speed_rms": 6}  # 0.5 is the sixth, the first below
+    (counted,) = pairs_of(few, {("N", "pd", True): rows_of(fine, errors[:, -1], fine, trials=errors),
+                                ("N", "mpc_linear", True): rows_of(fine, np.full(20, 0.55), fine)}, first_trial=0)
+    assert counted.overtakes == {"speed_rms": 5} and DRIVERS["jiao2025"].first_trial == 0
 
 
 def test_studies_without_tuning_or_mpc_tell_nothing_of_it() -> None:

@@ -8,7 +8,7 @@ import tomllib
 from pathlib import Path
 from typing import Annotated, Any, Self, TypeVar
 
-from pydantic import BaseModel, ConfigDict, Field, Strict, ValidationError, ValidationInfo, model_validator
+from pydantic import BaseModel, ConfigDict, Field, PrivateAttr, Strict, ValidationError, ValidationInfo, model_validator
 
 from workbench.errors import InputError
 from workbench.files.text import read_text
@@ -30,6 +30,23 @@ class Record(BaseModel):
     """A frozen record; unknown keys, NaN and infinities are refused."""
 
     model_config = ConfigDict(frozen=True, extra="forbid", allow_inf_nan=False)
+
+
+class FileRecord(Record):
+    """A record that a whole file makes, which knows where the file lies; a copy of it does too."""
+
+    _folder: Path = PrivateAttr(default=Path())
+
+    @property
+    def folder(self) -> Path:
+        """Where the file lies: what it names is looked up from there."""
+        return self._folder
+
+    def in_folder(self, folder: Path) -> Self:
+        """The same record as if its file lay in a folder."""
+        found = self.model_copy()
+        found._folder = folder
+        return found
 
 
 class SourcedRecord(Record):

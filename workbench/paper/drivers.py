@@ -36,6 +36,7 @@ class Drivers:
     factors): one run of the train whose mass and resistance differ by the factors from what controllers know, as a row
     with the keys of a comparison and, of laws that learn, `trials`: an error of every trial, by the metric's name.
     variants(study, name): which studies drive a controller as stated, by the words that follow its title there.
+    first_trial: the number of a learning law's first trial.
     """
 
     titles: Mapping[str, str]
@@ -44,6 +45,7 @@ class Drivers:
     given: Callable[[Any, str, Mapping[str, float]], Any]
     drive: Callable[[Any, str, str, Factors], dict[str, Any]]
     variants: Callable[[Any, str], Mapping[str, Any]] = _as_the_file_says
+    first_trial: int = 1
 
     def parameters(self, study: Any, name: str) -> dict[str, float]:
         """What can be tuned of a controller, with its stated values."""

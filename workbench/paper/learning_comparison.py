@@ -50,14 +50,13 @@ class LearningComparison:
     """How the learning laws of a paper are held against MPC, all driven alike by `drivers`.
 
     A row of `drivers.drive` has SI numbers by the keys of `columns`, and, of a law that learns, `trials`: metric ->
-    its value in every trial. metrics: those of the errors by which a learner is ahead or not; first_trial: the number
-    of the first trial; place_word: what a place is, `reading`, empty where there is only one.
+    its value in every trial. metrics: those of the errors by which a learner is ahead or not; place_word: what a place
+    is, `reading`, empty where there is only one.
     """
 
     drivers: Drivers
     columns: Mapping[str, Column]
     metrics: tuple[str, ...]
-    first_trial: int
     place_word: str = ""
 
     def tasks(self, study: Any) -> list[Task]:
@@ -97,7 +96,7 @@ class LearningComparison:
     def _ahead(self, row: Mapping[str, Any], rival: Mapping[str, Any] | None, metric: str) -> Cell:
         if rival is None or rival["failed"] is not None or "trials" not in row:
             return None
-        trial = ahead_from(row["trials"][metric], rival[metric], self.first_trial)
+        trial = ahead_from(row["trials"][metric], rival[metric], self.drivers.first_trial)
         return "no trial" if trial is None else Phrase("trial {}", (trial,))
 
     def findings(self, study: Any, rows: Rows) -> Iterator[str]:
@@ -119,7 +118,7 @@ class LearningComparison:
                 if "trials" not in row or "trials" in other or other["failed"] is not None:
                     continue
                 for metric in self.metrics:
-                    trial = ahead_from(row["trials"][metric], other[metric], self.first_trial)
+                    trial = ahead_from(row["trials"][metric], other[metric], self.drivers.first_trial)
                     error = f" in {METRIC_NAMES[metric][0]}" if len(self.metrics) > 1 else ""
                     yield (f"{name} is ahead of {rival}{error} from trial {trial} on" if trial is not None else
                            f"{name} does not get ahead of {rival}{error} in {count} trials")
@@ -133,7 +132,7 @@ class LearningComparison:
                 for (at, name, tuned), row in rows.items():
                     if at == place and row["failed"] is None:
                         errors = row["trials"][metric] if "trials" in row else np.full(2, row[metric])
-                        trials = np.linspace(self.first_trial, float(study.trials.count), len(errors))
+                        trials = np.linspace(self.drivers.first_trial, float(study.trials.count), len(errors))
                         curves.append(Curve(self.title(name, tuned), trials, errors))
                 if curves:
                     name, unit = METRIC_NAMES[metric]

@@ -94,11 +94,11 @@ def compared_pairs(drivers: Drivers, study: Any, results: Mapping[Task, Mapping[
     return pairs_of(study, {(place, name, tuned): [results[draw, place, name, tuned]
                                                    for draw in range(study.pairs.draws)]
                             for place in study.pairs.places for name, tuned in entries(study, drivers)}
-                    if results else {})
+                    if results else {}, drivers.first_trial)
 
 
-def pairs_of(study: Any, drawn: Drawn) -> tuple[Pair, ...]:
-    """Every law against every MPC in the same state of tuning."""
+def pairs_of(study: Any, drawn: Drawn, first_trial: int = 1) -> tuple[Pair, ...]:
+    """Every law against every MPC in the same state of tuning; first_trial: the number of a learner's first trial."""
     if not drawn:
         return ()
     stated, metrics = study.pairs, tuple(study.tuning.objective.units)
@@ -123,7 +123,8 @@ def pairs_of(study: Any, drawn: Drawn) -> tuple[Pair, ...]:
                 differences[metric] = mean_interval(a - b, chosen, stated.confidence)
                 if metric in ended[0][0].get("trials", {}):
                     trials = np.array([ours["trials"][metric] for ours, _ in ended])
-                    ahead[metric] = overtakes(trials, b, stated.resamples, stated.seed, stated.confidence)
+                    ahead[metric] = overtakes(trials, b, stated.resamples, stated.seed, stated.confidence,
+                                              first_trial)
             found.append(Pair(place, law, rival, tuned, means, differences, (failed[0], failed[1]), ahead))
     return tuple(found)
 

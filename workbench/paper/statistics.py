@@ -64,17 +64,18 @@ def winners(values: Sequence[Array | None], chosen: NDArray[np.intp], confidence
 
 
 def overtakes(trials: NDArray[np.float64], rival: NDArray[np.float64], resamples: int, seed: int,
-              confidence: float) -> int | None:
-    """The first trip, from 1, from which on a learner's error is below a rival's by more than chance, else None.
+              confidence: float, first_trial: int = 1) -> int | None:
+    """The first trip from which on a learner's error is below a rival's by more than chance, else None.
 
-    trials: of the learner, shape (draws, trips); rival: by draw, of which the first ones are compared.
+    trials: of the learner, shape (draws, trips); rival: by draw, of which the first ones are compared; first_trial: the
+    number of the first trip.
     """
     draws = min(len(trials), len(rival))
     chosen, found = resampled(draws, resamples, seed), None
     for trip in range(trials.shape[1] - 1, -1, -1):
         if not mean_interval(trials[:draws, trip] - rival[:draws], chosen, confidence).high < 0:
             break
-        found = trip + 1
+        found = first_trial + trip
     return found
 
 

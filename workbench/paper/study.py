@@ -5,11 +5,11 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any, Literal, Self, TypeVar
+from typing import TYPE_CHECKING, Annotated, Any, Literal, TypeVar
 
-from pydantic import BeforeValidator, PrivateAttr, Strict, ValidationError
+from pydantic import BeforeValidator, Strict, ValidationError
 
-from workbench.files.toml import Name, Record, Text
+from workbench.files.toml import FileRecord, Name, Text
 from workbench.paper.results import StudyResult
 from workbench.trains.scenario import known_version
 
@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 Progress = Callable[[int, int, str], None]
 
 
-class Study(Record):
+class Study(FileRecord):
     """What every study's file begins with; each paper's study adds its own tables, every value with its source."""
 
     version: Annotated[int, BeforeValidator(known_version)]
@@ -31,18 +31,6 @@ class Study(Record):
     paper: Text
     citation: Text
     reproduction: Annotated[bool, Strict()] = False
-    _folder: Path = PrivateAttr(default=Path())
-
-    @property
-    def folder(self) -> Path:
-        """Where the file lies from which the study comes."""
-        return self._folder
-
-    def in_folder(self, folder: Path) -> Self:
-        """The same study as if its file lay in a folder."""
-        found = self.model_copy()
-        found._folder = folder
-        return found
 
 
 S = TypeVar("S", bound=Study)

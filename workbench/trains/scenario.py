@@ -7,12 +7,13 @@ from itertools import pairwise
 from pathlib import Path
 from typing import Annotated, Any, Literal, Self
 
-from pydantic import BeforeValidator, Field, PrivateAttr, Strict, model_validator
+from pydantic import BeforeValidator, Field, Strict, model_validator
 
 from workbench.errors import InputError, WorkbenchError
 from workbench.files.toml import (
     REPRODUCTION,
     Count,
+    FileRecord,
     Name,
     NonNegative,
     Number,
@@ -131,7 +132,7 @@ def known_version(value: Any) -> Any:
     return value
 
 
-class Scenario(Record):
+class Scenario(FileRecord):
     """Everything a run needs, with the source of every value."""
 
     version: Annotated[int, BeforeValidator(known_version)]
@@ -153,18 +154,6 @@ class Scenario(Record):
     variants: tuple[Variant, ...] = ()
     tuning: ScenarioTuning | None = None
     reproduction: Annotated[bool, Strict()] = False
-    _folder: Path = PrivateAttr(default=Path())
-
-    @property
-    def folder(self) -> Path:
-        """Where the file lies from which the scenario comes: names of laws are looked up from there."""
-        return self._folder
-
-    def in_folder(self, folder: Path) -> Self:
-        """The same scenario as if its file lay in a folder."""
-        found = self.model_copy()
-        found._folder = folder
-        return found
 
     @model_validator(mode="after")
     def _parts_fit_together(self) -> Self:

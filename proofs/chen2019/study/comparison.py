@@ -86,7 +86,7 @@ def law_row(study: ChenStudy, run: CarsRun) -> dict[str, Any]:
 
 
 DRIVERS = Drivers({LAW: "the law", MPC: MultiCarMpc.title}, places, stated, given, drive)
-COMPARISON = LearningComparison(DRIVERS, COLUMNS, ("position_rms", "speed_rms"), 1)
+COMPARISON = LearningComparison(DRIVERS, COLUMNS, ("position_rms", "speed_rms"))
 
 
 def stated_tasks(study: ChenStudy) -> list[Task]:

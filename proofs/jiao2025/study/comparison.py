@@ -68,8 +68,8 @@ def places(study: JiaoStudy) -> dict[str, str]:
     return {name: reading.title for name, reading in study.readings.items()}
 
 
-DRIVERS = Drivers(TITLES, places, stated, given, drive)
-COMPARISON = LearningComparison(DRIVERS, COLUMNS, ("speed_rms",), 0, "reading")
+DRIVERS = Drivers(TITLES, places, stated, given, drive, first_trial=0)
+COMPARISON = LearningComparison(DRIVERS, COLUMNS, ("speed_rms",), "reading")
 
 
 def _of_trip(study: JiaoStudy, reading: str) -> tuple[float, float]:
