@@ -34,7 +34,7 @@ from workbench.proof.latex.limits import DEEPEST_NESTING, LONGEST_NUMBER
 from workbench.proof.latex.scan import Piece, argument, plain, scan
 
 # After these a value is complete, so that a bar closes.
-COMPLETE = frozenset("LETTER NUMBER CLOSE RB SUB MARK TRANSPOSE BARS_CLOSE ELLIPSIS AT".split())
+COMPLETE = frozenset(["LETTER", "NUMBER", "CLOSE", "RB", "SUB", "MARK", "TRANSPOSE", "BARS_CLOSE", "ELLIPSIS", "AT"])
 SEPARATORS = {",": "COMMA", ";": "COMMA", ":": "COLON", ".": "COMMA"}
 _MARK = re.compile(r"\*|\+|-|0|\\pm|\\prime|'+|\(\d+\)|\\infty")
 _STARRED = re.compile(r"(\*)(T|2|\\top)")
@@ -215,7 +215,7 @@ def _simple(piece: Piece) -> Token:  # noqa: PLR0911 - one line a kind of sign
                      piece.position)
 
 
-def _command(piece: Piece) -> Token:  # noqa: PLR0911 - one line a kind of command
+def _command(piece: Piece) -> Token:
     word = piece.text
     if word in OPENING or word in CLOSING:
         kind = "OPEN" if word in OPENING else "CLOSE"
