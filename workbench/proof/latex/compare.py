@@ -1,4 +1,4 @@
-"""Whether two expressions are the same by exact algebra: differences vanish as rational functions, nothing is sampled."""
+"""Whether two expressions are the same by exact algebra: their difference is zero as a rational function."""
 
 from __future__ import annotations
 
@@ -16,14 +16,15 @@ from workbench.proof.latex.limits import MOST_TERMS
 _FUNCTIONS = (sp.log, sp.exp, sp.tanh, sp.sign, sp.Max, sp.Min, D)
 
 
-class TooLarge(ClaimError):
+class TooLargeError(ClaimError):
     """Two expressions are too large to be compared."""
 
 
 def same(first: sp.Expr, second: sp.Expr, flow: Mapping[sp.Expr, sp.Expr]) -> bool:
     """Whether two expressions are equal wherever they are defined, D(...) carried out along the flow.
 
-    Functions are equal when their arguments are; of roots, sums and functions no further law is used. Raises TooLarge.
+    Functions are equal when their arguments are; of roots, sums and functions no further law is used.
+    Raises TooLargeError.
     """
     if first == second:
         return True
@@ -64,7 +65,7 @@ class _Atoms:
         if expr.is_Rational:
             return bool(expr == 0)
         if _size(expr) > MOST_TERMS:
-            raise TooLarge(f"an expression of more than {MOST_TERMS} terms is not compared: write it in parts")
+            raise TooLargeError(f"an expression of more than {MOST_TERMS} terms is not compared: write it in parts")
         symbols = sorted(expr.free_symbols | expr.atoms(sp.Indexed), key=str)
         plain = dict(zip(symbols, sp.symbols(f"x0:{len(symbols)}", cls=sp.Dummy), strict=True))
         indexed = {symbol: plain[symbol] for symbol in symbols if isinstance(symbol, sp.Indexed)}

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from typing import NoReturn
+from functools import singledispatchmethod
 
 import sympy as sp
 
@@ -15,7 +15,6 @@ from workbench.proof.latex.sums import big
 from workbench.proof.latex.tree import (
     Accented,
     Big,
-    Chain,
     Dot,
     Ellipsis,
     Group,
@@ -60,31 +59,39 @@ class Converter:
         known = self.notation.meaning(node)
         if known is not None:
             return self._of_sum(node, known)
-        match node:
-            case Number(value, ""):
-                return sp.Rational(value.numerator, value.denominator)
-            case Letter():
-                return self._letter(node)
-            case Terms(terms):
-                return self._sum(terms, node)
-            case Product(factors):
-                return self.product(factors)
-            case Quotient(top, bottom):
-                return self._quotient(node, top, bottom)
-            case Power(base, exponent):
-                return self._power(base, exponent, node.position)
-            case Root(body):
-                return power(self.number(body), sp.S.Half, node.position)
-            case Accented(accent, body):
-                return self._accented(accent, body, node.position)
-            case Size(bars, parts):
-                return self._size(bars, parts, node.position)
-            case Group():
-                return self.expression(self.inside(node))
-            case Transposed() | Named() | Big():
-                return self.product((node,))
-            case _:
-                _refuse(node)
+        return self._value(node)
+
+    @singledispatchmethod
+    def _value(self, node: Node) -> sp.Expr:
+        what = {Ellipsis: "dots stand for what is not printed: the line has to be read by a person",
+                Words: "words stand where a formula is expected: the line has to be read by a person"}
+        raise LatexError(what.get(type(node), "this piece has no meaning by itself: give it in the notation"),
+                         node.position)
+
+    @_value.register
+    def _(self, node: Number) -> sp.Expr:
+        if node.mark:
+            raise LatexError(f"the number {node.value} with the mark '{node.mark}': give the piece in the notation",
+                             node.position)
+        return sp.Rational(node.value.numerator, node.value.denominator)
+
+    @_value.register
+    def _(self, node: Product) -> sp.Expr:
+        return self.product(node.factors)
+
+    @_value.register(Transposed)
+    @_value.register(Named)
+    @_value.register(Big)
+    def _(self, node: Node) -> sp.Expr:
+        return self.product((node,))
+
+    @_value.register
+    def _(self, node: Root) -> sp.Expr:
+        return power(self.number(node.body), sp.S.Half, node.position)
+
+    @_value.register
+    def _(self, node: Group) -> sp.Expr:
+        return self.expression(self.inside(node))
 
     def product(self, factors: tuple[Node, ...]) -> sp.Expr:
         """The product of factors, functions and sum signs applied to what follows them."""
@@ -138,7 +145,8 @@ class Converter:
         if not rest or isinstance(rest[0], Dot):
             raise LatexError(f"'{name.name}' has no argument: write it in brackets", name.position)
         if name.index:
-            raise LatexError(f"'{name.name}' with the index '{name.index}': give the piece in the notation", name.position)
+            raise LatexError(f"'{name.name}' with the index '{name.index}': give the piece in the notation",
+                             name.position)
         first, taken = rest[0], 1
         if isinstance(first, Power) and isinstance(first.base, Group):
             raise LatexError(f"the power may belong to '{name.name}' or to its argument: put brackets around it",
@@ -165,6 +173,7 @@ class Converter:
             raise LatexError("a power of a function other than a whole positive one: write brackets", exponent.position)
         return value
 
+    @_value.register
     def _letter(self, letter: Letter) -> sp.Expr:
         found = without_dot(letter)
         if found is None:
@@ -185,16 +194,19 @@ class Converter:
                              f"'{self.index}': correct the notation", node.position)
         return meaning
 
-    def _sum(self, terms: tuple[tuple[int, Node], ...], node: Node) -> sp.Expr:
-        if any(sign == 0 for sign, _ in terms):
+    @_value.register
+    def _(self, node: Terms) -> sp.Expr:
+        if any(sign == 0 for sign, _ in node.terms):
             raise LatexError(r"\pm says two things at once: write one line for each", node.position)
-        values = [sign * self.expression(term) for sign, term in terms]
+        values = [sign * self.expression(term) for sign, term in node.terms]
         kinds = {is_vector(value) for value in values if value != 0}
         if len(kinds) > 1 and self.index is None:
             raise LatexError("a number is added to a vector: correct the notation", node.position)
         return sp.Add(*values)
 
-    def _quotient(self, node: Node, top: Node, bottom: Node) -> sp.Expr:
+    @_value.register
+    def _(self, node: Quotient) -> sp.Expr:
+        top, bottom = node.top, node.bottom
         if (isinstance(top, Product) and top.factors[0] == _DERIVED[0] and bottom == _DERIVED[1]):
             return D(self.product(top.factors[1:]))
         below = self.expression(bottom)
@@ -202,23 +214,27 @@ class Converter:
             raise LatexError("a division by a vector: correct the line", bottom.position)
         return divided(self.expression(top), below, node.position)
 
-    def _power(self, base: Node, exponent: Node, position: int) -> sp.Expr:
-        if base == Letter("e") and self.notation.meaning(base) is None:
-            return sp.exp(self.number(exponent))
-        if isinstance(base, Named):
-            return self.product((Power(base, exponent, position=position),))
-        return power(self.expression(base), self.number(exponent), position)
+    @_value.register
+    def _(self, node: Power) -> sp.Expr:
+        if node.base == Letter("e") and self.notation.meaning(node.base) is None:
+            return sp.exp(self.number(node.exponent))
+        if isinstance(node.base, Named):
+            return self.product((node,))
+        return power(self.expression(node.base), self.number(node.exponent), node.position)
 
-    def _accented(self, accent: str, body: Node, position: int) -> sp.Expr:
-        count = {"dot": 1, "ddot": 2, "dddot": 3}.get(accent)
+    @_value.register
+    def _(self, node: Accented) -> sp.Expr:
+        count = {"dot": 1, "ddot": 2, "dddot": 3}.get(node.accent)
         if count is None:
-            raise LatexError(f"\\{accent} over more than a letter: give the piece in the notation", position)
-        value = self.expression(body)
+            raise LatexError(f"\\{node.accent} over more than a letter: give the piece in the notation", node.position)
+        value = self.expression(node.body)
         for _ in range(count):
             value = D(value)
         return value
 
-    def _size(self, bars: str, parts: tuple[Node, ...], position: int) -> sp.Expr:
+    @_value.register
+    def _(self, node: Size) -> sp.Expr:
+        bars, parts, position = node.bars, node.parts, node.position
         if len(parts) != 1:
             raise LatexError("several values between bars: give the piece in the notation", position)
         value = self.expression(parts[0])
@@ -240,7 +256,8 @@ class Converter:
     def inside_all(self, group: Group) -> list[Node]:
         """The expressions between brackets, which commas part."""
         if PAIRS[group.opening] != group.closing:
-            raise LatexError(f"'{group.opening}' is closed by '{group.closing}': write the same brackets", group.position)
+            raise LatexError(f"'{group.opening}' is closed by '{group.closing}': write the same brackets",
+                             group.position)
         line = group.line
         if any(s != (",",) for s in line.separators[1:-1]) or line.separators[0] or line.separators[-1]:
             raise LatexError("words or arrows between brackets: give the piece in the notation", group.position)
@@ -252,9 +269,3 @@ class Converter:
         """The same, within a sum over an index."""
         return replace(self, index=index)
 
-
-def _refuse(node: Node) -> NoReturn:
-    what = {Ellipsis: "dots stand for what is not printed: the line has to be read by a person",
-            Words: "words stand where a formula is expected: the line has to be read by a person",
-            Chain: "a relation stands where a number is expected: correct the line"}
-    raise LatexError(what.get(type(node), "this piece has no meaning by itself: give it in the notation"), node.position)

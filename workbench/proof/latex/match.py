@@ -15,7 +15,7 @@ from workbench.proof.latex.convert import Converter
 from workbench.proof.latex.error import LatexError
 from workbench.proof.latex.notation import Notation
 from workbench.proof.latex.read import read_line
-from workbench.proof.latex.statement import Prose, Related, statement
+from workbench.proof.latex.statement import ProseError, Related, statement
 
 FLIPPED: dict[Operator, Operator] = {"==": "==", "!=": "!=", "<=": ">=", ">=": "<=", "<": ">", ">": "<"}
 
@@ -40,7 +40,7 @@ def match(printed: str, notation: Mapping[str, sp.Expr], goal: Goal) -> Match:
         line = read_line(printed)
         stated = statement(line, Converter(Notation(notation), limits_of(goal)))
         return _compared(stated.claimed, stated.conditions, goal)
-    except Prose as trouble:
+    except ProseError as trouble:
         return Match(False, str(trouble), words=True)
     except (LatexError, ClaimError) as trouble:
         return Match(False, str(trouble))
@@ -140,10 +140,10 @@ class _Sides:
             if operator not in ends and all(same(a, b, self.flow) for a, b in ((left, relation.left),
                                                                               (right, relation.right))):
                 return f"{said}; it has '{relation.operator}' there"
-            for own, other, where in ((left, relation.right, relation.left), (right, relation.left, relation.right)):
-                if what == "show" and same(own, where if own is left else where, self.flow):
-                    missing = right if own is left else left
-                    return f"{said}; beside {_short(own)} it has {_short(other)} instead of {_short(missing)}"
+            for own, missing in ((left, right), (right, left)):
+                for beside, other in ((relation.left, relation.right), (relation.right, relation.left)):
+                    if what == "show" and same(own, beside, self.flow):
+                        return f"{said}; beside {_short(own)} it has {_short(other)} instead of {_short(missing)}"
         return said
 
 

@@ -38,8 +38,8 @@ from workbench.proof.latex.tree import (
     Words,
 )
 
-NAMES = {"RELATION": "a relation sign", "COMMA": "a comma", "PLUS": "'+'", "MINUS": "'-'", "RB": "the end of an argument",
-         "CLOSE": "a closing bracket", "BARS_CLOSE": "a closing bar", "IMPLIES": "an arrow", "$END": "the end of the line"}
+NAMES = {"RELATION": "a relation sign", "COMMA": "a comma", "PLUS": "'+'", "MINUS": "'-'", "CLOSE": "a closing bracket",
+         "BARS_CLOSE": "a closing bar", "IMPLIES": "an arrow", "RB": "the end of an argument"}
 
 
 class _Handed(Lexer):
@@ -64,7 +64,7 @@ def _read(text: str) -> Line:
     if not words:
         raise LatexError("the line is empty: write a formula")
     try:
-        line = _parser().parse(words)  # type: ignore[arg-type]
+        line = _parser().parse(words)
     except UnexpectedInput as trouble:
         raise _unexpected(trouble, words) from None
     except VisitError as trouble:
@@ -214,29 +214,31 @@ def _product(factors: list[Node]) -> Node:
 
 def _scripted(node: Node, token: Token, exponent: Node | None) -> Node:
     """A node with an index, a mark or an exponent; what belongs to a letter is kept with it."""
-    where, text = token.start_pos, str(token)
     if isinstance(node, Big):
         return _with_ends(node, token, exponent)
-    if token.type == "SUP":
-        assert exponent is not None
+    if exponent is not None:
         return Power(node, exponent, position=node.position)
     if token.type == "TRANSPOSE":
         return Transposed(node, position=node.position)
-    if token.type == "SUB":
-        if isinstance(node, (Letter, Named)) and not node.index:
-            return replace(node, index=text)
-        if isinstance(node, (Power, Transposed)):  # x^2_1 is x_1^2
-            return replace(node, base=_scripted(node.base, token, None))
-        if isinstance(node, Accented):
-            return replace(node, body=_scripted(node.body, token, None))
-        if isinstance(node, Size):  # the norm by its name
-            return Size(f"{node.bars}_{text}", node.parts, position=node.position)
-        raise LatexError(f"the index '{text}' belongs to no letter: write it at one", where)
-    if isinstance(node, (Letter, Number)):
-        return replace(node, mark=node.mark + text)
     if isinstance(node, Accented):
         return replace(node, body=_scripted(node.body, token, None))
-    raise LatexError(f"the mark '{text}' belongs to no letter: write it at one", where)
+    return _indexed(node, token) if token.type == "SUB" else _marked(node, token)
+
+
+def _indexed(node: Node, token: Token) -> Node:
+    if isinstance(node, (Letter, Named)) and not node.index:
+        return replace(node, index=str(token))
+    if isinstance(node, (Power, Transposed)):  # x^2_1 is x_1^2
+        return replace(node, base=_indexed(node.base, token))
+    if isinstance(node, Size):  # the norm by its name
+        return Size(f"{node.bars}_{token}", node.parts, position=node.position)
+    raise LatexError(f"the index '{token}' belongs to no letter: write it at one", token.start_pos)
+
+
+def _marked(node: Node, token: Token) -> Node:
+    if isinstance(node, (Letter, Number)):
+        return replace(node, mark=node.mark + str(token))
+    raise LatexError(f"the mark '{token}' belongs to no letter: write it at one", token.start_pos)
 
 
 def _with_ends(node: Big, token: Token, exponent: Node | None) -> Node:

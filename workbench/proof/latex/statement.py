@@ -16,7 +16,7 @@ _AND = frozenset(("and", ",", "", "as well as"))
 _UNDER = ("for", "if", "when", "with", "where", "under", "at", "whenever", "provided that", "such that", "for all")
 
 
-class Prose(LatexError):
+class ProseError(LatexError):
     """A line whose words carry part of what it states."""
 
 
@@ -37,7 +37,7 @@ class Statement:
 
 
 def statement(line: Line, converter: Converter) -> Statement:
-    """The statement of a line; raises Prose where words carry part of it, LatexError for what cannot be read."""
+    """The statement of a line; raises ProseError where words carry part of it, LatexError for what cannot be read."""
     claimed, conditions = parted(line)
     if not claimed:
         raise LatexError("the line claims nothing: write a relation")
@@ -49,9 +49,9 @@ def parted(line: Line) -> tuple[list[Chain], list[Chain]]:
     `if`, in brackets after a relation."""
     flat = [word for words in line.separators for word in words]
     if any(word in ("\\forall", "\\exists") for word in flat):
-        raise Prose("the line quantifies over what stands behind 'for all' or 'exists': it is read by a person")
+        raise ProseError("the line quantifies over what stands behind 'for all' or 'exists': it is read by a person")
     if "<=>" in flat:
-        raise Prose("the line claims that two statements are equivalent: state each of them")
+        raise ProseError("the line claims that two statements are equivalent: state each of them")
     if flat.count("=>") > 1:
         raise LatexError("more than one arrow: write one line for each")
     claimed: list[Chain] = []
@@ -64,12 +64,12 @@ def parted(line: Line) -> tuple[list[Chain], list[Chain]]:
                 into = claimed
             elif word.startswith("text "):
                 into = _after_words(word.removeprefix("text "), into, claimed, conditions)
-        chain, bracketed = _unbracketed(chain)
-        into.append(chain)
+        kept, bracketed = _unbracketed(chain)
+        into.append(kept)
         conditions += bracketed
     for word in line.separators[-1]:
         if word.startswith("text ") and word.removeprefix("text ").strip(" .,") not in _AND:
-            raise Prose(f"the words '{word.removeprefix('text ')}' belong to the statement: it is read by a person")
+            raise _said(word.removeprefix("text "))
         if word in ("=>", ":"):
             raise LatexError("nothing stands behind the arrow or colon: complete the line")
     return claimed, conditions
@@ -81,16 +81,19 @@ def _after_words(text: str, into: list[Chain], claimed: list[Chain], conditions:
         return into
     if said in _UNDER and claimed:
         return conditions
-    raise Prose(f"the words '{text}' belong to the statement: it is read by a person")
+    raise _said(text)
+
+
+def _said(text: str) -> ProseError:
+    return ProseError(f"the words '{text}' belong to the statement: it is read by a person")
 
 
 def _unbracketed(chain: Chain) -> tuple[Chain, list[Chain]]:
     """A relation without the condition that stands in brackets at its end, as in `V > 0 (e != 0)`."""
     last = chain.sides[-1]
-    factors = last.factors if isinstance(last, Product) else ()
-    if not chain.signs or not factors or not isinstance(factors[-1], Group):
+    if not chain.signs or not isinstance(last, Product) or not isinstance(last.factors[-1], Group):
         return chain, []
-    inner = factors[-1].line
+    factors, inner = last.factors, last.factors[-1].line
     if not all(part.signs for part in inner.chains) or any(s not in ((), (",",)) for s in inner.separators):
         return chain, []
     kept = factors[0] if len(factors) == 2 else replace(last, factors=factors[:-1])
@@ -118,7 +121,7 @@ def _chain(chain: Chain, converter: Converter) -> list[Related]:
         return _interval(chain, converter)
     for sign in chain.signs:
         if sign not in OPERATORS:
-            raise Prose(f"the sign '{sign}' is none of a goal's relations: the line is read by a person")
+            raise ProseError(f"the sign '{sign}' is none of a goal's relations: the line is read by a person")
     sides = tuple(converter.number(side) for side in chain.sides)
     return [Related(sides, tuple(OPERATORS[sign] for sign in chain.signs))]
 
@@ -127,11 +130,11 @@ def _interval(chain: Chain, converter: Converter) -> list[Related]:
     """`x \\in [a, b)` as a <= x, x < b, and the chain before it."""
     place, interval = chain.signs.index("in"), chain.sides[-1]
     if place != len(chain.signs) - 1 or not isinstance(interval, Group):
-        raise Prose("a set other than an interval: the line is read by a person")
+        raise ProseError("a set other than an interval: the line is read by a person")
     line = interval.line
     if interval.opening not in "([" or interval.closing not in ")]" or len(line.chains) != 2 or \
             any(part.signs for part in line.chains) or line.separators != ((), (",",), ()):
-        raise Prose("a set other than an interval: the line is read by a person")
+        raise ProseError("a set other than an interval: the line is read by a person")
     member, ends = chain.sides[-2], [part.sides[0] for part in line.chains]
     before = _chain(Chain(chain.sides[:-1], chain.signs[:-1]), converter) if place else []
     value = converter.number(member)

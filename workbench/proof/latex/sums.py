@@ -32,8 +32,8 @@ def big(converter: Converter, sign: Big, rest: tuple[Node, ...]) -> sp.Expr:
         parts = _integrals(sign, rest)
         if parts:
             return sp.Add(*(factor * converter.product(part) for factor, part in parts))
-    raise LatexError(f"this piece from '\\{sign.name}' on is not in the notation: give it there, with all it applies to",
-                     sign.position)
+    raise LatexError(f"this piece from '\\{sign.name}' on is not in the notation: give it there, with all it applies "
+                     "to", sign.position)
 
 
 def _sum(converter: Converter, sign: Big, rest: tuple[Node, ...]) -> sp.Expr:
@@ -54,8 +54,8 @@ def _sum(converter: Converter, sign: Big, rest: tuple[Node, ...]) -> sp.Expr:
     limits = converter.limits
     if limits is not None and limits[0] == index:
         if ends is not None and ends != (limits[1], limits[2]):
-            raise LatexError(f"the sum goes from {ends[0]} to {ends[1]}, that of the goal from {limits[1]} to {limits[2]}: "
-                             "correct the notation or the goal", sign.position)
+            raise LatexError(f"the sum goes from {ends[0]} to {ends[1]}, that of the goal from {limits[1]} to "
+                             f"{limits[2]}: correct the notation or the goal", sign.position)
         return sp.Sum(body, limits)
     if ends is None:
         raise LatexError("the sum has no ends here and none in the goal: write \\sum_{j=1}^{n}", sign.position)

@@ -1,4 +1,4 @@
-"""The words of the grammar, made of a line's pieces: every argument in braces, every bar known as opening or closing."""
+"""The words of the grammar, made of a line's pieces: arguments in braces, bars that are known to open or close."""
 
 from __future__ import annotations
 
@@ -8,7 +8,6 @@ from dataclasses import dataclass
 from lark import Token
 
 from workbench.proof.latex.commands import (
-    ACCENTS,
     BARS,
     BIG,
     CLOSING,
@@ -31,11 +30,18 @@ from workbench.proof.latex.commands import (
 )
 from workbench.proof.latex.error import LatexError
 from workbench.proof.latex.limits import DEEPEST_NESTING, LONGEST_NUMBER
-from workbench.proof.latex.scan import Piece, argument, plain, scan
+from workbench.proof.latex.scan import Piece, argument, arguments, plain, scan
 
 # After these a value is complete, so that a bar closes.
 COMPLETE = frozenset(["LETTER", "NUMBER", "CLOSE", "RB", "SUB", "MARK", "TRANSPOSE", "BARS_CLOSE", "ELLIPSIS", "AT"])
-SEPARATORS = {",": "COMMA", ";": "COMMA", ":": "COLON", ".": "COMMA"}
+SIGNS = {"/": "SLASH", "+": "PLUS", "-": "MINUS", "=": "RELATION", "<": "RELATION", ">": "RELATION", "(": "OPEN",
+         "[": "OPEN", ")": "CLOSE", "]": "CLOSE", "'": "MARK", ",": "COMMA", ";": "COMMA", ":": "COLON", ".": "COMMA"}
+_COMMANDS: dict[str, dict[str, str] | frozenset[str]] = {
+    "OPEN": OPENING, "CLOSE": CLOSING, "LETTER": GREEK, "NAMED": {name: SAME_FUNCTION.get(name, name)
+                                                                  for name in FUNCTIONS},
+    "RELATION": RELATIONS, "BIG": BIG, "IMPLIES": IMPLIES, "IFF": EQUIVALENT, "QUANTIFIER": QUANTIFIERS,
+    "ELLIPSIS": ELLIPSES, "CDOT": TIMES, "PLUS_MINUS": frozenset(("pm", "mp")), "MARK": dict.fromkeys(STAR, "*"),
+}
 _MARK = re.compile(r"\*|\+|-|0|\\pm|\\prime|'+|\(\d+\)|\\infty")
 _STARRED = re.compile(r"(\*)(T|2|\\top)")
 
@@ -60,35 +66,33 @@ class _Words:
         at = start
         while at < end:
             piece = self.pieces[at]
-            word = piece.text
-            if piece.kind == "command" and word in DROPPED:
+            if piece.kind == "command" and piece.text in DROPPED:
                 at += 1
                 # \left. and \right. are brackets that are not there.
-                if word in ("left", "right") and at < end and self.pieces[at].text == ".":
+                if piece.text in ("left", "right") and at < end and self.pieces[at].text == ".":
                     at += 1
-            elif word == "|" or (piece.kind == "command" and word in BARS):
+            elif piece.text == "|" or (piece.kind == "command" and piece.text in BARS):
                 at = self._bar(out, opened, at, end)
             elif piece.kind == "digit":
                 at = self._number(out, at, end)
-            elif word in "_^" and piece.kind == "sign":
-                at = (self._index if word == "_" else self._above)(out, at, end, depth)
-            elif word == "'" and piece.kind == "sign":
-                out.append(_token("MARK", "'", piece))
-                at += 1
-            elif piece.kind == "command" and (word in FRACTIONS or word in ACCENTS or word in FONTS
-                                              or word in UPRIGHT or word == "sqrt"):
+            elif piece.kind == "sign" and piece.text in "_^":
+                at = (self._index if piece.text == "_" else self._above)(out, at, end, depth)
+            elif arguments(piece):
                 at = self._with_arguments(out, at, end, depth)
             else:
                 out.append(_simple(piece))
-                if out[-1].type in ("OPEN", "LB"):
-                    opened.append(out[-1].value)
-                    if len(opened) > DEEPEST_NESTING:
-                        raise LatexError(f"brackets are nested more than {DEEPEST_NESTING} deep: write a flatter line",
-                                         piece.position)
-                elif out[-1].type in ("CLOSE", "RB") and opened:
-                    opened.pop()
+                self._brackets(out[-1], opened)
                 at += 1
         return out
+
+    def _brackets(self, token: Token, opened: list[str]) -> None:
+        if token.type in ("OPEN", "LB"):
+            opened.append(token.value)
+            if len(opened) > DEEPEST_NESTING:
+                raise LatexError(f"brackets are nested more than {DEEPEST_NESTING} deep: write a flatter line",
+                                 token.start_pos)
+        elif token.type in ("CLOSE", "RB") and opened:
+            opened.pop()
 
     def _bar(self, out: list[Token], opened: list[str], at: int, end: int) -> int:
         piece = self.pieces[at]
@@ -105,7 +109,8 @@ class _Words:
         else:
             opened.append(kind)
             if len(opened) > DEEPEST_NESTING:
-                raise LatexError(f"bars are nested more than {DEEPEST_NESTING} deep: write a flatter line", piece.position)
+                raise LatexError(f"bars are nested more than {DEEPEST_NESTING} deep: write a flatter line",
+                                 piece.position)
             out.append(_token("BARS_OPEN", kind, piece))
         return at + 1
 
@@ -191,47 +196,23 @@ class _Words:
         out += [_token("LB", "{", piece), *self.range(first, last, depth + 1), _token("RB", "}", piece)]
 
 
-def _simple(piece: Piece) -> Token:  # noqa: PLR0911 - one line a kind of sign
-    word = piece.text
-    if piece.kind == "text":
-        return _token("WORDS", word, piece)
-    if piece.kind == "letter" or word == "/":
-        return _token("LETTER" if piece.kind == "letter" else "SLASH", word, piece)
-    if piece.kind in ("open", "close"):
-        return _token("LB" if piece.kind == "open" else "RB", word, piece)
+def _simple(piece: Piece) -> Token:
+    kinds = {"text": "WORDS", "letter": "LETTER", "open": "LB", "close": "RB"}
     if piece.kind == "command":
         return _command(piece)
-    if word in "+-":
-        return _token("PLUS" if word == "+" else "MINUS", word, piece)
-    if word in "=<>":
-        return _token("RELATION", word, piece)
-    if word in "([":
-        return _token("OPEN", word, piece)
-    if word in ")]":
-        return _token("CLOSE", word, piece)
-    if word in SEPARATORS:
-        return _token(SEPARATORS[word], word, piece)
-    raise LatexError(f"'{word}' has no meaning in a formula: write \\cdot for a product, words in \\text{{...}}",
-                     piece.position)
+    kind = kinds.get(piece.kind) or SIGNS.get(piece.text)
+    if kind is None:
+        raise LatexError(f"'{piece.text}' has no meaning in a formula: write \\cdot for a product, words in "
+                         "\\text{...}", piece.position)
+    return _token(kind, piece.text, piece)
 
 
 def _command(piece: Piece) -> Token:
     word = piece.text
-    if word in OPENING or word in CLOSING:
-        kind = "OPEN" if word in OPENING else "CLOSE"
-        return _token(kind, (OPENING | CLOSING)[word], piece)
-    if word in GREEK:
-        return _token("LETTER", f"\\{word}", piece)
-    if word in FUNCTIONS:
-        return _token("NAMED", SAME_FUNCTION.get(word, word), piece)
-    if word in RELATIONS:
-        return _token("RELATION", RELATIONS[word], piece)
-    if word in BIG:
-        return _token("BIG", word, piece)
-    for kind, known in (("IMPLIES", IMPLIES), ("IFF", EQUIVALENT), ("QUANTIFIER", QUANTIFIERS),
-                        ("ELLIPSIS", ELLIPSES), ("CDOT", TIMES), ("PLUS_MINUS", ("pm", "mp")), ("MARK", STAR)):
+    for kind, known in _COMMANDS.items():
         if word in known:
-            return _token(kind, word, piece)
+            value = known[word] if isinstance(known, dict) else word
+            return _token(kind, f"\\{word}" if kind == "LETTER" else value, piece)
     raise LatexError(f"the command \\{word} is not known here: write it with known ones, or in \\text{{...}}",
                      piece.position)
 

@@ -19,7 +19,7 @@ def is_vector(expr: sp.Expr) -> bool:
 def summed(summand: sp.Expr, limits: sp.Tuple | None, position: int) -> sp.Expr:
     """The sum of an indexed expression over the limits of the goal; LatexError when there are none that fit."""
     if limits is None:
-        raise LatexError("vectors are multiplied here, but the goal has no sum: write the sum with its limits", position)
+        raise LatexError("a product of vectors, but the goal has no sum: write the sum with its limits", position)
     indices = {index for found in summand.atoms(sp.Indexed) for index in found.indices}
     if indices != {limits[0]}:
         raise LatexError(f"the vectors' index is {', '.join(sorted(map(str, indices)))}, but the goal sums over "
@@ -56,8 +56,8 @@ def multiplied(factors: Sequence[tuple[sp.Expr, bool]], limits: sp.Tuple | None,
 def norm(value: sp.Expr, limits: sp.Tuple | None, position: int) -> sp.Expr:
     """The Euclidean norm of a vector."""
     if not is_vector(value):
-        raise LatexError(f"the norm of {value}, which is no vector: give the norm in the notation, or an indexed symbol",
-                         position)
+        raise LatexError(f"the norm of {value}, which is no vector: give the norm in the notation, or an indexed "
+                         "symbol", position)
     return sp.sqrt(summed(value**2, limits, position))
 
 
