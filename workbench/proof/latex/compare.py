@@ -12,38 +12,59 @@ from workbench.errors import ClaimError
 from workbench.proof.claim import D
 from workbench.proof.derive import expand_derivatives, formal_sums
 from workbench.proof.latex.limits import MOST_TERMS
+from workbench.proof.latex.residue import DivisionByZeroError, residue
 
 _FUNCTIONS = (sp.log, sp.exp, sp.tanh, sp.sign, sp.Max, sp.Min, D)
 
 
+class Comparison:
+    """Compares expressions along one flow; `too_large` says whether two were too large to be compared."""
+
+    def __init__(self, flow: Mapping[sp.Expr, sp.Expr]) -> None:
+        self.flow = dict(flow)
+        self.too_large = False
+        self._carried: dict[sp.Expr, sp.Expr] = {}
+        self._residues: dict[sp.Expr, int] = {}
+        self._equal: dict[frozenset[sp.Expr], bool] = {}
+
+    def same(self, first: sp.Expr, second: sp.Expr) -> bool:
+        """Whether two expressions are equal wherever they are defined, D(...) carried out along the flow.
+
+        Functions are equal when their arguments are; of roots, sums and functions no further law is used.
+        """
+        pair = frozenset((first, second))
+        if pair not in self._equal:
+            self._equal[pair] = self._compare(self.carried(first), self.carried(second))
+        return self._equal[pair]
+
+    def carried(self, expr: sp.Expr) -> sp.Expr:
+        """The expression with its derivatives carried out; what has none everywhere is equal to itself only."""
+        if expr not in self._carried:
+            try:
+                self._carried[expr] = expand_derivatives(expr, self.flow) if expr.has(D) else expr
+            except ClaimError:
+                self._carried[expr] = expr
+        return self._carried[expr]
+
+    def _compare(self, first: sp.Expr, second: sp.Expr) -> bool:
+        if first == second:
+            return True
+        if len({total.limits for side in (first, second) for total in side.atoms(sp.Sum)}) > 1:
+            return False
+        try:
+            if residue(first, self._residues) != residue(second, self._residues):
+                return False
+        except DivisionByZeroError:
+            pass  # decided below
+        try:
+            return _Atoms().vanishes(first - second)
+        except TooLargeError:
+            self.too_large = True
+            return False
+
+
 class TooLargeError(ClaimError):
     """Two expressions are too large to be compared."""
-
-
-def same(first: sp.Expr, second: sp.Expr, flow: Mapping[sp.Expr, sp.Expr]) -> bool:
-    """Whether two expressions are equal wherever they are defined, D(...) carried out along the flow.
-
-    Functions are equal when their arguments are; of roots, sums and functions no further law is used.
-    Raises TooLargeError.
-    """
-    if first == second:
-        return True
-    pair = [_carried(side, dict(flow)) for side in (first, second)]
-    if pair[0] == pair[1]:
-        return True
-    limits = {total.limits for side in pair for total in side.atoms(sp.Sum)}
-    if len(limits) > 1:
-        return False
-    return _Atoms().vanishes(sp.Add(pair[0], -pair[1]))
-
-
-def _carried(expr: sp.Expr, flow: dict[sp.Expr, sp.Expr]) -> sp.Expr:
-    if not expr.has(D):
-        return expr
-    try:
-        return expand_derivatives(expr, flow)
-    except ClaimError:  # what has no derivative everywhere is equal to itself only
-        return expr
 
 
 class _Atoms:
@@ -66,7 +87,7 @@ class _Atoms:
             return bool(expr == 0)
         if _size(expr) > MOST_TERMS:
             raise TooLargeError(f"an expression of more than {MOST_TERMS} terms is not compared: write it in parts")
-        symbols = sorted(expr.free_symbols | expr.atoms(sp.Indexed), key=str)
+        symbols = sorted(expr.atoms(sp.Indexed) | expr.atoms(sp.Symbol), key=str)
         plain = dict(zip(symbols, sp.symbols(f"x0:{len(symbols)}", cls=sp.Dummy), strict=True))
         indexed = {symbol: plain[symbol] for symbol in symbols if isinstance(symbol, sp.Indexed)}
         return bool(sfield(expr.xreplace(indexed).xreplace(plain))[1] == 0)
@@ -116,8 +137,8 @@ def _size(expr: sp.Expr) -> int:
 
 
 def _bottom(expr: sp.Expr) -> int:
-    bottoms = [part for part in sp.Mul.make_args(expr) if isinstance(part, sp.Pow) and part.exp.is_negative]
     total = 1
-    for part in bottoms:
-        total = min(total * _size(part), MOST_TERMS + 1)
+    for part in sp.Mul.make_args(expr):
+        if isinstance(part, sp.Pow) and part.exp.is_negative:
+            total = min(total * _size(part), MOST_TERMS + 1)
     return total

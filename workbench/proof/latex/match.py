@@ -10,7 +10,7 @@ import sympy as sp
 
 from workbench.errors import ClaimError
 from workbench.proof.claim import Goal, Operator, Relation, equal
-from workbench.proof.latex.compare import same
+from workbench.proof.latex.compare import Comparison
 from workbench.proof.latex.convert import Converter
 from workbench.proof.latex.error import LatexError
 from workbench.proof.latex.notation import Notation
@@ -58,7 +58,8 @@ def limits_of(goal: Goal) -> sp.Tuple | None:
 def _compared(claimed: tuple[Related, ...], conditions: tuple[Related, ...], goal: Goal) -> Match:
     if goal.eventually is not None:
         return Match(False, "the goal holds from some time on, which the line does not say")
-    lines = [_Sides(related, goal) for related in claimed]
+    comparison = Comparison(goal.flow)
+    lines = [_Sides(related, comparison) for related in claimed]
     used: set[int] = set()
     for sides in lines:
         taken = sides.shown_by(list(goal.show))
@@ -70,7 +71,7 @@ def _compared(claimed: tuple[Related, ...], conditions: tuple[Related, ...], goa
             return Match(False, f"the goal shows more than is printed: {_brief(shown)}")
     given = [*goal.assume, *goal.always, *goal.signs(), *(equal(s, value) for s, value in goal.initial.items())]
     for related in conditions:
-        taken = _Sides(related, goal).shown_by(given, what="assume")
+        taken = _Sides(related, comparison).shown_by(given, what="assume")
         if isinstance(taken, str):
             return Match(False, taken)
     return Match(True, "equal side by side")
@@ -79,8 +80,8 @@ def _compared(claimed: tuple[Related, ...], conditions: tuple[Related, ...], goa
 class _Sides:
     """The sides of one printed chain, and which of them are equal by its own equality signs."""
 
-    def __init__(self, related: Related, goal: Goal) -> None:
-        self.related, self.flow = related, goal.flow
+    def __init__(self, related: Related, comparison: Comparison) -> None:
+        self.related, self.comparison, self.same = related, comparison, comparison.same
         self.printed = self._classes(related.operators)
 
     def _classes(self, operators: tuple[Operator, ...]) -> list[int]:
@@ -96,7 +97,7 @@ class _Sides:
         sides, operators = self.related.sides, self.related.operators
         joined = list(range(len(sides)))
         for first, second in pairwise(range(len(sides))):  # what is equal by the notation needs no relation
-            if operators[first] == "==" and same(sides[first], sides[second], self.flow):
+            if operators[first] == "==" and self.same(sides[first], sides[second]):
                 _join(joined, first, second)
         used: set[int] = set()
         steps: dict[int, int] = {}
@@ -122,8 +123,8 @@ class _Sides:
 
     def _places(self, relation: Relation) -> Iterator[tuple[int, int, Operator]]:
         """Where the relation's sides stand in the chain."""
-        lefts = [i for i, side in enumerate(self.related.sides) if same(side, relation.left, self.flow)]
-        rights = [i for i, side in enumerate(self.related.sides) if same(side, relation.right, self.flow)]
+        lefts = [i for i, side in enumerate(self.related.sides) if self.same(side, relation.left)]
+        rights = [i for i, side in enumerate(self.related.sides) if self.same(side, relation.right)]
         for left in lefts:
             for right in rights:
                 if left != right:
@@ -134,16 +135,18 @@ class _Sides:
         said = f"the goal does not {what} what is printed: {_brief(Relation(left, operator, right))}"
         margin = Relation(left, operator, right).margin
         for relation in relations:
-            if relation.right == 0 and any(same(relation.left, sign * margin, self.flow) for sign in (1, -1)):
+            if relation.right == 0 and any(self.same(relation.left, sign * margin) for sign in (1, -1)):
                 return f"{said}; it has the difference of the sides, state them side by side"
             ends = {FLIPPED[relation.operator]: (right, left), relation.operator: (left, right)}
-            if operator not in ends and all(same(a, b, self.flow) for a, b in ((left, relation.left),
+            if operator not in ends and all(self.same(a, b) for a, b in ((left, relation.left),
                                                                               (right, relation.right))):
                 return f"{said}; it has '{relation.operator}' there"
             for own, missing in ((left, right), (right, left)):
                 for beside, other in ((relation.left, relation.right), (relation.right, relation.left)):
-                    if what == "show" and same(own, beside, self.flow):
+                    if what == "show" and self.same(own, beside):
                         return f"{said}; beside {_short(own)} it has {_short(other)} instead of {_short(missing)}"
+        if self.comparison.too_large:
+            return f"{said}, as far as sides of moderate size were compared: write them as the other has them"
         return said
 
 
