@@ -7,7 +7,6 @@ import sympy as sp
 from workbench.proof.claim import D, Goal, at_least, equal, greater
 from workbench.trains.train import F, a_0, b_0, c_0, f_add, m, single_particle, v
 
-from ..notation import f_b, v_next
 from ..paper import paper
 from ..plant import (
     M,
@@ -33,12 +32,14 @@ newton_step = v_i + T_s * single_particle().rates[v].xreplace(newton_force)  # E
 
 @paper.claim("1", "The train: an Euler step of Newton's law", "identity",
              r"v(k+1) = v(k) + \frac{T_s}{M} (u_f(k) - f_a(s) - f_b(v))", "proved",
+             where={"v(k+1)": newton_step, "f_b(v)": basic_resistance(v_i)},
              note="With forces in N. The left side is an Euler step of Newton's law for the single-particle train with the Davis equation.")
 def train_step() -> Goal:
     """One step of the train."""
-    return Goal((equal(v_next, v_i + T_s / M * (u_i - f_a - f_b)),), (equal(v_next, newton_step), equal(f_b, basic_resistance(v_i))))
+    return Goal((equal(newton_step, v_i + T_s / M * (u_i - f_a - basic_resistance(v_i))),))
 
 
+coasting_resistance = M / T_s * (v_i - newton_step.xreplace({u_i: sp.Integer(0), f_a: sp.Integer(0)}))
 slope_sine, slope_cosine, weight = sp.symbols("sin_s cos_s W", real=True)
 curve_force, tunnel_force = sp.symbols("f_curve f_tunnel", nonnegative=True)
 
@@ -63,13 +64,11 @@ def slope_alone() -> Goal:
 
 
 @paper.claim("3", "Basic resistance: the Davis equation", "identity",
-             r"f_b(v) = b_0(k) + b_1(k)v(k) + b_2(k)v^2(k)", "proved", premises=("1",), where={"v^2(k)": v_i**2},
-             note="What (1) takes from the speed of a train that coasts on a level line is the Davis equation.")
+             r"f_b(v) = b_0(k) + b_1(k)v(k) + b_2(k)v^2(k)", "proved", premises=("1",), where={"v^2(k)": v_i**2, "f_b(v)": coasting_resistance},
+             note="What the Euler step of (1) takes from the speed of a train that coasts on a level line is the Davis equation.")
 def davis_equation() -> Goal:
-    """(1) and Newton's law, both without force and slope."""
-    coasting = {u_i: sp.Integer(0), f_a: sp.Integer(0)}
-    printed, = (r for r in paper.shown("1"))
-    return Goal((equal(f_b, b_0k + b_1k * v_i + b_2k * v_i**2),), (printed.subs(coasting), equal(v_next, newton_step.xreplace(coasting))))
+    """The step without force and slope."""
+    return Goal((equal(coasting_resistance, b_0k + b_1k * v_i + b_2k * v_i**2),))
 
 
 paper.axiom("remark1", "Remark 1: time-varying resistance coefficients",

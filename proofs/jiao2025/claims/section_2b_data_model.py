@@ -6,15 +6,15 @@ import sympy as sp
 
 from workbench.proof.claim import Goal, at_least, at_most, differ, equal, greater, less
 
-from ..laws import phi
-from ..notation import Delta_u_i, Delta_v_k, Delta_v_next, epsilon_bar, p, v_next, v_next_prev
+from ..notation import Delta_u_i, Delta_v_k, Delta_v_next, epsilon_bar, p, v_next_prev
 from ..paper import paper
 from ..plant import M, T_s, next_speed, u_i, u_prev, v_i, v_prev
 from .section_2a_train import a, b, secant, two_trials
 
 w = sp.Symbol("w", positive=True)
 U, d = sp.symbols("U d", nonnegative=True)
-two_trials_next = equal(Delta_v_next, a * Delta_v_k + b * Delta_u_i)  # 5.trials with b = T_s/M
+two_trials_after = a * Delta_v_k + b * Delta_u_i  # 5.trials with b = T_s/M
+two_trials_next = equal(Delta_v_next, two_trials_after)
 damped = (greater(a, 0), at_most(a, 1))
 
 
@@ -63,33 +63,38 @@ def bounded_changes() -> Goal:
     return _input_history()
 
 
+quotient = Delta_v_next / Delta_u_i
+
+
 @paper.claim("lemma1", "Lemma 1: phi_c exists and is bounded", "implication",
              r"\Delta v(k+1, i) = \phi_c(k, i) \Delta u_f(k, i), \quad |\phi_c(k, i)| \leq p", "proved", rests_on=(), severity="result",
+             where={r"\phi_c(k, i)": quotient},
              reading="The lemma's (5) and its bound, under what it assumes: Assumption 2 and Delta u not zero; phi_c is the quotient.",
              note="For a system that meets Assumption 2. The bound is that assumption word for word; whether the train has it is another question: A2.")
 def quotient_exists() -> Goal:
     """phi_c = Delta v(k+1) / Delta u(k)."""
-    return Goal((equal(Delta_v_next, phi * Delta_u_i), at_most(sp.Abs(phi), p)),
-                (equal(phi, Delta_v_next / Delta_u_i), at_most(sp.Abs(Delta_v_next), p * sp.Abs(Delta_u_i)), differ(Delta_u_i, 0)))
+    return Goal((equal(sp.Add(Delta_v_next, 0), quotient * Delta_u_i), at_most(sp.Abs(quotient), p)),
+                (at_most(sp.Abs(Delta_v_next), p * sp.Abs(Delta_u_i)), differ(Delta_u_i, 0)))
 
 
 phi_train = b + a * Delta_v_k / Delta_u_i
 
 
 @paper.claim("5", "CFDL data model", "identity", r"\Delta v(k+1, i) = \phi_c(k, i) \Delta u_f(k, i)", "proved",
-             premises=("5.trials",), rests_on=("lemma1", "A1", "A2", "4"),
+             premises=("5.trials",), rests_on=("lemma1", "A1", "A2", "4"), where={r"\Delta v(k+1, i)": two_trials_after, r"\phi_c(k, i)": phi_train},
              note="True of the train for Delta u(k,i) not zero, with phi_c = T_s/M + a Delta v(k,i)/Delta u(k,i): a rewriting of the quotient. "
                   "All of the train's memory is in phi_c, which is neither dv(k+1)/du(k) nor bounded (A2.every).")
 def data_model() -> Goal:
     """phi_c of the train."""
-    return Goal((equal(Delta_v_next, phi * Delta_u_i),), (two_trials_next, equal(phi, phi_train), differ(Delta_u_i, 0)))
+    return Goal((equal(two_trials_after, phi_train * Delta_u_i),), (differ(Delta_u_i, 0),))
 
 
 @paper.claim("6", "The data model written for the speed", "identity",
-             r"v(k+1, i) = v(k+1, i-1) + \phi_c(k, i) \Delta u_f(k, i)", "proved", premises=("5",))
+             r"v(k+1, i) = v(k+1, i-1) + \phi_c(k, i) \Delta u_f(k, i)", "proved", premises=("5",), where={"v(k+1, i)": v_next_prev + two_trials_after, r"\phi_c(k, i)": phi_train})
 def data_model_speed() -> Goal:
     """(5) with Delta v(k+1,i) written out."""
-    return Goal((equal(v_next, v_next_prev + phi * Delta_u_i),), (*paper.shown("5"), equal(Delta_v_next, v_next - v_next_prev)))
+    changes, = paper.shown("5")
+    return Goal((equal(v_next_prev + changes.left, v_next_prev + changes.right),), (differ(Delta_u_i, 0),))
 
 
 change_at_rest, slope = sp.symbols("Delta_v_0 L", real=True)
@@ -117,12 +122,12 @@ def unchanged_input_of_the_train() -> Goal:
 
 
 @paper.claim("A4", "Assumption 4: phi_c is positive", "inequality", r"\phi_c(k, i) > \bar{\varepsilon} > 0", "refuted",
-             premises=("5",), rests_on=(),
+             premises=("5",), rests_on=(), where={r"\phi_c(k, i)": phi_train},
              note="Held against the train: slower after the earlier inputs and pushed a little harder now, it is still slower, and phi_c is "
                   "negative; it takes every value (A4.every), so no bound serves. Positive is dv(k+1)/du(k) = T_s/M (A1), which is what Remark 4 argues with.")
 def positive_pseudo_derivative() -> Goal:
     """phi_c of the train for any 0 < a <= 1."""
-    return Goal((greater(phi, epsilon_bar), greater(epsilon_bar, 0)), (equal(phi, phi_train), differ(Delta_u_i, 0), *damped, at_most(epsilon_bar, b)))
+    return Goal((greater(phi_train, epsilon_bar), greater(epsilon_bar, 0)), (differ(Delta_u_i, 0), *damped, at_most(epsilon_bar, b)))
 
 
 any_value = sp.Symbol("y", real=True)

@@ -22,22 +22,23 @@ from ..laws import (
     phi_prev,
     rho,
 )
-from ..notation import cost, e_i, phi_free, v_d, v_next, v_next_prev, xi
+from ..notation import phi_free, v_d, v_next_prev, xi
 from ..paper import paper
 from ..plant import M, T_s, u_i, u_prev
 from ..stated_values import stated
 
 input_cost = (e_prev - phi * (u_i - u_prev)) ** 2 + lamda * (u_i - u_prev) ** 2
+error_before, error_after = v_d - v_next_prev, v_d - (v_next_prev + phi * (u_i - u_prev))  # e(k+1,i-1), and by (6) e(k+1,i)
 
 
 @paper.claim("7", "Cost of the input", "identity",
              r"J(u_f(k, i)) = |e(k+1, i)|^2 + \lambda |u_f(k, i) - u_f(k, i-1)|^2", "proved", premises=("6",),
+             where={"J(u_f(k, i))": input_cost.xreplace({e_prev: error_before}), "e(k+1, i)": error_after},
              reading="J is the cost that is minimised below, written by (6) for the error of the last trial.",
              note="With e(k+1,i) = e(k+1,i-1) - phi_c Delta u(k,i) by (6), the form in which it is minimised.")
 def cost_of_input() -> Goal:
     """(7) with e = v_d - v and (6)."""
-    errors = (equal(e_i, v_d - v_next), equal(e_prev, v_d - v_next_prev), equal(v_next, v_next_prev + phi * (u_i - u_prev)))
-    return Goal((equal(cost, e_i**2 + lamda * (u_i - u_prev) ** 2),), (equal(cost, input_cost), *errors))
+    return Goal((equal(input_cost.xreplace({e_prev: error_before}), error_after**2 + lamda * (u_i - u_prev) ** 2),))
 
 
 best_input, best_estimate = sp.symbols("u_best phi_best", real=True)
@@ -100,16 +101,16 @@ def step_factor_descends() -> Goal:
 
 
 estimate_cost = (Delta_v - phi * Delta_u) ** 2 + mu * (phi - phi_prev) ** 2  # (9), differences of trials i-1 and i-2
+innovation = Delta_v - phi_prev * Delta_u
+prediction_cost = (innovation - (phi - phi_prev) * Delta_u) ** 2 + mu * (phi - phi_prev) ** 2
 
 
 @paper.claim("9", "Cost of the estimate", "identity",
              r"J(\phi_c(k, i)) = |\Delta v(k+1, i-1) - \phi_c(k, i) \Delta u_f(k, i-1)|^2 + \mu |\phi_c(k, i) - \hat{\phi}_c(k, i-1)|^2", "proved",
-             reading="J is written for the innovation xi of (12), the error of the last estimate's prediction.")
+             where={r"J(\phi_c(k, i))": prediction_cost}, reading="J is written for the innovation xi of (12), the error of the last estimate's prediction.")
 def cost_of_estimate() -> Goal:
     """The prediction's error about the last estimate."""
-    step = phi - phi_prev
-    return Goal((equal(cost, (Delta_v - phi * Delta_u) ** 2 + mu * (phi - phi_prev) ** 2),),
-                (equal(cost, (xi - step * Delta_u) ** 2 + mu * step**2), equal(xi, Delta_v - phi_prev * Delta_u)))
+    return Goal((equal(prediction_cost, (Delta_v - phi * Delta_u) ** 2 + mu * (phi - phi_prev) ** 2),))
 
 
 @paper.claim("9.minimum", "The stationary estimate is the minimum", "identity",
@@ -135,7 +136,7 @@ def _stationary_estimate(printed: bool) -> Goal:
              note="The text derives J by phi_hat(k,i), while J is a function of phi_c(k,i).")
 def estimate_law() -> Goal:
     """The minimiser of (9), and eta times its step."""
-    return estimation_law(Delta_v - phi_prev * Delta_u, ())
+    return estimation_law(innovation, ())
 
 
 @paper.claim("10.stationary", "dJ/dphi is zero at (10)", "identity", r"\frac{\partial J}{\partial\hat\phi_c(k,i)} = 0\ \text{at (10)}", "refuted",
@@ -175,7 +176,7 @@ def algorithm_input() -> Goal:
              "proved", premises=("10",), reading="(10) with its bracket named xi, as the text below (13) defines it.")
 def algorithm_estimate() -> Goal:
     """(10) and the definition of xi."""
-    return Goal((equal(phi_i, phi_prev + eta * Delta_u / (mu + Delta_u**2) * xi),), (*paper.shown("10"), equal(xi, Delta_v - phi_prev * Delta_u)))
+    return Goal((equal(phi_i, phi_prev + eta * Delta_u / (mu + Delta_u**2) * xi),), (*paper.shown("10"), equal(xi, innovation)))
 
 
 fires, updated, after_reset = sp.symbols("fires phi_updated phi_reset", real=True)

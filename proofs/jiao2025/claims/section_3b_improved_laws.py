@@ -19,16 +19,15 @@ from ..laws import (
     gamma,
     gamma_prev2,
     input_step,
-    phi_i,
     phi_prev,
 )
-from ..notation import T_d, xi, xi_star
+from ..notation import T_d, xi_star
 from ..paper import paper
-from ..plant import u_i, u_prev
+from ..plant import u_prev
 from .section_2c_algorithm import estimation_law, input_law
 from .section_3a_random_lengths import sample
 
-with_gamma = equal(e_next, gamma * e_prev)  # e*(k+1,i-1)
+with_gamma = {e_next: gamma * e_prev}  # e*(k+1,i-1)
 
 
 @paper.claim("14", "The input law with the modified error", "identity",
@@ -45,7 +44,8 @@ def improved_input() -> Goal:
              note="The text says so below (18), of both laws, with another index: 18.missing.")
 def kept_input() -> Goal:
     """(14) at gamma = 0."""
-    return Goal((equal(u_i, u_prev),), (*paper.shown("14"), with_gamma, equal(gamma, 0)))
+    law, = paper.shown("14")
+    return Goal((equal(law.right.xreplace(with_gamma), u_prev),), (equal(gamma, 0),))
 
 
 @paper.claim("14.range", "The error that the laws use is defined for all k that the paper names", "condition",
@@ -67,7 +67,7 @@ def improved_estimate() -> Goal:
     return estimation_law(xi_star, ())
 
 
-with_missing = (equal(xi_star, gamma * xi), equal(xi, Delta_v - phi_prev * Delta_u))
+with_missing = {xi_star: gamma * (Delta_v - phi_prev * Delta_u)}
 
 
 @paper.claim("15.kept", "Where data are missing the estimate is kept", "implication",
@@ -75,7 +75,8 @@ with_missing = (equal(xi_star, gamma * xi), equal(xi, Delta_v - phi_prev * Delta
              note="Before the reset (13), which puts phi_hat(k,1) in its place one trial later: 15.reset.")
 def kept_estimate() -> Goal:
     """(15) at gamma = 0."""
-    return Goal((equal(phi_i, phi_prev),), (*paper.shown("15"), *with_missing, equal(gamma, 0)))
+    law, = paper.shown("15")
+    return Goal((equal(law.right.xreplace(with_missing), phi_prev),), (equal(gamma, 0),))
 
 
 step_before = input_step(phi_prev, gamma_prev2 * e_prev2)  # Delta u(k, i-1) by (14)

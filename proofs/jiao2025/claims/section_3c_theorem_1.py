@@ -11,6 +11,7 @@ from workbench.proof.claim import Goal, at_least, at_most, differ, equal, greate
 
 from ..laws import (
     Delta_u,
+    e_next,
     e_prev,
     epsilon,
     estimate_step,
@@ -24,9 +25,9 @@ from ..laws import (
     phi_prev,
     rho,
 )
-from ..notation import Delta_u_i, e_i, epsilon_bar, p, p_k, v_d, v_next, v_next_prev
+from ..notation import epsilon_bar, p, p_k
 from ..paper import paper
-from ..plant import u_i, u_prev
+from ..plant import u_prev
 from .section_2c_algorithm import share_of_new
 from .section_3b_improved_laws import with_gamma
 
@@ -64,9 +65,10 @@ def estimate_bounded() -> Goal:
              "proved", premises=("6", "6.unchanged", "14"), origin="ours",
              note="By (6) and (14). At gamma = 0 it says e(k+1,i) = e(k+1,i-1), by 6.unchanged.")
 def error_step() -> Goal:
-    """(6), (14) and the errors' definitions."""
-    errors = (equal(e_i, v_d - v_next), equal(e_prev, v_d - v_next_prev), equal(Delta_u_i, u_i - u_prev))
-    return Goal((equal(e_i, (1 - gamma * rho * phi * phi_i / (lamda + phi_i**2)) * e_prev),), (*paper.shown("6"), *paper.shown("14"), with_gamma, *errors))
+    """(6) with (14), both subtracted from v_d(k+1)."""
+    law, = paper.shown("14")
+    after = e_prev - phi * (law.right.xreplace(with_gamma) - u_prev)
+    return Goal((equal(after, (1 - gamma * rho * phi * phi_i / (lamda + phi_i**2)) * e_prev),))
 
 
 @paper.claim("theorem1.lambda", "lambda_min = rho^2 p^2/4 makes the factor a contraction", "implication",
@@ -105,8 +107,8 @@ def contraction_whole() -> Goal:
     """theorem1.step at gamma = 1 and at gamma = 0."""
     step, = paper.shown("theorem1.step")
     positive = {phi: phi_c, phi_i: phi_hat}
-    learned = step.subs({**positive, gamma: sp.Integer(1), e_i: e_learned})
-    kept = step.subs({**positive, gamma: sp.Integer(0), e_i: e_kept})
+    learned = equal(e_learned, step.right.xreplace({**positive, gamma: sp.Integer(1)}))
+    kept = equal(e_kept, step.right.xreplace({**positive, gamma: sp.Integer(0)}))
     given = (at_least(e_prev, 0), at_most(phi_c, p), greater(lamda, rho**2 * p**2 / 4), greater(phi_c, epsilon_bar),
              greater(phi_hat, epsilon), at_most(phi_hat, phi_upper), equal(M_1, lowest))
     return Goal((at_least(e_learned, 0), at_most(e_learned, (1 - M_1) * e_prev), equal(e_kept, e_prev), less(M_1, 1)), (learned, kept, *given),
@@ -150,10 +152,12 @@ THEOREM = r"\exists \lambda_{\min} > 0:\ \lambda > \lambda_{\min} \Rightarrow \l
                   "What it says of the train is another matter: conclusion.")
 def constant_error() -> Goal:
     """The printed loop in two trials that are equal: (14), and (13) with Delta u = 0, whose second test fires."""
-    same_in_every_trial = (equal(u_i, u_prev), equal(phi_i, phi_first), equal(e_i, e_prev))
-    loop = (*paper.shown("theorem1.step"), *paper.shown("14"), with_gamma, equal(gamma, 1))
+    law, = paper.shown("14")
+    step, = paper.shown("theorem1.step")
+    in_use = {e_next: e_prev, phi_i: phi_first, gamma: sp.Integer(1)}
+    same_in_every_trial = (equal(law.right.xreplace(in_use), u_prev), equal(step.right.xreplace(in_use), e_prev))
     assumptions = (greater(phi, epsilon_bar), at_most(phi, p), greater(lamda, rho**2 * p**2 / 4), at_most(rho, 1))
-    return Goal((equal(e_prev, 0),), (*loop, *same_in_every_trial, *assumptions))
+    return Goal((equal(e_prev, 0),), (*same_in_every_trial, *assumptions))
 
 
 @paper.claim("theorem1.sign", "A first estimate of the wrong sign makes the error grow in every trial", "implication",
@@ -161,9 +165,9 @@ def constant_error() -> Goal:
              note="By (13) every estimate in use has the sign of the first one. Decided in squares, for gamma = 1 and any lambda, rho and phi_c > 0.")
 def wrong_sign() -> Goal:
     """theorem1.step with a negative estimate."""
-    step, = (r.subs({phi: phi_c, gamma: sp.Integer(1)}) for r in paper.shown("theorem1.step"))
+    step, = paper.shown("theorem1.step")
     factor = 1 - rho * phi_c * phi_i / (lamda + phi_i**2)
-    return Goal((greater(e_i**2, e_prev**2),), (step, greater(phi_i * phi_first, 0), less(phi_first, 0), less(phi_i, 0), differ(e_prev, 0)),
+    return Goal((greater(step.right.xreplace({phi: phi_c, gamma: sp.Integer(1)}) ** 2, e_prev**2),), (greater(phi_i * phi_first, 0), less(phi_first, 0), less(phi_i, 0), differ(e_prev, 0)),
                 lemmas=(greater(factor, 1), greater(factor**2, 1)))
 
 

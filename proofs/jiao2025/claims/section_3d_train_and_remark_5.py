@@ -8,10 +8,10 @@ import sympy as sp
 
 from workbench.proof.claim import Goal, Relation, at_least, at_most, differ, equal, greater, less
 
-from ..laws import e_prev, epsilon, input_step, lamda, phi_first, rho
-from ..notation import Delta_v_k, Delta_v_next, e_i, p_k, v_d
+from ..laws import e_next, e_prev, epsilon, input_step, lamda, phi_first, phi_i, rho
+from ..notation import Delta_v_k, p_k, v_d
 from ..paper import paper
-from ..plant import M, T_s, next_speed, u_i, u_prev, v_i, v_prev
+from ..plant import M, T_s, next_speed, u_i, u_prev, v_i
 from ..stated_values import EVERY_LENGTH, STATED, TRIALS, Reading, newton, per_mass, per_mass_1s, stated
 from .section_2a_train import a, b, f_a_i, f_a_prev
 from .section_2b_data_model import damped
@@ -40,7 +40,8 @@ def error_doubles() -> Goal:
 def analysis_of_the_train() -> Goal:
     """5.trials with the step of (14)."""
     step = input_step(phi_hat, e_prev)
-    return Goal((at_most(e_i**2, e_prev**2),), (equal(Delta_v_next, a * Delta_v_k + b * step), equal(e_i, e_prev - Delta_v_next), *damped))
+    after = e_prev - (a * Delta_v_k + b * step)
+    return Goal((at_most(after**2, e_prev**2),), damped)
 
 
 share = sp.Symbol("gamma_01", real=True)
@@ -87,12 +88,17 @@ def alternating_start() -> Goal:
     return Goal((equal(-alternating, (1 - g) * alternating - a * 2 * c_shift),), (less(g, 2),))
 
 
-def _one_trial_each() -> tuple[Relation, ...]:
-    """The first sample of the train in odd and even trials, started at v_i and v_prev, with (14) from each to the other."""
-    errors = (equal(e_i, v_d - next_speed(v_i, u_i)), equal(e_prev, v_d - next_speed(v_prev, u_prev)))
-    laws = (equal(u_i, u_prev + input_step(phi_first, e_prev)), equal(u_prev, u_i + input_step(phi_first, e_i)))
-    resets = (at_most((u_i - u_prev) ** 2, epsilon**2),)  # the second test of (13): the estimate in use is the first one
-    return (*errors, *laws, *resets)
+coasted_odd, coasted_even = sp.symbols("w_odd w_even", real=True)  # what (1) makes of the initial speed without an input
+
+
+def _odd_and_even() -> tuple[sp.Expr, tuple[Relation, ...]]:
+    """The first sample of the train in odd and even trials: the error of the even ones, and (14) from each to the other."""
+    law, = paper.shown("14")
+    odd = v_d - (coasted_odd + T_s / M * u_prev)
+    step = law.right.xreplace({e_next: odd, phi_i: phi_first}) - u_prev
+    even = v_d - (coasted_even + T_s / M * (u_prev + step))
+    back = law.right.xreplace({e_next: even, phi_i: phi_first}) - u_prev
+    return even, (equal(step + back, 0), at_most(step**2, epsilon**2))  # the second test of (13): the estimate in use is the first one
 
 
 @paper.claim("remark5", "Remark 5: identical initial conditions are not needed", "limit",
@@ -103,8 +109,9 @@ def _one_trial_each() -> tuple[Relation, ...]:
                   "changes by at most epsilon, so that (13) puts the first estimate back in every trial and the motion is exact. The proof does not see it because "
                   "(5) takes all of Delta v(1,i) for an effect of Delta u(0,i).")
 def start_does_not_matter() -> Goal:
-    """Both trials of the motion; the first estimate is above epsilon."""
-    return Goal((equal(e_i, 0),), (*_one_trial_each(), greater(phi_first, epsilon), at_most(rho, 1), greater(lamda, rho**2 * (T_s / M) ** 2 / 4)))
+    """Both trials of the motion, by (1) and (14); the first estimate is above epsilon."""
+    error, loop = _odd_and_even()
+    return Goal((equal(error, 0),), (*loop, greater(phi_first, epsilon), at_most(rho, 1), greater(lamda, rho**2 * (T_s / M) ** 2 / 4)))
 
 
 @paper.claim("remark5.distribution", "Remark 5: the condition of convergence does not depend on p(k)", "implication",
@@ -137,7 +144,7 @@ def last_sample() -> Goal:
 def changing_resistance() -> Goal:
     """(1) in two trials with the same speed and input."""
     change = next_speed(v_i, u_i, f_a_i) - next_speed(v_i, u_i, f_a_prev)
-    return Goal((equal(e_i, T_s / M * (f_a_i - f_a_prev)),), (equal(e_prev, 0), equal(e_i, e_prev - change)))
+    return Goal((equal(e_prev - change, T_s / M * (f_a_i - f_a_prev)),), (equal(e_prev, 0),))
 
 
 def _lambda_condition(reading: Reading, quarter: int, holds: bool, note: str) -> None:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import sympy as sp
 
-from workbench.proof.claim import Goal, Relation, at_least, at_most, differ, equal, greater, less
+from workbench.proof.claim import Goal, at_least, at_most, differ, equal, greater, less
 
 from ..laws import K_d, K_p, e_next, e_now, pd_step
 from ..notation import T_d
@@ -46,8 +46,9 @@ KEEPS = r"\text{on } [T_i + 1, T_d] \text{ the error is } 0, \text{ hence } u_f(
 def _keeps_input(length: sp.Expr) -> Goal:
     """(18) at a sample beyond `length`; trial i-1 has data up to its own length, which gamma_k = 0 or 1 says."""
     ended = (at_least(length_prev, sample + 1), equal(reached, 1)) if length == length_i else (at_least(sample, length_prev + 1), equal(reached, 0))
-    own: tuple[Relation, ...] = (equal(e_next, reached * e_one), equal(e_now, reached * e_two))
-    return Goal((equal(u_i, u_prev),), (*paper.shown("18"), *own, *ended, at_least(sample, length + 1), at_most(sample, T_d), at_most(length_prev, T_d)))
+    law, = paper.shown("18")
+    lengths = (at_least(length, 1), at_least(length_prev, 1), at_least(sample, length + 1), at_most(sample, T_d), at_most(length_prev, T_d))
+    return Goal((equal(law.right.xreplace({e_next: reached * e_one, e_now: reached * e_two}), u_prev),), (*dict.fromkeys((*ended, *lengths)),))
 
 
 @paper.claim("18.missing", "On [T_i + 1, T_d] the input of trial i is kept", "implication", KEEPS, "gap", premises=("18", "18.error"), severity="cosmetic", match="words",
@@ -108,7 +109,7 @@ sine_i, sine_prev = sp.symbols("sin_i sin_prev", real=True)
                   "long they go on. f_a can change with the speeds of a trial, not with its length.")
 def resistance_by_length() -> Goal:
     """(2) at the same place in trials of different lengths."""
-    return Goal((differ(f_a_i, f_a_prev),), (equal(f_a_i, slope_coefficient * sine_i), equal(f_a_prev, slope_coefficient * sine_prev), equal(sine_i, sine_prev), differ(length_i, length_prev)))
+    return Goal((differ(f_a_i, f_a_prev),), (equal(f_a_i, slope_coefficient * sine_i), equal(f_a_prev, slope_coefficient * sine_prev), equal(sine_i, sine_prev), differ(length_i, length_prev), at_least(length_i, 1), at_least(length_prev, 1)))
 
 
 paper.axiom("figure5", "Figures 5 and 6: tracking gets better from trial to trial",
