@@ -68,7 +68,8 @@ def slope_alone() -> Goal:
              note="What the Euler step of (1) takes from the speed of a train that coasts on a level line is the Davis equation.")
 def davis_equation() -> Goal:
     """The step without force and slope."""
-    return Goal((equal(coasting_resistance, b_0k + b_1k * v_i + b_2k * v_i**2),))
+    coasted = v_i + T_s * single_particle().rates[v].xreplace({**newton_force, F: sp.Integer(0), f_add: sp.Integer(0)})
+    return Goal((equal(M / T_s * (v_i - coasted), b_0k + b_1k * v_i + b_2k * v_i**2),))
 
 
 paper.axiom("remark1", "Remark 1: time-varying resistance coefficients",

@@ -44,15 +44,19 @@ for line in LINES:
     _line(*line)
 
 
+BORDERS = (338, 700, 1000, 1600)
+INSTANTS = sp.symbols("k_start k_1:5 k_end", real=True)
+
+
 @paper.claim("16.continuous", "The desired speed starts and ends at rest and is continuous", "identity",
              r"v_d(0) = v_d(2000) = 0,\ v_d(338) = 70,\ v_d(700) = 72,\ v_d(1000) = 69,\ v_d(1600) = 70", "proved", origin="implied", severity="data",
              note="One finding with six places; at the four borders both pieces have the value.")
 def continuous() -> Goal:
-    """The pieces that are simulated, at both their ends."""
-    ends: tuple[tuple[int, int, int], ...] = ((0, 0, 0), (2000, 4, 0), *((at, piece + side, height) for at, piece, height in ((338, 0, 70), (700, 1, 72), (1000, 2, 69), (1600, 3, 70)) for side in (0, 1)))
-    values = sp.symbols(f"v_1:{len(ends) + 1}", real=True)
-    return Goal(tuple(equal(value, height) for value, (_, _, height) in zip(values, ends, strict=True)),
-                tuple(equal(value, desired_speed(at, piece)) for value, (at, piece, _) in zip(values, ends, strict=True)))
+    """The pieces that are simulated, on both sides of each border."""
+    heights = (0, 70, 72, 69, 70, 0)
+    sides = [(None, desired_pieces[0]), *pairwise(desired_pieces), (desired_pieces[-1], None)]
+    shown = [equal(piece[2].xreplace({k: at}), height) for at, height, both in zip(INSTANTS, heights, sides, strict=True) for piece in both if piece]
+    return Goal(tuple(shown), tuple(equal(at, border) for at, border in zip(INSTANTS, (0, *BORDERS, 2000), strict=True)))
 
 
 @paper.claim("16.acceleration", "The desired acceleration jumps at all four borders", "identity",
@@ -62,10 +66,10 @@ def continuous() -> Goal:
 def acceleration_jumps() -> Goal:
     """Slopes on both sides of the borders."""
     jumps = (sp.Rational(1, 181), -sp.Rational(1, 181) - sp.Rational(1, 100), sp.Rational(7, 600), -sp.Rational(1, 600))
-    names = sp.symbols("jump_1:5", real=True)
-    found = tuple(equal(name, lie_derivative(right[2] - left[2], {k: sp.Integer(1)}).subs(k, left[1]))
-                  for name, (left, right) in zip(names, pairwise(desired_pieces), strict=True))
-    return Goal(tuple(equal(name, jump) for name, jump in zip(names, jumps, strict=True)), found)
+    slopes = [lie_derivative(piece, {k: sp.Integer(1)}) for _, _, piece in desired_pieces]
+    found = [(right - left).xreplace({k: at}) for (left, right), at in zip(pairwise(slopes), INSTANTS[1:-1], strict=True)]
+    return Goal(tuple(equal(change, jump) for change, jump in zip(found, jumps, strict=True)),
+                tuple(equal(at, border) for at, border in zip(INSTANTS[1:-1], BORDERS, strict=True)))
 
 
 @paper.claim("16.force", "With k counting samples no train can follow the first step of (16)", "condition",
