@@ -216,13 +216,11 @@ prior_size, off_size = sp.symbols("W_off_square delta_off_square", nonnegative=T
              note="With the rho_1 that holds. Witness: sigma_f = beta_1 = 1, rho = mu_1/phi, Gamma_f = rho times the "
                   "identity, alpha_1 = rho, k_1 = k_3 = rho/2, k_2 = 1 + k_1 k_3.")
 def arbitrarily_small() -> Goal:
-    """Every entry of the corrected rho_1 is met with equality."""
+    """The entries of the corrected rho_1 and the bound phi for the gains of the witness."""
     total = prior_size / 2 + off_size / 2 + constant * kappa_1 * robust_size
-    rate, one = total / wanted, sp.Integer(1)
-    gains = {sigma_f: one, beta_1: one, rho: rate, lambda_f: 1 / rate, alpha_1: rate, k_1: rate / 2, k_3: rate / 2}
-    entries = (*rates_1, at_most(rho, alpha_1 * beta_1))
-    return Goal((*(equal(r.left.xreplace(gains), r.right.xreplace(gains)) for r in entries),
-                 equal(total, wanted * rate), greater(rate, 0)), (greater(robust_size, 0),))
+    witness = (equal(sigma_f, 1), equal(beta_1, 1), equal(rho * wanted, total), equal(lambda_f * rho, 1),
+               equal(alpha_1, rho), equal(2 * k_1, rho), equal(2 * k_3, rho))
+    return Goal((*rates_1, at_most(rho, alpha_1 * beta_1), at_most(total / rho, wanted)), witness)
 
 
 norm_48 = s_tilde**2 + v_tilde**2 + square_f
