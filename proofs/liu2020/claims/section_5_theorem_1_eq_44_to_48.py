@@ -57,6 +57,7 @@ def weights_decay_claim(equation: str, net: str, sigma: sp.Expr, eigenvalue: sp.
                  "inequality", corrected, "proved", origin="ours", mends=f"{equation}.weights", rests_on=(),
                  scope="every number of neurons and every gain matrix")
     def weights_decay_mended() -> Goal:
+        """W_tilde^T Gamma^-1 W_tilde is at most lambda_max |W_tilde|^2."""
         return by_largest()
 
 
@@ -149,6 +150,7 @@ def after_decay(i: int, decay: str, growth: str, bound: str, norm: str, not_nega
                  reading="'If ..., then ...' in the text; Theta is a positive level." + (
                      " V_1 is at the level, as for V_2, where the text has 'in'." if i == 1 else ""))
     def no_growth() -> Goal:
+        """At V = Theta the decay outweighs mu."""
         return Goal((at_most(w, 0),), (greater(level, 0), greater(rho, mu / level), equal(V_t, level),
                                        at_most(w, -rho * V_t + mu)))
 
@@ -157,6 +159,7 @@ def after_decay(i: int, decay: str, growth: str, bound: str, norm: str, not_nega
                  premises=(decay,), where=letters,
                  note="(45) is multiplied, not (43) as the text has it." if i == 1 else "")
     def growth_bound() -> Goal:
+        """The product rule."""
         return Goal((at_most(D(V_t * sp.exp(rho * t)), mu * sp.exp(rho * t)),), decaying, along_v)
 
     @paper.claim(bound, f"Bound of V_{i}", "implication",
@@ -172,6 +175,7 @@ def after_decay(i: int, decay: str, growth: str, bound: str, norm: str, not_nega
                  "proved", premises=(bound,), rests_on=(f"{decay}.level",), where=letters,
                  reading="For all t >= 0, as the text says.")
     def stays_below() -> Goal:
+        """The bound lies between V(0) and phi, both below Theta."""
         return Goal((at_most(V_t, level),), (greater(level, 0), greater(rho, mu / level), at_most(V_start, level),
                                              at_least(t, 0), at_most(V_t, bound_47)))
 
