@@ -101,8 +101,7 @@ def decay() -> Goal:
     """From (48): every term of V decays at least at the rate mu."""
     held = -mu * bracket + l_stated
     obeyed = tuple(r.subs({V_rate: V_t_rate}) for r in paper.shown("48"))
-    return Goal((at_most(V_t_rate, held), at_most(held, -mu * V + l_stated)), (inside, *slowest, *obeyed),
-                lemmas=(at_most(bound_48, held),))
+    return Goal((at_most(V_t_rate, held), at_most(held, -mu * V + l_stated)), (inside, *slowest, *obeyed))
 
 
 @paper.claim("51.whole", "V decays up to l: the whole argument in one certificate", "implication",

@@ -1,0 +1,104 @@
+"""What rows of yang2021 say, against runs and numbers that share nothing with their goals.
+
+The closed loop is written out by hand.
+"""
+
+import numpy as np
+import pytest
+from scipy.integrate import solve_ivp
+
+GAINS = {"alpha": 1.0, "beta": 1.0, "chi": 1.0, "k": 1.0, "lam": 1.0, "sigma": 1.0}
+B_STAR, C_STAR, W_STAR, FORCE = 1 / 250, 1 / 6250, 0.3, 0.3
+
+
+def loop(a_star, f, x_d=0.0, gains=GAINS):
+    """Rates of (x_1, x_2, a, b, c, W) under (33)-(37): one neuron whose output is 1, a desired position at rest."""
+    g = gains
+
+    def rates(t, state):
+        x_1, x_2, a, b, c, w = state
+        e_1 = x_1 - x_d
+        r, r_dot = -g["alpha"] * e_1, -g["alpha"] * x_2
+        e_2 = x_2 - r
+        u = a + b * x_2 + c * x_2**2 - w + r_dot - g["beta"] * e_2 - e_1 / (g["k"] ** 2 - e_1**2)
+        acceleration = u - a_star(t) - B_STAR * x_2 - C_STAR * x_2**2 + f
+        return [x_2, acceleration, -g["lam"] * (e_2 + g["sigma"] * a), -g["lam"] * (x_2 * e_2 + g["sigma"] * b),
+                -g["lam"] * (x_2**2 * e_2 + g["sigma"] * c), g["chi"] * e_2 - g["chi"] * w]
+
+    return rates
+
+
+def lyapunov(state, a_star, gains=GAINS):
+    """(38) along a run."""
+    g = gains
+    x_1, x_2, a, b, c, w = state
+    e_2 = x_2 + g["alpha"] * x_1
+    return (np.log(g["k"] ** 2 / (g["k"] ** 2 - x_1**2)) / 2 + e_2**2 / 2 + (w - W_STAR) ** 2 / (2 * g["chi"])
+            + ((a - a_star) ** 2 + (b - B_STAR) ** 2 + (c - C_STAR) ** 2) / (2 * g["lam"]))
+
+
+def run(a_star, start, duration, steps=400):
+    times = np.linspace(0.0, duration, steps)
+    found = solve_ivp(loop(a_star, FORCE), (0.0, duration), start, t_eval=times, rtol=1e-11, atol=1e-13)
+    assert found.success
+    return times, found.y
+
+
+def test_v_stays_above_its_limit_on_the_motion_of_52_t():
+    """Claim 52.T: the train stands, the two estimates fade and cancel, and V never comes to l/mu."""
+    times, states = run(lambda t: 0.3, [0.0, 0.0, -1.0, 0.0, 0.0, -1.0], 8.0)
+    assert np.max(np.abs(states[:2])) < 1e-10
+    assert np.allclose(states[2], -np.exp(-times), atol=1e-9)
+    limit = (W_STAR**2 + 0.3**2 + B_STAR**2 + C_STAR**2) / 2  # l/mu with epsilon* = 0 and mu = 1
+    above = lyapunov(states, 0.3) - limit
+    assert np.all(above > 0)
+    assert np.allclose(above, 0.6 * np.exp(-times) + np.exp(-2 * times), atol=1e-9)
+
+
+def test_the_decay_of_51_fails_where_a_coefficient_moves_and_its_mended_form_holds():
+    """Claims objective.varying and objective.mended, with a* swinging about 0.3."""
+    swing, omega = 0.25, 4.0
+
+    def a_star(t):
+        return 0.3 + swing * np.sin(omega * t)
+
+    times, states = run(a_star, [0.3, 0.0, 0.5, 0.0, 0.0, -1.0], 12.0, 6001)
+    v = lyapunov(states, a_star(times))
+    v_rate = np.gradient(v, times, edge_order=2)[1:-1]
+    level = (W_STAR**2 + a_star(times) ** 2 + B_STAR**2 + C_STAR**2) / 2
+    excess = v_rate - (-1.0 * v + level)[1:-1]  # mu = 1 by (49)
+    assert np.max(excess) > 0.01
+    mended = v_rate - (-0.5 * v + level)[1:-1] - (swing * omega) ** 2  # mu at most half of lambda sigma
+    assert np.max(mended) < 0
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_the_witness_of_theorem1_small_meets_49_and_both_bounds(seed):
+    rng = np.random.default_rng(seed)
+    level, k, wanted = rng.uniform(0.01, 5.0, 3)
+    mu = 2 * level * (1 + k**2) / wanted
+    alpha, beta, chi, lam, sigma = mu / 2, (1 + mu) / 2, mu, mu, 1.0
+    assert np.isclose(min(2 * alpha, 2 * beta - 1, chi, lam * sigma), mu)
+    assert 2 * level / mu <= wanted
+    assert k**2 * (1 - np.exp(-2 * level / mu)) <= wanted
+
+
+def test_two_trains_with_different_resistance_and_disturbance_move_alike():
+    """Claim 10.measured: f cannot be told from input, speed and acceleration."""
+    def rates(a, f):
+        return lambda t, state: [state[1], 0.5 * np.cos(t) + 0.6 - a - B_STAR * state[1] - C_STAR * state[1] ** 2 + f]
+
+    one, other = (solve_ivp(rates(a, f), (0.0, 20.0), [0.0, 1.0], rtol=1e-10, atol=1e-12).y[:, -1]
+                  for a, f in ((0.3, 0.0), (0.5, 0.2)))
+    assert np.allclose(one, other, atol=1e-8)
+
+
+def test_the_approximation_error_is_bounded_off_the_set_as_well():
+    """Claim 7.bounded, for Gaussians and weights drawn at random and states far from all centers."""
+    rng = np.random.default_rng(5)
+    for _ in range(50):
+        centers, width, weights = rng.normal(0, 2, 7), rng.uniform(0.2, 3), rng.normal(0, 1, 7)
+        x = np.linspace(-40, 40, 801)
+        hidden = np.exp(-((x[:, None] - centers) ** 2) / (2 * width**2))
+        error = 0.06 * np.sign(np.sin(x)) - hidden @ weights
+        assert np.max(np.abs(error)) <= 0.06 + (weights @ weights + 7) / 2
