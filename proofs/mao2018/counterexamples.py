@@ -2,15 +2,19 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import sympy as sp
 
-from workbench.proof.claim import Goal
+from workbench.proof.claim import Goal, equal
 
 from .active_mode import (
     Gamma_k,
     Gamma_m,
     Gamma_xi,
+    basis,
     chi_d,
+    chis,
     d,
     failure_hat,
     hats,
@@ -22,7 +26,7 @@ from .active_mode import (
     trues,
     xi_hat,
 )
-from .error_dynamics import NAMES, Flow, d_0, failure, k_v, of_mode, xi
+from .error_dynamics import NAMES, Flow, d_0, failure, k_v, of_mode, over_modes, xi
 from .lyapunov import V_idle, m_idle
 from .plant import r_1, r_2, xddot_m, z_1
 
@@ -44,26 +48,52 @@ def already(goal: Goal, values: Flow) -> Goal:
                 {state: rate.xreplace(values) for state, rate in goal.flow.items() if state not in values})
 
 
-def ramp_time(goal: Goal) -> Goal:
-    """The goal at an instant of the slope's and a disturbance's ramp: their indicators are 1/2, the others 1.
+def at_instant(goal: Goal, values: Flow) -> Goal:
+    """The goal, its relations as they are printed, at instants at which symbols have these values.
 
-    m_i and all gains are 1, and only a and vartheta resist.
+    A symbol of mode i has its value under the sum; the counterexample is one of one mode.
     """
-    one, zero, half = sp.Integer(1), sp.Integer(0), sp.Rational(1, 2)
-    values: Flow = {of_mode(name): one for name in ("m", "chi_m", "rho_hat", *(f"chi_{name}" for name in NAMES))}
+    return replace(goal, assume=(*goal.assume, *(equal(_summed(symbol), value) for symbol, value in values.items())))
+
+
+full: Flow = dict.fromkeys((*chis, chi_d), sp.Integer(1))  # no ramp of an indicator lasts
+
+
+def _summed(symbol: sp.Expr) -> sp.Expr:
+    if not isinstance(symbol, sp.Indexed):
+        return symbol
+    return over_basis(symbol) if symbol.indices == (basis,) else over_modes(symbol)
+
+
+def ramp_time(goal: Goal) -> Goal:
+    """The goal while the slope's and a disturbance's ramp last: their indicators are 1/2, the others 1."""
+    one, half = sp.Integer(1), sp.Rational(1, 2)
+    values: Flow = {of_mode(name): one for name in ("m", "chi_m", *(f"chi_{name}" for name in NAMES))}
     values |= {of_mode(name): half for name in ("chi_vartheta", "chi_d")}
-    values |= {of_mode(f"log_{name}"): zero for name in ("m", "Gamma_m", *(f"Gamma_{n}" for n in NAMES))}
-    values |= {of_mode(name + mark): zero for name in ("b", "c", "D_o") for mark in ("", "_hat")}
-    return already(goal, values)
+    return at_instant(goal, {x: v for x, v in values.items() if any(r.left.has(x) or r.right.has(x) for r in goal.show)
+                             or any(rate.has(x) for rate in goal.flow.values())})
 
 
-def one_mode(goal: Goal, *more: Flow) -> Goal:
+def one_mode(goal: Goal) -> Goal:
     """The goal for one mode of mass 1 that is active, 15 motors of 16, exact estimates of resistance and rho_i."""
     one, zero = sp.Integer(1), sp.Integer(0)
     values: Flow = dict.fromkeys([of_mode(n) for n in ("chi_m", "chi_d", *(f"chi_{name}" for name in NAMES))], one)
     values |= {of_mode(f"log_{name}"): zero for name in ("m", "Gamma_m", "rho_0", *(f"Gamma_{n}" for n in NAMES))}
     values |= {of_mode(name + mark): zero for name in NAMES for mark in ("", "_hat")}
-    values |= {of_mode("rho_hat"): sp.Rational(1, 15), k_v: sp.Integer(15), xddot_m: zero}
-    for part in more:
-        values |= part
+    values |= {of_mode("rho_hat"): sp.Rational(1, 15), k_v: sp.Integer(15), xddot_m: zero, of_mode("d"): zero,
+               of_mode("lambda_0"): one}
     return already(goal, values)
+
+
+def failing(goal: Goal) -> Goal:
+    """The goal at an easy instant, its relations as they are printed."""
+    return at_instant(goal, exact | one_failed | unit_gains | full)
+
+
+def error_in_a(goal: Goal) -> Goal:
+    """The goal for one mode of mass 1 that is active, with an error in the estimate of a alone."""
+    one, zero = sp.Integer(1), sp.Integer(0)
+    values: Flow = dict.fromkeys([of_mode(n) for n in ("chi_m", "chi_d", "rho_hat", *(f"chi_{name}" for name in NAMES))], one)
+    values |= {of_mode(f"log_{name}"): zero for name in ("m", "Gamma_m", *(f"Gamma_{n}" for n in NAMES))}
+    values |= {of_mode(name + mark): zero for name in NAMES[1:] for mark in ("", "_hat")}
+    return already(goal, values | {of_mode("d"): zero, xddot_m: zero})

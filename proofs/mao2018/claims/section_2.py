@@ -110,8 +110,8 @@ d_most, M_least = sp.symbols("d_max M_min", positive=True)
 
 
 @paper.claim("10", "A bound of the disturbance per unit of mass is available", "inequality",
-             r"\text{Because bounds on } d(t) \text{ is known, and the masses of the empty and full train are also known, "
-             r"the bounds of the term } \bar{d}(t) = d(t)/M(t) \text{ is available}", "proved", match="words",
+             r"\text{Because bounds on $d(t)$ is known, and the masses of the empty and full train are also known, "
+             r"the bounds of the term $\bar{d}(t) = d(t)/M(t)$ is available}", "proved", match="words",
              reading="|d| <= d_max and M >= M_min give |d/M| <= d_max/M_min.",
              note="Section II says twice that the bound of d is unknown, before and after (5), and else that it is "
                   "known; known is what (36) needs.")

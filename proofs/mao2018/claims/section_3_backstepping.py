@@ -10,7 +10,7 @@ from workbench.proof.claim import D, Goal, at_least, equal
 
 from ..active_mode import REGRESSORS, Gamma_m, alpha_1, chi_d, chis, estimate_laws, eta, m, rho_hat
 from ..active_mode import wanted as wanted_active
-from ..counterexamples import ramp_time
+from ..counterexamples import error_in_a, ramp_time
 from ..error_dynamics import ACTIVE_MODE, ALL_MODES, Flow, over_modes
 from ..lyapunov import V_1, V_estimates, V_healthy
 from ..modes import (
@@ -48,7 +48,7 @@ alpha = sp.Symbol("alpha_1", real=True)
 
 @paper.claim("20", "Rate of the position error", "identity",
              r"\dot{z}_1(t) = \dot{x}_1(t) - \dot{x}_m(t) = z_2(t) + \alpha_1(t) - \dot{x}_m(t)", "proved",
-             premises=("7",), where={"z_1(t)": x_1 - x_m, "z_1": x_1 - x_m, r"\alpha_1(t)": alpha})
+             premises=("7",), where={"z_1(t)": x_1 - x_m, "z_1": x_1 - x_m, r"\dot{z}_1(t)": D(x_1 - x_m), r"\alpha_1(t)": alpha})
 def position_error_rate() -> Goal:
     """D(z_1) of (18) along (7), with (19)."""
     return Goal((equal(D(x_1 - x_m), D(x_1) - xdot_m), equal(D(x_1) - xdot_m, z_2 + alpha - xdot_m)),
@@ -83,7 +83,7 @@ one_indicator = (chi_m_of,) * len(own_indicators)
              r"\dot{z}_2(t) = \dot{x}_2(t) - \dot{\alpha}_1(t) = \sum_{i=1}^{l}\left(m_i\chi_i(t)F(t) - a_i\chi_i(t) - "
              r"b_i\chi_i(t)x_2(t) - c_i\chi_i(t)x_2^2(t) - g\vartheta_i\chi_i(t) - 0.004D_i\chi_i(t) + "
              r"\bar{d}_i(t)\chi_i(t)\right) - \dot{\alpha}_1(t)", "refuted", premises=("8.modes",), severity="cosmetic",
-             scope=ALL_MODES, where={"z_2": x_2 - alpha_1, "z_2(t)": x_2 - alpha_1, "m_i": m_of, r"\chi_i(t)": chi_m_of},
+             scope=ALL_MODES, where={"z_2": x_2 - alpha_1, "z_2(t)": x_2 - alpha_1, r"\dot{z}_2(t)": D(x_2 - alpha_1), "m_i": m_of, r"\chi_i(t)": chi_m_of},
              reading=ONE_LETTER, correction=lambda: _rate_24(own_indicators),
              corrected_statement=r"\dot z_2 = \sum_{i=1}^{l}\left(m_i\chi_{mi}F - a_i\chi_{ai} - \dots + "
                                  r"\bar d_i\chi_{\bar di}\right) - \dot\alpha_1",
@@ -181,7 +181,7 @@ SIGN_26 = ("A sign: the bracket needs a minus in front (hats) or inside (tildes)
              corrected_statement=RATE_26 % ("-", r"\hat{a}"), note=SIGN_26)
 def v2_rate_tilde() -> Goal:
     """An error in a alone, its estimate at rest."""
-    return ramp_time(_rate_26(lambda rate, by: -rate + by, own=False))
+    return error_in_a(_rate_26(lambda rate, by: -rate + by, own=False))
 
 
 @paper.claim("26.hat", "Rate of V_2 with the plant, the dotted letters read with hats", "identity",
@@ -189,7 +189,7 @@ def v2_rate_tilde() -> Goal:
              severity="cosmetic", scope=EVERY_MODE, note=SIGN_26)
 def v2_rate_hat() -> Goal:
     """The same with the rates of the estimates."""
-    return ramp_time(_rate_26(lambda rate, by: rate + by, own=False))
+    return error_in_a(_rate_26(lambda rate, by: rate + by, own=False))
 
 
 @paper.claim("26.mended", "Rate of V_2 with the plant", "identity", RATE_26 % ("-", r"\hat{a}"), "proved",
@@ -209,7 +209,7 @@ def _law_claim(equation: str, i: int, printed: str, lost: str = "") -> None:
 
     @paper.claim(equation, f"The law of the estimate of {letter} cancels its error in the rate of V_2", "identity",
                  printed, "proved", premises=("26.a",), rests_on=("26",), scope="each mode", reading=lost,
-                 where={left: rate, rf"\Gamma_{{{letter}i}}": gain, rf"\chi_{{{letter}i}}(t)": chi},
+                 where={left: rate, rf"\Gamma_{{{letter} i}}": gain, rf"\chi_{{{letter} i}}(t)": chi},
                  note="Decided as what the paper chooses it for: the rate for which the coefficient of the estimation "
                       "error in the rate of V_2 is zero, and no other.")
     def law() -> Goal:
