@@ -7,12 +7,19 @@ from collections.abc import Callable
 import sympy as sp
 
 from workbench.proof.claim import Goal, Relation, at_least, at_most, greater, name_of
+from workbench.proof.derive import expand_derivatives
 from workbench.trains.multi_particle import over_cars
 
 
 def both(one: sp.Expr, other: sp.Expr) -> tuple[Relation, Relation]:
     """Equality as two inequalities, for a proof by cases that touch."""
     return at_most(one, other), at_least(one, other)
+
+
+def carried(relations: tuple[Relation, ...], flow: dict[sp.Expr, sp.Expr]) -> tuple[Relation, ...]:
+    """What another claim shows of rates along a flow, with the rates put in: for goals whose flow is another."""
+    return tuple(Relation(expand_derivatives(r.left, flow), r.operator, expand_derivatives(r.right, flow))
+                 for r in relations)
 
 
 def integrated(rates: dict[sp.Expr, sp.Expr], bound: Relation, always: tuple[Relation, ...] = (),

@@ -7,11 +7,12 @@ from dataclasses import replace
 import sympy as sp
 
 from workbench.proof.claim import D, Goal, Relation, at_least, at_most, equal, greater
+from workbench.proof.derive import lie_derivative
 from workbench.trains.multi_particle import each_car, over_cars
 
-from ..energy_function import Z_1, Z_2, V, V_before, decay, estimation_terms
+from ..energy_function import Z_1, Z_2, V, V_before, V_now, decay, estimation_terms
 from ..error_dynamics import flow, sums_named
-from ..goal_forms import Integrals, both, integrated
+from ..goal_forms import Integrals, both, carried, integrated
 from ..laws import (
     M,
     M_hat,
@@ -19,8 +20,10 @@ from ..laws import (
     c_1,
     c_2,
     c_3,
+    gains,
     gamma_mass,
     halved,
+    learning_gains,
     learning_steps,
     limited,
     squares,
@@ -149,15 +152,16 @@ def cef_whole() -> Goal:
 
 changes = sp.Symbol("C", real=True)
 INT_Z_1, INT_Z_2 = (rf"\int_0^t \left\| z_{{{k},i}} \right\|^2 d\tau" for k in (1, 2))
-DELTA_E = {r"\Delta E_i": V - V_before + changes, INT_Z_1: Z_1, INT_Z_2: Z_2, "V_{i-1}": V_before}
+DELTA_E = {r"\Delta E_i": V_now - V_before + changes, INT_Z_1: Z_1, INT_Z_2: Z_2, "V_{i-1}": V_before}
 
 
 def _cef_step(with_v_before: bool) -> Goal:
     """E_i - E_{i-1} = V_i - V_{i-1} + C, C being the changes of the integrals by (26); V_i, Z_1, Z_2 start at zero."""
-    rates = {**flow, changes: changes_by_rules, Z_1: over_cars(z_1**2), Z_2: over_cars(z_2**2)}
+    rates = {V_now: lie_derivative(V, flow), changes: changes_by_rules, Z_1: over_cars(z_1**2), Z_2: over_cars(z_2**2)}
     bound = -c_1 * Z_1 - c_2 * Z_2
-    shown = at_most(V - V_before + changes, bound - V_before if with_v_before else bound)
-    goal = integrated(rates, shown, paper.shown("35.whole"), (c_1, c_2), decreasing=V + changes - bound)
+    shown = at_most(V_now - V_before + changes, bound - V_before if with_v_before else bound)
+    whole = carried(paper.shown("35.whole"), flow)
+    goal = integrated(rates, shown, whole, (*gains, *learning_gains), decreasing=V_now + changes - bound)
     given = (*goal.assume, at_least(V_before, 0), at_least(Z_1, 0), at_least(Z_2, 0))  # integrals of squares
     return replace(goal, show=goal.show if with_v_before else (*goal.show, at_most(bound, 0)), assume=given)
 

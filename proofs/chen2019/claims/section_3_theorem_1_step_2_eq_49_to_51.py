@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from fractions import Fraction
 
 import sympy as sp
@@ -12,7 +11,7 @@ from workbench.proof.derive import lie_derivative
 from workbench.trains.multi_particle import over_cars
 
 from ..energy_function import V_of
-from ..goal_forms import integrated
+from ..goal_forms import carried, integrated
 from ..laws import Delta_u, any_gains, auxiliary, c_1, c_2, c_3, c_lambda_candidates, gains, lambda_1, lambda_2
 from ..one_car import one_car
 from ..paper import EACH_CAR, EVERY_TRAIN, paper
@@ -109,9 +108,8 @@ def auxiliary_integrated() -> Goal:
     """For any sign of c_lambda, from any state."""
     rates = {V_end: lie_derivative(V_lambda, auxiliary), X: over_cars(lambda_1**2 + lambda_2**2), Y: over_cars(Delta_u**2)}
     bound = at_most(V_end - V_start, -c_lambda * X + c_3 * Y / 2)
-    goal = integrated(rates, bound, paper.shown("49.last"), (c_lambda, c_3), {V_end: V_start},
+    return integrated(rates, bound, carried(paper.shown("49.last"), auxiliary), (c_lambda, c_3), {V_end: V_start},
                       V_end + c_lambda * X - c_3 * Y / 2)
-    return replace(goal, flow={**goal.flow, **auxiliary})
 
 
 IN_51 = {r"c_\lambda": c_lambda, INT_LAMBDA: X, INT_U: Y}

@@ -105,7 +105,7 @@ def errors_against_z_squared() -> Goal:
 def _tracking(of_lambda: str, bound: sp.Expr, *more: Relation) -> Goal:
     """Both bounds, from 53.glyph, (52) and a bound of the integral X of lambda."""
     given = (*paper.shown("53.glyph"), *paper.shown("52"), *paper.shown(of_lambda), at_least(S_e, 0), at_least(W_e, 0))
-    return Goal((at_most(S_e, bound), at_most(W_e, bound)), (*given, *more))
+    return Goal((at_most(S_e, bound), at_most(W_e, bound)), (*more, *given))
 
 
 def _tracking_printed() -> Goal:
