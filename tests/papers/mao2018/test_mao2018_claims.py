@@ -1,0 +1,114 @@
+"""mao2018's rates of V_2 in plain numbers, typed from the paper for four modes: what its claims say of them."""
+
+import random
+
+import pytest
+from scenarios import PROOFS
+
+from workbench.proof.decide.engine import decide
+from workbench.proof.loading import ProofFile
+from workbench.proof.paper import papers_in
+
+MODES, MOTORS, HEALTHY = 4, 16, 15
+
+
+@pytest.fixture(scope="module")
+def claims():
+    found, = papers_in(ProofFile(PROOFS / "mao2018"))
+    return {claim.equation: claim for claim in found.claims}
+
+
+def instant(seed):
+    """Random numbers of one instant: mode 0 is active, with ramps for its slope and its disturbance."""
+    r = random.Random(seed)
+    draw = lambda: r.uniform(-2, 2)  # noqa: E731
+    size = lambda: r.uniform(0.5, 3)  # noqa: E731
+    return {
+        "m": [size() for _ in range(MODES)], "true": [[draw() for _ in range(5)] for _ in range(MODES)],
+        "hat": [[draw() for _ in range(5)] for _ in range(MODES)],
+        "gain": [[size() for _ in range(5)] for _ in range(MODES)],
+        "rho_hat": [draw() for _ in range(MODES)], "Gamma_m": [size() for _ in range(MODES)],
+        "by": [1.0, (x := draw()), x * x, 9.81, 0.004], "chi": [1.0, 1.0, 1.0, r.uniform(0, 1), 1.0],
+        "chi_d": r.uniform(0, 1),
+        "z": (draw(), draw()), "r": (size(), size()), "xdd": draw(), "d": draw(), "lambda": 3.0, "Gamma_k": size(),
+        "Gamma_xi": size(), "rho_k_hat": draw(),
+        "xi": [draw(), draw()], "xi_hat": [draw(), draw()], "varpi": [1.0, draw()],
+    }
+
+
+def dot(a, b):
+    return sum(x * y for x, y in zip(a, b, strict=True))
+
+
+def rate_of_v2(q, sign_44, fitting):
+    """The rate of (40) along (39), (42) with (43), (27)-(31), (37), (41), (44), and -r_1 z_1^2 - r_2 z_2^2."""
+    (z_1, z_2), (r_1, r_2), m = q["z"], q["r"], q["m"][0]
+    carried = [chi * by for chi, by in zip(q["chi"], q["by"], strict=True)]
+    zeta = dot(q["hat"][0], carried)
+    eta = z_1 + r_1 * (z_2 - r_1 * z_1) - q["xdd"]
+    wanted = zeta - eta - r_2 * z_2
+    sign = (z_2 > 0) - (z_2 < 0)
+    nu_d = -q["lambda"] / (m * HEALTHY) * sign
+    push_hat = dot(q["xi_hat"], q["varpi"])
+    nu_0 = -q["rho_k_hat"] * push_hat + nu_d + q["rho_hat"][0] * wanted
+    force = HEALTHY * nu_0 + dot(q["xi"], q["varpi"])
+    z_1_rate = z_2 - r_1 * z_1
+    z_2_rate = m * force - dot(q["true"][0], carried) + q["d"] * q["chi_d"] + r_1 * z_1_rate - q["xdd"]
+    errors = sum((x - hat) / gain * gain * z_2 * by for x, hat, gain, by in zip(
+        q["true"][0], q["hat"][0], q["gain"][0], carried, strict=True))
+    of_k, of_xi, of_rho = (m * HEALTHY, m, m * HEALTHY) if fitting else (sum(q["m"]), sum(q["m"]), m)
+    errors += of_rho * (1 / (m * HEALTHY) - q["rho_hat"][0]) * z_2 * wanted
+    errors -= of_k * (1 / HEALTHY - q["rho_k_hat"]) * sign_44 * z_2 * push_hat
+    errors -= of_xi * z_2 * sum((x - hat) * w for x, hat, w in zip(q["xi"], q["xi_hat"], q["varpi"], strict=True))
+    return z_1 * z_1_rate + z_2 * z_2_rate + errors, -r_1 * z_1**2 - r_2 * z_2**2
+
+
+def test_with_the_sign_of_44_and_the_weights_mended_v2_falls_as_45_says(claims):
+    assert decide(claims["45.mended"]).verdict == "proved"
+    for seed in range(200):
+        rate, decay = rate_of_v2(instant(seed), +1, fitting=True)
+        assert rate <= decay + 1e-9
+
+
+def test_as_printed_it_does_not_nor_with_the_sign_alone(claims):
+    assert decide(claims["45"]).verdict == "refuted"
+    for sign in (-1, +1):
+        found = [rate_of_v2(instant(seed), sign, fitting=False) for seed in range(200)]
+        assert any(rate > decay + 1 for rate, decay in found)
+
+
+def test_what_is_left_over_of_41_is_the_idle_masses_times_the_failures_error():
+    for seed in range(20):
+        q = instant(seed)
+        idle_only = {**q, "rho_hat": [1 / (m * HEALTHY) for m in q["m"]], "rho_k_hat": 1 / HEALTHY}
+        with_all, _ = rate_of_v2(idle_only, +1, fitting=False)
+        with_one, _ = rate_of_v2(idle_only, +1, fitting=True)
+        error = sum((x - hat) * w for x, hat, w in zip(q["xi"], q["xi_hat"], q["varpi"], strict=True))
+        assert with_all - with_one == pytest.approx(-sum(q["m"][1:]) * q["z"][1] * error)
+
+
+def test_the_product_of_two_sums_over_modes_keeps_the_active_one_alone(claims):
+    assert decide(claims["35.modes"]).verdict == "proved"
+    q = instant(1)
+    for active in range(MODES):
+        chi = [float(i == active) for i in range(MODES)]
+        assert dot(q["m"], chi) * dot(chi, q["rho_hat"]) == pytest.approx(
+            sum(m * c * part for m, c, part in zip(q["m"], chi, q["rho_hat"], strict=True)))
+
+
+@pytest.mark.parametrize("law, other", [("54", "54.glyph"), ("61", "61.glyph"), ("44", "44.mended")])
+def test_a_law_fails_with_its_printed_sign_and_holds_with_the_other(claims, law, other):
+    assert decide(claims[law]).verdict == "refuted"
+    assert decide(claims[other]).verdict == "proved"
+
+
+@pytest.mark.parametrize("theorem", ["theorem2", "theorem3", "theorem4", "theorem5", "remark4"])
+def test_the_printed_loop_has_an_exact_motion_that_breaks_the_theorem(claims, theorem):
+    decision = decide(claims[theorem])
+    assert decision.verdict == "refuted"
+    assert decision.certificate["functions"]["z_1"] == "1" or theorem == "theorem5"
+
+
+def test_whole_theorems_are_proved_where_they_stand(claims):
+    for theorem in ("theorem1", "theorem2.mended", "theorem3.mended", "theorem4.mended"):
+        assert decide(claims[theorem]).verdict == "proved"
