@@ -29,7 +29,7 @@ CSV_NAME, JOURNAL_NAME = "sweep.csv", "sweep.journal.jsonl"
 SIMULATING = ("files/*.py", "model/*.py", "trains/*.py", "compile/*.py", "mpc/*.py", "simulate/*.py")
 # Totals and means over a whole run: they say nothing when the run ended early.
 WHOLE_RUN = ("position_rms", "speed_rms", "stopping_error", "energy_J", "jerk_rms", "jerk_p95",
-             "jerk_max", "logged_jerk_rms", "comfort_rms", "command_variation", "switchings", "overspeed_max",
+             "jerk_max", "comfort_rms", "command_variation", "switchings", "overspeed_max",
              "saturated_fraction", "limit_violations")
 
 Pair = tuple[int, str]
