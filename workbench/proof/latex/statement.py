@@ -122,7 +122,7 @@ def _chain(chain: Chain, converter: Converter) -> list[Related]:
     for sign in chain.signs:
         if sign not in OPERATORS:
             raise ProseError(f"the sign '{sign}' is none of a goal's relations: the line is read by a person")
-    sides = tuple(converter.number(side) for side in chain.sides)
+    sides = tuple(converter.side(side) for side in chain.sides)
     return [Related(sides, tuple(OPERATORS[sign] for sign in chain.signs))]
 
 
@@ -137,8 +137,8 @@ def _interval(chain: Chain, converter: Converter) -> list[Related]:
         raise ProseError("a set other than an interval: the line is read by a person")
     member, ends = chain.sides[-2], [part.sides[0] for part in line.chains]
     before = _chain(Chain(chain.sides[:-1], chain.signs[:-1]), converter) if place else []
-    value = converter.number(member)
-    low, high = (None if _infinite(end) else converter.number(end) for end in ends)
+    value = converter.side(member)
+    low, high = (None if _infinite(end) else converter.side(end) for end in ends)
     bounds = [] if low is None else [Related((low, value), ("<=" if interval.opening == "[" else "<",))]
     upper = [] if high is None else [Related((value, high), ("<=" if interval.closing == "]" else "<",))]
     return [*before, *bounds, *upper]
