@@ -82,7 +82,8 @@ def require_kept(conditions: Iterable[Condition], side: sp.Expr) -> None:
             kept = argument.is_nonnegative if condition.kind == "root" else argument.is_positive
             kept = kept or argument in (roots if condition.kind == "root" else logarithms)
         if not kept:
-            raise LatexError(f"the {condition.kind} of {argument} cancels: write the line without it", condition.position)
+            raise LatexError(f"the {condition.kind} of {argument} cancels: write the line without it",
+                             condition.position)
 
 
 def _factors(expr: sp.Expr) -> set[sp.Expr]:

@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 
 import sympy as sp
 
-from workbench.proof.claim import Operator
+from workbench.proof.claim import Operator, Relation
 from workbench.proof.latex.convert import Converter
 from workbench.proof.latex.error import LatexError
 from workbench.proof.latex.tree import Chain, Group, Letter, Line, Node, Product, Terms
@@ -42,6 +42,12 @@ def statement(line: Line, converter: Converter) -> Statement:
     if not claimed:
         raise LatexError("the line claims nothing: write a relation")
     return Statement(_related(claimed, converter), _related(conditions, converter))
+
+
+def relations(related: tuple[Related, ...]) -> tuple[Relation, ...]:
+    """The relations between neighbouring sides."""
+    return tuple(Relation(*step) for chain in related
+                 for step in zip(chain.sides[:-1], chain.operators, chain.sides[1:], strict=True))
 
 
 def parted(line: Line) -> tuple[list[Chain], list[Chain]]:

@@ -1,0 +1,32 @@
+"""`workbench check`: decide a pasted line of LaTeX."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from workbench.cli.options import JsonFile
+from workbench.cli.terminal import answer_card, out_console
+
+NAME = "check"
+
+
+def command(line: Annotated[str, typer.Argument(metavar="LATEX", help="The line, as in '\\dot V \\le 0'")],
+            symbols: Annotated[Path, typer.Option(
+                help="TOML file with symbols, definitions, assumptions and flow, or the folder of a paper.")],
+            json: JsonFile = None) -> None:
+    """Decide a line of LaTeX; exit 0 when it is proved, 1 when it is not, 2 on bad input."""
+    from workbench.files.json_output import write_json
+    from workbench.files.outputs import check_outputs
+    from workbench.proof.latex.question import answer
+    from workbench.proof.latex.symbols import load_symbols
+
+    check_outputs({"--json": json}, [symbols])
+    found = answer(line, load_symbols(symbols))
+    if json:
+        write_json(json, found.document())
+    out_console.print(answer_card(found.document()))
+    if found.decision.verdict != "proved":
+        raise typer.Exit(1)
