@@ -72,18 +72,24 @@ def require_kept(conditions: Iterable[Condition], side: sp.Expr) -> None:
     where the line says nothing would be lost."""
     powers = side.atoms(sp.Pow)
     below = {factor for p in powers if p.exp.is_negative for factor in _factors(p.base)}
-    roots = {p.base for p in powers if not p.exp.is_Integer}
+    roots = _rooted(powers)
     logarithms = {found.args[0] for found in side.atoms(sp.log)}
     for condition in conditions:
         argument = condition.argument
         if condition.kind == "denominator":
             kept = argument.is_nonzero or _factors(argument) <= below
+        elif condition.kind == "root":
+            own = _rooted(sp.sqrt(argument).atoms(sp.Pow))  # sqrt(4 x) has become 2 sqrt(x)
+            kept = argument.is_nonnegative or (bool(own) and own <= roots)
         else:
-            kept = argument.is_nonnegative if condition.kind == "root" else argument.is_positive
-            kept = kept or argument in (roots if condition.kind == "root" else logarithms)
+            kept = argument.is_positive or argument in logarithms
         if not kept:
             raise LatexError(f"the {condition.kind} of {argument} cancels: write the line without it",
                              condition.position)
+
+
+def _rooted(powers: set[sp.Pow]) -> set[sp.Expr]:
+    return {p.base for p in powers if not p.exp.is_Integer}
 
 
 def _factors(expr: sp.Expr) -> set[sp.Expr]:

@@ -144,12 +144,13 @@ def _interval(chain: Chain, converter: Converter) -> list[Related]:
     member, ends = chain.sides[-2], [part.sides[0] for part in line.chains]
     before = _chain(Chain(chain.sides[:-1], chain.signs[:-1]), converter) if place else []
     value = converter.side(member)
-    low, high = (None if _infinite(end) else converter.side(end) for end in ends)
+    low, high = (None if _infinite(end, sign) else converter.side(end) for end, sign in zip(ends, (-1, 1), strict=True))
     bounds = [] if low is None else [Related((low, value), ("<=" if interval.opening == "[" else "<",))]
     upper = [] if high is None else [Related((value, high), ("<=" if interval.closing == "]" else "<",))]
     return [*before, *bounds, *upper]
 
 
-def _infinite(node: Node) -> bool:
-    inner = node.terms[0][1] if isinstance(node, Terms) and len(node.terms) == 1 else node
-    return inner == Letter("\\infty")
+def _infinite(node: Node, sign: int) -> bool:
+    """Whether an end is infinity with this sign."""
+    terms = node.terms if isinstance(node, Terms) else ((1, node),)
+    return terms == ((sign, Letter("\\infty")),)

@@ -15,7 +15,7 @@ from workbench.proof.latex.read import read_line
 from workbench.proof.latex.tree import Big, Dot, Group, Letter, Node, Number, Product, Terms
 from workbench.proof.latex.vectors import is_vector
 
-_INDEX = re.compile(r"(?P<letter>\\?[A-Za-z]+)(=(?P<first>.+))?", re.DOTALL)
+_INDEX = re.compile(r"(?P<letter>(\\[A-Za-z]+|[A-Za-z])(_\w+)?)(=(?P<first>.+))?", re.DOTALL)
 _INDEX_PART = re.compile(r"\\[A-Za-z]+ ?|.", re.DOTALL)
 
 
