@@ -60,8 +60,8 @@ def mutants(line):
     """The line with one sign, relation, number, power, index or letter changed; what only looks different left out."""
     for old, new in (("+", "-"), ("-", "+"), ("=", r"\le "), (r"\le", "<"), (r"\le", r"\ge"), ("<", r"\le "),
                      ("<", ">"), ("_1", "_2"), ("_2", "_1"), ("^2", "^3"), ("^2", ""), ("^T", ""), (r"^\top", ""),
-                     ("2", "3"), (r"\dot", ""), (r"\dot", r"\ddot"), (r"\tilde", ""), (r"\tilde", r"\hat"), ("z_1z_2", "z_1"),
-                     (r"\ln", r"\tanh"), (r"\log", ""), ("h", r"\tilde W"), ("k", "r_1"), (">", r"\ge "), ("[", "("),
+                     ("2", "3"), (r"\dot", ""), (r"\dot", r"\ddot"), (r"\tilde", ""), (r"\tilde", r"\hat"),
+                     ("z_1z_2", "z_1"), (r"\ln", r"\tanh"), (r"\log", ""), ("h", r"\tilde W"), ("k", "r_1"), (">", r"\ge "), ("[", "("),
                      (")", "]"), (r"\ne", "="), (r"\min", r"\max"), ("|e_1|", "e_1"), (r"\|e_1\|", "e_1")):
         start = line.find(old)
         while start >= 0:
