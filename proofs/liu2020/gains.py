@@ -50,7 +50,7 @@ def error_rates() -> dict[sp.Expr, sp.Expr]:
 
 
 def noise_rates() -> tuple[dict[sp.Expr, sp.Expr], sp.Expr]:
-    """The observer as it runs (claim 12) with a position measured as s + n: rates of its errors, and v_hat - v.
+    """The observer as it runs (claim 12.glyph) with a position measured as s + n: rates of its errors, and v_hat - v.
 
     Its state is xi = v_hat + k_3 (s_hat - s - n), whose rate needs no derivative of the noise.
     """
@@ -173,7 +173,7 @@ def report(stated: Stated) -> GainReport:
         left = (1 + values[k_1] * values[k_3] - values[k_2])
         conditions.append(Condition(
             f"(40), Value {column}", "1 - k_2 + k_1 k_3 = 0", f"{float(left):.4g}", bool(left == 0),
-            f"liu2020:40.value{column}",
+            "liu2020:40",
             "V_1 decreases all the same" if papers_weight(column, values) else "V_1 with p = 1 does not decrease"))
         rate, certificate, took = best_decay(column, values)
         free, other = free_decay(column, values)
@@ -199,7 +199,7 @@ def report(stated: Stated) -> GainReport:
         quantities += more
     return GainReport("liu2020", tuple(conditions), tuple(quantities), tuple(sets), tuple(certificates), (
         "The certificates are for the damping k_3 s_tilde' of (18), (25); networks and leakage enter by the corrected "
-        "laws of claim theorem1, whose terms V leaves as they are, since it keeps the weight 1/2 of v_tilde^2.",
+        "laws of claim theorem1.decay, whose terms V leaves as they are, since it keeps the weight 1/2 of v_tilde^2.",
         "A slow observer, however well proved, breaks the loop of fast tracking gains: see the run with the decay rate "
         "of Value 10 in its place; what is proved is of the observer's errors alone.",
         "That the update signal v_tilde needs the speed, which is not measured (claim 19.measured), no gain can mend.",

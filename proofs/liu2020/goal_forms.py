@@ -4,12 +4,18 @@ from __future__ import annotations
 
 import sympy as sp
 
+from workbench.model.law import over_neurons
 from workbench.proof.claim import D, Goal, Relation, at_least, at_most, equal
 
 
 def within(value: sp.Expr, bound: sp.Expr) -> tuple[Relation, ...]:
     """|value| <= bound."""
     return at_most(value, bound), at_least(value, -bound)
+
+
+def small_hidden(*hidden: sp.Expr) -> tuple[Relation, ...]:
+    """Hidden outputs whose squares sum to 1 at most, as Gaussians (16), (29) do: a counterexample stays among those."""
+    return tuple(at_most(over_neurons(h**2), 1) for h in hidden)
 
 
 def moves_alike(estimate: sp.Expr, truth: sp.Expr, constant_truth: bool = False) -> Goal:

@@ -144,7 +144,7 @@ class Reading:
 def law(name: str, title: str, source: str, reading: Reading) -> ControlLaw:
     """The law of a reading; its command is (31) per unit of mass.
 
-    With k_3 s_tilde' the observer's state is xi = v_hat + k_3 s_tilde (claim 12), whose rate needs no speed. The states
+    With k_3 s_tilde' the observer's state is xi = v_hat + k_3 s_tilde (claim 12.glyph), whose rate needs no speed. The states
     s_tilde and v_tilde only record the estimation errors at the sample; no law uses them.
     """
     by_rate = reading.damped == "s_tilde'"
@@ -161,7 +161,7 @@ def law(name: str, title: str, source: str, reading: Reading) -> ControlLaw:
             expr = expr.xreplace(step)
         return expr
 
-    shifted = sp.expand(v_hat_rate + k_3 * s_error_rate)  # xi' of claim 12
+    shifted = sp.expand(v_hat_rate + k_3 * s_error_rate)  # xi' of claim 12.glyph
     speed_state = LawState(xi, rate=sampled(shifted)) if by_rate else LawState(
         v_hat, rate=sampled(speed_estimate_rate(v_error)))
     states = [LawState(s_hat, rate=sampled(s_hat_rate)), speed_state,

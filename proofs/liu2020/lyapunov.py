@@ -22,7 +22,7 @@ V_2 = V_1 + V_tracking  # (49)
 norm_f, norm_v = over_neurons(W_f_tilde**2), over_neurons(W_v_tilde**2)
 square_f, square_v = over_neurons(w_f**2), over_neurons(w_v**2)
 prior_f, prior_v = over_neurons(W_f_off**2), over_neurons(W_v_off**2)
-delta_size, theta_size = sp.symbols("delta_size theta_size", nonnegative=True)  # |delta|, |theta|
+delta_size, theta_size = sp.Abs(delta), sp.Abs(theta)
 
 
 def positive(expr: sp.Expr) -> sp.Expr:

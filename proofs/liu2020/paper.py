@@ -14,7 +14,9 @@ from __future__ import annotations
 
 from workbench.proof.paper import Paper
 
-paper = Paper("liu2020", " ".join((__doc__ or "").split("\n\n")[1].split()))
+from .notation import NOTATION
+
+paper = Paper("liu2020", " ".join((__doc__ or "").split("\n\n")[1].split()), notation=NOTATION)
 
 # What claims hold for.
 EVERY_NETWORK = "every number of neurons and every hidden function (term by term under the sum)"

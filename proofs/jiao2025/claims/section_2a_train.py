@@ -54,7 +54,7 @@ def slope_resistance() -> Goal:
 
 
 @paper.claim("2.curves", "f_a is the resistance of slopes, curves and tunnels, and (2) is all of it", "implication",
-             r"f_a(s)\ \text{is the additional resistance that slopes, curves and tunnels cause},\ f_a(s) = x \cdot \sin(\%o(s))", "gap",
+             r"f_a(s) \text{ is the additional resistance that slopes, curves and tunnels cause}", "gap",
              premises=("2",), severity="cosmetic", match="words",
              reading="The text below Figure 1 and (2) taken together.",
              note="By (2) a level curve or tunnel has no resistance. Harmless where curves and tunnels are counted as a slope, which the text does not say; f_a is taken as unknown later on.")
@@ -68,7 +68,8 @@ def slope_alone() -> Goal:
              note="What the Euler step of (1) takes from the speed of a train that coasts on a level line is the Davis equation.")
 def davis_equation() -> Goal:
     """The step without force and slope."""
-    return Goal((equal(coasting_resistance, b_0k + b_1k * v_i + b_2k * v_i**2),))
+    coasted = v_i + T_s * single_particle().rates[v].xreplace({**newton_force, F: sp.Integer(0), f_add: sp.Integer(0)})
+    return Goal((equal(M / T_s * (v_i - coasted), b_0k + b_1k * v_i + b_2k * v_i**2),))
 
 
 paper.axiom("remark1", "Remark 1: time-varying resistance coefficients",
@@ -92,7 +93,7 @@ def finite_window() -> Goal:
 
 
 @paper.claim("A1", "Assumption 1, by Remark 2 easily verified from (1)-(3): the derivative by the input is continuous", "identity",
-             r"\text{the partial derivative of } f(\cdot) \text{ with respect to } u_f(k, i) \text{ is continuous}", "proved", premises=("1",), rests_on=("1", "3"),
+             r"\text{the partial derivative of f with respect to } u_f(k, i) \text{ is continuous}", "proved", premises=("1",), rests_on=("1", "3"),
              match="words", reading="Decided for the train: the derivative is T_s/M, a constant.",
              note="This is also what Remark 4 wants of Assumption 4, but phi_c of (5) is another quantity, see 5.")
 def input_derivative() -> Goal:

@@ -73,7 +73,7 @@ quotient = Delta_v_next / Delta_u_i
              note="For a system that meets Assumption 2. The bound is that assumption word for word; whether the train has it is another question: A2.")
 def quotient_exists() -> Goal:
     """phi_c = Delta v(k+1) / Delta u(k)."""
-    return Goal((equal(sp.Add(Delta_v_next, 0), quotient * Delta_u_i), at_most(sp.Abs(quotient), p)),
+    return Goal((equal(Delta_v_next, quotient * Delta_u_i), at_most(sp.Abs(quotient), p)),
                 (at_most(sp.Abs(Delta_v_next), p * sp.Abs(Delta_u_i)), differ(Delta_u_i, 0)))
 
 

@@ -38,7 +38,8 @@ error_before, error_after = v_d - v_next_prev, v_d - (v_next_prev + phi * (u_i -
              note="With e(k+1,i) = e(k+1,i-1) - phi_c Delta u(k,i) by (6), the form in which it is minimised.")
 def cost_of_input() -> Goal:
     """(7) with e = v_d - v and (6)."""
-    return Goal((equal(input_cost.xreplace({e_prev: error_before}), error_after**2 + lamda * (u_i - u_prev) ** 2),))
+    speed = v_next_prev + phi * (u_i - u_prev)
+    return Goal((equal(input_cost.xreplace({e_prev: error_before}), (v_d - speed) ** 2 + lamda * (u_i - u_prev) ** 2),))
 
 
 best_input, best_estimate = sp.symbols("u_best phi_best", real=True)
@@ -194,18 +195,16 @@ def reset_law() -> Goal:
 
 
 def _kept(first_is_large: bool) -> Goal:
-    """The estimate in use after (13): the updated one when it passes the tests, else phi_hat(k,1)."""
-    passes = (greater(phi_i * phi_first, 0), greater(phi_i**2, epsilon**2))
-    given = (greater(phi_first**2, epsilon**2), *passes) if first_is_large else (differ(phi_first, 0),)
-    reset = (greater(phi_first * phi_first, 0), greater(phi_first**2, epsilon**2))
-    return Goal((*passes, *reset) if first_is_large else reset, given)
+    """The estimate in use after a test of (13) has fired."""
+    given = (greater(phi_first**2, epsilon**2),) if first_is_large else (differ(phi_first, 0),)
+    return Goal((greater(after_reset * phi_first, 0), greater(after_reset**2, epsilon**2)), (*paper.shown("13"), *given))
 
 
 KEPT = r"|\hat\phi_c(k,i)| > \varepsilon,\ \mathrm{sign}\,\hat\phi_c(k,i) = \mathrm{sign}\,\hat\phi_c(k,1)"
 
 
 @paper.claim("13.keeps", "After (13) the estimate is away from zero and keeps its sign", "implication", KEPT, "gap",
-             premises=("13",), origin="implied", reading="What Theorem 1 needs of (13): decided for the estimate after a reset, the first one.",
+             premises=("13",), origin="implied", reading="What Theorem 1 needs of (13): decided for the estimate after a reset, the first one; one that passes the three tests has both properties by them.",
              note="It holds when the first estimate is larger than epsilon, which the paper does not "
                   "ask for; phi_hat(k,1) is not stated either. Easily mended: 13.mended.")
 def reset_keeps_away() -> Goal:
@@ -215,9 +214,9 @@ def reset_keeps_away() -> Goal:
 
 @paper.claim("13.mended", "A first estimate larger than epsilon keeps the estimate away from zero", "implication",
              r"|\hat\phi_c(k,1)| > \varepsilon \Rightarrow " + KEPT, "proved", premises=("13",), origin="ours", mends="13.keeps",
-             note="Both branches: the updated estimate that passes the tests, and the first one.")
+             note="Decided after a reset; an estimate that passes the three tests has both properties by them.")
 def reset_mended() -> Goal:
-    """Both branches of (13)."""
+    """A reset to a first estimate above epsilon."""
     return _kept(first_is_large=True)
 
 

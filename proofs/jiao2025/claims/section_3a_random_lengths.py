@@ -8,8 +8,8 @@ import sympy as sp
 
 from workbench.proof.claim import Goal, at_least, at_most, equal, greater, less
 
-from ..laws import gamma
-from ..notation import T_d, T_min, gamma_mean, p_k
+from ..laws import e_now, gamma
+from ..notation import T_d, T_min, e_i, gamma_mean, p_k, xi, xi_star
 from ..paper import paper
 
 sample = sp.Symbol("k", real=True)
@@ -56,6 +56,14 @@ reach, reach_next, total, total_next, p_l = sp.symbols("P_reach P_reach_next S_k
 def reaching_probability() -> Goal:
     """From k + 1 to k, and the start at T_d."""
     return Goal((equal(reach, total),), (equal(reach, p_l + reach_next), equal(total, p_l + total_next), equal(reach_next, total_next)))
+
+
+@paper.claim("gamma.certain", "Every trial reaches the samples up to T_min", "identity", r"p(k) = 1, \quad \text{if } k \in [0, T_{\min}]", "proved",
+             premises=("gamma.p",), rests_on=("A3",), scope="every T_d, T_min and distribution, by downward induction over k in [0, T_min]",
+             reading="The first case of the printed p(k); the second one is gamma.p. No trial ends at k <= T_min, so that all that reach k also reach k + 1, which the whole distribution does at T_min + 1.")
+def certain_samples() -> Goal:
+    """From k + 1 to k where no trial ends."""
+    return Goal((equal(p_k, 1),), (equal(p_k, p_l + reach_next), equal(p_l, 0), equal(reach_next, 1), at_least(sample, 0), at_most(sample, T_min)))
 
 
 @paper.claim("gamma.p.step", "The simulated distribution in closed form", "identity",
@@ -112,20 +120,27 @@ def bernoulli_mean() -> Goal:
     return Goal((equal(gamma_mean, p_k),), (equal(gamma_mean, reached * p_k + missed * (1 - p_k)), equal(reached, 1), equal(missed, 0)))
 
 
-def _modified(equation: str, name: str, latex: str, note: str) -> None:
-    plain = sp.Symbol(name, real=True)
-
-    @paper.claim(equation, f"Modified {name}: what is missing counts as zero", "identity",
-                 rf"{latex}^*(k, i) = \begin{{cases}} {latex}(k, i), & k \in [0, T_i], \\ 0, & k \in [T_i + 1, T_d]. \end{{cases}}", "proved",
-                 reading=f"With the definition {name}* = gamma {name} that stands above it: one case for each value of gamma, which is 1 just for k <= T_i.", note=note)
-    def modified() -> Goal:
-        cases = sp.symbols(f"{name}_reached {name}_missed", real=True)
-        return Goal((equal(cases[0], plain), equal(cases[1], 0)),
-                    (equal(cases[0], (gamma * plain).xreplace({gamma: reached})), equal(cases[1], (gamma * plain).xreplace({gamma: missed})),
-                     equal(reached, 1), equal(missed, 0)))
+length_i = sp.Symbol("T_i", real=True)
 
 
-_modified("14.error", "e", "e", "gamma(k,i) = 1 just for k <= T_i, as the event is described. That gamma is Bernoulli, the "
+def _modified(equation: str, latex: str, starred: sp.Symbol, plain: sp.Symbol, note: str) -> None:
+    """Both lines of the cases of a modified quantity, from its definition gamma times the quantity."""
+    reading = f"With the definition {latex}* = gamma {latex} that stands above it, gamma being 1 just for k <= T_i.".replace("\\", "")
+    names = {rf"{latex}^*(k, i)": starred, rf"{latex}(k, i)": plain, "T_i": length_i}
+    definition = equal(starred, gamma * plain)
+
+    @paper.claim(equation, "What a trial has reached counts as it is", "identity",
+                 rf"{latex}^*(k, i) = {latex}(k, i), \quad \text{{if }} k \in [0, T_i]", "proved", where=names, reading=reading, note=note)
+    def with_data() -> Goal:
+        return Goal((equal(starred, plain),), (definition, equal(gamma, 1), at_least(sample, 0), at_most(sample, length_i)))
+
+    @paper.claim(f"{equation}.ended", "What a trial has not reached counts as zero", "identity",
+                 rf"{latex}^*(k, i) = 0, \quad \text{{if }} k \in [T_i + 1, T_d]", "proved", where=names, reading=reading, note=note)
+    def without_data() -> Goal:
+        return Goal((equal(starred, 0),), (definition, equal(gamma, 0), at_least(sample, length_i + 1), at_most(sample, T_d)))
+
+
+_modified("14.error", "e", e_now, e_i, "gamma(k,i) = 1 just for k <= T_i, as the event is described. That gamma is Bernoulli, the "
           "reason given, would not suffice: the gammas of one trial are not independent of one another.")
-_modified("15.innovation", "xi", r"\xi", "As 14.error.")
-_modified("18.error", "e", "e", "14.error once more, for the PD law.")
+_modified("15.innovation", r"\xi", xi_star, xi, "As 14.error.")
+_modified("18.error", "e", e_now, e_i, "14.error once more, for the law of the comparison.")

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import sympy as sp
 
-from workbench.proof.claim import Goal, at_least, at_most, differ, equal, greater, less
+from workbench.proof.claim import Goal, Relation, at_least, at_most, differ, equal, greater, less
 
 from ..laws import (
     Delta_u,
@@ -95,46 +95,53 @@ def contraction_uniform() -> Goal:
                 lemmas=uniform_lemmas)
 
 
-e_learned, e_kept = sp.symbols("e_learned e_kept", real=True)
+e_learned = sp.Symbol("e_learned", real=True)
 
 
 @paper.claim("theorem1.whole", "From (6), (14) and the assumptions to the contraction, in one certificate", "implication",
-             r"e(k+1,i-1) \ge 0 \Rightarrow 0 \le e(k+1,i) \le (1 - \gamma M_1)e(k+1,i-1),\quad 0 < M_1 = "
+             r"\gamma = 1,\ e(k+1,i-1) \ge 0 \Rightarrow 0 \le e(k+1,i) \le (1 - M_1)e(k+1,i-1),\quad 0 < M_1 = "
              r"\frac{\rho\bar\varepsilon\varepsilon}{\lambda + \Phi^2} < 1", "proved",
              premises=("theorem1.step", "lemma1", "13.mended", "theorem1.estimate.bounded"), origin="ours",
              note="The same with all signs turned for e(k+1,i-1) < 0. Assumptions 2 and 4 enter as epsilon_bar < phi_c <= p. Theorem 1's algebra is sound.")
 def contraction_whole() -> Goal:
-    """theorem1.step at gamma = 1 and at gamma = 0."""
+    """theorem1.step at gamma = 1; M_1 written out."""
     step, = paper.shown("theorem1.step")
     positive = {phi: phi_c, phi_i: phi_hat}
-    learned = equal(e_learned, step.right.xreplace({**positive, gamma: sp.Integer(1)}))
-    kept = equal(e_kept, step.right.xreplace({**positive, gamma: sp.Integer(0)}))
+    learned = step.right.xreplace({**positive, gamma: sp.Integer(1)})
     given = (at_least(e_prev, 0), at_most(phi_c, p), greater(lamda, rho**2 * p**2 / 4), greater(phi_c, epsilon_bar),
-             greater(phi_hat, epsilon), at_most(phi_hat, phi_upper), equal(M_1, lowest))
-    return Goal((at_least(e_learned, 0), at_most(e_learned, (1 - M_1) * e_prev), equal(e_kept, e_prev), less(M_1, 1)), (learned, kept, *given),
-                lemmas=(*contraction_lemmas, *uniform_lemmas, less(contraction, 1), at_least(contraction, M_1)))
+             greater(phi_hat, epsilon), at_most(phi_hat, phi_upper))
+    return Goal((at_least(learned, 0), at_most(learned, (1 - lowest) * e_prev), less(lowest, 1)), given,
+                lemmas=(*contraction_lemmas, *uniform_lemmas, less(contraction, 1), at_least(contraction, lowest)))
 
 
-q_1 = sp.Symbol("q_1", real=True)
+def named_contraction() -> tuple[Relation, ...]:
+    """What theorem1.whole shows, with letters for M_1 and for the error after a trial with data."""
+    above, below, below_one = paper.shown("theorem1.whole")
+    names = {above.left: e_learned, 1 - lowest: 1 - M_1, lowest: M_1}
+    return above.subs(names), below.subs(names), below_one.subs(names)
+
+
 e_one, e_two = sp.symbols("e_1 e_2", real=True)
 m_i, m_prev = sp.symbols("m_i m_prev", nonnegative=True)  # E|e| of trials i and i-1
-outcomes = tuple({e_prev: error, e_learned: sp.Symbol(f"e_learned_{n}", real=True), e_kept: sp.Symbol(f"e_kept_{n}", real=True)}
-                 for n, error in ((1, e_one), (2, e_two)))
+j, outcomes = sp.symbols("j n")
+root_of_chance, error, shortfall = (sp.IndexedBase(name, real=True) for name in ("r", "e_j", "t"))
+
+
+def mean_of(value: sp.Expr) -> sp.Expr:
+    """The mean over the outcomes of the trials before, with the chances r_j^2."""
+    return sp.Sum(root_of_chance[j] ** 2 * value, (j, 1, outcomes))
 
 
 @paper.claim("theorem1.mean", "Expectation of the error of the next trial, lengths independent of the error", "implication",
-             r"E|e(k+1,i)| \le (1 - p(k+1)M_1)\,E|e(k+1,i-1)|", "proved", premises=("theorem1.whole", "gamma.mean"), origin="ours",
-             scope="an error with two values, each with its own phi_c and estimate; both sides are linear in its distribution",
-             note="Uses that gamma(k+1,i-1) and e(k+1,i-1) are independent, which Assumption 3 does not say: theorem1.lengths.")
+             r"E|e(k+1,i)| \le (1 - p(k+1)M_1)\,E|e(k+1,i-1)|", "proved", premises=("theorem1.whole", "theorem1.step", "gamma.mean"), origin="ours",
+             scope="every finite number of outcomes, which lengths with finitely many values make",
+             note="Outcome j of the trials before has the chance r_j^2, the error e_j and, where data arrive, an error that is t_j^2 below the bound of theorem1.whole. "
+                  "Uses that gamma(k+1,i-1) and e(k+1,i-1) are independent, which Assumption 3 does not say: theorem1.lengths.")
 def expected_step() -> Goal:
-    """Sum over the four cases of (gamma, e), probabilities multiplied."""
-    shares = (q_1, 1 - q_1)
-    given = [r.subs(outcome) for outcome in outcomes for r in paper.shown("theorem1.whole")]
-    learned, kept, before = (sp.Add(*(share * outcome[s] for share, outcome in zip(shares, outcomes, strict=True))) for s in (e_learned, e_kept, e_prev))
-    mixed = (equal(m_i, p_k * learned + (1 - p_k) * kept), equal(m_prev, before), at_least(q_1, 0), at_most(q_1, 1), at_least(p_k, 0), at_most(p_k, 1),
-             at_least(e_one, 0), at_least(e_two, 0))
-    lemmas = [at_most(p_k * share * outcome[e_learned], p_k * share * (1 - M_1) * outcome[e_prev]) for share, outcome in zip(shares, outcomes, strict=True)]
-    return Goal((at_most(m_i, (1 - p_k * M_1) * m_prev),), tuple(dict.fromkeys((*given, *mixed))), lemmas=tuple(lemmas))
+    """With data theorem1.whole, without data theorem1.step keeps the error."""
+    bound = named_contraction()[1].right.xreplace({e_prev: error[j]})
+    after = p_k * mean_of(bound - shortfall[j] ** 2) + (1 - p_k) * mean_of(error[j])
+    return Goal((at_most(after, (1 - p_k * M_1) * mean_of(error[j])),), (at_least(p_k, 0),))
 
 
 m_0, i_trial, delta = sp.symbols("m_0 i delta", positive=True)
@@ -190,8 +197,9 @@ def same_length_always() -> Goal:
 def expectation_converges() -> Goal:
     """The bound m_0/(1 + p M_1 i) carries over to i+1, and is below delta for i >= m_0/(p M_1 delta)."""
     rate = p_k * M_1
-    below_one, = (r for r in paper.shown("theorem1.whole") if r.left == M_1)
-    given = (*paper.shown("theorem1.mean"), *paper.shown("gamma.positive.mended"), below_one,
+    below_one = named_contraction()[-1]
+    mean, = paper.shown("theorem1.mean")
+    given = (mean.subs({mean.left: m_i, mean_of(error[j]): m_prev}), *paper.shown("gamma.positive.mended"), below_one,
              at_most(m_prev, m_0 / (1 + rate * i_trial)), at_least(i_trial, m_0 / (rate * delta)))
     return Goal((at_most(m_i, m_0 / (1 + rate * (i_trial + 1))), at_most(m_prev, delta)), given,
                 lemmas=(less(rate, 1), at_most((1 + rate * i_trial) * m_prev, m_0), at_least(rate * i_trial * delta, m_0)))

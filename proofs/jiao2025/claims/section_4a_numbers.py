@@ -7,7 +7,7 @@ from itertools import pairwise
 
 import sympy as sp
 
-from workbench.proof.claim import Goal, at_least, at_most, equal, greater, less
+from workbench.proof.claim import Goal, Relation, at_least, at_most, equal, greater, less
 from workbench.proof.derive import lie_derivative
 
 from ..laws import epsilon, eta, lamda, mu, rho
@@ -16,52 +16,64 @@ from ..paper import paper
 from ..plant import M, T_s, b_0k, b_1k, b_2k, basic_resistance, davis_newton, desired_pieces, desired_speed, k, v_i
 from ..stated_values import FIRST_INPUT, LENGTH, MASS, SPEED_MAX, stated
 
-pieces = sp.symbols("v_d1:6", real=True)
-PRINTED_PIECES = (-sp.Rational(35, 57122) * (k - 338) ** 2 + 70, k / 181 + sp.Rational(12332, 181), -sp.Rational(1, 100) * k + 79,
-                  k / 600 + sp.Rational(202, 3), -sp.Rational(7, 16000) * (k - 1600) ** 2 + 70)
+speed = sp.Symbol("v_dk", real=True)
+# (16): number of the line, borders, the line, its reading, what is printed, and what its values at the borders make of it
+LINES: tuple[tuple[int, int, int, str, str, sp.Expr, Relation], ...] = (
+    (1, 0, 338, r"-\frac{35}{57122}(k-338)^2 + 70", "A parabola from 0 at k = 0 to its top 70 at 338.",
+     -sp.Rational(35, 57122) * (k - 338) ** 2 + 70, equal(70 - speed, 70 * ((338 - k) / 338) ** 2)),
+    (2, 338, 700, r"\frac{1}{181}k + \frac{12332}{181}", "Straight from 70 at k = 338 to 72 at 700.",
+     k / 181 + sp.Rational(12332, 181), equal((speed - 70) * (700 - 338), (72 - 70) * (k - 338))),
+    (3, 700, 1000, r"-0.01k + 79", "Straight from 72 at k = 700 to 69 at 1000.",
+     -sp.Rational(1, 100) * k + 79, equal((speed - 72) * (1000 - 700), (69 - 72) * (k - 700))),
+    (4, 1000, 1600, r"\frac{1}{600}k + \frac{202}{3}", "Straight from 69 at k = 1000 to 70 at 1600.",
+     k / 600 + sp.Rational(202, 3), equal((speed - 69) * (1600 - 1000), (70 - 69) * (k - 1000))),
+    (5, 1600, 2000, r"-\frac{7}{16000}(k-1600)^2 + 70", "A parabola from its top 70 at k = 1600 to 0 at 2000.",
+     -sp.Rational(7, 16000) * (k - 1600) ** 2 + 70, equal(70 - speed, 70 * ((k - 1600) / 400) ** 2)),
+)
 
 
-@paper.claim("16", "The desired speed", "identity",
-             r"v_d(k) = \begin{cases} -\frac{35}{57122}(k-338)^2 + 70, & k \in [0, 338], \\ \frac{1}{181}k + \frac{12332}{181}, & k \in [338, 700], \\ "
-             r"-0.01k + 79, & k \in [700, 1000], \\ \frac{1}{600}k + \frac{202}{3}, & k \in [1000, 1600], \\ -\frac{7}{16000}(k-1600)^2 + 70, & k \in [1600, 2000]. \end{cases}",
-             "proved", severity="data", reading="One relation for each piece, between the printed line and what its values at the borders force: the values 0, 70, 72, 69, 70, 0 at k = 0, 338, 700, 1000, 1600, "
-             "2000, straight pieces between, and parabolas with their tops at 338 and 1600.",
-             note="Both pieces that (16) gives at a border agree there. The paper states no unit; with the resistance (17) they are m/s. The study runs these pieces.")
-def desired_speeds() -> Goal:
-    """Each piece by the values at its ends."""
-    first, second, third, fourth, fifth = pieces
-    by_values = (equal(70 - first, 70 * ((338 - k) / 338) ** 2), equal((second - 70) * (700 - 338), (72 - 70) * (k - 338)),
-                 equal((third - 72) * (1000 - 700), (69 - 72) * (k - 700)), equal((fourth - 69) * (1600 - 1000), (70 - 69) * (k - 1000)),
-                 equal(70 - fifth, 70 * ((k - 1600) / 400) ** 2))
-    return Goal(tuple(equal(piece, printed) for piece, printed in zip(pieces, PRINTED_PIECES, strict=True)), by_values)
+def _line(number: int, low: int, high: int, latex: str, reading: str, printed: sp.Expr, by_values: Relation) -> None:
+    @paper.claim(f"16.{number}", f"The desired speed, line {number} of (16)", "identity", rf"v_d(k) = {latex}, \quad \text{{if }} k \in [{low}, {high}]", "proved",
+                 severity="data", where={"v_d(k)": speed}, reading=reading,
+                 note="The paper states no unit; with the resistance (17) the speeds are m/s. Where two lines give a value at their common border they agree: 16.continuous.")
+    def desired() -> Goal:
+        return Goal((equal(speed, printed),), (by_values, at_least(k, low), at_most(k, high)))
+
+
+for line in LINES:
+    _line(*line)
+
+
+BORDERS = (338, 700, 1000, 1600)
+INSTANTS = sp.symbols("k_start k_1:5 k_end", real=True)
 
 
 @paper.claim("16.continuous", "The desired speed starts and ends at rest and is continuous", "identity",
-             r"v_d(0) = v_d(2000) = 0,\ v_d(338) = 70,\ v_d(700) = 72,\ v_d(1000) = 69,\ v_d(1600) = 70", "proved", premises=("16",), origin="implied", severity="data",
+             r"v_d(0) = v_d(2000) = 0,\ v_d(338) = 70,\ v_d(700) = 72,\ v_d(1000) = 69,\ v_d(1600) = 70", "proved", origin="implied", severity="data",
              note="One finding with six places; at the four borders both pieces have the value.")
 def continuous() -> Goal:
-    """The pieces that are simulated, at both their ends."""
-    ends = ((0, 0, 0), (2000, 4, 0), *((at, piece + side, speed) for at, piece, speed in ((338, 0, 70), (700, 1, 72), (1000, 2, 69), (1600, 3, 70)) for side in (0, 1)))
-    values = sp.symbols(f"v_1:{len(ends) + 1}", real=True)
-    return Goal(tuple(equal(value, speed) for value, (_, _, speed) in zip(values, ends, strict=True)),
-                tuple(equal(value, desired_speed(at, piece)) for value, (at, piece, _) in zip(values, ends, strict=True)))
+    """The pieces that are simulated, on both sides of each border."""
+    heights = (0, 70, 72, 69, 70, 0)
+    sides = [(None, desired_pieces[0]), *pairwise(desired_pieces), (desired_pieces[-1], None)]
+    shown = [equal(piece[2].xreplace({k: at}), height) for at, height, both in zip(INSTANTS, heights, sides, strict=True) for piece in both if piece]
+    return Goal(tuple(shown), tuple(equal(at, border) for at, border in zip(INSTANTS, (0, *BORDERS, 2000), strict=True)))
 
 
 @paper.claim("16.acceleration", "The desired acceleration jumps at all four borders", "identity",
              r"\dot v_d(k^+) - \dot v_d(k^-) = \tfrac{1}{181}, -\tfrac{1}{181} - \tfrac{1}{100}, \tfrac{7}{600}, -\tfrac{1}{600}\ "
-             r"\text{at}\ k = 338, 700, 1000, 1600", "proved", origin="ours", premises=("16",),
+             r"\text{at}\ k = 338, 700, 1000, 1600", "proved", origin="ours", premises=("16.continuous",),
              note="Per unit of k. An input that tracks (16) exactly jumps there too.")
 def acceleration_jumps() -> Goal:
     """Slopes on both sides of the borders."""
     jumps = (sp.Rational(1, 181), -sp.Rational(1, 181) - sp.Rational(1, 100), sp.Rational(7, 600), -sp.Rational(1, 600))
-    names = sp.symbols("jump_1:5", real=True)
-    found = tuple(equal(name, lie_derivative(right[2] - left[2], {k: sp.Integer(1)}).subs(k, left[1]))
-                  for name, (left, right) in zip(names, pairwise(desired_pieces), strict=True))
-    return Goal(tuple(equal(name, jump) for name, jump in zip(names, jumps, strict=True)), found)
+    slopes = [lie_derivative(piece, {k: sp.Integer(1)}) for _, _, piece in desired_pieces]
+    found = [(right - left).xreplace({k: at}) for (left, right), at in zip(pairwise(slopes), INSTANTS[1:-1], strict=True)]
+    return Goal(tuple(equal(change, jump) for change, jump in zip(found, jumps, strict=True)),
+                tuple(equal(at, border) for at, border in zip(INSTANTS[1:-1], BORDERS, strict=True)))
 
 
 @paper.claim("16.force", "With k counting samples no train can follow the first step of (16)", "condition",
-             r"\frac{v_d(1) - v_d(0)}{T_s} > 2\ \tfrac{m}{s^2}", "proved", premises=("16",), at=stated(T_s), origin="ours",
+             r"\frac{v_d(1) - v_d(0)}{T_s} > 2\ \tfrac{m}{s^2}", "proved", premises=("16.1",), at=stated(T_s), origin="ours",
              note="2 m/s^2 is generous for a train. With k counting samples of 0.1 s, as (1) has it, (16) asks for 4.1 m/s^2, 1.4 MN for this train. "
                   "With k in seconds it is 0.41 m/s^2, over a trip of 123 km between two stops.")
 def first_step_infeasible() -> Goal:
@@ -80,7 +92,7 @@ def steps_make_the_trip() -> Goal:
 
 
 @paper.claim("16.end", "A trial of the shortest length ends at more than 30 m/s", "inequality", r"v_d(1901) > 30\ \tfrac{m}{s}", "proved",
-             premises=("16",), origin="ours",
+             premises=("16.continuous",), origin="ours",
              note="A trial cut at T_i leaves the train in motion: what varies in the simulation is the length of the data, not "
                   "the time that the train takes for its trip, with which the introduction motivates it.")
 def trial_ends_in_motion() -> Goal:

@@ -12,6 +12,7 @@ from ..paper import paper
 from ..plant import slope_coefficient, u_i, u_prev
 from ..stated_values import Reading, kilonewton_1s, newton, per_mass, per_mass_1s, stated
 from .section_2a_train import a, b, f_a_i, f_a_prev
+from .section_3a_random_lengths import length_i, sample
 from .section_3c_theorem_1 import e_one, e_two
 
 proportional, derivative, e_difference = sp.symbols("P_gain D_gain e_difference", real=True)
@@ -39,7 +40,7 @@ def pd_type() -> Goal:
     return Goal((equal(u_i - u_prev, K_p * e_now + K_d * (e_next - e_now)),), paper.shown("18"))
 
 
-sample, length_i, length_prev, reached = sp.symbols("k T_i T_prev gamma_k", real=True)
+length_prev, reached = sp.symbols("T_prev gamma_k", real=True)
 KEEPS = r"\text{on } [T_i + 1, T_d] \text{ the error is } 0, \text{ hence } u_f(k, i) = u_f(k, i - 1)"
 
 
@@ -51,7 +52,7 @@ def _keeps_input(length: sp.Expr) -> Goal:
     return Goal((equal(law.right.xreplace({e_next: reached * e_one, e_now: reached * e_two}), u_prev),), (*dict.fromkeys((*ended, *lengths)),))
 
 
-@paper.claim("18.missing", "On [T_i + 1, T_d] the input of trial i is kept", "implication", KEEPS, "gap", premises=("18", "18.error"), severity="cosmetic", match="words",
+@paper.claim("18.missing", "On [T_i + 1, T_d] the input of trial i is kept", "implication", KEEPS, "gap", premises=("18", "18.error.ended"), severity="cosmetic", match="words",
              reading="As printed, with the length T_i of the trial whose input is set; a trial before it that was longer has data there.",
              note="A slip of the index: (14) and (18) use the errors of trial i-1, so the input is kept beyond T_(i-1): 18.missing.mended.")
 def pd_keeps_input_of_this_trial() -> Goal:
@@ -60,7 +61,7 @@ def pd_keeps_input_of_this_trial() -> Goal:
 
 
 @paper.claim("18.missing.mended", "On [T_(i-1) + 1, T_d] the input of trial i is kept", "implication",
-             r"k \ge T_{i-1} + 1 \Rightarrow u_f(k, i) = u_f(k, i - 1)", "proved", premises=("18", "18.error"), origin="ours", mends="18.missing")
+             r"k \ge T_{i-1} + 1 \Rightarrow u_f(k, i) = u_f(k, i - 1)", "proved", premises=("18", "18.error.ended"), origin="ours", mends="18.missing")
 def pd_keeps_input() -> Goal:
     """Both errors of (18) are missing."""
     return _keeps_input(length_prev)

@@ -1,27 +1,61 @@
-"""Section 2: the model (9) and Assumption 5 (10)."""
+"""Section 2: the model (1)-(9) and Assumptions 1 to 5 (10)."""
 
 from __future__ import annotations
 
 import sympy as sp
 
-from workbench.proof.claim import Goal, Relation, at_least, at_most, equal
+from workbench.proof.claim import D, Goal, Relation, at_least, at_most, equal
 
 from ..goal_forms import within
 from ..paper import paper
-from ..plant import M, a_1, a_2, acceleration, chi, d, davis, f_d, u
+from ..plant import M, a_1, a_2, acceleration, chi, d, davis, f_d, s, u, v
+
+NEWTON = {s: v, v: (u - f_d) / M}  # (1)
 
 
-@paper.claim("9", "The model (9) is (1) rewritten", "implication",
-             r"M\dot v = u - f_d \Rightarrow \dot v = \tfrac{\chi}{M}u - \tfrac{\chi}{M}f_d + d", "gap",
-             correction=lambda: Goal((equal((u - f_d) / M, acceleration.xreplace({
-                 chi: sp.Integer(1), d: sp.Integer(0)})),)),
-             corrected_statement=r"\chi = 1,\ d = 0:\quad \frac{u - f_d}{M} = \tfrac{\chi}{M}u - \tfrac{\chi}{M}f_d + d",
-             note="(1) calls M the equivalent mass already; the factor chi (0.9 in section 6) and the disturbance come in "
-                  "without a word. As a model in its own right (9) is sound, with the effective mass M/chi.")
+s_1, s_2 = sp.symbols("s_1 s_2", real=True)
+
+
+@paper.claim("7", "The integral of the speed over the resistance's time is the position", "identity",
+             r"f_a(v, t) = l(t)\sin\left(r\left(\int_{t_1}^{t_2}v(t)\right)\right)", "refuted", severity="cosmetic",
+             rests_on=(),
+             reading="Against (6), where the position s stands in the place of the integral, t_1 and t_2 being the start "
+                     "and the end of the additional resistance.",
+             note="Between fixed instants the integral is the length of the section, one number, and not the position. "
+                  "The upper end should be t. Nothing depends on it: f_a needs only to be bounded.")
+def position_by_integral() -> Goal:
+    """s(t_2) - s(t_1) against a position in between."""
+    return Goal((equal(s_2 - s_1, s),), (at_most(s_1, s), at_most(s, s_2)))
+
+
+@paper.claim("9", "The model (9) from (1)", "implication",
+             r"\dot v(t) = \frac{\chi}{M}u(t) - \frac{\chi}{M}f_d(v, t) + d(t)", "gap", severity="cosmetic",
+             rests_on=(),
+             correction=lambda: Goal((equal(D(v), acceleration.xreplace({chi: sp.Integer(1), d: sp.Integer(0)})),),
+                                     flow=NEWTON),
+             corrected_statement=r"\chi = 1,\ d = 0:\quad \dot v = \tfrac{\chi}{M}u - \tfrac{\chi}{M}f_d + d",
+             note="'Therefore', says the text, but (1) calls M the equivalent mass already; the factor chi (0.9 in "
+                  "section 6) and the disturbance come in without a word. As a model in its own right, which is what the "
+                  "theorems take it for, (9) is sound, with the effective mass M/chi.")
 def model_from_newton() -> Goal:
     """The acceleration of (1) against that of (9)."""
-    return Goal((equal((u - f_d) / M, acceleration),))
+    return Goal((equal(D(v), acceleration),), flow=NEWTON)
 
+
+paper.axiom("assumption1", "Assumption 1: a smooth reference", r"\text{The reference trajectory}\ x_d = [s_d, v_d]\ "
+            r"\text{is smooth. The first and second derivatives of}\ x_d\ \text{exist and are bounded.}",
+            "assumption of the paper", hypotheses=(), severity="data", match="words")
+paper.axiom("assumption2", "Assumption 2: some input tracks the reference",
+            r"\text{a suitable traction/brake control input}\ u(t)\ \text{can drive the train}\ \ldots\ \text{and}\ "
+            r"\dot s_d = v_d\ \text{is accurately tracked.}", "assumption of the paper", hypotheses=(),
+            severity="data", match="words")
+paper.axiom("assumption3", "Assumption 3: bounded parameters and disturbance",
+            r"M, a_0(t), a_1(t), a_2(t)\ \text{are unknown but continuously bounded, and they are greater than zero.}\ "
+            r"l(t), d(t)\ \text{are unknown and continuously bounded.}", "assumption of the paper", hypotheses=(),
+            severity="data", match="words",
+            note="(71) is not continuous: at t = 1000 s it jumps from 0 to (10^6/M) sin 8.")
+paper.axiom("assumption4", "Assumption 4: bounded ideal weights", r"\|W^*\| \le \|W_N\|",
+            "assumption of the paper", hypotheses=(), severity="data")
 
 v_1, v_2 = sp.symbols("v_1 v_2", real=True)
 L_1, L_2, v_max = sp.symbols("L_1 L_2 v_max", positive=True)
@@ -34,20 +68,27 @@ def _lipschitz(*given: Relation) -> Goal:
     return Goal((at_most(change, bound), at_most(-change, bound)), (at_least(distance, 0), *given))
 
 
+size_of_distance, size_of_change = sp.Abs(v_1 - v_2), sp.Abs(davis(v_1) - davis(v_2))
+
+
 def _bounded_speeds() -> Goal:
     """With |v| <= v_max, for every L_1 of at least a_1 + 2 a_2 v_max."""
     return _lipschitz(*(relation for speed in (v_1, v_2) for relation in within(speed, v_max)),
                       at_least(L_1, a_1 + 2 * a_2 * v_max))
 
 
-@paper.claim("10", "Assumption 5 for all speeds", "inequality",
-             r"|f_d(v_1) - f_d(v_2)| \le L_1|v_1 - v_2| + L_2|v_1 - v_2|^2\ \text{with constants}\ L_1, L_2", "refuted",
+@paper.claim("10", "Assumption 5: a condition of Lipschitz type", "inequality",
+             r"\|f_d(v_1) - f_d(v_2)\| \le L_1\|v_1 - v_2\| + L_2\|v_1 - v_2\|^2", "refuted", severity="cosmetic",
+             where={r"\|v_1 - v_2\|": size_of_distance, r"\|f_d(v_1) - f_d(v_2)\|": size_of_change,
+                    "L_1": L_1, "L_2": L_2},
+             reading="With constants L_1, L_2 for all speeds, as printed; decided for v_1 > v_2 >= 0 and the general "
+                     "resistance (8), the additional one being the same at both.",
              correction=_bounded_speeds,
              corrected_statement=r"|v_i| \le v_{\max},\ L_1 \ge a_1 + 2a_2v_{\max} \Rightarrow |f_d(v_1) - f_d(v_2)| \le "
                                  r"L_1|v_1 - v_2| + L_2|v_1 - v_2|^2",
              note="Whatever L_1 and L_2 are: the speeds named in the goal, v_2 = (L_1 + L_2)/(2 a_2) and v_1 = v_2 + 1, "
-                  "break it. For the speeds of a train it holds. The proofs of the theorems do not use it.")
+                  "break it. For the speeds of a train it holds, and the proofs of the theorems do not use it.")
 def lipschitz_for_all_speeds() -> Goal:
     """The general resistance (8) at two speeds chosen after L_1 and L_2."""
     witness = (L_1 + L_2) / (2 * a_2)
-    return _lipschitz(equal(v_2, witness), equal(v_1, witness + 1))
+    return Goal((at_most(size_of_change, L_1 * size_of_distance + L_2 * size_of_distance**2),), (equal(v_2, witness), equal(v_1, witness + 1)))

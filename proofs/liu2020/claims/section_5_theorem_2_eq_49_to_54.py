@@ -8,51 +8,68 @@ from workbench.model.law import over_neurons
 from workbench.proof.claim import D, Goal, at_least, equal
 
 from ..error_dynamics import W_v_off, W_v_tilde, eps_v, observer_loop, theta, theta_off, theta_tilde, tracking_loop, w_v
-from ..goal_forms import moves_alike
-from ..laws import alpha_2, beta_2, e_v, gamma_2, h_v, k_5, kappa_2, sigma_v, theta_hat
+from ..goal_forms import moves_alike, small_hidden
+from ..laws import alpha_2, beta_2, e_v, gamma_2, h_f, h_v, k_5, kappa_2, sigma_v, theta_hat
 from ..lyapunov import V_1, V_2, norm_v, prior_v
+from ..notation import ERRORS
 from ..paper import EVERY_NETWORK, paper
-from ..plant import M, chi
+from ..plant import M, chi, d
 from .section_5_theorem_1_eq_36_to_40 import e_rate, free_2, theta_rate, w_v_rate
 from .section_5_theorem_1_eq_41_to_43 import leak_claims, robust_claims
 
 
-@paper.claim("49", "V_2 is not negative", "inequality", r"V_2 \ge 0", "proved", premises=("36",), scope=EVERY_NETWORK)
+@paper.claim("49", "V_2 is not negative", "inequality", r"V_2 \ge 0", "proved", origin="implied", premises=("36",),
+             scope=EVERY_NETWORK, note="What makes (49) a Lyapunov function, and the left half of (59).")
 def v2_not_negative() -> Goal:
     """Squares with positive weights."""
     return Goal((at_least(V_2, 0),))
 
 
 rate_tracking = M / chi * e_v * e_rate + over_neurons(w_v * w_v_rate) + theta_tilde * theta_rate / alpha_2
+PRINTED_50 = (r"\dot V_2 = \dot V_1 + \frac{M}{\chi}e_v\dot e_v + \tilde W_v^T\Gamma_v^{-1}\dot{\tilde W}_v + "
+              r"\frac{1}{\alpha_2}\tilde\theta\dot{\tilde\theta}")
+mass_rate = sp.Symbol("Mdot", real=True)
 
 
-@paper.claim("50", "Rate of V_2 before the laws are put in", "identity",
-             r"\dot V_2 = \dot V_1 + \tfrac{M}{\chi}e_v\dot e_v + \tilde W_v^T\Gamma_v^{-1}\dot{\tilde W}_v + "
-             r"\tfrac{1}{\alpha_2}\tilde\theta\dot{\tilde\theta}", "proved", premises=("37",), scope=EVERY_NETWORK)
+@paper.claim("50", "Rate of V_2 before the laws are put in", "identity", PRINTED_50, "refuted", severity="cosmetic",
+             rests_on=("37",), scope=EVERY_NETWORK, where=ERRORS,
+             correction=lambda: Goal((equal(D(V_2), D(V_1) + rate_tracking),), flow=free_2),
+             corrected_statement=r"\dot M = 0:\quad " + PRINTED_50,
+             reading="M varies in time, as (2), (3) and (4) write it.",
+             note="M'e_v^2/(2 chi) is missing then. With a constant M, as (1) and (9) write it and as section 6 has it, the "
+                  "line holds, see 50.mended.")
 def v2_rate_open() -> Goal:
-    """D(V_2) with free rates."""
+    """D(V_2) with free rates, that of M among them."""
+    return Goal((equal(D(V_2), D(V_1) + rate_tracking),), flow=free_2 | {M: mass_rate})
+
+
+@paper.claim("50.mended", "Rate of V_2 for a constant mass", "identity", PRINTED_50, "proved", origin="ours", mends="50",
+             premises=("37",), rests_on=(), scope=EVERY_NETWORK, where=ERRORS)
+def v2_rate_constant_mass() -> Goal:
+    """D(V_2) with free rates, M at rest."""
     return Goal((equal(D(V_2), D(V_1) + rate_tracking),), flow=free_2)
 
 
 @paper.claim("51", "Rate of V_2 once more", "identity",
-             r"\dot V_2 = \tfrac{M}{\chi}e_v\dot e_v + \tilde W_v^T\Gamma_v^{-1}\dot{\tilde W}_v + \tfrac{1}{\alpha_2}"
-             r"\tilde\theta\dot{\tilde\theta}", "refuted", premises=("50",), scope=EVERY_NETWORK,
+             r"\dot V_2 = \frac{M}{\chi}e_v\dot e_v + \tilde W_v^T\Gamma_v^{-1}\dot{\tilde W}_v + \frac{1}{\alpha_2}"
+             r"\dot{\tilde\theta}", "refuted", severity="cosmetic", rests_on=("50",), scope=EVERY_NETWORK, where=ERRORS,
              correction=lambda: Goal((equal(D(V_2), D(V_1) + rate_tracking),), flow=free_2),
-             corrected_statement=r"\dot V_2 = \dot V_1 + \tfrac{M}{\chi}e_v\dot e_v + \ldots",
-             note="V_1' has been lost; (52) has it again, so nothing follows from the slip. theta_tilde, missing in the last "
-                  "term of the extracted text, is read from (50) and (52).")
+             corrected_statement=PRINTED_50,
+             note="V_1' has been lost, and theta_tilde in the last term; (52) has both again, so nothing follows from the "
+                  "slip.")
 def v2_rate_without_v1() -> Goal:
     """D(V_2) without D(V_1)."""
-    return Goal((equal(D(V_2), rate_tracking),), flow=free_2)
+    last = theta_rate / alpha_2
+    return Goal((equal(D(V_2), M / chi * e_v * e_rate + over_neurons(w_v * w_v_rate) + last),), flow=free_2)
 
 
 @paper.claim("52.theta", "The error of the estimate of theta moves as the estimate does", "implication",
              r"\tilde\theta = \hat\theta - \theta,\ \theta = \varepsilon_v(z_2) - \tfrac{M}{\chi}d(t) \Rightarrow "
-             r"\dot{\tilde\theta} = \dot{\hat\theta}", "gap", premises=("50",),
+             r"\dot{\tilde\theta} = \dot{\hat\theta}", "gap", origin="implied", rests_on=("50",),
              correction=lambda: moves_alike(theta_hat, theta, constant_truth=True),
              corrected_statement=r"\theta\ \text{constant} \Rightarrow \dot{\tilde\theta} = \dot{\hat\theta}",
              note="theta contains d(t), which (70) and (71) let oscillate; the term -theta_tilde theta'/alpha_2 is missing "
-                  "from (52). As with 38, a constant bound theta of |eps_v - (M/chi) d| is needed.")
+                  "from (52). As with 38.delta, a constant bound theta of |eps_v - (M/chi) d| is needed.")
 def theta_moves() -> Goal:
     """D(theta_hat - theta) with a moving theta."""
     return moves_alike(theta_hat, theta)
@@ -60,54 +77,90 @@ def theta_moves() -> Goal:
 
 leak_v = sigma_v * over_neurons(W_v_tilde * (W_v_tilde + W_v_off))
 leak_theta = beta_2 * theta_tilde * (theta_tilde + theta_off)
-learning_52 = over_neurons(-W_v_tilde * h_v * e_v) + leak_v
-estimate_52 = theta_tilde * gamma_2(e_v) * e_v + leak_theta
+robust_52 = gamma_2(e_v) * (theta + theta_tilde)  # (34)
 
 
 def _bracket_52(sign: int) -> sp.Expr:
-    return e_v * (-k_5 * e_v + sign * over_neurons(W_v_tilde * h_v) + theta - gamma_2(e_v) * (theta + theta_tilde))
+    """The first bracket of (52) times e_v; eps_v - (M/chi) d is theta."""
+    return e_v * (-k_5 * e_v + sign * over_neurons(W_v_tilde * h_v) + theta - robust_52)
 
 
-def _rate_52(sign: int) -> Goal:
-    loop = observer_loop() | tracking_loop()
-    return Goal((equal(D(V_2), D(V_1) + _bracket_52(sign) + learning_52 + estimate_52),), flow=loop)
+learning_52 = over_neurons(W_v_tilde * (-h_v * e_v + sigma_v * (W_v_tilde + W_v_off)))
+estimate_52 = theta_tilde * (gamma_2(e_v) * e_v + beta_2 * (theta_tilde + theta_off))
 
 
-@paper.claim("52", "Rate of V_2 with the laws", "identity",
-             r"\dot V_2 = \dot V_1 + e_v\left(-k_5e_v + \tilde W_v^Th_v(z_2) + \varepsilon_v - \tfrac{M}{\chi}d - D_2\right) + "
-             r"\tilde W_v^T(-h_v(z_2)e_v + \sigma_v(\hat W_v - W_{v0})) + \tilde\theta(\gamma(e_v)e_v + "
-             r"\beta_2(\hat\theta - \theta_0))", "refuted", premises=("33", "50", "52.theta"), scope=EVERY_NETWORK,
-             correction=lambda: _rate_52(-1),
-             corrected_statement=r"\dot V_2 = \dot V_1 + e_v\left(-k_5e_v - \tilde W_v^Th_v(z_2) + \ldots\right) + \ldots",
-             note="The sign of (33). The text has z_2 for e_v in the second bracket. With theta' = 0.")
+def _rate_52(sign: int, h_limited: bool = False) -> Goal:
+    stated = D(V_1) + _bracket_52(sign) + learning_52 + estimate_52
+    return Goal((equal(D(V_2), stated),), small_hidden(h_f, h_v) if h_limited else (),
+                flow=observer_loop() | tracking_loop())
+
+
+def _printed_52(sign: str) -> str:
+    return (rf"\dot V_2 = \dot V_1 + e_v(-k_5e_v {sign} \tilde W_v^Th_v(z_2) + \varepsilon_v(z_2) - "
+            r"\frac{M}{\chi}d(t) - D_2) + \tilde W_v^T\Gamma_v^{-1}\Gamma_v(-h_v(z_2)e_v + "
+            r"\sigma_v(\hat W_v - W_{v0})) + \frac{1}{\alpha_2}\tilde\theta(\alpha_2(\gamma(e_v)e_v + "
+            r"\beta_2(\hat\theta - \theta_0)))")
+
+
+LETTERS_52 = ERRORS | {"D_2": robust_52, r"\varepsilon_v(z_2)": theta + M / chi * d}  # theta as the text defines it
+
+
+@paper.claim("52", "Rate of V_2 with the laws", "identity", _printed_52("+"), "refuted", premises=("33.mended", "50.mended"),
+             rests_on=("33", "50", "52.theta"), scope=EVERY_NETWORK, where=LETTERS_52, correction=lambda: _rate_52(-1),
+             corrected_statement=_printed_52("-"),
+             reading="The second bracket has z_2 where (32) has e_v, which is read; theta_tilde moves as theta_hat does.",
+             note="The sign of (33): W_v_tilde^T h_v enters with minus.")
 def v2_rate_laws() -> Goal:
     """D(V_2) along the closed loop as printed."""
-    return _rate_52(1)
+    return _rate_52(1, h_limited=True)
+
+
+@paper.claim("52.mended", "Rate of V_2 with the laws, the weights' sign turned", "identity", _printed_52("-"), "proved",
+             origin="ours", mends="52", premises=("33.mended", "50.mended"), rests_on=(), scope=EVERY_NETWORK,
+             where=LETTERS_52)
+def v2_rate_laws_mended() -> Goal:
+    """D(V_2) along the closed loop with the sign of 33.mended."""
+    return _rate_52(-1)
 
 
 rate_53 = -k_5 * e_v**2 + e_v * (theta - gamma_2(e_v) * theta) + leak_v + leak_theta
+PRINTED_53 = (r"\dot V_2 = \dot V_1 - k_5e_v^2 + e_v(\theta - \gamma(e_v)\theta) + \tilde W_v^T\sigma_v(\hat W_v - W_{v0}) + "
+              r"\tilde\theta\beta_2(\hat\theta - \theta_0)")
 
 
-@paper.claim("53", "Rate of V_2, collected", "identity",
-             r"\dot V_2 = \dot V_1 - k_5e_v^2 + e_v(\theta - \gamma(e_v)\theta) + \sigma_v\tilde W_v^T(\hat W_v - W_{v0}) + "
-             r"\beta_2\tilde\theta(\hat\theta - \theta_0)", "proved", premises=("52", "34"), scope=EVERY_NETWORK,
-             note="From (52) as printed. In the loop as printed the term -2 e_v W_v_tilde^T h_v is missing; with (32) "
-                  "corrected, see 32, (53) is what the loop gives. The text refers to (44) and (51) for (34) and (52).")
+def _rate_53(learn: int, h_limited: bool = False) -> Goal:
+    return Goal((equal(D(V_2), D(V_1) + rate_53),), small_hidden(h_f, h_v) if h_limited else (),
+                flow=observer_loop() | tracking_loop(learn=learn))
+
+
+@paper.claim("53", "Rate of V_2, collected", "identity", PRINTED_53, "refuted", premises=("33.mended", "50.mended"),
+             rests_on=("32.cancels", "52"), scope=EVERY_NETWORK, where=ERRORS, correction=lambda: _rate_53(1),
+             corrected_statement=r"\text{the same with}\ +h_v(z_2)e_v\ \text{in (32)}",
+             note="It follows from (52) as printed. In the loop as printed the term -2 e_v W_v_tilde^T h_v is missing; "
+                  "with (32) turned, see 32.turned, (53) is what the loop gives. The text refers to (44) and (51) for (34) "
+                  "and (52).")
 def v2_rate_collected() -> Goal:
-    """The right side of (52) against that of (53)."""
-    return Goal((equal(_bracket_52(1) + learning_52 + estimate_52, rate_53),))
+    """D(V_2) along the loop as printed."""
+    return _rate_53(-1, h_limited=True)
+
+
+@paper.claim("53.mended", "Rate of V_2, collected, for (32) turned", "identity", PRINTED_53, "proved", origin="ours",
+             mends="53", premises=("32.turned", "50.mended"), rests_on=(), scope=EVERY_NETWORK, where=ERRORS)
+def v2_rate_collected_mended() -> Goal:
+    """D(V_2) along the loop with plus before h_v e_v."""
+    return _rate_53(1)
 
 
 robust_claims("54", "theta", (e_v, eps_v, theta, kappa_2),
-              ("e_v", r"(\varepsilon_v - \tfrac{M}{\chi}d)", r"\theta", r"\kappa_2"), "eps_v - (M/chi) d")
+              ("e_v", r"\varepsilon_v", r"\theta", r"\kappa_2"), "eps_v - (M/chi) d")
 
 bound_v = -sigma_v / 2 * norm_v + sigma_v / 2 * prior_v
 bound_theta = -beta_2 / 2 * theta_tilde**2 + beta_2 / 2 * theta_off**2
 leak_claims("54", "weights", leak_v, -norm_v + over_neurons(W_v_tilde * W_v_off), bound_v,
-            (r"\sigma_v\tilde W_v^T(\hat W_v - W_{v0})", r"-\|\tilde W_v\|^2 + \tilde W_v^T(W_v^* - W_{v0})",
-             r"-\tfrac{\sigma_v}{2}\|\tilde W_v\|^2 + \tfrac{\sigma_v}{2}\|W_v^* - W_{v0}\|^2"),
-            "See 41; true when the leakage enters with minus. sigma_v is missing in the middle as well, a slip.")
+            (r"\tilde W_v^T\sigma_v(\hat W_v - W_{v0})", r"-\|\tilde W_v\|^2 + \tilde W_v^T(W_v - W_{v0})",
+             r"-\frac{\sigma_v}{2}\|\tilde W_v\|^2 + \frac{\sigma_v}{2}\|W_v - W_{v0}\|^2"),
+            "32.leakage", "See 41; true when the leakage enters with minus. sigma_v is missing in the middle as well, a slip.")
 leak_claims("54", "estimate", leak_theta, -beta_2 * theta_tilde**2 + beta_2 * theta_tilde * theta_off, bound_theta,
             (r"\beta_2\tilde\theta(\hat\theta - \theta_0)", r"-\beta_2\tilde\theta^2 + \beta_2\tilde\theta"
-             r"(\theta - \theta_0)", r"-\tfrac{\beta_2}{2}\tilde\theta^2 + \tfrac{\beta_2}{2}(\theta - \theta_0)^2"),
-            "See 41; true when the leakage enters with minus.")
+             r"(\theta - \theta_0)", r"-\frac{\beta_2}{2}\tilde\theta^2 + \frac{\beta_2}{2}(\theta - \theta_0)^2"),
+            "35.leakage", "See 41; true when the leakage enters with minus.")

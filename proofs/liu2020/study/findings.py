@@ -227,7 +227,7 @@ def _networks(results: Results) -> str:
             if run.failed and any(key.startswith("adaptation.") for key in change.set)]
     if lost:
         text += (f" Fast adaptation diverges with corrected signs too ({'; '.join(lost)}): e_v is made of the "
-                 f"observer's own states (claim 27), which Theorem 2 does not see.")
+                 f"observer's own states (claim 27.input), which Theorem 2 does not see.")
     return text
 
 

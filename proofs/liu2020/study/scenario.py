@@ -135,7 +135,7 @@ def law_values(study: LiuStudy, law: ControlLaw, column: int,
         "sigma_v": leak / adapt.gamma_v_n_per_m, "beta_2": leak / adapt.alpha_2_n_per_m,
         "W_f_prior": start.weights, "W_v_prior": start.weights, "delta_0": start.robust, "theta_0": start.robust,
     }
-    shifted = start.v_hat_mps + given["k_3"] * start.s_hat_m  # xi of claim 12 with the train at position 0
+    shifted = start.v_hat_mps + given["k_3"] * start.s_hat_m  # xi of claim 12.glyph with the train at position 0
     first = {"s_hat": start.s_hat_m, "v_hat": start.v_hat_mps, "xi": shifted, "s_tilde": start.s_hat_m,
              "v_tilde": start.v_hat_mps, "delta_hat": start.robust, "theta_hat": start.robust}
     count = study.networks.neurons if law.neuron_data else 0

@@ -105,7 +105,7 @@ def _divergence(results: Results) -> ResultTable:
                                         for rate in runs.divergence_leak_rates_per_s))
             for column in runs.divergence_columns for law in SIGN_LAWS if results.study.changes]
     return ResultTable(
-        "What the printed signs do", "claims 19.leakage, 21.leakage, 32, 35",
+        "What the printed signs do", "claims 19.leakage, 21.leakage, 32.cancels, 35.leakage",
         ("Value", "law", *(f"{rate:g} 1/s" for rate in runs.divergence_leak_rates_per_s)), tuple(rows),
         f"Columns: leak rate Γσ = αβ of all four estimates; {runs.divergence_change}. Cells: RMS of s−s_d in m, or "
         f"when the run diverged.")

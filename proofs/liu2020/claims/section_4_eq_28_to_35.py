@@ -1,0 +1,217 @@
+"""Section 4: the output feedback controller and its laws, (28)-(35)."""
+
+from __future__ import annotations
+
+import sympy as sp
+
+from workbench.model.law import over_neurons
+from workbench.proof.claim import D, Goal, at_least, at_most, equal, greater, less
+
+from ..error_dynamics import (
+    W_v_star,
+    eps_v,
+    f_v_by_network,
+    in_errors,
+    one_neuron,
+    theta,
+    theta_tilde,
+    tracking_loop,
+    w_v,
+)
+from ..exact_motions import tracking_motion
+from ..goal_forms import small_hidden, within
+from ..laws import (
+    D_2,
+    W_v_0,
+    W_v_hat,
+    alpha_2,
+    beta_2,
+    command,
+    e_v,
+    f_hat,
+    gamma_2,
+    h_v,
+    k_5,
+    robust_2,
+    sigma_v,
+    theta_0,
+    theta_hat,
+)
+from ..lyapunov import V_v
+from ..notation import ERRORS
+from ..paper import EVERY_NETWORK, paper
+from ..plant import M, chi, d, u
+from .section_1 import network_of, others, speed_other, speed_seen
+from .section_3_eq_19_to_21 import leakage_claim
+from .section_4_eq_22_to_27 import f_v_inside
+
+paper.axiom("28", "Universal approximation of f_v by the network",
+            r"f_v = W_v^{*T}h_v(z_2) + \varepsilon_v(z_2),\quad |\varepsilon_v(z_2)| \le \varepsilon_{v,N}",
+            "Park and Sandberg 1991, for a continuous function on a compact set",
+            hypotheses=("28.function", "28.bounded", "15.inside"))
+
+u_other = sp.Symbol("u_other", real=True)
+
+
+@paper.claim("28.function", "f_v is a function of z_2", "implication",
+             r"z_2 = z_2' \Rightarrow f_v = f_v',\quad z_2 = [s, \dot s, \hat v, s_d, \dot s_d, \ddot s_d]", "gap",
+             origin="implied", premises=("27.input",), rests_on=("27",),
+             note="f_v depends on u, on the weights W_f_hat, on s_hat, delta_hat and d(t), none of which is in z_2. Decided "
+                  "for u, with the first network at rest (W_f_hat = 0). u contains W_v_hat, so the function that the "
+                  "network is to learn changes as it learns. z_2 also contains s', which is not measured.")
+def uncertainty_depends_on_z2() -> Goal:
+    """f_v at two inputs, everything else the same."""
+    untrained = f_v_inside.xreplace({f_hat: sp.Integer(0)})
+    return Goal((equal(untrained, untrained.xreplace({u: u_other})),))
+
+
+rest_of_f_v, rest_max, weight_error, weight_max, output, f_v_max = sp.symbols(
+    "f_v_rest f_rest_max W_f_error W_N h_one f_v_max", real=True)
+
+
+@paper.claim("28.bounded", "f_v is bounded by Assumptions 2 and 3", "implication",
+             r"\text{According to Assumptions 2 and 3, the nonlinear function}\ f_v\ \text{is unknown and bounded}", "gap",
+             match="words", rests_on=("27", "assumption2", "assumption3"), premises=("27.glyph",),
+             reading="All terms of (27) but the weights' being bounded, and the hidden output, f_v is at most that bound "
+                     "plus (M/chi)|W_N|, the bound of the ideal weight.",
+             note="f_v contains W_f_tilde^T h_f: the estimated weights, which no assumption bounds and Theorem 1 has yet "
+                  "to bound.")
+def uncertainty_bounded() -> Goal:
+    """rest - (M/chi) W_f_tilde h, one neuron."""
+    return Goal((at_most(rest_of_f_v - M / chi * weight_error * output, rest_max + M / chi * weight_max),),
+                (*within(rest_of_f_v, rest_max), at_least(output, 0), at_most(output, 1), at_least(weight_max, 0)))
+
+
+@paper.claim("30.measured", "The network (30) needs no speed", "implication", r"\hat f_v = \hat W_v^Th_v(z_2)", "gap",
+             rests_on=("28",),
+             reading="It is introduced because 'the velocity vector is unknown': with all but the speed given, f_v_hat is "
+                     "given whatever the speed is.",
+             note="(30) takes the same z_2 as (28), with s' in it, so the command (31) needs the speed of the train.")
+def network_without_speed() -> Goal:
+    """W_v_hat h_v(z_2) at two speeds, one neuron."""
+    return Goal((equal(network_of(speed_seen), network_of(speed_other)),), (at_least(others, 0),))
+
+
+PRINTED_33 = (r"\frac{M}{\chi}\dot e_v = -k_5e_v + \tilde W_v^Th_v(z_2) + \varepsilon_v(z_2) - \frac{M}{\chi}d(t) - D_2")
+MENDED_33 = (r"\frac{M}{\chi}\dot e_v = -k_5e_v - \tilde W_v^Th_v(z_2) + \varepsilon_v(z_2) - \frac{M}{\chi}d(t) - D_2")
+ESTIMATED = {r"\tilde W_v": W_v_hat - W_v_star}
+
+
+def _closed_e_v(sign: int, h_limited: bool = False) -> Goal:
+    """M/chi D(e_v) along (26), (28), (31), the sign of the weights' term free."""
+    stated = -k_5 * e_v + sign * over_neurons((W_v_hat - W_v_star) * h_v) + eps_v - M / chi * d - D_2
+    return Goal((equal(M / chi * D(e_v), stated),), small_hidden(h_v) if h_limited else (),
+                flow={e_v: chi / M * (f_v_by_network - M / chi * d - command)})
+
+
+@paper.claim("33", "Rate of e_v in closed loop", "identity", PRINTED_33, "refuted", premises=("26", "28"),
+             rests_on=("25", "26", "28"), scope=EVERY_NETWORK, where=ESTIMATED, correction=lambda: _closed_e_v(-1),
+             corrected_statement=MENDED_33,
+             note="(28) and (31) leave (W_v* - W_v_hat)^T h_v, which is -W_v_tilde^T h_v by the definition W_v_tilde = "
+                  "W_v_hat - W_v* in the next line. The wrong sign is used in choosing (32), see 32.cancels, so it is not "
+                  "cosmetic.")
+def e_v_rate_closed() -> Goal:
+    """With the sign as printed."""
+    return _closed_e_v(1, h_limited=True)
+
+
+@paper.claim("33.mended", "Rate of e_v in closed loop, the weights' sign turned", "identity", MENDED_33, "proved",
+             origin="ours", mends="33", premises=("26", "28"), rests_on=("26", "28"), scope=EVERY_NETWORK,
+             where=ESTIMATED)
+def e_v_rate_mended() -> Goal:
+    """With the opposite sign."""
+    return _closed_e_v(-1)
+
+
+def _learning(learn: int, h_limited: bool = False) -> Goal:
+    """The rate of V_2 without V_1, theta_tilde and leakage, along the closed loop."""
+    loop = tracking_loop(learn=learn)
+    along = {e_v: loop[e_v], w_v: sp.expand(loop[w_v].xreplace({sigma_v: sp.Integer(0)}))}
+    stated = -k_5 * e_v**2 + e_v * (theta - in_errors(robust_2))
+    return Goal((equal(D(M / (2 * chi) * e_v**2 + V_v), stated),), small_hidden(h_v) if h_limited else (), flow=along)
+
+
+CANCELLED = (r"\Rightarrow \frac{d}{dt}\left(\tfrac{M}{2\chi}e_v^2 + \tfrac12\tilde W_v^T\Gamma_v^{-1}\tilde W_v\right) = "
+             r"-k_5e_v^2 + e_v(\theta - D_2)")
+CANCELS = ERRORS | {"D_2": in_errors(robust_2)}
+
+
+@paper.claim("32.cancels", "(32) cancels the weights in the rate of V_2", "identity",
+             r"\dot{\hat W}_v = -\Gamma_vh_v(z_2)e_v " + CANCELLED, "refuted", origin="implied",
+             premises=("33.mended",), rests_on=("33",), scope=EVERY_NETWORK,
+             where=CANCELS, correction=lambda: _learning(1),
+             corrected_statement=r"\dot{\hat W}_v = +\Gamma_vh_v(z_2)e_v " + CANCELLED,
+             note="What (53) needs, along the loop itself, without the leakage. With (33) as printed the terms cancel on "
+                  "paper; in the loop the law doubles the cross term: it learns -f_v instead of f_v, see 32.loop.")
+def tracking_weights_cancel() -> Goal:
+    """With the law as printed."""
+    return _learning(-1, h_limited=True)
+
+
+@paper.claim("32.turned", "(32) with its learning sign turned cancels the weights", "identity",
+             r"\dot{\hat W}_v = +\Gamma_vh_v(z_2)e_v " + CANCELLED, "proved", origin="ours", mends="32.cancels",
+             premises=("33.mended",), rests_on=(), scope=EVERY_NETWORK, where=CANCELS)
+def turned_weights_cancel() -> Goal:
+    """With plus before h_v e_v."""
+    return _learning(1)
+
+
+def _jacobian(leak: int, learn: int) -> sp.Matrix:
+    """Of (33), (32) in (e_v, W_v_tilde) for one neuron, without the robust term."""
+    loop = {state: one_neuron(rate) for state, rate in tracking_loop(leak, learn).items()}
+    e_v_rate = loop[e_v].xreplace({theta_tilde: -theta})  # theta_hat = 0
+    states, rates = (e_v, one_neuron(w_v)), (e_v_rate, loop[w_v])
+    return sp.Matrix([[sp.expand(sp.diff(rate, state)) for state in states] for rate in rates])
+
+
+def _settles(leak: int, learn: int) -> Goal:
+    matrix = _jacobian(leak, learn)
+    gaussian = (greater(one_neuron(h_v), 0), at_most(one_neuron(h_v), 1))
+    return Goal((greater(matrix.det(), 0), less(matrix.trace(), 0)), gaussian)
+
+
+@paper.claim("32.loop", "e_v and the weights settle", "inequality",
+             r"\det J > 0,\ \mathrm{tr}\,J < 0,\quad J = \partial(\dot e_v, \dot w)/\partial(e_v, w)", "refuted",
+             origin="ours", premises=("33.mended",), rests_on=(), scope="one neuron, without the robust term",
+             correction=lambda: _settles(-1, 1),
+             corrected_statement=r"\dot{\hat W}_v = \Gamma_v(+h_ve_v - \sigma_v(\hat W_v - W_{v0})): \det J > 0,\ "
+                                 r"\mathrm{tr}\,J < 0",
+             note="What convergence of (e_v, W_v_tilde) needs. With (32) as printed the determinant is negative for all "
+                  "gains and hidden functions: a saddle.")
+def tracking_pair_settles() -> Goal:
+    """With the laws as printed."""
+    return _settles(1, -1)
+
+
+leakage_claim("32", "the weights of the tracking network", over_neurons((W_v_hat - W_v_0) ** 2),
+              (r"e_v = 0,\ \dot{\hat W}_v = \Gamma_v\sigma_v(\hat W_v - W_{v0})",
+               r"\frac{d}{dt}\|\hat W_v - W_{v0}\|^2 \le 0"),
+              r"\dot{\hat W}_v = \Gamma_v(h_v(z_2)e_v - \sigma_v(\hat W_v - W_{v0}))")
+
+
+@paper.claim("34.cancels", "(34) and (35) cancel the estimate of theta in the rate of V_2", "identity",
+             r"-e_vD_2 + \tfrac1{\alpha_2}\tilde\theta\cdot\alpha_2\gamma(e_v)e_v = -e_v\gamma(e_v)\theta", "proved",
+             origin="implied", where={"D_2": in_errors(robust_2)},
+             note="Without the leakage, for which see 35.leakage, and for a constant theta, see 52.theta.")
+def tracking_robust_term_cancels() -> Goal:
+    """D of the part of V_2 with theta_tilde, without leakage."""
+    rate = tracking_loop()[theta_tilde].xreplace({beta_2: sp.Integer(0)})
+    return Goal((equal(-e_v * in_errors(robust_2) + D(theta_tilde**2 / (2 * alpha_2)), -e_v * gamma_2(e_v) * theta),),
+                flow={theta_tilde: rate})
+
+
+leakage_claim("35", "the estimate of theta", (theta_hat - theta_0) ** 2,
+              (r"e_v = 0,\ \dot{\hat\theta} = \alpha_2\beta_2(\hat\theta - \theta_0)",
+               r"\frac{d}{dt}(\hat\theta - \theta_0)^2 \le 0"),
+              r"\dot{\hat\theta} = \alpha_2(\gamma(e_v)e_v - \beta_2(\hat\theta - \theta_0))")
+
+
+@paper.claim("remark3", "Remark 3: the tracking errors can be set to approximately zero", "limit",
+             r"\text{the estimation error}\ (e_s, e_v)\ \text{can be set to approximately zero}", "refuted",
+             severity="result", match="words", closed_loop=True, rests_on=("theorem2",), scope="one neuron in each network",
+             reading="Along the laws as printed e_v is in the end at most 0.5 m/s.",
+             note="e_v stays at log(3)/2 = 0.549 m/s for ever, though both networks are exact and the priors are right, "
+                  "while W_v_hat and theta_hat grow against each other. Lengths and kappa_2 scale with it.")
+def tracking_errors_settle() -> Goal:
+    """A motion with a constant e_v."""
+    return tracking_motion(at_most(e_v, sp.Rational(1, 2)))

@@ -1,0 +1,78 @@
+"""Section 5: Theorem 1 as a whole, as printed and mended."""
+
+from __future__ import annotations
+
+import sympy as sp
+
+from workbench.proof.claim import D, Goal, at_most, equal, greater
+
+from ..error_dynamics import delta_tilde, eps_tilde, observer_loop, t
+from ..exact_motions import hidden_f, observer_motion, weight_f
+from ..laws import alpha_1, beta_1, k_1, k_2, k_3, kappa_1, s_tilde, sigma_f, v_tilde
+from ..lyapunov import V_f, bounded_by_eigenvalue, lambda_f, mu, norm_f, positive, rho, square_f
+from ..notation import ERRORS
+from ..paper import EVERY_NETWORK, paper
+from ..smooth_sign import smooth_sign_facts
+from .section_5_theorem_1_eq_41_to_43 import delta_bounds, mu_1_stated, slack, smooth_1
+from .section_5_theorem_1_eq_44_to_48 import V_t
+
+
+@paper.claim("theorem1", "Theorem 1: all signals of the observer are ultimately bounded", "limit",
+             r"\text{all the signals in the closed-loop systems}\ (13)\ \text{and}\ (14)\ \text{are uniformly "
+             r"ultimately bounded}", "refuted",
+             severity="result", match="words", closed_loop=True, rests_on=("47",), scope="one neuron",
+             reading="A bounded signal is in the end below t, so W_f_tilde^T h_f would be, along (13), (18) to (21).",
+             note="With an exact network (eps_tilde = delta = 0), right priors and (40), the printed loop has a solution in "
+                  "which f_hat grows as exp(t) and D_1 as -exp(t), while v_tilde stays at log(3)/2: the leakage of (19) "
+                  "and (21) drives the estimates away from their priors. With minus signs there and a constant delta >= "
+                  "|eps_tilde_f| the theorem holds, see theorem1.mended.")
+def theorem_1() -> Goal:
+    """W_f_tilde h_f = exp(t) + log(3)/2 along the printed loop."""
+    return observer_motion(at_most(weight_f * hidden_f, t))
+
+
+s_tilde_rate = sp.Symbol("s_tilde_rate", real=True)
+V_weighted = (k_2 + k_1 * k_3) * s_tilde**2 / 2 + v_tilde**2 / 2 + V_f + delta_tilde**2 / (2 * alpha_1)
+mu_1_bound = positive(mu_1_stated)
+WEIGHTED = (r"V = \tfrac12(k_2 + k_1k_3)\tilde s^2 + \tfrac12\tilde v^2 + \tfrac12\tilde W_f^T\Gamma_f^{-1}\tilde W_f + "
+            r"\tfrac{1}{2\alpha_1}\tilde\delta^2")
+
+
+@paper.claim("theorem1.decay", "A Lyapunov function of the mended observer decays, without (40)", "inequality",
+             r"\frac{d}{dt}V \le -\rho V + \mu_1,\quad " + WEIGHTED, "proved", origin="ours", rests_on=(),
+             premises=("40.needless", "42.delta.mended", "42.weights.mended", "42.estimate.mended"), scope=EVERY_NETWORK,
+             note="For all k_i > 0, so for all ten columns of Table 2, with minus signs before the leakage of (19), (21), a "
+                  "constant delta >= |eps_tilde_f|, and rho at most k_3, 2 k_1 k_2/(k_2 + k_1 k_3 + 2 k_1^2), "
+                  "sigma_f/lambda_max(Gamma_f^-1) and alpha_1 beta_1.")
+def mended_decay() -> Goal:
+    """D(V) along (13), (18)-(21) with the leakage turned."""
+    rates = (at_most(rho, k_3), at_most(rho * (k_2 + k_1 * k_3 + 2 * k_1**2), 2 * k_1 * k_2),
+             at_most(rho * lambda_f, sigma_f), at_most(rho, alpha_1 * beta_1))
+    damped = (-k_1 * k_2 * s_tilde**2 - k_3 * s_tilde_rate**2 - sigma_f / 2 * norm_f - beta_1 / 2 * delta_tilde**2
+              + mu_1_bound)
+    return Goal((at_most(D(V_weighted), -rho * V_weighted + mu_1_bound),),
+                (equal(s_tilde_rate, v_tilde - k_1 * s_tilde), *delta_bounds, *rates,
+                 bounded_by_eigenvalue(square_f, norm_f, lambda_f)), observer_loop(-1, eps_tilde),
+                facts=smooth_sign_facts(v_tilde, kappa_1),
+                lemmas=(*smooth_1, at_most(v_tilde**2, 2 * s_tilde_rate**2 + 2 * k_1**2 * s_tilde**2),
+                        at_most(D(V_weighted), damped), at_most(damped, -rho * V_weighted + mu_1_bound)))
+
+
+@paper.claim("theorem1.mended", "Theorem 1 with the leakage turned", "implication",
+             r"(k_2 + k_1k_3)\tilde s^2 \le 2\left(\frac{\mu_1}{\rho_1} + c\right),\ \tilde v^2 \le "
+             r"2\left(\frac{\mu_1}{\rho_1} + c\right),\ \tilde W_f^T\Gamma_f^{-1}\tilde W_f \le "
+             r"2\left(\frac{\mu_1}{\rho_1} + c\right),\ \tilde\delta^2 \le 2\alpha_1\left(\frac{\mu_1}{\rho_1} + "
+             r"c\right)", "proved", origin="ours", mends="theorem1", severity="result", rests_on=(),
+             premises=("theorem1.decay", "47", "48.mended"), scope=EVERY_NETWORK,
+             where=ERRORS | {r"\mu_1": mu, "c": slack},
+             note="For every c > 0, from t = V(0)/(rho c) on, and all k_i > 0: all signals of the observer are uniformly "
+                  "ultimately bounded, with minus signs before the leakage of (19) and (21) and a constant delta that "
+                  "bounds |eps_tilde_f|, as it does while z_1 stays in Omega. V decays (theorem1.decay), so it meets the "
+                  "bound of 48.mended. The laws still use v_tilde, which is not measured (19.measured).")
+def theorem_1_mended() -> Goal:
+    """What a V near mu/rho means for each signal."""
+    ultimate, = paper.shown("48.mended")
+    bound = 2 * (mu / rho + slack)
+    return Goal((at_most((k_2 + k_1 * k_3) * s_tilde**2, bound), at_most(v_tilde**2, bound), at_most(square_f, bound),
+                 at_most(delta_tilde**2, 2 * alpha_1 * (mu / rho + slack))),
+                (ultimate.subs({V_t: V_weighted}), greater(slack, 0)))
