@@ -14,7 +14,8 @@ r_1, k = sp.symbols("r_1 k", positive=True)
 n = sp.Symbol("n", integer=True, positive=True)
 V_0 = sp.Symbol("V_0", real=True)
 NOTATION = {"z_1": z_1, "z_2": z_2, "r_1": r_1, "k": k, "a": a, "e_1": e, r"\varepsilon": eps, "V_1": z_1**2 / 2,
-            "V_1(0)": V_0, r"\tilde W": W, "h": h, "h_j": h, r"\tilde W_j": W, "n": n, r"\|e_1\|": sp.Abs(e)}
+            "V_1(0)": V_0, r"\tilde W": W, "h": h, "h_j": h, r"\tilde W_j": W, "n": n, r"\|e_1\|": sp.Abs(e),
+            "(t)": sp.Integer(1)}
 RATE = Goal((equal(D(z_1**2 / 2), -r_1 * z_1**2 + z_1 * z_2),), flow={z_1: z_2 - r_1 * z_1})
 VECTORS = Goal((at_most(-over(W * h) * e, over(W**2) / 2 + e**2 * over(h**2) / 2),))
 BAND = Goal((less(sp.log(k**2 / (k**2 - e**2)), e**2 / (k**2 - e**2)),), (less(sp.Abs(e), k),))
@@ -46,6 +47,8 @@ MATCHING = [
     (r"z_1\,\mathrm{sgn}(z_1) = |z_1|", goal(equal(sp.Abs(z_1), sp.Abs(z_1)))),
     (r"V_1(0) \le e^{-kz_1}\tanh\frac{z_2}{k}", goal(at_most(V_0, sp.exp(-k * z_1) * sp.tanh(z_2 / k)))),
     (r"\sum_{j=1}^{3} j z_1 \ge 0", goal(at_least(6 * z_1, 0))),
+    (r"z_1^2(t) \le e_1(t)\,a", goal(at_most(z_1**2, e * a))),
+    (r"\begin{aligned} z_1^2 &\le a \\ &\le k\end{aligned}", goal(at_most(z_1**2, a), at_most(a, k))),
     (r"\ddot z_1 = -\dot z_2", goal(equal(D(D(z_1)), -D(z_2)), flow={z_1: z_2, z_2: -z_1})),
 ]
 
@@ -61,7 +64,8 @@ def mutants(line):
     for old, new in (("+", "-"), ("-", "+"), ("=", r"\le "), (r"\le", "<"), (r"\le", r"\ge"), ("<", r"\le "),
                      ("<", ">"), ("_1", "_2"), ("_2", "_1"), ("^2", "^3"), ("^2", ""), ("^T", ""), (r"^\top", ""),
                      ("2", "3"), (r"\dot", ""), (r"\dot", r"\ddot"), (r"\tilde", ""), (r"\tilde", r"\hat"),
-                     ("z_1z_2", "z_1"), (r"\ln", r"\tanh"), (r"\log", ""), ("h", r"\tilde W"), ("k", "r_1"), (">", r"\ge "), ("[", "("),
+                     ("z_1z_2", "z_1"), (r"\ln", r"\tanh"),
+                     (r"\log", ""), ("h", r"\tilde W"), ("k", "r_1"), (">", r"\ge "), ("[", "("),
                      (")", "]"), (r"\ne", "="), (r"\min", r"\max"), ("|e_1|", "e_1"), (r"\|e_1\|", "e_1")):
         start = line.find(old)
         while start >= 0:
@@ -130,7 +134,7 @@ def test_what_is_not_the_same_is_refused_and_says_why(printed, stated, why):
 
 @pytest.mark.parametrize("printed", [
     r"a \le k\ \forall t \ge 0", r"\exists k: a \le k", r"a \to 0", r"a \le k\ \text{on the compact set}",
-    r"a \in \{1, 2\}", r"a = 0 \Leftrightarrow k = 0", r"\text{for each car}\ a \le k",
+    r"a \in \{1, 2\}", r"\text{the train is stable}", r"a = 0 \Leftrightarrow k = 0", r"\text{for each car}\ a \le k",
 ])
 def test_prose_is_called_words(printed):
     found = match(printed, NOTATION, goal(at_most(a, k)))

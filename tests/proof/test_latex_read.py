@@ -30,6 +30,9 @@ def side(text):
     (r"\operatorname{sgn}(x)", r"\mathrm{sgn}\left(x\right)", r"\mathrm{sign}\big( x \big)", r"\sgn(x)"),
     (r"\dot V_2", r"\dot{V}_2", r"\dot{V_2}"),
     ("x^2_1", "x_1^2", "{x_1}^2"),
+    (r"\begin{aligned} a &= b \\ &\le c \end{aligned}", r"a = b \le c"),
+    (r"\begin{cases} a = b, \\ c = d \end{cases}", r"\begin{cases} a = b \\ c = d \end{cases}", "a = b, c = d"),
+    (r"98\%", "0.98", r"\!0.98"),
     (r"x_{max}", r"x_{\max}", r"x_{\mathrm{max}}", r"x_{\text{max}}"),
 ])
 def test_ways_of_typing_one_piece_give_one_tree(same):
@@ -64,6 +67,8 @@ def test_the_parts_of_a_line_are_what_tex_makes_of_them():
     ("x +", 3), (r"x \le \le y", 7), ("a/bc", 3), ("2 3", 3), (r"\frac{1}", 8), ("x}", 2), (r"\unknown x", 1),
     (r"\text x", 6), ("x^", 2), ("(x", 2), ("x)", 2), ("|x", 2), (r"|x\|", 3), ("x_1_2", 4), (r"\sqrt[3]{x}", 1),
     ("é = 1", 1), ("x # y", 3), ("(a + b)_1", 8), ("x = {}", 6), (r"\frac{}{2}", 7), ("*", 1),
+    (r"\Gamma_{\varthetai}", 9), (r"\begin{cases} a & b\end{cases}", 17), ("a & b", 3), (r"\begin{matrix}", 1),
+    (r"\end{cases}", 1),
 ])
 def test_what_cannot_be_read_is_refused_with_its_place(text, place):
     with pytest.raises(LatexError) as refused:
@@ -78,7 +83,9 @@ def test_what_cannot_be_read_is_refused_with_its_place(text, place):
     "(" * 2000 + "x" + ")" * 2000, "|" * 4000, r"\|" * 2000, "x^" * 2000, "x^{" * 1000 + "}" * 1000, "x_" * 2000,
     r"\dot" * 1000 + "x", r"\frac" * 700 + "x", r"\sqrt" * 700, "+" * 4000, "-" * 4000, "x," * 2000, "=" * 4000,
     "9" * 4000, r"\left" * 700, "x/" * 2000, "^" * 4000, "'" * 4000, r"\text{" * 600, r"\text{" + "{" * 3000,
-    r"\hat{" * 700 + "x" + "}" * 700, r"\sum_" * 700, r"\tanh" * 700, "[" * 25 + "x" + "]" * 25, "x" * LONGEST_LINE,
+    r"\hat{" * 700 + "x" + "}" * 700, r"\begin{cases}" * 300,
+    r"\\" * 2000, "&" * 4000, r"1\%" + r"\%" * 1900, r"\sum_" * 700, r"\tanh" * 700, "[" * 25 + "x" + "]" * 25,
+    "x" * LONGEST_LINE,
     "x+" * 1999 + "x", "\\", "\x00", "$" * 4000, "", " ", "x" + "\n" * 3000 + "y", "|x" * 2000, "(|" * 2000,
 ])
 def test_no_line_takes_long(text):

@@ -141,7 +141,8 @@ class Converter:
             if isinstance(rest[0], Group) and len(rest) > 1:
                 raise LatexError("what the derivative applies to is open: put all of it in brackets", node.position)
             return D(self.product(rest)), False, 1 + len(rest)
-        if isinstance(node, Letter) and rest and isinstance(rest[0], Group) and node in self.notation.applied:
+        applies = rest and isinstance(rest[0], Group) and self.notation.meaning(rest[0]) is None
+        if isinstance(node, Letter) and applies and node in self.notation.applied:
             raise LatexError(f"this value of '{node.name}' is not in the notation, other values are: add it, or write "
                              r"\cdot for a product", node.position)
         if isinstance(node, Transposed) and self.notation.meaning(node) is None:

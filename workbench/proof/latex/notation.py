@@ -20,7 +20,8 @@ class Notation:
 
     A key is a letter with its marks (`\\hat\\theta_1`), or a longer piece of a formula that has one meaning: a value
     of a function (`V(0)`), a norm (`\\|e_2\\|`), an integral with its differential, a product such as `A s_i`. Within
-    a product the longest piece that is known is taken first. A key never holds a relation, nor a sum outside brackets.
+    a product the longest piece that is known is taken first. A key never is a relation, nor a sum outside brackets.
+    An argument that letters are printed with and that says nothing, as in `z_1(t)`, is a key of value 1: `(t)`.
     Raises LatexError for a key that is none.
     """
 

@@ -100,7 +100,8 @@ def _unbracketed(chain: Chain) -> tuple[Chain, list[Chain]]:
     if not chain.signs or not isinstance(last, Product) or not isinstance(last.factors[-1], Group):
         return chain, []
     factors, inner = last.factors, last.factors[-1].line
-    if not all(part.signs for part in inner.chains) or any(s not in ((), (",",)) for s in inner.separators):
+    related = bool(inner.chains) and all(part.signs for part in inner.chains)
+    if not related or any(s not in ((), (",",)) for s in inner.separators):
         return chain, []
     kept = factors[0] if len(factors) == 2 else replace(last, factors=factors[:-1])
     return replace(chain, sides=(*chain.sides[:-1], kept)), list(inner.chains)

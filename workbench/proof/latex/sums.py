@@ -85,8 +85,8 @@ def _ends(converter: Reading, first: str | None, sign: Big) -> tuple[sp.Expr, sp
         raise LatexError("the sum has one end only: write both, or none", sign.position)
     if first is None or sign.above is None:
         return None
-    start = read_line(first).chains[0]
-    if start.signs:
+    start, *others = read_line(first).chains or (None,)
+    if start is None or start.signs or others:
         raise LatexError("a sum starts at a number: correct its lower end", sign.position)
     return converter.number(start.sides[0]), converter.number(sign.above)
 
@@ -121,8 +121,10 @@ def _integrals(sign: Big, rest: tuple[Node, ...]) -> list[tuple[sp.Expr, tuple[N
     if len(factors) != 3 or factors[1] != Letter("d") or not isinstance(factors[0], Group):
         return []
     line = factors[0].line
+    if len(line.chains) != 1 or line.chains[0].signs:
+        return []
     inner = line.chains[0].sides[0]
-    if len(line.chains) != 1 or line.chains[0].signs or not isinstance(inner, Terms):
+    if not isinstance(inner, Terms):
         return []
     parts = []
     for plus, term in inner.terms:

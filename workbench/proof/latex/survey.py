@@ -48,6 +48,8 @@ def _of(paper: Paper) -> Survey:
 
 def matched(claim: Claim) -> Match:
     """The match of a claim's line with its goal; a cited result has no goal."""
+    if claim.match == "words":
+        return Match(False, "declared as prose", words=True)
     if claim.build is None:
         return Match(False, "a cited result is decided by no goal", words=True)
     try:
