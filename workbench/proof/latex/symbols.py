@@ -83,12 +83,13 @@ def _of_file(path: Path) -> Symbols:
     limits = sp.Tuple(INDEX, 1, COUNT) if vectors else None
     if vectors:
         notation["n"] = COUNT
+    _checked(path, "symbols", notation)
     for typed, formula in record.definitions.items():
         meaning = _expression(path, f"definitions.{typed}", formula, notation, limits)
         if typed in notation:
             raise InputError(path, f"definitions.{typed}", "is a symbol too: keep one of the two")
         notation[typed] = meaning
-    _checked(path, notation)
+        _checked(path, f"definitions.{typed}", notation)
     flow: dict[sp.Expr, sp.Expr] = {}
     for typed, formula in record.flow.items():
         moving = notation.get(typed)
@@ -121,11 +122,11 @@ def _expression(path: Path, key: str, formula: str, notation: Mapping[str, sp.Ex
         raise InputError(path, key, str(trouble)) from None
 
 
-def _checked(path: Path, notation: Mapping[str, sp.Expr]) -> None:
+def _checked(path: Path, key: str, notation: Mapping[str, sp.Expr]) -> None:
     try:
         Notation(notation)
     except LatexError as trouble:
-        raise InputError(path, "symbols", str(trouble)) from None
+        raise InputError(path, key, str(trouble)) from None
 
 
 def _symbol(name: str, kind: Kind) -> sp.Expr:
