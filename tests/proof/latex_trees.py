@@ -34,7 +34,7 @@ def _grown(inner):
         inner.map(lambda e: sp.exp(-e)), inner.map(lambda e: sp.sqrt(1 + e**2)),
         st.tuples(inner, inner).map(lambda p: sp.Max(p[0], p[1])),
         st.tuples(inner, inner).map(lambda p: sp.Min(p[0], p[1])),
-        inner.filter(lambda e: not e.has(sp.Abs, sp.sign, sp.Max, sp.Min, D)).map(D),
+        inner.filter(lambda e: e.free_symbols and not e.has(sp.Abs, sp.sign, sp.Max, sp.Min, D)).map(D),
     )
 
 

@@ -19,7 +19,7 @@ def read_back(text):
     return Converter(Notation({**LETTERS, **VECTORS}), limits).expression(read_line(text).chains[0].sides[0])
 
 
-@settings(max_examples=150, deadline=None, derandomize=True)
+@settings(max_examples=80, deadline=None, derandomize=True)
 @given(expressions)
 def test_an_expression_reads_back_as_itself(expr):
     text = latex(expr)

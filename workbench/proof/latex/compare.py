@@ -12,7 +12,7 @@ from workbench.errors import ClaimError
 from workbench.proof.claim import D
 from workbench.proof.derive import expand_derivatives, formal_sums
 from workbench.proof.latex.limits import MOST_TERMS
-from workbench.proof.latex.residue import DivisionByZeroError, residue
+from workbench.proof.latex.residue import DivisionByZeroError, exponents, residue
 
 _FUNCTIONS = (sp.log, sp.exp, sp.tanh, sp.sign, sp.Max, sp.Min, D)
 
@@ -30,7 +30,8 @@ class Comparison:
     def same(self, first: sp.Expr, second: sp.Expr) -> bool:
         """Whether two expressions are equal wherever they are defined, D(...) carried out along the flow.
 
-        Functions are equal when their arguments are; of roots, sums and functions no further law is used.
+        Functions are equal when their arguments are, and exp of a sum is a product; no further law of functions, roots
+        and sums is used.
         """
         pair = frozenset((first, second))
         if pair not in self._equal:
@@ -95,12 +96,15 @@ class _Atoms:
     def flat(self, expr: sp.Expr) -> sp.Expr:
         """The expression with a symbol for each root and function in it."""
         if not expr.args or isinstance(expr, sp.Indexed):
-            return self.symbol(("constant", expr), ()) if expr == sp.E else expr
+            return self.symbol((sp.exp, 1), (sp.S.One,)) if expr == sp.E else expr
         parts = [self.flat(part) for part in expr.args]
         if isinstance(expr, sp.Abs):  # |x| = x sgn x
             return parts[0] * self.symbol((sp.sign,), (parts[0],))
         if isinstance(expr, (sp.Max, sp.Min)):
             return self.symbol((expr.func, len(parts)), tuple(sorted(parts, key=str)))
+        if isinstance(expr, sp.exp):
+            return sp.Mul(*(self.symbol((sp.exp, count.q), (self.flat(term),)) ** count.p
+                            for count, term in exponents(expr.args[0])))
         if isinstance(expr, _FUNCTIONS) or (isinstance(expr, sp.Pow) and not expr.exp.is_Integer):
             return self.symbol((expr.func,), tuple(parts))
         return expr.func(*parts)
