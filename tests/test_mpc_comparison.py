@@ -56,7 +56,7 @@ DRIVERS = Drivers({"law": "the law", "mpc_linear": "linear MPC"},
 @pytest.fixture
 def study():
     tuning = SimpleNamespace(found={"law": {"error": 0.05}}, runs=10, objective=SimpleNamespace(
-        units={"position_rms": 0.1, "jerk_rms": 0.3}))
+        units={"position_rms": 0.1, "logged_jerk_rms": 0.3}))
     return SimpleNamespace(mpc=DATA, tuning=tuning, errors={"law": 0.2, "mpc_linear": 0.1})
 
 

@@ -82,7 +82,7 @@ fixed_estimate = TrialLaw(
     u_prev + input_step(phi_first, e_next), phi_first, (rho, lamda), random_lengths=False)
 pd = TrialLaw(
     "jiao2025.pd", "PD-type ILC", "jiao2025 (18)", u_prev + pd_step(e_next, e_now), phi_first, (K_p, K_d))
-# Claim 18: as printed K_d acts on the error itself; here it acts on what its name says, the difference of the errors.
+# Claim 18.name: as printed K_d acts on the error itself; here it acts on what its name says, the difference of the errors.
 pd_difference = TrialLaw(
     "jiao2025.pd_difference", "PD-type ILC with K_d on the difference", "jiao2025 (18), K_d on e*(k+1) - e*(k)",
     u_prev + pd_step(e_next, e_next - e_now), phi_first, (K_p, K_d))

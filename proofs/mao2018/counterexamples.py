@@ -22,7 +22,7 @@ from .active_mode import (
     trues,
     xi_hat,
 )
-from .error_dynamics import Flow, d_0, failure, k_v, xi
+from .error_dynamics import NAMES, Flow, d_0, failure, k_v, of_mode, xi
 from .lyapunov import V_idle, m_idle
 from .plant import r_1, r_2, xddot_m, z_1
 
@@ -42,3 +42,28 @@ def already(goal: Goal, values: Flow) -> Goal:
     """
     return Goal(tuple(r.subs(values) for r in goal.show), tuple(r.subs(values) for r in goal.assume),
                 {state: rate.xreplace(values) for state, rate in goal.flow.items() if state not in values})
+
+
+def ramp_time(goal: Goal) -> Goal:
+    """The goal at an instant of the slope's and a disturbance's ramp: their indicators are 1/2, the others 1.
+
+    m_i and all gains are 1, and only a and vartheta resist.
+    """
+    one, zero, half = sp.Integer(1), sp.Integer(0), sp.Rational(1, 2)
+    values: Flow = {of_mode(name): one for name in ("m", "chi_m", "rho_hat", *(f"chi_{name}" for name in NAMES))}
+    values |= {of_mode(name): half for name in ("chi_vartheta", "chi_d")}
+    values |= {of_mode(f"log_{name}"): zero for name in ("m", "Gamma_m", *(f"Gamma_{n}" for n in NAMES))}
+    values |= {of_mode(name + mark): zero for name in ("b", "c", "D_o") for mark in ("", "_hat")}
+    return already(goal, values)
+
+
+def one_mode(goal: Goal, *more: Flow) -> Goal:
+    """The goal for one mode of mass 1 that is active, 15 motors of 16, exact estimates of resistance and rho_i."""
+    one, zero = sp.Integer(1), sp.Integer(0)
+    values: Flow = dict.fromkeys([of_mode(n) for n in ("chi_m", "chi_d", *(f"chi_{name}" for name in NAMES))], one)
+    values |= {of_mode(f"log_{name}"): zero for name in ("m", "Gamma_m", "rho_0", *(f"Gamma_{n}" for n in NAMES))}
+    values |= {of_mode(name + mark): zero for name in NAMES for mark in ("", "_hat")}
+    values |= {of_mode("rho_hat"): sp.Rational(1, 15), k_v: sp.Integer(15), xddot_m: zero}
+    for part in more:
+        values |= part
+    return already(goal, values)

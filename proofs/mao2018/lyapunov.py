@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import sympy as sp
 
-from workbench.proof.claim import Goal, at_least, at_most
+from workbench.proof.claim import D, Goal, Relation, at_least, at_most
 
 from .active_mode import (
     Gamma_d,
@@ -54,6 +54,7 @@ V_53 = V_true + (lambda_0 - lambda_hat) ** 2 / (2 * Gamma_d)
 constant = b_0**2 / (4 * k_1) + c_0**2 / (4 * k_2)  # of (65)
 
 J, V_t, w_t, V_0 = sp.symbols("J V_t w V_0", real=True)
+z_2_rate, z_1_start, z_2_start = sp.symbols("zdot_2 z_1_0 z_2_0", real=True)
 
 
 def square_integrable() -> Goal:
@@ -61,3 +62,15 @@ def square_integrable() -> Goal:
     return Goal((at_most(J, V_0), at_most(V_t + J, V_0)), (at_least(V_t, 0),), {t: sp.Integer(1), V_t: w_t, J: -decay},
                 (at_most(w_t, decay),), {t: sp.Integer(0), V_t: V_0, J: sp.Integer(0)},
                 decreasing=J + V_t)
+
+
+def tracks(V: sp.Expr, decrease: tuple[Relation, ...], below: tuple[Relation, ...]) -> Goal:
+    """What a theorem needs before Barbalat's lemma, from what was shown of V along its loop and of V's size.
+
+    For all times V, z_1^2, z_2^2 and the integral of r_1 z_1^2 + r_2 z_2^2 are at most what V(0) allows.
+    """
+    always = tuple(relation.subs({D(V): w_t}) for relation in decrease)
+    at_end = (*(relation.subs({V: V_t}) for relation in below), at_least(J, 0))  # J is an integral of squares
+    return Goal((at_most(V_t, V_0), at_most(J, V_0), at_most(z_1**2, 2 * V_0), at_most(z_2**2, 2 * V_0)), at_end,
+                {t: sp.Integer(1), V_t: w_t, J: -decay, z_1: z_2 - r_1 * z_1, z_2: z_2_rate}, always,
+                {t: sp.Integer(0), V_t: V_0, J: sp.Integer(0), z_1: z_1_start, z_2: z_2_start}, decreasing=J + V_t)

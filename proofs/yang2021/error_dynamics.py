@@ -51,6 +51,12 @@ flow[W_tilde] = in_errors(rates[law.W_hat])
 # Before the control law is put in, u is free: (26)-(32).
 open_rates = {x_1: x_2, x_2: plant.rates[x_2], x_d: xdot_d, xdot_d: xddot_d}
 speed_error_rate_printed = u - a_star - b_star * x_2 - c_star * x_2**2 + f - law.rdot  # the right side of (25)
+e_2_rate = sp.Symbol("edot_2", real=True)  # before the plant is put in
+
+# The same closed loop where a*, b* and c* move too, as section 5 has them "uncertain or time-varying".
+star_rates = sp.symbols("adot_star bdot_star cdot_star", real=True)
+varying_flow = flow | dict(zip(stars, star_rates, strict=True)) | {
+    tilde: flow[tilde] - rate for tilde, rate in zip(tildes, star_rates, strict=True)}
 
 # Assumption 2; the bound is that of the line of Table 1 (claim A2).
 f_star = sp.Symbol("f_star", positive=True)

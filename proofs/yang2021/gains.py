@@ -219,7 +219,7 @@ def report(stated: Stated) -> GainReport:
         quantities += [
             quantity,
             Quantity(f"invariant level zeta of V, {label}", "", None, float(max(level, start_level(stated, own))),
-                     "yang2021:51.zeta.l" if label == "stated" else "yang2021:bounds.found",
+                     "yang2021:51.zeta.glyph" if label == "stated" else "yang2021:bounds.found",
                      note="the larger of l/mu and V(0)"),
             Quantity(f"sampling period with corrected estimates, {label}", "s", None, certified,
                      f"yang2021:sampling.{label}", corrected,

@@ -34,3 +34,10 @@ slowest = (at_most(mu, 2 * alpha), at_most(mu, 2 * beta - 1), at_most(mu, chi),
            *(at_most(mu, lam * sigma) for lam, sigma in zip(lambdas, sigmas, strict=True)))  # (49)
 
 level = sp.Symbol("B", nonnegative=True)  # of V_1 and of V
+
+# V as a function of time alone, for what (51) says of it.
+t, V_t, V_t_rate, V_0 = sp.symbols("t V_t w V_0", real=True)
+zeta, V_now = sp.symbols("zeta V", real=True)
+decaying = (at_most(V_t_rate, -mu * V_t + l_), at_least(t, 0))
+along_v = {t: sp.Integer(1), V_t: V_t_rate}
+from_zero = {t: sp.Integer(0), V_t: V_0}

@@ -14,7 +14,7 @@ import sympy as sp
 from sympy.printing.pycode import PythonCodePrinter
 
 from workbench.compile.code_cache import imported_kernel
-from workbench.compile.text import AS_WRITTEN, Form, module_text
+from workbench.compile.text import AS_WRITTEN, Form, module_text, shared_text
 from workbench.errors import CompileError
 from workbench.model.law import MEASUREMENTS, ControlLaw, neuron, neuron_count
 from workbench.trains.multi_particle import cars
@@ -237,12 +237,14 @@ def loop_module(source: str, functions: Sequence[str], loop: ModuleType, form: F
     into one module on disk, in which every function becomes a numba kernel of the given form.
     Raises CompileError for a form that does not fit, and where no folder can be written.
     """
-    text = module_text(source, functions, loop, form)
-    digest = hashlib.sha256(text.encode()).hexdigest()[:20]
-    name = f"workbench_kernel_{digest}"
-    if name in sys.modules:
-        return sys.modules[name]
-    return imported_kernel(name, text)
+    common = shared_text(loop)
+    shared = _of_text(common).__name__ if common else ""
+    return _of_text(module_text(source, functions, loop, form, shared))
+
+
+def _of_text(text: str) -> ModuleType:
+    name = f"workbench_kernel_{hashlib.sha256(text.encode()).hexdigest()[:20]}"
+    return sys.modules.get(name) or imported_kernel(name, text)
 
 
 def casadi_function(name: str, arguments: Sequence[sp.Symbol], exprs: Sequence[sp.Expr]) -> Any:

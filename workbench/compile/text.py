@@ -14,7 +14,7 @@ from types import ModuleType
 
 from workbench.errors import CompileError
 
-MARKER = "# --- kernel ---"
+MARKER, SHARED = "# --- kernel ---", "# --- shared ---"
 # By numpy's error model a division by zero gives inf or nan, which the loop reports as a diverged law.
 CALLED, PUT_IN = "@njit(cache=True, error_model='numpy')", "@njit(error_model='numpy', inline='always')"
 
@@ -45,17 +45,40 @@ def loop_text(loop: ModuleType) -> str:
     return below
 
 
-def module_text(source: str, functions: Sequence[str], loop: ModuleType, form: Form = AS_WRITTEN) -> str:
+def shared_functions(loop: ModuleType) -> str:
+    """What stands between the markers in the source of `loop`: functions that need none of the generated ones."""
+    above, _, _ = inspect.getsource(loop).partition(MARKER)
+    return above.partition(SHARED)[2].strip("\n")
+
+
+def shared_text(loop: ModuleType) -> str:
+    """Python source of a module with the functions that loops of all plants and laws share; empty without any."""
+    functions = shared_functions(loop)
+    if not functions:
+        return ""
+    name = loop.__name__.rpartition(".")[2]
+    text = "\n".join([f'"""What all modules of {name} share."""', "", "import math", "", "from numba import njit", "",
+                      functions, ""])
+    return _changed(text, [(function.lineno, 0, 0, f"{CALLED}\n") for function in _functions(text)])
+
+
+def module_text(source: str, functions: Sequence[str], loop: ModuleType, form: Form = AS_WRITTEN,
+                shared: str = "") -> str:
     """Python source of generated functions and what stands below the marker in `loop`, every function a numba kernel.
 
-    source: what the functions were generated from, in words; functions: their Python source. Raises CompileError
-    where the form names a function, or rows of an argument, that are not there.
+    source: what the functions were generated from, in words; functions: their Python source; shared: the name of the
+    module of `shared_text`, from which what the form leaves as written is imported. Raises CompileError where the form
+    names a function, or rows of an argument, that are not there.
     """
+    common = shared_functions(loop)
+    own = [node for node in _functions(common) if _touched(node, form)]
+    as_written = [node.name for node in _functions(common) if not _touched(node, form)]
     text = "\n".join([
         f'"""Generated from the sympy expressions of {source}."""', "", "import math", "", "from numba import njit", "",
-        *functions, loop_text(loop),
+        *([f"from {shared} import {', '.join(as_written)}", ""] if as_written else []),
+        *functions, *(str(ast.get_source_segment(common, node)) for node in own), loop_text(loop),
     ])
-    defined = [node for node in ast.parse(text).body if isinstance(node, ast.FunctionDef)]
+    defined = _functions(text)
     names = [function.name for function in defined]
     for name in form.put_in:
         if name not in names:
@@ -69,6 +92,16 @@ def module_text(source: str, functions: Sequence[str], loop: ModuleType, form: F
             raise CompileError(f"no function counts the rows of an argument '{argument}': leave it out of the form")
         changes += counted
     return _changed(text, changes)
+
+
+def _functions(text: str) -> list[ast.FunctionDef]:
+    return [node for node in ast.parse(text).body if isinstance(node, ast.FunctionDef)]
+
+
+def _touched(function: ast.FunctionDef, form: Form) -> bool:
+    """Whether a form changes a function; comments between functions are no part of either."""
+    arguments = {given.arg for given in function.args.args}
+    return function.name in form.put_in or any(argument in arguments for argument, _ in form.rows)
 
 
 def _row_counts(function: ast.FunctionDef, argument: str) -> Iterator[ast.Subscript]:

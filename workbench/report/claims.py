@@ -33,7 +33,10 @@ class ClaimRef:
 
 @dataclass(frozen=True)
 class ClaimView:
-    """One claim, ready to show; formulas are MathML, `facts` are labelled texts that fold away."""
+    """One claim, ready to show; formulas are MathML, `facts` are labelled texts that fold away.
+
+    decided: the goal itself, made from what was decided, where no machine found it in the printed line.
+    """
 
     id: str
     anchor: str
@@ -41,6 +44,7 @@ class ClaimView:
     equation: str
     kind: str
     statement: Markup
+    decided: Markup
     correction: Markup
     correction_label: str
     verdict: str
@@ -91,7 +95,9 @@ def _view(entry: Mapping[str, Any], known: set[str]) -> ClaimView:
     return ClaimView(
         id=_text(entry.get("id")), anchor=anchor(_text(entry.get("id"))), title=_text(entry.get("title")),
         equation=_text(entry.get("equation")), kind=_text(entry.get("kind")),
-        statement=formula(_text(entry.get("statement"))), correction=formula(_text(entry.get("correction"))),
+        statement=formula(_text(entry.get("statement"))),
+        decided=formula(_text(entry.get("goal"))) if entry.get("match") != "parsed" else Markup(""),
+        correction=formula(_text(entry.get("correction"))),
         correction_label=CORRECTIONS.get(verdict, "Correction"),
         verdict=verdict, sign=VERDICTS.get(verdict, "?"), recorded=recorded if recorded != verdict else "",
         method=_text(entry.get("method")), trust=TRUST.get(trust, trust), note=_text(entry.get("note")),

@@ -15,8 +15,8 @@ class Metrics:
     """One row of a comparison. Errors are measured minus desired, extrema over every plant step.
 
     energy_J: traction work at the wheel, braking not recovered; jerk_rms, jerk_p95, jerk_max: of the second difference
-    of the speed over plant steps (m/s^3), the 95th percentile rounded up to 1.2 %; logged_jerk_rms: over rows of the
-    log, which misses what happens between them; comfort_rms: acceleration weighted by W_d of ISO 2631-1 (m/s^2);
+    of the speed over plant steps (m/s^3), the 95th percentile up to 1.6 % high; logged_jerk_rms: over rows of
+    the log, which misses what happens between them; comfort_rms: acceleration weighted by W_d of ISO 2631-1 (m/s^2);
     command_variation: of the commands, summed, each second (m/s^3); switchings: between traction and braking each
     second; overspeed_max: beyond the line's speed limits (m/s); saturated_fraction: of samples whose force was at a
     limit; limit_violations: plant steps outside the position band; failed: why the run ended early, or None. Of a

@@ -15,50 +15,17 @@ from numpy.typing import NDArray
 
 Array = NDArray[np.float64]
 
-# Layout of `sums`; the compiled loop uses the places.
+# Layout of the array that the compiled loop adds to: these sums, three sections of a filter, counts.
 SUMS = ("steps", "last_acceleration_mps2", "jerk_square_sum", "jerk_max_mps3", "force_sign", "force_switchings",
         "overspeed_max_mps", "overspeed_steps", "weighted_square_sum", "limit_section")
-# |jerk| is counted in bins that grow by 1.2 %, from a millionth of a m/s^3 to a million of them.
-BINS_A_DECADE, DECADES_BELOW, DECADES = 200, 6, 12
+FILTERS, COUNTS = slice(10, 31), slice(31, None)
+# |jerk| is counted in 64 bins an octave, of equal width within it, from 2^-21 m/s^3 to 2^20.
+BINS_AN_OCTAVE, LOWEST_OCTAVE, OCTAVES = 64, -21, 41
 # ISO 2631-1 annex A: band limits (Hz) with Butterworth's quality, and W_d's transition (Hz) with its quality.
 LOW_HZ, HIGH_HZ, BUTTERWORTH = 0.4, 100.0, 0.5**0.5
 TRANSITION_HZ, TRANSITION_QUALITY = 2.0, 0.63
 # Above this share of the sampling rate a bilinear transform says nothing of a filter.
 HIGHEST_SHARE = 0.45
-
-
-@dataclass(frozen=True)
-class Ride:
-    """The arrays of one run, which the compiled loop writes into.
-
-    filters: (3, 7), sections of W_d with two states each; counts: of |jerk| by bin; sums: as in SUMS; limit_m and
-    limit_mps: where speed limits begin, and the limits, inf where there is none.
-    """
-
-    filters: Array
-    counts: Array
-    sums: Array
-    limit_m: Array
-    limit_mps: Array
-
-    def arrays(self) -> tuple[Array, Array, Array, Array, Array]:
-        """In the order in which the compiled loop takes them."""
-        return self.filters, self.counts, self.sums, self.limit_m, self.limit_mps
-
-    def totals(self) -> dict[str, float]:
-        """What the run came to, by name."""
-        found = dict(zip(SUMS, self.sums.tolist(), strict=True))
-        return {name: found[name] for name in SUMS if name.startswith(("jerk", "force_sw", "over", "weighted"))} | {
-            "jerk_p95_mps3": self.percentile(0.95), "jerk_steps": max(0.0, found["steps"] - 1.0)}
-
-    def percentile(self, share: float) -> float:
-        """The |jerk| (m/s^3) that a share of the steps stays below, rounded up to 1.2 %."""
-        total = self.counts.sum()
-        if total == 0:
-            return 0.0
-        index = int(np.searchsorted(np.cumsum(self.counts), share * total * (1 - 1e-12)))
-        edge = 0.0 if index == 0 else 10.0 ** ((index + 1) / BINS_A_DECADE - DECADES_BELOW)
-        return min(edge, float(self.sums[SUMS.index("jerk_max_mps3")]))
 
 
 NO_LIMITS = (np.zeros(1), np.full(1, np.inf))
@@ -72,10 +39,40 @@ class SpeedLimits:
     limit_mps: Array = field(default_factory=lambda: NO_LIMITS[1])
 
 
+@dataclass(frozen=True)
+class Ride:
+    """What the compiled loop writes of one run, laid out as above, and the speed limits that it reads."""
+
+    values: Array
+    limits: SpeedLimits
+
+    def arrays(self) -> tuple[Array, Array, Array]:
+        """In the order in which the compiled loop takes them."""
+        return self.values, self.limits.from_m, self.limits.limit_mps
+
+    def totals(self) -> dict[str, float]:
+        """What the run came to, by name."""
+        found = dict(zip(SUMS, self.values.tolist(), strict=False))
+        return {name: found[name] for name in SUMS if name.startswith(("jerk", "force_sw", "over", "weighted"))} | {
+            "jerk_p95_mps3": self.percentile(0.95), "jerk_steps": max(0.0, found["steps"] - 1.0)}
+
+    def percentile(self, share: float) -> float:
+        """The |jerk| (m/s^3) that a share of the steps stays below, rounded up to the end of its bin (1.6 %)."""
+        counts = self.values[COUNTS]
+        total = counts.sum()
+        if total == 0:
+            return 0.0
+        index = int(np.searchsorted(np.cumsum(counts), share * total * (1 - 1e-12)))
+        octave, place = divmod(index, BINS_AN_OCTAVE)
+        edge = 2.0 ** (octave + LOWEST_OCTAVE) * (1 + (place + 1) / BINS_AN_OCTAVE)
+        return min(edge, float(self.values[SUMS.index("jerk_max_mps3")]))
+
+
 def ride(step_s: float, limits: SpeedLimits) -> Ride:
-    """Empty arrays for a run with plant steps of step_s."""
-    return Ride(weighting(step_s), np.zeros(BINS_A_DECADE * DECADES), np.zeros(len(SUMS)), limits.from_m,
-                limits.limit_mps)
+    """An array for a run with plant steps of step_s, nothing added yet."""
+    values = np.zeros(COUNTS.start + BINS_AN_OCTAVE * OCTAVES)
+    values[FILTERS] = weighting(step_s).ravel()
+    return Ride(values, limits)
 
 
 def weighting(step_s: float) -> Array:

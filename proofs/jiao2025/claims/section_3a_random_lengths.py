@@ -44,6 +44,11 @@ def union_is_defined() -> Goal:
     return Goal((at_least(sample - T_min, 1), at_most(sample - T_min, T_d - T_min)))
 
 
+paper.axiom("remark3", "Remark 3: the probabilities of all lengths are known",
+            r"\text{the probability of every time of arrival is assumed known; the same assumption is made in [23]}",
+            "the paper's choice, after its reference [23]", hypotheses=("A3",), severity="cosmetic", match="words",
+            note="No law uses them, as Remark 5 says: remark5.distribution.")
+
 reach, reach_next, total, total_next, p_l = sp.symbols("P_reach P_reach_next S_k S_next p_l", real=True)
 
 

@@ -15,7 +15,19 @@ from ..plant import M, T_s, next_speed, u_i, u_prev, v_i
 from ..stated_values import EVERY_LENGTH, STATED, TRIALS, Reading, newton, per_mass, per_mass_1s, stated
 from .section_2a_train import a, b, f_a_i, f_a_prev
 from .section_2b_data_model import damped
-from .section_3c_theorem_1 import contraction, g, geometric_term, lambda_min_exists, m_i, m_prev, phi_hat
+from .section_3c_theorem_1 import (
+    contraction,
+    error,
+    g,
+    geometric_term,
+    j,
+    lambda_min_exists,
+    m_i,
+    m_prev,
+    mean_of,
+    phi_hat,
+    shortfall,
+)
 
 
 @paper.claim("theorem1.train.lambda", "For the train no lambda_min makes (14) contract at every sample", "inequality",
@@ -56,23 +68,42 @@ def train_error_step() -> Goal:
     return Goal((at_most(sp.Abs(after), sp.Abs(1 - share * g) * sp.Abs(e_prev) + sp.Abs(Delta_v_k)),), damped)
 
 
+least = sp.Symbol("d", positive=True)  # what every estimate in use takes at least from the error: |1 - g| <= 1 - d
+disturbance, slack = (sp.IndexedBase(name, real=True) for name in ("z_j", "s"))
+
+
+@paper.claim("theorem1.train.mean", "The train's expected error of the next trial, one sample", "implication",
+             r"|1 - g| \le 1 - d \Rightarrow E|e(k+1,i)| \le (1 - p(k+1)d)\,E|e(k+1,i-1)| + E|\Delta v(k,i)|", "proved",
+             premises=("theorem1.train.step", "gamma.mean"), origin="ours", scope="every finite number of outcomes, which lengths with finitely many values make",
+             note="As theorem1.mean: outcome j has the chance r_j^2, the error e_j, the change z_j of the speed before, and errors that are t_j^2 and s_j^2 below the bounds of "
+                  "theorem1.train.step with and without data. gamma(k+1,i-1) is independent of the outcome.")
+def train_expected_step() -> Goal:
+    """Both values of gamma, probabilities multiplied."""
+    with_data = (1 - least) * error[j] + disturbance[j] - shortfall[j] ** 2
+    without_data = error[j] + disturbance[j] - slack[j] ** 2
+    after = p_k * mean_of(with_data) + (1 - p_k) * mean_of(without_data)
+    return Goal((at_most(after, (1 - p_k * least) * mean_of(error[j]) + mean_of(disturbance[j])),), (at_least(p_k, 0), at_most(p_k, 1)))
+
+
 r_rate, c_rate, Z, C = sp.symbols("r c Z C", positive=True)
 z_now = sp.Symbol("z", nonnegative=True)
 
 
 @paper.claim("theorem1.train", "The train's expected errors converge, sample after sample", "implication",
-             r"E|e(k+1,i)| \le c\,E|e(k+1,i-1)| + E|\Delta v(k,i)|,\ E|\Delta v(k,i)| \le Zr^i \Rightarrow E|e(k+1,i)| \le Cr^i,\ "
-             r"E|\Delta v(k+1,i)| \le 2Cr^{i-1}", "proved", premises=("theorem1.train.step", "gamma.mean"), scope=EVERY_LENGTH, origin="ours", mends="conclusion",
+             r"c = 1 - p(k+1)d < r < 1,\ E|\Delta v(k,i)| \le Zr^i \Rightarrow E|e(k+1,i)| \le Cr^i,\ "
+             r"E|\Delta v(k+1,i)| \le 2Cr^{i-1}", "proved", premises=("theorem1.train.mean",), scope=EVERY_LENGTH, origin="ours", severity="result", mends="conclusion",
              note="Not the paper's argument, and what is left of Theorem 1 for the train: for estimates that stay between two bounds with |1 - g| < 1 there, 0 <= a <= 1, independent lengths, the same start "
-                  "and f_a in every trial, c = 1 - p(k+1) min(g, 2-g) < r < 1, induction over k with C >= m_0 and C >= Z r/(r - c). So the limit exists, but C grows from "
+                  "and f_a in every trial, d = min(g, 2-g) > 0 over them and p(k+1) > 0; induction over k with C >= m_0 and C >= Z r/(r - c). So the limit exists, but C grows from "
                   "sample to sample: see intro.growth. theta is r^(i-1).")
 def train_converges() -> Goal:
     """One trial on, in powers of r; then the difference that the next sample is disturbed by."""
     power = geometric_term
+    mean, = paper.shown("theorem1.train.mean")
+    bounded = mean.subs({mean.left: m_i, mean_of(error[j]): m_prev, mean_of(disturbance[j]): z_now})
     given = (less(c_rate, r_rate), less(r_rate, 1), at_most(m_prev, C * power), at_most(z_now, Z * r_rate * power),
-             at_least(C * (r_rate - c_rate), Z * r_rate), at_most(m_i, c_rate * m_prev + z_now))
+             at_least(C * (r_rate - c_rate), Z * r_rate), bounded, at_least(c_rate, 1 - p_k * least))
     return Goal((at_most(m_i, C * r_rate * power), at_most(m_i + m_prev, 2 * C * power)), given,
-                lemmas=(at_most(c_rate * m_prev, c_rate * C * power), at_least(C * (r_rate - c_rate) * power, Z * r_rate * power),
+                lemmas=(at_most(m_i, c_rate * m_prev + z_now), at_most(c_rate * m_prev, c_rate * C * power), at_least(C * (r_rate - c_rate) * power, Z * r_rate * power),
                         at_most(m_i, C * r_rate * power), at_most(C * r_rate * power, C * power)))
 
 

@@ -153,7 +153,7 @@ def _mending(results: Results) -> Iterator[str]:
         printed, mended, learns, remembering = (results.run(reading, law) for law in (
             PD, "jiao2025.pd_difference", ICFDL, "jiao2025.icfdl_remembering"))
         if outcome(mended) == "learns":
-            yield (f"With K_d on the difference of the errors, as its name says (claim 18), the PD law learns with u "
+            yield (f"With K_d on the difference of the errors, as its name says (claim 18.name), the PD law learns with u "
                    f"in {label}: MSE {_at(mended, last)} m²/s² after the last trial, where (18) as printed "
                    f"{outcome(printed)} and iCFDL-MFAILC has {_at(learns, last)}.")
         if learns.failed is None and remembering.failed is None:

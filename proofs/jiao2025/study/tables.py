@@ -145,7 +145,7 @@ def mended(results: Results) -> ResultTable:
                 results.study.readings[name].title, TRIAL_LAWS[law].title,
                 "opposes motion" if opposed else "as printed", *(mse_at(run, trial) for trial in trials), outcome(run)))
     return ResultTable(
-        "Printed and mended", "claims 15.reset and 18; (3) for a train that rolls backwards; (11)-(13)",
+        "Printed and mended", "claims 15.reset and 18.name; (3) for a train that rolls backwards; (11)-(13)",
         ("Reading", "Law", "Resistance (3)", *(f"MSE, trial {trial}" for trial in trials), "Outcome"), tuple(rows),
         f"{MSE} CFDL-MFAILC (11)-(13) needs trials of the full length and gets them.")
 

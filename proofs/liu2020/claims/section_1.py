@@ -19,8 +19,8 @@ def network_of(speed: sp.Expr) -> sp.Expr:
     return weight * sp.exp(-((speed - centre) ** 2 + others) / spread**2)
 
 
-@paper.claim("contribution2", "The tracking control does not require the running speed", "implication",
-             r"\text{(2) The tracking control algorithm does not require the running speed of an HST}", "gap",
+@paper.claim("contribution2", "The tracking control does not require the running speed", "identity",
+             r"\text{(2) The tracking control algorithm does not require the running speed of an HST}", "refuted",
              severity="result", match="words", rests_on=("12", "19.measured", "30.measured"),
              reading="With the position, the estimates and the reference given, the command (31) is given whatever the "
                      "speed is.",

@@ -38,8 +38,8 @@ DAMPING = ("The extracted text of (12) and (14) has k_3 v_tilde where (18), (25)
            "both readings are decided.")
 
 
-@paper.claim("12", "The observer takes the measured position alone", "implication",
-             r"\dot{\hat v} = \hat f - k_2\tilde s - k_3\tilde v + D_1", "gap", glyph="12.glyph",
+@paper.claim("12", "The observer takes the measured position alone", "identity",
+             r"\dot{\hat v} = \hat f - k_2\tilde s - k_3\tilde v + D_1", "refuted", glyph="12.glyph",
              reading="The section is to estimate the speed 'in accordance with the position information': with position "
                      "and estimates given, the right side is given whatever the speed is. The third line of (12) is read "
                      "as f, not its rate.",

@@ -58,8 +58,8 @@ def update_signal_is_error() -> Goal:
     return Goal((equal(D(s_error) + k_1 * s_error, v_error),), flow=along_plant)
 
 
-@paper.claim("19.measured", "The update laws need the measured position only", "implication",
-             r"s, \hat s, \hat v\ \text{given} \Rightarrow \dot{\tilde s} + k_1\tilde s\ \text{given}", "gap",
+@paper.claim("19.measured", "The update laws need the measured position only", "identity",
+             r"s, \hat s, \hat v\ \text{given} \Rightarrow \dot{\tilde s} + k_1\tilde s\ \text{given}", "refuted",
              origin="implied", premises=("19.signal",),
              note="The signal of (19), (20), (21) is v_hat - v: two trains with the same measured position and estimates "
                   "but different speeds give different signals. It can be had only by differentiating the measured "

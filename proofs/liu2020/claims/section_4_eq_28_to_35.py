@@ -82,7 +82,7 @@ def uncertainty_bounded() -> Goal:
                 (*within(rest_of_f_v, rest_max), at_least(output, 0), at_most(output, 1), at_least(weight_max, 0)))
 
 
-@paper.claim("30.measured", "The network (30) needs no speed", "implication", r"\hat f_v = \hat W_v^Th_v(z_2)", "gap",
+@paper.claim("30.measured", "The network (30) needs no speed", "identity", r"\hat f_v = \hat W_v^Th_v(z_2)", "refuted",
              rests_on=("28",),
              reading="It is introduced because 'the velocity vector is unknown': with all but the speed given, f_v_hat is "
                      "given whatever the speed is.",

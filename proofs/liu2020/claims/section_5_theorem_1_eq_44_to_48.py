@@ -129,6 +129,15 @@ bound_47 = mu / rho + (V_start - mu / rho) * sp.exp(-rho * t)
 in_the_end = (greater(slack, 0), at_least(V_start, 0), at_least(t, V_start / (rho * slack)))
 
 
+@paper.claim("comparison", "What decays up to mu is bounded by its start and mu/rho", "implication",
+             r"\dot V \le -\rho V + \mu \Rightarrow V \le \frac{\mu}{\rho} + (V(0) - \frac{\mu}{\rho})e^{-\rho t}", "proved",
+             origin="ours", where={"V": V_t, r"\dot V": w, r"\rho": rho, r"\mu": mu, "V(0)": V_start, "t": t},
+             note="For any V: what (46) and (47) do, free of (45).")
+def comparison_lemma() -> Goal:
+    """exp(rho t)(V - mu/rho) does not increase."""
+    return Goal((at_most(V_t, bound_47),), (), along_v, decaying, from_zero, decreasing=sp.exp(rho * t) * (V_t - mu / rho))
+
+
 def after_decay(i: int, decay: str, growth: str, bound: str, norm: str, not_negative: str) -> None:
     """What the paper concludes from V' <= -rho V + mu, the same for both theorems."""
     letters = {f"V_{i}": V_t, f"V_{i}(t)": V_t, f"V_{i}(0)": V_start, rf"\dot V_{i}(t)": w, rf"\mu_{i}": mu,
@@ -187,6 +196,7 @@ def after_decay(i: int, decay: str, growth: str, bound: str, norm: str, not_nega
 
     @paper.claim(f"{norm}.mended", f"V_{i} comes as near to phi_{i} as is wanted", "implication",
                  rf"V_{i}(t) \le \varphi_{i} + c", "proved", origin="ours", mends=f"{norm}.zero", rests_on=(),
+                 premises=("comparison",),
                  where=letters, note=f"For every c > 0 from t = V_{i}(0)/(rho_{i} c) on.")
     def comes_near() -> Goal:
         return ultimate()

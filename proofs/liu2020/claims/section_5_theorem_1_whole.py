@@ -13,6 +13,7 @@ from ..lyapunov import V_f, bounded_by_eigenvalue, lambda_f, mu, norm_f, positiv
 from ..notation import ERRORS
 from ..paper import EVERY_NETWORK, paper
 from ..smooth_sign import smooth_sign_facts
+from .section_5_theorem_1_eq_36_to_40 import free_1
 from .section_5_theorem_1_eq_41_to_43 import delta_bounds, mu_1_stated, slack, smooth_1
 from .section_5_theorem_1_eq_44_to_48 import V_t
 
@@ -31,31 +32,41 @@ def theorem_1() -> Goal:
     return observer_motion(at_most(weight_f * hidden_f, t))
 
 
-s_tilde_rate = sp.Symbol("s_tilde_rate", real=True)
 V_weighted = (k_2 + k_1 * k_3) * s_tilde**2 / 2 + v_tilde**2 / 2 + V_f + delta_tilde**2 / (2 * alpha_1)
 mu_1_bound = positive(mu_1_stated)
-WEIGHTED = (r"V = \tfrac12(k_2 + k_1k_3)\tilde s^2 + \tfrac12\tilde v^2 + \tfrac12\tilde W_f^T\Gamma_f^{-1}\tilde W_f + "
-            r"\tfrac{1}{2\alpha_1}\tilde\delta^2")
+s_tilde_rate = sp.Symbol("s_tilde_rate", real=True)
+rate_of_s = equal(s_tilde_rate, v_tilde - k_1 * s_tilde)  # (13)
+damped = (-k_1 * k_2 * s_tilde**2 - k_3 * s_tilde_rate**2 - sigma_f / 2 * norm_f - beta_1 / 2 * delta_tilde**2
+          + mu_1_bound)
 
 
-@paper.claim("theorem1.decay", "A Lyapunov function of the mended observer decays, without (40)", "inequality",
-             r"\frac{d}{dt}V \le -\rho V + \mu_1,\quad " + WEIGHTED, "proved", origin="ours", rests_on=(),
+@paper.claim("theorem1.damped", "Rate of a Lyapunov function of the mended observer, without (40)", "inequality",
+             r"\dot V \le -k_1k_2\tilde s^2 - k_3\dot{\tilde s}^2 - \frac{\sigma_f}{2}\|\tilde W_f\|^2 - "
+             r"\frac{\beta_1}{2}\tilde\delta^2 + \mu_1", "proved", origin="ours", rests_on=(),
              premises=("40.needless", "42.delta.mended", "42.weights.mended", "42.estimate.mended"), scope=EVERY_NETWORK,
-             note="For all k_i > 0, so for all ten columns of Table 2, with minus signs before the leakage of (19), (21), a "
-                  "constant delta >= |eps_tilde_f|, and rho at most k_3, 2 k_1 k_2/(k_2 + k_1 k_3 + 2 k_1^2), "
+             where=ERRORS | {"V": V_weighted, r"\mu_1": mu_1_bound, r"\dot{\tilde s}": s_tilde_rate},
+             note="For all k_i > 0, with minus signs before the leakage of (19), (21) and a constant delta >= "
+                  "|eps_tilde_f|. V = ((k_2 + k_1 k_3) s_tilde^2 + v_tilde^2 + W_f_tilde^T Gamma_f^-1 W_f_tilde + "
+                  "delta_tilde^2/alpha_1)/2.")
+def mended_rate() -> Goal:
+    """D(V) along (13), (18)-(21) with the leakage turned."""
+    return Goal((at_most(D(V_weighted), damped),), (rate_of_s, *delta_bounds), observer_loop(-1, eps_tilde),
+                facts=smooth_sign_facts(v_tilde, kappa_1), lemmas=smooth_1)
+
+
+@paper.claim("theorem1.decay", "The Lyapunov function of the mended observer decays", "inequality",
+             r"\dot V \le -\rho V + \mu_1", "proved", origin="ours", rests_on=(), premises=("theorem1.damped",),
+             scope=EVERY_NETWORK, where=ERRORS | {"V": V_weighted, r"\rho": rho, r"\mu_1": mu_1_bound},
+             note="For all ten columns of Table 2 and rho at most k_3, 2 k_1 k_2/(k_2 + k_1 k_3 + 2 k_1^2), "
                   "sigma_f/lambda_max(Gamma_f^-1) and alpha_1 beta_1.")
 def mended_decay() -> Goal:
-    """D(V) along (13), (18)-(21) with the leakage turned."""
+    """From theorem1.damped, by v_tilde^2 <= 2 s_tilde'^2 + 2 k_1^2 s_tilde^2."""
     rates = (at_most(rho, k_3), at_most(rho * (k_2 + k_1 * k_3 + 2 * k_1**2), 2 * k_1 * k_2),
              at_most(rho * lambda_f, sigma_f), at_most(rho, alpha_1 * beta_1))
-    damped = (-k_1 * k_2 * s_tilde**2 - k_3 * s_tilde_rate**2 - sigma_f / 2 * norm_f - beta_1 / 2 * delta_tilde**2
-              + mu_1_bound)
     return Goal((at_most(D(V_weighted), -rho * V_weighted + mu_1_bound),),
-                (equal(s_tilde_rate, v_tilde - k_1 * s_tilde), *delta_bounds, *rates,
-                 bounded_by_eigenvalue(square_f, norm_f, lambda_f)), observer_loop(-1, eps_tilde),
-                facts=smooth_sign_facts(v_tilde, kappa_1),
-                lemmas=(*smooth_1, at_most(v_tilde**2, 2 * s_tilde_rate**2 + 2 * k_1**2 * s_tilde**2),
-                        at_most(D(V_weighted), damped), at_most(damped, -rho * V_weighted + mu_1_bound)))
+                (rate_of_s, *paper.shown("theorem1.damped"), *rates, bounded_by_eigenvalue(square_f, norm_f, lambda_f)),
+                free_1, lemmas=(at_most(v_tilde**2, 2 * s_tilde_rate**2 + 2 * k_1**2 * s_tilde**2),
+                                at_most(damped, -rho * V_weighted + mu_1_bound)))
 
 
 @paper.claim("theorem1.mended", "Theorem 1 with the leakage turned", "implication",
@@ -63,7 +74,7 @@ def mended_decay() -> Goal:
              r"2\left(\frac{\mu_1}{\rho_1} + c\right),\ \tilde W_f^T\Gamma_f^{-1}\tilde W_f \le "
              r"2\left(\frac{\mu_1}{\rho_1} + c\right),\ \tilde\delta^2 \le 2\alpha_1\left(\frac{\mu_1}{\rho_1} + "
              r"c\right)", "proved", origin="ours", mends="theorem1", severity="result", rests_on=(),
-             premises=("theorem1.decay", "47", "48.mended"), scope=EVERY_NETWORK,
+             premises=("theorem1.decay", "comparison", "48.mended"), scope=EVERY_NETWORK,
              where=ERRORS | {r"\mu_1": mu, "c": slack},
              note="For every c > 0, from t = V(0)/(rho c) on, and all k_i > 0: all signals of the observer are uniformly "
                   "ultimately bounded, with minus signs before the leakage of (19) and (21) and a constant delta that "

@@ -7,14 +7,14 @@ import sympy as sp
 from workbench.model.law import over_neurons
 from workbench.proof.claim import D, Goal, at_least, equal
 
-from ..error_dynamics import W_v_off, W_v_tilde, eps_v, observer_loop, theta, theta_off, theta_tilde, tracking_loop, w_v
+from ..error_dynamics import W_v_off, W_v_tilde, eps_v, theta, theta_off, theta_tilde, tracking_loop, w_v
 from ..goal_forms import moves_alike, small_hidden
-from ..laws import alpha_2, beta_2, e_v, gamma_2, h_f, h_v, k_5, kappa_2, sigma_v, theta_hat
+from ..laws import alpha_2, beta_2, e_v, gamma_2, h_v, k_5, kappa_2, sigma_v, theta_hat
 from ..lyapunov import V_1, V_2, norm_v, prior_v
 from ..notation import ERRORS
 from ..paper import EVERY_NETWORK, paper
 from ..plant import M, chi, d
-from .section_5_theorem_1_eq_36_to_40 import e_rate, free_2, theta_rate, w_v_rate
+from .section_5_theorem_1_eq_36_to_40 import e_rate, free_1, free_2, theta_rate, w_v_rate
 from .section_5_theorem_1_eq_41_to_43 import leak_claims, robust_claims
 
 
@@ -91,8 +91,8 @@ estimate_52 = theta_tilde * (gamma_2(e_v) * e_v + beta_2 * (theta_tilde + theta_
 
 def _rate_52(sign: int, h_limited: bool = False) -> Goal:
     stated = D(V_1) + _bracket_52(sign) + learning_52 + estimate_52
-    return Goal((equal(D(V_2), stated),), small_hidden(h_f, h_v) if h_limited else (),
-                flow=observer_loop() | tracking_loop())
+    return Goal((equal(D(V_2), stated),), small_hidden(h_v) if h_limited else (),
+                flow=free_1 | tracking_loop())
 
 
 def _printed_52(sign: str) -> str:
@@ -111,7 +111,7 @@ LETTERS_52 = ERRORS | {"D_2": robust_52, r"\varepsilon_v(z_2)": theta + M / chi 
              reading="The second bracket has z_2 where (32) has e_v, which is read; theta_tilde moves as theta_hat does.",
              note="The sign of (33): W_v_tilde^T h_v enters with minus.")
 def v2_rate_laws() -> Goal:
-    """D(V_2) along the closed loop as printed."""
+    """D(V_2) along the closed loop as printed, for any rates of the observer's errors."""
     return _rate_52(1, h_limited=True)
 
 
@@ -129,8 +129,8 @@ PRINTED_53 = (r"\dot V_2 = \dot V_1 - k_5e_v^2 + e_v(\theta - \gamma(e_v)\theta)
 
 
 def _rate_53(learn: int, h_limited: bool = False) -> Goal:
-    return Goal((equal(D(V_2), D(V_1) + rate_53),), small_hidden(h_f, h_v) if h_limited else (),
-                flow=observer_loop() | tracking_loop(learn=learn))
+    return Goal((equal(D(V_2), D(V_1) + rate_53),), small_hidden(h_v) if h_limited else (),
+                flow=free_1 | tracking_loop(learn=learn))
 
 
 @paper.claim("53", "Rate of V_2, collected", "identity", PRINTED_53, "refuted", premises=("33.mended", "50.mended"),
@@ -140,7 +140,7 @@ def _rate_53(learn: int, h_limited: bool = False) -> Goal:
                   "with (32) turned, see 32.turned, (53) is what the loop gives. The text refers to (44) and (51) for (34) "
                   "and (52).")
 def v2_rate_collected() -> Goal:
-    """D(V_2) along the loop as printed."""
+    """D(V_2) along the loop as printed, for any rates of the observer's errors."""
     return _rate_53(-1, h_limited=True)
 
 

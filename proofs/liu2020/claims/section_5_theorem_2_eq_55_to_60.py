@@ -140,9 +140,9 @@ bound_55_weights = -sigma_v / 2 * (W_1**2 + W_2**2) + mu_2
 
 
 def _mended_57() -> Goal:
+    """The right side of (55) against that of (57)."""
     sizes = {delta_size: robust_size, theta_size: theta_number}
-    return Goal((at_most(V_2_dot, (-rho * V_2 + mu_2_stated).xreplace(sizes)),),
-                (at_most(V_2_dot, bound_55.xreplace(sizes)), *rates_2, *largest))
+    return Goal((at_most(bound_55.xreplace(sizes), (-rho * V_2 + mu_2_stated).xreplace(sizes)),), (*rates_2, *largest))
 
 
 @paper.claim("57", "V_2 decays up to mu_2", "implication", r"\dot V_2 \le -\rho_2V_2 + \mu_2", "gap", premises=("55.second",),
@@ -153,9 +153,9 @@ def _mended_57() -> Goal:
              reading="rho_2 is at most each entry of (56), mu_2 is its mu.",
              note="From (55), its doubled term counted once as in (56); see 56.weights for the entry that fails.")
 def decay_2() -> Goal:
-    """From (55) with the smallest eigenvalue of the tracking network's inverse gain."""
+    """From (55), met with equality, with the smallest eigenvalue of the tracking network's inverse gain."""
     return Goal((at_most(V_2_dot, -rho * V_2_weights + mu_2),),
-                (at_most(V_2_dot, bound_55_weights), *rates_1, *rates_scalar, equal(lambda_v, entry_1),
+                (equal(V_2_dot, bound_55_weights), *rates_1, *rates_scalar, equal(lambda_v, entry_1),
                  at_most(entry_1, entry_2), at_most(rho * lambda_v, sigma_v)))
 
 

@@ -4,17 +4,17 @@ from __future__ import annotations
 
 from workbench.proof.claim import D, Goal, at_most, greater
 
-from ..error_dynamics import eps_v, t, theta_tilde, tracking_loop
+from ..error_dynamics import t, theta_tilde, w_v
 from ..exact_motions import tracking_motion
-from ..laws import alpha_2, beta_2, e_v, k_5, kappa_2, sigma_v
+from ..laws import alpha_2, beta_2, e_v, k_5, sigma_v
 from ..lyapunov import V_tracking, bounded_by_eigenvalue, lambda_v, mu, norm_v, positive, rho, square_v
 from ..notation import ERRORS
 from ..paper import EVERY_NETWORK, paper
 from ..plant import M, chi
-from ..smooth_sign import constant_suffices, smooth_sign_facts
+from .section_5_theorem_1_eq_36_to_40 import free_2
 from .section_5_theorem_1_eq_41_to_43 import mu_1_stated, slack
 from .section_5_theorem_1_eq_44_to_48 import V_t
-from .section_5_theorem_2_eq_55_to_60 import bound_tracking, mu_2_stated, smooth_2, theta_bounds
+from .section_5_theorem_2_eq_55_to_60 import bound_tracking, mu_2_stated
 
 
 @paper.claim("theorem2", "Theorem 2: all signals of the closed loop are ultimately bounded", "limit",
@@ -43,19 +43,19 @@ mu_tracking = positive(mu_2_stated - mu_1_stated)
              note="For all ten columns of Table 2; plus before h_v e_v in (32), minus before the leakage of (32) and (35), "
                   "a constant theta that bounds |eps_v - (M/chi) d|, lambda_max in place of lambda_min.")
 def mended_decay() -> Goal:
-    """D(V_2 - V_1) along the loop with the signs turned."""
+    """From 55.mended."""
     rates = (at_most(rho * M, 2 * chi * k_5), at_most(rho, alpha_2 * beta_2), at_most(rho * lambda_v, sigma_v))
     return Goal((at_most(D(V_tracking), -rho * V_tracking + mu_tracking),),
-                (*theta_bounds, *rates, bounded_by_eigenvalue(square_v, norm_v, lambda_v)), tracking_loop(-1, 1, eps_v),
-                facts=smooth_sign_facts(e_v, kappa_2),
-                lemmas=(constant_suffices, *smooth_2, at_most(D(V_tracking), positive(bound_tracking))))
+                (*paper.shown("55.mended"), *rates, bounded_by_eigenvalue(square_v, norm_v, lambda_v)),
+                {moving: free_2[moving] for moving in (e_v, w_v, theta_tilde)},
+                lemmas=(at_most(positive(bound_tracking), -rho * V_tracking + mu_tracking),))
 
 
 @paper.claim("theorem2.mended", "Theorem 2 with the signs turned, if (28) holds", "implication",
              r"\frac{M}{\chi}e_v^2 \le 2\left(\frac{\mu_2}{\rho_2} + c\right),\ \tilde W_v^T\Gamma_v^{-1}\tilde W_v \le "
              r"2\left(\frac{\mu_2}{\rho_2} + c\right),\ \tilde\theta^2 \le 2\alpha_2\left(\frac{\mu_2}{\rho_2} + c\right)",
              "proved", origin="ours", mends="theorem2", severity="result", rests_on=(),
-             premises=("28", "theorem1.mended", "theorem2.decay", "59", "60.mended", "23.bounded"), scope=EVERY_NETWORK,
+             premises=("28", "theorem1.mended", "theorem2.decay", "comparison", "60.mended", "23.bounded"), scope=EVERY_NETWORK,
              where=ERRORS | {r"\mu_2": mu, "c": slack},
              note="For every c > 0 from some time on: V_2 - V_1 decays (theorem2.decay), so it meets the bound of "
                   "60.mended, and e_s follows (23.bounded). It needs (28) with a bounded eps_v along the motion, for an "

@@ -8,25 +8,42 @@ from workbench.proof.claim import D, Goal, Relation, at_least, at_most, equal, g
 
 from ..active_mode import REGRESSORS
 from ..error_dynamics import ALL_MODES, NAMES, motor, of_mode, over_modes, over_motors
+from ..notation import in_time
 from ..paper import paper
-from ..plant import D_c, F, M, a_r, b_r, c_r, curvature, d_force, g, newton_1, slope_ramp, t, vartheta, x_1, x_2
+from ..plant import D_c, F, M, a_r, b_r, c_r, curvature, d_force, g, slope_ramp, t, vartheta, x_1, x_2
+
+v, acceleration = sp.symbols("v acceleration", real=True)  # x' and x''
+F_g, F_c = sp.symbols("F_g F_c", real=True)
+model_1 = (equal(M * acceleration, F - a_r - b_r * v - c_r * v**2 - F_g - F_c + d_force),
+           equal(F_g, M * g * vartheta), equal(F_c, curvature * D_c * M))  # (1), (2), (3)
+FORCES = in_time({"M": M, r"\ddot{x}": acceleration, r"\dot{x}": v, "F": F, "a_r": a_r, "b_r": b_r, "c_r": c_r, "D": D_c,
+                  "d": d_force, r"\sin\theta": vartheta}) | {r"\dot{x}^2(t)": v**2, "q": g}
 
 
 @paper.claim("4", "The train with grade and curve", "identity",
-             r"M\ddot x = F - (a_r + b_r\dot x + c_r\dot x^2) - Mg\sin\theta - 0.004DM + d", "proved",
-             note="The extracted text has q for g. sin(theta) is written vartheta, as the paper does from (5) on.")
+             r"M(t)\ddot{x}(t) = F(t) - (a_r(t) + b_r(t)\dot{x}(t) + c_r(t)\dot{x}^2(t)) - M(t)q\sin\theta(t) - "
+             r"0.004D(t)M(t) + d(t)", "proved", where=FORCES,
+             reading="q is g, as in (2); sin(theta) is one letter, which the paper calls vartheta from (5) on.")
 def with_grade_and_curve() -> Goal:
     """(2) and (3) put into (1)."""
-    return Goal((equal(newton_1, F - (a_r + b_r * x_2 + c_r * x_2**2) - M * g * vartheta
-                       - sp.Rational(4, 1000) * D_c * M + d_force),))
+    return Goal((equal(M * acceleration, F - (a_r + b_r * v + c_r * v**2) - M * g * vartheta
+                       - curvature * D_c * M + d_force),), model_1)
+
+
+m_t, a_t, b_t, c_t, d_bar = sp.symbols("m a b c d_bar", real=True)
+PER_MASS = in_time({"m": m_t, "a": a_t, "b": b_t, "c": c_t, r"\bar{d}": d_bar, "D": D_c, r"\vartheta": vartheta,
+                    r"\ddot{x}": acceleration, r"\dot{x}": v, "F": F}) | {r"\dot{x}^{2}(t)": v**2, "q": g}
 
 
 @paper.claim("5", "The train per unit of mass", "identity",
-             r"\ddot x = mF - (a + b\dot x + c\dot x^2) - g\vartheta - 0.004D + \bar d", "proved", premises=("4",))
+             r"\ddot{x}(t) = m(t)F(t) - (a(t) + b(t)\dot{x}(t) + c(t)\dot{x}^{2}(t)) - q\vartheta(t) - 0.004D(t) + "
+             r"\bar{d}(t)", "proved", premises=("4",), where=PER_MASS, reading="q is g, as in (2) and (8).",
+             note="With m = 1/M, a = a_r/M, b = b_r/M, c = c_r/M and d_bar = d/M, as the text before (5) has them.")
 def per_mass() -> Goal:
-    """(4) divided by M with m = 1/M, a = a_r/M and so on."""
-    stated = F / M - (a_r / M + b_r / M * x_2 + c_r / M * x_2**2) - g * vartheta - curvature * D_c + d_force / M
-    return Goal((equal(newton_1 / M, stated),))
+    """(4) divided by M."""
+    new = ((m_t, 1), (a_t, a_r), (b_t, b_r), (c_t, c_r), (d_bar, d_force))
+    return Goal((equal(acceleration, m_t * F - (a_t + b_t * v + c_t * v**2) - g * vartheta - curvature * D_c + d_bar),),
+                (*paper.shown("4"), *(equal(x, force / M) for x, force in new)))
 
 
 ramp = slope_ramp(sp.Rational(1, 4), sp.Integer(800))
@@ -37,11 +54,13 @@ def _ramp_goal(*begin: Relation) -> Goal:
 
 
 @paper.claim("6", "The ramp of section VIII is an indicator as (6) asks", "inequality",
-             r"\Psi_{\vartheta 3}(t) = 0.25(t - 800) \in (0, 1]\ \text{for}\ t \in [800, 804]", "refuted",
+             r"\Psi_{\varrho i}(t) \in (0, 1],\ \chi_{\theta 3} = 0.25(t - 800)\ \text{for}\ t \in [800, 804]", "refuted",
+             origin="implied", severity="cosmetic",
+             reading="Section VIII's ramp is held against the range that (6) asks of every Psi.",
              correction=lambda: _ramp_goal(greater(t, 800)),
              corrected_statement=r"0.25(t - 800) \in (0, 1]\ \text{for}\ t \in (800, 804]",
-             note="Cosmetic: (6) asks for Psi in (0, 1] and in the next sentence for a ramp that starts at 0. No step "
-                  "of the proofs needs Psi > 0.")
+             note="(6) asks for Psi in (0, 1] and in the next sentences for a ramp that starts at 0, or ends there. No "
+                  "step of the proofs needs Psi > 0.")
 def ramp_in_range() -> Goal:
     """Positive and at most 1 on the closed interval."""
     return _ramp_goal(at_least(t, 800))
@@ -57,30 +76,45 @@ acceleration_by_modes = over_modes(m_of * chi_m_of) * F - sum(
     (over_modes(x * chi) * by for x, chi, by in parameters_of_mode()), sp.Integer(0)) + over_modes(d_of * chi_d_of)
 
 
-@paper.claim("7", "Position and speed", "identity", r"\dot x_1 = x_2", "proved", premises=("5",),
-             note="A definition: x_1 = x, x_2 = x'.")
+@paper.claim("7", "Position and speed", "identity", r"\dot{x}_1(t) = x_2(t)", "proved",
+             note="From the definitions x_1 = x and x_2 = x'.")
 def position_and_speed() -> Goal:
     """The first state's rate is the second."""
-    return Goal((equal(D(x_1), x_2),), flow={x_1: x_2})
+    return Goal((equal(D(x_1), x_2),), (equal(x_2, v),), flow={x_1: v})
 
 
-@paper.claim("8", "The piecewise model", "identity",
-             r"\dot x_1 = x_2,\ \dot x_2 = mF - a - bx_2 - cx_2^2 - g\vartheta - 0.004D + \bar d\ \text{with (9), (10)}",
-             "proved", premises=("5",), scope=ALL_MODES,
-             note="(7) and (8) with the sums (9), (10), gathered mode by mode as (24) uses them. The paper supposes "
-                  "that the state is in one region only; that it is in some region at every instant is meant too.")
+@paper.claim("8", "The train in state space", "identity",
+             r"\dot{x}_2(t) = m(t)F(t) - a(t) - b(t)x_2(t) - c(t)x_2^2(t) - g\vartheta(t) - 0.004D(t) + \bar{d}(t)",
+             "proved", premises=("5",), where=PER_MASS)
+def speed_rate() -> Goal:
+    """(5) with x_2 = x'."""
+    return Goal((equal(D(x_2), m_t * F - a_t - b_t * x_2 - c_t * x_2**2 - g * vartheta - curvature * D_c + d_bar),),
+                (*paper.shown("5"), equal(v, x_2)), flow={x_2: acceleration})
+
+
+@paper.claim("8.modes", "The piecewise model, gathered mode by mode", "identity",
+             r"\dot{x}_2(t) = \sum_{i=1}^{l}\left(m_i\chi_{mi}F - a_i\chi_{ai} - b_i\chi_{bi}x_2 - c_i\chi_{ci}x_2^2 - "
+             r"g\vartheta_i\chi_{\vartheta i} - 0.004D_i\chi_{Di} + \bar d_i\chi_{\bar di}\right)", "proved",
+             premises=("8",), origin="implied", scope=ALL_MODES,
+             reading="(8) with the sums (9), (10) put in, as (24) and (39) use it.",
+             note="The paper supposes that the state is in one region only; that it is in some region at every instant "
+                  "is meant too.")
 def by_modes() -> Goal:
     """(8) with (9), (10): the sums are linear in the modes."""
     gathered = over_modes(m_of * chi_m_of * F - sum((x * chi * by for x, chi, by in parameters_of_mode()),
                                                     sp.Integer(0)) + d_of * chi_d_of)
-    return Goal((equal(D(x_1), x_2), equal(D(x_2), gathered)), flow={x_1: x_2, x_2: acceleration_by_modes})
+    return Goal((equal(D(x_2), gathered),), flow={x_2: acceleration_by_modes})
 
 
 d_most, M_least = sp.symbols("d_max M_min", positive=True)
 
 
 @paper.claim("10", "A bound of the disturbance per unit of mass is available", "inequality",
-             r"|d| \le d_{max},\ M \ge M_{min} \Rightarrow |\bar d| \le \frac{d_{max}}{M_{min}}", "proved")
+             r"\text{Because bounds on } d(t) \text{ is known, and the masses of the empty and full train are also known, "
+             r"the bounds of the term } \bar{d}(t) = d(t)/M(t) \text{ is available}", "proved", match="words",
+             reading="|d| <= d_max and M >= M_min give |d/M| <= d_max/M_min.",
+             note="Section II says twice that the bound of d is unknown, before and after (5), and else that it is "
+                  "known; known is what (36) needs.")
 def disturbance_per_mass() -> Goal:
     """From the bound of d and the mass of the empty train."""
     return Goal((at_most(sp.Abs(d_force) / M, d_most / M_least),),
@@ -90,25 +124,48 @@ def disturbance_per_mass() -> Goal:
 nu_0 = sp.Symbol("nu_0", real=True)
 failed, F_0, F_rho, f_rho, delta_j = (sp.IndexedBase(n, real=True)[motor] for n in (
     "failed", "F_0", "F_rho", "f_rho", "delta"))
-healthy_count = over_motors(1 - failed)  # k_nu
+EVERY_MOTOR = "every number of motors, the varying basis signals of a motor gathered in one"
+healthy = over_motors(1 - failed)  # k_nu
+known = over_motors(failed * (F_0 + F_rho * f_rho))  # xi^T varpi
 
 
-@paper.claim("13", "The force with failures", "identity", r"F = \sum_{j=1}^n F_j = k_\nu\nu_0 + \xi^T\varpi", "proved",
-             scope="every number of motors, the varying basis signals of a motor gathered in one",
-             note="failed_j is 1 for a failed motor and else 0; xi_j must be read as 0 for a healthy motor, and all "
-                  "healthy motors get the same nu_0.")
+def force_of_motors(extra: sp.Expr) -> sp.Expr:
+    """(12): nu_0 from healthy motors, what (11) says and something extra from failed ones, for which failed_j = 1."""
+    return over_motors((1 - failed) * nu_0 + failed * (F_0 + F_rho * f_rho + extra))
+
+
+def _letters(extra: sp.Expr) -> dict[str, sp.Expr]:
+    return {"F(t)": force_of_motors(extra), r"k_{\nu}": healthy, r"\nu_0(t)": nu_0, r"\xi^T\varpi(t)": known,
+            r"\sum_{j=1}^{n-k_\nu}\bar\delta_j(t)": over_motors(failed * delta_j)}
+
+
+@paper.claim("13", "The force with failures", "identity", r"F(t) = k_{\nu}\nu_{0}(t) + \xi^{T}\varpi(t)", "proved",
+             scope=EVERY_MOTOR, where=_letters(sp.Integer(0)),
+             note="xi_j must be read as 0 for a healthy motor, k_nu counts the healthy ones, and all of them get the "
+                  "same nu_0.")
 def force_with_failures() -> Goal:
-    """(12) with (11) for failed motors and nu_0 for the others; k_nu counts the healthy ones."""
-    total = over_motors((1 - failed) * nu_0 + failed * (F_0 + F_rho * f_rho))
-    return Goal((equal(total, healthy_count * nu_0 + over_motors(failed * F_0 + failed * F_rho * f_rho)),))
+    """(12) with (11) for failed motors and nu_0 for the others."""
+    return Goal((equal(force_of_motors(sp.Integer(0)), healthy * nu_0 + known),))
+
+
+motors, most_failed, failures = sp.symbols("n n_bar failures", nonnegative=True)
+
+
+@paper.claim("A1", "At least one motor is left", "inequality",
+             r"\text{any up to } \bar{n}\ (\bar{n} < n) \text{ actuators fail}\ldots k_{\nu} \text{ only takes one integer "
+             r"in the interval } [n - \bar{n}, n]", "proved", match="words",
+             reading="k_nu is n less the number of failed motors.")
+def motors_left() -> Goal:
+    """n - failures, with failures <= n_bar < n."""
+    left = motors - failures
+    return Goal((at_least(left, motors - most_failed), at_most(left, motors), greater(left, 0)),
+                (at_most(failures, most_failed), less(most_failed, motors)))
 
 
 @paper.claim("17", "The force with unparameterizable failures", "identity",
-             r"F = k_\nu\nu_0 + \xi^T\varpi + \sum_{j=1}^{n-k_\nu}\bar\delta_j", "proved", premises=("13",),
-             scope="every number of motors, the varying basis signals of a motor gathered in one",
-             note="The sum up to n - k_nu supposes that failed motors are numbered first.")
+             r"F(t) = k_{\nu}\nu_{0}(t) + \xi^{T}\varpi(t) + \sum_{j=1}^{n-k_{\nu}}\bar{\delta}_{j}(t)", "proved",
+             premises=("13",), scope=EVERY_MOTOR, where=_letters(delta_j),
+             reading="The sum up to n - k_nu runs over the failed motors, as if these were numbered first.")
 def force_with_rest() -> Goal:
     """(12) with (16) for failed motors."""
-    total = over_motors((1 - failed) * nu_0 + failed * (F_0 + F_rho * f_rho + delta_j))
-    stated = healthy_count * nu_0 + over_motors(failed * F_0 + failed * F_rho * f_rho) + over_motors(failed * delta_j)
-    return Goal((equal(total, stated),))
+    return Goal((equal(force_of_motors(delta_j), healthy * nu_0 + known + over_motors(failed * delta_j)),))

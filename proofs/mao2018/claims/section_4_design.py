@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import sympy as sp
 
-from workbench.proof.claim import D, Goal, Relation, at_least, at_most, equal
+from workbench.proof.claim import D, Goal, Relation, at_least, at_most, equal, greater, less
 
 from ..active_mode import (
     Gamma_k,
     Gamma_m,
+    Gamma_xi,
     alpha_1,
     chi_d,
     d,
@@ -20,7 +21,6 @@ from ..active_mode import (
     rho_0,
     rho_hat,
     rho_k_hat,
-    rho_k_law,
     rho_law,
     signal_of,
     wanted,
@@ -42,31 +42,74 @@ from ..error_dynamics import (
     within,
 )
 from ..lyapunov import V_40, V_true, lyapunov, m_all
+from ..modes import p, p_hat
 from ..paper import paper
 from ..plant import F, r_1, r_2, x_1, x_2, x_m, xddot_m, xdot_m, z_1, z_2
 from .section_2 import acceleration_by_modes, chi_d_of, chi_m_of, d_of, m_of, nu_0, parameters_of_mode
-from .section_3_design import rho_rate
 
-rho_k_rate = sp.Symbol("rho_k_hat_dot", real=True)
+rho_rate, rho_k_rate = sp.symbols("rho_hat_dot rho_k_hat_dot", real=True)
 
 
 @paper.claim("39", "Rate of z_2 with failures", "identity",
-             r"\dot z_2 = \sum_i\left(m_i\chi_{mi}(k_\nu\nu_0 + \xi^T\varpi) - a_i\chi_{ai} - \dots + \bar d_i\chi_{\bar di}"
-             r"\right) - \dot\alpha_1", "proved", premises=("13", "24"), scope=ALL_MODES)
+             r"\dot{z}_2(t) = \sum_{i=1}^{l}(m_i\chi_{mi}(t)(k_{\nu}\nu_0(t) + \xi^T\varpi(t)) - a_i\chi_{ai}(t) - "
+             r"b_i\chi_{bi}(t)x_2(t) - c_i\chi_{ci}(t)x_2^2(t) - g\vartheta_i\chi_{\vartheta i}(t) - 0.004D_i\chi_{Di}(t) + "
+             r"\bar{d}_i(t)\chi_{\bar{d}i}(t)) - \dot{\alpha}_1(t)", "proved", premises=("13", "8.modes"),
+             rests_on=("8.modes", "13"), scope=ALL_MODES,
+             where={"z_2": x_2 - alpha_1, "z_2(t)": x_2 - alpha_1, "m_i": m_of, r"\nu_0(t)": nu_0})
 def speed_error_rate_failed() -> Goal:
-    """(24) with (13); xi^T varpi is one number here."""
-    force = k_v * nu_0 + sp.Symbol("xi_varpi", real=True)
+    """(24) with (13)."""
+    force = k_v * nu_0 + p
     stated = over_modes(m_of * chi_m_of * force - sum((x * chi * by for x, chi, by in parameters_of_mode()),
                                                       sp.Integer(0)) + d_of * chi_d_of)
-    return Goal((equal(D(x_2 - alpha_1), stated + r_1 * (x_2 - xdot_m) - xddot_m),),
+    return Goal((equal(D(x_2 - alpha_1), stated - D(alpha_1)),),
                 flow={x_1: x_2, x_2: acceleration_by_modes.xreplace({F: force}), x_m: xdot_m, xdot_m: xddot_m})
 
 
+def bounds_errors(V: sp.Expr) -> Goal:
+    """V is at least the squared errors' half."""
+    return Goal((at_least(V, z_1**2 / 2 + z_2**2 / 2), at_least(V, 0)))
+
+
 @paper.claim("40", "V_2 bounds the errors", "inequality", r"V_2 \ge \tfrac12 z_1^2 + \tfrac12 z_2^2 \ge 0", "proved",
-             scope=ALL_SIGNALS)
+             origin="implied", scope=ALL_SIGNALS, reading="The text calls V_2 positive definite.")
 def failure_lyapunov_not_negative() -> Goal:
-    """Squares with positive weights, as printed and with the weights that fit."""
-    return Goal(tuple(at_least(V, z_1**2 / 2 + z_2**2 / 2) for V in (V_40, V_true)))
+    """Squares with positive weights."""
+    return bounds_errors(V_40)
+
+
+@paper.claim("40.mended", "V_2 with the weights that fit bounds the errors", "inequality",
+             r"V_2 \ge \tfrac12 z_1^2 + \tfrac12 z_2^2 \ge 0", "proved", origin="ours", mends="40", scope=ALL_SIGNALS)
+def fitting_lyapunov_not_negative() -> Goal:
+    """The weight m_i k_nu for rho_knu and rho_i, m_i for xi."""
+    return bounds_errors(V_true)
+
+
+T_p, T_next, T_q, T_later = sp.symbols("T_p T_p1 T_q T_q1", nonnegative=True)
+
+
+@paper.claim("40.order", "A mode switches between two failures", "implication",
+             r"\text{Without loss of generality, we assume that } T_p \in (T_q, T_{q+1}) \text{ and } T_{p+1} > T_{q+1}",
+             "gap", match="words", severity="cosmetic",
+             reading="Failures at T_p < T_{p+1}, the first of them between the switches T_q and T_{q+1}.",
+             note="Two failures may fall between two switches of the mode. Nothing depends on it: V_2 jumps by a finite "
+                  "amount at each failure (46.jump).")
+def order_of_instants() -> Goal:
+    """Both failures before the next switch."""
+    return Goal((greater(T_next, T_later),), (less(T_q, T_p), less(T_p, T_later), less(T_p, T_next)))
+
+
+xi_rate, varpi_one = sp.symbols("xi_hat_rate varpi_one", real=True)
+
+
+@paper.claim("41.law", "The law of xi_hat cancels its error in the rate of V_2", "identity",
+             r"\hat{\xi}(t) = \Gamma_{\xi}z_2(t)\varpi(t)", "proved", premises=("39",), scope="every component, one mode",
+             where={r"\hat{\xi}(t)": xi_rate, r"\varpi(t)": varpi_one},
+             reading="(41); the extracted text lost the dot over xi_hat, which is 'updated by' it.",
+             note="Decided as what the paper chooses it for: the rate for which the coefficient of the estimation error "
+                  "is zero. With several modes the weights of (40) do not fit: see 41.")
+def xi_law_cancels() -> Goal:
+    """The coefficient of a component of xi_tilde: m_i z_2 varpi from z_2', and that of its square in (40)."""
+    return Goal((equal(xi_rate, Gamma_xi * z_2 * varpi_one),), (equal(m * z_2 * varpi_one - m / Gamma_xi * xi_rate, 0),))
 
 
 def _rate_41(of_k: sp.Expr, of_xi: sp.Expr) -> Goal:
@@ -77,32 +120,43 @@ def _rate_41(of_k: sp.Expr, of_xi: sp.Expr) -> Goal:
                 {**failed_train(nu_0), **estimate_laws, **xi_law, rho_k_hat: rho_k_rate, rho_hat: rho_rate})
 
 
-RATE_41 = (r"\dot V_2 = -r_1z_1^2 + z_2\sum_im_ik_\nu\chi_{mi}(\nu_0 + \rho_{k\nu}\hat\xi^T\varpi - \rho_i\zeta_i + \dots)"
-           r" - r_2z_2^2 + \sum_i\tfrac{m_i}{\Gamma_{k\nu}}\tilde\rho_{k\nu}\dot{\tilde\rho}_{k\nu} + "
-           r"\sum_i\tfrac{m_i}{\Gamma_{mi}}\tilde\rho_i\dot{\tilde\rho}_i")
+RATE_41 = (r"\dot{V}_2 = -r_1z_1^2(t) + z_2(t)\sum_{i=1}^{l}m_ik_{\nu}\chi_{mi}(t)\left(\nu_0(t) + \rho_{k\nu}\hat{\xi}^T(t)"
+           r"\varpi(t) - \rho_i\zeta_i(t) + \rho_i\bar{d}_i(t)\chi_{\bar{d}i}(t) + \rho_i\eta(t) + \rho_ir_2z_2(t)\right) - "
+           r"r_2z_2^2(t) + %s + \sum_{i=1}^{l}\frac{m_i}{\Gamma_{mi}}\tilde{\rho}_i(t)\dot{\rho}_i(t)")
 
 
-@paper.claim("41", "Rate of V_2 under the laws (27)-(31), (41)", "identity", RATE_41, "refuted",
-             premises=("39", "25.idle"), scope=ALL_SIGNALS, correction=lambda: _rate_41(m, m),
+@paper.claim("41", "Rate of V_2 under the laws (27)-(31), (41)", "identity",
+             RATE_41 % r"\sum_{i=1}^{l}\frac{m_i}{\Gamma_{k\nu}}\tilde{\rho}_{k\nu}(t)\dot{\rho}_{k\nu}(t)", "refuted",
+             premises=("39", "25.idle"), rests_on=("39", "41.law", "27", "28", "29", "30", "31"), scope=ALL_SIGNALS,
+             reading="The display before (42), with the idle modes gathered: their m_i add up to one more number in (40), "
+                     "and their errors rest. The extracted text lost the tildes under the last two dots.",
+             correction=lambda: _rate_41(m, m),
              corrected_statement=r"\dot V_2 = \dots\ \text{if}\ V_2\ \text{has}\ m_i\ \text{of one mode instead of}\ "
                                  r"\textstyle\sum_im_i\ \text{before}\ \tilde\rho_{k\nu}^2\ \text{and}\ \tilde\xi^T\tilde\xi",
-             note="The display before (42). (40) weighs the error of xi with the sum of all m_i, the train with the "
-                  "m_i of the active mode, so a term -(sum of the idle m_i) z_2 xi_tilde^T varpi is left over. True "
-                  "for l = 1. With equal masses, as in section VIII, one m in V_2 mends it; with different masses "
-                  "each mode needs its own estimates of xi and rho_knu.")
+             note="(40) weighs the error of xi with the sum of all m_i, the train with the m_i of the active mode, so a "
+                  "term -(sum of the idle m_i) z_2 xi_tilde^T varpi is left over. True for l = 1. With equal masses, as "
+                  "in section VIII, one m in V_2 mends it; with different masses each mode needs its own estimates of "
+                  "xi and rho_knu.")
 def v2_rate_failed() -> Goal:
     """D(V_2) of (40) along (39) with nu_0 and the rates of rho_hat and rho_knu_hat free."""
     return already(_rate_41(m_all, m_all), exact | one_failed)
 
 
+@paper.claim("41.mended", "Rate of V_2 with the m of one mode before the errors of failures", "identity",
+             RATE_41 % r"\frac{m_i}{\Gamma_{k\nu}}\tilde{\rho}_{k\nu}(t)\dot{\tilde{\rho}}_{k\nu}(t)", "proved",
+             premises=("39", "25.idle"), origin="ours", mends="41", scope=ALL_SIGNALS)
+def v2_rate_failed_mended() -> Goal:
+    """One m_i instead of their sum in (40)."""
+    return _rate_41(m, m)
+
+
 def _law_44(weight: sp.Expr, sign: int) -> Goal:
-    error = rho_k - rho_k_hat
-    return Goal((equal(z_2 * m * k_v * error * failure_hat + D(weight * error**2 / (2 * Gamma_k)), 0),),
-                flow={rho_k_hat: sign * rho_k_law})
+    return Goal((equal(rho_k_rate, sign * Gamma_k * z_2 * p_hat),),
+                (equal(z_2 * m * k_v * p_hat - weight / Gamma_k * rho_k_rate, 0),))
 
 
-LAW_44 = (r"\dot{\hat\rho}_{k\nu} = %s\Gamma_{k\nu}z_2\hat\xi^T\varpi \Rightarrow z_2m_ik_\nu\tilde\rho_{k\nu}\hat\xi^T\varpi "
-          r"+ \tfrac{%s}{\Gamma_{k\nu}}\tilde\rho_{k\nu}\dot{\tilde\rho}_{k\nu} = 0")
+LAW_44 = r"\dot{\hat{\rho}}_{k\nu}(t) = %s\Gamma_{k\nu}z_2(t)\hat{\xi}^T(t)\varpi(t)"
+LETTERS_44 = {r"\dot{\hat{\rho}}_{k\nu}(t)": rho_k_rate}
 
 
 def left_by(signal: sp.Expr, compensation: sp.Expr, *more: sp.Expr) -> Goal:
@@ -117,7 +171,7 @@ LEFT = (r"z_2m_ik_\nu(\nu_0 + \rho_{k\nu}\hat\xi^T\varpi - \rho_i\zeta_i + \dots
 
 
 @paper.claim("42", "What the controller leaves of the rate of V_2", "identity", LEFT % r"\nu_{di}", "proved",
-             premises=("39",), scope=ALL_SIGNALS, note="(42) put into the display before it.")
+             premises=("39",), origin="implied", scope=ALL_SIGNALS, reading="(42) put into the display before it.")
 def failure_controller_in_rate() -> Goal:
     """(42) in the bracket of V_2'."""
     return left_by(signal_of(nu_failed), nu_failed)
@@ -133,32 +187,46 @@ OUTWEIGHED = r"m_ik_\nu \ge \rho_i^0,\ %s \Rightarrow z_2(m_ik_\nu\nu_{di} + \ba
 
 
 @paper.claim("43", "nu_d outweighs the disturbance with failures too", "inequality",
-             OUTWEIGHED % r"\lambda_i^0 \ge d_i^0 \ge |\bar d_i|", "proved", premises=("10",), scope=ACTIVE_MODE,
+             OUTWEIGHED % r"\lambda_i^0 \ge d_i^0 \ge |\bar d_i|", "proved", premises=("10",), origin="implied",
+             scope=ACTIVE_MODE, reading="What (43) is designed for.",
              note="rho_i^0 bounds m_i k_nu from below, as the inequality in the text says (its words say m_i).")
 def disturbance_outweighed_failed() -> Goal:
     """For every value of Filippov's sign at z_2 = 0."""
     return outweighed(nu_failed, *disturbed)
 
 
-@paper.claim("44", "The law of rho_knu_hat cancels its error in the rate of V_2", "identity", LAW_44 % ("-", "m_i"),
-             "refuted", premises=("41",), scope=ALL_SIGNALS, correction=lambda: _law_44(m * k_v, -1),
-             corrected_statement=LAW_44 % ("", "m_ik_\\nu"),
-             note="The sign is wrong: the two terms add up to (k_nu + 1) m_i z_2 rho_tilde xi_hat^T varpi, and no "
+CHOSEN_44 = ("Decided as what the paper chooses the law for: the rate for which the coefficient of the estimation error in "
+             "the rate of V_2 is zero. ")
+
+
+@paper.claim("44", "The law of rho_knu_hat cancels its error in the rate of V_2", "identity", LAW_44 % "-", "refuted",
+             premises=("41.mended", "42"), rests_on=("41", "42"), scope="every number of basis signals, one mode",
+             glyph="44.glyph", where=LETTERS_44, correction=lambda: _law_44(m * k_v, 1),
+             corrected_statement=LAW_44 % "" + r"\ \text{with the weight}\ m_ik_\nu\ \text{of}\ \tilde\rho_{k\nu}^2",
+             note=CHOSEN_44 + "The sign is wrong: with (42) and (44) the terms of rho_tilde add up instead, and no "
                   "positive weight in V_2 makes them cancel. (44) drives the estimate the wrong way; see theorem2 for "
-                  "what it does. Taken for l = 1, so that 41 plays no part. Should the page show a plus, theorem2 and "
-                  "45 hold but for the weights.")
+                  "what it does. Taken for l = 1, so that 41 plays no part.")
 def rho_k_law_cancels() -> Goal:
-    """The error's term of z_2 m_i k_nu nu_0 against D of its term in (40)."""
+    """The coefficient of rho_tilde_knu: z_2 m_i k_nu xi_hat^T varpi from (42), and that of its square in (40)."""
+    return already(_law_44(m, -1), one_failed)
+
+
+@paper.claim("44.glyph", "With a plus for the minus of (44) the term cancels in (40)", "identity", LAW_44 % "", "refuted",
+             premises=("41.mended", "42"), origin="ours", glyph="44", severity="cosmetic",
+             scope="every number of basis signals, one mode", where=LETTERS_44, correction=lambda: _law_44(m * k_v, 1),
+             corrected_statement=LAW_44 % "" + r"\ \text{with the weight}\ m_ik_\nu\ \text{of}\ \tilde\rho_{k\nu}^2",
+             note=CHOSEN_44 + "The weight in (40) lacks k_nu: true only for k_nu = 1. Cosmetic, since V_2 is free to choose.")
+def rho_k_law_weight() -> Goal:
+    """The same with a plus in (44)."""
     return already(_law_44(m, 1), one_failed)
 
 
-@paper.claim("44.weight", "With the sign of (44) mended the term cancels in (40)", "identity", LAW_44 % ("", "m_i"),
-             "refuted", premises=("44",), scope=ALL_SIGNALS, correction=lambda: _law_44(m * k_v, -1),
-             corrected_statement=LAW_44 % ("", "m_ik_\\nu"),
-             note="The weight in (40) lacks k_nu: true only for k_nu = 1. Cosmetic, since V_2 is free to choose.")
-def rho_k_law_weight() -> Goal:
-    """The same with a plus in (44)."""
-    return already(_law_44(m, -1), one_failed)
+@paper.claim("44.mended", "A plus in (44) and the weight m_i k_nu in (40)", "identity", LAW_44 % "", "proved",
+             premises=("41.mended", "42"), origin="ours", mends="44", scope="every number of basis signals, one mode",
+             where=LETTERS_44, note=CHOSEN_44)
+def rho_k_law_mended() -> Goal:
+    """Sign and weight mended."""
+    return _law_44(m * k_v, 1)
 
 
 def _law_37(weight: sp.Expr) -> Goal:
@@ -169,11 +237,12 @@ def _law_37(weight: sp.Expr) -> Goal:
 
 @paper.claim("37.failures", "(37) cancels its error with failures too", "identity",
              r"\rho_i = \tfrac{1}{m_ik_\nu}:\ -z_2m_ik_\nu\tilde\rho_i(\zeta_i - \eta - r_2z_2) + "
-             r"\tfrac{m_i}{\Gamma_{mi}}\tilde\rho_i\dot{\tilde\rho}_i = 0", "refuted", premises=("41",), scope="each mode",
-             correction=lambda: _law_37(m * k_v),
+             r"\tfrac{m_i}{\Gamma_{mi}}\tilde\rho_i\dot{\tilde\rho}_i = 0", "refuted", premises=("41.mended",),
+             rests_on=("41",), origin="implied", severity="cosmetic", scope="each mode", correction=lambda: _law_37(m * k_v),
              corrected_statement=r"-z_2m_ik_\nu\tilde\rho_i(\zeta_i - \eta - r_2z_2) + "
                                  r"\tfrac{m_ik_\nu}{\Gamma_{mi}}\tilde\rho_i\dot{\tilde\rho}_i = 0",
-             note="The weight in (40) lacks k_nu. Cosmetic: V_2 with m_i k_nu mends it, the law stands.")
+             reading="What (45) needs of (37) where rho_i is 1/(m_i k_nu).",
+             note="The weight in (40) lacks k_nu. V_2 with m_i k_nu mends it, the law stands.")
 def rho_law_failed() -> Goal:
     """The error's term of z_2 m_i k_nu nu_0 against D of its term in (40)."""
     return already(_law_37(m), exact | one_failed)

@@ -1,4 +1,4 @@
-"""mao2018, section IV: the rate (45) of V_2, its jumps (46) at failures, and Theorem 2."""
+"""mao2018, section IV: the rate (45) of V_2, its jumps at failures, and Theorem 2."""
 
 from __future__ import annotations
 
@@ -6,12 +6,44 @@ import sympy as sp
 
 from workbench.proof.claim import D, Goal, at_least, at_most, equal
 
-from ..active_mode import basis, chi_d, d, lambda_0, m, nu_failed, over_basis, rho_0, signal_of
-from ..counterexamples import already, exact, one_failed, unit_gains
-from ..error_dynamics import ALL_SIGNALS, disturbed, failed_train, filippov, k_v, laws_printed, laws_true, size, within
-from ..lyapunov import V_40, V_true, decay, m_idle, square_integrable
+from ..active_mode import Gamma_k, basis, chi_d, d, lambda_0, m, nu_failed, over_basis, rho_0, rho_k_hat, signal_of
+from ..counterexamples import already, exact, one_failed, one_mode, unit_gains
+from ..error_dynamics import (
+    ALL_SIGNALS,
+    disturbed,
+    failed_train,
+    filippov,
+    k_v,
+    laws_printed,
+    laws_true,
+    of_mode,
+    over_modes,
+    within,
+)
+from ..lyapunov import V_40, V_true, decay, m_idle, square_integrable, tracks
+from ..modes import (
+    EVERY_MODE,
+    V_40_i,
+    chi_di,
+    chi_mi,
+    d_i,
+    estimates,
+    lambda_i,
+    m_i,
+    one_region,
+    p,
+    p_hat,
+    rho_0i,
+    rho_hat_i,
+    rho_law_i,
+    size,
+    train,
+    wanted_i,
+    xi_square,
+    xi_square_rate,
+)
 from ..paper import paper
-from ..plant import z_1, z_2
+from ..plant import s, z_1, z_2
 from ..steady_state_error import STEADY_STATE_ERROR, epsilon, steady_state_error
 
 REPAIR = ("Repaired: (44) with a plus; in V_2 the weight m_i k_nu for rho_knu and rho_i, and no sum over the modes "
@@ -19,52 +51,85 @@ REPAIR = ("Repaired: (44) with a plus; in V_2 the weight m_i k_nu for rho_knu an
           "that rest while it is idle. ")
 
 
-def _rate_45(repaired: bool) -> Goal:
-    V, laws, own = (V_true, laws_true, 1) if repaired else (V_40, laws_printed, chi_d)
-    stated = decay - m * k_v / rho_0 * lambda_0 * size * own + z_2 * d * chi_d
-    return Goal((equal(D(V), stated),), (*filippov, at_most(chi_d, 1)), {**failed_train(signal_of(nu_failed)), **laws})
+def loop_by_modes(nu: sp.Expr) -> dict[sp.Expr, sp.Expr]:
+    """(39), (42) with nu_di = nu, (27)-(31), (37), (41), (44) as printed, with sums over the modes."""
+    force = k_v * (-rho_k_hat * p_hat + nu + rho_hat_i * wanted_i) + p
+    return {**train(m_i * chi_mi * force), **estimates, rho_hat_i: rho_law_i, rho_k_hat: -Gamma_k * z_2 * p_hat,
+            xi_square: xi_square_rate}
 
 
 @paper.claim("45.a", "Rate of V_2 in closed loop with failures", "identity",
-             r"\dot V_2 = -r_1z_1^2 - r_2z_2^2 + \sum_i\left(-\tfrac{m_ik_\nu}{\rho_i^0}\lambda_i^0|z_2|\chi_{\bar di} + "
-             r"z_2\bar d_i\chi_{\bar di}\right)", "refuted", premises=("41", "44", "37.failures"), scope=ALL_SIGNALS,
-             correction=lambda: _rate_45(repaired=True),
+             r"\dot{V}_2 = -r_1z_1^2(t) - r_2z_2^2(t) + \sum_{i=1}^{l}\left(-\frac{m_ik_{\nu}}{\rho_i^0}\lambda_i^0|z_2(t)|"
+             r"\chi_{\bar{d}i}(t) + z_2(t)\bar{d}_i(t)\chi_{\bar{d}i}(t)\right)", "refuted",
+             premises=("35.modes",), rests_on=("41", "42", "43", "44", "37.failures"), scope=EVERY_MODE,
+             where={"V_2": V_40_i},
              corrected_statement=r"\dot V_2 = -r_1z_1^2 - r_2z_2^2 + \sum_i\left(-\tfrac{m_ik_\nu}{\rho_i^0}\lambda_i^0|z_2|"
-                                 r"\chi_{mi} + z_2\bar d_i\chi_{\bar di}\right)",
+                                 r"\chi_{mi} + z_2\bar d_i\chi_{\bar di}\right)", correction=lambda: _rate_45_mended(),  # noqa: PLW0108 - defined below
              note=REPAIR + "(42) lacks the indicator chi_di that (35) has, so that chi_mi stands in the corrected "
                   "rate, which only helps. (43)'s bound rho_i^0 is one of m_i k_nu, as the text says after a slip.")
 def v2_rate_failed_closed() -> Goal:
-    """D(V_2) of (40) along (39), (27)-(31), (37), (41)-(44), as printed."""
-    return already(_rate_45(repaired=False), exact | one_failed)
+    """D(V_2) of (40) along (39), (27)-(31), (37), (41)-(44), as printed; one mode."""
+    stated = decay + over_modes(-m_i * k_v / rho_0i * lambda_i * size * chi_di + z_2 * d_i * chi_di)
+    return one_mode(Goal((equal(D(V_40_i), stated),), (*one_region, *filippov), loop_by_modes(-lambda_i * s / rho_0i)),
+                    {of_mode("lambda_0"): sp.Integer(1), of_mode("d"): sp.Integer(0)})
 
 
-def _bound_45(repaired: bool) -> Goal:
-    V, laws = (V_true, laws_true) if repaired else (V_40, laws_printed)
+def _rate_45_mended() -> Goal:
+    stated = decay - m * k_v / rho_0 * lambda_0 * s * z_2 + z_2 * d * chi_d
+    return Goal((equal(D(V_true), stated),), (at_most(chi_d, 1),), {**failed_train(signal_of(nu_failed)), **laws_true})
+
+
+def _bound_45(mended: bool) -> Goal:
+    V, laws = (V_true, laws_true) if mended else (V_40, laws_printed)
     return Goal((at_most(D(V), decay),), (*filippov, *disturbed, at_most(chi_d, 1), at_least(m * k_v, rho_0)),
                 {**failed_train(signal_of(nu_failed)), **laws}, lemmas=within)
 
 
-@paper.claim("45", "V_2 does not increase with failures: the whole argument", "implication",
-             r"m_ik_\nu \ge \rho_i^0,\ \lambda_i^0 \ge d_i^0 \ge |\bar d_i| \Rightarrow \dot V_2 \le -r_1z_1^2 - r_2z_2^2",
-             "gap", premises=("39", "25.idle"), scope=ALL_SIGNALS, correction=lambda: _bound_45(repaired=True),
-             corrected_statement=r"\dot V_2 \le -r_1z_1^2 - r_2z_2^2\ \text{with}\ \dot{\hat\rho}_{k\nu} = "
-                                 r"+\Gamma_{k\nu}z_2\hat\xi^T\varpi\ \text{and the weights of}\ V_2\ \text{repaired}",
-             note=REPAIR + "With it the checker derives V_2' from the plant and the laws and confirms the bound.")
+def _printed_45() -> Goal:
+    return already(_bound_45(mended=False), exact | one_failed | unit_gains | {m_idle: sp.Integer(3)})
+
+
+BOUND = r"\dot{V}_2 \leq -r_1z_1^2(t) - r_2z_2^2(t)"
+MENDED_45 = (BOUND + r"\ \text{with}\ \dot{\hat\rho}_{k\nu} = +\Gamma_{k\nu}z_2\hat\xi^T\varpi\ \text{and the weights of}\ V_2\ "
+             r"\text{repaired}")
+
+
+@paper.claim("45", "V_2 does not increase with failures: the whole argument", "inequality", BOUND, "refuted",
+             premises=("39", "25.idle"), rests_on=("45.a", "43"), scope=ALL_SIGNALS, where={"V_2": V_40}, closed_loop=True,
+             correction=lambda: _bound_45(mended=True), corrected_statement=MENDED_45,
+             note="The last line of (45), for m_i k_nu >= rho_i^0 and lambda_i^0 >= d_i^0 >= |d_i|. " + REPAIR +
+                  "With it the checker derives V_2' from the plant and the laws and confirms the bound.")
 def v2_bound_failed() -> Goal:
     """D(V_2) of (40) along the closed loop as printed."""
-    return already(_bound_45(repaired=False), exact | one_failed | unit_gains | {m_idle: sp.Integer(3)})
+    return _printed_45()
+
+
+@paper.claim("45.mended", "V_2 does not increase with failures, laws and weights mended", "inequality", MENDED_45, "proved",
+             premises=("39", "25.idle", "44.mended"), origin="ours", mends="45", scope=ALL_SIGNALS, note=REPAIR)
+def v2_bound_failed_mended() -> Goal:
+    """D(V_2) along the closed loop with (44) mended, the weights fitting."""
+    return _bound_45(mended=True)
+
+
+@paper.claim("46", "V_2 does not increase between failures and switches", "inequality", BOUND, "refuted",
+             premises=("39", "25.idle"), rests_on=("45",), scope=ALL_SIGNALS, where={"V_2": V_40}, closed_loop=True,
+             correction=lambda: _bound_45(mended=True), corrected_statement=MENDED_45, note="(45) again, and false with it.")
+def v2_bound_between() -> Goal:
+    """The same instant as for (45)."""
+    return _printed_45()
 
 
 weight, error_before, jump = (sp.IndexedBase(name, real=True)[basis] for name in ("omega", "error", "jump"))
 V_rest = sp.Symbol("V_rest", nonnegative=True)
 
 
-@paper.claim("46", "A failure raises V_2 by a finite amount", "implication",
-             r"V_2(T_p^+) \le 2V_2(T_p^-) + \sum_q\omega_q(\Delta_q)^2", "proved",
-             scope="every number of parameters that jump",
-             note="The sum runs over the parameters that jump at T_p (xi, rho_knu, all rho_i) by Delta_q, omega_q "
-                  "being twice their weight in V_2. The weights with k_nu do not grow when a motor fails. With "
-                  "finitely many failures V_2 is finite after the last one, as the paper says.")
+@paper.claim("46.jump", "A failure raises V_2 by a finite amount", "implication",
+             r"\text{Since there are only a finite number of failures in the system, } V_2(T_{\bar{M}}) \text{ is finite}",
+             "proved", match="words", scope="every number of parameters that jump",
+             reading="V_2(T_p^+) <= 2 V_2(T_p^-) + sum_q omega_q Delta_q^2 over the parameters that jump at T_p (xi, "
+                     "rho_knu, all rho_i) by Delta_q, omega_q being twice their weight in V_2.",
+             note="The weights with k_nu do not grow when a motor fails. That V_2 does not grow between the failures is "
+                  "(46).")
 def finite_jump() -> Goal:
     """(e + Delta)^2 <= 2 e^2 + 2 Delta^2, term by term; weights are omega^2/2."""
     before = V_rest + over_basis(weight**2 * error_before**2 / 2)
@@ -72,25 +137,52 @@ def finite_jump() -> Goal:
     return Goal((at_most(after, 2 * before + over_basis(weight**2 * jump**2)),))
 
 
-@paper.claim("47", "After the last failure V_2 stays finite and the errors are square integrable", "implication",
-             r"\dot V_2 \le -r_1z_1^2 - r_2z_2^2 \le 0 \Rightarrow V_2(t) + "
-             r"\int_{T_{\bar M}}^t (r_1z_1^2 + r_2z_2^2)\,d\tau \le V_2(T_{\bar M})", "proved",
-             premises=("40", "45", "46", "25.switch", "filippov"), scope=ALL_SIGNALS,
-             note="Time counts from T_M here. 'z_1 in L_2 and so lim z_1 = 0' needs the bounded rate of z_1 too, which "
-                  "section III gives.")
+@paper.claim("47", "V_2 does not increase after the last failure", "inequality", BOUND + r" \leq 0", "refuted",
+             premises=("39", "25.idle"), rests_on=("46",), scope=ALL_SIGNALS, where={"V_2": V_40}, closed_loop=True,
+             correction=lambda: _bound_45(mended=True), corrected_statement=MENDED_45, note="(45) again, and false with it.")
+def v2_bound_after() -> Goal:
+    """The same instant as for (45)."""
+    goal = _printed_45()
+    return Goal((*goal.show, at_most(decay, 0)), goal.assume, goal.flow)
+
+
+@paper.claim("47.finite", "From (47) the errors are square integrable", "implication",
+             r"\text{it follows that all the variables}\ldots\text{are bounded}\ldots (47) \text{ implies } z_1(t) \in L_2 "
+             r"\text{ and so } \lim_{t\to\infty} z_1(t) = 0", "proved", match="words",
+             premises=("40", "46.jump", "25.switch", "filippov"), rests_on=("47", "46.jump"), scope=ALL_SIGNALS,
+             reading="Where (47) holds, V_2(t) and the integral of r_1 z_1^2 + r_2 z_2^2 from T_M on are together at most "
+                     "V_2(T_M).",
+             note="Time counts from T_M here. The limit needs the bounded rate of z_1 too, which section III gives.")
 def finite_after_failures() -> Goal:
     """J + V does not increase, where J is the integral."""
     return square_integrable()
 
 
-@paper.claim("theorem2", "The position error tends to zero with failures", "limit",
-             r"\lim_{t\to\infty}(x_1 - x_m) = 0\ \text{under (27)-(31), (37), (41)-(44)}", "gap", premises=("45", "47"),
-             scope=ALL_SIGNALS, correction=square_integrable,
-             corrected_statement=r"\text{with 45 repaired:}\ \int_0^t(r_1z_1^2 + r_2z_2^2)\,d\tau \le V_2(0),\ \text{so}\ "
-                                 r"z_1 \to 0\ \text{as in Theorem 1}",
-             note="False as printed: " + STEADY_STATE_ERROR + "The cause is the sign of (44); with it mended (45) holds when all "
-                  "modes have one mass, as in section VIII, and Theorem 2 with it.")
+THEOREM = (r"\text{The adaptive failure compensation controller %s applied to the system %s, guarantees that all %s"
+           r"closed-loop signals are bounded and the tracking error } e(t) = x_1(t) - x_m(t) \text{ satisfies } "
+           r"\lim_{t\to\infty} e(t) = 0")
+SQUARE_IN_TIME = "The printed closed loop has a motion along which z_1^2 stays at 1: e(t) does not tend to zero. "
+TRACKS = ("Shown for all times after the last failure: V_2, and so every estimation error, z_1, z_2 and the integral of "
+          "r_1 z_1^2 + r_2 z_2^2, are at most what V_2 after it allows. The limit is Barbalat's lemma, as for Theorem 1.")
+
+
+@paper.claim("theorem2", "Theorem 2: the position error tends to zero with failures", "limit",
+             THEOREM % ("(42), with the adaptive scheme (27)-(31), (37), (41) and (44)",
+                        "(7)-(8) with actuator failures (13)-(15)", "the "), "refuted",
+             match="words", severity="result", closed_loop=True, rests_on=("47", "47.finite", "43"), scope=ALL_SIGNALS,
+             reading=SQUARE_IN_TIME + "Decided as z_1^2 <= 1/4 from some time on.",
+             note="False as printed: " + STEADY_STATE_ERROR + "The cause is the sign of (44); with it mended (45) holds "
+                  "when all modes have one mass, as in section VIII, and Theorem 2 with it.")
 def theorem_2() -> Goal:
     """The printed closed loop, with a motion along which z_1 = 1."""
     return steady_state_error(at_most(z_1**2, epsilon), nu_failed, {epsilon: sp.Rational(1, 4), lambda_0: sp.Integer(1)},
-                           *disturbed)
+                              *disturbed)
+
+
+@paper.claim("theorem2.mended", "Theorem 2 with (44) and the weights of V_2 mended", "implication",
+             r"\text{Theorem 2 with } \dot{\hat\rho}_{k\nu} = +\Gamma_{k\nu}z_2\hat\xi^T\varpi", "proved", origin="ours",
+             mends="theorem2", severity="result", scope=ALL_SIGNALS, reading=TRACKS, note=REPAIR,
+             premises=("45.mended", "40.mended", "46.jump", "25.switch", "filippov", "theorem1.rate", "barbalat"))
+def theorem_2_mended() -> Goal:
+    """From what (45) mended and (40) mended show of V_2 alone."""
+    return tracks(V_true, paper.shown("45.mended"), paper.shown("40.mended"))

@@ -23,45 +23,73 @@ from ..active_mode import (
     signal_of,
 )
 from ..counterexamples import already, exact, stopped, unit_gains
-from ..error_dynamics import ACTIVE_MODE, ALL_SIGNALS, disturbed, failed_train, filippov, k_v, laws_true, size
-from ..lyapunov import V_40, V_53, decay, square_integrable
+from ..error_dynamics import (
+    ACTIVE_MODE,
+    ALL_SIGNALS,
+    disturbed,
+    failed_train,
+    filippov,
+    k_v,
+    laws_printed,
+    laws_true,
+    size,
+)
+from ..lyapunov import V_40, V_53, decay, m_idle, tracks
 from ..paper import paper
 from ..plant import s, t, z_1, z_2
 from ..steady_state_error import STEADY_STATE_ERROR, epsilon, steady_state_error
-from .section_4_design import LEFT, OUTWEIGHED, left_by
-from .section_4_theorem_2 import REPAIR
+from .section_4_design import LEFT, OUTWEIGHED, bounds_errors, left_by
+from .section_4_theorem_2 import BOUND, REPAIR, SQUARE_IN_TIME, THEOREM, TRACKS
 from .section_5 import delta, rest_bounds
 
 bounded_by_unknown = (at_most(d, lambda_0), at_least(d, -lambda_0))
+V_53_printed = V_40 + (lambda_0 - lambda_hat) ** 2 / (2 * Gamma_d)
 
 
 @paper.claim("53", "V_2 bounds the errors", "inequality", r"V_2 \ge \tfrac12 z_1^2 + \tfrac12 z_2^2 \ge 0", "proved",
-             premises=("40",), scope=ALL_SIGNALS)
+             premises=("40",), origin="implied", scope=ALL_SIGNALS, reading="The text calls V_2 a Lyapunov function.")
 def unknown_bound_lyapunov_not_negative() -> Goal:
-    """(40) and one more square, as printed and with the weights that fit."""
-    more = (lambda_0 - lambda_hat) ** 2 / (2 * Gamma_d)
-    return Goal(tuple(at_least(V, z_1**2 / 2 + z_2**2 / 2) for V in (V_40 + more, V_53)))
+    """(40) and one more square."""
+    return bounds_errors(V_53_printed)
 
 
-def _law_54(law: sp.Expr) -> Goal:
-    error = lambda_0 - lambda_hat
-    return Goal((at_most(D(error**2 / (2 * Gamma_d)) + error * size * chi_d, 0),), (*filippov, at_most(chi_d, 1)),
-                {lambda_hat: law})
+@paper.claim("53.mended", "V_2 with the weights that fit bounds the errors", "inequality",
+             r"V_2 \ge \tfrac12 z_1^2 + \tfrac12 z_2^2 \ge 0", "proved", origin="ours", mends="53", scope=ALL_SIGNALS)
+def fitting_unknown_bound_lyapunov() -> Goal:
+    """The weights of 40.mended and one more square."""
+    return bounds_errors(V_53)
 
 
-@paper.claim("54", "The law of lambda_hat cancels its error in the rate of V_2", "inequality",
-             r"\dot{\hat\lambda}_i^0 = -\Gamma_{di}z_2\,\mathrm{sgn}(z_2)\chi_{\bar di} \Rightarrow \tilde\lambda_i^0|z_2|"
-             r"\chi_{\bar di} + \Gamma_{di}^{-1}\tilde\lambda_i^0\dot{\tilde\lambda}_i^0 \le 0", "refuted",
-             scope="each mode", correction=lambda: _law_54(lambda_law_true),
-             corrected_statement=r"\dot{\hat\lambda}_i^0 = \Gamma_{di}z_2\,\mathrm{sgn}(z_2)\chi_{\bar di} \Rightarrow "
-                                 r"\tilde\lambda_i^0|z_2|\chi_{\bar di} + \Gamma_{di}^{-1}\tilde\lambda_i^0"
-                                 r"\dot{\tilde\lambda}_i^0 = 0",
-             note="The sign of (54) is wrong: the estimate of the bound can only fall, where the disturbance needs it "
-                  "to grow, and once it is negative (56) pushes away from z_2 = 0. (57) is what the opposite sign "
-                  "gives.")
+lambda_rate, chi_one = sp.symbols("lambda_hat_rate chi_d_i", real=True)
+
+
+def _law_54(sign: int) -> Goal:
+    return Goal((equal(lambda_rate, sign * Gamma_d * z_2 * sp.sign(z_2) * chi_one),),
+                (equal(sp.Abs(z_2) * chi_one - lambda_rate / Gamma_d, 0),))
+
+
+LAW_54 = r"\dot{\hat{\lambda}}_i^0(t) = %s\Gamma_{d_i^0}z_2(t)\operatorname{sgn}[z_2(t)]\chi_{\bar{d}i}(t)"
+LETTERS_54 = {r"\dot{\hat{\lambda}}_i^0(t)": lambda_rate, r"\chi_{\bar{d}i}(t)": chi_one,
+              r"\operatorname{sgn}[z_2(t)]": sp.sign(z_2)}
+CHOSEN_54 = ("Decided as what the paper chooses the law for: the rate for which the coefficient of the error of "
+             "lambda_hat in the rate of V_2 is zero, which is what (57) says.")
+
+
+@paper.claim("54", "The law of lambda_hat cancels its error in the rate of V_2", "identity", LAW_54 % "-", "refuted",
+             scope="each mode", glyph="54.glyph", where=LETTERS_54, correction=lambda: _law_54(1),
+             corrected_statement=LAW_54 % "", reading=CHOSEN_54,
+             note="With the minus the estimate of the bound can only fall, where the disturbance needs it to grow, and "
+                  "once it is negative (56) pushes away from z_2 = 0. (57) is what the opposite sign gives.")
 def lambda_law_cancels() -> Goal:
-    """The estimation error's part of z_2 (d + m_i k_nu nu_d) against D of its term in (53)."""
-    return _law_54(lambda_law)
+    """The coefficient of the error: |z_2| chi_di from z_2 (d + m_i k_nu nu_d), and that of its square in (53)."""
+    return _law_54(-1)
+
+
+@paper.claim("54.glyph", "With a plus for the minus of (54) the term cancels", "identity", LAW_54 % "", "proved",
+             origin="ours", glyph="54", scope="each mode", where=LETTERS_54, reading=CHOSEN_54)
+def lambda_law_plus() -> Goal:
+    """The same with a plus."""
+    return _law_54(1)
 
 
 def _terms_57(law: sp.Expr, coefficient: sp.Expr) -> Goal:
@@ -76,8 +104,10 @@ TERMS_57 = (r"\dot V_2 + r_1z_1^2 + r_2z_2^2 = \sum_i\left(-\tfrac{%s}{\rho_m^0}
 
 
 @paper.claim("57.a", "The terms of the unknown bound in the rate of V_2", "identity", TERMS_57 % ("m_i", ""), "refuted",
-             premises=("45.a", "54"), scope="one active mode", correction=lambda: _terms_57(lambda_law_true, m * k_v),
+             premises=("54",), rests_on=("41", "44", "37.failures", "54", "55", "56"), scope="one active mode",
+             correction=lambda: _terms_57(lambda_law_true, m * k_v),
              corrected_statement=TERMS_57 % (r"m_ik_\nu", r"\ \text{with}\ \dot{\hat\lambda}_i^0 = +\Gamma_{di}|z_2|\chi_{\bar di}"),
+             reading="The equation of (57), decay taken to the left; of V_2' only the terms of d_i, nu_di and lambda_hat.",
              note="With (54) as printed the two middle terms have the opposite sign; the first also lacks k_nu. All "
                   "that 45.a finds wrong is left out here.")
 def unknown_bound_terms() -> Goal:
@@ -92,7 +122,8 @@ def _terms_bound(*assume: Relation) -> Goal:
 
 @paper.claim("57.b", "The bound drawn in (57)", "inequality",
              r"\sum_i\left(-\tfrac{m_i}{\rho_m^0}\hat\lambda_i^0|z_2| + \hat\lambda_i^0|z_2| - |z_2|\lambda_i^0 + z_2\bar d_i"
-             r"\right)\chi_{\bar di} \le 0", "refuted", scope="one active mode",
+             r"\right)\chi_{\bar di} \le 0", "refuted", origin="implied", scope="one active mode",
+             reading="The step from the first line of (57) to the second.",
              correction=lambda: _terms_bound(at_least(lambda_hat, 0)),
              corrected_statement=r"\hat\lambda_i^0 \ge 0 \Rightarrow \dots \le 0",
              note="It needs lambda_hat >= 0, because m_i/rho_m^0 may exceed 1. That is nowhere asked for; the "
@@ -106,16 +137,18 @@ lambda_start = sp.Symbol("lambda_hat_0", nonnegative=True)
 
 
 @paper.claim("55", "What the controller leaves of the rate of V_2", "identity", LEFT % r"\nu_{di}", "proved",
-             premises=("42",), scope=ALL_SIGNALS, note="(55) is (42) with the nu_di of (56).")
+             premises=("42",), origin="implied", scope=ALL_SIGNALS,
+             reading="(55), which is (42) with the nu_di of (56), put into the display before (42).")
 def unknown_bound_controller_in_rate() -> Goal:
     """(55) in the bracket of V_2'."""
     return left_by(signal_of(nu_unknown), nu_unknown)
 
 
 @paper.claim("56", "nu_d outweighs the disturbance once the estimate reaches its bound", "inequality",
-             OUTWEIGHED % r"\hat\lambda_i^0 \ge |\bar d_i|", "proved", scope=ACTIVE_MODE,
-             note="rho_m^0 in (56) is read as the rho_i^0 of the next line. Nothing makes the estimate reach the bound, "
-                  "and with (54) as printed it never rises: see 54.")
+             OUTWEIGHED % r"\hat\lambda_i^0 \ge |\bar d_i|", "proved", origin="implied", scope=ACTIVE_MODE,
+             reading="What (56) is designed for; its rho_m^0 is read as the rho_i^0 of the next line.",
+             note="Nothing makes the estimate reach the bound, and with (54) as printed it never rises: see 54. With "
+                  "rho_m^0 a bound of m_i, as in section III, it holds as well, since k_nu is at least 1.")
 def estimated_bound_outweighs() -> Goal:
     """With an estimate that is no smaller than the disturbance."""
     return Goal((at_most(z_2 * (m * k_v * nu_unknown + d * chi_d), 0),),
@@ -125,8 +158,7 @@ def estimated_bound_outweighs() -> Goal:
 
 @paper.claim("54.sign", "The corrected law keeps lambda_hat from falling", "implication",
              r"\dot{\hat\lambda}_i^0 = \Gamma_{di}|z_2|\chi_{\bar di},\ \hat\lambda_i^0(0) \ge 0 \Rightarrow "
-             r"\hat\lambda_i^0(t) \ge 0", "proved", scope="each mode",
-             note="A helper for 57, not printed.")
+             r"\hat\lambda_i^0(t) \ge 0", "proved", origin="ours", scope="each mode")
 def lambda_not_negative() -> Goal:
     """-lambda_hat does not increase."""
     drift = sp.Symbol("lambda_hat_dot", real=True)
@@ -134,39 +166,67 @@ def lambda_not_negative() -> Goal:
                 {t: sp.Integer(0), lambda_hat: lambda_start}, decreasing=-lambda_hat)
 
 
-def _bound_57(repaired: bool) -> Goal:
-    law = lambda_law_true if repaired else lambda_law
-    flow = {**failed_train(signal_of(nu_unknown)), **laws_true, lambda_hat: law}
-    return Goal((at_most(D(V_53), decay),),
-                (*filippov, *bounded_by_unknown, at_least(m * k_v, rho_0), at_least(lambda_hat, 0)), flow)
+given_57 = (*filippov, *bounded_by_unknown, at_least(m * k_v, rho_0))
 
 
-@paper.claim("57", "V_2 does not increase with unknown bounds: the whole argument", "implication",
-             r"\lambda_i^0 \ge |\bar d_i|,\ m_ik_\nu \ge \rho_i^0,\ \hat\lambda_i^0 \ge 0 \Rightarrow \dot V_2 \le -r_1z_1^2 - "
-             r"r_2z_2^2", "gap", premises=("39", "45", "25.idle"), scope=ALL_SIGNALS,
-             correction=lambda: _bound_57(repaired=True),
-             corrected_statement=r"\dot V_2 \le -r_1z_1^2 - r_2z_2^2\ \text{with}\ \dot{\hat\lambda}_i^0 = +\Gamma_{di}|z_2|"
-                                 r"\chi_{\bar di},\ \hat\lambda_i^0(0) \ge 0",
-             note=REPAIR + "All this granted, and lambda_hat >= 0 too, (54) as printed still breaks the bound, and its "
-                  "opposite sign mends it.")
+def _bound_57(V: sp.Expr, laws: dict[sp.Expr, sp.Expr], law: sp.Expr, *more: Relation) -> Goal:
+    flow = {**failed_train(signal_of(nu_unknown)), **laws, lambda_hat: law}
+    return Goal((at_most(D(V), decay),), (*given_57, *more), flow)
+
+
+def _mended_57() -> Goal:
+    return _bound_57(V_53, laws_true, lambda_law_true, at_least(lambda_hat, 0))
+
+
+MENDED_57 = (r"\dot{V}_2 \leq -r_1z_1^2 - r_2z_2^2\ \text{with}\ \dot{\hat\lambda}_i^0 = +\Gamma_{di}|z_2|\chi_{\bar di},\ "
+             r"\hat\lambda_i^0(0) \ge 0\ \text{and (45) repaired}")
+exact_failures = {k_v: sp.Integer(15), rho_k_hat: sp.Rational(1, 15), Gamma_d: sp.Integer(1)}
+
+
+@paper.claim("57", "V_2 does not increase with unknown bounds: the whole argument", "inequality", BOUND + r" \leq 0",
+             "refuted", premises=("39", "25.idle"), rests_on=("57.a", "57.b"), scope=ALL_SIGNALS, closed_loop=True,
+             where={"V_2": V_53_printed}, correction=_mended_57, corrected_statement=MENDED_57,
+             note="The last line of (57), for lambda_i^0 >= |d_i| and m_i k_nu >= rho_i^0; at an instant at which "
+                  "(44) and the weights of (40) play no part, with lambda_hat >= 0: (54) alone breaks it. " + REPAIR)
 def v2_bound_unknown() -> Goal:
-    """D(V_2) along (7), (8), (27)-(31), (37), (41), (54)-(56) and (44) repaired."""
-    return already(_bound_57(repaired=False), exact | unit_gains | stopped | {
-        k_v: sp.Integer(15), rho_k_hat: sp.Rational(1, 15), Gamma_d: sp.Integer(1)})
+    """D(V_2) along (7), (8), (27)-(31), (37), (41), (44), (54)-(56)."""
+    goal = already(_bound_57(V_53_printed, laws_printed, lambda_law, at_least(lambda_hat, 0)),
+                   exact | unit_gains | stopped | exact_failures | {m_idle: sp.Integer(0)})
+    return Goal((*goal.show, at_most(decay, 0)), goal.assume, goal.flow)
 
 
-@paper.claim("theorem4", "The position error tends to zero with unknown bounds", "limit",
-             r"\lim_{t\to\infty}(x_1 - x_m) = 0\ \text{under (27)-(31), (37), (41), (44), (54)-(56)}", "gap",
-             premises=("57",), scope=ALL_SIGNALS, correction=square_integrable,
-             corrected_statement=r"\text{with 45 and 57 repaired:}\ \int_0^t(r_1z_1^2 + r_2z_2^2)\,d\tau \le V_2(0)",
+@paper.claim("57.mended", "V_2 does not increase with unknown bounds, laws and weights mended", "inequality", MENDED_57,
+             "proved", premises=("39", "25.idle", "44.mended", "54.glyph", "54.sign"), origin="ours", mends="57",
+             scope=ALL_SIGNALS, note=REPAIR)
+def v2_bound_unknown_mended() -> Goal:
+    """The same with (44) and (54) mended, the weights fitting."""
+    return _mended_57()
+
+
+@paper.claim("theorem4", "Theorem 4: the position error tends to zero with unknown bounds", "limit",
+             THEOREM % ("(55), with signal (56) and the adaptive scheme (27)-(31), (37), (41), (44), and(54)",
+                        "(7)-(8) with actuator failures (13)-(15)", ""), "refuted",
+             match="words", severity="result", closed_loop=True, rests_on=("57",), scope=ALL_SIGNALS,
+             reading=SQUARE_IN_TIME + "Decided as z_1^2 <= 1/4 from some time on.",
              note="False as printed: " + STEADY_STATE_ERROR + "rho_knu_hat starts at its true value here, and lambda_hat falls "
-                  "from 1 without end. Mended as 45 and 57 are, Theorem 4 holds.")
+                  "from 1 without end. Mended as 45 and 57 are, Theorem 4 holds. The text before it names (48) and (52) "
+                  "where (55) and (57) are meant.")
 def theorem_4() -> Goal:
     """The printed closed loop, with a motion along which z_1 = 1."""
     one = sp.Integer(1)
     return steady_state_error(at_most(z_1**2, epsilon), nu_unknown,
-                           {epsilon: sp.Rational(1, 4), lambda_0: one, Gamma_d: sp.Integer(16)}, *disturbed,
-                           lambda_law=lambda_law)
+                              {epsilon: sp.Rational(1, 4), lambda_0: one, Gamma_d: sp.Integer(16)}, *disturbed,
+                              lambda_law=lambda_law)
+
+
+@paper.claim("theorem4.mended", "Theorem 4 with (44), (54) and the weights of V_2 mended", "implication",
+             r"\text{Theorem 4 with } \dot{\hat\rho}_{k\nu} = +\Gamma_{k\nu}z_2\hat\xi^T\varpi,\ \dot{\hat\lambda}_i^0 = "
+             r"+\Gamma_{di}|z_2|\chi_{\bar di},\ \hat\lambda_i^0(0) \ge 0", "proved", origin="ours", mends="theorem4",
+             severity="result", scope=ALL_SIGNALS, reading=TRACKS, note=REPAIR,
+             premises=("57.mended", "53.mended", "54.sign", "46.jump", "25.switch", "filippov", "theorem1.rate", "barbalat"))
+def theorem_4_mended() -> Goal:
+    """From what (57) mended and (53) mended show of V_2 alone."""
+    return tracks(V_53, paper.shown("57.mended"), paper.shown("53.mended"))
 
 
 delta_hat, Gamma_delta = sp.Symbol("delta_hat", real=True), sp.Symbol("Gamma_delta", positive=True)
@@ -174,10 +234,11 @@ delta_hat, Gamma_delta = sp.Symbol("delta_hat", real=True), sp.Symbol("Gamma_del
 
 @paper.claim("VI.extension", "The scheme, repaired, extends to unparameterizable failures of unknown bound",
              "implication", r"\nu_s = -\tfrac{1}{\rho_{k\nu}^0}\hat\delta^0\mathrm{sgn}(z_2),\ \dot{\hat\delta}^0 = \Gamma_\delta|z_2|,\ "
-             r"\hat\delta^0, \hat\lambda^0 \ge 0 \Rightarrow \dot V_2 \le -r_1z_1^2 - r_2z_2^2", "proved", premises=("57",),
-             scope=ALL_SIGNALS,
-             note="'Easily', without equations, in the text below Theorem 4; delta^0 bounds the sum of the delta_j. "
-                  "Holds with the signs repaired, V_2 getting the term m_i (delta_tilde^0)^2/(2 Gamma_delta).")
+             r"\hat\delta^0, \hat\lambda^0 \ge 0 \Rightarrow \dot V_2 \le -r_1z_1^2 - r_2z_2^2", "proved",
+             premises=("57.mended",), origin="ours", scope=ALL_SIGNALS,
+             note="The text below Theorem 4 says, without equations, that the method is 'easily extended'. With the signs "
+                  "repaired it is; delta^0 bounds the sum of the delta_j, and V_2 gets the term "
+                  "m_i (delta_tilde^0)^2/(2 Gamma_delta).")
 def unknown_failure_bound() -> Goal:
     """(57) repaired, with an estimate of delta^0 too."""
     V = V_53 + m * (delta_0 - delta_hat) ** 2 / (2 * Gamma_delta)

@@ -1,35 +1,84 @@
-"""yang2021, section 2: the train per unit of mass and Assumption 1."""
+"""yang2021, section 2: the train, per unit of mass, and Assumption 1."""
 
 from __future__ import annotations
 
 from fractions import Fraction
 
+import sympy as sp
+
 from workbench.proof.claim import D, Goal, equal
-from workbench.trains.train import F, a_0, a_star, b_0, b_star, c_0, c_star, f, f_add, m, single_particle, u, v
+from workbench.trains.track import additional_specific_resistance, curvature_per_m, grade_permille, tunnel_n_per_kn
+from workbench.trains.train import F, a_0, b_0, c_0, f, f_add, m, p, single_particle, u, v
 
 from ..error_dynamics import plant
-from ..laws import x_2
+from ..laws import x_1, x_2
 from ..paper import paper
 from ..stated_values import stated_davis
 
+newton = single_particle()
+davis = a_0 + b_0 * v + c_0 * v**2
+forces = {"p(t)": p, r"\dot{p}(t)": D(p), "v(t)": v, r"\dot{v}(t)": D(v), "F(t)": F, "f(p(t), v(t), t)": f_add,
+          "a_0": a_0, "b_0": b_0, "c_0": c_0}
 
-@paper.claim("4", "The train per unit of mass", "identity",
-             r"\dot x_2 = u + g + f(x),\ u = \tfrac{F}{m},\ g = -\tfrac{g(x_2)}{m},\ f(x) = -\tfrac{f(x_1,x_2,t)}{m}",
-             "proved")
+
+@paper.claim("1", "The train in forces", "identity",
+             r"\dot{p}(t) = v(t),\ m\dot{v}(t) = F(t) - g(v(t)) - f(p(t), v(t), t)", "proved",
+             where=forces | {"g(v(t))": davis},
+             note="The train that is simulated, in newtons, with (2) put in, is the printed one.")
+def train_in_forces() -> Goal:
+    """The rates of the single particle that the workbench moves, against the printed line."""
+    return Goal((equal(D(p), v), equal(m * D(v), F - davis - f_add)), flow=dict(newton.rates))
+
+
+@paper.claim("2", "The basic resistance", "identity", r"g(v(t)) = a_0 + b_0v(t) + c_0v^2(t)", "proved",
+             where=forces | {"g(v(t))": F - f_add - m * D(v), "v^2(t)": v**2},
+             reading="g is what (1) leaves when the other forces of the simulated train are taken away.")
+def basic_resistance() -> Goal:
+    """F - f - m v' of the simulated train is the Davis equation."""
+    return Goal((equal(F - f_add - m * D(v), davis),), flow=dict(newton.rates))
+
+
+line = additional_specific_resistance()
+parts = {grade_permille: sp.Integer(0), curvature_per_m: sp.Integer(0), tunnel_n_per_kn: sp.Integer(0)}
+
+
+def _alone(part: sp.Symbol) -> sp.Expr:
+    return line.xreplace({other: zero for other, zero in parts.items() if other != part})
+
+
+@paper.claim("3", "The additional resistance is the sum of curve, ramp and tunnel", "identity",
+             r"f(p(t), v(t), t) = \omega_r + \omega_i + \omega_s", "proved",
+             where={"f(p(t), v(t), t)": line, r"\omega_r": _alone(curvature_per_m), r"\omega_i": _alone(grade_permille),
+                    r"\omega_s": _alone(tunnel_n_per_kn)},
+             note="Of the formula that the simulation uses, each part being the whole on a line without the two others. The "
+                  "paper prints no formula of its own for the parts. Below (1) f also holds the unknown disturbances, which "
+                  "(3) leaves out.")
+def additional_resistance() -> Goal:
+    """Grade, curve and tunnel do not act on each other."""
+    return Goal((equal(line, _alone(curvature_per_m) + _alone(grade_permille) + _alone(tunnel_n_per_kn)),))
+
+
+per_mass = -(a_0 + b_0 * x_2 + c_0 * x_2**2) / m
+
+
+@paper.claim("4", "The train per unit of mass", "identity", r"\dot{x}_1 = x_2,\ \dot{x}_2 = u + g + f(x)", "proved",
+             premises=("1", "2"),
+             where={"x_1": x_1, "x_2": x_2, "u": F / m, "g": per_mass, "f(x)": -f_add / m},
+             note="With u = F/m, g = -g(x_2)/m and f(x) = -f(x_1, x_2, t)/m, as printed below it.")
 def newton_per_mass() -> Goal:
-    """(1) with (2), divided by m, is (4)."""
-    newton = single_particle().rates[v].xreplace({v: x_2})
-    per_mass = plant.rates[x_2].xreplace({
-        u: F / m, f: -f_add / m, a_star: a_0 / m, b_star: b_0 / m, c_star: c_0 / m})
-    return Goal((equal(newton, per_mass),))
+    """(1) with (2), in x_1 and x_2, is (4)."""
+    rates = {x_1: newton.rates[p], x_2: newton.rates[v]}
+    return Goal((equal(D(x_1), x_2), equal(D(x_2), F / m + per_mass - f_add / m)),
+                flow={x: rate.xreplace({v: x_2}) for x, rate in rates.items()})
 
 
-@paper.claim("A1", "Assumption 1: (4) is input-to-state stable, so the origin is an equilibrium", "condition",
-             r"u = 0,\ f = 0:\quad \dot x_2 = 0\ \text{at}\ x_1 = x_2 = 0", "violated",
-             at={**stated_davis, x_2: Fraction(0), u: Fraction(0), f: Fraction(0)},
-             note="Input-to-state stability needs the origin to be an equilibrium without input. By (2) the "
-                  "resistance does not vanish at standstill, so the train of (4) starts to roll backwards at "
-                  "0.3 m/s^2. The proof of Theorem 1 does not use Assumption 1.")
+@paper.claim("A1", "Assumption 1: the train of (4) is input-to-state stable", "condition",
+             r"\text{The dynamics system of train operation given in Equation (4) is an input-state stable system.}", "violated",
+             at={**stated_davis, x_2: Fraction(0), u: Fraction(0), f: Fraction(0)}, match="words",
+             reading="Without input, u = f = 0, an input-to-state stable system rests at the origin.",
+             note="By (2) the resistance does not vanish at standstill, so at the stated a* = 0.3 the train of (4) starts to "
+                  "roll backwards at 0.3 m/s^2. Without a* it would not be stable either: at a constant input it runs on, "
+                  "and x_1 grows beyond every bound. The proof of Theorem 1 does not use Assumption 1.")
 def origin_is_equilibrium() -> Goal:
     """The origin is an equilibrium of (4) without input."""
     return Goal((equal(D(x_2), 0),), flow={x_2: plant.rates[x_2]})

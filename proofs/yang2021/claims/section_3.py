@@ -1,142 +1,187 @@
-"""yang2021, section 3: the network, its gradient laws, and what approximates the resistance."""
+"""yang2021, section 3: the network's gradient laws (10)-(15), what they need, and the approximation error (17)."""
 
 from __future__ import annotations
+
+from fractions import Fraction
 
 import sympy as sp
 
 from workbench.model.law import over_neurons
-from workbench.proof.claim import D, Goal, at_least, at_most, equal, greater
+from workbench.proof.claim import D, Goal, Relation, at_most, equal, greater, less
+from workbench.trains.train import u
 
 from .. import laws as law
 from .. import network
-from ..error_dynamics import EVERY_NETWORK, STATED_F_STAR, W_star, W_tilde, eps_star, epsilon, f_star, f_true, h
+from ..error_dynamics import EVERY_NETWORK, W_star, epsilon, h
+from ..laws import W_hat, chi, x_2
 from ..paper import paper
-from ..stated_values import after_jump, before_jump, section_resistances
 
 error_f, weight, rest_f, eta, varpi = sp.symbols("f w f_rest eta varpi", real=True)
 width = sp.Symbol("b_j", positive=True)
-x_i, c_ji, q_rest, squared = sp.symbols("x_i c_ji q_rest q", real=True)
+x_i, c_ji = sp.symbols("x_i c_ji", real=True)
+q_rest, squared = sp.symbols("q_rest q", nonnegative=True)  # squared distances
+EVERY_SIZE = "every number of neurons and inputs"
+GATHERED = "The other neurons' output is gathered in one term of f-hat"
 
 
 def loss(hidden: sp.Expr) -> sp.Expr:
     """(9) with the other neurons' output gathered in f_rest."""
-    return (error_f - weight * hidden - rest_f) ** 2 / 2
+    return residual(hidden) ** 2 / 2
 
 
 def residual(hidden: sp.Expr) -> sp.Expr:
     """f - f_hat."""
-    return error_f - weight * hidden - rest_f
+    return error_f - (weight * hidden + rest_f)
 
 
-@paper.claim("10", "Gradient step of a weight", "identity", r"\Delta w_j = \eta\,[f - \hat f]\,h_j", "proved",
-             scope="every number of neurons and inputs")
+def descent(hidden: sp.Expr) -> sp.Expr:
+    """-eta dE/d(parameter), the parameter being what moves at rate 1."""
+    return -eta * D(loss(hidden))
+
+
+def letters(hidden: sp.Expr) -> dict[str, sp.Expr]:
+    """What (10)-(15) are written in."""
+    return {r"\eta": eta, r"\varpi": varpi, r"f(\mathbf{x})": error_f, r"\hat{f}(\mathbf{x})": weight * hidden + rest_f,
+            "h_j": hidden, "w_j": weight, "b_j": width, "x_i": x_i, "c_{ji}": c_ji}
+
+
+plain = sp.Symbol("h_j", real=True)
+of_width = sp.exp(-squared / (2 * width**2))
+of_center = sp.exp(-((x_i - c_ji) ** 2 + q_rest) / (2 * width**2))
+
+
+@paper.claim("10", "Gradient step of a weight", "identity",
+             r"\Delta w_j(t) = \eta[f(\mathbf{x}) - \hat{f}(\mathbf{x})]h_j", "proved", scope=EVERY_SIZE,
+             where=letters(plain) | {r"\Delta w_j(t)": descent(plain)},
+             reading=f"The step is -eta dE/dw_j of (9). {GATHERED}.")
 def weight_gradient() -> Goal:
     """-eta dE/dw_j of (9), the other neurons gathered in one term."""
-    hidden = sp.Symbol("h_j", real=True)
-    step = network.weight_step(eta, residual(hidden), hidden)
-    return Goal((equal(-eta * D(loss(hidden)), step),), flow={weight: sp.Integer(1)})
+    return Goal((equal(descent(plain), eta * residual(plain) * plain),), flow={weight: sp.Integer(1)})
 
 
 @paper.claim("12", "Gradient step of a width", "identity",
-             r"\Delta b_j = \eta\,[f - \hat f]\,w_j h_j \frac{\|x - c_j\|^2}{b_j^3}", "proved",
-             scope="every number of neurons and inputs")
+             r"\Delta b_j = \eta[f(\mathbf{x}) - \hat{f}(\mathbf{x})]w_jh_j\frac{\|\mathbf{x} - \mathbf{c}_j\|^2}{b_j^3}",
+             "proved", scope=EVERY_SIZE,
+             where=letters(of_width) | {r"\Delta b_j": descent(of_width), r"\|\mathbf{x} - \mathbf{c}_j\|": sp.sqrt(squared)},
+             reading=f"The step is -eta dE/db_j of (9) with (5), q being the squared distance. {GATHERED}.")
 def width_gradient() -> Goal:
     """-eta dE/db_j of (9) with (5); q is the squared distance, of any dimension."""
-    hidden = sp.exp(-squared / (2 * width**2))
-    step = network.width_step(eta, residual(hidden), weight, hidden, squared, width)
-    return Goal((equal(-eta * D(loss(hidden)), step),), (greater(width, 0),), {width: sp.Integer(1)})
+    step = eta * residual(of_width) * weight * of_width * squared / width**3
+    return Goal((equal(descent(of_width), step),), (greater(width, 0),), {width: sp.Integer(1)})
 
 
-def _center_goal(printed: bool) -> Goal:
-    hidden = sp.exp(-((x_i - c_ji) ** 2 + q_rest) / (2 * width**2))
-    step = network.center_step_as_printed if printed else network.center_step
-    stated = step(eta, residual(hidden), weight, hidden, x_i, c_ji, width)
-    return Goal((equal(-eta * D(loss(hidden)), stated),), flow={c_ji: sp.Integer(1)})
+def _center_goal(distance: sp.Expr) -> Goal:
+    step = eta * residual(of_center) * weight * of_center * distance / width**2
+    return Goal((equal(descent(of_center), step),), flow={c_ji: sp.Integer(1)})
+
+
+CENTER_WHERE = letters(of_center) | {r"\Delta c_{ji}": descent(of_center)}
+CENTER_READING = f"The step is -eta dE/dc_ji of (9) with (5), the other inputs' distance in one term. {GATHERED}."
 
 
 @paper.claim("14", "Gradient step of a center", "identity",
-             r"\Delta c_{ji} = \eta\,[f - \hat f]\,w_j h_j \frac{x_i - c_{ji}^2}{b_j^2}", "refuted",
-             scope="every number of neurons and inputs",
-             correction=lambda: _center_goal(printed=False),
-             corrected_statement=r"\Delta c_{ji} = \eta\,[f - \hat f]\,w_j h_j \frac{x_i - c_{ji}}{b_j^2}",
-             note="The square on c_ji is an error: it adds metres to square metres.")
+             r"\Delta c_{ji} = \eta[f(\mathbf{x}) - \hat{f}(\mathbf{x})]w_jh_j\frac{x_i - c_{ji}^2}{b_j^2}", "refuted",
+             scope=EVERY_SIZE, glyph="14.glyph", where=CENTER_WHERE, reading=CENTER_READING,
+             correction=lambda: _center_goal(x_i - c_ji),
+             corrected_statement=r"\Delta c_{ji} = \eta[f - \hat f]w_jh_j\frac{x_i - c_{ji}}{b_j^2}",
+             note="The square on c_ji subtracts square metres from metres. It may be a misread index: 14.glyph decides "
+                  "the line without it.")
 def center_gradient() -> Goal:
-    """-eta dE/dc_ji of (9) with (5), the other inputs' distance gathered in one term."""
-    return _center_goal(printed=True)
+    """-eta dE/dc_ji against the printed line."""
+    return _center_goal(x_i - c_ji**2)
 
 
-def _momentum(equation: str, quantity: str, step_of: str) -> None:
-    value, step = sp.symbols(f"{quantity} Delta", real=True)
-
-    @paper.claim(equation, f"Momentum update of {step_of} (a definition)", "identity",
-                 rf"{quantity}(t) = {quantity}(t-1) + \Delta {quantity} + \varpi[{quantity}(t-1) - {quantity}(t-2)]",
-                 "proved", premises=({"11": "10", "13": "12", "15": "14"}[equation],),
-                 note="Decided: a parameter at rest, (t-1) = (t-2), moves by exactly the gradient step, so it "
-                      "rests just where the gradient vanishes, whatever the momentum factor.")
-    def at_rest() -> Goal:
-        moved = network.with_momentum(value, step, varpi, value)
-        return Goal((equal(moved - value, step),))
+@paper.claim("14.glyph", "Gradient step of a center, without the square", "identity",
+             r"\Delta c_{ji} = \eta[f(\mathbf{x}) - \hat{f}(\mathbf{x})]w_jh_j\frac{x_i - c_{ji}}{b_j^2}", "proved",
+             origin="ours", scope=EVERY_SIZE, glyph="14", where=CENTER_WHERE, reading=CENTER_READING)
+def center_gradient_unsquared() -> Goal:
+    """The same with c_ji."""
+    return _center_goal(x_i - c_ji)
 
 
-_momentum("11", "w_j", "a weight")
-_momentum("13", "b_j", "a width")
-_momentum("15", "c_ji", "a center")
+def _momentum(equation: str, step_of: str, printed: str, moved: sp.Expr, hidden: sp.Expr, gradient: sp.Expr,
+              rests_on: tuple[str, ...]) -> None:
+    before = sp.Symbol("before", real=True)
+    letter = printed.split("(t)", maxsplit=1)[0]
+    step = printed.split(f"{letter}(t-1) + ")[1].split(" + ", maxsplit=1)[0]
+    stated = moved + descent(hidden) + varpi * (moved - before)
+
+    @paper.claim(equation, f"Momentum update of {step_of}", "identity", printed, "proved", scope=EVERY_SIZE,
+                 premises=({"15": "14.glyph"}.get(equation, rests_on[0]),), rests_on=rests_on,
+                 where=letters(hidden) | {f"{letter}(t)": network.with_momentum(moved, gradient, varpi, before),
+                                          f"{letter}(t-1)": moved, f"{letter}(t-2)": before, step: descent(hidden)},
+                 reading="The left side is the update that the workbench's network makes; the step on the right is -eta "
+                         "times the gradient of (9).")
+    def update() -> Goal:
+        return Goal((equal(network.with_momentum(moved, gradient, varpi, before), stated),),
+                    (greater(width, 0),) if hidden.has(width) else (), {moved: sp.Integer(1)})
+
+
+_momentum("11", "a weight", r"w_j(t) = w_j(t-1) + \Delta w_j(t) + \varpi[w_j(t-1) - w_j(t-2)]", weight, plain,
+          network.weight_step(eta, residual(plain), plain), ("10",))
+_momentum("13", "a width", r"b_j(t) = b_j(t-1) + \Delta b_j + \varpi[b_j(t-1) - b_j(t-2)]", width, of_width,
+          network.width_step(eta, residual(of_width), weight, of_width, squared, width), ("12",))
+_momentum("15", "a center", r"c_{ji}(t) = c_{ji}(t-1) + \Delta c_{ji} + \varpi[c_{ji}(t-1) - c_{ji}(t-2)]", c_ji, of_center,
+          network.center_step(eta, residual(of_center), weight, of_center, x_i, c_ji, width), ("14",))
+
+
+@paper.claim("15.rates", "The stated learning rate and momentum factor are in range", "condition",
+             r"\eta \in (0, 1),\ \varpi \in (0, 1)", "proved", at={eta: Fraction(2, 10), varpi: Fraction(4, 100)},
+             where={r"\eta": eta, r"\varpi": varpi},
+             reading="Section 6.1 states eta = 0.2 and writes the momentum factor as omega = 0.04.")
+def learning_rates() -> Goal:
+    """At eta = 0.2 and 0.04."""
+    return Goal((greater(eta, 0), less(eta, 1), greater(varpi, 0), less(varpi, 1)))
+
+
+a_1, b_1, c_1, a_2, b_2, c_2 = sp.symbols("a_1 b_1 c_1 a_2 b_2 c_2", positive=True)
+f_1, f_2 = sp.symbols("f_1 f_2", real=True)
+
+
+def same_motion() -> Relation:
+    """Two trains that answer the same input at the same speed with the same acceleration."""
+    return equal(u - a_1 - b_1 * x_2 - c_1 * x_2**2 + f_1, u - a_2 - b_2 * x_2 - c_2 * x_2**2 + f_2)
+
+
+@paper.claim("10.measured", "The gradient laws use only what is measured", "implication",
+             r"u, x_2, \dot{x}_2\ \text{measured} \Rightarrow f(\mathbf{x}) - \hat{f}(\mathbf{x})\ \text{known}", "gap",
+             origin="implied",
+             note="(10)-(15) are driven by f - f-hat, while f is the unknown that the network is there for and a*, b*, c* are "
+                  "unknown too. Two trains with other coefficients and another f move alike, so f cannot be told from the "
+                  "motion, not even with the acceleration measured. Theorem 1 does not use these laws.")
+def f_is_known() -> Goal:
+    """The same input, speed and acceleration mean the same f."""
+    return Goal((equal(f_1, f_2),), (same_motion(),))
+
+
+one_h = sp.Symbol("h", positive=True)
+
+
+@paper.claim("37.weights", "One law moves the weights", "implication",
+             r"\Delta w_j = \eta[f - \hat{f}]h_j\ \text{and}\ \dot{\hat{W}} = \chi e_2h - \chi\hat{W}", "gap", origin="implied",
+             severity="data",
+             note="(10), (11) and (37) each give the rate of the same weights, and section 6.1 states eta and the momentum "
+                  "factor of the one beside chi of the other. They are two laws; which one runs is not said.")
+def one_law() -> Goal:
+    """A step of (10) is in the direction of (37)."""
+    error_2 = sp.Symbol("e_2", real=True)
+    return Goal((equal(eta * residual(one_h) * one_h, chi * error_2 * one_h - chi * weight),),
+                (greater(eta, 0), less(eta, 1), at_most(one_h, 1)))
+
+
+f_network = over_neurons(W_star * h) + epsilon
+f_hat = law.f_hat.xreplace({law.h: h})
 
 
 @paper.claim("17", "Approximation error", "identity",
-             r"\tilde f = W^{*T}h + \varepsilon - \hat W^T h = -\tilde W^T h + \varepsilon", "proved",
-             scope=EVERY_NETWORK)
+             r"\tilde{f}(\mathbf{x}) = f(\mathbf{x}) - \hat{f}(\mathbf{x}) = \mathbf{W}^{*T}\mathbf{h}(\mathbf{x}) + "
+             r"\varepsilon(\mathbf{x}) - \hat{\mathbf{W}}^T\mathbf{h}(\mathbf{x}) = -\tilde{\mathbf{W}}^T\mathbf{h}(\mathbf{x}) + "
+             r"\varepsilon(\mathbf{x})", "proved", scope=EVERY_NETWORK, rests_on=("7.bounded",),
+             where={r"\tilde{f}(\mathbf{x})": error_f - f_hat, r"f(\mathbf{x})": error_f, r"\hat{f}(\mathbf{x})": f_hat,
+                    r"\varepsilon(\mathbf{x})": epsilon, r"\hat{\mathbf{W}}^T \mathbf{h}(\mathbf{x})": f_hat,
+                    r"\tilde{\mathbf{W}}^T \mathbf{h}(\mathbf{x})": over_neurons((W_hat - W_star) * h)},
+             note="With (7), (16) and the printed W-tilde = W-hat - W*.")
 def approximation_error() -> Goal:
     """f - f_hat with (7), (16) and W_tilde = W_hat - W_star."""
-    f_hat = law.f_hat.xreplace({law.h: h}).xreplace({law.W_hat: W_tilde + W_star})
-    return Goal((equal(f_true - f_hat, -over_neurons(W_tilde * h) + epsilon),))
-
-
-@paper.claim("A2", "Assumption 2: f is bounded on the line of Table 1", "condition",
-             r"|f(x)| \le f^*", "proved", at={f_star: STATED_F_STAR},
-             note="With f* = 0.06 m/s^2, on every section of Table 1; the disturbance that the paper adds is not described.")
-def resistance_bounded() -> Goal:
-    """Grade and curve resistance of every section against f*."""
-    values = [sp.Rational(x.numerator, x.denominator) for x in section_resistances()]
-    return Goal((at_most(max(values), f_star), at_least(min(values), -f_star)))
-
-
-f_before, f_after, y_f = sp.symbols("f_before f_after y_f", real=True)
-
-paper.axiom("7", "Universal approximation by the network",
-            r"f(x) = W^{*T}h(x) + \varepsilon(x),\ |\varepsilon(x)| \le \varepsilon^*\ \text{on the compact}\ \Theta_x",
-            "Park and Sandberg 1991, for f continuous on a compact set", hypotheses=("7.continuous", "7.inside"))
-
-
-@paper.claim("7.continuous", "f is continuous in x on the line of Table 1", "condition",
-             r"\lim_{x_1 \uparrow s} f = \lim_{x_1 \downarrow s} f", "violated",
-             at={f_before: before_jump, f_after: after_jump},
-             note="At the border with the largest jump. Grade and curve change in steps in Table 1, so f is not "
-                  "continuous and eps* cannot be made small.")
-def resistance_is_continuous() -> Goal:
-    """The additional resistance on both sides of a section border agrees."""
-    return Goal((equal(f_before, f_after),))
-
-
-@paper.claim("7.error", "What a step in f costs the approximation", "inequality",
-             r"|f(s^\pm) - y| \le \varepsilon^* \Rightarrow \varepsilon^* \ge \tfrac12 |f(s^+) - f(s^-)|", "proved")
-def step_costs_half() -> Goal:
-    """A continuous output y misses one side of a step by half of it."""
-    near = tuple(rel for side in (f_before, f_after)
-                 for rel in (at_most(side - y_f, eps_star), at_most(y_f - side, eps_star)))
-    return Goal((at_most(f_after - f_before, 2 * eps_star), at_most(f_before - f_after, 2 * eps_star)), near)
-
-
-x_out, theta = sp.symbols("x theta", real=True)
-
-
-@paper.claim("7.inside", "The state stays in the set on which (7) holds", "implication",
-             r"|\varepsilon(x)| \le \varepsilon^*\ \text{for}\ x \in \Theta_x \Rightarrow "
-             r"|\varepsilon(x(t))| \le \varepsilon^*\ \text{for all}\ t", "gap",
-             note="The proof uses |eps(x(t))| <= eps* for all t, which holds only while x(t) stays in Theta_x; that "
-                  "it does is not shown, and cannot be concluded afterwards from a bound that uses it. In the "
-                  "model: Theta_x = [-theta, theta], eps(x) = eps* x^2/theta^2.")
-def state_stays_inside() -> Goal:
-    """An error that is bounded inside a set may be larger outside."""
-    inside_theta = (greater(theta, 0), equal(epsilon, eps_star * x_out**2 / theta**2))
-    return Goal((at_most(epsilon, eps_star),), inside_theta)
+    return Goal((equal(error_f - f_hat, error_f - f_hat), equal(error_f - f_hat, f_network - f_hat),
+                 equal(f_network - f_hat, -over_neurons((W_hat - W_star) * h) + epsilon)), (equal(error_f, f_network),))

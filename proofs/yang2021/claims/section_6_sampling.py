@@ -47,7 +47,7 @@ JURY = (r"\det M < 1,\ |\mathrm{tr}\,M| < 1 + \det M,\quad M = \partial(e_2, \ti
 
 
 @paper.claim("36.sampling", "(36) and the speed error, sampled at 1 ms by explicit Euler, are stable", "condition",
-             JURY, "violated", at={**at_cruise, period: Fraction(1, 1000)},
+             JURY, "violated", origin="ours", rests_on=(), at={**at_cruise, period: Fraction(1, 1000)},
              repair={**at_cruise, period: Fraction(1, 25000)},
              note="The paper states no sampling, so this is a condition on an implementation. Linearised at cruise speed: the estimate of c works through v^2 and is corrected through v^2, so "
                   "the pair oscillates at sqrt(lambda_3) v^2 rad/s, and an explicit step feeds the oscillation more "
@@ -58,7 +58,7 @@ def explicit_sampling() -> Goal:
 
 
 @paper.claim("36.sampling.corrected", "The same with the estimate corrected before it is used", "condition",
-             JURY, "proved", at={**at_cruise, period: Fraction(1, 1000)},
+             JURY, "proved", origin="ours", rests_on=(), at={**at_cruise, period: Fraction(1, 1000)},
              note="The order the simulation uses. It stays stable up to about 2/(sqrt(lambda_3) v^2), that is "
                   f"{2000 / (float(stated_gains[lambdas[2]]) ** 0.5 * cruise**2):.1f} ms at cruise speed.")
 def corrected_sampling() -> Goal:

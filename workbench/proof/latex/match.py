@@ -15,6 +15,7 @@ from workbench.proof.latex.convert import Converter
 from workbench.proof.latex.error import LatexError
 from workbench.proof.latex.notation import Notation
 from workbench.proof.latex.read import read_line
+from workbench.proof.latex.scan import scan
 from workbench.proof.latex.statement import ProseError, Related, statement
 
 FLIPPED: dict[Operator, Operator] = {"==": "==", "!=": "!=", "<=": ">=", ">=": "<=", "<": ">", ">": "<"}
@@ -37,6 +38,8 @@ def match(printed: str, notation: Mapping[str, sp.Expr], goal: Goal) -> Match:
     moved between them. In a chain `a = b <= c` equal sides stand for each other.
     """
     try:
+        if {piece.kind for piece in scan(printed)} == {"text"}:
+            return Match(False, "the line is words alone: it is read by a person", words=True)
         line = read_line(printed)
         stated = statement(line, Converter(Notation(notation), limits_of(goal)))
         return _compared(stated.claimed, stated.conditions, goal)

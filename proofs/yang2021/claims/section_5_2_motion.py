@@ -1,0 +1,47 @@
+"""yang2021, section 5.2: the moment T after (52), and a motion of the printed loop that never comes to it."""
+
+from __future__ import annotations
+
+import sympy as sp
+
+from workbench.proof.claim import Goal, at_most, equal, greater
+
+from ..error_dynamics import W_star, W_tilde, e_1, e_2, eps_star, epsilon, flow, h, lambdas, sigmas, stars, tildes
+from ..laws import alpha, beta, chi, k
+from ..lyapunov import V, error_bound, inside, l_stated, mu, t
+from ..paper import paper
+from ..stated_values import stated_davis
+
+weight, ideal, output = sp.symbols("W_tilde W_star h", real=True)
+ONE_NEURON = {W_tilde: weight, W_star: ideal, h: output}
+moving = (e_1, e_2, weight, *tildes)
+rates = dict(zip(moving, sp.symbols("edot_1 edot_2 Wdot adot bdot cdot", real=True), strict=True))
+
+
+def of_one_neuron(expr: sp.Expr) -> sp.Expr:
+    """The expression for a network of a single neuron."""
+    return expr.replace(sp.Sum, lambda summand, *_: summand).xreplace(ONE_NEURON)
+
+
+loop = {of_one_neuron(symbol): of_one_neuron(rate) for symbol, rate in flow.items()}
+smallest = sp.Min(2 * alpha, 2 * beta - 1, chi, *(lam * sigma for lam, sigma in zip(lambdas, sigmas, strict=True)))
+
+
+@paper.claim("52.T", "From some time on V is at most l/mu", "limit",
+             r"\text{there is a moment } T, \text{ and, for } \forall t > T, 0 \leq V(t) \leq \frac{l}{\mu} \text{ is always "
+             r"established}", "refuted", rests_on=("52",), closed_loop=True, match="words",
+             scope="every network with one neuron", reading="Along (4) with (27), (33)-(37), for mu of (49) and l of (50).",
+             note="(52) lets V stay above l/mu for ever. In the motion the train stands at its desired position, on the center "
+                  "of the one neuron, f = W* = a* holds it there exactly (epsilon = 0), and a-hat = W-hat = -exp(-t) cancel in "
+                  "(33) while they fade: V comes down to l/mu, and is above it at all times. True is the limit, 52.T.mended.")
+def reached_in_finite_time() -> Goal:
+    """The loop at rest, with two estimates that fade and cancel."""
+    one, zero, fading = sp.Integer(1), sp.Integer(0), sp.exp(-t)
+    a, b, c = (sp.Rational(stated_davis[s].numerator, stated_davis[s].denominator) for s in stars)
+    gains = dict.fromkeys((alpha, beta, chi, k, mu, *lambdas, *sigmas), one)
+    motion = {e_1: zero, e_2: zero, tildes[0]: -a - fading, tildes[1]: -b, tildes[2]: -c, weight: -a - fading}
+    constants = {**gains, **dict(zip(stars, (a, b, c), strict=True)), ideal: a, output: one, epsilon: zero, eps_star: zero,
+                 sp.Symbol("xdot_d", real=True): zero}
+    given = (equal(mu, smallest), *error_bound, greater(output, 0), at_most(output, 1))
+    return Goal((at_most(of_one_neuron(V), of_one_neuron(l_stated) / mu),), given, {t: one, **rates},
+                (inside, *(equal(rates[symbol], loop[symbol]) for symbol in moving)), eventually=t, model=motion | constants)

@@ -1,0 +1,86 @@
+"""yang2021, section 6: the figures and sentences on the runs, held against each other."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+
+import sympy as sp
+
+from workbench.proof.claim import D, Goal, Relation, at_least, at_most, equal, less
+from workbench.trains.train import u
+
+from ..error_dynamics import plant
+from ..laws import x_2
+from ..paper import paper
+from ..stated_values import scenario, stated_davis, stated_k
+
+u_max, u_common = sp.symbols("u_max u_common", positive=True)
+
+
+@paper.claim("figure8.input", "The largest input of Figure 8 and the one that it is kept at", "condition",
+             r"\text{the maximum acceleration value was 0.48 m/s$^2$ [...] it was basically kept at about 0.6 m/s$^2$}", "violated",
+             match="words", at={u_max: Fraction(48, 100), u_common: Fraction(6, 10)},
+             reading="No input of Figure 8 is above its maximum, so what it is kept at is at most 0.48.",
+             note="The two figures fit each other only if the maximum is that of the start alone, which the sentence does not "
+                  "say; that is how the scenario that is run takes them.")
+def input_below_its_maximum() -> Goal:
+    """0.6 against 0.48."""
+    return Goal((at_most(u_common, u_max),))
+
+
+@paper.claim("figure8.acceleration", "The control input is the acceleration", "identity",
+             r"\text{the train control input curve of the RBFNN-POCRAC algorithm, i.e., the acceleration curve of train operation}",
+             "refuted", severity="cosmetic", match="words", reading="u of (4) is D(x_2).",
+             note="By (4) they differ by the resistances. At a cruise that needs 0.6 m/s^2 the train does not accelerate at all.")
+def input_is_acceleration() -> Goal:
+    """u against the rate of the speed by (4), on a train with the stated coefficients."""
+    stated = tuple(equal(s, sp.Rational(v.numerator, v.denominator)) for s, v in stated_davis.items())
+    return Goal((equal(u, D(x_2)),), (at_least(x_2, 0), *stated), {x_2: plant.rates[x_2]})
+
+
+assert scenario.printed_table is not None
+TABLE_2 = scenario.printed_table.rows
+LETTERS = ("e_low", "e_high", "v_low", "v_high")
+NAMES = ("rbfnn_pocrac", "pocrac", "rbf_pid", "pid")
+
+
+def _columns(name: str) -> dict[str, sp.Symbol]:
+    return {letter: sp.Symbol(f"{letter}_{name}", real=True) for letter in (*LETTERS, "stop")}
+
+
+def _printed(name: str) -> dict[sp.Expr, Fraction]:
+    row = next(r for r in TABLE_2 if r.controller == name)
+    values = (*row.position_error_m, *row.speed_error_mps, row.stopping_accuracy_m)
+    return {symbol: Fraction(str(value)) for symbol, value in zip(_columns(name).values(), values, strict=True)}
+
+
+table_values = {symbol: value for name in NAMES for symbol, value in _printed(name).items()}
+
+
+@paper.claim("table2", "RBFNN-POCRAC is the best of Table 2 in every column", "condition",
+             r"\text{the RBFNN-POCRAC controller had the best position and speed tracking performance and the highest parking "
+             r"accuracy}", "proved", match="words", at=table_values,
+             reading="Its ranges of position and speed error lie within those of each of the three others, and its stopping "
+                     "accuracy is the smallest.",
+             note="Of the printed numbers alone; what runs give stands in the study.")
+def best_of_the_table() -> Goal:
+    """The four ranges within each other and the stopping accuracies in order."""
+    best, shown = _columns(NAMES[0]), list[Relation]()
+    for name in NAMES[1:]:
+        other = _columns(name)
+        shown += [at_least(best["e_low"], other["e_low"]), at_most(best["e_high"], other["e_high"]),
+                  at_least(best["v_low"], other["v_low"]), at_most(best["v_high"], other["v_high"]),
+                  less(best["stop"], other["stop"])]
+    return Goal(tuple(shown))
+
+
+@paper.claim("table2.band", "The position errors of Table 2 keep the constraint of 0.2 m", "condition",
+             r"\text{the maximum position error is constrained as } e_1(t) = 0.2", "proved", match="words",
+             at={symbol: value for name in NAMES[:2] for symbol, value in _printed(name).items()} | {
+                 sp.Symbol("k_stated", positive=True): stated_k},
+             reading="The errors of RBFNN-POCRAC and POCRAC over 100 runs are at most 0.2 m in size, and below k.")
+def table_keeps_the_band() -> Goal:
+    """Both constrained controllers."""
+    band, k_stated = sp.Rational(2, 10), sp.Symbol("k_stated", positive=True)
+    ends = [_columns(name)[letter] for name in NAMES[:2] for letter in LETTERS[:2]]
+    return Goal(tuple(relation(sp.Abs(end), limit) for end in ends for relation, limit in ((at_most, band), (less, k_stated))))

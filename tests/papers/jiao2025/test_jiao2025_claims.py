@@ -1,0 +1,167 @@
+"""jiao2025's claims against its own loop, run trial by trial with plain numbers: what breaks Theorem 1 and Remark 5,
+what mends them, and what becomes of the headline statements."""
+
+from fractions import Fraction
+
+import numpy as np
+import pytest
+from scenarios import PROOFS
+
+from workbench.proof.decide.engine import decide
+from workbench.proof.fate import judged
+from workbench.proof.loading import ProofFile
+from workbench.proof.paper import papers_in
+from workbench.proof.premises import below
+from workbench.proof.verdict import Decision
+
+
+@pytest.fixture(scope="module")
+def claims():
+    found, = papers_in(ProofFile(PROOFS / "jiao2025"))
+    return {claim.equation: claim for claim in found.claims}
+
+
+def decided(claims, equation):
+    """The decision on a claim, with the exact point that breaks it."""
+    decision = decide(claims[equation])
+    return decision, {name: Fraction(value) for name, value in (decision.counterexample or {}).items()}
+
+
+class Sample:
+    """One sample under (13)-(15), trial after trial, for a data model or the first sample of a train."""
+
+    def __init__(self, rho, lamda, mu, eta, epsilon, first_estimate, first_input):
+        self.rho, self.lamda, self.mu, self.eta, self.epsilon = rho, lamda, mu, eta, epsilon
+        self.first, self.estimate, self.u = first_estimate, first_estimate, first_input
+        self.change = self.speed_change = 0  # Delta u(k,i-1) and Delta v(k+1,i-1)
+        self.trial = 0
+
+    def learn(self, error, gamma=1):
+        """The input of the next trial, from the error of this one and whether it got here."""
+        if self.trial > 0:  # (15), then (13); in the first trial the estimate is the first one
+            surprise = gamma * (self.speed_change - self.estimate * self.change)
+            new = self.estimate + self.eta * self.change / (self.mu + self.change**2) * surprise
+            fires = min(abs(new), abs(self.change)) <= self.epsilon or new * self.first <= 0
+            self.estimate = self.first if fires else new
+        step = self.rho * self.estimate / (self.lamda + self.estimate**2) * gamma * error  # (14)
+        self.u, self.change, self.trial = self.u + step, step, self.trial + 1
+        return step
+
+
+def test_theorem_1_is_broken_by_a_loop_that_never_moves(claims):
+    decision, at = decided(claims, "theorem1")
+    assert decision.verdict == "refuted"
+    assert at["epsilon_bar"] < at["phi"] <= at["p"] and at["rho"] <= 1
+    assert at["lamda"] > at["rho"] ** 2 * at["p"] ** 2 / 4
+    loop = Sample(at["rho"], at["lamda"], 1, 1, Fraction(1, 100), at["phi_hat_1"], Fraction(0))
+    error = at["e_prev"]
+    for _ in range(30):
+        loop.speed_change = at["phi"] * loop.learn(error)  # the data model (5)
+        error -= loop.speed_change
+    assert error == at["e_prev"] != 0
+
+
+@pytest.mark.parametrize("seed", range(5))
+def test_an_estimate_of_the_wrong_sign_lets_errors_grow_in_every_trial(seed):
+    """Claim theorem1.sign, with the adaptation running and phi_c changing from trial to trial."""
+    draw = np.random.default_rng(seed)
+    loop = Sample(draw.uniform(0.1, 1), draw.uniform(0.5, 5), draw.uniform(0.1, 2), draw.uniform(0.1, 1), 1e-5,
+                  -draw.uniform(0.01, 2), 0.0)
+    errors = [draw.uniform(0.1, 3)]
+    for _ in range(40):
+        loop.speed_change = draw.uniform(0.1, 1) * loop.learn(errors[-1])
+        errors.append(errors[-1] - loop.speed_change)
+    assert (np.diff(np.abs(errors)) > 0).all()
+
+
+def test_theorem_1_mended_bounds_the_mean_error_of_random_lengths(claims):
+    """Claim theorem1.mended: E|e| over many draws of independent lengths stays below (1 - p M_1)^i."""
+    rho, lamda, p, lower, first, epsilon, chance = 0.8, 0.2, 1.0, 0.3, 0.9, 0.2, 0.4
+    assert lamda > rho**2 * p**2 / 4 and first > epsilon
+    slowest = rho * lower * epsilon / (lamda + max(p, first) ** 2)
+    draw, trials, runs = np.random.default_rng(3), 60, 400
+    errors = np.ones((runs, trials + 1))
+    for run in range(runs):
+        loop = Sample(rho, lamda, 0.1, 1.0, epsilon, first, 0.0)
+        for i in range(trials):
+            loop.speed_change = draw.uniform(lower, p) * loop.learn(errors[run, i], int(draw.random() < chance))
+            errors[run, i + 1] = errors[run, i] - loop.speed_change
+    assert (errors >= 0).all()  # the contraction keeps the sign
+    assert (errors.mean(axis=0) <= (1 - chance * slowest) ** np.arange(trials + 1) + 1e-12).all()
+    assert errors[:, -1].mean() < 0.02
+    assert claims["theorem1.mended"].mends == "jiao2025:theorem1"
+
+
+def test_remark_5_is_broken_by_a_train_whose_starts_alternate(claims):
+    """The point that refutes it starts an exact motion of (1), (13)-(15) that repeats itself every second trial."""
+    decision, at = decided(claims, "remark5")
+    assert decision.verdict == "refuted"
+    gain = at["T_s"] / at["M"]
+    loop = Sample(at["rho"], at["lamda"], Fraction(1, 7), Fraction(1), at["epsilon"], at["phi_hat_1"], at["u_prev"])
+    errors, speed = [], None
+    for trial in range(60):
+        before, speed = speed, at["w_even" if trial % 2 else "w_odd"] + gain * loop.u
+        loop.speed_change = 0 if before is None else speed - before
+        errors.append(at["v_d"] - speed)
+        loop.learn(errors[-1])
+        assert loop.estimate == at["phi_hat_1"]
+    assert set(errors) == {errors[0], errors[1]} and errors[1] == -errors[0] != 0
+
+
+def test_the_law_named_pd_acts_on_a_constant_error_with_both_gains(claims):
+    decision, at = decided(claims, "18.name")
+    assert decision.verdict == "refuted" and decision.correction is not None
+    moved = at["K_p"] * at["e_next"] + at["K_d"] * at["e_now"]
+    assert at["u_i"] - at["u_prev"] == moved != at["K_p"] * at["e_now"] + at["K_d"] * (at["e_next"] - at["e_now"])
+
+
+def test_a_sample_that_no_trial_reaches_is_allowed_by_assumption_3(claims):
+    decision, at = decided(claims, "gamma.positive")
+    assert decision.verdict == "refuted"
+    distribution = [at["p_short"], at["p_other_reaching"], at["p_last"]]
+    assert sum(distribution) == 1 and min(distribution) >= 0 and at["p_last"] == at["p_k"] == 0
+
+
+def test_the_chance_to_reach_a_sample_is_that_of_counted_lengths():
+    """Claims gamma.p and gamma.p.step, for the lengths of section 4."""
+    lengths = range(1901, 2001)
+    for k in (1, 1900, 1901, 1950, 2000):
+        counted = Fraction(sum(length >= k for length in lengths), len(lengths))
+        assert counted == (1 if k <= 1900 else Fraction(2000 - k + 1, 100))
+
+
+def test_two_trials_of_the_train_break_assumption_2_for_every_p():
+    """Claim A2.every with the numbers of section 4, u in N."""
+    step, mass = Fraction(1, 10), 350_000
+
+    def after(v, u):
+        return v + step / mass * (u - (2977 + Fraction("25.17") * v + Fraction("0.2864") * v**2))
+
+    for p in (1, 1000, 10**9):
+        v, w = Fraction(20), Fraction(1, 2)
+        a = 1 - step / mass * (Fraction("25.17") + Fraction("0.2864") * (2 * v + w))
+        small = a * w / (p + 1)
+        assert after(v, w * mass / step) - after(v, 0) == w
+        assert abs(after(v + w, small) - after(v, 0)) > p * small > 0
+
+
+def test_the_other_lines_of_a_row_are_not_the_paper_s(claims):
+    """Conditions with numbers of ours are questions; the paper is charged with its own lines alone."""
+    for equation, claim in claims.items():
+        if equation.startswith(("intro.", "theorem1.", "18.converges", "16.force", "u0.")):
+            assert claim.origin == "ours"
+        if claim.recorded == "violated":
+            assert claim.origin != "ours"
+
+
+def test_what_becomes_of_the_headline_statements(claims):
+    """Computed from the verdicts on record, which `prove` holds against the decided ones."""
+    every = {claim.id: claim for claim in claims.values()}
+    headlines = [claim.id for claim in claims.values() if claim.severity == "result" and claim.origin == "printed"]
+    wanted = below(headlines, every)
+    fates = {d.claim.equation: d.fate for d in judged([
+        Decision(claim, claim.recorded, "on record", None, 0.0) for claim in every.values() if claim.id in wanted])}
+    assert {equation: fate.word for equation, fate in fates.items() if fate} == {
+        "lemma1": "stands", "theorem1": "falls", "remark5": "falls", "remark5.distribution": "stands with corrections",
+        "conclusion": "stands with corrections"}
+    assert "theorem1.mended" in fates["theorem1"].why and "theorem1.train" in fates["conclusion"].why

@@ -1,0 +1,122 @@
+"""liu2020's claims against calculations of their own: exact motions by integration, lemmas on grids, tables by hand."""
+
+import numpy as np
+import pytest
+import sympy as sp
+from papers_import import PROOFS
+from scipy.integrate import solve_ivp
+
+from proofs.liu2020 import exact_motions
+from proofs.liu2020.error_dynamics import delta_tilde, t, theta_tilde
+from proofs.liu2020.laws import e_v, s_tilde, v_tilde
+from proofs.liu2020.stated_values import stated
+from workbench.proof.claim import at_most
+from workbench.proof.paper import collect_papers
+
+CLAIMS = {claim.equation: claim for paper in collect_papers([PROOFS / "liu2020"]) for claim in paper.claims}
+DEFINITIONS = {11, 16, 17, 29, 31}  # lines that name something and state nothing of it
+HELD = np.log(3) / 2
+
+
+def observer(leak, k_1=4.0, k_2=5.0, k_3=1.0):
+    """(13), (18) to (21) for one neuron, all other constants 1, with exact network and priors; typed from the paper."""
+    def rate(time, state):
+        s, v, weight, delta = state
+        return [v - k_1 * s, -k_3 * v - (k_2 - k_1 * k_3) * s + weight - np.tanh(v) * delta, -v + leak * weight,
+                np.tanh(v) * v + leak * delta]
+    return rate
+
+
+def tracking(leak, learn, k_5=0.25, alpha_2=2.0, beta_2=0.5, hidden=0.5):
+    """(33) as (28) and (31) give it, (32), (34), (35) for one neuron, M = chi = 1, exact network and priors."""
+    def rate(time, state):
+        e, weight, theta = state
+        return [-k_5 * e - weight * hidden - np.tanh(e) * theta, learn * hidden * e + leak * weight,
+                alpha_2 * (np.tanh(e) * e + leak * beta_2 * theta)]
+    return rate
+
+
+def stated_functions(goal, *states):
+    return [sp.lambdify(t, goal.model[state], "numpy") for state in states]
+
+
+@pytest.mark.parametrize("printed", [True, False])
+def test_the_observer_runs_away_as_printed_and_comes_to_rest_with_the_leakage_turned(printed):
+    goal = exact_motions.observer_motion(at_most(v_tilde, 1))
+    expected = stated_functions(goal, s_tilde, v_tilde, exact_motions.weight_f, delta_tilde)
+    start = [float(f(0.0)) for f in expected]
+    run = solve_ivp(observer(1 if printed else -1), (0.0, 4.0 if printed else 60.0), start, rtol=1e-11, atol=1e-12)
+    if printed:
+        # The motion is unstable, so the integration follows it only as far as rounding lets it.
+        for found, f in zip(run.y[:, -1], expected, strict=True):
+            assert found == pytest.approx(float(f(4.0)), rel=1e-5)
+        assert run.y[2, -1] > 50 and run.y[1, -1] == pytest.approx(HELD, rel=1e-4)
+    else:
+        assert np.abs(run.y[:, -1]).max() < 1e-3
+
+
+@pytest.mark.parametrize("printed", [True, False])
+def test_the_tracking_loop_runs_away_as_printed_and_comes_to_rest_with_the_signs_turned(printed):
+    goal = exact_motions.tracking_motion(at_most(e_v, 1))
+    expected = stated_functions(goal, e_v, exact_motions.weight_v, theta_tilde)
+    start = [float(f(0.0)) for f in expected]
+    laws = tracking(1, -1) if printed else tracking(-1, 1)
+    run = solve_ivp(laws, (0.0, 4.0 if printed else 60.0), start, rtol=1e-11, atol=1e-12)
+    if printed:
+        for found, f in zip(run.y[:, -1], expected, strict=True):
+            assert found == pytest.approx(float(f(4.0)), rel=1e-5)
+        assert run.y[2, -1] > 100 and run.y[0, -1] == pytest.approx(HELD, rel=1e-4)
+    else:
+        assert np.abs(run.y[:, -1]).max() < 1e-3
+
+
+def test_the_motions_stay_in_the_papers_domain():
+    goal = exact_motions.tracking_motion(at_most(e_v, 1))
+    model = {str(symbol): value for symbol, value in goal.model.items()}
+    assert 0 < model["h_f"] <= 1 and 0 < model["h_v"] <= 1  # Gaussians
+    assert model["k_2"] == 1 + model["k_1"] * model["k_3"]  # (40)
+    assert all(model[name] > 0 for name in ("M", "chi", "k_1", "k_3", "k_5", "alpha_1", "beta_2", "sigma_f", "kappa_2"))
+    assert all(model[name] == 0 for name in exact_motions.ZERO)
+
+
+def test_no_column_of_table_2_meets_equation_40():
+    gains = [np.array(stated["gains"][name]) for name in ("k_1", "k_2", "k_3")]
+    left = 1 - gains[1] + gains[0] * gains[2]
+    assert np.abs(left).min() > 0.5
+    assert all(f"{value:.4g}" in CLAIMS["40"].note for value in left)
+    undamped = 1 + np.flatnonzero(left**2 >= 4 * gains[0] * gains[2])
+    assert f"for Values {', '.join(map(str, undamped))} the squares" in CLAIMS["40"].note
+
+
+def test_lemma_2_holds_in_its_known_form_and_not_as_extracted():
+    h, x, delta = (a.ravel() for a in np.meshgrid(np.linspace(-3, 3, 41), np.linspace(-4, 4, 41), [0.05, 0.5, 2.0]))
+    left = h * np.abs(x) - x * h * np.tanh(0.2785 * h * x / delta)
+    assert np.all(left <= delta)
+    assert np.any(left > h * delta)
+
+
+def test_white_speed_errors_keep_the_balance_that_table_4_breaks():
+    printed = {str(symbol): float(value) for symbol, value in CLAIMS["table4.balance"].at.items()}
+    gain, step, rng = printed["k_1"], 1e-5, np.random.default_rng(1)
+    speed = np.repeat(rng.normal(size=400), 50)
+    position = np.zeros(speed.size + 1)
+    decay = np.exp(-gain * step)
+    for i, value in enumerate(speed):  # (13), exactly for a speed error that is constant over a step
+        position[i + 1] = decay * position[i] + (1 - decay) / gain * value
+    rms = [np.sqrt(np.mean(signal**2)) for signal in (position, speed)]
+    assert gain * rms[0] <= rms[1]
+    assert gain * printed["stilde_rms"] > 1.9 * printed["vtilde_rms"]
+
+
+def test_every_number_from_the_model_on_has_a_row():
+    numbers = {int(equation.split(".")[0]) for equation in CLAIMS if equation.split(".")[0].isdigit()}
+    assert set(range(9, 61)) - DEFINITIONS <= numbers
+
+
+def test_what_the_text_says_of_the_tables_is_charged_only_where_paper_prints_both():
+    charged = {name for name, claim in CLAIMS.items() if claim.recorded == "violated" and claim.origin == "printed"}
+    assert charged == {"40", "text.value5", "table4", "table4.increase", "figure15"}
+    table_3, table_4 = stated["table_3"], stated["table_4"]
+    assert table_3["speed_mps"][4] != 2.0952 == table_3["speed_mps"][3]
+    assert table_4["v_tilde_mps"][1] < table_4["v_tilde_mps"][0]
+    assert table_3["v_tilde_mps"][9] > max(map(abs, stated["figure_ranges"]["v_tilde_mps"]))
