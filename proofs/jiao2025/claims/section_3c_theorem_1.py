@@ -191,7 +191,7 @@ def same_length_always() -> Goal:
 @paper.claim("theorem1.mended", "Theorem 1 with its missing conditions, for the data model", "limit",
              r"\lambda > \tfrac14\rho^2p^2,\ \hat\phi_c(k,1) > \varepsilon,\ T_1, T_2, \ldots\ \text{independent},\ p_{T_d - T_{\min}} > 0 \Rightarrow "
              r"\lim_{i\to\infty}E|e(k,i)| = 0,\ k \ge 1", "proved", premises=("theorem1.mean", "theorem1.whole", "gamma.positive.mended", "13.mended", "theorem1.estimate.bounded"),
-             origin="ours", severity="result", mends="theorem1",
+             rests_on=(), origin="ours", severity="result", mends="theorem1",
              note="m is E|e|, which is at least |E e|. Decided as the step of m_i <= m_0/(1 + p M_1 i), with the trial named from which on m is below delta. The assumptions on lambda, the first "
                   "estimate, phi_c and the distribution are those under which the premises are proved.")
 def expectation_converges() -> Goal:

@@ -91,7 +91,8 @@ z_now = sp.Symbol("z", nonnegative=True)
 
 @paper.claim("theorem1.train", "The train's expected errors converge, sample after sample", "implication",
              r"c = 1 - p(k+1)d < r < 1,\ E|\Delta v(k,i)| \le Zr^i \Rightarrow E|e(k+1,i)| \le Cr^i,\ "
-             r"E|\Delta v(k+1,i)| \le 2Cr^{i-1}", "proved", premises=("theorem1.train.mean",), scope=EVERY_LENGTH, origin="ours", severity="result", mends="conclusion",
+             r"E|\Delta v(k+1,i)| \le 2Cr^{i-1}", "proved", premises=("theorem1.train.mean",), rests_on=(), scope=EVERY_LENGTH, origin="ours", severity="result",
+             mends="conclusion",
              note="Not the paper's argument, and what is left of Theorem 1 for the train: for estimates that stay between two bounds with |1 - g| < 1 there, 0 <= a <= 1, independent lengths, the same start "
                   "and f_a in every trial, d = min(g, 2-g) > 0 over them and p(k+1) > 0; induction over k with C >= m_0 and C >= Z r/(r - c). So the limit exists, but C grows from "
                   "sample to sample: see intro.growth. theta is r^(i-1).")

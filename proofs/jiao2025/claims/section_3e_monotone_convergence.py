@@ -38,8 +38,8 @@ y_old, slope = sp.symbols("y Delta_y", real=True)
 @paper.claim("intro.lift", "The train under (14) with a fixed estimate, lifted", "identity",
              r"e_i = e_{i-1} - z,\ z(k+1) = a z(k) + g\,e_{i-1}(k+1),\ g = \frac{T_s}{M}\frac{\rho\hat\phi}{\lambda + \hat\phi^2}",
              "proved", origin="ours", premises=("5.trials", "14"), scope=EVERY_LENGTH,
-             note="A trial of full length, z = Delta v(.,i), z(0) = 0. e_i = (I - G L) e_(i-1) with G the train's lower triangular map. The introduction promises "
-                  "monotone convergence in the 2-norm, which theorem1.step would give sample by sample; here it is held against the train.")
+             note="A trial of full length, z = Delta v(.,i), z(0) = 0. e_i = (I - G L) e_(i-1) with G the train's lower triangular map. For the data model "
+                  "theorem1.step makes the 2-norm fall from trial to trial; here the train is asked.")
 def lifted_step() -> Goal:
     """Two trials of (1) that differ by (14)."""
     step = input_step(phi_hat, x_in)
@@ -249,7 +249,7 @@ def growth_in_one_trial() -> Goal:
 @paper.claim("intro.tradeoff", "A fixed gain that is monotone over 1999 samples hardly moves the first sample in 150 trials", "implication",
              r"\|e_i\|_2 \le \|e_{i-1}\|_2\ \forall e_{i-1} \Rightarrow 150\,g \le \tfrac{1}{100}", "proved", origin="ours",
              premises=("intro.energy", "intro.hat", "intro.hat.written"), scope="1999 samples of 0.1 s, train at 72 m/s",
-             note="(1-g)^150 >= 1 - 150 g, so the promised monotone convergence and a first sample learned within 150 trials "
+             note="(1-g)^150 >= 1 - 150 g, so monotone convergence and a first sample learned within 150 trials "
                   "exclude each other, whatever lambda, rho and the unit of u.")
 def monotone_or_learning() -> Goal:
     """The witness must not grow, so g is small."""
