@@ -4,7 +4,8 @@ import pytest
 import sympy as sp
 from latex_trees import W, h, over
 
-from workbench.proof.claim import D, Goal, Relation, at_least, at_most, differ, equal, greater, less
+from workbench.proof.claim import Claim, D, Goal, Relation, at_least, at_most, differ, equal, greater, less
+from workbench.proof.decide.engine import decide
 from workbench.proof.latex.error import LatexError
 from workbench.proof.latex.match import match
 from workbench.proof.latex.notation import Notation
@@ -170,3 +171,17 @@ def test_large_sides_are_refused_in_a_moment():
     assert match(f"{large} \\le 0", NOTATION, same).parsed  # the same power of the same sum
     other = goal(at_most(sp.expand((z_1 + z_2) ** 2) * (a + e + k + 1) ** 90, 0))
     assert not match(large.replace("z_1", "1").replace("z_2", "0") + r"(z_1+z_2)^2 \le 0", NOTATION, other).parsed
+
+
+def test_a_decision_says_whether_its_line_was_parsed_and_what_was_decided():
+    def decided(printed, **more):
+        return decide(Claim(id="lent:1", title="", kind="identity", printed=printed, recorded="proved",
+                            build=lambda: RATE, notation=NOTATION, **more))
+
+    parsed = decided(r"\dot V_1 = -r_1z_1^2 + z_1z_2")
+    assert parsed.matched == "parsed" and parsed.verdict == "proved"
+    assert decided(r"\dot V_1 = -r_1z_1^2 - z_1z_2", reading="as its glyph").matched == "read"
+    assert decided(r"\dot V_1 = -r_1z_1^2 + z_1z_2", match="words", reading="as prose").matched == "words"
+    line, _, along = parsed.goal.partition(r"\quad\text{given}\ ")
+    assert match(line, {"z_1": z_1, "z_2": z_2, "r_1": r_1}, RATE).parsed
+    assert along == r"r_{1} > 0\quad\text{along}\ \frac{d}{dt} z_{1} = - r_{1} z_{1} + z_{2}"

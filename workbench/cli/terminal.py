@@ -90,6 +90,7 @@ def claim_card(row: dict[str, Any]) -> Table:
         "corrected": row["correction"], "fate": _fate(row), "holds for": row["scope"],
         "stands in the paper as": f"{ORIGIN_WORDS[row['origin']]}, {row['severity']}",
         "became a goal by": f"{MATCH_WORDS[row['match']]}{': ' if row['reading'] else ''}{row['reading']}",
+        "decided as": None if row["match"] == "parsed" else row["goal"],
         "other reading": f"{row['glyph_claim']}: {row['glyph']}" if row["glyph"] else None, "mends": row["mends"],
         "rests on": ", ".join(row["rests_on"]), "our proof uses": ", ".join(row["premises"]),
         "failed below": ", ".join(row["tainted_by"]), "note": row["note"], "certificate": row["certificate"],

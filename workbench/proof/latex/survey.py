@@ -9,7 +9,7 @@ from pathlib import Path
 from workbench.errors import ClaimError
 from workbench.proof.building import built
 from workbench.proof.claim import Claim
-from workbench.proof.latex.match import Match, match
+from workbench.proof.latex.match import Match, match_claim
 from workbench.proof.paper import Paper, collect_papers
 
 
@@ -48,11 +48,9 @@ def _of(paper: Paper) -> Survey:
 
 def matched(claim: Claim) -> Match:
     """The match of a claim's line with its goal; a cited result has no goal."""
-    if claim.match == "words":
-        return Match(False, "declared as prose", words=True)
     if claim.build is None:
         return Match(False, "a cited result is decided by no goal", words=True)
     try:
-        return match(claim.printed, claim.notation, built(claim, claim.build))
+        return match_claim(claim, built(claim, claim.build))
     except ClaimError as trouble:
         return Match(False, str(trouble))
