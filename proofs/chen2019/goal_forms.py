@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 import sympy as sp
 
-from workbench.proof.claim import Goal, Relation, at_least, at_most, greater
+from workbench.proof.claim import Goal, Relation, at_least, at_most, greater, name_of
+from workbench.trains.multi_particle import over_cars
 
 
 def both(one: sp.Expr, other: sp.Expr) -> tuple[Relation, Relation]:
@@ -33,3 +36,37 @@ def along_iterations(shown: Relation, always: tuple[Relation, ...], model: dict[
     at_first = {first[x]: value.xreplace({i_axis: sp.S.Zero} | constants) for x, value in model.items()}
     return Goal((shown,), (), {i_axis: sp.Integer(1), **rates}, always, {i_axis: sp.S.Zero, **first}, eventually=i_axis,
                 model=model | constants | at_first)
+
+
+class Integrals:
+    """Integrals over time from zero as states: linear in the integrand, so one state for each product that it holds.
+
+    What is in `constants` stands before the integral.
+    """
+
+    def __init__(self, constants: tuple[sp.Expr, ...]) -> None:
+        self.constants, self.rates = set(constants), dict[sp.Expr, sp.Expr]()
+
+    def of(self, integrand: sp.Expr) -> sp.Expr:
+        """The integral of a number that moves."""
+        return self._sum(integrand, lambda product: product)
+
+    def over_cars(self, summand: sp.Expr) -> sp.Expr:
+        """The integral of a sum over the cars."""
+        return self._sum(summand, over_cars)
+
+    def _sum(self, integrand: sp.Expr, summed: Callable[[sp.Expr], sp.Expr]) -> sp.Expr:
+        total = sp.S.Zero
+        for term in sp.Add.make_args(sp.expand(integrand)):
+            factors = sp.Mul.make_args(term)
+            before = sp.Mul(*(x for x in factors if x.free_symbols <= self.constants))
+            product = sp.Mul(*(x for x in factors if not x.free_symbols <= self.constants))
+            state = sp.Symbol("I_" + "_".join(_named(x) for x in sp.Mul.make_args(product)), real=True)
+            self.rates[state] = summed(product)
+            total += before * state
+        return total
+
+
+def _named(factor: sp.Expr) -> str:
+    base, exponent = factor.as_base_exp()
+    return name_of(base) if exponent == 1 else f"{name_of(base)}{exponent}"

@@ -14,7 +14,9 @@ from __future__ import annotations
 
 from workbench.proof.paper import Paper
 
-paper = Paper("chen2019", " ".join((__doc__ or "").split("\n\n")[1].split()))
+from .notation import NOTATION
+
+paper = Paper("chen2019", " ".join((__doc__ or "").split("\n\n")[1].split()), notation=NOTATION)
 
 # What claims hold for.
 EVERY_TRAIN = "every number of cars, every A and phi (car by car under the sum)"

@@ -1,4 +1,4 @@
-"""liu2020: every claim of sections 2 to 5, and the stated gains of section 6.
+"""liu2020: every claim of sections 1 to 6.
 
 Y. Liu, W. Li, Adaptive Output Feedback Control for the Trajectory Tracking of High-Speed Trains with Disturbance
 Uncertainties on the Basis of Neural Network Observers, Mathematical Problems in Engineering (2020).
@@ -7,7 +7,9 @@ Plant, observer and laws are those that the simulation runs (plant.py, laws.py);
 (lyapunov.py). Derivatives are written D(...) and derived along the closed loop (error_dynamics.py). What stands on the
 right of `equal` and `at_most` is what the paper prints.
 
-In the extracted text hats and tildes are mixed up in places; each place is read as the surrounding equations force.
+In the extracted text hats and tildes are mixed up, and (62) to (68) are missing; an accent is read as the surrounding
+equations force. Where a derivative, a fraction or a letter is open, the numbered row decides what the text shows and its
+`.glyph` row the other reading. What mends a line is a row of its own, `.mended`.
 """
 
 from __future__ import annotations

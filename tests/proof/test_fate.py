@@ -85,6 +85,11 @@ def test_taint_runs_along_the_paper_s_chain_not_along_ours():
     assert [d.tainted_by for d in rows] == [(), (), ("p2020:1",)]
 
 
+def test_a_question_of_ours_stands_in_no_chain_of_the_paper():
+    rows = with_taint([decided("1", "refuted"), decided("2", "proved", premises=("1",), origin="ours")])
+    assert rows[1].tainted_by == ()
+
+
 def test_only_printed_headlines_have_a_fate():
     rows = with_taint([decided("1", "proved", severity="result", origin="ours"), decided("2", "proved"),
                        decided("3", "proved", severity="result", origin="implied")])

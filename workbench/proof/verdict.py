@@ -46,7 +46,7 @@ class Stated:
 
     id: `<paper>:<equation>`; printed: the paper's LaTeX, letter by letter; recorded: the verdict on record.
     premises: ids of the claims that our proof uses; rests_on: ids of those that the paper's text uses to get here,
-    which carry taint, None for the premises. match: `read` or `words` (`parsed` is found by machine), reading: how a
+    which carry taint, None for the premises, and for nothing of a question of ours. match: `read` or `words` (`parsed` is found by machine), reading: how a
     line was read by a person. glyph: id of the claim that decides the other reading of a line whose extracted text
     leaves a sign, power or index open; mends: id of the claim of which this is a repaired form. note: what a reader
     should know.
@@ -98,14 +98,14 @@ class Stated:
         if self.severity not in SEVERITIES:
             raise ClaimError(f"claim {self.id}: severity '{self.severity}' is none of {', '.join(SEVERITIES)}")
         if self.rests_on is None:
-            object.__setattr__(self, "rests_on", self.premises)
+            object.__setattr__(self, "rests_on", () if self.origin == "ours" else self.premises)
         if self.id in (self.glyph, self.mends):
             raise ClaimError(f"claim {self.id}: names itself as its other reading or as what it mends: name another")
 
     @property
     def chain(self) -> tuple[str, ...]:
         """Ids of what the paper's text uses to get here."""
-        return self.premises if self.rests_on is None else self.rests_on
+        return self.rests_on or ()
 
     @property
     def paper(self) -> str:

@@ -1,36 +1,109 @@
-"""Section II: the model in compact form (7), Assumption 2 and Property 1 (6)."""
+"""Section II: the model in compact form (7), the limits (4), (5), Property 1 (6), Remark 1 and Assumption 2."""
 
 from __future__ import annotations
 
+from dataclasses import replace
 from fractions import Fraction
 
 import sympy as sp
 
-from workbench.proof.claim import Goal, Relation, at_least, at_most, equal
+from workbench.proof.claim import Goal, Relation, at_least, at_most, equal, greater
 from workbench.trains.multi_particle import basic_resistance, c_0, c_v, coupler_pull
 
+from ..goal_forms import both, integrated
 from ..laws import limited, v_r, v_r_dot
-from ..one_car import g, g_high, g_low, h
+from ..one_car import g, g_high, g_low, h, u_high, u_low
 from ..paper import paper
 from ..plant import car_forces, compact_force, compact_parameters
 from ..stated_values import MOTOR_CARS, cruise_stated, limit_stated, mass_stated, table_1
 
-
-@paper.claim("7", "The model of six cars in compact form", "identity",
-             r"(1), (2), (3) \Leftrightarrow M\dot v_i = u_i + \Theta_v v_i + \theta_a\phi(v_i) + \theta_k A s_i + "
-             r"\theta_d A v_i + \eta", "proved", scope="the six cars of section IV; 7.n for every n",
-             note="The definition of phi is lost in the extracted text; (2) forces phi(v) = [v_1^2, 0, ..., 0]^T.")
-def compact_form() -> Goal:
-    """Six rows of (7), with the matrix A, against (1)-(3)."""
-    newton, compact, _ = car_forces(6)
-    return Goal(tuple(equal(a, b) for a, b in zip(newton, compact, strict=True)))
+mu_car = sp.Symbol("mu", real=True)
 
 
-@paper.claim("7.n", "The compact form of the first, an inner and the last car", "identity",
-             r"(2), (3) \Leftrightarrow \text{rows } 1,\ j,\ n \text{ of (7)}", "proved",
-             scope="every number of cars n >= 2")
+def _three_cases(low: sp.Expr, high: sp.Expr) -> tuple[Relation, ...]:
+    """What the three cases say of u: each product vanishes, so u is the value of the case that mu lies in."""
+    u = limited(mu_car, low, high)
+    above, inside = sp.Max(mu_car - high, 0), sp.Max(mu_car - low, 0) * sp.Max(high - mu_car, 0)
+    below = sp.Max(low - mu_car, 0)
+    return (*both(above * (u - high), sp.S.Zero), *both(inside * (u - mu_car), sp.S.Zero),
+            *both(below * (u - low), sp.S.Zero))
+
+
+@paper.claim("4", "The saturation of a motor car, case by case", "identity",
+             r"u_{j} = \operatorname{sat}(\mu_{j}, u_{j}^{-}, u_{j}^{+}) = \begin{cases} u_{j}^{+}, & \mu_{j} > "
+             r"u_{j}^{+}, \\ \mu_{j}, & u_{j}^{-} \le \mu_{j} \le u_{j}^{+}, \\ u_{j}^{-}, & \mu_{j} < u_{j}^{-}. "
+             r"\end{cases}", "proved",
+             reading="sat is written min(max(mu, u^-), u^+) in all goals; this row shows that it takes the value of "
+                     "each of the three cases. (8) is this line for a car with u^+ or 0 as its upper limit.")
+def saturation_of_a_motor_car() -> Goal:
+    """min(max(.)) against the three cases, for u^- <= u^+."""
+    return Goal(_three_cases(u_low, u_high), (at_most(u_low, u_high),))
+
+
+@paper.claim("5", "The saturation of a trailer, case by case", "identity",
+             r"u_{j} = \operatorname{sat}(\mu_{j}, u_{j}^{-}, 0) = \begin{cases} 0, & \mu_{j} > 0, \\ \mu_{j}, & "
+             r"u_{j}^{-} \le \mu_{j} \le 0, \\ u_{j}^{-}, & \mu_{j} < u_{j}^{-}. \end{cases}", "proved",
+             reading="As (4), with the upper limit 0 and u^- <= 0, the largest braking force.")
+def saturation_of_a_trailer() -> Goal:
+    """min(max(.)) against the three cases, for u^- <= 0."""
+    return Goal(_three_cases(u_low, sp.S.Zero), (at_most(u_low, 0),))
+
+
+weight = sp.Symbol("gamma", nonnegative=True)
+within = (at_most(g_low, g), at_most(g, g_high))
+
+
+def _property_1(first: sp.Expr, own: sp.Expr) -> Relation:
+    left = (weight + 1) * g - (weight * own + limited(first, g_low, g_high))
+    return at_most(left * (own - limited(own, g_low, g_high)), 0)
+
+
+@paper.claim("6", "Property 1", "inequality",
+             r"[(\gamma+1)g - (\gamma h + \operatorname{sat}(g, \underline{g}, \overline{g}))][h - "
+             r"\operatorname{sat}(h, \underline{g}, \overline{g})] \le 0", "proved",
+             reading="With h = sat(g, g_low, g_high), g_low <= g <= g_high and gamma >= 0, as the lines around it say.",
+             note="True letter by letter, and of no use: h lies within the bounds, so the second bracket vanishes. "
+                  "(33) needs 6.mended.")
+def projection_property() -> Goal:
+    """h is a name for sat(g)."""
+    return Goal((_property_1(g, h),), (*within, equal(h, limited(g, g_low, g_high))))
+
+
+@paper.claim("6.mended", "Property 1 for the projection of any number h", "inequality",
+             r"[(\gamma+1)g - (\gamma h + \operatorname{sat}(h, \underline{g}, \overline{g}))][h - "
+             r"\operatorname{sat}(h, \underline{g}, \overline{g})] \le 0", "proved", origin="ours", mends="6",
+             reading="For any h, and with sat(h) in the first bracket, as (33) uses it with gamma = 0.")
+def projection_property_of_any_number() -> Goal:
+    """Case by case of h below, within and above the bounds."""
+    return Goal((_property_1(h, h),), within)
+
+
+self_weight, load, full_load = sp.symbols("m_self load load_full", real=True)
+
+
+@paper.claim("remark1", "Remark 1: self-weight and full load are bounds as Assumption 1 asks for", "implication",
+             r"\underline{m}_j represents the self-weight of jth car, and \overline{m}_j denotes the mass of jth car "
+             r"with full load", "proved", severity="cosmetic", match="words",
+             reading="A car's mass is its self-weight and a load between nothing and the full load; then 0 < m_low <= "
+                     "m <= m_high.")
+def mass_bounds_exist() -> Goal:
+    """Self-weight positive, load between 0 and the full load."""
+    given = (greater(self_weight, 0), at_least(load, 0), at_most(load, full_load))
+    return Goal((greater(self_weight, 0), at_most(self_weight, self_weight + load),
+                 at_most(self_weight + load, self_weight + full_load)), given)
+
+
+LINE_7 = (r"\begin{cases} \dot{s}_i = v_i, \\ M \dot{v}_i = u_i + \Theta_v v_i + \theta_a \phi(v_i) + \theta_k A s_i + "
+          r"\theta_d A v_i + \eta, \end{cases}")
+
+
+@paper.claim("7", "The compact form of the first, an inner and the last car", "identity", LINE_7, "proved",
+             scope="every number of cars n >= 2",
+             reading="The forces besides u of (7) in its first row, an inner one and the last one, against (1), (2), "
+                     "(3); the definition of phi is lost in the extracted text, and (2) forces phi(v) = [v_1^2, 0, "
+                     "..., 0]^T. The mass of the whole train is one number.")
 def compact_form_of_every_train() -> Goal:
-    """The three kinds of rows of (7); the mass of the whole train is one number."""
+    """The three kinds of rows of (7)."""
     total, mass, f_a = sp.symbols("m_total m_j f_a", real=True)
     ahead, own, behind = ((sp.Symbol(f"s_{k}", real=True), sp.Symbol(f"v_{k}", real=True)) for k in "abc")
     stated = compact_parameters(mass, total, f_a)
@@ -42,6 +115,14 @@ def compact_form_of_every_train() -> Goal:
     rolling = basic_resistance(mass, own[1]) + f_a
     return Goal((equal(basic_resistance(mass, own[1], total) + f_a - rear, first),
                  equal(rolling + front - rear, inner), equal(rolling + front, last)))
+
+
+@paper.claim("7.six", "The compact form of the six cars of section IV, with the matrix A written out", "identity",
+             LINE_7, "proved", origin="ours", scope="the six cars of section IV")
+def compact_form() -> Goal:
+    """Six rows of (7), with the matrix A, against (1)-(3)."""
+    newton, compact, _ = car_forces(6)
+    return Goal(tuple(equal(a, b) for a, b in zip(newton, compact, strict=True)))
 
 
 def _forces_at_reference() -> tuple[list[sp.Expr], dict[str, tuple[sp.Symbol, ...]]]:
@@ -60,13 +141,17 @@ trailer_force = float(mass_stated * (table_1[c_0] + table_1[c_v] * cruise_stated
 
 
 @paper.claim("A2", "Assumption 2: an input within the limits keeps six cars on the reference", "condition",
-             r"s_j = s_r,\ v_j = v_r = 83.5:\quad u_r = M\dot v_r - \Theta_v v_r - \theta_a\phi(v_r) - "
-             r"\theta_k A s_r - \theta_d A v_r - \eta \in [\underline u, \overline u]", "violated",
+             r"There is always an appropriate control input u_r(t) to drive the high-speed train to track the "
+             r"reference trajectories s_r and v_r over the finite time interval [0, T].", "violated", match="words",
+             reading="At the cruising speed of 83.5 m/s, with the one reference that the paper gives to all cars, the "
+                     "forces u_r that (7) asks for lie within the limits of section IV; no additional resistance is "
+                     "printed there, so it is zero.",
              at={**at_cruise, **dict.fromkeys(six["s"], Fraction(0))}, repair={**at_cruise, **behind_motors},
              note="With one reference for all cars A s_r = 0: no coupler pulls, and a trailer, which has no traction, "
-                  f"cannot make up for its own {trailer_force:.0f} N of resistance at 83.5 m/s on level track. Exact "
-                  "tracking of all cars is thus impossible at the stated numbers, whatever the law. The proof of "
-                  "Theorem 1 does not use Assumption 2. The repair lets every trailer run 0.7 mm behind its motor car.")
+                  f"cannot make up for its own {trailer_force:.0f} N of resistance at 83.5 m/s. Exact tracking of all "
+                  "cars is thus impossible at the stated numbers, whatever the law (A2.trailer, A2.floor). The proof "
+                  "of Theorem 1 does not use Assumption 2. The repair lets every trailer run 0.7 mm behind its motor "
+                  "car.")
 def reference_can_be_tracked() -> Goal:
     """The six forces at cruise against the limits of motor cars (1, 3, 5) and trailers."""
     most = [u_most if j in MOTOR_CARS else sp.S.Zero for j in range(1, 7)]
@@ -74,29 +159,42 @@ def reference_can_be_tracked() -> Goal:
                  *(at_least(u, -u_most) for u in needed)))
 
 
-weight = sp.Symbol("gamma", nonnegative=True)
-within = (at_most(g_low, g), at_most(g, g_high))
+trailer_mass, rolling_0, rolling_v = sp.symbols("m c_0 c_v", positive=True)
+speed_r, acceleration_r, falling = sp.symbols("v_r v_r_dot f_least", nonnegative=True)  # f^a = -f_least <= 0
 
 
-def _property_1(inner: sp.Expr, own: sp.Expr) -> Relation:
-    left = (weight + 1) * g - (weight * own + limited(inner, g_low, g_high))
-    return at_most(left * (own - limited(own, g_low, g_high)), 0)
+@paper.claim("A2.trailer", "No trailer follows a reference that does not slow down, on a line that resists",
+             "inequality",
+             r"\dot v_r \ge 0,\ v_r \ge 0,\ f^a_j \le 0 \Rightarrow m_j\dot v_r + m_j(c_0 + c_v v_r) - f^a_j > 0",
+             "proved", origin="ours", scope="every trailer of every train",
+             note="The force that a trailer needs to stay on the common reference is a traction force, which (5) rules "
+                  "out. So Assumption 2 fails for every train with a trailer, not at the stated numbers alone.")
+def trailer_needs_traction() -> Goal:
+    """The force that (1), (2) ask of a trailer whose couplers do not pull."""
+    resistance = -basic_resistance(trailer_mass, speed_r).xreplace({c_0: rolling_0, c_v: rolling_v})
+    return Goal((greater(trailer_mass * acceleration_r + resistance + falling, 0),))
 
 
-@paper.claim("6", "Property 1, for the projection of any number", "inequality",
-             r"\underline g \le g \le \overline g,\ \gamma \ge 0 \Rightarrow [(\gamma+1)g - (\gamma h + "
-             r"\mathrm{sat}(h,\underline g,\overline g))][h - \mathrm{sat}(h,\underline g,\overline g)] \le 0",
-             "proved", note="Read with sat(h, .) in the first bracket and any h, as (33) uses it. The extracted text "
-                            "has sat(g, .) there, and h = sat(g, .), which is 6.text.")
-def projection_property() -> Goal:
-    """Case by case of h below, within and above the bounds."""
-    return Goal((_property_1(h, h),), within)
+e_speed, e_start, stretch, stretching, brake, lasting = sp.symbols("e_v e_0 d_s d_v u t", real=True)
+drag, friction, stiffness, damping, least = sp.symbols("R k_v c_k c_d epsilon", positive=True)
 
 
-@paper.claim("6.text", "Property 1 letter by letter", "inequality",
-             r"[(\gamma+1)g - (\gamma h + \mathrm{sat}(g,\underline g,\overline g))][h - "
-             r"\mathrm{sat}(h,\underline g,\overline g)] \le 0,\quad h = \mathrm{sat}(g,\underline g,\overline g)",
-             "proved", note="True, and of no use: h lies within the bounds, so the second bracket vanishes.")
-def projection_property_text() -> Goal:
-    """With h = sat(g) put in."""
-    return Goal((_property_1(g, limited(g, g_low, g_high)),), within)
+@paper.claim("A2.floor", "Whatever the law, the errors of a trailer and its neighbours cannot all be small at cruise",
+             "implication",
+             r"|e_s|, |e_v| \le \varepsilon\ \text{for } t \text{ seconds} \Rightarrow 2m\varepsilon \ge "
+             r"t[R - (k_v + 4c_k + 4c_d)\varepsilon],\ R = m(c_0 + c_vv_r),\ k_v = mc_v", "proved", origin="ours",
+             scope="an inner trailer on level track at constant v_r",
+             note="So no law makes the tracking errors of such a train converge to zero. At the stated numbers the "
+                  "floor is R/(k_v + 4c_k + 4c_d) = 0.16 mm for a long cruise: what is impossible is zero, not good "
+                  "tracking.")
+def errors_have_a_floor() -> Goal:
+    """m e_v + t (R - K epsilon) does not increase while all errors are at most epsilon; d = e_{j-1} - 2 e_j + e_{j+1}."""
+    left_over = drag - (friction + 4 * stiffness + 4 * damping) * least
+    rate = brake - drag - friction * e_speed + stiffness * stretch + damping * stretching
+    always = (at_most(e_speed, least), at_least(e_speed, -least), at_most(stretch, 4 * least),
+              at_most(stretching, 4 * least), at_most(brake, 0))
+    goal = integrated({e_speed: rate / trailer_mass, lasting: sp.S.One},
+                      at_least(2 * trailer_mass * least, lasting * left_over), always,
+                      (trailer_mass, drag, friction, stiffness, damping, least, e_start),
+                      start={e_speed: e_start}, decreasing=trailer_mass * e_speed + lasting * left_over)
+    return replace(goal, assume=(*goal.assume, at_least(e_speed, -least), at_most(e_start, least)))

@@ -11,51 +11,60 @@ from ..goal_forms import J_i, along_iterations, i_axis, y_i
 from ..laws import c_1, c_2
 from ..paper import paper
 
-
-def _telescoped(with_v_before: bool) -> Goal:
-    """From i-1 to i; at i = 1 the sums are empty."""
-    S_V = sp.Symbol("S_V", real=True)
-    tail = S_V if with_v_before else sp.S.Zero
-    step = -c_1 * Z_1 - c_2 * Z_2 - (V_before if with_v_before else 0)
-    whole_tail = tail + V_before if with_v_before else 0
-    return Goal((at_most(E_now, E_1 - c_1 * (S_1 + Z_1) - c_2 * (S_2 + Z_2) - whole_tail),),
-                (at_most(E_now - E_before, step), at_most(E_before, E_1 - c_1 * S_1 - c_2 * S_2 - tail)))
+SUM_1, SUM_2 = (rf"\sum_{{k=2}}^{{i}} \int_{{0}}^{{t}} \left\| z_{{{x},k}} \right\|^{{2}} d\tau" for x in (1, 2))
+SUM_V = r"\sum_{k=1}^{i-1} V_k(t)"
+S_V = sp.Symbol("S_V", real=True)
+IN_46 = {"E_i": E_now, "E_1": E_1, SUM_1: S_1 + Z_1, SUM_2: S_2 + Z_2, SUM_V: S_V + V_before}
 
 
-SUMS_46 = r"c_1\sum_{k=2}^i\int_0^t\|z_{1,k}\|^2d\tau - c_2\sum_{k=2}^i\int_0^t\|z_{2,k}\|^2d\tau"
-LIMITS_47 = rf"\lim_{{i\to\infty}}({SUMS_46.replace(' - ', ' + ')})"
+def _telescoped(step: str, tail: sp.Expr, last: sp.Expr) -> Goal:
+    """From i - 1 to i, by the change that `step` shows; at the start the sums are empty."""
+    change, *_ = paper.shown(step)
+    return Goal((at_most(E_now, E_1 - c_1 * (S_1 + Z_1) - c_2 * (S_2 + Z_2) - tail - last),),
+                (equal(E_now - E_before, change.left), change,
+                 at_most(E_before, E_1 - c_1 * S_1 - c_2 * S_2 - tail)))
 
 
-def _telescoped_claim(equation: str, title: str, term: str, premise: str) -> None:
-    @paper.claim(equation, title, "implication", rf"E_i \le E_1 - {term}{SUMS_46}", "proved", premises=(premise,),
-                 note="The step of the induction over i; S_1, S_2 (and S_V) are the sums up to i - 1, empty at the "
-                      "start.")
-    def telescoped() -> Goal:
-        return _telescoped(with_v_before=bool(term))
+READING_46 = "The step of the induction over i: S_1, S_2 are the sums up to i - 1, empty at the start."
 
 
-_telescoped_claim("46", "The CEF after i iterations", "", "35")
-_telescoped_claim("46.kept", "The same with the term that (35) drops", r"\sum_{k=1}^{i-1}V_k(t) - ", "35.kept")
+@paper.claim("46", "The CEF after i iterations", "implication",
+             rf"E_{{i}} \leq E_{{1}} - c_{{1}} {SUM_1} - c_{{2}} {SUM_2}", "proved", premises=("35",), where=IN_46,
+             reading=READING_46)
+def telescoped() -> Goal:
+    """(35) added up."""
+    return _telescoped("35", sp.S.Zero, sp.S.Zero)
+
+
+@paper.claim("46.kept", "The same with the term that (35) drops", "implication",
+             rf"E_{{i}} \leq E_{{1}} - {SUM_V} - c_{{1}} {SUM_1} - c_{{2}} {SUM_2}", "proved", origin="ours",
+             premises=("35.kept",), where=IN_46, reading=READING_46)
+def telescoped_kept() -> Goal:
+    """35.kept added up."""
+    return _telescoped("35.kept", S_V, V_before)
 
 
 E_limit = sp.Symbol("E_limit", real=True)
+LIM_E = r"\lim_{i \to +\infty} E_i"
+LIM_1, LIM_2 = (rf"\lim_{{i \to +\infty}} \sum_{{k=2}}^i \int_0^t \|z_{{{x},k}}\|^2 d\tau" for x in (1, 2))
+RIGHT_47 = rf"E_1 - c_1 \cdot {LIM_1} - c_2 \cdot {LIM_2}"
+IN_47 = {LIM_E: E_limit, LIM_1: S_1, LIM_2: S_2, "E_1": E_1}
+right_47 = E_1 - c_1 * S_1 - c_2 * S_2
 
 
 def _limit(relation: Relation) -> Goal:
-    return Goal((relation,), (at_most(E_limit, E_1 - c_1 * S_1 - c_2 * S_2), at_least(E_limit, 0), at_least(S_1, 0),
-                              at_least(S_2, 0)))
+    """From the limits of both sides of (46), which exist, since E_i does not increase and is not negative."""
+    return Goal((relation,), (at_most(E_limit, right_47), at_least(E_limit, 0), at_least(S_1, 0), at_least(S_2, 0)))
 
 
-@paper.claim("47", "The limit of (46)", "limit",
-             rf"\lim_{{i\to\infty}}E_i = E_1 - {LIMITS_47}", "gap", premises=("46",),
-             correction=lambda: _limit(at_most(E_limit, E_1 - c_1 * S_1 - c_2 * S_2)),
-             corrected_statement=rf"\lim_{{i\to\infty}}E_i \le E_1 - {LIMITS_47}",
-             note="Cosmetic: the limit of the inequality (46) is an inequality; the dropped squares and V_{i-1} make "
-                  "up the difference. E_i does not increase and is not negative, so the limits exist, and (48) needs "
-                  "<= alone.")
+@paper.claim("47", "The limit of (46)", "limit", rf"{LIM_E} = {RIGHT_47}", "gap", severity="cosmetic", premises=("46",),
+             where=IN_47, correction=lambda: _limit(at_most(E_limit, right_47)),
+             corrected_statement=rf"{LIM_E} \le {RIGHT_47}",
+             note="The limit of the inequality (46) is an inequality; the dropped squares and V_{i-1} make up the "
+                  "difference. (48) needs <= alone.")
 def cef_limit() -> Goal:
     """Equality of the limits from (46)."""
-    return _limit(equal(E_limit, E_1 - c_1 * S_1 - c_2 * S_2))
+    return _limit(equal(E_limit, right_47))
 
 
 iteration, iterations = sp.symbols("k i", integer=True, positive=True)
@@ -74,41 +83,57 @@ count_1, count_2 = over_iterations(large_1**2), over_iterations(large_2**2)
 
 
 @paper.claim("48", "The integrals of the errors z converge to zero", "limit",
-             r"\lim_{i\to\infty}\int_0^t\|z_{1,i}\|^2d\tau = 0,\quad \lim_{i\to\infty}\int_0^t\|z_{2,i}\|^2d\tau = 0",
-             "proved", premises=("25", "46", "45.bounded"),
-             note="Decided with the number named: at most E_1/(c_1 delta) iterations have an integral of z_1 of at "
-                  "least delta, for every delta > 0; likewise E_1/(c_2 delta) for z_2. It does not need (47).")
+             r"\lim_{i \to \infty} \int_0^t \|\mathbf{z}_{1,i}\|^2 \, d\tau = 0, \lim_{i \to \infty} \int_0^t "
+             r"\|\mathbf{z}_{2,i}\|^2 \, d\tau = 0", "proved",
+             premises=("25", "46", "45.bounded"), rests_on=("25", "45.bounded", "46", "47"),
+             reading="With the number named: for every delta > 0 at most E_1/(c_1 delta) iterations have an integral of "
+                     "z_1 of at least delta, and at most E_1/(c_2 delta) one of z_2.",
+             note="It does not need (47).")
 def integrals_converge() -> Goal:
     """The count of iterations with a large integral, from (46) and E_i >= 0."""
     shown = (at_most(c_1 * delta * count_1, E_1), at_most(c_2 * delta * count_2, E_1))
-    return Goal(shown, (at_least(E_now, 0), at_most(E_now, E_1 - c_1 * terms_1 - c_2 * terms_2)))
+    return Goal(shown, (at_least(E_now, 0), *paper.shown("46"), equal(S_1 + Z_1, terms_1), equal(S_2 + Z_2, terms_2)))
 
 
 def _instants_converge() -> Goal:
     """The count of iterations with V_k(t) >= delta, from 46.kept."""
-    return Goal((at_most(delta * count_1, E_1),), (at_least(E_now, 0), at_most(E_now, E_1 - terms_1)))
+    return Goal((at_most(delta * count_1, E_1),),
+                (at_least(E_now, 0), *paper.shown("46.kept"), equal(S_V + V_before, terms_1), at_least(S_1 + Z_1, 0),
+                 at_least(S_2 + Z_2, 0)))
 
 
 @paper.claim("55.pointwise", "(48) makes z converge at every instant", "limit",
-             r"\int_0^t\|z_i\|^2d\tau \to 0 \Rightarrow z_i(t) \to 0\ \text{(pointwisely)}", "gap", premises=("48",),
+             r"\text{Hence, it can conclude that ... $z_{1,i}$ and $z_{2,i}$ are convergent along the iteration axis "
+             r"pointwisely.}", "gap", premises=("48",), match="words",
+             reading="The integrals of (48) tend to zero, so z_i(t) tends to zero at every t.",
              correction=_instants_converge,
              corrected_statement=r"\#\{k: V_k(t) \ge \delta\} \le \tfrac{E_1(t)}{\delta}\ \text{for every } t, \delta "
                                  r"> 0",
              note="Integrals do not control instants: z_i(tau) = tau^(i+1) on [0, 1] has the integral 1/(2i+3) of its "
                   "square and z_i(1) = 1 in every iteration. The conclusion is nevertheless true: the term V_{i-1}(t) "
-                  "that (35) drops gives it, see theorem1.2.")
+                  "that (35) drops gives it, see 55.mended.")
 def pointwise_from_integrals() -> Goal:
     """y = |z_i(1)|^2 from the integral J of |z_i|^2, which tends to zero."""
     always = (at_most(J_i, 1 / (2 * i_axis + 3)), at_least(J_i, 0), at_least(y_i, 0), at_least(i_axis, 0))
     return along_iterations(at_most(y_i, sp.S.Half), always, {J_i: 1 / (2 * i_axis + 3), y_i: sp.Integer(1)}, {})
 
 
+@paper.claim("55.mended", "z converges at every instant by the term that (35) drops", "limit",
+             r"\#\{k: V_k(t) \ge \delta\} \le \tfrac{E_1(t)}{\delta}\ \text{for every } t, \delta > 0", "proved",
+             origin="ours", mends="55.pointwise", match="words", premises=("25", "46.kept", "45.bounded"))
+def instants_converge() -> Goal:
+    """The count of iterations with a large V at an instant."""
+    return _instants_converge()
+
+
 @paper.claim("theorem1.2", "Theorem 1, part 2: z_1 and z_2 converge to 0 along the iteration axis", "limit",
-             r"\lim_{i\to\infty}z_{1,i}(t) = 0,\ \lim_{i\to\infty}z_{2,i}(t) = 0", "proved",
-             premises=("25", "46.kept", "45.bounded"),
-             note="At every instant, not only as integrals: at most E_1(t)/delta iterations have V_k(t) >= delta. By "
-                  "35.kept, not by the printed way over (48). It supposes that iterations differ in nothing but the "
-                  "estimates (31.place) and that the loop through the acceleration is solved.")
+             r"\text{$z_{1,i}$ and $z_{2,i}$ converge to 0 along the iteration axis.}", "proved", severity="result",
+             match="words", premises=("25", "46.kept", "45.bounded"), rests_on=("48", "55.pointwise", "16.unique"),
+             reading="At every t, for every delta > 0 at most E_1(t)/delta iterations have V_k(t) = (|z_1|^2 + |z_2|^2)/2 "
+                     ">= delta; then z_1 and z_2 tend to 0 at every instant, and so do their integrals.",
+             note="It stands by 35.kept, not by the printed way over (48). It supposes that iterations differ in nothing "
+                  "but the estimates (31.place), that lambda starts at zero (A3) and that (16) defines an input "
+                  "(16.unique).")
 def z_converges() -> Goal:
     """The count of iterations with a large V at an instant."""
     return _instants_converge()

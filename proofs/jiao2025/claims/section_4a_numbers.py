@@ -140,7 +140,7 @@ def resistance_of_both() -> Goal:
 
 @paper.claim("table1", "Table 1 meets what section 2 asks of the parameters", "condition",
              r"\rho \in (0, 1],\ \eta \in (0, 1],\ \lambda > 0,\ \mu > 0,\ \varepsilon > 0", "proved", at=stated(rho, eta, lamda, mu, epsilon),
-             reading="With eta = 1, rho = 0.245, lambda = 0.00005, mu = 0.1, epsilon = 10^-5; the bounds stand below (7) to (10) and (13).")
+             reading="With eta = 1, rho = 0.245, lambda = 0.00005, mu = 0.1, epsilon = 10^-5; the bounds stand below (7) to (10) and, that epsilon is positive, in words below (13).")
 def table_1() -> Goal:
     """The five parameters."""
     return Goal((greater(rho, 0), at_most(rho, 1), greater(eta, 0), at_most(eta, 1), greater(lamda, 0), greater(mu, 0), greater(epsilon, 0)))

@@ -97,6 +97,7 @@ def leakage_claim(equation: str, name: str, square: sp.Expr, latex: tuple[str, s
     @paper.claim(f"{equation}.mended", f"The leakage draws {name} to its prior, its sign turned", "inequality",
                  rf"{corrected} \Rightarrow {decrease}", "proved", origin="ours", mends=f"{equation}.leakage", scope=scope)
     def mended_leakage() -> Goal:
+        """Along the law with a minus sign before the leakage."""
         return _leakage(square, -1)
 
 

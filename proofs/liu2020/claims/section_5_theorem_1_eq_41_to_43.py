@@ -153,6 +153,7 @@ def robust_claims(equation: str, name: str, symbols: tuple[sp.Expr, ...], latex:
                  "proved", origin="ours", mends=f"{equation}.{name}", premises=("lemma2.glyph",),
                  where={r: residual} | RESIDUALS)
     def robust_bound_mended() -> Goal:
+        """The tangents of exp on either side of zero."""
         return _robust_bound(error, residual, bound, kappa, *within(residual, bound))
 
 
@@ -178,6 +179,7 @@ def leak_claims(equation: str, name: str, leak: sp.Expr, printed: sp.Expr, bound
                  rf"-{latex[0]} \le {latex[2]}", "proved", origin="ours", mends=f"{equation}.{name}", where=ERRORS,
                  rests_on=(), scope=scope)
     def leak_bound_mended() -> Goal:
+        """By Young's inequality, for estimate minus truth."""
         return Goal((at_most(-leak, bound),))
 
 

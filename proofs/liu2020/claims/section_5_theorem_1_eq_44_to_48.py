@@ -57,6 +57,7 @@ def weights_decay_claim(equation: str, net: str, sigma: sp.Expr, eigenvalue: sp.
                  "inequality", corrected, "proved", origin="ours", mends=f"{equation}.weights", rests_on=(),
                  scope="every number of neurons and every gain matrix")
     def weights_decay_mended() -> Goal:
+        """W_tilde^T Gamma^-1 W_tilde is at most lambda_max |W_tilde|^2."""
         return by_largest()
 
 
@@ -149,6 +150,7 @@ def after_decay(i: int, decay: str, growth: str, bound: str, norm: str, not_nega
                  reading="'If ..., then ...' in the text; Theta is a positive level." + (
                      " V_1 is at the level, as for V_2, where the text has 'in'." if i == 1 else ""))
     def no_growth() -> Goal:
+        """At V = Theta the decay outweighs mu."""
         return Goal((at_most(w, 0),), (greater(level, 0), greater(rho, mu / level), equal(V_t, level),
                                        at_most(w, -rho * V_t + mu)))
 
@@ -157,6 +159,7 @@ def after_decay(i: int, decay: str, growth: str, bound: str, norm: str, not_nega
                  premises=(decay,), where=letters,
                  note="(45) is multiplied, not (43) as the text has it." if i == 1 else "")
     def growth_bound() -> Goal:
+        """The product rule."""
         return Goal((at_most(D(V_t * sp.exp(rho * t)), mu * sp.exp(rho * t)),), decaying, along_v)
 
     @paper.claim(bound, f"Bound of V_{i}", "implication",
@@ -172,6 +175,7 @@ def after_decay(i: int, decay: str, growth: str, bound: str, norm: str, not_nega
                  "proved", premises=(bound,), rests_on=(f"{decay}.level",), where=letters,
                  reading="For all t >= 0, as the text says.")
     def stays_below() -> Goal:
+        """The bound lies between V(0) and phi, both below Theta."""
         return Goal((at_most(V_t, level),), (greater(level, 0), greater(rho, mu / level), at_most(V_start, level),
                                              at_least(t, 0), at_most(V_t, bound_47)))
 
@@ -216,13 +220,11 @@ prior_size, off_size = sp.symbols("W_off_square delta_off_square", nonnegative=T
              note="With the rho_1 that holds. Witness: sigma_f = beta_1 = 1, rho = mu_1/phi, Gamma_f = rho times the "
                   "identity, alpha_1 = rho, k_1 = k_3 = rho/2, k_2 = 1 + k_1 k_3.")
 def arbitrarily_small() -> Goal:
-    """Every entry of the corrected rho_1 is met with equality."""
+    """The entries of the corrected rho_1 and the bound phi for the gains of the witness."""
     total = prior_size / 2 + off_size / 2 + constant * kappa_1 * robust_size
-    rate, one = total / wanted, sp.Integer(1)
-    gains = {sigma_f: one, beta_1: one, rho: rate, lambda_f: 1 / rate, alpha_1: rate, k_1: rate / 2, k_3: rate / 2}
-    entries = (*rates_1, at_most(rho, alpha_1 * beta_1))
-    return Goal((*(equal(r.left.xreplace(gains), r.right.xreplace(gains)) for r in entries),
-                 equal(total, wanted * rate), greater(rate, 0)), (greater(robust_size, 0),))
+    witness = (equal(sigma_f, 1), equal(beta_1, 1), equal(rho * wanted, total), equal(lambda_f * rho, 1),
+               equal(alpha_1, rho), equal(2 * k_1, rho), equal(2 * k_3, rho))
+    return Goal((*rates_1, at_most(rho, alpha_1 * beta_1), at_most(total / rho, wanted)), witness)
 
 
 norm_48 = s_tilde**2 + v_tilde**2 + square_f
