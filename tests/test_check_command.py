@@ -1,11 +1,13 @@
 """`workbench check`: a pasted line is decided, and what was decided is shown."""
 
 import json
+import re
 import subprocess
 import sys
 from fractions import Fraction
 
 import pytest
+from scenarios import ROOT
 
 from workbench.errors import InputError, WorkbenchError
 from workbench.proof.checker import check
@@ -155,3 +157,12 @@ def test_a_paper_lends_its_letters(tmp_path):
         path.write_text(PAPER.replace("{paper}", text))
         with pytest.raises(InputError, match=why):
             load_symbols(path)
+
+
+def test_the_example_of_the_readme_is_proved(tmp_path):
+    section = (ROOT / "README.md").read_text(encoding="utf-8").partition("## Check a line")[2].partition("\n## ")[0]
+    (table,) = re.findall(r"```toml\n(.*?)```", section, re.DOTALL)
+    (line,) = re.findall(r"workbench check '(.*?)'", section)
+    path = tmp_path / "symbols.toml"
+    path.write_text(table, encoding="utf-8")
+    assert answer(line, load_symbols(path)).decision.verdict == "proved"
