@@ -107,7 +107,7 @@ def short(tmp_path):
 
 def test_help_names_every_command():
     shown = run("--help").stdout
-    for command in ("prove", "new-paper", "check-certificates", "compare", "sweep", "tune", "report", "reference",
+    for command in ("prove", "check ", "new-paper", "check-certificates", "compare", "sweep", "tune", "report", "reference",
                     "gains"):
         assert command in shown
 

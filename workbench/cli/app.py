@@ -6,7 +6,20 @@ import sys
 
 import typer
 
-from workbench.cli import check, compare, examples, gains, listing, new_paper, prove, reference, report, sweep, tune
+from workbench.cli import (
+    check,
+    check_certificates,
+    compare,
+    examples,
+    gains,
+    listing,
+    new_paper,
+    prove,
+    reference,
+    report,
+    sweep,
+    tune,
+)
 from workbench.cli.options import Version
 from workbench.cli.terminal import err_console
 from workbench.errors import WorkbenchError
@@ -16,7 +29,8 @@ app = typer.Typer(no_args_is_help=True, add_completion=False, pretty_exceptions_
 
 INTERRUPTED = 130  # with which typer ends after Ctrl-C
 
-for verb in (prove, new_paper, check, compare, sweep, tune, report, reference, gains, listing, examples):
+for verb in (prove, check, new_paper, check_certificates, compare, sweep, tune, report, reference, gains, listing,
+             examples):
     app.command(verb.NAME)(verb.command)
 
 

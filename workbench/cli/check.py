@@ -1,4 +1,4 @@
-"""`workbench check-certificates`: re-check what was proved."""
+"""`workbench check`: decide a pasted line of LaTeX."""
 
 from __future__ import annotations
 
@@ -7,22 +7,26 @@ from typing import Annotated
 
 import typer
 
-from workbench.cli.terminal import err_console, out_console
-from workbench.errors import WorkbenchError
-from workbench.proof.checker import check_folder
+from workbench.cli.options import JsonFile
+from workbench.cli.terminal import answer_card, out_console
 
-NAME = "check-certificates"
+NAME = "check"
 
 
-def command(folder: Annotated[Path, typer.Argument(help="Folder with certificates in it or below it")]) -> None:
-    """Re-check certificates with checker.py alone; exit 0 when all hold, 1 when one does not."""
-    results = check_folder(folder)
-    if not results:
-        raise WorkbenchError(f"{folder}: holds no certificate (*.json): run 'workbench prove' first")
-    for path, verdict, reason in results:
-        if reason is not None:
-            err_console.print(f"[red]{path}: {verdict}: INVALID: {reason}[/red]", soft_wrap=True)
-    wrong = sum(reason is not None for _, _, reason in results)
-    out_console.print(f"{len(results) - wrong} of {len(results)} certificates hold")
-    if wrong:
+def command(line: Annotated[str, typer.Argument(metavar="LATEX", help="The line, as in '\\dot V \\le 0'")],
+            symbols: Annotated[Path, typer.Option(
+                help="TOML file with symbols, definitions, assumptions and flow, or the folder of a paper.")],
+            json: JsonFile = None) -> None:
+    """Decide a line of LaTeX; exit 0 when it is proved, 1 when it is not, 2 on bad input."""
+    from workbench.files.json_output import write_json
+    from workbench.files.outputs import check_outputs
+    from workbench.proof.latex.question import answer
+    from workbench.proof.latex.symbols import load_symbols
+
+    check_outputs({"--json": json}, [symbols])
+    found = answer(line, load_symbols(symbols))
+    if json:
+        write_json(json, found.document())
+    out_console.print(answer_card(found.document()))
+    if found.decision.verdict != "proved":
         raise typer.Exit(1)

@@ -61,6 +61,22 @@ def claims_table(document: dict[str, Any], only_failed: bool = False) -> Table:
     return table
 
 
+def answer_card(answer: dict[str, Any]) -> Table:
+    """A pasted line decided: the verdict, the goal as it was read, and what shows it."""
+    table = Table.grid(padding=(0, 2))
+    table.add_column(no_wrap=True, style="bold")
+    table.add_column(overflow="fold")
+    goal = answer["goal"]
+    known = {"verdict": [answer["verdict"]], "the line as read": goal["show"], "given": goal["assume"],
+             "along": goal["flow"], "constant": [", ".join(goal["constant"])],
+             "counterexample": [_values(answer["counterexample"])] if answer["counterexample"] else [],
+             "shown by": [answer["method"]]}
+    for what, texts in known.items():
+        for number, text in enumerate(filter(None, texts)):
+            table.add_row("" if number else what, Text(text, COLOURS[text] if what == "verdict" else ""))
+    return table
+
+
 def claim_card(row: dict[str, Any]) -> Table:
     """One claim with all that is known of it."""
     table = Table.grid(padding=(0, 2))
@@ -74,6 +90,7 @@ def claim_card(row: dict[str, Any]) -> Table:
         "corrected": row["correction"], "fate": _fate(row), "holds for": row["scope"],
         "stands in the paper as": f"{ORIGIN_WORDS[row['origin']]}, {row['severity']}",
         "became a goal by": f"{MATCH_WORDS[row['match']]}{': ' if row['reading'] else ''}{row['reading']}",
+        "decided as": None if row["match"] == "parsed" else row["goal"],
         "other reading": f"{row['glyph_claim']}: {row['glyph']}" if row["glyph"] else None, "mends": row["mends"],
         "rests on": ", ".join(row["rests_on"]), "our proof uses": ", ".join(row["premises"]),
         "failed below": ", ".join(row["tainted_by"]), "note": row["note"], "certificate": row["certificate"],

@@ -47,10 +47,10 @@ class Relation:
         """The relation with symbols replaced."""
         return Relation(self.left.xreplace(values), self.operator, self.right.xreplace(values))
 
-    def latex(self) -> str:
-        """LaTeX of the relation."""
+    def latex(self, letters: Mapping[str, str] | None = None) -> str:
+        """LaTeX of the relation; letters: LaTeX of names, where it is not made of them."""
         sign = {"==": "=", "<=": r"\le", ">=": r"\ge", "!=": r"\ne"}.get(self.operator, self.operator)
-        return f"{latex(self.left)} {sign} {latex(self.right)}"
+        return f"{latex(self.left, letters)} {sign} {latex(self.right, letters)}"
 
 
 def equal(left: Any, right: Any) -> Relation:

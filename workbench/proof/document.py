@@ -156,6 +156,7 @@ def claims_document(decisions: Sequence[Decision], where: Places) -> dict[str, A
             "premises": list(claim.premises), "tainted_by": list(d.tainted_by), "trust": d.trust,
             "seconds": round(d.seconds, 3), "title": claim.title, "note": claim.note,
             "recorded": claim.recorded, "computed": d.computed, "origin": claim.origin, "match": d.matched,
+            "goal": d.goal,
             "reading": claim.reading, "glyph": d.other_reading,
             "glyph_claim": claim.glyph, "severity": claim.severity, "rests_on": list(claim.chain),
             "mends": claim.mends, "fate": d.fate.word if d.fate else None,

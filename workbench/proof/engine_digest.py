@@ -12,7 +12,7 @@ from workbench.files.regular import sha256_of
 from workbench.proof.dependencies import STARTED_NS, changed_since
 
 SOURCES = Path(__file__).parent
-LIBRARIES = ("sympy", "mpmath", "python-flint", "numpy", "scipy", "cvxpy", "clarabel", "scs", "osqp", "highspy")
+LIBRARIES = ("sympy", "mpmath", "python-flint", "numpy", "scipy", "cvxpy", "clarabel", "scs", "osqp", "highspy", "lark")
 
 
 def engine_digest(sources: Path = SOURCES) -> str | None:

@@ -135,6 +135,7 @@ class Fate:
 class Decision:
     """A claim decided: the verdict, the certificate that shows it, and how it was found.
 
+    goal: LaTeX made of what was decided; match: `parsed` where a machine found the printed line in the goal.
     tainted_by, fate and other_reading (the printed line of the claim that decides it) come from the other claims.
     """
 
@@ -148,6 +149,7 @@ class Decision:
     correction: str | None = None
     computed: str | None = None
     match: Match | None = None
+    goal: str | None = None
     tainted_by: tuple[str, ...] = ()
     fate: Fate | None = None
     other_reading: str | None = None

@@ -18,6 +18,8 @@ from workbench.proof.decide.refute import find_counterexample, find_example, val
 from workbench.proof.decide.search import prove_relation
 from workbench.proof.derive import expand_derivatives
 from workbench.proof.fate import judged
+from workbench.proof.latex.goal import goal_latex
+from workbench.proof.latex.match import match_claim
 from workbench.proof.premises import premises_problem
 from workbench.proof.text import goal_text
 
@@ -31,7 +33,9 @@ def decide(claim: Claim) -> Decision:
         return Decision(claim, "assumed", claim.axiom or "", None, time.perf_counter() - started)
     goal = built(claim, claim.build)
     decision = _decide_statement(claim, goal) if claim.at is None else _decide_condition(claim, goal)
-    return replace(decision, seconds=time.perf_counter() - started)
+    parsed = match_claim(claim, goal).parsed
+    return replace(decision, match="parsed" if parsed else None, goal=goal_latex(goal),
+                   seconds=time.perf_counter() - started)
 
 
 def _decide_statement(claim: Claim, goal: Goal) -> Decision:

@@ -33,10 +33,12 @@ IMPLIES = frozenset(["Rightarrow", "implies", "Longrightarrow"])
 EQUIVALENT = frozenset(["Leftrightarrow", "iff", "Longleftrightarrow"])
 QUANTIFIERS = frozenset(("forall", "exists"))
 ELLIPSES = frozenset(["dots", "ldots", "cdots", "vdots", "ddots", "dotsc", "dotsb", "dotsm"])
+# Several lines as one: those of a system are parted by commas, those of an aligned formula go on.
+ENVIRONMENTS = frozenset(("cases", "aligned", "align", "align*", "split", "gathered", "equation", "equation*"))
 TIMES = frozenset(("cdot", "times"))
 OPENING = {"lbrace": "{", "lbrack": "[", "{": "{"}
 CLOSING = {"rbrace": "}", "rbrack": "]", "}": "}"}
-BARS = {"lvert": "|", "rvert": "|", "vert": "|", "lVert": "||", "rVert": "||", "Vert": "||", "|": "||", "mid": "|"}
+BARS = {"lvert": "|", "rvert": "|", "vert": "|", "lVert": "||", "rVert": "||", "Vert": "||", "|": "||"}
 # What changes the look of a line only.
 DROPPED = frozenset((
     ",", ";", ":", "!", ">", "quad", "qquad", "enspace", "thinspace", "left", "right", "middle", "big", "Big",
@@ -45,3 +47,7 @@ DROPPED = frozenset((
 ))
 TEXTS = frozenset(["text", "textrm", "textit", "mbox", "textnormal", "textup"])
 STAR = frozenset(("*", "star", "ast"))
+# All that may stand in an index.
+KNOWN = (GREEK | ACCENTS | FONTS | UPRIGHT | FUNCTIONS | FRACTIONS | BIG | RELATIONS.keys() | ELLIPSES | TIMES
+         | OPENING.keys() | CLOSING.keys() | BARS.keys() | DROPPED | TEXTS | STAR | {"pm", "mp", "prime", "top", "sqrt",
+                                                                                    "dagger", "mid"})

@@ -6,13 +6,13 @@ from collections.abc import Mapping
 from math import comb
 
 import sympy as sp
-from sympy.polys.fields import sfield
 
 from workbench.errors import ClaimError
 from workbench.proof.claim import D
-from workbench.proof.derive import expand_derivatives, formal_sums
+from workbench.proof.derive import SUM, expand_derivatives, formal_sums
 from workbench.proof.latex.limits import MOST_TERMS
-from workbench.proof.latex.residue import DivisionByZeroError, residue
+from workbench.proof.latex.residue import DivisionByZeroError, exponents, residue
+from workbench.proof.latex.vanish import is_zero
 
 _FUNCTIONS = (sp.log, sp.exp, sp.tanh, sp.sign, sp.Max, sp.Min, D)
 
@@ -30,7 +30,8 @@ class Comparison:
     def same(self, first: sp.Expr, second: sp.Expr) -> bool:
         """Whether two expressions are equal wherever they are defined, D(...) carried out along the flow.
 
-        Functions are equal when their arguments are; of roots, sums and functions no further law is used.
+        Functions are equal when their arguments are, and exp of a sum is a product; no further law of functions, roots
+        and sums is used.
         """
         pair = frozenset((first, second))
         if pair not in self._equal:
@@ -75,6 +76,8 @@ class _Atoms:
 
     def vanishes(self, expr: sp.Expr) -> bool:
         """Whether an expression is zero, as a rational function of symbols, roots and functions."""
+        if _sums_multiplied(expr) <= 1:
+            return self.zero(self.flat(expr.replace(sp.Sum, lambda term, *_: SUM * term)))
         try:
             flat = formal_sums(expr)
         except ClaimError:  # a product of sums
@@ -87,20 +90,20 @@ class _Atoms:
             return bool(expr == 0)
         if _size(expr) > MOST_TERMS:
             raise TooLargeError(f"an expression of more than {MOST_TERMS} terms is not compared: write it in parts")
-        symbols = sorted(expr.atoms(sp.Indexed) | expr.atoms(sp.Symbol), key=str)
-        plain = dict(zip(symbols, sp.symbols(f"x0:{len(symbols)}", cls=sp.Dummy), strict=True))
-        indexed = {symbol: plain[symbol] for symbol in symbols if isinstance(symbol, sp.Indexed)}
-        return bool(sfield(expr.xreplace(indexed).xreplace(plain))[1] == 0)
+        return is_zero(expr)
 
     def flat(self, expr: sp.Expr) -> sp.Expr:
         """The expression with a symbol for each root and function in it."""
         if not expr.args or isinstance(expr, sp.Indexed):
-            return self.symbol(("constant", expr), ()) if expr == sp.E else expr
+            return self.symbol((sp.exp, 1), (sp.S.One,)) if expr == sp.E else expr
         parts = [self.flat(part) for part in expr.args]
         if isinstance(expr, sp.Abs):  # |x| = x sgn x
             return parts[0] * self.symbol((sp.sign,), (parts[0],))
         if isinstance(expr, (sp.Max, sp.Min)):
             return self.symbol((expr.func, len(parts)), tuple(sorted(parts, key=str)))
+        if isinstance(expr, sp.exp):
+            return sp.Mul(*(self.symbol((sp.exp, count.q), (self.flat(term),)) ** count.p
+                            for count, term in exponents(expr.args[0])))
         if isinstance(expr, _FUNCTIONS) or (isinstance(expr, sp.Pow) and not expr.exp.is_Integer):
             return self.symbol((expr.func,), tuple(parts))
         return expr.func(*parts)
@@ -113,6 +116,19 @@ class _Atoms:
         symbol = sp.Dummy()
         self.known[kind].append((arguments, symbol))
         return symbol
+
+
+def _sums_multiplied(expr: sp.Expr) -> int:
+    """How many sums are multiplied with each other in an expression, at most; 2 where one stands below or in a root."""
+    if isinstance(expr, sp.Sum):
+        return 1
+    parts = [_sums_multiplied(part) for part in expr.args if isinstance(part, sp.Expr)]
+    if isinstance(expr, sp.Mul):
+        return sum(parts)
+    if isinstance(expr, sp.Pow):
+        return parts[0] * int(expr.exp) if expr.exp.is_Integer and expr.exp > 0 else 2 * parts[0]
+    most = max(parts, default=0)
+    return most if isinstance(expr, sp.Add) else 2 * most
 
 
 def _size(expr: sp.Expr) -> int:

@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from functools import singledispatchmethod
 
 import sympy as sp
 
 from workbench.proof.claim import D
 from workbench.proof.latex.error import LatexError
-from workbench.proof.latex.functions import applied, divided, power
+from workbench.proof.latex.functions import Condition, applied, divided, power, require_kept
 from workbench.proof.latex.notation import Notation, without_dot
 from workbench.proof.latex.sums import big
 from workbench.proof.latex.tree import (
@@ -40,11 +40,19 @@ _DERIVED = (Letter("d"), Product((Letter("d"), Letter("t"))))
 @dataclass(frozen=True)
 class Converter:
     """Turns nodes into expressions: `limits` are those of the goal's sums, `index` the letter of the sum within which
-    the nodes stand, if they do."""
+    the nodes stand, if they do; `conditions` gathers what must hold for the pieces read to be numbers."""
 
     notation: Notation
     limits: sp.Tuple | None = None
     index: str | None = None
+    conditions: list[Condition] = field(default_factory=list, compare=False)
+
+    def side(self, node: Node) -> sp.Expr:
+        """The expression of a relation's side, in which nothing that is defined only somewhere has cancelled."""
+        own = replace(self, conditions=[])
+        value = own.number(node)
+        require_kept(own.conditions, value)
+        return value
 
     def number(self, node: Node) -> sp.Expr:
         """The expression of a node that is a number, no vector."""
@@ -87,7 +95,7 @@ class Converter:
 
     @_value.register
     def _(self, node: Root) -> sp.Expr:
-        return power(self.number(node.body), sp.S.Half, node.position)
+        return self._power(self.number(node.body), sp.S.Half, node.position)
 
     @_value.register
     def _(self, node: Group) -> sp.Expr:
@@ -118,7 +126,7 @@ class Converter:
             length, meaning, exponent = piece
             meaning = self._of_sum(node, meaning)
             if exponent is not None:
-                meaning = power(meaning, self.number(exponent), node.position)
+                meaning = self._power(meaning, self.number(exponent), node.position)
             return meaning, False, length
         exponent_of = node.exponent if isinstance(node, Power) and isinstance(node.base, Named) else None
         name = node.base if isinstance(node, Power) and exponent_of is not None else node
@@ -133,7 +141,8 @@ class Converter:
             if isinstance(rest[0], Group) and len(rest) > 1:
                 raise LatexError("what the derivative applies to is open: put all of it in brackets", node.position)
             return D(self.product(rest)), False, 1 + len(rest)
-        if isinstance(node, Letter) and rest and isinstance(rest[0], Group) and node in self.notation.applied:
+        applies = rest and isinstance(rest[0], Group) and self.notation.meaning(rest[0]) is None
+        if isinstance(node, Letter) and applies and node in self.notation.applied:
             raise LatexError(f"this value of '{node.name}' is not in the notation, other values are: add it, or write "
                              r"\cdot for a product", node.position)
         if isinstance(node, Transposed) and self.notation.meaning(node) is None:
@@ -165,6 +174,8 @@ class Converter:
         for argument in arguments:
             if is_vector(argument) and self.index is None and name.name not in ("sat", "max", "min"):
                 raise LatexError(f"'{name.name}' of a vector: give the piece in the notation", name.position)
+        if name.name == "ln" and not arguments[0].is_Rational:
+            self.conditions.append(Condition("logarithm", arguments[0], name.position))
         return applied(name.name, arguments, name.position), taken
 
     def _positive(self, exponent: Node) -> sp.Expr:
@@ -212,6 +223,8 @@ class Converter:
         below = self.expression(bottom)
         if is_vector(below) and self.index is None:
             raise LatexError("a division by a vector: correct the line", bottom.position)
+        if not below.is_Rational:
+            self.conditions.append(Condition("denominator", below, bottom.position))
         return divided(self.expression(top), below, node.position)
 
     @_value.register
@@ -220,7 +233,15 @@ class Converter:
             return sp.exp(self.number(node.exponent))
         if isinstance(node.base, Named):
             return self.product((node,))
-        return power(self.expression(node.base), self.number(node.exponent), node.position)
+        return self._power(self.expression(node.base), self.number(node.exponent), node.position)
+
+    def _power(self, base: sp.Expr, exponent: sp.Expr, position: int) -> sp.Expr:
+        if exponent.is_Rational and not base.is_Rational:
+            if exponent < 0:
+                self.conditions.append(Condition("denominator", base, position))
+            if not exponent.is_Integer:
+                self.conditions.append(Condition("root", base, position))
+        return power(base, exponent, position)
 
     @_value.register
     def _(self, node: Accented) -> sp.Expr:

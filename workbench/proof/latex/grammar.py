@@ -4,6 +4,7 @@ from __future__ import annotations
 
 GRAMMAR = r"""
 line: separators? chain (separators chain)* separators?
+    | separators
 separators: (COMMA | COLON | WORDS | IMPLIES | IFF | QUANTIFIER)+
 chain: terms (RELATION (terms | words))*
 words: WORDS

@@ -9,7 +9,7 @@ from itertools import pairwise
 import sympy as sp
 
 from workbench.errors import ClaimError
-from workbench.proof.claim import Goal, Operator, Relation, equal
+from workbench.proof.claim import Claim, Goal, Operator, Relation, equal
 from workbench.proof.latex.compare import Comparison
 from workbench.proof.latex.convert import Converter
 from workbench.proof.latex.error import LatexError
@@ -47,6 +47,13 @@ def match(printed: str, notation: Mapping[str, sp.Expr], goal: Goal) -> Match:
         return Match(False, str(trouble), words=True)
     except (LatexError, ClaimError) as trouble:
         return Match(False, str(trouble))
+
+
+def match_claim(claim: Claim, goal: Goal) -> Match:
+    """The match of a claim's printed line with its goal, by the claim's letters; what is declared prose is not read."""
+    if claim.match == "words":
+        return Match(False, "declared as prose", words=True)
+    return match(claim.printed, claim.notation, goal)
 
 
 def limits_of(goal: Goal) -> sp.Tuple | None:

@@ -12,7 +12,7 @@ import sympy as sp
 
 from workbench.proof.latex.error import LatexError
 from workbench.proof.latex.read import read_line
-from workbench.proof.latex.tree import Group, Letter, Line, Node, Power, Product
+from workbench.proof.latex.tree import Group, Letter, Line, Node, Power, Product, Terms
 
 
 class Notation:
@@ -20,7 +20,8 @@ class Notation:
 
     A key is a letter with its marks (`\\hat\\theta_1`), or a longer piece of a formula that has one meaning: a value
     of a function (`V(0)`), a norm (`\\|e_2\\|`), an integral with its differential, a product such as `A s_i`. Within
-    a product the longest piece that is known is taken first. A key never holds a relation, nor a sum outside brackets.
+    a product the longest piece that is known is taken first. A key never is a relation, nor a sum outside brackets.
+    An argument that letters are printed with and that says nothing, as in `z_1(t)`, is a key of value 1: `(t)`.
     Raises LatexError for a key that is none.
     """
 
@@ -54,22 +55,21 @@ class Notation:
         """What a node stands for as a whole, if that is known."""
         if isinstance(node, Product):
             found = self.piece(node.factors, 0)
-            return found[1] if found is not None and found[0] == len(node.factors) else None
+            whole = found is not None and found[0] == len(node.factors) and found[2] is None
+            return found[1] if found is not None and whole else None
         return self.single.get(node)
 
     def piece(self, factors: tuple[Node, ...], at: int) -> tuple[int, sp.Expr, Node | None] | None:
         """The longest known piece of a product from a factor on: its length, meaning, and exponent if it has one."""
-        starts: list[Node] = [factors[at]]
-        for first in starts:
-            for key, meaning in self.products.get(first, ()):
-                length = len(key)
-                if at + length > len(factors) or factors[at:at + length - 1] != key[:-1]:
-                    continue
-                last = factors[at + length - 1]
-                if last == key[-1]:
-                    return length, meaning, None
-                if isinstance(last, Power) and last.base == key[-1]:
-                    return length, meaning, last.exponent
+        for key, meaning in self.products.get(factors[at], ()):
+            length = len(key)
+            if at + length > len(factors) or factors[at:at + length - 1] != key[:-1]:
+                continue
+            last = factors[at + length - 1]
+            if last == key[-1]:
+                return length, meaning, None
+            if isinstance(last, Power) and last.base == key[-1]:
+                return length, meaning, last.exponent
         return None
 
     def unknown(self, letter: Letter) -> LatexError:
@@ -91,7 +91,10 @@ def _key(typed: str) -> Node:
     line: Line = read_line(typed)
     if len(line.chains) != 1 or line.chains[0].signs or line.separators != ((), ()):
         raise LatexError("a letter of a notation is one piece of a formula, without relations and commas: correct it")
-    return line.chains[0].sides[0]
+    side = line.chains[0].sides[0]
+    if isinstance(side, Terms):
+        raise LatexError("a letter of a notation is no sum outside brackets: put it into brackets")
+    return side
 
 
 def spelled(letter: Letter) -> str:

@@ -102,7 +102,7 @@ class _Builder(Transformer[Token, Line]):
                 between = ()
             else:
                 between = part
-        return Line(tuple(chains), (*separators, between), position=chains[0].position)
+        return Line(tuple(chains), (*separators, between), position=chains[0].position if chains else 0)
 
     def separators(self, parts: list[Token]) -> tuple[str, ...]:
         words = {"COMMA": ",", "COLON": ":", "IMPLIES": "=>", "IFF": "<=>"}

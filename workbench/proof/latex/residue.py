@@ -29,10 +29,16 @@ def residue(expr: sp.Expr, known: dict[sp.Expr, int]) -> int:
 def _residue(expr: sp.Expr, known: dict[sp.Expr, int]) -> int:
     if isinstance(expr, sp.Rational):
         return int(expr.p) * _inverse(int(expr.q)) % PRIME
+    if expr == sp.E:
+        return _drawn("exp", 1, 1)
     if isinstance(expr, sp.Indexed) or not expr.args:
         return _drawn("symbol", repr(expr), sorted(map(str, expr.assumptions0.items())))
     if isinstance(expr, sp.Sum):
         return _drawn("sum") * residue(expr.function, known) % PRIME
+    if isinstance(expr, sp.exp):
+        factors = (_power(_drawn("exp", count.q, residue(term, known)), int(count.p))
+                   for count, term in exponents(expr.args[0]))
+        return reduce(lambda total, value: total * value % PRIME, factors, 1)
     return _combined(expr, [residue(part, known) for part in expr.args])
 
 
@@ -43,13 +49,21 @@ def _combined(expr: sp.Expr, values: list[int]) -> int:
     if isinstance(expr, sp.Mul):
         return reduce(lambda total, value: total * value % PRIME, values)
     if isinstance(expr, sp.Pow) and expr.exp.is_Integer:
-        power = int(expr.exp)
-        return pow(values[0] if power > 0 else _inverse(values[0]), abs(power), PRIME)
+        return _power(values[0], int(expr.exp))
     if isinstance(expr, sp.Abs):
         return values[0] * _drawn("sign", values) % PRIME
     if isinstance(expr, (sp.Max, sp.Min)):
         values.sort()
     return _drawn(expr.func.__name__, values)
+
+
+def exponents(argument: sp.Expr) -> list[tuple[sp.Rational, sp.Expr]]:
+    """The terms of an exponent, each with its rational factor."""
+    return [term.as_coeff_Mul(rational=True) for term in sp.Add.make_args(sp.expand_mul(argument))]
+
+
+def _power(value: int, power: int) -> int:
+    return pow(value if power > 0 else _inverse(value), abs(power), PRIME)
 
 
 def _inverse(value: int) -> int:

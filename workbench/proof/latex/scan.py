@@ -5,10 +5,22 @@ from __future__ import annotations
 import re
 from dataclasses import dataclass
 
-from workbench.proof.latex.commands import ACCENTS, FONTS, FRACTIONS, TEXTS, UPRIGHT
+from workbench.proof.latex.commands import (
+    ACCENTS,
+    DROPPED,
+    ENVIRONMENTS,
+    FONTS,
+    FRACTIONS,
+    KNOWN,
+    TEXTS,
+    UPRIGHT,
+)
 from workbench.proof.latex.error import LatexError
 from workbench.proof.latex.limits import DEEPEST_NESTING, LONGEST_LINE
 
+_NAME = re.compile(r"\s*\{(?P<name>[a-z]+\*?)\}")
+_GOES_ON = re.compile(r"[\s&]*([=<>+\-/.]|"
+                      r"\\(end|le|leq|ge|geq|lt|gt|ne|neq|cdot|times|to|in|pm|Rightarrow)(?![A-Za-z]))")
 _PIECE = re.compile(r"\\[A-Za-z]+|\\.|\s+|.", re.DOTALL)
 
 
@@ -26,6 +38,7 @@ def scan(line: str) -> list[Piece]:
     if len(line) > LONGEST_LINE:
         raise LatexError(f"the line has {len(line)} characters: write at most {LONGEST_LINE}")
     pieces: list[Piece] = []
+    environments: list[str] = []
     depth, at = 0, 0
     while at < len(line):
         found = _PIECE.match(line, at)
@@ -37,6 +50,9 @@ def scan(line: str) -> list[Piece]:
             content, at = _text(line, at)
             pieces.append(Piece("text", content, start))
             continue
+        if text in ("\\begin", "\\end", "&", "\\\\"):
+            at = _layout(line, text, start, at, environments, pieces)
+            continue
         kind = _kind(text, start)
         depth += {"open": 1, "close": -1}.get(kind, 0)
         if depth > DEEPEST_NESTING:
@@ -44,9 +60,32 @@ def scan(line: str) -> list[Piece]:
         if depth < 0:
             raise LatexError("a brace '}' closes nothing: remove it or open it", start)
         pieces.append(Piece(kind, text.removeprefix("\\"), start))
+    if environments:
+        raise LatexError(f"\\begin{{{environments[-1]}}} has no end: add it")
     if depth:
         raise LatexError(f"{depth} brace{'s' if depth > 1 else ''} '{{' not closed: add '}}'")
     return pieces
+
+
+def _layout(line: str, text: str, start: int, at: int, environments: list[str], pieces: list[Piece]) -> int:
+    """Read on after what only arranges lines; a new line parts relations by a comma, unless a formula goes on in it."""
+    if text in ("\\begin", "\\end"):
+        found = _NAME.match(line, at)
+        if found is None or found["name"] not in ENVIRONMENTS:
+            raise LatexError(f"this {text} is not read: write the lines of a formula or of cases", start)
+        if text == "\\begin":
+            environments.append(found["name"])
+        elif not environments or environments.pop() != found["name"]:
+            raise LatexError(f"{text} ends what has not begun: correct the environments", start)
+        return found.end()
+    if text == "&":
+        if not environments or environments[-1] == "cases":
+            raise LatexError("'&' tells cases apart, or columns: write one line for each case", start)
+        return at
+    parted = pieces and pieces[-1].text in (",", ";")
+    if pieces and not parted and not _GOES_ON.match(line, at):
+        pieces.append(Piece("sign", ",", start))
+    return at
 
 
 def _kind(text: str, position: int) -> str:
@@ -128,6 +167,8 @@ def plain(pieces: list[Piece]) -> str:
             continue
         if piece.kind != "command" or upright:
             parts.append(piece.text)
-        elif piece.text not in (",", ";", "!", " ", "left", "right"):
+        elif piece.text not in KNOWN:
+            raise LatexError(f"the command \\{piece.text} in an index is not known here: correct it", piece.position)
+        elif piece.text not in DROPPED:
             parts.append(f"\\{piece.text} ")
     return "".join(parts).strip()

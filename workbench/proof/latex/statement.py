@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 
 import sympy as sp
 
-from workbench.proof.claim import Operator
+from workbench.proof.claim import Operator, Relation
 from workbench.proof.latex.convert import Converter
 from workbench.proof.latex.error import LatexError
 from workbench.proof.latex.tree import Chain, Group, Letter, Line, Node, Product, Terms
@@ -42,6 +42,12 @@ def statement(line: Line, converter: Converter) -> Statement:
     if not claimed:
         raise LatexError("the line claims nothing: write a relation")
     return Statement(_related(claimed, converter), _related(conditions, converter))
+
+
+def relations(related: tuple[Related, ...]) -> tuple[Relation, ...]:
+    """The relations between neighbouring sides."""
+    return tuple(Relation(*step) for chain in related
+                 for step in zip(chain.sides[:-1], chain.operators, chain.sides[1:], strict=True))
 
 
 def parted(line: Line) -> tuple[list[Chain], list[Chain]]:
@@ -94,7 +100,8 @@ def _unbracketed(chain: Chain) -> tuple[Chain, list[Chain]]:
     if not chain.signs or not isinstance(last, Product) or not isinstance(last.factors[-1], Group):
         return chain, []
     factors, inner = last.factors, last.factors[-1].line
-    if not all(part.signs for part in inner.chains) or any(s not in ((), (",",)) for s in inner.separators):
+    related = bool(inner.chains) and all(part.signs for part in inner.chains)
+    if not related or any(s not in ((), (",",)) for s in inner.separators):
         return chain, []
     kept = factors[0] if len(factors) == 2 else replace(last, factors=factors[:-1])
     return replace(chain, sides=(*chain.sides[:-1], kept)), list(inner.chains)
@@ -122,7 +129,7 @@ def _chain(chain: Chain, converter: Converter) -> list[Related]:
     for sign in chain.signs:
         if sign not in OPERATORS:
             raise ProseError(f"the sign '{sign}' is none of a goal's relations: the line is read by a person")
-    sides = tuple(converter.number(side) for side in chain.sides)
+    sides = tuple(converter.side(side) for side in chain.sides)
     return [Related(sides, tuple(OPERATORS[sign] for sign in chain.signs))]
 
 
@@ -137,13 +144,14 @@ def _interval(chain: Chain, converter: Converter) -> list[Related]:
         raise ProseError("a set other than an interval: the line is read by a person")
     member, ends = chain.sides[-2], [part.sides[0] for part in line.chains]
     before = _chain(Chain(chain.sides[:-1], chain.signs[:-1]), converter) if place else []
-    value = converter.number(member)
-    low, high = (None if _infinite(end) else converter.number(end) for end in ends)
+    value = converter.side(member)
+    low, high = (None if _infinite(end, sign) else converter.side(end) for end, sign in zip(ends, (-1, 1), strict=True))
     bounds = [] if low is None else [Related((low, value), ("<=" if interval.opening == "[" else "<",))]
     upper = [] if high is None else [Related((value, high), ("<=" if interval.closing == "]" else "<",))]
     return [*before, *bounds, *upper]
 
 
-def _infinite(node: Node) -> bool:
-    inner = node.terms[0][1] if isinstance(node, Terms) and len(node.terms) == 1 else node
-    return inner == Letter("\\infty")
+def _infinite(node: Node, sign: int) -> bool:
+    """Whether an end is infinity with this sign."""
+    terms = node.terms if isinstance(node, Terms) else ((1, node),)
+    return terms == ((sign, Letter("\\infty")),)

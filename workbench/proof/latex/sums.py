@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from dataclasses import fields, is_dataclass, replace
 from fractions import Fraction
-from typing import TYPE_CHECKING, Any
+from typing import Any, Protocol
 
 import sympy as sp
 
@@ -15,14 +15,32 @@ from workbench.proof.latex.read import read_line
 from workbench.proof.latex.tree import Big, Dot, Group, Letter, Node, Number, Product, Terms
 from workbench.proof.latex.vectors import is_vector
 
-if TYPE_CHECKING:
-    from workbench.proof.latex.convert import Converter
-
-_INDEX = re.compile(r"(?P<letter>\\?[A-Za-z]+)(=(?P<first>.+))?", re.DOTALL)
+_INDEX = re.compile(r"(?P<letter>(\\[A-Za-z]+|[A-Za-z])(_\w+)?)(=(?P<first>.+))?", re.DOTALL)
 _INDEX_PART = re.compile(r"\\[A-Za-z]+ ?|.", re.DOTALL)
 
 
-def big(converter: Converter, sign: Big, rest: tuple[Node, ...]) -> sp.Expr:
+class Reading(Protocol):
+    """What turns the nodes behind a sign into expressions."""
+
+    @property
+    def limits(self) -> sp.Tuple | None:
+        """The limits of the goal's sums."""
+
+    @property
+    def index(self) -> str | None:
+        """The letter of the sum within which the nodes stand."""
+
+    def number(self, node: Node) -> sp.Expr:
+        """The expression of a node that is a number."""
+
+    def product(self, factors: tuple[Node, ...]) -> sp.Expr:
+        """The product of factors."""
+
+    def within(self, index: str | None) -> Reading:
+        """The same, within a sum."""
+
+
+def big(converter: Reading, sign: Big, rest: tuple[Node, ...]) -> sp.Expr:
     """The value of a sign with what follows it; raises LatexError where the notation does not give it."""
     if not rest:
         raise LatexError(f"nothing stands behind '\\{sign.name}': complete the line", sign.position)
@@ -36,7 +54,7 @@ def big(converter: Converter, sign: Big, rest: tuple[Node, ...]) -> sp.Expr:
                      "to", sign.position)
 
 
-def _sum(converter: Converter, sign: Big, rest: tuple[Node, ...]) -> sp.Expr:
+def _sum(converter: Reading, sign: Big, rest: tuple[Node, ...]) -> sp.Expr:
     found = _INDEX.fullmatch(sign.below.replace(" ", ""))
     if found is None or converter.index is not None:
         raise LatexError("a sum over one index, not within another, is read: write \\sum_{j=1}^{n}", sign.position)
@@ -62,18 +80,18 @@ def _sum(converter: Converter, sign: Big, rest: tuple[Node, ...]) -> sp.Expr:
     return sp.Sum(body, (index, *ends))
 
 
-def _ends(converter: Converter, first: str | None, sign: Big) -> tuple[sp.Expr, sp.Expr] | None:
+def _ends(converter: Reading, first: str | None, sign: Big) -> tuple[sp.Expr, sp.Expr] | None:
     if (first is None) != (sign.above is None):
         raise LatexError("the sum has one end only: write both, or none", sign.position)
     if first is None or sign.above is None:
         return None
-    start = read_line(first).chains[0]
-    if start.signs:
+    start, *others = read_line(first).chains or (None,)
+    if start is None or start.signs or others:
         raise LatexError("a sum starts at a number: correct its lower end", sign.position)
     return converter.number(start.sides[0]), converter.number(sign.above)
 
 
-def _written_out(converter: Converter, letter: str, ends: tuple[sp.Expr, sp.Expr], rest: tuple[Node, ...],
+def _written_out(converter: Reading, letter: str, ends: tuple[sp.Expr, sp.Expr], rest: tuple[Node, ...],
                  position: int) -> sp.Expr:
     first, last = map(int, ends)
     if not 0 <= last - first < MOST_SUMMANDS:
@@ -103,8 +121,10 @@ def _integrals(sign: Big, rest: tuple[Node, ...]) -> list[tuple[sp.Expr, tuple[N
     if len(factors) != 3 or factors[1] != Letter("d") or not isinstance(factors[0], Group):
         return []
     line = factors[0].line
+    if len(line.chains) != 1 or line.chains[0].signs:
+        return []
     inner = line.chains[0].sides[0]
-    if len(line.chains) != 1 or line.chains[0].signs or not isinstance(inner, Terms):
+    if not isinstance(inner, Terms):
         return []
     parts = []
     for plus, term in inner.terms:

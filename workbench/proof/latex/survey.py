@@ -9,7 +9,7 @@ from pathlib import Path
 from workbench.errors import ClaimError
 from workbench.proof.building import built
 from workbench.proof.claim import Claim
-from workbench.proof.latex.match import Match, match
+from workbench.proof.latex.match import Match, match_claim
 from workbench.proof.paper import Paper, collect_papers
 
 
@@ -51,6 +51,6 @@ def matched(claim: Claim) -> Match:
     if claim.build is None:
         return Match(False, "a cited result is decided by no goal", words=True)
     try:
-        return match(claim.printed, claim.notation, built(claim, claim.build))
+        return match_claim(claim, built(claim, claim.build))
     except ClaimError as trouble:
         return Match(False, str(trouble))

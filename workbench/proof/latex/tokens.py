@@ -41,6 +41,7 @@ _COMMANDS: dict[str, dict[str, str] | frozenset[str]] = {
                                                                   for name in FUNCTIONS},
     "RELATION": RELATIONS, "BIG": BIG, "IMPLIES": IMPLIES, "IFF": EQUIVALENT, "QUANTIFIER": QUANTIFIERS,
     "ELLIPSIS": ELLIPSES, "CDOT": TIMES, "PLUS_MINUS": frozenset(("pm", "mp")), "MARK": dict.fromkeys(STAR, "*"),
+    "COLON": frozenset(("mid", "colon")),
 }
 _MARK = re.compile(r"\*|\+|-|0|\\pm|\\prime|'+|\(\d+\)|\\infty")
 _STARRED = re.compile(r"(\*)(T|2|\\top)")
@@ -73,6 +74,9 @@ class _Words:
                     at += 1
             elif piece.text == "|" or (piece.kind == "command" and piece.text in BARS):
                 at = self._bar(out, opened, at, end)
+            elif piece.text == "%" and out and out[-1].type == "NUMBER" and "e" not in out[-1]:
+                out[-1] = out[-1].update(value=f"{out[-1]}e-2")
+                at += 1
             elif piece.kind == "digit":
                 at = self._number(out, at, end)
             elif piece.kind == "sign" and piece.text in "_^":

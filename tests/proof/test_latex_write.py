@@ -1,0 +1,54 @@
+"""What is written as LaTeX reads back as what was written."""
+
+import sympy as sp
+from hypothesis import given, settings
+from latex_trees import LETTERS, VECTORS, W, expressions, h, over, theta, x, y
+
+from workbench.proof.claim import D, at_most, equal
+from workbench.proof.latex.compare import Comparison
+from workbench.proof.latex.convert import Converter
+from workbench.proof.latex.notation import Notation
+from workbench.proof.latex.read import read_line
+from workbench.proof.latex.write import latex, latex_name, letters_of
+
+FLOW = {x: -x, y: x, theta: -theta**2}
+
+
+def read_back(text):
+    limits = over(W).limits[0]
+    return Converter(Notation({**LETTERS, **VECTORS}), limits).expression(read_line(text).chains[0].sides[0])
+
+
+@settings(max_examples=80, deadline=None, derandomize=True)
+@given(expressions)
+def test_an_expression_reads_back_as_itself(expr):
+    text = latex(expr)
+    found = read_back(text)
+    assert found == expr or Comparison(FLOW).same(found, expr), text
+
+
+def test_derivatives_sums_and_functions_keep_what_belongs_to_them():
+    for expr in (D(x) * y, D(x) ** 2, y * D(x * y) * theta, D(x * over(W)),
+                 over(W) * y, over(W) ** 2, -over(W), y * over(W * h) * theta,
+                 over(W) + y, over(W + 1), sp.tanh(x) ** 2, sp.log(1 + x**2) * y, sp.exp(x) ** 2 * y, x**-1,
+                 (x + y) ** -2, sp.sqrt(1 + x**2) ** 3, sp.Abs(x) ** 3, -(x + y), 2 * D(x),
+                 sp.Rational(-3, 7) * x, (x - y) * (y - theta), 1 / (x * y), x / (y * theta), sp.E * x):
+        assert read_back(latex(expr)) == expr, latex(expr)
+
+
+def test_relations_are_written_with_their_sign():
+    assert at_most(x, y**2).latex() == r"x_{1} \le y^{2}"
+    assert equal(D(x), -x).latex({"x_1": "z"}) == r"\frac{d}{dt}\left[z\right] = - z"
+
+
+def test_names_become_letters_with_accents_and_indices():
+    for name, typed in {"x": "x", "x_1": "x_{1}", "x1": "x_{1}", "theta_hat_2": r"\hat{\theta}_{2}", "V_star": "V^{*}",
+                        "W_f_star": "W_{f}^{*}", "zdot_1": r"\dot{z}_{1}", "lamda": r"\lambda", "F_mass": "F_{mass}",
+                        "mass": r"\mathrm{mass}", "c_lambda": r"c_{\lambda}", "Delta": r"\Delta"}.items():
+        assert latex_name(name) == typed
+
+
+def test_no_two_symbols_look_alike():
+    symbols = sp.symbols("x1 x_1 a_hat_b a_b_hat b_hat_", real=True)
+    letters = letters_of(symbols)
+    assert len(set(letters.values())) == len(letters) == len(symbols)

@@ -1,0 +1,82 @@
+"""A pasted line as a question: the goal that it states, decided."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from typing import Any
+
+import sympy as sp
+
+from workbench.proof.claim import Claim, D, Decision, Goal, Relation
+from workbench.proof.decide.engine import decide
+from workbench.proof.latex.convert import Converter
+from workbench.proof.latex.error import LatexError
+from workbench.proof.latex.notation import Notation
+from workbench.proof.latex.read import read_line
+from workbench.proof.latex.statement import relations, statement
+from workbench.proof.latex.symbols import Symbols
+from workbench.proof.latex.write import latex
+
+
+@dataclass(frozen=True)
+class Answer:
+    """A line decided, with the goal as it was read, in LaTeX made from what was decided.
+
+    constant: symbols that have no rate, where others have one.
+    """
+
+    line: str
+    decision: Decision
+    shown: tuple[str, ...]
+    given: tuple[str, ...]
+    flow: tuple[str, ...]
+    constant: tuple[str, ...]
+    counterexample: Mapping[str, str]
+
+    def document(self) -> dict[str, Any]:
+        """The answer as the stable JSON document."""
+        found = self.decision
+        return {"version": 1, "line": self.line, "verdict": found.verdict, "method": found.method, "trust": found.trust,
+                "goal": {"show": list(self.shown), "assume": list(self.given), "flow": list(self.flow),
+                         "constant": list(self.constant)},
+                "counterexample": dict(self.counterexample) or None, "certificate": found.certificate}
+
+
+def asked(line: str, symbols: Symbols) -> Goal:
+    """The goal that a line states; raises LatexError where it cannot be read."""
+    stated = statement(read_line(line), Converter(Notation(symbols.notation), symbols.limits))
+    flow = dict(symbols.flow)
+    assume = list(symbols.assume)
+    for relation in relations(stated.conditions):
+        moving = relation.left.args[0] if isinstance(relation.left, D) else None
+        if relation.operator == "==" and isinstance(moving, (sp.Symbol, sp.Indexed)) and moving not in flow:
+            flow[moving] = relation.right
+        else:
+            assume.append(relation)
+    claimed = relations(stated.claimed)
+    rates = {found for r in (*claimed, *assume) for found in r.left.atoms(D) | r.right.atoms(D)}
+    for rate in rates:
+        if not any(rate.args[0].has(symbol) for symbol in flow):
+            raise LatexError(f"a rate of {latex(rate.args[0], symbols.letters)}, which does not move: give the rates "
+                             "of its letters under [flow], or before an arrow")
+    return Goal(claimed, tuple(assume), flow if rates else {})
+
+
+def answer(line: str, symbols: Symbols) -> Answer:
+    """Decide a line; raises LatexError or ClaimError where it is no goal."""
+    goal = asked(line, symbols)
+    claim = Claim(id="pasted:line", title="the pasted line", kind="inequality", printed=line, recorded="undecided",
+                  build=lambda: goal, origin="ours")
+    decision = decide(claim)
+
+    def written(relation: Relation) -> str:
+        return relation.latex(symbols.letters)
+
+    return Answer(
+        line, replace(decision, claim=claim), tuple(map(written, goal.show)),
+        tuple(map(written, (*goal.signs(), *goal.assume))),
+        tuple(rf"\frac{{d}}{{dt}} {latex(s, symbols.letters)} = {latex(rate, symbols.letters)}"
+              for s, rate in goal.flow.items()),
+        tuple(latex(s, symbols.letters) for s in goal.symbols() if s not in goal.flow) if goal.flow else (),
+        {symbols.letters.get(name, name): value for name, value in (decision.counterexample or {}).items()})

@@ -1,0 +1,149 @@
+"""The letters of a pasted line, from a TOML file or from a paper: what they stand for and what is known of them."""
+
+from __future__ import annotations
+
+import keyword
+import re
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Literal
+
+import sympy as sp
+from pydantic import Field
+
+from workbench.errors import InputError
+from workbench.files.toml import FileRecord, Text, load_record
+from workbench.proof.claim import LANGUAGE, Relation
+from workbench.proof.latex.convert import Converter
+from workbench.proof.latex.error import LatexError
+from workbench.proof.latex.notation import Notation
+from workbench.proof.latex.read import read_line
+from workbench.proof.latex.statement import relations, statement
+from workbench.proof.latex.write import letters_of
+from workbench.proof.paper import collect_papers
+
+Kind = Literal["real", "positive", "nonnegative", "vector"]
+INDEX, COUNT = sp.symbols("j n", integer=True, positive=True)
+
+
+class SymbolsFile(FileRecord):
+    """What a symbols file holds; all formulas are LaTeX.
+
+    symbols: letters and what is known of each; a vector has components 1..n. definitions: letters that stand for an
+    expression of letters before them. assumptions: relations that hold. flow: rates of the letters that move in time.
+    """
+
+    symbols: dict[Text, Kind] = Field(min_length=1)
+    definitions: dict[Text, Text] = Field(default_factory=dict)
+    assumptions: tuple[Text, ...] = ()
+    flow: dict[Text, Text] = Field(default_factory=dict)
+
+
+@dataclass(frozen=True)
+class Symbols:
+    """Letters ready for use: the notation, LaTeX for the names of symbols, assumptions, rates, limits of sums."""
+
+    notation: Mapping[str, sp.Expr]
+    letters: Mapping[str, str]
+    assume: tuple[Relation, ...] = ()
+    flow: Mapping[sp.Expr, sp.Expr] = field(default_factory=dict)
+    limits: sp.Tuple | None = None
+
+
+def load_symbols(path: Path) -> Symbols:
+    """The letters of a symbols file or of a paper's folder; raises InputError naming file, key and remedy."""
+    return _of_paper(path) if path.is_dir() or path.suffix == ".py" else _of_file(path)
+
+
+def _of_paper(path: Path) -> Symbols:
+    papers = collect_papers([path])
+    if len(papers) > 1:
+        raise InputError(path, "", f"states {len(papers)} papers, whose letters differ: name the folder of one")
+    notation = papers[0].notation
+    if not notation:
+        raise InputError(path, "notation", "the paper gives its letters no meaning: write Paper(..., notation={...})")
+    limits = {total.limits[0] for meaning in notation.values() for total in meaning.atoms(sp.Sum)}
+    return Symbols(notation, letters_of(notation.values()), limits=limits.pop() if len(limits) == 1 else None)
+
+
+def _of_file(path: Path) -> Symbols:
+    record = load_record(path, SymbolsFile)
+    notation: dict[str, sp.Expr] = {}
+    letters: dict[str, str] = {}
+    for typed, kind in record.symbols.items():
+        name = _name(typed, letters)
+        letters[name] = typed
+        notation[typed] = _symbol(name, kind)
+        if kind == "vector":
+            notation[f"{{{typed}}}_j"] = notation[typed]
+    vectors = any(kind == "vector" for kind in record.symbols.values())
+    if vectors and {"n", "j"} & {str(symbol) for symbol in notation.values()}:
+        raise InputError(path, "symbols", "n and j number the components of vectors: name the letters otherwise")
+    limits = sp.Tuple(INDEX, 1, COUNT) if vectors else None
+    if vectors:
+        notation["n"] = COUNT
+    _checked(path, "symbols", notation)
+    for typed, formula in record.definitions.items():
+        meaning = _expression(path, f"definitions.{typed}", formula, notation, limits)
+        if typed in notation:
+            raise InputError(path, f"definitions.{typed}", "is a symbol too: keep one of the two")
+        notation[typed] = meaning
+        _checked(path, f"definitions.{typed}", notation)
+    flow: dict[sp.Expr, sp.Expr] = {}
+    for typed, formula in record.flow.items():
+        moving = notation.get(typed)
+        if typed not in record.symbols or moving is None:
+            raise InputError(path, f"flow.{typed}", "is none of the symbols: add it there, as it is typed here")
+        flow[moving] = _expression(path, f"flow.{typed}", formula, notation, limits,
+                                   vector=isinstance(moving, sp.Indexed))
+    assume: list[Relation] = []
+    for number, formula in enumerate(record.assumptions):
+        try:
+            stated = statement(read_line(formula), Converter(Notation(notation), limits))
+        except LatexError as trouble:
+            raise InputError(path, f"assumptions[{number}]", str(trouble)) from None
+        if stated.conditions:
+            raise InputError(path, f"assumptions[{number}]", "has a condition of its own: state relations only")
+        assume += relations(stated.claimed)
+    return Symbols(notation, letters, tuple(assume), flow, limits)
+
+
+def _expression(path: Path, key: str, formula: str, notation: Mapping[str, sp.Expr], limits: sp.Tuple | None,
+                vector: bool = False) -> sp.Expr:
+    try:
+        line = read_line(formula)
+        if len(line.chains) != 1 or line.chains[0].signs:
+            raise LatexError("a relation where an expression is expected: write its right side alone")
+        converter = Converter(Notation(notation), limits)
+        side = line.chains[0].sides[0]
+        return converter.expression(side) if vector else converter.side(side)
+    except LatexError as trouble:
+        raise InputError(path, key, str(trouble)) from None
+
+
+def _checked(path: Path, key: str, notation: Mapping[str, sp.Expr]) -> None:
+    try:
+        Notation(notation)
+    except LatexError as trouble:
+        raise InputError(path, key, str(trouble)) from None
+
+
+def _symbol(name: str, kind: Kind) -> sp.Expr:
+    if kind == "vector":
+        return sp.IndexedBase(name, real=True)[INDEX]
+    return sp.Symbol(name, **{kind: True})
+
+
+def _name(typed: str, taken: Mapping[str, str]) -> str:
+    """A name for certificates: the letters and digits of what is typed."""
+    name = "_".join(re.findall(r"[A-Za-z]+|\d+", typed)) or "x"
+    if not name[0].isalpha():
+        name = f"x_{name}"
+    if keyword.iskeyword(name) or name in LANGUAGE:
+        name += "_"
+    number, found = 2, name
+    while found in taken:
+        found, number = f"{name}_{number}", number + 1
+    return found
+
