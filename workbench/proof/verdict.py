@@ -46,10 +46,10 @@ class Stated:
 
     id: `<paper>:<equation>`; printed: the paper's LaTeX, letter by letter; recorded: the verdict on record.
     premises: ids of the claims that our proof uses; rests_on: ids of those that the paper's text uses to get here,
-    which carry taint, None for the premises, and for nothing of a question of ours. match: `read` or `words` (`parsed` is found by machine), reading: how a
-    line was read by a person. glyph: id of the claim that decides the other reading of a line whose extracted text
-    leaves a sign, power or index open; mends: id of the claim of which this is a repaired form. note: what a reader
-    should know.
+    which carry taint: unless stated the premises, and nothing of a question of ours. match: `read` or `words`
+    (`parsed` is found by machine), reading: how a line was read by a person. glyph: id of the claim that decides the
+    other reading of a line whose extracted text leaves a sign, power or index open; mends: id of the claim of which
+    this is a repaired form. note: what a reader should know.
     """
 
     id: str
