@@ -129,6 +129,10 @@ class Goal:
     model: dict[sp.Expr, sp.Expr] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
+        with sp.evaluate(True):
+            self._require_meaning()
+
+    def _require_meaning(self) -> None:
         self._require_shape()
         if not self.show:
             raise ClaimError("a goal shows nothing: give at least one relation")
