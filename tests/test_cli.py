@@ -119,7 +119,7 @@ def test_the_example_of_the_readme_is_decided(tmp_path):
     result = run("prove", "my_paper.py", "--json", "out.json", folder=tmp_path)
     assert result.returncode == 0, result.stderr
     document = json.loads((tmp_path / "out.json").read_text())
-    assert document["version"] == 1 and document["summary"]["proved"] == 1
+    assert document["version"] == 2 and document["summary"]["proved"] == 1
     (claim,) = document["claims"]
     assert claim.keys() >= CLAIM_KEYS and claim["id"] == "mine:3" and claim["trust"] == "exact"
     assert run("check-certificates", "certificates", folder=tmp_path).returncode == 0

@@ -22,7 +22,7 @@ MINE = '{"mine": 1}\n'
 
 
 def decision(equation: str, paper: str = "doe2026", proved: bool = True) -> Decision:
-    claim = Stated(id=f"{paper}:{equation}", title="t", kind="identity", statement="x", recorded="proved")
+    claim = Stated(id=f"{paper}:{equation}", title="t", kind="identity", printed="x", recorded="proved")
     certificate = {"claim": claim.id, "version": 1, "verdict": "proved",
                    "goal": {"assume": [], "show": ["0 < 1"]}, "example": {},
                    "proofs": [{"rule": "combination", "terms": [{"coefficient": "1", "factors": []}]}]}
