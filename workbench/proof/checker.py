@@ -5,9 +5,9 @@ A certificate states a goal: for all real values of its symbols, the relations i
 any number n of indexed symbols, also none, formally) and D(...) (derivative along `flow`, which maps symbols to rates).
 `proved` carries a proof, `refuted`/`violated`/`gap` a point (or functions of time) where the goal fails.
 
-D holds symbols without a rate constant. Only the rule `nonincreasing` and models follow the flow through time:
-`always` holds at every instant from time zero on, `initial` names values at time zero, `assume` and `show` speak
-of one later instant, and symbols that rates mention without having a rate are inputs, which may vary.
+D holds symbols without a rate constant; of `inputs`, which may vary without a known rate, it is not taken. Only the
+rule `nonincreasing`, paths and models follow the flow through time: `always` holds at every instant from time zero on,
+`initial` names values at time zero, and `assume` and `show` speak of one later instant.
 
 What must be believed: this file, and the facts named in `fact`: log x <= x - 1 (x > 0), exp x >= 1 + x,
 exp x > 0; abs(x)**2 = x**2, abs(x) >= 0; sqrt(x)**2 = x, sqrt(x) >= 0 (x >= 0), sqrt(x) > 0 (x > 0); a function
@@ -189,9 +189,9 @@ def parse(text: str) -> ast.expr:
 class Context:
     """Reads expressions of one goal into Ratios; log and exp of an argument become atoms."""
 
-    def __init__(self, flow: dict[str, str], indexed: list[str]) -> None:
+    def __init__(self, flow: dict[str, str], indexed: list[str], inputs: list[str] | None = None) -> None:
         self.functions: dict[str, tuple[str, Ratio]] = {}
-        self.indexed, self.rates = set(indexed), flow
+        self.indexed, self.rates, self.inputs = set(indexed), flow, set(inputs or [])
         self.flow: dict[str, Ratio] = {}
         if any(calls(rate, "D") for rate in flow.values()):
             raise CertificateError("a rate is given by a derivative")
@@ -271,6 +271,8 @@ class Context:
         if name == "Sum":
             return self._of_one_index(argument) * symbol(SUM)
         if name == "D":
+            if unknown := symbols_of(self, argument) & self.inputs:
+                raise CertificateError(f"a derivative of the input {min(unknown)} is not taken: its rate is not known")
             return self.derivative(argument, self.flow)
         if name not in FUNCTIONS:
             raise CertificateError(f"unknown function '{name}'")
@@ -377,13 +379,9 @@ class Context:
         rates = self.rates.values() if calls(text, "D") else ()
         return [place for part in (text, *rates) for place in partial_operations(part)]
 
-    def inputs(self) -> set[str]:
-        """Symbols that rates mention without having a rate themselves: they may vary in time."""
-        return set().union(*(symbols_of(self, rate) for rate in self.flow.values())) - self.flow.keys() - {SUM}
-
     def moving(self) -> set[str]:
         """Symbols that may change along the flow."""
-        return self.inputs() | {name for name, rate in self.flow.items() if not rate.is_zero()}
+        return self.inputs | {name for name, rate in self.flow.items() if not rate.is_zero()}
 
 
 # --- signs -------------------------------------------------------------------------------------------------
@@ -636,7 +634,7 @@ def _nonincreasing(value: Ratio, operator: str, given: Relations, proof: dict[st
     for text in (*context.rates.values(), proof["function"]):
         along.require_defined(text)
     function = context.read(proof["function"])
-    if symbols_of(context, function) & context.inputs():
+    if symbols_of(context, function) & context.inputs:
         raise CertificateError("the function mentions an input, whose rate is not known")
     prove(-context.derivative(function, context.flow), ">=", along, proof["decrease"])
     drop = substitute(context, function, given.initial) + -function
@@ -894,15 +892,17 @@ def holds(context: Context, text: str, point: dict[str, Ratio]) -> bool:
 
 def read_goal(goal: dict[str, Any]) -> tuple[Context, Relations]:
     """The goal's context and its assumptions; every part must have the expected shape."""
-    lists, maps = ("assume", "show", "always", "indexed"), ("flow", "initial")
+    lists, maps = ("assume", "show", "always", "indexed", "inputs"), ("flow", "initial")
     if not goal.keys() <= {*lists, *maps, "eventually"}:
         raise CertificateError(f"a goal has no {', '.join(sorted(goal.keys() - {*lists, *maps, 'eventually'}))}")
     values = [goal.get(key, []) for key in lists] + [list(goal.get(key, {}).values()) for key in maps]
     if not all(isinstance(value, list) and all(isinstance(text, str) for text in value) for value in values):
         raise CertificateError("the parts of a goal are lists and maps of texts")
-    for name in (*goal.get("indexed", []), *goal.get("flow", {}), *goal.get("initial", {})):
+    for name in (*goal.get("indexed", []), *goal.get("inputs", []), *goal.get("flow", {}), *goal.get("initial", {})):
         read_name(name)
-    context = Context(goal.get("flow", {}), goal.get("indexed", []))
+    context = Context(goal.get("flow", {}), goal.get("indexed", []), goal.get("inputs", []))
+    if context.inputs & (context.indexed | context.flow.keys()):
+        raise CertificateError("an input has neither an index nor a rate")
     given = Relations(context, goal.get("assume", []))
     given.always = goal.get("always", [])
     for name, text in goal.get("initial", {}).items():
@@ -961,7 +961,7 @@ def _check_reached(context: Context, given: Relations, point: dict[str, Ratio], 
     path = {name: context.read(text) for name, text in certificate["path"].items()}
     if given.initial.keys() != context.flow.keys() or context.indexed or time in point or duration < 0:
         raise CertificateError("a point is reached by a flow whose initial values are known, in a time of its own name")
-    moving, inputs = context.moving(), context.inputs()
+    moving, inputs = context.moving(), context.inputs
     if not moving - inputs <= path.keys() <= moving or any(symbols_of(context, f) - {time} for f in path.values()):
         raise CertificateError("the path must give all that moves, and nothing but inputs beside, as functions of time")
     later, line = Relations(context, [f"{time} >= 0"]), point | path
@@ -990,8 +990,8 @@ def _check_model(goal: dict[str, Any], certificate: dict[str, Any]) -> None:
     functions = {name: context.read(text) for name, text in certificate["functions"].items()}
     if goal["flow"].get(time) != "1" or functions.keys() != rates.keys() or len(goal["show"]) != 1:
         raise CertificateError("the model must give every moving symbol as a function of time")
-    if len({time, *rates, *rates.values()}) != 1 + 2 * len(rates) or not all(map(NAME.fullmatch, rates.values())):
-        raise CertificateError("the model needs flows whose rates are free, each its own")
+    if len({time, *rates, *rates.values()}) != 1 + 2 * len(rates) or context.inputs != set(rates.values()):
+        raise CertificateError("the model needs flows whose rates are inputs, each its own, and no other inputs")
     if point.keys() & {time, *rates, *rates.values()} or context.indexed:
         raise CertificateError("the point names constants only")
     later = Relations(context, [f"{time} >= 0"])

@@ -30,7 +30,9 @@ WRITTEN = {"sqrt", "xreplace", "_func", "binary_op_wrapper", "__sympifyit_wrappe
 WRITTEN |= {f"__{side}{name}__" for name in ("add", "sub", "mul", "truediv", "pow") for side in ("", "r")}
 WRITTEN |= {"__neg__", "__pos__", "__abs__"}
 
-_open: dict[int, int] = {}  # by thread: how many `as_typed` are open
+_blocks: list[int] = []  # the threads of all blocks of `as_typed` that are open, in whatever thread
+_open: dict[int, int] = {}  # by thread: how many of its blocks are in force
+_before: dict[Any, Any] = {}  # sympy's own way to build a term, while it is replaced
 _lock = threading.Lock()
 
 
@@ -39,18 +41,34 @@ def as_typed() -> Iterator[None]:
     """Keep every term that code outside of sympy writes down within this block, in this thread."""
     me = threading.get_ident()
     with _lock:
-        if not _open:
+        if not _before:
             _install()
+        _blocks.append(me)
         _open[me] = _open.get(me, 0) + 1
     try:
         yield
     finally:
         with _lock:
+            _blocks.remove(me)
             _open[me] -= 1
             if not _open[me]:
                 del _open[me]
-            if not _open:
+            if not _blocks:
                 _remove()
+
+
+@contextmanager
+def as_evaluated() -> Iterator[None]:
+    """Let sympy evaluate within this block, whatever is open around it."""
+    me = threading.get_ident()
+    with _lock:
+        depth = _open.pop(me, 0)
+    try:
+        yield
+    finally:
+        with _lock:
+            if depth:
+                _open[me] = depth
 
 
 def kept_as_typed(build: Callable[[], T]) -> Callable[[], T]:
@@ -69,14 +87,16 @@ def kept_as_typed(build: Callable[[], T]) -> Callable[[], T]:
 
 def evaluated(expr: sp.Expr) -> sp.Expr:
     """The same expression as sympy would have built it; where the one as typed has a value, this has the same."""
+    with as_evaluated():
+        return _evaluated(expr)
+
+
+def _evaluated(expr: sp.Expr) -> sp.Expr:
     if not expr.args or isinstance(expr, sp.Indexed):
         return expr
     if isinstance(expr, sp.Sum):
-        return sp.Sum(evaluated(expr.function), *expr.limits)
-    return expr.func(*map(evaluated, expr.args))
-
-
-_before: dict[Any, Any] = {}
+        return sp.Sum(_evaluated(expr.function), *expr.limits)
+    return expr.func(*map(_evaluated, expr.args))
 
 
 def _install() -> None:

@@ -20,6 +20,7 @@ from workbench.proof.derive import expand_derivatives
 from workbench.proof.fate import judged
 from workbench.proof.premises import premises_problem
 from workbench.proof.text import goal_text
+from workbench.proof.typed import as_typed
 
 Certificate = dict[str, Any]
 
@@ -100,19 +101,20 @@ def pinned(goal: Goal, values: dict[Any, Fraction]) -> Goal:
         # Derivatives first: D of a symbol that has become a number would be zero.
         carried = (Relation(expand_derivatives(r.left, goal.flow), r.operator, expand_derivatives(r.right, goal.flow))
                    for r in relations)
-        return tuple(r.subs(exact) for r in carried)
+        with as_typed():
+            return tuple(r.subs(exact) for r in carried)
 
     return replace(goal, show=put(goal.show), assume=put(goal.assume), always=put(goal.always), flow={},
-                   lemmas=put(goal.lemmas), facts=tuple(f.xreplace(exact) for f in goal.facts))
+                   lemmas=put(goal.lemmas), facts=tuple(f.xreplace(exact) for f in goal.facts), inputs=())
 
 
 def prove_goal(goal: Goal) -> tuple[Certificate, str] | None:
     """A checked certificate of verdict `proved` and the method that found it, or None."""
     if goal.eventually is not None:
         return None
-    proofs, methods = [], []
-    for shown in goal.show:
-        found = prove_relation(goal, shown)
+    proofs, methods, usual = [], [], goal.evaluated()
+    for shown in usual.show:
+        found = prove_relation(usual, shown)
         if found is None:
             return None
         proofs.append(found[0])

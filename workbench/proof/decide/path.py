@@ -20,7 +20,7 @@ from workbench.proof.decide.combination import find_combination
 from workbench.proof.decide.identity import find_identity
 from workbench.proof.decide.proposals import Point, proposals
 from workbench.proof.derive import expand_derivatives
-from workbench.proof.text import goal_text, text
+from workbench.proof.text import assumptions, text
 
 LOOKS = 30
 SAMPLES = (sp.Integer(0), sp.Rational(1, 2), sp.Integer(1), sp.Integer(100))  # of the duration; `always` goes on
@@ -30,14 +30,17 @@ MOST_TERMS = 80
 Way = dict[sp.Expr, sp.Expr]
 
 
-def find_path(goal: Goal, verdict: Verdict, seed: int, quick: bool = False) -> dict[str, Any] | None:
-    """A certificate with a point that the flow reaches from its initial values, or None."""
+def find_path(goal: Goal, record: dict[str, Any], verdict: Verdict, seed: int,
+              quick: bool = False) -> dict[str, Any] | None:
+    """A certificate with a point that the flow reaches from its initial values, or None.
+
+    record: the goal as its certificate states it.
+    """
     if not goal.flow or set(goal.initial) != set(goal.flow) or any(isinstance(s, sp.Indexed) for s in goal.symbols()):
         return None
     taken = {name_of(s) for s in goal.symbols()}
     duration, time = (sp.Symbol(next(n for n in (name, f"{name}_", f"{name}__") if n not in taken), **sign)
                       for name, sign in (("duration", {"positive": True}), ("time", {"real": True})))
-    record = goal_text(goal)
     for way in islice(_ways(goal, time), 1 if quick else None):
         for point in _ends(goal, way, duration, time, seed, quick):
             certificate = _certificate(goal, way, point, duration, time)
@@ -53,7 +56,7 @@ def find_path(goal: Goal, verdict: Verdict, seed: int, quick: bool = False) -> d
 
 def _ways(goal: Goal, time: sp.Symbol) -> Iterator[Way]:
     """Polynomials of time, with free coefficients, for what moves and for inputs: constant inputs first."""
-    inputs = sorted({s for rate in goal.flow.values() for s in rate.free_symbols} - set(goal.flow), key=str)
+    inputs = sorted(goal.inputs, key=str)
     seen: list[Way] = []
     for degrees in DEGREES:
         for varying in (False, True):
@@ -121,7 +124,7 @@ def _ends(goal: Goal, way: Way, duration: sp.Symbol, time: sp.Symbol, seed: int,
     mentioned = tuple(at_least(s**2, 0) for s in sorted(used, key=str))
     try:
         at_end = Goal(tuple(_along(goal, way, r).subs(ends) for r in goal.show),
-                      (*(_along(goal, way, r).subs(ends) for r in goal.assume), *held, *mentioned))
+                      (*(_along(goal, way, r).subs(ends) for r in assumptions(goal)), *held, *mentioned))
         return list(islice(proposals(at_end, seed, True, quick), LOOKS))
     except ClaimError:
         return []

@@ -32,23 +32,24 @@ def find_counterexample(goal: Goal, verdict: Verdict, seed: int = 1, quick: bool
     record = goal_text(goal)
     try:
         exact = Exact(record)
+        usual = goal.evaluated()
         if goal.eventually is not None:
-            return None if quick else find_model(goal, verdict)
-        for point in proposals(goal, seed, True, quick):
+            return None if quick else find_model(usual, record, verdict)
+        for point in proposals(usual, seed, True, quick):
             if exact.breaks(point):
                 certificate = {"version": 1, "verdict": verdict, "goal": record, "point": texts(point)}
                 if _accepted(certificate):
                     return certificate
     except (CertificateError, ClaimError):  # nothing that the checker would accept can be said of such a goal
         return None
-    return find_path(goal, verdict, seed, quick)
+    return find_path(usual, record, verdict, seed, quick)
 
 
 def find_example(goal: Goal, seed: int = 1) -> dict[str, str] | None:
     """A rational point that meets all assumptions of a goal, so that nothing is proved from nothing."""
     try:
         exact = Exact(goal_text(goal))
-        return next((texts(point) for point in proposals(goal, seed, False) if exact.meets(point)), None)
+        return next((texts(point) for point in proposals(goal.evaluated(), seed, False) if exact.meets(point)), None)
     except (CertificateError, ClaimError):
         return None
 
