@@ -144,17 +144,23 @@ class Goal:
         """All relations of the goal."""
         return (*self.show, *self.assume, *self.always)
 
-    def evaluated(self) -> Goal:
-        """The same goal for deciders, its expressions as sympy would have built them; it has the same symbols."""
+    def evaluated(self, functions: bool = True) -> Goal:
+        """The same goal for deciders, its expressions as sympy would have built them; it has the same symbols.
+
+        functions: whether sympy evaluates abs, sign, Max, Min and the like too, or leaves them to the deciders.
+        """
+        def usual(expr: sp.Expr) -> sp.Expr:
+            return evaluated(expr, functions)
+
         def put(relations: tuple[Relation, ...]) -> tuple[Relation, ...]:
-            return tuple(Relation(evaluated(r.left), r.operator, evaluated(r.right)) for r in relations)
+            return tuple(Relation(usual(r.left), r.operator, usual(r.right)) for r in relations)
 
         return replace(
             self, show=put(self.show), assume=put(self.assume), always=put(self.always), lemmas=put(self.lemmas),
-            flow={s: evaluated(rate) for s, rate in self.flow.items()},
-            initial={s: evaluated(value) for s, value in self.initial.items()},
-            decreasing=self.decreasing if self.decreasing is None else evaluated(sp.Add(self.decreasing)),
-            facts=tuple(map(evaluated, self.facts)), model={s: evaluated(f) for s, f in self.model.items()},
+            flow={s: usual(rate) for s, rate in self.flow.items()},
+            initial={s: usual(value) for s, value in self.initial.items()},
+            decreasing=self.decreasing if self.decreasing is None else usual(sp.Add(self.decreasing)),
+            facts=tuple(map(usual, self.facts)), model={s: usual(f) for s, f in self.model.items()},
             named=tuple(self.symbols()))
 
     def moving(self) -> set[sp.Expr]:

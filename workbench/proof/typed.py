@@ -85,18 +85,24 @@ def kept_as_typed(build: Callable[[], T]) -> Callable[[], T]:
     return typed
 
 
-def evaluated(expr: sp.Expr) -> sp.Expr:
-    """The same expression as sympy would have built it; where the one as typed has a value, this has the same."""
+def evaluated(expr: sp.Expr, functions: bool = True) -> sp.Expr:
+    """The same expression as sympy would have built it; where the one as typed has a value, this has the same.
+
+    functions: whether sympy evaluates abs, sign, Max, Min, log, exp and tanh as well.
+    """
     with as_evaluated():
-        return _evaluated(expr)
+        return _evaluated(expr, functions)
 
 
-def _evaluated(expr: sp.Expr) -> sp.Expr:
+def _evaluated(expr: sp.Expr, functions: bool) -> sp.Expr:
     if not expr.args or isinstance(expr, sp.Indexed):
         return expr
     if isinstance(expr, sp.Sum):
-        return sp.Sum(_evaluated(expr.function), *expr.limits)
-    return expr.func(*map(_evaluated, expr.args))
+        return sp.Sum(_evaluated(expr.function, functions), *expr.limits)
+    parts = (_evaluated(part, functions) for part in expr.args)
+    if functions or isinstance(expr, (sp.Add, sp.Mul, sp.Pow)):
+        return expr.func(*parts)
+    return expr.func(*parts, evaluate=False)
 
 
 def _install() -> None:

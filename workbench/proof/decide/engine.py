@@ -112,23 +112,32 @@ def prove_goal(goal: Goal) -> tuple[Certificate, str] | None:
     """A checked certificate of verdict `proved` and the method that found it, or None."""
     if goal.eventually is not None:
         return None
-    proofs, methods, usual = [], [], goal.evaluated()
-    for shown in usual.show:
-        found = prove_relation(usual, shown)
+    record = goal_text(goal)
+    for functions in (True, False):  # what sympy makes of Max, Min and abs the checker may have to be shown
+        found = _proofs(goal.evaluated(functions))
+        example = None if found is None else find_example(goal)
+        if found is None or example is None:
+            return None
+        certificate: Certificate = {"version": 1, "verdict": "proved", "goal": record, "example": example,
+                                    "proofs": found[0]}
+        try:
+            check(certificate)
+        except CertificateError:
+            continue
+        return certificate, found[1]
+    return None
+
+
+def _proofs(goal: Goal) -> tuple[list[dict[str, Any]], str] | None:
+    """A proof of each relation that the goal shows, not yet checked, and how they were found."""
+    proofs, methods = [], []
+    for shown in goal.show:
+        found = prove_relation(goal, shown)
         if found is None:
             return None
         proofs.append(found[0])
         methods.append(found[1])
-    example = find_example(goal)
-    if example is None:
-        return None
-    certificate: Certificate = {"version": 1, "verdict": "proved", "goal": goal_text(goal), "example": example,
-                                "proofs": proofs}
-    try:
-        check(certificate)
-    except CertificateError:
-        return None
-    return certificate, ", ".join(dict.fromkeys(methods))
+    return proofs, ", ".join(dict.fromkeys(methods))
 
 
 def _fraction(value: Fraction) -> str:
