@@ -14,15 +14,17 @@ from workbench.errors import ClaimError
 from workbench.proof.building import built
 from workbench.proof.checker import CertificateError, check
 from workbench.proof.claim import Claim, Decision, Goal, Relation, Verdict, latex, name_of
+from workbench.proof.decide.nearest import smallest_margin
 from workbench.proof.decide.refute import find_counterexample, find_example, value_at
 from workbench.proof.decide.search import prove_relation
 from workbench.proof.derive import expand_derivatives
 from workbench.proof.fate import judged
 from workbench.proof.premises import premises_problem
-from workbench.proof.text import goal_text
+from workbench.proof.text import goal_text, relation_text
 from workbench.proof.typed import as_typed
 
 Certificate = dict[str, Any]
+LONGEST_LINE = 160  # of a relation in a sentence
 
 
 def decide(claim: Claim) -> Decision:
@@ -38,13 +40,13 @@ def decide(claim: Claim) -> Decision:
 def _decide_statement(claim: Claim, goal: Goal) -> Decision:
     verdict: Verdict = "gap" if claim.kind in ("implication", "limit") and not claim.closed_loop else "refuted"
     certificate_or_none = find_counterexample(goal, verdict, quick=True)  # a search of a proof would be in vain
-    proof = prove_goal(goal) if certificate_or_none is None else None
-    if proof is not None:
+    proof = attempted_proof(goal) if certificate_or_none is None else ""
+    if not isinstance(proof, str):
         certificate, method = proof
         return Decision(claim, "proved", method, "exact", 0.0, {"claim": claim.id, **certificate})
     certificate_or_none = certificate_or_none or find_counterexample(goal, verdict)
     if certificate_or_none is None:
-        return Decision(claim, "undecided", "identity, combination and point search found nothing", None, 0.0)
+        return Decision(claim, "undecided", f"{proof}; {smallest_margin(goal)}", None, 0.0)
     certificate = {"claim": claim.id, **certificate_or_none}
     point = certificate.get("functions", {}) | certificate["point"]
     correction = None
@@ -71,9 +73,9 @@ def _decide_condition(claim: Claim, goal: Goal) -> Decision:
     except CertificateError as trouble:
         if "the goal holds" not in str(trouble):
             raise ClaimError(f"claim {claim.id}: the stated parameters do not fit the goal: {trouble}") from None
-        proof = prove_goal(pinned(goal, claim.at or {}))
-        if proof is None:
-            return Decision(claim, "undecided", "holds at the stated values, but no proof was found", None, 0.0)
+        proof = attempted_proof(pinned(goal, claim.at or {}))
+        if isinstance(proof, str):
+            return Decision(claim, "undecided", f"holds at the stated values, but {proof}", None, 0.0)
         return Decision(claim, "proved", f"exact evaluation at the stated values; {proof[1]}", "exact", 0.0,
                         {"claim": claim.id, **proof[0]}, computed=value_at(goal, stated))
     correction = None
@@ -110,34 +112,48 @@ def pinned(goal: Goal, values: dict[Any, Fraction]) -> Goal:
 
 def prove_goal(goal: Goal) -> tuple[Certificate, str] | None:
     """A checked certificate of verdict `proved` and the method that found it, or None."""
+    found = attempted_proof(goal)
+    return None if isinstance(found, str) else found
+
+
+def attempted_proof(goal: Goal) -> tuple[Certificate, str] | str:
+    """A checked certificate and the method that found it, or what was not shown."""
     if goal.eventually is not None:
-        return None
-    record = goal_text(goal)
+        return "a claim of some later time is proved by naming that time"
+    record, missing = goal_text(goal), ""
     for functions in (True, False):  # what sympy makes of Max, Min and abs the checker may have to be shown
         found = _proofs(goal.evaluated(functions))
-        example = None if found is None else find_example(goal)
-        if found is None or example is None:
-            return None
+        if isinstance(found, str):
+            return missing or found
+        example = find_example(goal)
+        if example is None:
+            return "no point was found that meets all assumptions, so that they may contradict each other"
         certificate: Certificate = {"version": 1, "verdict": "proved", "goal": record, "example": example,
                                     "proofs": found[0]}
         try:
             check(certificate)
-        except CertificateError:
+        except CertificateError as trouble:
+            missing = f"a proof was found that the checker does not accept: {trouble}"
             continue
         return certificate, found[1]
-    return None
+    return missing
 
 
-def _proofs(goal: Goal) -> tuple[list[dict[str, Any]], str] | None:
-    """A proof of each relation that the goal shows, not yet checked, and how they were found."""
+def _proofs(goal: Goal) -> tuple[list[dict[str, Any]], str] | str:
+    """A proof of each relation that the goal shows, not yet checked, and how they were found; or what was not shown."""
     proofs, methods = [], []
-    for shown in goal.show:
+    for place, shown in enumerate(goal.show):
         found = prove_relation(goal, shown)
         if found is None:
-            return None
+            of = f" (relation {place + 1} of {len(goal.show)})" if len(goal.show) > 1 else ""
+            return f"not shown{of}: {_shortened(relation_text(shown))}"
         proofs.append(found[0])
         methods.append(found[1])
     return proofs, ", ".join(dict.fromkeys(methods))
+
+
+def _shortened(line: str) -> str:
+    return line if len(line) <= LONGEST_LINE else f"{line[:LONGEST_LINE]}..."
 
 
 def _fraction(value: Fraction) -> str:
