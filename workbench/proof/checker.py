@@ -34,6 +34,8 @@ FUNCTIONS = ("log", "exp", "tanh", "abs", "sign", "sqrt")
 NAME = re.compile(r"[A-Za-z_][A-Za-z0-9_]*")  # no atom of this file looks like that
 EXPRESSION = re.compile(r"[A-Za-z0-9_ +*/(),-]*")
 RATIONAL = re.compile(r"-?[0-9]+(/[0-9]+)?")
+DIGEST = re.compile(r"[0-9a-f]{64}")
+EQUATION = re.compile(r"[A-Za-z0-9][A-Za-z0-9._+-]*")
 MOST_PRODUCTS, MOST_BITS, LARGEST_EXPONENT = 20_000, 200_000, 10_000  # more is refused, not computed
 
 Monomial = tuple[tuple[str, int], ...]
@@ -1043,14 +1045,17 @@ def read_point(point: dict[str, Any]) -> dict[str, Ratio]:
 
 
 CHECKS = {"proved": check_proved, "refuted": check_false, "violated": check_false, "gap": check_false}
+UNDECIDED = ("assumed", "undecided")  # verdicts without a certificate
 
 
 def check(certificate: dict[str, Any]) -> None:
     """Raise CertificateError, with the reason, unless the certificate establishes its verdict."""
     try:
         verdict, goal = certificate["verdict"], certificate["goal"]
-        if certificate.get("version") != 1 or verdict not in CHECKS:
+        if certificate.get("version") not in (1, 2) or verdict not in CHECKS:
             raise CertificateError(f"version {certificate.get('version')}, {verdict}: not for this checker")
+        if certificate["version"] == 2 or "goal_digest" in certificate:
+            _require_digest(certificate)
         CHECKS[verdict](goal, certificate)
         for name in ("correction", "repair"):
             if name in certificate:
@@ -1060,47 +1065,136 @@ def check(certificate: dict[str, Any]) -> None:
         raise CertificateError(f"malformed: {type(trouble).__name__} {trouble}") from None
 
 
+# --- which claim a certificate is for ----------------------------------------------------------------------
+
+
+def digest_of(stated: dict[str, Any]) -> str:
+    """The sha256 of a statement's canonical JSON: keys sorted, no spaces, ASCII."""
+    text = json.dumps(stated, sort_keys=True, separators=(",", ":"), ensure_ascii=True, allow_nan=False)
+    return hashlib.sha256(text.encode()).hexdigest()
+
+
+def goal_digest(certificate: dict[str, Any]) -> str:
+    """The digest of what a certificate is for: claim, verdict and goal; of a violated condition its numbers too, and
+    the goals of a correction or a repair."""
+    stated = {name: certificate[name] for name in ("claim", "verdict", "goal")}
+    if stated["verdict"] == "violated":
+        stated["point"] = certificate["point"]
+    stated |= {name: certificate[name]["goal"] for name in ("correction", "repair") if name in certificate}
+    return digest_of(stated)
+
+
+def _require_digest(certificate: dict[str, Any]) -> str:
+    """The digest that a certificate names; CertificateError where it is not that of its goal."""
+    if "goal_digest" not in certificate:
+        raise CertificateError("names no goal_digest: it is bound to no claim")
+    if certificate["goal_digest"] != goal_digest(certificate):
+        raise CertificateError("its goal_digest is not that of its claim, verdict and goal")
+    return str(certificate["goal_digest"])
+
+
 MANIFEST = "manifest.json"
 LARGEST = 64 * 2**20
+Row = tuple[Path, str, "str | None"]
 
 
-def check_folder(folder: Path) -> list[tuple[Path, str, str | None]]:
-    """(file, verdict, reason it is invalid or None) for every certificate below a folder: <equation>.json in a folder
-    whose manifest.json says of which paper they are and which there are, or else in a folder named like the paper."""
-    results: list[tuple[Path, str, str | None]] = []
-    named = {path.parent: _manifest(path) for path in sorted(folder.rglob(MANIFEST))}
-    for place, (_, digests) in named.items():
-        for name in sorted(digests):
-            if not (place / f"{name}.json").is_file():
-                results.append((place / f"{name}.json", "?", f"{MANIFEST} names it, and it is missing"))
-        if not digests:
-            results.append((place / MANIFEST, "?", "names no certificate"))
-    for path in sorted(path for path in folder.rglob("*.json") if path.name != MANIFEST):
-        verdict = "?"
+def check_folder(folder: Path) -> list[Row]:
+    """(file, verdict, reason it is invalid or None) for every certificate below a folder.
+
+    A manifest.json beside them says of which paper they are, which claims that paper states, and for each its verdict,
+    the digest of its goal and that of its certificate. What is missing, extra, swapped or renamed is invalid, and so is
+    a certificate without a manifest: whatever it proves, nobody says of which claim.
+    """
+    results: list[Row] = []
+    manifests = {path.parent: path for path in sorted(folder.rglob(MANIFEST))}
+    stated: dict[Path, Manifest] = {}
+    for place, path in manifests.items():
         try:
-            text = _text(path)
-            certificate = json.loads(text, object_pairs_hook=_unique)
-            verdict = str(certificate.get("verdict")) if isinstance(certificate, dict) else "?"
-            paper, digests = named.get(path.parent, (path.resolve().parent.name, {}))
-            if path.parent in named and digests.get(path.stem) != hashlib.sha256(text.encode()).hexdigest():
-                raise CertificateError(f"{MANIFEST} names " + (
-                    "another content for it" if path.stem in digests else "no such certificate"))
-            if certificate.get("claim") != f"{paper}:{path.stem}":
-                raise CertificateError(f"the certificate of {certificate.get('claim')} under another claim's name")
-            check(certificate)
-            results.append((path, verdict, None))
-        except (CertificateError, ValueError, AttributeError, RecursionError, OSError) as trouble:
-            results.append((path, verdict, str(trouble)))
+            stated[place] = read_manifest(path)
+        except CertificateError as trouble:
+            results.append((path, "?", str(trouble)))
+            continue
+        for name, entry in stated[place].claims.items():
+            if entry["certificate"] is not None and not (place / f"{name}.json").is_file():
+                results.append((place / f"{name}.json", entry["verdict"], f"{MANIFEST} names it, and it is missing"))
+        if all(entry["certificate"] is None for entry in stated[place].claims.values()):
+            results.append((path, "?", "names no certificate"))
+    for path in sorted(path for path in folder.rglob("*.json") if path.name != MANIFEST):
+        results.append(check_file(path, stated.get(path.parent)))
     return results
 
 
-def _manifest(path: Path) -> tuple[str, dict[str, str]]:
-    """The paper and the digests of its certificates by their names; of a damaged manifest none."""
+def check_file(path: Path, manifest: Manifest | None = None, digest: str | None = None) -> Row:
+    """The same for one file, held against its manifest or the digest of its claim's goal; without both it is invalid,
+    whatever it proves."""
+    verdict = "?"
     try:
-        found = json.loads(_text(path), object_pairs_hook=_unique)
-        return str(found["paper"]), {str(name): str(digest) for name, digest in found["certificates"].items()}
-    except (CertificateError, ValueError, KeyError, TypeError, AttributeError, RecursionError, OSError):
-        return "", {}
+        text = _text(path)
+        certificate = _json(text)
+        if not isinstance(certificate, dict):
+            raise CertificateError("is no certificate")
+        verdict = str(certificate.get("verdict"))[:20]
+        if manifest is not None:
+            _require_named(certificate, hashlib.sha256(text.encode()).hexdigest(), path.stem, manifest)
+        elif digest is not None and _require_digest(certificate) != digest:
+            raise CertificateError("is of another goal than the one whose digest is given")
+        check(certificate)
+        if manifest is None and digest is None:
+            raise CertificateError(f"holds, bound to no claim: no readable {MANIFEST} stands beside it")
+    except (CertificateError, ValueError, KeyError, TypeError, AttributeError, RecursionError, OSError) as trouble:
+        return path, verdict, str(trouble)
+    return path, verdict, None
+
+
+def _require_named(certificate: dict[str, Any], digest: str, name: str, manifest: Manifest) -> None:
+    """CertificateError unless a certificate is the one that the manifest states under this name."""
+    entry = manifest.claims.get(name)
+    if entry is None or entry["certificate"] is None:
+        raise CertificateError(f"{MANIFEST} names no such certificate")
+    if certificate.get("claim") != f"{manifest.paper}:{name}":
+        raise CertificateError(f"the certificate of {str(certificate.get('claim'))[:80]} under another claim's name")
+    if certificate.get("verdict") != entry["verdict"] or _require_digest(certificate) != entry["goal_digest"]:
+        raise CertificateError(f"is of another goal or verdict than {MANIFEST} states for this claim")
+    if entry["certificate"] != digest:
+        raise CertificateError(f"{MANIFEST} names another content for it")
+
+
+class Manifest:
+    """What a paper's claims are: verdict, goal_digest and certificate (its sha256) of each, by its number."""
+
+    def __init__(self, paper: str, claims: dict[str, dict[str, Any]]) -> None:
+        self.paper, self.claims = paper, claims
+
+
+def read_manifest(path: Path) -> Manifest:
+    """A manifest read and found whole; CertificateError where it is not."""
+    try:
+        found = _json(_text(path))
+        if found["version"] != 2:
+            raise CertificateError(f"version {str(found['version'])[:20]} binds no certificate to its claim's goal: "
+                                   "run 'workbench prove' (of gains 'workbench gains') again")
+        paper, claims = found["paper"], found["claims"]
+        if found.keys() != {"version", "paper", "claims"} or not isinstance(paper, str) or not claims:
+            raise CertificateError("is no manifest of certificates")
+        for name, entry in claims.items():
+            whole = entry.keys() == {"verdict", "goal_digest", "certificate"} and (
+                DIGEST.fullmatch(entry["goal_digest"]) and DIGEST.fullmatch(entry["certificate"])
+                if entry["verdict"] in CHECKS else
+                entry["verdict"] in UNDECIDED and entry["goal_digest"] is None and entry["certificate"] is None)
+            if not whole or not EQUATION.fullmatch(name):
+                raise CertificateError(f"claim {name[:80]}: verdict, goal_digest and certificate do not go together")
+    except (ValueError, KeyError, TypeError, AttributeError, RecursionError, OSError):
+        raise CertificateError("is no manifest of certificates") from None
+    return Manifest(paper, claims)
+
+
+def _json(text: str) -> Any:
+    """JSON in which no key stands twice and every number is finite and whole."""
+    return json.loads(text, object_pairs_hook=_unique, parse_constant=_no_number, parse_float=_no_number)
+
+
+def _no_number(text: str) -> Any:
+    raise CertificateError(f"the number {text[:40]} is not exact: certificates have whole numbers, and texts 'p/q'")
 
 
 def _text(path: Path) -> str:
@@ -1121,10 +1215,17 @@ def _unique(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
     return dict(pairs)
 
 
+USAGE = "usage: checker.py FOLDER | checker.py FILE --claim-digest SHA256\n"
+
+
 def main() -> int:
-    """Check the folder named on the command line; 0 when all certificates hold, 1 when not, 2 when none."""
-    folder = Path(sys.argv[1]) if len(sys.argv) == 2 else Path()
-    results = check_folder(folder)
+    """Check what the command line names; 0 when all certificates hold, 1 when not, 2 when there is none."""
+    place, *option = sys.argv[1:] or ["."]
+    if option and not (len(option) == 2 and option[0] == "--claim-digest" and Path(place).is_file()):
+        sys.stderr.write(USAGE)
+        return 2
+    path = Path(place)
+    results = [check_file(path, None, option[1] if option else None)] if path.is_file() else check_folder(path)
     for path, verdict, reason in results:
         sys.stdout.write(f"{'ok     ' if reason is None else 'INVALID'} {verdict:9s} {path}"
                          f"{': ' + reason if reason else ''}\n")
