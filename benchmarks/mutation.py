@@ -150,7 +150,7 @@ def judge(task: Task, seed: int, limit: float) -> Outcome:
     with _at_most(limit):
         witness = falsified(goal, task.at, seed + task.number)
     verdict = "out of time"
-    claim = Claim(id=task.claim, title="a mutant", kind=task.kind, statement="", recorded="undecided",
+    claim = Claim(id=task.claim, title="a mutant", kind=task.kind, printed="", recorded="undecided",
                   build=lambda: goal, at=task.at)
     with _at_most(limit):
         try:

@@ -7,7 +7,7 @@ import sys
 from pathlib import Path
 
 import pytest
-from scenarios import PROOFS, ROOT
+from scenarios import ROOT
 
 ROW_KEYS = {"controller", "position_error_min", "position_error_max", "speed_error_min", "speed_error_max",
             "position_rms", "speed_rms", "stopping_error", "energy_J", "jerk_rms", "saturated_fraction",
@@ -119,7 +119,7 @@ def test_the_example_of_the_readme_is_decided(tmp_path):
     result = run("prove", "my_paper.py", "--json", "out.json", folder=tmp_path)
     assert result.returncode == 0, result.stderr
     document = json.loads((tmp_path / "out.json").read_text())
-    assert document["version"] == 1 and document["summary"]["proved"] == 1
+    assert document["version"] == 2 and document["summary"]["proved"] == 1
     (claim,) = document["claims"]
     assert claim.keys() >= CLAIM_KEYS and claim["id"] == "mine:3" and claim["trust"] == "exact"
     assert run("check-certificates", "certificates", folder=tmp_path).returncode == 0

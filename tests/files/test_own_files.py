@@ -22,7 +22,7 @@ MINE = '{"mine": 1}\n'
 
 
 def decision(equation: str, paper: str = "doe2026", proved: bool = True) -> Decision:
-    claim = Stated(id=f"{paper}:{equation}", title="t", kind="identity", statement="x", recorded="proved")
+    claim = Stated(id=f"{paper}:{equation}", title="t", kind="identity", printed="x", recorded="proved")
     certificate = {"claim": claim.id, "version": 1, "verdict": "proved",
                    "goal": {"assume": [], "show": ["0 < 1"]}, "example": {},
                    "proofs": [{"rule": "combination", "terms": [{"coefficient": "1", "factors": []}]}]}
@@ -59,7 +59,8 @@ def test_whatever_is_accepted_is_one_plain_name(paper, equation):
 
 def test_certificates_of_gains_are_named_as_safely(tmp_path):
     for claim in ("../a:b", "a:../b", "a:manifest", "a:", "nothing"):
-        assert "cannot name a certificate" in refusal(write_gains, [{"claim": claim, "verdict": "proved"}], tmp_path / "c")
+        made = [{"claim": claim, "verdict": "proved"}]
+        assert "cannot name a certificate" in refusal(write_gains, made, tmp_path / "c")
     assert not any(tmp_path.iterdir())
     refusal(write_gains, [{"claim": "a:b", "verdict": "proved", "goal": {}}], tmp_path / "c" / "..", tmp_path / "c")
     refusal(write_gains, [{"claim": "a:b", "verdict": "proved", "goal": {}}], Path("/tmp/elsewhere"), tmp_path / "c")

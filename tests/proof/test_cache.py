@@ -10,6 +10,7 @@ import sys
 import pytest
 from small_papers import IDS, TEXT, certificates, deciders_at_rest, document, proved, write_paper
 
+from workbench.files.text import read_text
 from workbench.proof import cache as kept_module
 from workbench.proof.engine_digest import engine_digest
 
@@ -114,6 +115,16 @@ def test_a_file_that_was_missing_counts_when_it_appears(tmp_path):
     assert proved(path).now == frozenset()
     (tmp_path / "more.txt").write_text("")
     assert decided_now(proved(path)) == DECIDED
+
+
+def test_a_file_that_was_read_before_and_has_gone_is_in_no_one_s_way(tmp_path):
+    other = tmp_path / "other.toml"
+    other.write_text("")
+    read_text(other, "TOML")
+    other.unlink()
+    path = write_paper(tmp_path)
+    assert decided_now(proved(path)) == DECIDED
+    assert proved(path).now == frozenset()
 
 
 def test_changed_deciders_decide_everything_again(tmp_path, monkeypatch):

@@ -26,7 +26,7 @@ def run(*arguments):
 def decided(number):
     """The decision of a true claim of its own."""
     x = sp.Symbol("x", real=True)
-    return decide(Claim(id=f"doe2026:{number}", title="a claim", kind="inequality", statement="x", recorded="proved",
+    return decide(Claim(id=f"doe2026:{number}", title="a claim", kind="inequality", printed="x", recorded="proved",
                         build=lambda: Goal((at_least((x - number) ** 2, 0),))))
 
 

@@ -22,9 +22,11 @@ from workbench.report.formulas import formula
 PLACES = Places(PROOFS, {paper: PROOFS / paper / CERTIFICATES for paper in PAPERS})
 CLAIMS = [claim for paper in collect_papers([PROOFS]) for claim in paper.claims]
 IDS = [claim.id for claim in CLAIMS]
+CLAIM_OF = {claim.id: claim for claim in CLAIMS}
 POINTS = 200
 KEYS = {"id", "paper", "equation", "kind", "statement", "verdict", "method", "scope", "certificate", "counterexample",
-        "correction", "premises", "tainted_by", "trust", "seconds", "title", "note", "recorded", "computed"}
+        "correction", "premises", "tainted_by", "trust", "seconds", "title", "note", "recorded", "computed", "origin",
+        "match", "reading", "glyph", "glyph_claim", "severity", "rests_on", "mends", "fate", "fate_why", "fate_by"}
 
 
 @pytest.fixture(scope="module")
@@ -68,8 +70,8 @@ def test_the_manifest_names_all_claims_and_what_stands_beside_it(paper, decision
 
 def test_document_has_the_stable_keys(decisions):
     document = claims_document(list(decisions.values()), PLACES)
-    assert set(document) == {"version", "claims", "summary"}
-    assert document["version"] == 1
+    assert set(document) == {"version", "claims", "summary", "totals", "fates"}
+    assert document["version"] == 2
     assert all(set(row) == KEYS for row in document["claims"])
     assert sum(document["summary"].values()) == len(CLAIMS)
     assert set(document["summary"]) == {"proved", "refuted", "violated", "gap", "assumed", "undecided"}
@@ -135,7 +137,7 @@ def test_proved_claim_is_not_broken_by_random_search(claim):
 
 @pytest.mark.parametrize("claim", CLAIMS, ids=IDS)
 def test_formulas_become_mathml(claim, decisions):
-    for latex in filter(None, (claim.statement, claim.corrected_statement, decisions[claim.id].correction)):
+    for latex in filter(None, (claim.printed, claim.corrected_statement, decisions[claim.id].correction)):
         assert "<code" not in formula(latex), latex
         assert formula(latex).startswith("<math")
 
@@ -146,8 +148,11 @@ def test_ids_and_premises_are_well_formed(claim):
     assert claim.id not in claim.premises
     assert len(set(claim.premises)) == len(claim.premises)
     assert set(claim.premises) <= set(IDS)
+    assert set(claim.rests_on) <= set(IDS)
+    assert claim.glyph is None or CLAIM_OF[claim.glyph].glyph == claim.id, "the other reading points back"
+    assert claim.mends is None or claim.origin == "ours", "a mended line is no line of the paper"
     assert claim.title
-    assert claim.statement
+    assert claim.printed
     assert not claim.title.endswith(".")
 
 
@@ -155,15 +160,21 @@ def test_ids_are_unique():
     assert len(set(IDS)) == len(IDS)
 
 
-def test_taint_is_what_the_premises_carry(decisions):
-    """Fixed point of 'a failed premise, or what taints a premise', computed the slow way."""
+def test_taint_is_what_the_chain_carries(decisions):
+    """Fixed point of 'a failed line that something depends on, or what taints it', computed the slow way."""
+    def fails(name):
+        other = CLAIM_OF[name].glyph
+        return (decisions[name].verdict in ("refuted", "violated", "gap") and CLAIM_OF[name].severity != "cosmetic"
+                and not (other and decisions[other].verdict == "proved"))
+
     tainted = {claim.id: set() for claim in CLAIMS}
-    for _ in CLAIMS:
+    while True:
+        before = {name: set(found) for name, found in tainted.items()}
         for claim in CLAIMS:
-            for premise in claim.premises:
-                tainted[claim.id] |= tainted[premise]
-                if decisions[premise].verdict in ("refuted", "violated", "gap"):
-                    tainted[claim.id].add(premise)
+            for line in claim.rests_on:
+                tainted[claim.id] |= tainted[line] | ({line} if fails(line) else set())
+        if tainted == before:
+            break
     assert {name: set(d.tainted_by) for name, d in decisions.items()} == tainted
 
 

@@ -78,7 +78,7 @@ def test_text_is_never_parsed():
 
 
 def claim_of(build, identifier="a:1", **more):
-    return Claim(id=identifier, title="", kind=more.pop("kind", "condition"), statement="", recorded="proved",
+    return Claim(id=identifier, title="", kind=more.pop("kind", "condition"), printed="", recorded="proved",
                  build=build, **more)
 
 

@@ -67,7 +67,7 @@ def test_the_claim_is_shown_with_all_that_is_known_of_it(tmp_path, capsys):
     code, shown = command(capsys, f"{path}::3", "--json", tmp_path / "out.json")
     assert code == 0
     for part in ("small2020:3: a false one", "statement z", "verdict refuted", "counterexample x = ", "corrected x^{2}",
-                 "rests on small2020:2", "The note of 3.", "1 claim: 1 refuted"):
+                 "rests on small2020:2", "The note of 3.", "1 line of the paper: 1 refuted"):
         assert part in shown
     assert "an identity" not in shown
     made = json.loads((tmp_path / "out.json").read_text())

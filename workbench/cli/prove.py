@@ -8,7 +8,7 @@ from typing import Annotated
 import typer
 
 from workbench.cli.options import JsonFile
-from workbench.cli.terminal import claim_card, claims_table, err_console, out_console, progress, verdict_line
+from workbench.cli.terminal import claim_card, claims_table, err_console, out_console, progress, verdict_lines
 
 NAME = "prove"
 
@@ -42,7 +42,7 @@ def command(paths: Annotated[list[str] | None, typer.Argument(
         write_json(json, document)
     for table in map(claim_card, document["claims"]) if single else [claims_table(document)]:
         out_console.print(table)
-    out_console.print(verdict_line(document))
+    out_console.print(*verdict_lines(document), sep="\n")
     if not single:
         out_console.print(f"{len(proof.now)} decided now, {len(proof.decisions) - len(proof.now)} from the cache")
     differing = [d for d in proof.decisions if d.verdict != d.claim.recorded]

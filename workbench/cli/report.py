@@ -16,7 +16,7 @@ from workbench.cli.terminal import (
     print_study,
     progress,
     summary_table,
-    verdict_line,
+    verdict_lines,
 )
 from workbench.errors import InputError
 
@@ -58,7 +58,7 @@ def command(paper: PaperOrFile,
 
 def _print_study_report(made: StudyReport) -> None:
     if made.claims:
-        out_console.print(verdict_line(made.claims))
+        out_console.print(*verdict_lines(made.claims), sep="\n")
     print_study(made.result)
     _print_end(made.timings, made.page)
 
@@ -66,7 +66,7 @@ def _print_study_report(made: StudyReport) -> None:
 def _print_report(made: Report) -> None:
     if made.claims:
         out_console.print(claims_table(made.claims, only_failed=True))
-        out_console.print(verdict_line(made.claims))
+        out_console.print(*verdict_lines(made.claims), sep="\n")
     rows = [m.row() for m in made.comparison.metrics]
     out_console.print(metrics_table(rows, f"{made.comparison.scenario.name}: as stated"))
     print_failures(rows)

@@ -71,7 +71,11 @@ def claim_card(row: dict[str, Any]) -> Table:
         "claim": f"{row['id']}: {row['title']}", "statement": row["statement"], "verdict": row["verdict"] + recorded,
         "shown by": row["method"], "value": row["computed"],
         "counterexample": _values(row["counterexample"]) if row["counterexample"] else None,
-        "corrected": row["correction"], "holds for": row["scope"], "rests on": ", ".join(row["premises"]),
+        "corrected": row["correction"], "fate": _fate(row), "holds for": row["scope"],
+        "stands in the paper as": f"{ORIGIN_WORDS[row['origin']]}, {row['severity']}",
+        "became a goal by": f"{MATCH_WORDS[row['match']]}{': ' if row['reading'] else ''}{row['reading']}",
+        "other reading": f"{row['glyph_claim']}: {row['glyph']}" if row["glyph"] else None, "mends": row["mends"],
+        "rests on": ", ".join(row["rests_on"]), "our proof uses": ", ".join(row["premises"]),
         "failed below": ", ".join(row["tainted_by"]), "note": row["note"], "certificate": row["certificate"],
     }
     for what, text in known.items():
@@ -81,12 +85,26 @@ def claim_card(row: dict[str, Any]) -> Table:
     return table
 
 
-def verdict_line(document: dict[str, Any]) -> str:
-    """How many claims have which verdict."""
-    counts = document["summary"]
-    every = sum(counts.values())
-    return f"{every} claim{'' if every == 1 else 's'}: " + ", ".join(
-        f"[{COLOURS[v]}]{counts[v]} {v}[/{COLOURS[v]}]" for v in VERDICTS if counts[v])
+ORIGIN_WORDS = {"printed": "a printed line", "implied": "a step taken without words", "ours": "a question of ours"}
+MATCH_WORDS = {"parsed": "a machine that parsed the line", "read": "a person who read the line", "words": "its words"}
+
+
+def _fate(row: dict[str, Any]) -> str | None:
+    return f"{row['fate']}: {row['fate_why']}" if row["fate"] else None
+
+
+def verdict_lines(document: dict[str, Any]) -> list[str]:
+    """How many lines of the papers have which verdict, how many questions of ours, and the fate of each headline."""
+    found = []
+    for which, what in (("paper", "line{} of the paper{}"), ("ours", "question{} of ours")):
+        counts = document["totals"][which]
+        every = sum(counts.values())
+        papers = len({c["paper"] for c in document["claims"]})
+        if every:
+            found.append(f"{every} {what.format('' if every == 1 else 's', '' if papers == 1 else 's')}: " + ", ".join(
+                f"[{COLOURS[v]}]{counts[v]} {v}[/{COLOURS[v]}]" for v in VERDICTS if counts[v]))
+    found += [escape(f"{c['id']} {_fate(c)}") for c in document["claims"] if c["fate"]]
+    return found
 
 
 def metrics_table(rows: Sequence[dict[str, Any]], title: str) -> Table:

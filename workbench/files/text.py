@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import hashlib
+import time
 from pathlib import Path
 
 from workbench.errors import InputError
@@ -13,7 +14,7 @@ _LIMITS = {"TOML": LARGEST_TEXT}
 
 _read: set[Path] = set()
 _sources: set[Path] = set()
-_digests: dict[str, str] = {}
+_digests: dict[str, tuple[str, int]] = {}
 
 
 def inputs_read() -> frozenset[Path]:
@@ -26,9 +27,10 @@ def sources_read() -> frozenset[Path]:
     return frozenset(_sources)
 
 
-def digest_read(path: str | Path) -> str | None:
-    """The sha256 of a file's bytes as this process has read them last; None where it has not."""
-    return _digests.get(str(Path(path).absolute()))
+def digest_read(path: str | Path, since_ns: int = 0) -> str | None:
+    """The sha256 of a file's bytes as this process has read them last; None where it has not since that instant."""
+    digest, read_ns = _digests.get(str(Path(path).absolute()), (None, 0))
+    return digest if read_ns >= since_ns else None
 
 
 def read_text(path: Path, kind: str, where: str = "check the path") -> str:
@@ -60,7 +62,7 @@ def read_source(path: str) -> bytes:
 
 
 def _remembered(path: str | Path, data: bytes) -> bytes:
-    _digests[str(Path(path).absolute())] = hashlib.sha256(data).hexdigest()
+    _digests[str(Path(path).absolute())] = hashlib.sha256(data).hexdigest(), time.time_ns()
     return data
 
 

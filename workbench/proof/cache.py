@@ -24,6 +24,7 @@ from workbench.proof.engine_digest import engine_digest
 from workbench.proof.verdict import Decision, Stated
 
 ENGINES_KEPT, FILES_KEPT = 4, 200
+FROM_THE_OTHERS = {"tainted_by", "fate", "other_reading"}  # said anew each time
 
 T = TypeVar("T")
 
@@ -64,8 +65,8 @@ class Kept:
 
     def keep_file(self, path: Path, entry: FileEntry, paths_read: Iterable[str], since_ns: int) -> None:
         """Keep the decisions of a proof file; not when a file that it reads has changed since that instant."""
-        # What was read is what counts, and need not be read again.
-        reads = {name: digest_read(name) or digest(name) for name in sorted(paths_read)}
+        # What was read in this run is what counts, and need not be read again; what was read before it may have gone.
+        reads = {name: digest_read(name, since_ns) or digest(name) for name in sorted(paths_read)}
         if any(found and changed_since(name, since_ns) for name, found in reads.items()):
             return
         _write(self._file(path), f"{self.engine} {path.resolve()}",
@@ -89,15 +90,15 @@ def kept() -> Kept | None:
 
 
 def _record(decision: Decision) -> dict[str, Any]:
-    record = {f.name: getattr(decision, f.name) for f in fields(decision)}
     claim = {f.name: getattr(decision.claim, f.name) for f in fields(Stated)}
-    return record | {"claim": claim, "tainted_by": ()}
+    return {f.name: getattr(decision, f.name) for f in fields(decision) if f.name not in FROM_THE_OTHERS} | {
+        "claim": claim}
 
 
 def _decision(record: dict[str, Any]) -> Decision:
     claim = record["claim"]
-    stated = Stated(**claim | {"premises": tuple(claim["premises"])})
-    found, certificate = Decision(**record | {"claim": stated, "tainted_by": ()}), record["certificate"]
+    stated = Stated(**claim | {"premises": tuple(claim["premises"]), "rests_on": tuple(claim["rests_on"])})
+    found, certificate = Decision(**record | {"claim": stated}), record["certificate"]
     carries = (found.verdict in UNDECIDED if certificate is None
                else (certificate["claim"], certificate["verdict"]) == (stated.id, found.verdict))
     if not carries:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import keyword
 import re
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from fractions import Fraction
 from numbers import Rational
@@ -261,7 +261,8 @@ class Claim(Stated):
 
     build: makes the goal; at: stated parameters at which a condition is evaluated; correction: builds the
     nearest true statement; repair: parameters at which a violated condition holds; axiom: a cited result that
-    is assumed.
+    is assumed. closed_loop: the goal assumes the printed plant, law and adaptation and nothing else, so that a motion
+    of it that breaks the statement refutes it. notation: what the letters of the printed line stand for.
     """
 
     build: Callable[[], Goal] | None
@@ -270,6 +271,8 @@ class Claim(Stated):
     corrected_statement: str | None = None
     repair: dict[sp.Expr, Fraction] | None = None
     axiom: str | None = None
+    closed_loop: bool = False
+    notation: Mapping[str, sp.Expr] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
         super().__post_init__()

@@ -14,7 +14,7 @@ from workbench.files.outputs import check_outputs
 from workbench.files.own_files import MANIFEST, read_manifest, replace_files, sha256
 from workbench.files.writing import require_inside
 from workbench.proof.checker import goal_digest
-from workbench.proof.verdict import VERDICTS, Decision, Stated, Verdict, is_equation, is_paper_name
+from workbench.proof.verdict import FATES, VERDICTS, Decision, Stated, Verdict, is_equation, is_paper_name
 
 if TYPE_CHECKING:
     from workbench.proof.prove import Proof
@@ -151,18 +151,32 @@ def _claim_of(data: bytes) -> str | None:
 
 
 def claims_document(decisions: Sequence[Decision], where: Places) -> dict[str, Any]:
-    """The document of `workbench prove --json`; other programs read it."""
+    """The document of `workbench prove --json`; other programs read it.
+
+    `summary` counts all verdicts, `totals` those of the paper's lines (printed and implied) and of our own questions
+    apart, `fates` what becomes of the headline statements.
+    """
     rows = []
     for d in decisions:
         claim = d.claim
         rows.append({
             "id": claim.id, "paper": claim.paper, "equation": claim.equation, "kind": claim.kind,
-            "statement": claim.statement, "verdict": d.verdict, "method": d.method, "scope": claim.scope,
+            "statement": claim.printed, "verdict": d.verdict, "method": d.method, "scope": claim.scope,
             "certificate": str(where.path(claim)) if d.certificate else None,
             "counterexample": d.counterexample, "correction": d.correction,
             "premises": list(claim.premises), "tainted_by": list(d.tainted_by), "trust": d.trust,
             "seconds": round(d.seconds, 3), "title": claim.title, "note": claim.note,
-            "recorded": claim.recorded, "computed": d.computed,
+            "recorded": claim.recorded, "computed": d.computed, "origin": claim.origin, "match": d.matched,
+            "reading": claim.reading, "glyph": d.other_reading,
+            "glyph_claim": claim.glyph, "severity": claim.severity, "rests_on": list(claim.chain),
+            "mends": claim.mends, "fate": d.fate.word if d.fate else None,
+            "fate_why": d.fate.why if d.fate else None, "fate_by": list(d.fate.by) if d.fate else [],
         })
-    return {"version": 1, "claims": rows,
-            "summary": {v: sum(d.verdict == v for d in decisions) for v in VERDICTS}}
+    return {"version": 2, "claims": rows, "summary": _counts(decisions),
+            "totals": {"paper": _counts([d for d in decisions if d.claim.origin != "ours"]),
+                       "ours": _counts([d for d in decisions if d.claim.origin == "ours"])},
+            "fates": {word: sum(d.fate is not None and d.fate.word == word for d in decisions) for word in FATES}}
+
+
+def _counts(decisions: Sequence[Decision]) -> dict[str, int]:
+    return {v: sum(d.verdict == v for d in decisions) for v in VERDICTS}

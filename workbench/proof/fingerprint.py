@@ -12,8 +12,9 @@ import sympy as sp
 
 from workbench.proof.claim import Claim
 
-# Shown beside a verdict, but never looked at to reach it.
-BESIDE_THE_DECISION = {"title", "statement", "recorded", "premises", "scope", "note"}
+# Shown beside a verdict, but never looked at to reach it; how a line matches its goal is found anew each time.
+BESIDE_THE_DECISION = {"title", "printed", "recorded", "premises", "rests_on", "origin", "severity", "match", "reading",
+                       "glyph", "mends", "scope", "note", "notation"}
 
 
 def fingerprint(claim: Claim) -> str | None:

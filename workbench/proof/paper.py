@@ -2,56 +2,84 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from fractions import Fraction
 from pathlib import Path
 
 import sympy as sp
 
 from workbench.errors import ClaimError, InputError
-from workbench.proof.claim import Claim, Goal, Kind, Verdict
+from workbench.proof.building import built
+from workbench.proof.claim import Claim, Goal, Kind, Relation, Verdict
 from workbench.proof.loading import ProofFile
 from workbench.proof.selection import NO_PAPER, files_of, targets
+from workbench.proof.verdict import Match, Origin, Severity
 
 Builder = Callable[[], Goal]
 
 
 class Paper:
-    """The claims of one paper, in the order in which its proof file states them."""
+    """The claims of one paper, in the order in which its proof file states them.
 
-    def __init__(self, name: str, citation: str) -> None:
-        self.name, self.citation = name, citation
+    notation: what the letters of its printed lines stand for, LaTeX to expression.
+    """
+
+    def __init__(self, name: str, citation: str, notation: Mapping[str, sp.Expr] | None = None) -> None:
+        self.name, self.citation, self.notation = name, citation, dict(notation or {})
         self.claims: list[Claim] = []
 
-    def claim(self, equation: str, title: str, kind: Kind, statement: str, recorded: Verdict, *,
-              premises: tuple[str, ...] = (), scope: str = "all values of the domain",
+    def claim(self, equation: str, title: str, kind: Kind, printed: str, recorded: Verdict, *,
+              premises: tuple[str, ...] = (), rests_on: tuple[str, ...] | None = None, origin: Origin = "printed",
+              severity: Severity | None = None, match: Match = "read", reading: str = "",
+              glyph: str | None = None, mends: str | None = None, closed_loop: bool = False,
+              where: Mapping[str, sp.Expr] | None = None, scope: str = "all values of the domain",
               at: dict[sp.Expr, Fraction] | None = None, correction: Builder | None = None,
               corrected_statement: str | None = None, repair: dict[sp.Expr, Fraction] | None = None,
               note: str = "") -> Callable[[Builder], Builder]:
-        """State a claim; the decorated function returns its goal. Premises are equations of this paper."""
-        ids = self._ids(equation, premises)
+        """State a claim; the decorated function returns its goal. Claims it names are equations of this paper.
+
+        printed: the line as the paper has it; premises: what our proof uses; rests_on: what the paper's text uses,
+        where that differs; origin, severity, match, reading, glyph, mends: see `Stated`; closed_loop: see `Claim`;
+        where: letters of this line besides the paper's notation.
+        """
+        ids = self._ids(equation, premises, "premises")
+        chain = None if rests_on is None else self._ids(equation, rests_on, "rests_on")
 
         def collect(build: Builder) -> Builder:
             self.claims.append(Claim(
-                id=self._id(equation), title=title, kind=kind, statement=statement, recorded=recorded, build=build,
-                premises=ids, scope=scope, at=at, correction=correction,
+                id=self._id(equation), title=title, kind=kind, printed=printed, recorded=recorded, build=build,
+                premises=ids, rests_on=chain, origin=origin, severity=severity, match=match, reading=reading,
+                glyph=glyph and self._id(glyph), mends=mends and self._id(mends), closed_loop=closed_loop,
+                notation={**self.notation, **(where or {})}, scope=scope, at=at, correction=correction,
                 corrected_statement=corrected_statement, repair=repair, note=note or (build.__doc__ or "").strip(),
             ))
             return build
 
         return collect
 
-    def axiom(self, equation: str, title: str, statement: str, source: str, *, hypotheses: tuple[str, ...],
+    def shown(self, equation: str) -> tuple[Relation, ...]:
+        """What an earlier claim's goal shows, for the assumptions of a claim that has it among its premises.
+
+        Raises ClaimError where there is none.
+        """
+        found = next((claim for claim in self.claims if claim.id == self._id(equation)), None)
+        if found is None or found.build is None:
+            raise ClaimError(f"claim {self._id(equation)}: has no goal that another one could use: state it first")
+        return built(found, found.build).show
+
+    def axiom(self, equation: str, title: str, printed: str, source: str, *, hypotheses: tuple[str, ...],
+              origin: Origin = "printed", severity: Severity = "step", match: Match = "read", reading: str = "",
               note: str = "") -> None:
         """State a result cited from the literature; its hypotheses are claims of their own."""
         self.claims.append(Claim(
-            id=self._id(equation), title=title, kind="implication", statement=statement, recorded="assumed",
-            build=None, axiom=source, premises=self._ids(equation, hypotheses), note=note))
+            id=self._id(equation), title=title, kind="implication", printed=printed, recorded="assumed", build=None,
+            axiom=source, premises=self._ids(equation, hypotheses, "hypotheses"), origin=origin, severity=severity,
+            match=match, reading=reading, note=note))
 
-    def _ids(self, equation: str, premises: tuple[str, ...] | str) -> tuple[str, ...]:
-        if isinstance(premises, str):
-            raise ClaimError(f"claim {self._id(equation)}: premises are a tuple of numbers: write ('{premises}',)")
-        return tuple(self._id(premise) for premise in premises)
+    def _ids(self, equation: str, named: tuple[str, ...] | str, what: str) -> tuple[str, ...]:
+        if isinstance(named, str):
+            raise ClaimError(f"claim {self._id(equation)}: {what} are a tuple of numbers: write ('{named}',)")
+        return tuple(self._id(one) for one in named)
 
     def _id(self, equation: str) -> str:
         return equation if ":" in equation else f"{self.name}:{equation}"

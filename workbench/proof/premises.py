@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from difflib import get_close_matches
 from graphlib import CycleError, TopologicalSorter
 
 from workbench.proof.verdict import FAILED, Decision, Stated
+
+Links = Callable[[Stated], tuple[str, ...]]
 
 
 def premises_problem(claims: Sequence[Stated]) -> tuple[str, str] | None:
@@ -18,46 +20,75 @@ def premises_problem(claims: Sequence[Stated]) -> tuple[str, str] | None:
             return claim.id, f"claim ids used twice: {claim.id}: give each claim its own id"
         by_id[claim.id] = claim
     for claim in claims:
-        for premise in claim.premises:
-            if premise not in by_id:
-                near = get_close_matches(premise, by_id, n=3)
+        for what, name in _named(claim):
+            if name not in by_id:
+                near = get_close_matches(name, by_id, n=3)
                 meant = f" (near it: {', '.join(near)})" if near else ""
-                return claim.id, (f"claim {claim.id}: premise '{premise}' is no claim{meant}: "
+                return claim.id, (f"claim {claim.id}: {what} '{name}' is no claim{meant}: "
                                   "state it, correct the id or name its proof file too")
-    try:
-        _sorter(claims).prepare()
-    except CycleError as trouble:
-        circle = set(trouble.args[1])
-        first = next(claim.id for claim in claims if claim.id in circle)
-        return first, (f"claim {first}: rests on itself through its premises "
-                       f"({' -> '.join(reversed(trouble.args[1]))}): break the circle")
+    for what, links in (("premises", lambda claim: claim.premises), ("rests_on", lambda claim: claim.chain)):
+        try:
+            _sorter(claims, links).prepare()
+        except CycleError as trouble:
+            circle = set(trouble.args[1])
+            first = next(claim.id for claim in claims if claim.id in circle)
+            return first, (f"claim {first}: rests on itself through its {what} "
+                           f"({' -> '.join(reversed(trouble.args[1]))}): break the circle")
     return None
 
 
+def _named(claim: Stated) -> Iterator[tuple[str, str]]:
+    """What a claim calls the claims that it names, and their ids."""
+    for what, names in (("premise", claim.premises), ("rests_on", claim.chain), ("glyph", (claim.glyph,)),
+                        ("mends", (claim.mends,))):
+        yield from ((what, name) for name in names if name is not None)
+
+
 def below(ids: Iterable[str], claims: Mapping[str, Stated]) -> set[str]:
-    """The claims named and all that they rest on, directly or not."""
+    """The claims named and all that must be decided to say what becomes of them: what they rest on in the paper and
+    in our proof, their other readings and their mended forms, directly or not."""
+    mended: dict[str, list[str]] = {}
+    for claim in claims.values():
+        if claim.mends is not None:
+            mended.setdefault(claim.mends, []).append(claim.id)
     seen: set[str] = set()
     waiting = list(ids)
     while waiting:
         current = waiting.pop()
         if current not in seen:
             seen.add(current)
-            waiting += claims[current].premises
+            waiting += [name for _, name in _named(claims[current])] + mended.get(current, [])
     return seen
 
 
+def is_charged(decision: Decision, by_id: Mapping[str, Decision]) -> bool:
+    """Whether a decision speaks against what rests on it: it fails, something depends on it, and no other reading of
+    an unclear glyph holds."""
+    claim = decision.claim
+    if decision.verdict not in FAILED or claim.severity == "cosmetic":
+        return False
+    other = by_id.get(claim.glyph) if claim.glyph else None
+    return other is None or other.verdict != "proved"
+
+
 def with_taint(decisions: Sequence[Decision]) -> list[Decision]:
-    """The decisions, each with the failed claims that it rests on, in the order of the decisions.
+    """The decisions, each with the failed claims in the paper's chain to it, in the order of the decisions.
 
-    Every premise must be among the decisions, and none may rest on itself.
+    Every claim that one rests on must be among the decisions, and none may rest on itself.
     """
+    failed = failed_below(decisions, lambda claim: claim.chain)
+    return [replace(d, tainted_by=failed[d.claim.id]) for d in decisions]
+
+
+def failed_below(decisions: Sequence[Decision], links: Links) -> dict[str, tuple[str, ...]]:
+    """By id the failed claims that a claim reaches over its links, in the order of the decisions."""
     by_id = {d.claim.id: d for d in decisions}
-    tainted: dict[str, set[str]] = {}
-    for name in _sorter([d.claim for d in decisions]).static_order():
-        premises = by_id[name].claim.premises
-        tainted[name] = {p for p in premises if by_id[p].verdict in FAILED}.union(*(tainted[p] for p in premises))
-    return [replace(d, tainted_by=tuple(name for name in by_id if name in tainted[d.claim.id])) for d in decisions]
+    found: dict[str, set[str]] = {}
+    for name in _sorter([d.claim for d in decisions], links).static_order():
+        ids = links(by_id[name].claim)
+        found[name] = {i for i in ids if is_charged(by_id[i], by_id)}.union(*(found[i] for i in ids))
+    return {name: tuple(other for other in by_id if other in found[name]) for name in by_id}
 
 
-def _sorter(claims: Sequence[Stated]) -> TopologicalSorter[str]:
-    return TopologicalSorter({claim.id: claim.premises for claim in claims})
+def _sorter(claims: Sequence[Stated], links: Links) -> TopologicalSorter[str]:
+    return TopologicalSorter({claim.id: links(claim) for claim in claims})

@@ -12,8 +12,9 @@ from pathlib import Path
 from workbench.errors import InputError
 from workbench.proof.cache import FileEntry, Kept, kept
 from workbench.proof.dependencies import digest
+from workbench.proof.fate import judged
 from workbench.proof.messages import Decided, Listing
-from workbench.proof.premises import below, premises_problem, with_taint
+from workbench.proof.premises import below, premises_problem
 from workbench.proof.process_pool import team
 from workbench.proof.selection import NO_PAPER, Target, chosen, files_of
 from workbench.proof.verdict import Decision, Stated
@@ -66,8 +67,8 @@ def prove(found: Sequence[Target], jobs: int | None = None, use_cache: bool = Tr
         _keep_files(cached, listings, decided, started_ns)
     every = {d.claim.id: d for entry in entries.values() for d in entry.decisions if d.claim.id in wanted}
     every |= {claim_id: result.decision for claim_id, result in decided.items()}
-    tainted = with_taint([every[claim_id] for claim_id in claims if claim_id in wanted])
-    return Proof([d for d in tainted if d.claim.id in asked],
+    every_judged = judged([every[claim_id] for claim_id in claims if claim_id in wanted])
+    return Proof([d for d in every_judged if d.claim.id in asked],
                  frozenset(claim_id for claim_id, result in decided.items() if result.now),
                  {claim.paper: file for file in files for claim in stated[file]})
 

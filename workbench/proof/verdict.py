@@ -11,6 +11,15 @@ from workbench.errors import ClaimError
 Kind = Literal["identity", "inequality", "condition", "implication", "limit"]
 Verdict = Literal["proved", "refuted", "violated", "gap", "assumed", "undecided"]
 
+# Where a claim stands: a line of the paper; a step it takes without words; a question of ours.
+Origin = Literal["printed", "implied", "ours"]
+# What falls with a claim: a theorem or headline; a step of its proof; numbers; nothing.
+Severity = Literal["result", "step", "data", "cosmetic"]
+# How the printed line became the goal: by machine; by a person, whose reading is named; it is prose.
+Match = Literal["parsed", "read", "words"]
+
+ORIGINS: tuple[Origin, ...] = ("printed", "implied", "ours")
+SEVERITIES: tuple[Severity, ...] = ("result", "step", "data", "cosmetic")
 KINDS: tuple[Kind, ...] = ("identity", "inequality", "condition", "implication", "limit")
 VERDICTS: tuple[Verdict, ...] = ("proved", "refuted", "violated", "gap", "assumed", "undecided")
 FAILED: tuple[Verdict, ...] = ("refuted", "violated", "gap")
@@ -33,18 +42,29 @@ def is_paper_name(text: str) -> bool:
 
 @dataclass(frozen=True, kw_only=True)
 class Stated:
-    """A claim as it is printed.
+    """A claim as it is printed, and where it stands in the paper.
 
-    id: `<paper>:<equation>`; statement: LaTeX as printed; premises: ids of the claims it rests on;
-    recorded: the verdict on record; note: what a reader should know, a garbled place and its reading among it.
+    id: `<paper>:<equation>`; printed: the paper's LaTeX, letter by letter; recorded: the verdict on record.
+    premises: ids of the claims that our proof uses; rests_on: ids of those that the paper's text uses to get here,
+    which carry taint, None for the premises. match: `read` or `words` (`parsed` is found by machine), reading: how a
+    line was read by a person. glyph: id of the claim that decides the other reading of a line whose extracted text
+    leaves a sign, power or index open; mends: id of the claim of which this is a repaired form. note: what a reader
+    should know.
     """
 
     id: str
     title: str
     kind: Kind
-    statement: str
+    printed: str
     recorded: Verdict
     premises: tuple[str, ...] = ()
+    rests_on: tuple[str, ...] | None = None
+    origin: Origin = "printed"
+    severity: Severity | None = None
+    match: Match = "read"
+    reading: str = ""
+    glyph: str | None = None
+    mends: str | None = None
     scope: str = "all values of the domain"
     note: str = ""
 
@@ -62,9 +82,30 @@ class Stated:
             raise ClaimError(f"claim {self.id}: kind '{self.kind}' is none of {', '.join(KINDS)}")
         if self.recorded not in VERDICTS:
             raise ClaimError(f"claim {self.id}: recorded verdict '{self.recorded}' is none of {', '.join(VERDICTS)}")
-        for name in ("title", "statement", "scope", "note"):
+        self._require_place()
+        for name in ("title", "printed", "scope", "note", "reading"):
             if not isinstance(getattr(self, name), str):
                 raise ClaimError(f"claim {self.id}: its {name} is no text: write it in quotes")
+
+    def _require_place(self) -> None:
+        if self.origin not in ORIGINS:
+            raise ClaimError(f"claim {self.id}: origin '{self.origin}' is none of {', '.join(ORIGINS)}")
+        if self.match not in ("read", "words"):
+            raise ClaimError(f"claim {self.id}: match '{self.match}' is neither read nor words: leave it out where the "
+                             "line can be parsed, which is found out by itself")
+        if self.severity is None:
+            object.__setattr__(self, "severity", "data" if self.kind == "condition" else "step")
+        if self.severity not in SEVERITIES:
+            raise ClaimError(f"claim {self.id}: severity '{self.severity}' is none of {', '.join(SEVERITIES)}")
+        if self.rests_on is None:
+            object.__setattr__(self, "rests_on", self.premises)
+        if self.id in (self.glyph, self.mends):
+            raise ClaimError(f"claim {self.id}: names itself as its other reading or as what it mends: name another")
+
+    @property
+    def chain(self) -> tuple[str, ...]:
+        """Ids of what the paper's text uses to get here."""
+        return self.premises if self.rests_on is None else self.rests_on
 
     @property
     def paper(self) -> str:
@@ -77,9 +118,25 @@ class Stated:
         return self.id.partition(":")[2]
 
 
+FateWord = Literal["stands", "stands with corrections", "falls", "open"]
+FATES: tuple[FateWord, ...] = ("stands", "stands with corrections", "falls", "open")
+
+
+@dataclass(frozen=True)
+class Fate:
+    """What becomes of a headline claim; `by` are the ids of the claims that it falls or stands by, `why` a sentence."""
+
+    word: FateWord
+    why: str
+    by: tuple[str, ...] = ()
+
+
 @dataclass(frozen=True)
 class Decision:
-    """A claim decided: the verdict, the certificate that shows it, and how it was found."""
+    """A claim decided: the verdict, the certificate that shows it, and how it was found.
+
+    tainted_by, fate and other_reading (the printed line of the claim that decides it) come from the other claims.
+    """
 
     claim: Stated
     verdict: Verdict
@@ -90,4 +147,12 @@ class Decision:
     counterexample: dict[str, str] | None = None
     correction: str | None = None
     computed: str | None = None
+    match: Match | None = None
     tainted_by: tuple[str, ...] = ()
+    fate: Fate | None = None
+    other_reading: str | None = None
+
+    @property
+    def matched(self) -> Match:
+        """How the printed line became the goal: what a machine found, else what the claim says."""
+        return self.match or self.claim.match

@@ -17,7 +17,8 @@ from workbench.proof.claim import Claim, Decision, Goal, Relation, Verdict, late
 from workbench.proof.decide.refute import find_counterexample, find_example, value_at
 from workbench.proof.decide.search import prove_relation
 from workbench.proof.derive import expand_derivatives
-from workbench.proof.premises import premises_problem, with_taint
+from workbench.proof.fate import judged
+from workbench.proof.premises import premises_problem
 from workbench.proof.text import goal_text
 
 Certificate = dict[str, Any]
@@ -34,7 +35,7 @@ def decide(claim: Claim) -> Decision:
 
 
 def _decide_statement(claim: Claim, goal: Goal) -> Decision:
-    verdict: Verdict = "gap" if claim.kind in ("implication", "limit") else "refuted"
+    verdict: Verdict = "gap" if claim.kind in ("implication", "limit") and not claim.closed_loop else "refuted"
     certificate_or_none = find_counterexample(goal, verdict, quick=True)  # a search of a proof would be in vain
     proof = prove_goal(goal) if certificate_or_none is None else None
     if proof is not None:
@@ -133,7 +134,7 @@ def _fraction(value: Fraction) -> str:
 
 
 def decide_all(claims: list[Claim], on_progress: Callable[[int], None] = lambda done: None) -> list[Decision]:
-    """Decide claims and carry failures along the premises; on_progress(claims decided) after each.
+    """Decide claims and carry failures along the paper's chains; on_progress(claims decided) after each.
 
     Raises ClaimError for ids used twice and for a premise that is no claim.
     """
@@ -144,4 +145,4 @@ def decide_all(claims: list[Claim], on_progress: Callable[[int], None] = lambda 
     for claim in claims:
         decisions.append(decide(claim))
         on_progress(len(decisions))
-    return with_taint(decisions)
+    return judged(decisions)

@@ -1,0 +1,121 @@
+"""What becomes of a headline statement, by the truth table of what it rests on; who is charged with what."""
+
+import pytest
+
+from workbench.errors import ClaimError
+from workbench.proof.fate import fates
+from workbench.proof.premises import is_charged, premises_problem, with_taint
+from workbench.proof.verdict import Decision, Stated
+
+
+def decided(equation, verdict, functions=False, **more):
+    claim = Stated(id=f"p2020:{equation}", title="t", kind=more.pop("kind", "inequality"), printed="x",
+                   recorded="proved", **{name: f"p2020:{value}" if name in ("glyph", "mends") else
+                                         tuple(f"p2020:{v}" for v in value) if isinstance(value, tuple) else value
+                                         for name, value in more.items()})
+    return Decision(claim, verdict, "m", "exact", 0.0, {"functions": {"x": "t"}} if functions else {})
+
+
+def fate(*decisions):
+    return fates(with_taint(decisions))["p2020:T"]
+
+
+def test_a_theorem_stands_when_it_is_proved_and_nothing_on_its_way_fails():
+    found = fate(decided("1", "proved"), decided("T", "proved", severity="result", premises=("1",)))
+    assert (found.word, found.by) == ("stands", ())
+
+
+def test_it_stands_with_corrections_when_its_own_proof_avoids_the_step_that_fails():
+    found = fate(decided("1", "refuted"), decided("2", "proved", premises=(), rests_on=("1",)),
+                 decided("T", "proved", severity="result", premises=(), rests_on=("2",)))
+    assert (found.word, found.by) == ("stands with corrections", ("p2020:1",))
+    assert "(1)" in found.why
+
+
+def test_it_is_open_when_its_proof_uses_a_line_that_fails():
+    found = fate(decided("1", "gap"), decided("2", "proved", premises=("1",)),
+                 decided("T", "proved", severity="result", premises=("2",)))
+    assert (found.word, found.by) == ("open", ("p2020:1",))
+
+
+@pytest.mark.parametrize("verdict", ["gap", "violated", "undecided", "assumed"])
+def test_what_is_not_proved_is_open_unless_a_mended_form_is(verdict):
+    theorem = decided("T", verdict, severity="result")
+    assert fate(theorem).word == "open"
+    mended = decided("T.mended", "proved", origin="ours", mends="T")
+    assert fate(theorem, mended).word == "stands with corrections"
+    assert fate(theorem, mended).by == ("p2020:T.mended",)
+    assert fate(theorem, decided("T.mended", "undecided", origin="ours", mends="T")).word == "open"
+
+
+def test_a_mended_form_that_uses_a_failing_line_mends_nothing():
+    mended = decided("T.mended", "proved", origin="ours", mends="T", premises=("1",))
+    assert fate(decided("1", "refuted"), decided("T", "gap", severity="result"), mended).word == "open"
+
+
+@pytest.mark.parametrize(("functions", "how"), [(True, "an exact motion"), (False, "a counterexample")])
+def test_what_is_refuted_falls_and_says_by_what(functions, how):
+    theorem = decided("T", "refuted", functions, severity="result")
+    assert fate(theorem).word == "falls"
+    assert how in fate(theorem).why
+    mended = decided("T.mended", "proved", origin="ours", mends="T")
+    assert fate(theorem, mended).word == "falls"
+    assert "(T.mended)" in fate(theorem, mended).why
+
+
+def test_an_unclear_glyph_charges_only_when_both_readings_fail():
+    for other, word, charged in (("proved", "stands", False), ("refuted", "stands with corrections", True)):
+        rows = (decided("1", "refuted", glyph="1.glyph"), decided("1.glyph", other, origin="ours", glyph="1"),
+                decided("T", "proved", severity="result", premises=(), rests_on=("1",)))
+        assert fate(*rows).word == word
+        assert is_charged(rows[0], {d.claim.id: d for d in rows}) is charged
+    rows = (decided("T", "refuted", severity="result", glyph="T.glyph"),
+            decided("T.glyph", "proved", origin="ours", glyph="T"))
+    assert fate(*rows).word == "open"
+
+
+def test_a_cosmetic_slip_taints_nothing():
+    rows = with_taint([decided("1", "refuted", severity="cosmetic"), decided("2", "proved", premises=("1",))])
+    assert rows[1].tainted_by == ()
+
+
+def test_taint_runs_along_the_paper_s_chain_not_along_ours():
+    rows = with_taint([decided("1", "refuted"), decided("2", "proved", premises=("1",), rests_on=()),
+                       decided("3", "proved", premises=(), rests_on=("1",))])
+    assert [d.tainted_by for d in rows] == [(), (), ("p2020:1",)]
+
+
+def test_only_printed_headlines_have_a_fate():
+    rows = with_taint([decided("1", "proved", severity="result", origin="ours"), decided("2", "proved"),
+                       decided("3", "proved", severity="result", origin="implied")])
+    assert fates(rows) == {}
+
+
+@pytest.mark.parametrize(("field", "value", "message"), [
+    ("origin", "mine", "origin 'mine' is none of printed, implied, ours"),
+    ("severity", "huge", "severity 'huge' is none of result, step, data, cosmetic"),
+    ("match", "parsed", "leave it out where the line can be parsed"),
+    ("glyph", "1", "names itself"), ("mends", "1", "names itself")])
+def test_a_field_that_is_none_is_refused_in_a_line(field, value, message):
+    with pytest.raises(ClaimError, match=message):
+        decided("1", "proved", **{field: value})
+
+
+def test_severity_follows_the_kind_where_it_is_not_stated():
+    assert decided("1", "proved", kind="condition").claim.severity == "data"
+    assert decided("1", "proved").claim.severity == "step"
+
+
+@pytest.mark.parametrize("field", ["rests_on", "glyph", "mends"])
+def test_what_names_no_claim_is_told(field):
+    value = ("9",) if field == "rests_on" else "9"
+    problem = premises_problem([decided("1", "proved", **{field: value}).claim])
+    assert problem is not None
+    assert f"{field} 'p2020:9' is no claim" in problem[1]
+
+
+def test_a_circle_of_the_paper_s_chain_is_told():
+    claims = [decided("1", "proved", rests_on=("2",)).claim, decided("2", "proved", rests_on=("1",)).claim]
+    problem = premises_problem(claims)
+    assert problem is not None
+    assert "rests on itself through its rests_on" in problem[1]

@@ -1,0 +1,67 @@
+"""What becomes of each theorem and headline statement of a paper, computed from the decisions on its claims."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+from workbench.proof.premises import failed_below, with_taint
+from workbench.proof.verdict import Decision, Fate
+
+
+def is_headline(decision: Decision) -> bool:
+    """Whether a claim is a theorem or headline statement that the paper prints."""
+    return decision.claim.origin == "printed" and decision.claim.severity == "result"
+
+
+def judged(decisions: Sequence[Decision]) -> list[Decision]:
+    """The decisions, each with what it has from the others: the failed claims in the paper's chain to it, its fate,
+    and its other reading. All that they rest on, in the paper and in our proof, is among them."""
+    tainted = with_taint(decisions)
+    fate = fates(tainted)
+    printed = {d.claim.id: d.claim.printed for d in decisions}
+    return [replace(d, fate=fate.get(d.claim.id), other_reading=printed.get(d.claim.glyph or "")) for d in tainted]
+
+
+def fates(decisions: Sequence[Decision]) -> dict[str, Fate]:
+    """The fate of every headline claim by id; what they rest on and their mended forms are among the decisions."""
+    by_proof = failed_below(decisions, lambda claim: claim.premises)
+    by_id = {d.claim.id: d for d in decisions}
+    mended = {d.claim.mends: d for d in decisions if d.claim.mends is not None and d.verdict == "proved"
+              and not by_proof[d.claim.id]}
+    return {d.claim.id: _fate(d, by_id, mended.get(d.claim.id), by_proof[d.claim.id])
+            for d in decisions if is_headline(d)}
+
+
+def _fate(decision: Decision, by_id: dict[str, Decision], mended: Decision | None,
+          failed_premises: tuple[str, ...]) -> Fate:
+    other = by_id.get(decision.claim.glyph) if decision.claim.glyph else None
+    instead = f"; its mended form {_number(mended.claim.id)} is proved" if mended else ""
+    if decision.verdict == "refuted":
+        if other is not None and other.verdict == "proved":
+            return Fate("open", f"depends on the reading: {_number(other.claim.id)} holds", (other.claim.id,))
+        return Fate("falls", f"refuted by {_how(decision)}{instead}", (mended.claim.id,) if mended else ())
+    if decision.verdict == "proved" and not failed_premises:
+        if not decision.tainted_by:
+            return Fate("stands", "proved, and no line that the paper uses to get there fails")
+        lines = ", ".join(map(_number, decision.tainted_by))
+        return Fate("stands with corrections", f"proved as a whole, though the paper's way there fails at {lines}",
+                    decision.tainted_by)
+    if mended is not None:
+        return Fate("stands with corrections", f"{_shortfall(decision, failed_premises)}{instead}", (mended.claim.id,))
+    return Fate("open", _shortfall(decision, failed_premises), failed_premises)
+
+
+def _shortfall(decision: Decision, failed_premises: tuple[str, ...]) -> str:
+    if decision.verdict == "proved":
+        return f"proved only from lines that fail: {', '.join(map(_number, failed_premises))}"
+    return {"gap": "does not follow from its premises", "violated": "its conditions fail at the printed numbers",
+            "assumed": "taken from the literature", "undecided": "not decided"}[decision.verdict]
+
+
+def _how(decision: Decision) -> str:
+    return "an exact motion" if (decision.certificate or {}).get("functions") else "a counterexample"
+
+
+def _number(claim_id: str) -> str:
+    return f"({claim_id.partition(':')[2]})"
