@@ -9,14 +9,16 @@ from pathlib import Path
 import numpy as np
 import pytest
 import sympy as sp
+from filelock import FileLock
 from independent import Evaluated, model_breaks
 from scenarios import PAPERS, PROOFS
 
 from workbench.files.own_files import MANIFEST
 from workbench.proof.claim import FAILED
-from workbench.proof.decide.engine import decide_all
 from workbench.proof.document import CERTIFICATES, Places, certificate_text, claims_document
 from workbench.proof.paper import collect_papers
+from workbench.proof.prove import prove
+from workbench.proof.selection import targets
 from workbench.report.formulas import formula
 
 PLACES = Places(PROOFS, {paper: PROOFS / paper / CERTIFICATES for paper in PAPERS})
@@ -30,8 +32,11 @@ KEYS = {"id", "paper", "equation", "kind", "statement", "verdict", "method", "sc
 
 
 @pytest.fixture(scope="module")
-def decisions():
-    return {d.claim.id: d for d in decide_all(CLAIMS)}
+def decisions(shared_folder):
+    """Every claim decided anew, once for all test processes: the second to ask finds what the first has decided."""
+    with FileLock(shared_folder / "decided.lock"), pytest.MonkeyPatch.context() as patch:
+        patch.setenv("WORKBENCH_CACHE", str(shared_folder / "decided"))
+        return {d.claim.id: d for d in prove(targets([str(PROOFS)]), jobs=2).decisions}
 
 
 @pytest.mark.parametrize("claim", CLAIMS, ids=IDS)

@@ -13,6 +13,7 @@ from typing import Any, Literal
 import sympy as sp
 
 from workbench.errors import ClaimError
+from workbench.proof.latex.write import latex
 from workbench.proof.verdict import FAILED, VERDICTS, Decision, Kind, Stated, Verdict  # noqa: F401 - all records here
 
 Operator = Literal["==", "<=", "<", ">=", ">", "!="]
@@ -50,31 +51,6 @@ class Relation:
         """LaTeX of the relation."""
         sign = {"==": "=", "<=": r"\le", ">=": r"\ge", "!=": r"\ne"}.get(self.operator, self.operator)
         return f"{latex(self.left)} {sign} {latex(self.right)}"
-
-
-ACCENTS = {"hat": r"\hat{{{}}}", "tilde": r"\tilde{{{}}}", "dot": r"\dot{{{}}}", "star": "{}^{{*}}",
-           "square": "{}^{{2}}"}
-
-
-def latex(expr: sp.Expr) -> str:
-    """LaTeX of an expression; accents come from names such as a_tilde, derivatives along the flow are d/dt."""
-    plain = expr.replace(D, lambda inner: sp.Symbol(rf"\frac{{d}}{{dt}}\left[{sp.latex(inner)}\right]"))
-    return str(sp.latex(plain, symbol_names={s: latex_name(str(s)) for s in plain.free_symbols
-                                             if isinstance(s, sp.Symbol) and "_" in str(s)}))
-
-
-def latex_name(name: str) -> str:
-    """LaTeX of a symbol's name: parts after underscores are accents where known, else indices."""
-    if "\\" in name:
-        return name
-    stem, *parts = name.split("_")
-    result = str(sp.latex(sp.Symbol(stem)))
-    indices = [part for part in parts if part not in ACCENTS]
-    if indices:
-        result = f"{result}_{{{','.join(indices)}}}"
-    for accent in (part for part in parts if part in ACCENTS):
-        result = ACCENTS[accent].format(f"{{{result}}}" if accent == "square" else result)
-    return result
 
 
 def equal(left: Any, right: Any) -> Relation:

@@ -1,0 +1,1 @@
+"""The LaTeX that papers print, read into expressions and relations."""

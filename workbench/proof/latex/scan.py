@@ -1,0 +1,133 @@
+"""A line of LaTeX cut into what TeX takes for one piece each: commands, letters, digits and signs."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass
+
+from workbench.proof.latex.commands import ACCENTS, FONTS, FRACTIONS, TEXTS, UPRIGHT
+from workbench.proof.latex.error import LatexError
+from workbench.proof.latex.limits import DEEPEST_NESTING, LONGEST_LINE
+
+_PIECE = re.compile(r"\\[A-Za-z]+|\\.|\s+|.", re.DOTALL)
+
+
+@dataclass(frozen=True)
+class Piece:
+    """A command (without its backslash), or a single character; `content` is what a text holds."""
+
+    kind: str  # command, letter, digit, sign, open, close, text
+    text: str
+    position: int
+
+
+def scan(line: str) -> list[Piece]:
+    """The pieces of a line, spaces left out; raises LatexError for one too long, too deep or without its braces."""
+    if len(line) > LONGEST_LINE:
+        raise LatexError(f"the line has {len(line)} characters: write at most {LONGEST_LINE}")
+    pieces: list[Piece] = []
+    depth, at = 0, 0
+    while at < len(line):
+        found = _PIECE.match(line, at)
+        assert found is not None  # every character is a piece
+        text, start, at = found.group(), at, found.end()
+        if text.isspace() or text in ("~", "$"):
+            continue
+        if text.startswith("\\") and text[1:] in TEXTS:
+            content, at = _text(line, at)
+            pieces.append(Piece("text", content, start))
+            continue
+        kind = _kind(text, start)
+        depth += {"open": 1, "close": -1}.get(kind, 0)
+        if depth > DEEPEST_NESTING:
+            raise LatexError(f"braces are nested more than {DEEPEST_NESTING} deep: write a flatter line", start)
+        if depth < 0:
+            raise LatexError("a brace '}' closes nothing: remove it or open it", start)
+        pieces.append(Piece(kind, text.removeprefix("\\"), start))
+    if depth:
+        raise LatexError(f"{depth} brace{'s' if depth > 1 else ''} '{{' not closed: add '}}'")
+    return pieces
+
+
+def _kind(text: str, position: int) -> str:
+    if text.startswith("\\"):
+        if len(text) == 1 or (text[1:].isspace() and text[1:] != " "):
+            raise LatexError("a backslash without a command: write the command's name", position)
+        return "command"
+    if text.isascii() and text.isalpha():
+        return "letter"
+    if text.isascii() and text.isdigit():
+        return "digit"
+    if text in "{}":
+        return "open" if text == "{" else "close"
+    if text in "+-=<>()[]|,;:./*'^_!":
+        return "sign"
+    raise LatexError(f"'{text}' is no sign of a formula: write it as a LaTeX command", position)
+
+
+def _text(line: str, at: int) -> tuple[str, int]:
+    """What stands between the braces after \text, and where it ends; formulas within are words too."""
+    opened = re.compile(r"\s*\{").match(line, at)
+    if opened is None:
+        raise LatexError(r"\text without braces: write \text{...}", at)
+    depth, end = 1, opened.end()
+    while end < len(line) and depth:
+        depth += {"{": 1, "}": -1}.get(line[end], 0)
+        end += 1
+    if depth:
+        raise LatexError(r"the braces of \text are not closed: add '}'", at)
+    return line[opened.end():end - 1].strip(), end
+
+
+def argument(pieces: list[Piece], at: int, end: int, depth: int = 0) -> tuple[int, int, int]:
+    """The argument that starts at a piece: first piece and end of what it holds, and where reading goes on.
+
+    TeX takes a group in braces, or one piece; a command that has arguments takes them along.
+    """
+    if at >= end or depth > DEEPEST_NESTING:
+        position = pieces[min(at, end) - 1].position
+        raise LatexError("an argument is missing: write it in braces" if at >= end else
+                         f"arguments are nested more than {DEEPEST_NESTING} deep: write a flatter line", position)
+    piece = pieces[at]
+    if piece.kind == "open":
+        close = closing(pieces, at)
+        return at + 1, close, close + 1
+    if piece.kind == "close" or piece.text in "^_":
+        raise LatexError(f"an argument is missing before '{piece.text}': write it in braces", piece.position)
+    after = at + 1
+    for _ in range(arguments(piece)):
+        after = argument(pieces, after, end, depth + 1)[2]
+    return at, after, after
+
+
+def arguments(piece: Piece) -> int:
+    """How many arguments a command takes."""
+    if piece.kind != "command":
+        return 0
+    if piece.text in FRACTIONS:
+        return 2
+    return int(piece.text in ACCENTS | FONTS | UPRIGHT or piece.text == "sqrt")
+
+
+def closing(pieces: list[Piece], at: int) -> int:
+    """Where the brace that opens at a piece is closed."""
+    depth = 0
+    for place in range(at, len(pieces)):
+        depth += {"open": 1, "close": -1}.get(pieces[place].kind, 0)
+        if depth == 0:
+            return place
+    raise LatexError("a brace '{' is not closed: add '}'", pieces[at].position)
+
+
+def plain(pieces: list[Piece]) -> str:
+    r"""Pieces as the text of an index, the same however it is typed: `{1}`, `1`, `\mathrm{max}` and `\max`."""
+    parts: list[str] = []
+    for piece in pieces:
+        upright = piece.kind == "command" and piece.text in ("max", "min", "mathrm", "operatorname", "mathit")
+        if piece.kind in ("open", "close") or (upright and piece.text not in ("max", "min")):
+            continue
+        if piece.kind != "command" or upright:
+            parts.append(piece.text)
+        elif piece.text not in (",", ";", "!", " ", "left", "right"):
+            parts.append(f"\\{piece.text} ")
+    return "".join(parts).strip()

@@ -1,0 +1,115 @@
+"""Signs that take the rest of their product: sums are carried out, integrals and limits are pieces of a notation."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import fields, is_dataclass, replace
+from fractions import Fraction
+from typing import TYPE_CHECKING, Any
+
+import sympy as sp
+
+from workbench.proof.latex.error import LatexError
+from workbench.proof.latex.limits import MOST_SUMMANDS
+from workbench.proof.latex.read import read_line
+from workbench.proof.latex.tree import Big, Dot, Group, Letter, Node, Number, Product, Terms
+from workbench.proof.latex.vectors import is_vector
+
+if TYPE_CHECKING:
+    from workbench.proof.latex.convert import Converter
+
+_INDEX = re.compile(r"(?P<letter>\\?[A-Za-z]+)(=(?P<first>.+))?", re.DOTALL)
+_INDEX_PART = re.compile(r"\\[A-Za-z]+ ?|.", re.DOTALL)
+
+
+def big(converter: Converter, sign: Big, rest: tuple[Node, ...]) -> sp.Expr:
+    """The value of a sign with what follows it; raises LatexError where the notation does not give it."""
+    if not rest:
+        raise LatexError(f"nothing stands behind '\\{sign.name}': complete the line", sign.position)
+    if sign.name == "sum":
+        return _sum(converter, sign, rest)
+    if sign.name == "int":
+        parts = _integrals(sign, rest)
+        if parts:
+            return sp.Add(*(factor * converter.product(part) for factor, part in parts))
+    raise LatexError(f"this piece from '\\{sign.name}' on is not in the notation: give it there, with all it applies "
+                     "to", sign.position)
+
+
+def _sum(converter: Converter, sign: Big, rest: tuple[Node, ...]) -> sp.Expr:
+    found = _INDEX.fullmatch(sign.below.replace(" ", ""))
+    if found is None or converter.index is not None:
+        raise LatexError("a sum over one index, not within another, is read: write \\sum_{j=1}^{n}", sign.position)
+    letter = found["letter"]
+    ends = _ends(converter, found["first"], sign)
+    if ends is not None and all(end.is_Integer for end in ends):
+        return _written_out(converter, letter, ends, rest, sign.position)
+    body = converter.within(letter).product(rest)
+    if not is_vector(body):
+        raise LatexError(f"nothing behind the sum has the index '{letter}': correct the notation", sign.position)
+    indices = {index for symbol in body.atoms(sp.Indexed) for index in symbol.indices}
+    if len(indices) != 1:
+        raise LatexError("the summand has several indices: give the sum in the notation", sign.position)
+    index = indices.pop()
+    limits = converter.limits
+    if limits is not None and limits[0] == index:
+        if ends is not None and ends != (limits[1], limits[2]):
+            raise LatexError(f"the sum goes from {ends[0]} to {ends[1]}, that of the goal from {limits[1]} to "
+                             f"{limits[2]}: correct the notation or the goal", sign.position)
+        return sp.Sum(body, limits)
+    if ends is None:
+        raise LatexError("the sum has no ends here and none in the goal: write \\sum_{j=1}^{n}", sign.position)
+    return sp.Sum(body, (index, *ends))
+
+
+def _ends(converter: Converter, first: str | None, sign: Big) -> tuple[sp.Expr, sp.Expr] | None:
+    if (first is None) != (sign.above is None):
+        raise LatexError("the sum has one end only: write both, or none", sign.position)
+    if first is None or sign.above is None:
+        return None
+    start = read_line(first).chains[0]
+    if start.signs:
+        raise LatexError("a sum starts at a number: correct its lower end", sign.position)
+    return converter.number(start.sides[0]), converter.number(sign.above)
+
+
+def _written_out(converter: Converter, letter: str, ends: tuple[sp.Expr, sp.Expr], rest: tuple[Node, ...],
+                 position: int) -> sp.Expr:
+    first, last = map(int, ends)
+    if not 0 <= last - first < MOST_SUMMANDS:
+        raise LatexError(f"a sum from {first} to {last}: write one of 1 to {MOST_SUMMANDS} terms", position)
+    return sp.Add(*(converter.product(tuple(_put(node, letter, number) for node in rest))
+                    for number in range(first, last + 1)))
+
+
+def _put(node: Any, letter: str, number: int) -> Any:
+    """The node with a number in place of an index's letter."""
+    if isinstance(node, Letter) and node == Letter(letter):
+        return Number(Fraction(number), position=node.position)
+    if isinstance(node, Letter):
+        parts = [part.group() for part in _INDEX_PART.finditer(node.index)]
+        return replace(node, index="".join(str(number) if part.strip() == letter else part for part in parts))
+    if isinstance(node, tuple):
+        return tuple(_put(part, letter, number) for part in node)
+    if isinstance(node, Node) and is_dataclass(node):
+        return replace(node, **{f.name: _put(getattr(node, f.name), letter, number) for f in fields(node)
+                                if f.name != "position"})
+    return node
+
+
+def _integrals(sign: Big, rest: tuple[Node, ...]) -> list[tuple[sp.Expr, tuple[Node, ...]]]:
+    """An integral of a sum in brackets as integrals of its terms, each with a number before it; empty if it is none."""
+    factors = tuple(factor for factor in rest if not isinstance(factor, Dot))
+    if len(factors) != 3 or factors[1] != Letter("d") or not isinstance(factors[0], Group):
+        return []
+    line = factors[0].line
+    inner = line.chains[0].sides[0]
+    if len(line.chains) != 1 or line.chains[0].signs or not isinstance(inner, Terms):
+        return []
+    parts = []
+    for plus, term in inner.terms:
+        if plus == 0:
+            return []
+        integrand = term.factors if isinstance(term, Product) else (term,)
+        parts.append((sp.Integer(plus), (sign, *integrand, *factors[1:])))
+    return parts

@@ -1,0 +1,153 @@
+"""Expressions and relations as LaTeX, such that reading it gives them back."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Mapping
+from typing import Any
+
+import sympy as sp
+from sympy.printing.latex import LatexPrinter
+from sympy.printing.precedence import PRECEDENCE
+
+from workbench.proof.latex.commands import GREEK
+
+ACCENTS = ("hat", "tilde", "bar", "dot", "ddot", "star")
+_STEM = re.compile(r"(?P<letter>[A-Za-z]+?)(?P<accent>dddot|ddot|dot|hat|tilde|bar)?(?P<digits>\d*)")
+
+
+def latex(expr: sp.Expr, letters: Mapping[str, str] | None = None) -> str:
+    """LaTeX of an expression; accents and indices come from names such as a_tilde_1, a derivative along the flow is
+    d/dt.
+
+    letters: LaTeX of names, by default that of the expression's own.
+    """
+    return str(_Printer(letters_of([expr]) if letters is None else letters).doprint(expr))
+
+
+def letters_of(exprs: Iterable[sp.Expr]) -> dict[str, str]:
+    """LaTeX for the name of each symbol in some expressions, no two alike."""
+    names = {name for expr in exprs for name in _names(expr)}
+    found: dict[str, str] = {}
+    for name in sorted(names):
+        typed = latex_name(name)
+        found[name] = rf"\mathrm{{{name.replace('_', ' ')}}}" if typed in found.values() else typed
+    return found
+
+
+def _names(expr: sp.Expr) -> set[str]:
+    bases = {str(found.base.label) for found in expr.atoms(sp.Indexed)}
+    hidden = {str(symbol) for found in expr.atoms(sp.Indexed) for symbol in found.base.free_symbols - {found.base}}
+    return bases | {str(s) for s in expr.atoms(sp.Symbol) if str(s) not in hidden - bases}
+
+
+def latex_name(name: str) -> str:
+    """LaTeX of a symbol's name: parts after underscores are accents where known, else indices; x1 is x_1."""
+    if "\\" in name:
+        return name
+    stem, *parts = name.split("_")
+    found = _STEM.fullmatch(stem)
+    letter, accents, indices = stem, [], [part for part in parts if part not in ACCENTS and part]
+    if found is not None and (found["accent"] is None or _is_letter(found["letter"])):
+        letter = found["letter"]
+        accents = [found["accent"]] if found["accent"] else []
+        indices = ([found["digits"]] if found["digits"] else []) + indices
+    result = _letter(letter, rf"\mathrm{{{letter}}}")
+    accents += [part for part in parts if part in ACCENTS]
+    for accent in accents:
+        result = result if accent == "star" else rf"\{accent}{{{result}}}"
+    if indices:
+        result += f"_{{{','.join(_letter(part, part) for part in indices)}}}"
+    return result + "^{*}" * ("star" in accents)
+
+
+def _is_letter(name: str) -> bool:
+    return len(name) == 1 or _greek(name) in GREEK
+
+
+def _greek(name: str) -> str:
+    return "lambda" if name == "lamda" else name
+
+
+def _letter(name: str, else_: str) -> str:
+    return rf"\{_greek(name)}" if _greek(name) in GREEK and name.isalpha() else name if len(name) == 1 else else_
+
+
+class _Printer(LatexPrinter):
+    """sympy's own LaTeX, with letters by their names and brackets wherever a reader could be in doubt."""
+
+    printmethod = "_workbench_latex"  # sympy classes would print themselves otherwise
+
+    def __init__(self, letters: Mapping[str, str]) -> None:
+        super().__init__({"fold_func_brackets": False, "ln_notation": True})
+        self.letters = letters
+
+    def _print_Symbol(self, expr: sp.Symbol, style: str = "plain") -> str:
+        return self.letters.get(str(expr)) or latex_name(str(expr))
+
+    def _print_Indexed(self, expr: sp.Indexed) -> str:
+        name = str(expr.base.label)
+        letter = self.letters.get(name) or latex_name(name)
+        index = ",".join(str(self._print(index)) for index in expr.indices)
+        stem, mark = (letter[:-4], "^{*}") if letter.endswith("^{*}") else (letter, "")
+        if stem.endswith("}") and "_{" in stem:
+            return f"{stem[:-1]},{index}}}{mark}"
+        return f"{stem}_{{{index}}}{mark}"
+
+    def _print_D(self, expr: sp.Expr, exp: str | None = None) -> str:
+        inner = rf"\frac{{d}}{{dt}}\left[{self._print(expr.args[0])}\right]"
+        return inner if exp is None else rf"\left({inner}\right)^{{{exp}}}"
+
+    def _print_ExpBase(self, expr: sp.Expr, exp: str | None = None) -> str:
+        if "e" in self.letters.values():
+            return self._applied(r"\exp", expr, exp)
+        inner = f"e^{{{self._print(expr.args[0])}}}"
+        return inner if exp is None else rf"\left({inner}\right)^{{{exp}}}"
+
+    _print_exp = _print_ExpBase
+
+    def _print_Exp1(self, expr: sp.Expr, exp: str | None = None) -> str:
+        return r"\exp\left(1\right)" if exp is None else rf"\left(\exp\left(1\right)\right)^{{{exp}}}"
+
+    def _print_sign(self, expr: sp.Expr, exp: str | None = None) -> str:
+        return self._applied(r"\operatorname{sgn}", expr, exp)
+
+    def _print_log(self, expr: sp.Expr, exp: str | None = None) -> str:
+        return self._applied(r"\ln", expr, exp)
+
+    def _print_tanh(self, expr: sp.Expr, exp: str | None = None) -> str:
+        return self._applied(r"\tanh", expr, exp)
+
+    def _print_Max(self, expr: sp.Expr, exp: str | None = None) -> str:
+        return self._applied(r"\max", expr, exp)
+
+    def _print_Min(self, expr: sp.Expr, exp: str | None = None) -> str:
+        return self._applied(r"\min", expr, exp)
+
+    def _applied(self, name: str, expr: sp.Expr, exp: str | None) -> str:
+        arguments = ", ".join(str(self._print(part)) for part in sorted(expr.args, key=sp.default_sort_key))
+        call = rf"{name}\left({arguments}\right)"
+        return call if exp is None else rf"\left({call}\right)^{{{exp}}}"
+
+    def _print_Abs(self, expr: sp.Expr, exp: str | None = None) -> str:
+        inner = rf"\left|{self._print(expr.args[0])}\right|"
+        return inner if exp is None else f"{inner}^{{{exp}}}"
+
+    def _print_Sum(self, expr: sp.Sum) -> str:
+        index, first, last = expr.limits[0]
+        body = self.parenthesize(expr.function, PRECEDENCE["Mul"])
+        return rf"\sum_{{{self._print(index)}={self._print(first)}}}^{{{self._print(last)}}} {body}"
+
+    def _needs_mul_brackets(self, expr: Any, first: bool = False, last: bool = False) -> bool:
+        """Whether a factor takes brackets: what would swallow the factors behind it does, in any place."""
+        if expr.func.__name__ == "D" or isinstance(expr, sp.Sum):
+            return True
+        return bool(super()._needs_mul_brackets(expr, first, last))
+
+    def parenthesize(self, item: Any, level: int, is_neg: bool = False, strict: bool = False) -> str:
+        """An operand, in brackets where it binds less than what it stands in."""
+        text = super().parenthesize(item, level, is_neg, strict)
+        swallows = isinstance(item, sp.Sum) or item.func.__name__ == "D"
+        if swallows and level > PRECEDENCE["Add"] and not text.startswith((r"\left(", "(")):
+            return rf"\left({text}\right)"
+        return str(text)
