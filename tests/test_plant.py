@@ -12,6 +12,7 @@ from workbench.simulate.closed_loop import simulate
 from workbench.simulate.controllers import held_command
 from workbench.simulate.kernel_loop import ACCUMULATORS, DIVERGED, LOG_COLUMNS
 from workbench.simulate.metrics import measure
+from workbench.simulate.ride import SpeedLimits, ride
 from workbench.trains.track import resistance_table
 from workbench.trains.train import single_particle
 
@@ -28,7 +29,7 @@ def held(command_mps2, dt, steps, limits=(1e9, 1e9, np.inf)):
         np.array([LINE]), np.array([[0.0, np.inf, 0.0, SINE[0], SINE[1], 0.0, 0.0]]),
         np.zeros((0, 7)), np.zeros((0, 5)), np.array([MASS, *DAVIS]), np.array(limits), PERFECT.arrays(steps, dt),
         0.2, MASS, np.array([command_mps2]), np.zeros(0), np.zeros((0, 0)), np.zeros((0, 0)), acc,
-        np.zeros((1, len(LOG_COLUMNS))), 10**9)
+        ride(dt, SpeedLimits()).arrays(), np.zeros((1, len(LOG_COLUMNS))), 10**9)
     return state[0], state[1], dict(zip(ACCUMULATORS, acc, strict=True)), status, reached
 
 

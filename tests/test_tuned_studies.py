@@ -111,7 +111,7 @@ def test_law_and_mpc_have_one_budget_ranges_around_what_is_stated_and_something_
     for unit, value in tuning.objective.units.items():
         assert value == {"position_rms": common.tuning.objective.position_m,
                          "speed_rms": common.tuning.objective.speed_mps,
-                         "jerk_rms": common.tuning.objective.jerk_mps3}[unit], "not the common objective"
+                         "logged_jerk_rms": common.tuning.objective.jerk_mps3}[unit], "not the common objective"
 
 
 @pytest.mark.parametrize("name", STUDIES)

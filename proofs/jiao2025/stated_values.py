@@ -8,7 +8,7 @@ from fractions import Fraction
 import sympy as sp
 
 from .laws import K_d, K_p, epsilon, eta, lamda, mu, rho
-from .plant import M, T_s
+from .plant import M, T_s, b_1k, b_2k, davis_newton
 
 STATED: dict[sp.Expr, Fraction] = {
     rho: Fraction("0.245"), lamda: Fraction("0.00005"), mu: Fraction("0.1"), eta: Fraction(1),
@@ -45,3 +45,10 @@ kilonewton = Reading("kN", "u in kN, k in samples of 0.1 s", SAMPLE_S, 1000 / MA
 kilonewton_1s = Reading("kN.1s", "u in kN, k in seconds", SECOND_S, 1000 / MASS)
 per_mass = Reading("mass", "u in N/kg, as (17) is divided by M, k in samples of 0.1 s", SAMPLE_S, Fraction(1))
 per_mass_1s = Reading("mass.1s", "u in N/kg, k in seconds", SECOND_S, Fraction(1))
+SPEED_MAX = 72  # m/s, the largest desired speed, (16) at k = 700
+damping_newton = sum(davis_newton[b_1k]) + 2 * SPEED_MAX * sum(davis_newton[b_2k])  # d f_b/dv at most, in N s/m
+
+
+def secant_loss(step_s: Fraction) -> Fraction:
+    """1 - a of claim 5.trials over one step, at the largest desired speed and the largest coefficients of (17)."""
+    return step_s * Fraction(int(damping_newton.p), int(damping_newton.q)) / MASS

@@ -9,14 +9,16 @@ from pathlib import Path
 import numpy as np
 import pytest
 import sympy as sp
+from filelock import FileLock
 from independent import Evaluated, model_breaks
 from scenarios import PAPERS, PROOFS
 
 from workbench.files.own_files import MANIFEST
 from workbench.proof.claim import FAILED
-from workbench.proof.decide.engine import decide_all
 from workbench.proof.document import CERTIFICATES, Places, certificate_text, claims_document
 from workbench.proof.paper import collect_papers
+from workbench.proof.prove import prove
+from workbench.proof.selection import targets
 from workbench.report.formulas import formula
 
 PLACES = Places(PROOFS, {paper: PROOFS / paper / CERTIFICATES for paper in PAPERS})
@@ -30,8 +32,11 @@ KEYS = {"id", "paper", "equation", "kind", "statement", "verdict", "method", "sc
 
 
 @pytest.fixture(scope="module")
-def decisions():
-    return {d.claim.id: d for d in decide_all(CLAIMS)}
+def decisions(shared_folder):
+    """Every claim decided anew, once for all test processes: the second to ask finds what the first has decided."""
+    with FileLock(shared_folder / "decided.lock"), pytest.MonkeyPatch.context() as patch:
+        patch.setenv("WORKBENCH_CACHE", str(shared_folder / "decided"))
+        return {d.claim.id: d for d in prove(targets([str(PROOFS)]), jobs=2).decisions}
 
 
 @pytest.mark.parametrize("claim", CLAIMS, ids=IDS)
@@ -48,7 +53,7 @@ def test_committed_certificate_is_the_one_that_is_found_today(claim, decisions):
         assert decision.verdict in ("assumed", "undecided")
     else:
         assert decision.trust == "exact"
-        assert path.read_text(encoding="utf-8") == certificate_text(decision)
+        assert path.read_text(encoding="utf-8") == certificate_text(decision.certificate)
 
 
 def test_no_certificate_is_left_of_a_claim_that_is_no_longer_made(decisions):
@@ -57,12 +62,15 @@ def test_no_certificate_is_left_of_a_claim_that_is_no_longer_made(decisions):
 
 
 @pytest.mark.parametrize("paper", PAPERS)
-def test_the_manifest_names_what_stands_beside_it(paper):
+def test_the_manifest_names_all_claims_and_what_stands_beside_it(paper, decisions):
     folder = PROOFS / paper / CERTIFICATES
     manifest = json.loads((folder / MANIFEST).read_text(encoding="utf-8"))
     found = {path.stem: hashlib.sha256(path.read_bytes()).hexdigest() for path in folder.glob("*.json")}
     del found[Path(MANIFEST).stem]
-    assert manifest == {"version": 1, "paper": paper, "certificates": found}
+    assert (manifest["version"], manifest["paper"]) == (2, paper)
+    assert {name: entry["certificate"] for name, entry in manifest["claims"].items() if entry["certificate"]} == found
+    assert {name: entry["verdict"] for name, entry in manifest["claims"].items()} == {
+        d.claim.equation: d.verdict for d in decisions.values() if d.claim.paper == paper}
 
 
 def test_document_has_the_stable_keys(decisions):

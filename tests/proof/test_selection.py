@@ -71,7 +71,7 @@ def test_the_claim_is_shown_with_all_that_is_known_of_it(tmp_path, capsys):
         assert part in shown
     assert "an identity" not in shown
     made = json.loads((tmp_path / "out.json").read_text())
-    assert made["version"] == 1
+    assert made["version"] == 2
     assert [row["id"] for row in made["claims"]] == [IDS[2]]
     assert made["summary"]["refuted"] == 1 and sum(made["summary"].values()) == 1
 

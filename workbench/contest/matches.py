@@ -25,7 +25,10 @@ Array = NDArray[np.float64]
 TUNED = "+"
 # What is compared, in SI units, the less the better; each a number of a whole run.
 METRICS = ("position_rms", "speed_rms", "largest_position_error", "stopping_error", "energy_J", "jerk_rms",
-           "saturated_fraction", "band_share", "switchings_per_s", "late_s", "overspeed_mps")
+           "jerk_p95", "jerk_max", "comfort_rms", "command_variation", "saturated_fraction", "band_share",
+           "switchings_per_s", "late_s", "overspeed_mps")
+# What tuning looks at besides: the jerk of the log's rows.
+LOGGED_JERK = "logged_jerk_rms"
 # What is an error from the desired curve: says nothing about who follows none.
 OF_CURVE = ("position_rms", "speed_rms", "largest_position_error", "band_share")
 STANDING_MPS = 0.1
@@ -125,19 +128,19 @@ def _levelled(scenario: Scenario) -> Track:
 def match_values(run: Run, scenario: Scenario) -> dict[str, float | None]:
     """METRICS of a run; None each where it failed."""
     if run.failed is not None:
-        return dict.fromkeys(METRICS)
+        return dict.fromkeys((*METRICS, LOGGED_JERK))
     found = measure(run, scenario)
-    force = run.column("u_applied_mps2")
-    signs = np.sign(np.where(np.abs(force) < 1e-3, 0.0, force))
-    pulling = signs[signs != 0]
     values = {
         "position_rms": found.position_rms, "speed_rms": found.speed_rms,
         "largest_position_error": found.largest_position_error, "stopping_error": abs(found.stopping_error),
-        "energy_J": found.energy_J, "jerk_rms": found.jerk_rms, "saturated_fraction": found.saturated_fraction,
+        "energy_J": found.energy_J, "jerk_rms": found.jerk_rms, "jerk_p95": found.jerk_p95,
+        "jerk_max": found.jerk_max, LOGGED_JERK: found.logged_jerk_rms,
+        "comfort_rms": found.comfort_rms, "command_variation": found.command_variation,
+        "saturated_fraction": found.saturated_fraction,
         "band_share": found.limit_violations / max(1.0, run.totals["samples"]),
-        "switchings_per_s": float(np.count_nonzero(np.diff(pulling))) / run.end_s,
+        "switchings_per_s": found.switchings,
         "late_s": _late(run, scenario),
-        "overspeed_mps": overspeed(run.column("s_m"), run.column("v_mps"), scenario.track)}
+        "overspeed_mps": found.overspeed_max}
     return {key: float(value) for key, value in values.items()}
 
 

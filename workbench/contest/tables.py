@@ -23,7 +23,9 @@ from workbench.trains.scenario import Scenario
 COLUMNS = {"position_rms": Column("position RMS", "m"), "speed_rms": Column("speed RMS", "m/s"),
            "largest_position_error": Column("largest |position error|", "m"),
            "stopping_error": Column("|stopping error|", "m"), "energy_J": Column("energy", "kWh", 3.6e6),
-           "jerk_rms": Column("jerk RMS", "m/s³"), "saturated_fraction": Column("saturated"),
+           "jerk_rms": Column("jerk RMS", "m/s³"), "jerk_p95": Column("jerk, 95th percentile", "m/s³"),
+           "jerk_max": Column("largest jerk", "m/s³"), "comfort_rms": Column("comfort, ISO 2631 RMS", "m/s²"),
+           "command_variation": Column("command variation", "m/s³"), "saturated_fraction": Column("saturated"),
            "band_share": Column("beyond the band"), "switchings_per_s": Column("traction/brake changes", "1/s"),
            "late_s": Column("still moving after the arrival time", "s"),
            "overspeed_mps": Column("beyond the speed limits", "m/s")}

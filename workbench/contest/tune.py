@@ -20,8 +20,8 @@ def objective(values: dict[str, float | None], goal: Objective | WithoutCurve) -
     """The cost of one run."""
     if isinstance(goal, WithoutCurve):
         return score(values, {"energy_J": goal.energy_j, "stopping_error": goal.stopping_m, "late_s": goal.late_s,
-                              "overspeed_mps": goal.overspeed_mps, "jerk_rms": goal.jerk_mps3}, goal.failed)
-    units = {"position_rms": goal.position_m, "speed_rms": goal.speed_mps, "jerk_rms": goal.jerk_mps3}
+                              "overspeed_mps": goal.overspeed_mps, "logged_jerk_rms": goal.jerk_mps3}, goal.failed)
+    units = {"position_rms": goal.position_m, "speed_rms": goal.speed_mps, "logged_jerk_rms": goal.jerk_mps3}
     return score(values, units, goal.failed)
 
 

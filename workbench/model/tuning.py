@@ -56,5 +56,5 @@ class TrackingObjective(SourcedRecord):
     @property
     def units(self) -> dict[str, float]:
         """Metric -> its unit, of those that count."""
-        of = {"position_rms": self.position_m, "speed_rms": self.speed_mps, "jerk_rms": self.jerk_mps3}
+        of = {"position_rms": self.position_m, "speed_rms": self.speed_mps, "logged_jerk_rms": self.jerk_mps3}
         return {name: unit for name, unit in of.items() if unit is not None}

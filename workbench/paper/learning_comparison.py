@@ -11,7 +11,7 @@ import numpy as np
 from workbench.paper.cells import Cell, Column, Phrase
 from workbench.paper.comparison import STEP
 from workbench.paper.drivers import Drivers, entries, tuning_words
-from workbench.paper.mpc_comparison import best_words
+from workbench.paper.mpc_comparison import JERK, best_words
 from workbench.paper.pairs import METRIC_NAMES, STATES
 from workbench.paper.results import Array, Curve, Plot, ResultTable
 from workbench.paper.stages import Stage
@@ -107,7 +107,7 @@ class LearningComparison:
                         if (at, of) == (place, tuned)]
                 if here:
                     best = (f"{best_words(here, metric, METRIC_NAMES[metric][0])} {METRIC_NAMES[metric][1]}"
-                            for metric in (*self.metrics, "jerk_rms"))
+                            for metric in (*self.metrics, *(name for name in JERK if name in self.columns)))
                     where = f"{self.place_word} {place}, {state}" if self.place_word else state
                     words = "; ".join((*best, *self._learned(here, study.trials.count)))
                     yield f"{where[0].upper()}{where[1:]}: {words}."

@@ -19,6 +19,8 @@ from workbench.trains.train import Plant, Train
 # Offset-free MPC has an observer, the linear one has none and costs the least.
 MPC_KINDS = ("mpc.linear", "mpc.offset_free")
 JOULE_PER_KWH = 3.6e6
+# Over plant steps, and over the rows of a log, which misses what happens between them.
+JERK = ("jerk_rms", "logged_jerk_rms")
 # Whose speed errs by more (RMS) does not follow: a train that stands still has no jerk.
 FOLLOWS_MPS = 1.0
 
@@ -97,9 +99,9 @@ def best_words(rows: Sequence[tuple[str, Mapping[str, Any]]], metric: str, what:
     In jerk those that do not follow the desired curve are left out.
     """
     able = sorted((abs(row[metric]), name) for name, row in rows
-                  if row["failed"] is None and (metric != "jerk_rms" or follows(row)))
+                  if row["failed"] is None and (metric not in JERK or follows(row)))
     if not able:
-        return f"no run that ends and follows has a {what}" if metric == "jerk_rms" else "no run ends"
+        return f"no run that ends and follows has a {what}" if metric in JERK else "no run ends"
     words = f"{able[0][1]} has the smallest {what}, {number(able[0][0])}"
     return words + (f", then {able[1][1]} with {number(able[1][0])}" if len(able) > 1 else "")
 

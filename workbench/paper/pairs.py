@@ -10,7 +10,7 @@ import numpy as np
 
 from workbench.paper.cells import Cell, Column, Phrase
 from workbench.paper.drivers import Drivers, entries, shortened
-from workbench.paper.mpc_comparison import FOLLOWS_MPS
+from workbench.paper.mpc_comparison import FOLLOWS_MPS, JERK
 from workbench.paper.results import ResultTable
 from workbench.paper.stages import Stage
 from workbench.paper.statistics import Interval, mean_interval, overtakes, resampled
@@ -18,7 +18,7 @@ from workbench.paper.tuning_record import Pairs
 from workbench.simulate.closed_loop import Factors
 
 METRIC_NAMES = {"position_rms": ("position RMS", "m"), "speed_rms": ("speed RMS", "m/s"),
-                "jerk_rms": ("jerk RMS", "m/s³")}
+                "jerk_rms": ("jerk RMS", "m/s³"), "logged_jerk_rms": ("jerk RMS of the log", "m/s³")}
 STATES = {False: "as stated", True: "tuned"}
 
 # (place, controller, whether it is tuned) -> a row a draw
@@ -56,7 +56,7 @@ class Pair:
         In jerk one that does not follow the desired curve loses to one that does.
         """
         difference = self.differences[metric]
-        able = self.follow if metric == "jerk_rms" else (not self.failed[0], not self.failed[1])
+        able = self.follow if metric in JERK else (not self.failed[0], not self.failed[1])
         if not all(able) or difference is None:
             return self.law if able[0] else self.rival if able[1] else None
         return self.law if difference.high < 0 else self.rival if difference.low > 0 else None
@@ -101,7 +101,11 @@ def pairs_of(study: Any, drawn: Drawn, first_trial: int = 1) -> tuple[Pair, ...]
     """Every law against every MPC in the same state of tuning; first_trial: the number of a learner's first trial."""
     if not drawn:
         return ()
-    stated, metrics = study.pairs, tuple(study.tuning.objective.units)
+    stated = study.pairs
+    of_runs = next((row for rows in drawn.values() for row in rows if row["failed"] is None), {})
+    # What was tuned for, and jerk as it was where that is known.
+    metrics = tuple("jerk_rms" if metric in JERK and "jerk_rms" in of_runs else metric
+                    for metric in study.tuning.objective.units)
     chosen = resampled(stated.draws, stated.resamples, stated.seed)
     found = []
     for place, law, tuned in drawn:
@@ -136,7 +140,7 @@ def _cell(pair: Pair, metric: str, titles: Mapping[str, str], draws: int) -> Cel
                           for name, count in zip((pair.law, pair.rival), pair.failed, strict=True) if count)
     if difference is None:
         return f"{failed}: {verdict}"
-    if metric == "jerk_rms" and not failed and not all(pair.follow):
+    if metric in JERK and not failed and not all(pair.follow):
         verdict += " (the other does not follow)" if any(pair.follow) else " (neither follows)"
     words = f"{{}} − {{}} = {{}} [{{}}, {{}}]{f'; {failed}' if failed else ''}: {verdict}"
     return Phrase(words, (*pair.means[metric], difference.mean, difference.low, difference.high))

@@ -7,8 +7,9 @@ from functools import cache
 from pathlib import Path
 
 from workbench.errors import InputError, WorkbenchError
+from workbench.proof.binding import is_of
 from workbench.proof.cache import Kept, kept
-from workbench.proof.checker import CertificateError, check
+from workbench.proof.checker import CertificateError, check, goal_digest
 from workbench.proof.claim import Claim
 from workbench.proof.decide.engine import decide
 from workbench.proof.dependencies import watch
@@ -69,7 +70,7 @@ class Worker:
         if self.cached is None or key is None:
             return decide(claim), True
         found = self.cached.claim(key)
-        if found is not None and _holds(found, claim.id):
+        if found is not None and _holds(found, claim):
             return found, False
         decision = decide(claim)
         self.cached.keep_claim(key, replace(decision, claim=_stated(claim)))
@@ -82,16 +83,16 @@ class Worker:
         return self._file(path).reads(self.cached.folder) if self.cached else frozenset()
 
 
-def _holds(decision: Decision, claim_id: str) -> bool:
-    """Whether a decision from the cache is of that claim and carries what its verdict must carry."""
+def _holds(decision: Decision, claim: Claim) -> bool:
+    """Whether a decision from the cache is of that claim and its goal, and carries what its verdict must carry."""
     certificate = decision.certificate
     if certificate is None:
         return decision.verdict == "undecided"
     try:
         check(certificate)
-    except CertificateError:
+        return certificate["verdict"] == decision.verdict and is_of(goal_digest(certificate), claim, decision.verdict)
+    except (CertificateError, KeyError, TypeError):
         return False
-    return bool(certificate["verdict"] == decision.verdict and certificate.get("claim") == claim_id)
 
 
 def _stated(claim: Claim) -> Stated:

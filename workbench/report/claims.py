@@ -17,7 +17,10 @@ NOT_AS_PRINTED = ("refuted", "violated", "gap")
 TRUST = {"exact": "certificate re-checked exactly", "oracle": "a solver's word",
          "kernel": "re-checked by Coq"}
 CORRECTIONS = {"refuted": "True instead", "violated": "Repaired", "gap": "What does follow"}
-FACTS = (("Stated", "stated"), ("Computed", "computed"), ("Scope", "scope"), ("Certificate", "certificate"))
+FACTS = (("Stated", "stated"), ("Computed", "computed"), ("Read as", "reading"), ("Other reading", "glyph_claim"),
+         ("Mends", "mends"), ("Scope", "scope"), ("Certificate", "certificate"))
+ORIGINS = {"printed": "a line of the paper", "implied": "a step the paper takes without words",
+           "ours": "a question of ours"}
 
 
 @dataclass(frozen=True)
@@ -51,6 +54,9 @@ class ClaimView:
     counterexample: tuple[str, ...]
     facts: tuple[tuple[str, str], ...]
     open: bool
+    ours: bool
+    fate: str
+    fate_why: str
 
 
 def claim_views(document: Mapping[str, Any]) -> list[ClaimView]:
@@ -73,6 +79,10 @@ def _view(entry: Mapping[str, Any], known: set[str]) -> ClaimView:
     recorded = _text(entry.get("recorded"))
     seconds = entry.get("seconds")
     shown = [(label, _text(entry.get(key))) for label, key in FACTS]
+    origin = _text(entry.get("origin"))
+    if origin:
+        place = ", ".join(filter(None, (ORIGINS.get(origin, origin), _text(entry.get("severity")))))
+        shown.insert(0, ("Stands as", place))
     if isinstance(seconds, int | float):
         shown.append(("Decided in", f"{seconds:.2g} s"))
     refs = {key: tuple(ClaimRef(name, anchor(name) if name in known else None)
@@ -88,6 +98,8 @@ def _view(entry: Mapping[str, Any], known: set[str]) -> ClaimView:
         tainted_by=refs["tainted_by"], premises=refs["premises"],
         counterexample=_lines(entry.get("counterexample")),
         facts=tuple((label, text) for label, text in shown if text), open=verdict in NOT_AS_PRINTED,
+        ours=origin == "ours", fate=_text(entry.get("fate")),
+        fate_why=_text(entry.get("fate_why")),
     )
 
 

@@ -19,21 +19,33 @@ NOTABLE = 1.1
 
 
 def proof_line(claims: Sequence[ClaimView]) -> Markup | None:
-    """Verdicts in words, with links to what does not hold as printed."""
+    """What becomes of the headline statements, and the verdicts on the paper's lines in words, ours apart; with links
+    to what does not hold as printed."""
     if not claims:
         return None
-    found = [f"{n} {PLURAL.get(verdict, verdict) if n > 1 else verdict}"
-             for verdict, n in sorted(counts(claims).items(), key=lambda item: _rank(item[0])) if n]
-    line = Markup("<strong>Proof.</strong> {} claims: {}.").format(len(claims), ", ".join(found))
-    wrong = [claim for claim in claims if claim.verdict in NOT_AS_PRINTED]
+    paper = [claim for claim in claims if not claim.ours]
+    line = Markup("<strong>Proof.</strong>")
+    for claim in (claim for claim in paper if claim.fate):
+        line += Markup(' {}: <a href="#{}">{}</a> <strong>{}</strong>, {}.').format(
+            claim.title, claim.anchor, claim.id, claim.fate, claim.fate_why)
+    line += f" {len(paper)} lines of the paper: {_verdicts(paper)}."
+    wrong = [claim for claim in paper if claim.verdict in NOT_AS_PRINTED]
     if wrong:
         links = Markup(", ").join(Markup('<a href="#{}">{}</a>').format(c.anchor, c.id) for c in wrong[:8])
         more = f" and {len(wrong) - 8} more" if len(wrong) > 8 else ""
         line += Markup(" Not as printed: {}{}.").format(links, more)
-    tainted = sum(claim.verdict == "proved" and bool(claim.tainted_by) for claim in claims)
+    tainted = sum(claim.verdict == "proved" and bool(claim.tainted_by) for claim in paper)
     if tainted:
         line += Markup(" {} of the proved rest on one of these.").format(tainted)
+    own = [claim for claim in claims if claim.ours]
+    if own:
+        line += f" {len(own)} questions of ours: {_verdicts(own)}."
     return line
+
+
+def _verdicts(claims: Sequence[ClaimView]) -> str:
+    return ", ".join(f"{n} {PLURAL.get(verdict, verdict) if n > 1 else verdict}"
+                     for verdict, n in sorted(counts(claims).items(), key=lambda item: _rank(item[0])) if n)
 
 
 def nominal_line(scenario: Scenario, metrics: Sequence[Metrics], names: dict[str, str]) -> Markup | None:

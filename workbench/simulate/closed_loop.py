@@ -20,8 +20,9 @@ from workbench.simulate import kernel_loop
 from workbench.simulate.controllers import SAMPLED, SampledController, compiled_law, held_command
 from workbench.simulate.kernel_loop import ACCUMULATORS, DIVERGED, LEFT_DOMAIN, LOG_COLUMNS, RUNNING
 from workbench.simulate.law_values import check_controllers, controller_spec, law_values
+from workbench.simulate.ride import Ride, SpeedLimits, ride
 from workbench.trains.scenario import Scenario
-from workbench.trains.track import ResistanceTable, resistance_table
+from workbench.trains.track import ResistanceTable, resistance_table, speed_limits
 from workbench.trains.train import Plant, single_particle
 
 TIMED_BLOCK = 1000
@@ -96,6 +97,7 @@ class Setting:
     changes: Array = field(default_factory=lambda: np.zeros((0, 5)))
     plant_values: tuple[float, ...] = ()
     sensing: Sensing = PERFECT
+    speed_limits: SpeedLimits = field(default_factory=SpeedLimits)
 
     def plan(self, period_s: float) -> tuple[int, int, float, int]:
         """Steps in all, steps a sample, seconds a step, steps a row of the log."""
@@ -117,6 +119,7 @@ def setting_of(scenario: Scenario, factors: Factors = NOMINAL) -> Setting:
         line=ResistanceTable(table.position_m, table.specific_force * factors.line_resistance),
         terms=scenario.disturbance.rows(), failures=failure_rows(scenario.failures),
         changes=mode_rows(scenario.modes, train.mass_kg, of_davis),
+        speed_limits=SpeedLimits(*speed_limits(scenario.track)),
     )
 
 
@@ -137,11 +140,15 @@ class _Arrays:
     limits: Array
     sensing: tuple[Array, Array, Array]
     acc: Array
+    ride: Ride
     log: Array
 
     def before_law(self) -> tuple[Any, ...]:
         return (self.state, self.hints, self.breaks, self.coefficients, self.edges, self.values, self.terms,
                 self.failures, self.changes, self.plant, self.limits, self.sensing)
+
+    def after_law(self) -> tuple[Any, ...]:
+        return self.acc, self.ride.arrays(), self.log
 
 
 def simulate(scenario: Scenario, name: str, factors: Factors = NOMINAL) -> Run:
@@ -210,7 +217,7 @@ def _run(name: str, title: str, law: ControlLaw, arrays: _Arrays, plan: tuple[in
     return Run(
         controller=name, title=title, columns=(*LOG_COLUMNS, *(str(s.symbol) for s in law.scalar_states)),
         log=arrays.log[: max(1, min(len(arrays.log), (reached - 1) // log_every + 1))],
-        totals=dict(zip(ACCUMULATORS, arrays.acc.tolist(), strict=True)),
+        totals=dict(zip(ACCUMULATORS, arrays.acc.tolist(), strict=True)) | arrays.ride.totals(),
         final_position_m=float(arrays.state[0]), end_s=reached * dt, failed=failed, step_us=step_us,
         period_s=per_sample * dt, counters=counters,
     )
@@ -232,6 +239,7 @@ def _arrays(setting: Setting, period_s: float, law: ControlLaw) -> _Arrays:
         plant=np.array([setting.mass_kg, *setting.davis_n, *setting.plant_values]),
         limits=np.array(setting.limits),
         sensing=setting.sensing.arrays(-(-steps // max(1, round(period_s / setting.plant_step_s))), period_s), acc=acc,
+        ride=ride(setting.plant_step_s, setting.speed_limits),
         log=np.zeros((steps // log_every + 1, len(LOG_COLUMNS) + len(law.scalar_states))),
     )
 
@@ -242,13 +250,13 @@ def _run_compiled(kernel: Any, arrays: _Arrays, law: tuple[Array, Array, Array, 
     steps, per_sample, dt, log_every = plan
     block = per_sample * TIMED_BLOCK
     # No step at all, so that loading or compiling the kernel is not timed as part of the first block.
-    kernel(0, 0, per_sample, dt, *arrays.before_law(), *fixed, *law, arrays.acc, arrays.log, log_every)
+    kernel(0, 0, per_sample, dt, *arrays.before_law(), *fixed, *law, *arrays.after_law(), log_every)
     taken, first, status = [], 0, RUNNING
     while first < steps and status == RUNNING:
         count = min(block, steps - first)
         before = time.perf_counter()
-        status, reached = kernel(first, count, per_sample, dt, *arrays.before_law(), *fixed, *law, arrays.acc,
-                                 arrays.log, log_every)
+        status, reached = kernel(first, count, per_sample, dt, *arrays.before_law(), *fixed, *law,
+                                 *arrays.after_law(), log_every)
         taken.append((time.perf_counter() - before) * 1e6 / max(1, (reached - first) // per_sample))
         first = reached
     return status, first, np.array(taken)
@@ -260,7 +268,7 @@ def _run_sampled(kernel: Any, arrays: _Arrays, controller: SampledController, fi
     steps, per_sample, dt, log_every = plan
     command = np.zeros(1)
     empty = np.zeros(0), np.zeros((0, 0)), np.zeros((0, 0))
-    before_law, step_us = arrays.before_law(), np.zeros(-(-steps // per_sample))
+    before_law, after_law, step_us = arrays.before_law(), arrays.after_law(), np.zeros(-(-steps // per_sample))
     first, status = 0, RUNNING
     for sample in range(len(step_us)):
         before = time.perf_counter()
@@ -269,7 +277,7 @@ def _run_sampled(kernel: Any, arrays: _Arrays, controller: SampledController, fi
         step_us[sample] = (time.perf_counter() - before) * 1e6
         command[0] = kernel_loop.delayed(sample, asked, sensing[2])
         status, first = kernel(first, min(per_sample, steps - first), per_sample, dt, *before_law, *fixed,
-                               command, *empty, arrays.acc, arrays.log, log_every)
+                               command, *empty, *after_law, log_every)
         if status != RUNNING:
             return status, first, step_us[: sample + 1]
     return status, first, step_us

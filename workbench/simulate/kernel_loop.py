@@ -147,9 +147,48 @@ def delayed(sample, u, commands):
     return commands[(sample - late) % (late + 1)] if sample >= late else 0.0
 
 
+def felt(dt, p, before, v, push, ride):
+    """Add a plant step to how the run feels: from speed `before` to v, at position p, under `push` in m/s^2.
+
+    ride: the arrays of `ride.py`, sums among them in the order of its SUMS.
+    """
+    filters, counts, sums, limit_m, limit_mps = ride
+    a = (v - before) / dt
+    if sums[0] > 0.0:
+        jerk = abs(a - sums[1]) / dt
+        sums[2] += jerk * jerk
+        sums[3] = max(sums[3], jerk)
+        place = 0
+        if jerk > 1e-6:
+            place = min(int(200.0 * (math.log10(jerk) + 6.0)), counts.shape[0] - 1)
+        counts[place] += 1.0
+    sums[0] += 1.0
+    sums[1] = a
+    if abs(push) >= 1e-3:
+        if push * sums[4] < 0.0:
+            sums[5] += 1.0
+        sums[4] = push
+    section = int(sums[9])
+    while section < limit_m.shape[0] - 1 and p >= limit_m[section + 1]:
+        section += 1
+    while section > 0 and p < limit_m[section]:
+        section -= 1
+    sums[9] = section
+    beyond = v - limit_mps[section]
+    if beyond > 0.0:
+        sums[6] = max(sums[6], beyond)
+        sums[7] += 1.0
+    for i in range(filters.shape[0]):
+        y = filters[i, 0] * a + filters[i, 5]
+        filters[i, 5] = filters[i, 1] * a - filters[i, 3] * y + filters[i, 6]
+        filters[i, 6] = filters[i, 2] * a - filters[i, 4] * y
+        a = y
+    sums[8] += a * a
+
+
 def closed_loop(first, count, per_sample, dt, state, hints, breaks, coefficients, edges, values, terms, failures,
                 changes, plant, limits, sensing, band, nominal_mass, parameters, scalars, neurons, neuron_data, acc,
-                log, log_every):
+                ride, log, log_every):
     """Steps first to first + count - 1; returns RUNNING, LEFT_DOMAIN or DIVERGED, and the step reached."""
     # limits: traction force (N), braking force (N), power (W); state: position, speed, held command, force
     p, v, u, force = state[0], state[1], state[2], state[3]
@@ -223,14 +262,17 @@ def closed_loop(first, count, per_sample, dt, state, hints, breaks, coefficients
         _, p4, v4 = rates_at(t + dt - 2.0 * early, p + dt * p3, v + dt * v3, force, track_hint, edges, values, terms,
                              failures, changes, plant, now)
         moved = dt / 6.0 * (p1 + 2.0 * p2 + 2.0 * p3 + p4)
+        before = v
         v = v + dt / 6.0 * (v1 + 2.0 * v2 + 2.0 * v3 + v4)
         p = p + moved
         # The commanded force is constant within a step, so force times distance is its exact work.
-        work = applied(t, force, failures) * moved
+        push = applied(t, force, failures)
+        work = push * moved
         if work > 0.0:
             acc[7] += work
         else:
             acc[8] -= work
+        felt(dt, p, before, v, push / nominal_mass, ride)
         if not (abs(p) < 1e9 and abs(v) < 1e4):
             state[0], state[1], state[2], state[3] = p, v, u, force
             return 2, n + 1

@@ -14,10 +14,14 @@ from workbench.trains.scenario import Scenario
 class Metrics:
     """One row of a comparison. Errors are measured minus desired, extrema over every plant step.
 
-    energy_J: traction work at the wheel, braking not recovered; jerk_rms: of the acceleration over windows
-    of the log's spacing; saturated_fraction: of samples whose force was at a limit; limit_violations: plant
-    steps outside the position band; failed: why the run ended early, or None. Of a failed run the extrema
-    hold up to its end, and what only a whole run has (RMS, stopping error, energy, jerk) is NaN, in rows None.
+    energy_J: traction work at the wheel, braking not recovered; jerk_rms, jerk_p95, jerk_max: of the second difference
+    of the speed over plant steps (m/s^3), the 95th percentile rounded up to 1.2 %; logged_jerk_rms: over rows of the
+    log, which misses what happens between them; comfort_rms: acceleration weighted by W_d of ISO 2631-1 (m/s^2);
+    command_variation: of the commands, summed, each second (m/s^3); switchings: between traction and braking each
+    second; overspeed_max: beyond the line's speed limits (m/s); saturated_fraction: of samples whose force was at a
+    limit; limit_violations: plant steps outside the position band; failed: why the run ended early, or None. Of a
+    failed run the extrema hold up to its end, and what only a whole run has (RMS, stopping error, energy, ride) is
+    NaN, in rows None.
     step_us: a compiled law is timed in blocks of 1,000 samples, plant included; MPC call by call, plant
     excluded.
     """
@@ -32,6 +36,13 @@ class Metrics:
     stopping_error: float
     energy_J: float
     jerk_rms: float
+    jerk_p95: float
+    jerk_max: float
+    logged_jerk_rms: float
+    comfort_rms: float
+    command_variation: float
+    switchings: float
+    overspeed_max: float
     saturated_fraction: float
     limit_violations: int
     step_us_median: float
@@ -65,9 +76,9 @@ def measure_run(run: Run, length_m: float) -> Metrics:
     total = run.totals
     whole = np.nan if run.failed else 1.0  # what only makes sense for a whole run is no number for a failed one
     samples = max(1.0, total["samples"])
+    seconds = max(run.end_s, run.period_s)
     # The log's rows are a whole number of plant steps apart, which log_every_s need not be.
-    spacing = np.diff(run.column("t_s")[:2])
-    jerk = np.diff(run.column("v_mps"), 2) / spacing**2
+    logged_jerk = np.diff(run.column("v_mps"), 2) / np.diff(run.column("t_s")[:2]) ** 2
     return Metrics(
         controller=run.controller,
         position_error_min=total["position_error_min"], position_error_max=total["position_error_max"],
@@ -76,7 +87,12 @@ def measure_run(run: Run, length_m: float) -> Metrics:
         speed_rms=whole * float(np.sqrt(total["speed_error_square_sum"] / samples)),
         stopping_error=whole * (run.final_position_m - length_m),
         energy_J=whole * total["traction_work_j"],
-        jerk_rms=whole * (float(np.sqrt(np.mean(jerk**2))) if len(jerk) else 0.0),
+        jerk_rms=whole * float(np.sqrt(total["jerk_square_sum"] / max(1.0, total["jerk_steps"]))),
+        jerk_p95=whole * total["jerk_p95_mps3"], jerk_max=whole * total["jerk_max_mps3"],
+        logged_jerk_rms=whole * (float(np.sqrt(np.mean(logged_jerk**2))) if len(logged_jerk) else 0.0),
+        comfort_rms=whole * float(np.sqrt(total["weighted_square_sum"] / samples)),
+        command_variation=whole * total["command_variation_mps2"] / seconds,
+        switchings=whole * total["force_switchings"] / seconds, overspeed_max=whole * total["overspeed_max_mps"],
         saturated_fraction=total["saturated_samples"] / max(1.0, total["commands"]),
         limit_violations=int(total["band_violations"]),
         step_us_median=float(np.median(run.step_us)), step_us_p99=float(np.percentile(run.step_us, 99)),

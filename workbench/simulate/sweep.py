@@ -28,8 +28,9 @@ CSV_NAME, JOURNAL_NAME = "sweep.csv", "sweep.journal.jsonl"
 # On which modules of the package a row depends.
 SIMULATING = ("files/*.py", "model/*.py", "trains/*.py", "compile/*.py", "mpc/*.py", "simulate/*.py")
 # Totals and means over a whole run: they say nothing when the run ended early.
-WHOLE_RUN = ("position_rms", "speed_rms", "stopping_error", "energy_J", "jerk_rms", "saturated_fraction",
-             "limit_violations")
+WHOLE_RUN = ("position_rms", "speed_rms", "stopping_error", "energy_J", "jerk_rms", "jerk_p95",
+             "jerk_max", "logged_jerk_rms", "comfort_rms", "command_variation", "switchings", "overspeed_max",
+             "saturated_fraction", "limit_violations")
 
 Pair = tuple[int, str]
 Progress = Callable[[int, int, "SweepRow"], None]
@@ -55,6 +56,12 @@ class SweepRow:
     stopping_error: float | None
     energy_J: float | None
     jerk_rms: float | None
+    jerk_p95: float | None
+    jerk_max: float | None
+    comfort_rms: float | None
+    command_variation: float | None
+    switchings: float | None
+    overspeed_max: float | None
     saturated_fraction: float | None
     limit_violations: int | None
     command_max: float | None

@@ -177,6 +177,15 @@ def resistance_table(track: Track) -> ResistanceTable:
     return ResistanceTable(starts, np.array(values, dtype=float))
 
 
+def speed_limits(track: Track) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Where the line's speed limits begin (m) and what they are (m/s); inf where there is none, so beyond its end."""
+    found = track.speed_limit
+    if not found:
+        return np.zeros(1), np.full(1, np.inf)
+    return (np.array([*(section.start_m for section in found), found[-1].end_m]),
+            np.array([*(section.speed_mps for section in found), np.inf]))
+
+
 def load_track(path: Path, reproduction: bool = False) -> Track:
     """Load a line from TOML; raises InputError naming file and key. reproduction: every value needs its source."""
     return load_record(path, Track, reproduction)

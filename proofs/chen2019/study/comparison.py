@@ -32,7 +32,7 @@ COLUMNS = {
     "position_rms": Column("position RMS", "m"), "speed_rms": Column("speed RMS", "m/s"),
     "largest_position_error": Column("largest |position error|", "m"),
     "largest_speed_error": Column("largest |speed error|", "m/s"), "stopping_error": Column("stopping error", "m"),
-    "energy_J": Column("energy", "kWh", 3.6e6), "jerk_rms": Column("jerk RMS", "m/s³"),
+    "energy_J": Column("energy", "kWh", 3.6e6), "logged_jerk_rms": Column("jerk RMS of the log", "m/s³"),
     "stretch_m": Column("coupler stretch", "m"), "at_limit": Column("at a limit"), "step_s": STEP}
 
 

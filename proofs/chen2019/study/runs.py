@@ -134,7 +134,7 @@ def trip_row(study: ChenStudy, total: Mapping[str, float], at_limit: float, jerk
             "speed_rms": math.sqrt(total["speed_error_square_s"] / whole),
             "largest_position_error": total["largest_position_error_m"],
             "largest_speed_error": total["largest_speed_error_mps"], "stopping_error": total["stopping_error_m"],
-            "energy_J": total["traction_work_j"], "jerk_rms": jerk, "stretch_m": total["coupler_stretch_m"],
+            "energy_J": total["traction_work_j"], "logged_jerk_rms": jerk, "stretch_m": total["coupler_stretch_m"],
             "at_limit": at_limit / (study.samples * study.train.cars), "step_s": step_s}
 
 

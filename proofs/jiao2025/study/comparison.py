@@ -49,17 +49,17 @@ def drive(study: JiaoStudy, name: str, place: str, factors: Factors = NOMINAL) -
     """One run in a reading: MPC's only trip, or all trials of a law, of which the last is measured."""
     if name in MPC_NAMES:
         trip = run_mpc(study, (place, MPC_NAMES[name]), factors)
-        return {"failed": None, "speed_rms": trip.mse**0.5, "jerk_rms": trip.jerk, "largest_mps": trip.largest_mps,
-                "step_s": trip.step_s}
+        return {"failed": None, "speed_rms": trip.mse**0.5, "jerk_rms": trip.jerk, "logged_jerk_rms": trip.jerk,
+                "largest_mps": trip.largest_mps, "step_s": trip.step_s}
     last = study.trials.count
     made = replace(plan_on(study, Case(place, LAW_NAMES[name], study.trials.seed), factors), kept=(last,))
     run = run_trials(made)
     row = {"failed": run.failed, "step_s": run.step_us * 1e-6}
     if run.failed is not None:
         return row
-    trials = np.sqrt(run.mse)
+    trials, jerk = np.sqrt(run.mse), jerk_rms(run.sample(last, "speed"), made.step_s)
     return row | {"speed_rms": float(trials[-1]), "trials": {"speed_rms": trials},
-                  "jerk_rms": jerk_rms(run.sample(last, "speed"), made.step_s),
+                  "jerk_rms": jerk, "logged_jerk_rms": jerk,  # every sample is logged
                   "largest_mps": float(run.column("largest_error")[-1])}
 
 

@@ -35,7 +35,7 @@ def trajectory(step_s: float):
         rows.append(before)
         weights.append(neurons[0].copy())
         status, _ = kernel(n, 1, 1, step_s, *arrays.before_law(), scenario.simulation.position_band_m,
-                           scenario.train.mass_kg, parameters, scalars, neurons, data, arrays.acc, arrays.log, 1)
+                           scenario.train.mass_kg, parameters, scalars, neurons, data, *arrays.after_law(), 1)
         assert status == kernel_loop.RUNNING
     keep = slice(round(START_S / step_s), None)
     return scenario, np.array(rows)[keep], np.array(weights)[keep], data, parameters, law

@@ -14,6 +14,7 @@ from workbench.proof.checker import (
     number,
     read_goal,
     read_rational,
+    same,
     split_relation,
     substitute,
 )
@@ -73,12 +74,15 @@ class Exact:
     def __init__(self, record: dict[str, Any]) -> None:
         self.given = [*record["assume"], *record.get("always", [])]
         self.shown = record["show"]
-        self.context, _ = read_goal(record)
+        self.context, given = read_goal(record)
+        self.initial = given.initial
 
     def meets(self, point: Point) -> bool:
-        """Whether all assumptions hold."""
+        """Whether all assumptions hold, at time zero where initial values are named."""
         values = {name: number(value) for name, value in point.items()}
         try:
+            if not all(same(values[name], substitute(self.context, v, values)) for name, v in self.initial.items()):
+                return False
             return all(holds(self.context, text, values) for text in self.given)
         except CertificateError:
             return False

@@ -1,0 +1,135 @@
+"""Section 2, the data model: Assumption 2, Lemma 1, (5), (6), and Assumption 4 of section 3, for the train."""
+
+from __future__ import annotations
+
+import sympy as sp
+
+from workbench.proof.claim import Goal, at_least, at_most, differ, equal, greater, less
+
+from ..laws import phi
+from ..notation import Delta_u_i, Delta_v_k, Delta_v_next, epsilon_bar, p, v_next, v_next_prev
+from ..paper import paper
+from ..plant import M, T_s, next_speed, u_i, u_prev, v_i, v_prev
+from .section_2a_train import a, b, secant, two_trials
+
+w = sp.Symbol("w", positive=True)
+U, d = sp.symbols("U d", nonnegative=True)
+two_trials_next = equal(Delta_v_next, a * Delta_v_k + b * Delta_u_i)  # 5.trials with b = T_s/M
+damped = (greater(a, 0), at_most(a, 1))
+
+
+def _input_history() -> Goal:
+    """|Delta v(k)| <= b U carries over to k+1 with U + |Delta u(k)|."""
+    given = (at_least(a, 0), at_most(a, 1), at_most(Delta_v_k, b * U), at_least(Delta_v_k, -b * U),
+             at_most(Delta_u_i, d), at_least(Delta_u_i, -d), two_trials_next)
+    return Goal((at_most(Delta_v_next, b * (U + d)), at_least(Delta_v_next, -b * (U + d))), given)
+
+
+@paper.claim("A2", "Assumption 2: generalised Lipschitz condition along the trials", "inequality",
+             r"|\Delta v(k+1, i)| \leq p |\Delta u_f(k, i)|", "refuted", premises=("5.trials",), rests_on=(),
+             correction=_input_history,
+             corrected_statement=r"|\Delta v(k+1,i)| \le \tfrac{T_s}{M}\sum_{j=0}^{k}|\Delta u_f(j,i)|\ "
+                                 r"(0 \le a \le 1,\ \Delta v(0,i) = 0)",
+             note="For Delta u not zero, held against the train, since Remark 2 calls it a mechanical property that every train has. The train breaks it for every p (A2.every): its "
+                  "speed also differs because earlier inputs differed, however small Delta u(k) is. Here p is taken "
+                  "at least T_s/M, which the input's own effect needs. True is the bound by all earlier inputs, proved as its step from k to k+1. "
+                  "A bounded phi_c for the train, and with it Theorem 1 for the train, rest on the false form.")
+def lipschitz_along_trials() -> Goal:
+    """Two trials of the train by 5.trials, with b = T_s/M."""
+    return Goal((at_most(sp.Abs(Delta_v_next), p * sp.Abs(Delta_u_i)),),
+                (two_trials_next, differ(Delta_u_i, 0), at_least(p, b), greater(a, 0), less(a, 1)))
+
+
+@paper.claim("A2.every", "No constant p serves: a counterexample to Assumption 2 for each", "inequality",
+             r"\forall p\ \exists\,\Delta u_f(k-1), \Delta u_f(k) \ne 0:\ |\Delta v(k+1)| > p\,|\Delta u_f(k)|", "proved",
+             premises=("5.trials",), origin="ours",
+             note="Any speed difference w that an earlier input made, Delta u(k-1) = w M/T_s, and Delta u(k) = a w/(p+1). "
+                  "The train is (1) with (3), nothing is linearised.")
+def lipschitz_fails_for_every_p() -> Goal:
+    """Witness at sample k, and the input one sample earlier that brings the speed difference about."""
+    a_w = secant.xreplace({v_i: v_prev + w})
+    small = a_w * w / (p + 1)
+    after = two_trials.xreplace({v_i: v_prev + w, u_i: u_prev + small})
+    before = next_speed(v_i, u_i + w * M / T_s) - next_speed(v_i, u_i)
+    return Goal((equal(before, w), greater(small, 0), greater(after, p * small)), (greater(a_w, 0),))
+
+
+@paper.claim("remark2", "Remark 2: bounded changes of the input make bounded changes of the output", "implication",
+             r"\text{a bounded change of the input energy should cause a bounded change of the output energy}", "proved", premises=("5.trials",), rests_on=(),
+             match="words", reading="Decided for the changes from trial to trial: |Delta v| <= (T_s/M) times the sum of all |Delta u| so far, as its step from k to k + 1.",
+             note="True of the train, and weaker than Assumption 2, which bounds the change by that of the last input alone.")
+def bounded_changes() -> Goal:
+    """The step of the induction over k; it starts from equal initial speeds."""
+    return _input_history()
+
+
+@paper.claim("lemma1", "Lemma 1: phi_c exists and is bounded", "implication",
+             r"\Delta v(k+1, i) = \phi_c(k, i) \Delta u_f(k, i), \quad |\phi_c(k, i)| \leq p", "proved", rests_on=(), severity="result",
+             reading="The lemma's (5) and its bound, under what it assumes: Assumption 2 and Delta u not zero; phi_c is the quotient.",
+             note="For a system that meets Assumption 2. The bound is that assumption word for word; whether the train has it is another question: A2.")
+def quotient_exists() -> Goal:
+    """phi_c = Delta v(k+1) / Delta u(k)."""
+    return Goal((equal(Delta_v_next, phi * Delta_u_i), at_most(sp.Abs(phi), p)),
+                (equal(phi, Delta_v_next / Delta_u_i), at_most(sp.Abs(Delta_v_next), p * sp.Abs(Delta_u_i)), differ(Delta_u_i, 0)))
+
+
+phi_train = b + a * Delta_v_k / Delta_u_i
+
+
+@paper.claim("5", "CFDL data model", "identity", r"\Delta v(k+1, i) = \phi_c(k, i) \Delta u_f(k, i)", "proved",
+             premises=("5.trials",), rests_on=("lemma1", "A1", "A2", "4"),
+             note="True of the train for Delta u(k,i) not zero, with phi_c = T_s/M + a Delta v(k,i)/Delta u(k,i): a rewriting of the quotient. "
+                  "All of the train's memory is in phi_c, which is neither dv(k+1)/du(k) nor bounded (A2.every).")
+def data_model() -> Goal:
+    """phi_c of the train."""
+    return Goal((equal(Delta_v_next, phi * Delta_u_i),), (two_trials_next, equal(phi, phi_train), differ(Delta_u_i, 0)))
+
+
+@paper.claim("6", "The data model written for the speed", "identity",
+             r"v(k+1, i) = v(k+1, i-1) + \phi_c(k, i) \Delta u_f(k, i)", "proved", premises=("5",))
+def data_model_speed() -> Goal:
+    """(5) with Delta v(k+1,i) written out."""
+    return Goal((equal(v_next, v_next_prev + phi * Delta_u_i),), (*paper.shown("5"), equal(Delta_v_next, v_next - v_next_prev)))
+
+
+change_at_rest, slope = sp.symbols("Delta_v_0 L", real=True)
+nearby = sp.Symbol("h", positive=True)
+
+
+@paper.claim("6.unchanged", "(6) where the input is not changed: the speed is that of the last trial", "implication",
+             r"\Delta u_f(k,i) = 0 \Rightarrow v(k+1,i) = v(k+1,i-1)", "proved", origin="implied", rests_on=("A1", "A2"),
+             reading="Under Assumptions 1 and 2 for all inputs: what Delta v(k+1) is at Delta u(k) = 0 differs by at most (p + L) h from 0, for every small change h.",
+             note="(6) is used for all k and i, Lemma 1 excludes Delta u(k,i) = 0. Exactly this case occurs wherever data are "
+                  "missing, by (14) with gamma = 0. It follows by continuity, L being the bound of the derivative near by. The train breaks it, as it breaks Assumption 2: 6.unchanged.train.")
+def unchanged_input() -> Goal:
+    """Assumption 2 at Delta u = h > 0, and the continuity that Assumption 1 gives."""
+    near = (at_most(Delta_v_next, p * nearby), at_least(Delta_v_next, -p * nearby),
+            at_most(change_at_rest - Delta_v_next, slope * nearby), at_least(change_at_rest - Delta_v_next, -slope * nearby))
+    return Goal((at_most(change_at_rest, (p + slope) * nearby), at_least(change_at_rest, -(p + slope) * nearby)), near)
+
+
+@paper.claim("6.unchanged.train", "The train's speed changes where its input does not", "implication",
+             r"\Delta u_f(k,i) = 0 \Rightarrow \Delta v(k+1,i) = 0", "gap", premises=("5.trials",), origin="ours",
+             note="The train's speed there changes with the inputs before k, so that (6) leaves it out wherever a trial had ended.")
+def unchanged_input_of_the_train() -> Goal:
+    """Delta v(k+1) of the train at Delta u(k) = 0."""
+    return Goal((equal(Delta_v_next, 0),), (two_trials_next, equal(Delta_u_i, 0), *damped))
+
+
+@paper.claim("A4", "Assumption 4: phi_c is positive", "inequality", r"\phi_c(k, i) > \bar{\varepsilon} > 0", "refuted",
+             premises=("5",), rests_on=(),
+             note="Held against the train: slower after the earlier inputs and pushed a little harder now, it is still slower, and phi_c is "
+                  "negative; it takes every value (A4.every), so no bound serves. Positive is dv(k+1)/du(k) = T_s/M (A1), which is what Remark 4 argues with.")
+def positive_pseudo_derivative() -> Goal:
+    """phi_c of the train for any 0 < a <= 1."""
+    return Goal((greater(phi, epsilon_bar), greater(epsilon_bar, 0)), (equal(phi, phi_train), differ(Delta_u_i, 0), *damped, at_most(epsilon_bar, b)))
+
+
+any_value = sp.Symbol("y", real=True)
+
+
+@paper.claim("A4.every", "phi_c of the train takes every value", "identity", r"\forall y\ \exists\,\Delta v(k,i):\ \phi_c(k,i) = y", "proved",
+             premises=("5",), origin="ours", note="For Delta v(k,i) = (y - T_s/M) Delta u(k,i)/a, which the input one sample earlier brings about, as in A2.every.")
+def every_value() -> Goal:
+    """The speed difference that makes phi_c = y."""
+    return Goal((equal(phi_train.xreplace({Delta_v_k: (any_value - b) * Delta_u_i / a}), any_value),), (differ(Delta_u_i, 0), greater(a, 0)))

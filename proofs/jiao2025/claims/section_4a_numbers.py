@@ -1,0 +1,166 @@
+"""Section 4, the numbers: the desired curve (16), the coefficients (17), Table 1, the lengths, the first input."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+from itertools import pairwise
+
+import sympy as sp
+
+from workbench.proof.claim import Goal, at_least, at_most, equal, greater, less
+from workbench.proof.derive import lie_derivative
+
+from ..laws import epsilon, eta, lamda, mu, rho
+from ..notation import T_d, T_min
+from ..paper import paper
+from ..plant import M, T_s, b_0k, b_1k, b_2k, basic_resistance, davis_newton, desired_pieces, desired_speed, k, v_i
+from ..stated_values import FIRST_INPUT, LENGTH, MASS, SPEED_MAX, stated
+
+pieces = sp.symbols("v_d1:6", real=True)
+PRINTED_PIECES = (-sp.Rational(35, 57122) * (k - 338) ** 2 + 70, k / 181 + sp.Rational(12332, 181), -sp.Rational(1, 100) * k + 79,
+                  k / 600 + sp.Rational(202, 3), -sp.Rational(7, 16000) * (k - 1600) ** 2 + 70)
+
+
+@paper.claim("16", "The desired speed", "identity",
+             r"v_d(k) = \begin{cases} -\frac{35}{57122}(k-338)^2 + 70, & k \in [0, 338], \\ \frac{1}{181}k + \frac{12332}{181}, & k \in [338, 700], \\ "
+             r"-0.01k + 79, & k \in [700, 1000], \\ \frac{1}{600}k + \frac{202}{3}, & k \in [1000, 1600], \\ -\frac{7}{16000}(k-1600)^2 + 70, & k \in [1600, 2000]. \end{cases}",
+             "proved", severity="data", reading="One relation for each piece, between the printed line and what its values at the borders force: the values 0, 70, 72, 69, 70, 0 at k = 0, 338, 700, 1000, 1600, "
+             "2000, straight pieces between, and parabolas with their tops at 338 and 1600.",
+             note="Both pieces that (16) gives at a border agree there. The paper states no unit; with the resistance (17) they are m/s. The study runs these pieces.")
+def desired_speeds() -> Goal:
+    """Each piece by the values at its ends."""
+    first, second, third, fourth, fifth = pieces
+    by_values = (equal(70 - first, 70 * ((338 - k) / 338) ** 2), equal((second - 70) * (700 - 338), (72 - 70) * (k - 338)),
+                 equal((third - 72) * (1000 - 700), (69 - 72) * (k - 700)), equal((fourth - 69) * (1600 - 1000), (70 - 69) * (k - 1000)),
+                 equal(70 - fifth, 70 * ((k - 1600) / 400) ** 2))
+    return Goal(tuple(equal(piece, printed) for piece, printed in zip(pieces, PRINTED_PIECES, strict=True)), by_values)
+
+
+@paper.claim("16.continuous", "The desired speed starts and ends at rest and is continuous", "identity",
+             r"v_d(0) = v_d(2000) = 0,\ v_d(338) = 70,\ v_d(700) = 72,\ v_d(1000) = 69,\ v_d(1600) = 70", "proved", premises=("16",), origin="implied", severity="data",
+             note="One finding with six places; at the four borders both pieces have the value.")
+def continuous() -> Goal:
+    """The pieces that are simulated, at both their ends."""
+    ends = ((0, 0, 0), (2000, 4, 0), *((at, piece + side, speed) for at, piece, speed in ((338, 0, 70), (700, 1, 72), (1000, 2, 69), (1600, 3, 70)) for side in (0, 1)))
+    values = sp.symbols(f"v_1:{len(ends) + 1}", real=True)
+    return Goal(tuple(equal(value, speed) for value, (_, _, speed) in zip(values, ends, strict=True)),
+                tuple(equal(value, desired_speed(at, piece)) for value, (at, piece, _) in zip(values, ends, strict=True)))
+
+
+@paper.claim("16.acceleration", "The desired acceleration jumps at all four borders", "identity",
+             r"\dot v_d(k^+) - \dot v_d(k^-) = \tfrac{1}{181}, -\tfrac{1}{181} - \tfrac{1}{100}, \tfrac{7}{600}, -\tfrac{1}{600}\ "
+             r"\text{at}\ k = 338, 700, 1000, 1600", "proved", origin="ours", premises=("16",),
+             note="Per unit of k. An input that tracks (16) exactly jumps there too.")
+def acceleration_jumps() -> Goal:
+    """Slopes on both sides of the borders."""
+    jumps = (sp.Rational(1, 181), -sp.Rational(1, 181) - sp.Rational(1, 100), sp.Rational(7, 600), -sp.Rational(1, 600))
+    names = sp.symbols("jump_1:5", real=True)
+    found = tuple(equal(name, lie_derivative(right[2] - left[2], {k: sp.Integer(1)}).subs(k, left[1]))
+                  for name, (left, right) in zip(names, pairwise(desired_pieces), strict=True))
+    return Goal(tuple(equal(name, jump) for name, jump in zip(names, jumps, strict=True)), found)
+
+
+@paper.claim("16.force", "With k counting samples no train can follow the first step of (16)", "condition",
+             r"\frac{v_d(1) - v_d(0)}{T_s} > 2\ \tfrac{m}{s^2}", "proved", premises=("16",), at=stated(T_s), origin="ours",
+             note="2 m/s^2 is generous for a train. With k counting samples of 0.1 s, as (1) has it, (16) asks for 4.1 m/s^2, 1.4 MN for this train. "
+                  "With k in seconds it is 0.41 m/s^2, over a trip of 123 km between two stops.")
+def first_step_infeasible() -> Goal:
+    """The speed gained in the first sample over its duration."""
+    return Goal((greater((desired_speed(1, 0) - desired_speed(0, 0)) / T_s, 2),))
+
+
+@paper.claim("16.samples", "2000 steps of T_s make the trip of T_d = 2000 s", "condition",
+             r"k \in \{0, 1, \dots, T_d\},\ T_s = 0.1\,\text{s},\ T_d = 2000\,\text{s}", "violated",
+             at={**stated(T_s), T_d: Fraction(2000)}, repair={T_s: Fraction(1), T_d: Fraction(2000)},
+             reading="The steps of (1), each of the length T_s, make the duration T_d of the trip.",
+             note="k in {0, ..., T_d} counts steps of (1), each T_s = 0.1 s long, and (16), T_d and T_i take it for seconds. Over 2000 steps of 0.1 s the trip takes 200 s.")
+def steps_make_the_trip() -> Goal:
+    """Steps times their length."""
+    return Goal((equal(LENGTH * T_s, T_d),))
+
+
+@paper.claim("16.end", "A trial of the shortest length ends at more than 30 m/s", "inequality", r"v_d(1901) > 30\ \tfrac{m}{s}", "proved",
+             premises=("16",), origin="ours",
+             note="A trial cut at T_i leaves the train in motion: what varies in the simulation is the length of the data, not "
+                  "the time that the train takes for its trip, with which the introduction motivates it.")
+def trial_ends_in_motion() -> Goal:
+    """The last piece of (16) at T_min + 1."""
+    return Goal((greater(desired_speed(1901, 4), 30),))
+
+
+swing = sp.Symbol("sin_k", real=True)
+
+
+@paper.claim("17", "The resistance coefficients", "identity",
+             r"b_0(k) = \frac{2977 + 275 \sin(0.0037k)}{M}, \quad b_1(k) = \frac{25.17 + 2.5 \sin(0.0037k)}{M}, \quad b_2(k) = \frac{0.2864 + 0.04 \sin(0.0037k)}{M}", "proved",
+             severity="data", where={r"\sin(0.0037k)": swing}, reading="The coefficients that the study runs, mean and swing over M, are those of the printed line.")
+def coefficients_as_run() -> Goal:
+    """Mean and swing of the plant against the printed numbers."""
+    run = tuple(equal(M * s - mean, part * swing) for s, (mean, part) in davis_newton.items())
+    return Goal((equal(b_0k, (2977 + 275 * swing) / M), equal(b_1k, (sp.Rational("25.17") + sp.Rational("2.5") * swing) / M),
+                 equal(b_2k, (sp.Rational("0.2864") + sp.Rational("0.04") * swing) / M)), run)
+
+
+@paper.claim("17.positive", "The resistance coefficients are positive at all times", "inequality",
+             r"b_0(k), b_1(k), b_2(k) > 0", "proved", premises=("17",), origin="ours",
+             note="Needed for a damping train, a <= 1 in 5.trials. Decided for every value of the sine.")
+def coefficients_positive() -> Goal:
+    """Mean and swing of (17), over the stated M."""
+    return Goal(tuple(greater((mean + part * swing) / MASS.numerator, 0) for mean, part in davis_newton.values()),
+                (at_most(swing, 1), at_least(swing, -1)))
+
+
+@paper.claim("17.units", "(17) put into (1) gives the train its resistance", "condition",
+             r"\frac{1}{M}f_b = \frac{2977 + 25.17 v + 0.2864 v^2}{M}\ \text{with (17)}", "violated", rests_on=("1", "3", "17"),
+             at={**stated(M), v_i: Fraction(70), swing: Fraction(0)},
+             repair={M: Fraction(1), v_i: Fraction(70), swing: Fraction(0)}, origin="implied",
+             reading="By (1) f_b is a force, and by its numbers (17) is one in newtons over M.",
+             note="(17) is divided by M, and (1) divides by M once more, so that the train runs with a resistance 350,000 "
+                  "times too small. Either (17) is in N without its M, or u and, as Figure 4 has it, f_a are forces per unit of mass and "
+                  "(1) has no M (the repair M = 1); the paper does not say which, and u(k,0), lambda and the gains depend on it.")
+def resistance_of_both() -> Goal:
+    """Deceleration by (1) with (17) against the resistance in N over M, at 70 m/s."""
+    per_kg = {s: (mean + part * swing) / M for s, (mean, part) in davis_newton.items()}
+    in_newton = {s: mean + part * swing for s, (mean, part) in davis_newton.items()}
+    both = basic_resistance(v_i)
+    return Goal((equal(both.xreplace(per_kg) / M, both.xreplace(in_newton) / M),))
+
+
+@paper.claim("table1", "Table 1 meets what section 2 asks of the parameters", "condition",
+             r"\rho \in (0, 1],\ \eta \in (0, 1],\ \lambda > 0,\ \mu > 0,\ \varepsilon > 0", "proved", at=stated(rho, eta, lamda, mu, epsilon),
+             reading="With eta = 1, rho = 0.245, lambda = 0.00005, mu = 0.1, epsilon = 10^-5; the bounds stand below (7) to (10) and (13).")
+def table_1() -> Goal:
+    """The five parameters."""
+    return Goal((greater(rho, 0), at_most(rho, 1), greater(eta, 0), at_most(eta, 1), greater(lamda, 0), greater(mu, 0), greater(epsilon, 0)))
+
+
+chance = sp.Symbol("p_l", real=True)
+
+
+@paper.claim("A3", "Assumption 3: the length of a trial has a known distribution", "condition",
+             r"P[T_i = T_{\min} + l] = 1/100,\ l \in [1, \dots, 100],\ 0 \leq p_l < 1", "proved",
+             at={chance: Fraction(1, 100), T_d: Fraction(2000), T_min: Fraction(1900)},
+             reading="Decided for the distribution of section 4: each probability lies in [0, 1), and those of the T_d - T_min lengths sum to one.",
+             note="T_i = 1900 = T_min, the end of the printed range [1900, 2000], does not occur.")
+def simulated_distribution() -> Goal:
+    """A hundred lengths with a probability of 1/100."""
+    return Goal((at_least(chance, 0), less(chance, 1), equal((T_d - T_min) * chance, 1)))
+
+
+first = sp.Symbol("u_0", positive=True)
+
+
+@paper.claim("u0.N", "u(k,0) = 1500 N does not move a train with the resistance (17) in N", "condition", r"u_f(k,0) < b_0", "proved",
+             at={first: Fraction(FIRST_INPUT), b_0k: Fraction(2977)}, origin="ours",
+             note="If u is in N and (17) in N too (its M dropped), 1500 N does not even overcome the resistance of 2977 N at standstill.")
+def first_input_too_small() -> Goal:
+    """Net force at standstill in the first trial."""
+    return Goal((less(first, b_0k),))
+
+
+@paper.claim("u0.mass", "u(k,0) = 1500 N/kg makes the train faster than (16) in one sample", "condition", r"T_s\,u_f(0,0) > 72\ \tfrac{m}{s}", "proved",
+             at={first: Fraction(FIRST_INPUT), **stated(T_s)}, origin="ours",
+             note="If u is in N/kg, as (17) suggests, the first trial reaches 150 m/s within the first sample of 0.1 s.")
+def first_input_too_large() -> Goal:
+    """Speed after the first sample, resistance left out."""
+    return Goal((greater(T_s * first, SPEED_MAX),))
