@@ -43,7 +43,8 @@ class Language:
     def check(self, expr: sp.Expr, index: sp.Symbol | None = None) -> None:
         """Raise ClaimError unless certificates can state the expression exactly, and it has a real value."""
         if expr.has(*NO_NUMBERS) or (expr.args and evaluated(expr).has(*NO_NUMBERS)):
-            raise ClaimError(f"'{expr}' has no real value: it divides by zero, or takes the root of a negative number")
+            raise ClaimError(f"'{expr}' has no real value: it divides by zero, or takes the root or logarithm of a "
+                             "negative number")
         self._check(expr, index)
 
     def check_rate(self, rate: sp.Expr, index: sp.Symbol | None = None) -> None:
@@ -78,11 +79,14 @@ class Language:
                 raise ClaimError(f"'{expr}' has no meaning in certificates: only whole and half powers have")
             if abs(power) > LARGEST_POWER:
                 raise ClaimError(f"the power {power} is too large: certificates have powers up to {LARGEST_POWER}")
+            self._require_value(expr, power)
             self._check(expr.base, index)
         elif isinstance(expr, D):
             self._check_derivative(expr)
             self._check(expr.args[0], index)
         elif isinstance(expr, (sp.Add, sp.Mul, *FUNCTIONS)):
+            if isinstance(expr, sp.log) and evaluated(expr.args[0]).is_nonpositive:
+                raise ClaimError(f"'{expr}' has no real value: the logarithm of what is never positive")
             for part in expr.args:
                 self._check(part, index)
         elif isinstance(expr, sp.Float):
@@ -93,6 +97,14 @@ class Language:
         elif expr != sp.E:
             raise ClaimError(f"'{expr}' has no meaning in certificates: state the claim with + - * / **, "
                              f"{', '.join(LANGUAGE[2:])}")
+
+    @staticmethod
+    def _require_value(expr: sp.Pow, power: sp.Rational) -> None:
+        base = evaluated(expr.base)
+        if power < 0 and base.is_zero:
+            raise ClaimError(f"'{expr}' has no value: it divides by zero")
+        if power.q == 2 and base.is_negative:
+            raise ClaimError(f"'{expr}' has no real value: the root of what is negative")
 
     def _check_sum(self, expr: sp.Sum, index: sp.Symbol | None) -> None:
         limits = expr.limits[0]

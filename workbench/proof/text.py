@@ -42,7 +42,9 @@ def _written(expr: sp.Expr) -> Written:
         return _power_text(expr)
     if isinstance(expr, sp.Sum):
         return f"Sum({text(expr.function)})", ATOM
-    if expr == sp.E or isinstance(expr, sp.Pow):
+    if expr == sp.E:
+        return "exp(1)", ATOM
+    if isinstance(expr, sp.Pow):  # of e
         return f"exp({text(expr.exp)})", ATOM
     name = expr.func.__name__
     if name not in NAMES:

@@ -15,7 +15,7 @@ from workbench.proof.building import built
 from workbench.proof.checker import CertificateError, check
 from workbench.proof.claim import Claim, Decision, Goal, Relation, Verdict, latex, name_of
 from workbench.proof.decide.nearest import smallest_margin
-from workbench.proof.decide.refute import find_counterexample, find_example, value_at
+from workbench.proof.decide.refute import examples, find_counterexample, value_at
 from workbench.proof.decide.search import prove_relation
 from workbench.proof.derive import expand_derivatives
 from workbench.proof.fate import judged
@@ -46,7 +46,7 @@ def _decide_statement(claim: Claim, goal: Goal) -> Decision:
         return Decision(claim, "proved", method, "exact", 0.0, {"claim": claim.id, **certificate})
     certificate_or_none = certificate_or_none or find_counterexample(goal, verdict)
     if certificate_or_none is None:
-        return Decision(claim, "undecided", f"{proof}; {smallest_margin(goal)}", None, 0.0)
+        return Decision(claim, "undecided", _nearest(goal, proof), None, 0.0)
     certificate = {"claim": claim.id, **certificate_or_none}
     point = certificate.get("functions", {}) | certificate["point"]
     correction = None
@@ -125,17 +125,18 @@ def attempted_proof(goal: Goal) -> tuple[Certificate, str] | str:
         found = _proofs(goal.evaluated(functions))
         if isinstance(found, str):
             return missing or found
-        example = find_example(goal)
-        if example is None:
-            return "no point was found that meets all assumptions, so that they may contradict each other"
-        certificate: Certificate = {"version": 1, "verdict": "proved", "goal": record, "example": example,
-                                    "proofs": found[0]}
-        try:
-            check(certificate)
-        except CertificateError as trouble:
-            missing = f"a proof was found that the checker does not accept: {trouble}"
-            continue
-        return certificate, found[1]
+        missing = "no instant was found at which all assumptions hold: they may contradict each other"
+        for example in examples(goal):
+            certificate: Certificate = {"version": 1, "verdict": "proved", "goal": record, **example,
+                                        "proofs": found[0]}
+            try:
+                check(certificate)
+            except CertificateError as trouble:
+                missing = f"a proof was found that the checker does not accept: {trouble}"
+                if "example" not in str(trouble):
+                    break
+            else:
+                return certificate, found[1]
     return missing
 
 
@@ -150,6 +151,13 @@ def _proofs(goal: Goal) -> tuple[list[dict[str, Any]], str] | str:
         proofs.append(found[0])
         methods.append(found[1])
     return proofs, ", ".join(dict.fromkeys(methods))
+
+
+def _nearest(goal: Goal, missing: str) -> str:
+    """What came nearest to a decision."""
+    if missing.startswith("a proof") or goal.eventually is not None:
+        return missing
+    return f"{missing}; {smallest_margin(goal)}"
 
 
 def _shortened(line: str) -> str:

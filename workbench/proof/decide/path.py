@@ -36,22 +36,28 @@ def find_path(goal: Goal, record: dict[str, Any], verdict: Verdict, seed: int,
 
     record: the goal as its certificate states it.
     """
+    for reached in reached_points(goal, seed, True, quick):
+        certificate = {**reached, "version": 1, "verdict": verdict, "goal": record}
+        try:
+            check(certificate)
+        except CertificateError:
+            continue
+        return certificate
+    return None
+
+
+def reached_points(goal: Goal, seed: int, break_shown: bool, quick: bool = False) -> Iterator[dict[str, Any]]:
+    """Points that meet the assumptions, and where wanted break what is shown, with the paths that lead to them."""
     if not goal.flow or set(goal.initial) != set(goal.flow) or any(isinstance(s, sp.Indexed) for s in goal.symbols()):
-        return None
+        return
     taken = {name_of(s) for s in goal.symbols()}
     duration, time = (sp.Symbol(next(n for n in (name, f"{name}_", f"{name}__") if n not in taken), **sign)
                       for name, sign in (("duration", {"positive": True}), ("time", {"real": True})))
     for way in islice(_ways(goal, time), 1 if quick else None):
-        for point in _ends(goal, way, duration, time, seed, quick):
-            certificate = _certificate(goal, way, point, duration, time)
-            if certificate is not None:
-                certificate |= {"version": 1, "verdict": verdict, "goal": record}
-                try:
-                    check(certificate)
-                except CertificateError:
-                    continue
-                return certificate
-    return None
+        for point in _ends(goal, way, duration, time, seed, break_shown, quick):
+            reached = _reached(goal, way, point, duration, time)
+            if reached is not None:
+                yield reached
 
 
 def _ways(goal: Goal, time: sp.Symbol) -> Iterator[Way]:
@@ -115,8 +121,10 @@ def _along(goal: Goal, way: Way, relation: Relation) -> Relation:
     return Relation(left, relation.operator, right)
 
 
-def _ends(goal: Goal, way: Way, duration: sp.Symbol, time: sp.Symbol, seed: int, quick: bool) -> list[Point]:
-    """Points by constants, coefficients and the duration at which the goal at the end of the way seems to fail."""
+def _ends(goal: Goal, way: Way, duration: sp.Symbol, time: sp.Symbol, seed: int,
+          break_shown: bool, quick: bool) -> list[Point]:
+    """Points by constants, coefficients and the duration at which the goal at the end of the way seems to fail, or its
+    assumptions to hold."""
     ends = {time: duration}
     held = [_along(goal, way, r).subs({time: part * duration}) for r in goal.always for part in SAMPLES]
     # Symbols that no relation mentions need values all the same.
@@ -125,13 +133,13 @@ def _ends(goal: Goal, way: Way, duration: sp.Symbol, time: sp.Symbol, seed: int,
     try:
         at_end = Goal(tuple(_along(goal, way, r).subs(ends) for r in goal.show),
                       (*(_along(goal, way, r).subs(ends) for r in assumptions(goal)), *held, *mentioned))
-        return list(islice(proposals(at_end, seed, True, quick), LOOKS))
+        return list(islice(proposals(at_end, seed, break_shown, quick), LOOKS))
     except ClaimError:
         return []
 
 
-def _certificate(goal: Goal, way: Way, point: Point, duration: sp.Symbol, time: sp.Symbol) -> dict[str, Any] | None:
-    """The certificate for constants, coefficients and a duration; None without a proof of what must always hold."""
+def _reached(goal: Goal, way: Way, point: Point, duration: sp.Symbol, time: sp.Symbol) -> dict[str, Any] | None:
+    """What a certificate says of constants, coefficients and a duration; None without a proof of what must always hold."""
     chosen = {sp.Symbol(name): sp.Rational(v.numerator, v.denominator) for name, v in point.items()}
     values = {s: chosen[sp.Symbol(s.name)] for f in (*way.values(), *goal.symbols()) for s in f.free_symbols
               if isinstance(s, sp.Symbol) and sp.Symbol(s.name) in chosen}

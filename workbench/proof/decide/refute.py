@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from itertools import islice
 from typing import Any
 
 from workbench.errors import ClaimError
@@ -20,9 +22,11 @@ from workbench.proof.checker import (
 )
 from workbench.proof.claim import Goal, Verdict
 from workbench.proof.decide.model import find_model
-from workbench.proof.decide.path import find_path
+from workbench.proof.decide.path import find_path, reached_points
 from workbench.proof.decide.proposals import Point, proposals
 from workbench.proof.text import goal_text
+
+EXAMPLES = 4  # of each kind, when the checker wants another
 
 
 def find_counterexample(goal: Goal, verdict: Verdict, seed: int = 1, quick: bool = False) -> dict[str, Any] | None:
@@ -53,6 +57,19 @@ def find_example(goal: Goal, seed: int = 1) -> dict[str, str] | None:
         return next((texts(point) for point in proposals(goal.evaluated(), seed, False) if exact.meets(point)), None)
     except (CertificateError, ClaimError):
         return None
+
+
+def examples(goal: Goal, seed: int = 1) -> Iterator[dict[str, Any]]:
+    """What certificates say of instants at which all assumptions hold; of a flow with initial values, the first
+    instant or one that a path leads to."""
+    try:
+        exact, usual = Exact(goal_text(goal)), goal.evaluated()
+        points = (point for point in proposals(usual, seed, False) if exact.meets(point))
+        yield from ({"example": texts(point)} for point in islice(points, EXAMPLES if goal.initial else 1))
+        for reached in islice(reached_points(usual, seed, False) if goal.initial else (), EXAMPLES):
+            yield {"example": reached.pop("point"), **reached}
+    except (CertificateError, ClaimError):
+        return
 
 
 def _accepted(certificate: dict[str, Any]) -> bool:
