@@ -27,6 +27,7 @@ from fractions import Fraction
 from pathlib import Path
 from typing import Any
 
+MOST_TERMS = 16  # of the sums at a point
 SUM = "Sum()"  # the formal sum over the index: a product SUM * term means the sum of the terms
 FLIP = {"<=": ">=", "<": ">"}
 OPERATORS = ("<=", ">=", "==", "!=", "<", ">")
@@ -931,19 +932,45 @@ def bounds(context: Context, value: Ratio,
     return min(corners), max(corners)
 
 
-def require_defined_at(context: Context, text: str, point: dict[str, Ratio]) -> None:
-    """CertificateError unless an expression or relation is defined at a point."""
+Terms = list[dict[str, Ratio]]  # the indexed symbols' values in each term of the sums
+
+
+def at(context: Context, value: Ratio, point: dict[str, Ratio], terms: Terms | None) -> Ratio:
+    """The value at a point, with every formal sum added up over the terms; without them a sum has one term."""
+    if terms is None:
+        return substitute(context, value, point)
+    known = dict(point)
+    for atom in atoms_of(value) & context.functions.keys():
+        kind, argument = context.functions[atom]
+        if SUM in symbols_of(context, argument):
+            known[atom] = context.call(kind, at(context, argument, point, terms))
+    inside = {tuple(f for f in m if f[0] != SUM): c for m, c in value.num.items() if (SUM, 1) in m}
+    outside = Ratio({m: c for m, c in value.num.items() if (SUM, 1) not in m}, value.den)
+    if symbols_of(context, outside) & context.indexed:
+        raise CertificateError("a sum is not told apart from what stands beside it")
+    total = substitute(context, outside, known)
+    for row in terms if inside else ():
+        total = total + substitute(context, Ratio(inside, value.den), known | row)
+    return total
+
+
+def require_defined_at(context: Context, text: str, point: dict[str, Ratio], terms: Terms | None = None) -> None:
+    """CertificateError unless an expression or relation is defined at a point, in every term of its sums."""
     for part, wanted in context.partial_operations(text):
-        low, high = bounds(context, substitute(context, context.node(part), point))
-        if not (low > 0 or (wanted == "non-zero" and high < 0) or (wanted == "non-negative" and low == 0)):
-            raise CertificateError(f"undefined at the point: {ast.unparse(part)}")
+        value = context.node(part)
+        each = terms is not None and symbols_of(context, value) & context.indexed
+        for here in [at(context, value, point, terms)] if not each else [
+                substitute(context, value, point | row) for row in terms or []]:
+            low, high = bounds(context, here)
+            if not (low > 0 or (wanted == "non-zero" and high < 0) or (wanted == "non-negative" and low == 0)):
+                raise CertificateError(f"undefined at the point: {ast.unparse(part)}")
 
 
-def holds(context: Context, text: str, point: dict[str, Ratio]) -> bool:
+def holds(context: Context, text: str, point: dict[str, Ratio], terms: Terms | None = None) -> bool:
     """Whether a relation holds at a point; an error where it is undefined or the enclosure cannot tell."""
-    require_defined_at(context, text, point)
+    require_defined_at(context, text, point, terms)
     value, operator = margin(context, text)
-    low, high = bounds(context, substitute(context, value, point))
+    low, high = bounds(context, at(context, value, point, terms))
     verdict = {">": (low > 0, high <= 0), ">=": (low >= 0, high < 0),
                "==": (low == high == 0, low > 0 or high < 0), "!=": (low > 0 or high < 0, low == high == 0)}
     true, false = verdict[operator]
@@ -1035,16 +1062,19 @@ def check_false(goal: dict[str, Any], certificate: dict[str, Any]) -> None:
         raise CertificateError("a point says nothing of later times")
     context, given = read_goal(goal)
     point = read_point(certificate["point"])
+    terms = read_terms(certificate["terms"], context, point) if "terms" in certificate else None
     for text in (*goal.get("assume", []), *goal.get("always", [])):
-        if not holds(context, text, point):
+        if not holds(context, text, point, terms):
             raise CertificateError(f"the point breaks the assumption {text}")
+    if terms is not None and given.initial:
+        raise CertificateError("of sums with several terms only one instant is known")
     if "path" in certificate:
         _check_reached(context, given, point, certificate)
     else:
         for name, value in given.initial.items():  # a point alone can only be the first of all instants
             if not same(point[name], substitute(context, value, point)):
                 raise CertificateError(f"nothing says that the flow reaches the point: {name} is not where it starts")
-    outcomes = [holds(context, text, point) for text in goal["show"]]  # all of them: each must be defined
+    outcomes = [holds(context, text, point, terms) for text in goal["show"]]  # all of them: each must be defined
     if all(outcomes):
         raise CertificateError("the goal holds at the point")
 
@@ -1129,6 +1159,14 @@ def read_rational(text: Any) -> Fraction:
     if not isinstance(text, str) or not RATIONAL.fullmatch(text):
         raise CertificateError(f"{str(text)[:80]!r} is not a rational number 'p/q'")
     return Fraction(text)
+
+
+def read_terms(terms: list[dict[str, Any]], context: Context, point: dict[str, Ratio]) -> Terms:
+    """The values of all indexed symbols, and of no others, in each term of the sums; none is an empty sum."""
+    found = [read_point(term) for term in terms]
+    if len(found) > MOST_TERMS or any(row.keys() != context.indexed for row in found) or point.keys() & context.indexed:
+        raise CertificateError(f"the terms of the sums give all indexed symbols and nothing else, at most {MOST_TERMS}")
+    return found
 
 
 def read_point(point: dict[str, Any]) -> dict[str, Ratio]:

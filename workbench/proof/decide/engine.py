@@ -15,7 +15,7 @@ from workbench.proof.building import built
 from workbench.proof.checker import CertificateError, check
 from workbench.proof.claim import Claim, Decision, Goal, Relation, Verdict, latex, name_of
 from workbench.proof.decide.nearest import smallest_margin
-from workbench.proof.decide.refute import examples, find_counterexample, value_at
+from workbench.proof.decide.refute import examples, find_counterexample, shown_point, value_at
 from workbench.proof.decide.search import prove_relation
 from workbench.proof.derive import expand_derivatives
 from workbench.proof.fate import judged
@@ -48,7 +48,7 @@ def _decide_statement(claim: Claim, goal: Goal) -> Decision:
     if certificate_or_none is None:
         return Decision(claim, "undecided", _nearest(goal, proof), None, 0.0)
     certificate = {"claim": claim.id, **certificate_or_none}
-    point = certificate.get("functions", {}) | certificate["point"]
+    point = shown_point(certificate)
     correction = None
     if claim.correction is not None:
         nearest = built(claim, claim.correction, "correction")
@@ -59,7 +59,7 @@ def _decide_statement(claim: Claim, goal: Goal) -> Decision:
         correction = claim.corrected_statement or nearest.show[0].latex()
         check(certificate)
     return Decision(claim, verdict, "counterexample", "exact", 0.0, certificate, point, correction,
-                    None if goal.eventually else value_at(goal, certificate["point"]))
+                    None if goal.eventually else value_at(goal, certificate["point"], certificate.get("terms")))
 
 
 def _decide_condition(claim: Claim, goal: Goal) -> Decision:

@@ -145,6 +145,8 @@ def _reached(goal: Goal, way: Way, point: Point, duration: sp.Symbol, time: sp.S
               if isinstance(s, sp.Symbol) and sp.Symbol(s.name) in chosen}
     path = {s: sp.expand(f.xreplace(values)) for s, f in way.items()}
     lasting = chosen[sp.Symbol(duration.name)]
+    if lasting < 0:
+        return None
     ends = {name_of(s): f.xreplace({time: lasting}) for s, f in path.items()}
     ends |= {name_of(s): values[s] for s in goal.symbols() if s in values and s not in path}
     if not all(value.is_Rational for value in ends.values()):

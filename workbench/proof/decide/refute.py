@@ -10,17 +10,20 @@ from workbench.errors import ClaimError
 from workbench.proof.checker import (
     CertificateError,
     Context,
+    at,
     bounds,
     check,
     holds,
     number,
     read_goal,
     read_rational,
+    read_terms,
     same,
     split_relation,
     substitute,
 )
 from workbench.proof.claim import Goal, Verdict
+from workbench.proof.decide.counts import counted_points
 from workbench.proof.decide.model import find_model
 from workbench.proof.decide.path import find_path, reached_points
 from workbench.proof.decide.proposals import Point, proposals
@@ -45,9 +48,29 @@ def find_counterexample(goal: Goal, verdict: Verdict, seed: int = 1, quick: bool
                 certificate = {"version": 1, "verdict": verdict, "goal": record, "point": texts(point)}
                 if _accepted(certificate):
                     return certificate
+        if not quick and (found := _at_other_counts(usual, record, verdict, seed)) is not None:
+            return found
     except (CertificateError, ClaimError):  # nothing that the checker would accept can be said of such a goal
         return None
     return find_path(usual, record, verdict, seed, quick)
+
+
+def _at_other_counts(goal: Goal, record: dict[str, Any], verdict: Verdict, seed: int) -> dict[str, Any] | None:
+    """A certificate with a point at which the sums have no term, two or three."""
+    for point, terms in counted_points(goal, seed):
+        certificate = {"version": 1, "verdict": verdict, "goal": record, "point": texts(point),
+                       "terms": [texts(term) for term in terms]}
+        if _accepted(certificate):
+            return certificate
+    return None
+
+
+def shown_point(certificate: dict[str, Any]) -> dict[str, str]:
+    """The functions of time and the values of a counterexample, those of indexed symbols by their place."""
+    terms = certificate.get("terms", [])
+    rows = {f"{name}[{place}]": value for place, term in enumerate(terms, 1) for name, value in term.items()}
+    count = {"terms of the sums": str(len(terms))} if "terms" in certificate else {}
+    return dict(certificate.get("functions", {})) | count | rows | certificate["point"]
 
 
 def find_example(goal: Goal, seed: int = 1) -> dict[str, str] | None:
@@ -114,16 +137,17 @@ class Exact:
             return False
 
 
-def value_at(goal: Goal, point: dict[str, str]) -> str:
+def value_at(goal: Goal, point: dict[str, str], terms: list[dict[str, str]] | None = None) -> str:
     """The sides of the first relation that fails (or of the last) at a point, as exact or rounded numbers."""
     record = goal_text(goal)
     context = Context(record.get("flow", {}), record.get("indexed", []))
     values = {name: number(read_rational(v)) for name, v in point.items()}
+    rows = None if terms is None else read_terms(terms, context, values)
     for shown in record["show"]:
-        if not holds(context, shown, values) or shown is record["show"][-1]:
+        if not holds(context, shown, values, rows) or shown is record["show"][-1]:
             break
     left, operator, right = split_relation(shown)
-    sides = [bounds(context, substitute(context, context.read(side), values)) for side in (left, right)]
+    sides = [bounds(context, at(context, context.read(side), values, rows)) for side in (left, right)]
     a, b = (f"{float(low):.6g}" if low == high or float(low) == float(high) else f"{float((low + high) / 2):.6g}"
             for low, high in sides)
     return f"{a} {operator} {b}"
