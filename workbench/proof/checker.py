@@ -946,7 +946,8 @@ def at(context: Context, value: Ratio, point: dict[str, Ratio], terms: Terms | N
             known[atom] = context.call(kind, at(context, argument, point, terms))
     inside = {tuple(f for f in m if f[0] != SUM): c for m, c in value.num.items() if (SUM, 1) in m}
     outside = Ratio({m: c for m, c in value.num.items() if (SUM, 1) not in m}, value.den)
-    if symbols_of(context, outside) & context.indexed:
+    if any(found & context.indexed and SUM not in found
+           for found in (symbols_of(context, symbol(atom)) for atom in atoms_of(outside))):
         raise CertificateError("a sum is not told apart from what stands beside it")
     total = substitute(context, outside, known)
     for row in terms if inside else ():
