@@ -24,7 +24,7 @@ def command(paths: Annotated[list[str] | None, typer.Argument(
             jobs: Annotated[int | None, typer.Option(min=1, help="Processes; default: one a core.")] = None,
             cache: Annotated[bool, typer.Option(help="Take what has not changed from the cache.")] = True,
             limit: Annotated[float, typer.Option(
-                min=0.1, help="Seconds of processor time for one claim; one that takes longer stays undecided.")] = 60.0,
+                min=0.1, help="Seconds of processor time for one claim; what takes longer stays undecided.")] = 60.0,
             ) -> None:
     """Decide every claim; exit 0 when each verdict is the recorded one, 1 when one differs, 2 on bad input.
 

@@ -63,37 +63,46 @@ class Language:
                                  "elsewhere too: the sums hold for every number of terms, so give it another name")
 
     def _check(self, expr: sp.Expr, index: sp.Symbol | None) -> None:
+        if isinstance(expr, (sp.Symbol, sp.Indexed)):
+            self._check_symbol(expr, index)
+        elif isinstance(expr, sp.Sum):
+            self._check_sum(expr, index)
+        elif isinstance(expr, sp.Pow) and expr.base != sp.E:
+            self._check_power(expr, index)
+        elif isinstance(expr, (sp.Add, sp.Mul, sp.Pow, D, *FUNCTIONS)):
+            if isinstance(expr, D):
+                self._check_derivative(expr)
+            for part in expr.args[1:] if isinstance(expr, sp.Pow) else expr.args:
+                self._check(part, index)
+            if isinstance(expr, sp.log) and evaluated(expr.args[0]).is_nonpositive:
+                raise ClaimError(f"'{expr}' has no real value: the logarithm of what is never positive")
+        else:
+            self._check_number(expr)
+
+    def _check_symbol(self, expr: sp.Symbol | sp.Indexed, index: sp.Symbol | None) -> None:
         if isinstance(expr, sp.Symbol):
             if expr == index:
                 raise ClaimError(f"the index {index} stands as a number in a sum: use it as an index only")
             self._name(str(expr), expr)
-        elif isinstance(expr, sp.Indexed):
-            if index is None or expr.indices != (index,):
-                raise ClaimError(f"{expr} stands where no sum binds its index: sum over it, with one index")
-            self._name(str(expr.base.label), expr.base)
-        elif isinstance(expr, sp.Sum):
-            self._check_sum(expr, index)
-        elif isinstance(expr, sp.Pow) and expr.base == sp.E:
-            self._check(expr.exp, index)
-        elif isinstance(expr, sp.Pow):
-            power = evaluated(expr.exp)
-            if not sp.Mul(power, 2).is_Integer:
-                raise ClaimError(f"'{expr}' has no meaning in certificates: only whole and half powers have")
-            if abs(power) > LARGEST_POWER:
-                raise ClaimError(f"the power {power} is too large: certificates have powers up to {LARGEST_POWER}")
-            self._check(expr.base, index)
-            self._require_value(expr, power)
-        elif isinstance(expr, D):
-            self._check_derivative(expr)
-            self._check(expr.args[0], index)
-        elif isinstance(expr, (sp.Add, sp.Mul, *FUNCTIONS)):
-            for part in expr.args:
-                self._check(part, index)
-            if isinstance(expr, sp.log) and evaluated(expr.args[0]).is_nonpositive:
-                raise ClaimError(f"'{expr}' has no real value: the logarithm of what is never positive")
-        elif isinstance(expr, sp.Float):
+            return
+        if index is None or expr.indices != (index,):
+            raise ClaimError(f"{expr} stands where no sum binds its index: sum over it, with one index")
+        self._name(str(expr.base.label), expr.base)
+
+    def _check_power(self, expr: sp.Pow, index: sp.Symbol | None) -> None:
+        power = evaluated(expr.exp)
+        if not sp.Mul(power, 2).is_Integer:
+            raise ClaimError(f"'{expr}' has no meaning in certificates: only whole and half powers have")
+        if abs(power) > LARGEST_POWER:
+            raise ClaimError(f"the power {power} is too large: certificates have powers up to {LARGEST_POWER}")
+        self._check(expr.base, index)
+        self._require_value(expr, power)
+
+    @staticmethod
+    def _check_number(expr: sp.Expr) -> None:
+        if isinstance(expr, sp.Float):
             raise ClaimError(f"the number {expr} is not exact: write it as sympy.Rational or Fraction")
-        elif isinstance(expr, sp.Rational):
+        if isinstance(expr, sp.Rational):
             if max(abs(expr.p), expr.q) > LARGEST_NUMBER:
                 raise ClaimError("a number has more than 300 digits: choose other units or smaller powers")
         elif expr != sp.E:

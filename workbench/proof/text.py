@@ -80,7 +80,7 @@ def _product_text(expr: sp.Mul | sp.Rational) -> Written:
     for place, factor in enumerate(factors):
         if factor.is_Rational:
             size = abs(factor) if place == 0 else factor
-            alone = len(factors) == 1 or isinstance(factor, sp.Integer) and not (sign and size == 1 and place == 0)
+            alone = len(factors) == 1 or (isinstance(factor, sp.Integer) and not (sign and size == 1 and place == 0))
             if size.p != 1 or alone:
                 above.append(_held(sp.Integer(size.p), PRODUCT))
             if size.q != 1:

@@ -11,7 +11,7 @@ from types import FrameType
 AGAIN = 0.5  # seconds after which the interruption comes again, should a library have swallowed it
 
 
-class OutOfTime(BaseException):  # noqa: N818 - no error; deciders and libraries that catch every Exception let it pass
+class OutOfTime(BaseException):  # no Exception: deciders and libraries that catch every one let it pass
     """The time that was given is used up."""
 
 

@@ -139,7 +139,7 @@ def _ends(goal: Goal, way: Way, duration: sp.Symbol, time: sp.Symbol, seed: int,
 
 
 def _reached(goal: Goal, way: Way, point: Point, duration: sp.Symbol, time: sp.Symbol) -> dict[str, Any] | None:
-    """What a certificate says of constants, coefficients and a duration; None without a proof of what must always hold."""
+    """What a certificate says of constants, coefficients and a duration; None without a proof of what always holds."""
     chosen = {sp.Symbol(name): sp.Rational(v.numerator, v.denominator) for name, v in point.items()}
     values = {s: chosen[sp.Symbol(s.name)] for f in (*way.values(), *goal.symbols()) for s in f.free_symbols
               if isinstance(s, sp.Symbol) and sp.Symbol(s.name) in chosen}
