@@ -28,30 +28,28 @@ def text(expr: sp.Expr) -> str:
 
 
 def _written(expr: sp.Expr) -> Written:
-    if isinstance(expr, sp.Indexed):
+    if isinstance(expr, (sp.Indexed, sp.Symbol)):
         return name_of(expr), ATOM
-    if isinstance(expr, sp.Symbol):
-        return expr.name, ATOM
-    if isinstance(expr, sp.Integer):
-        return str(expr), ATOM if expr >= 0 else SUM
     if isinstance(expr, sp.Add):
         return _sum_text(expr), SUM
     if isinstance(expr, (sp.Mul, sp.Rational)):
-        return _product_text(expr)
+        return (str(expr), ATOM) if isinstance(expr, sp.Integer) and expr >= 0 else _product_text(expr)
     if isinstance(expr, sp.Pow) and expr.base != sp.E:
         return _power_text(expr)
+    return _function_text(expr), ATOM
+
+
+def _function_text(expr: sp.Expr) -> str:
     if isinstance(expr, sp.Sum):
-        return f"Sum({text(expr.function)})", ATOM
-    if expr == sp.E:
-        return "exp(1)", ATOM
-    if isinstance(expr, sp.Pow):  # of e
-        return f"exp({text(expr.exp)})", ATOM
+        return f"Sum({text(expr.function)})"
+    if expr == sp.E or isinstance(expr, sp.Pow):
+        return f"exp({text(expr.as_base_exp()[1])})"
     name = expr.func.__name__
     if name not in NAMES:
         known = ", ".join(dict.fromkeys(NAMES.values()))
         raise ClaimError(f"'{expr}' has no meaning in certificates: state the claim with {known}")
     arguments = sorted(map(text, expr.args)) if name in ("Max", "Min") else map(text, expr.args)
-    return f"{NAMES[name]}({', '.join(arguments)})", ATOM
+    return f"{NAMES[name]}({', '.join(arguments)})"
 
 
 def _held(expr: sp.Expr, least: int) -> str:
