@@ -7,7 +7,7 @@ import sys
 from pathlib import Path
 
 import pytest
-from scenarios import PROOFS, ROOT
+from scenarios import ROOT
 
 ROW_KEYS = {"controller", "position_error_min", "position_error_max", "speed_error_min", "speed_error_max",
             "position_rms", "speed_rms", "stopping_error", "energy_J", "jerk_rms", "saturated_fraction",
@@ -187,11 +187,13 @@ def test_a_broken_proof_file_is_one_line(tmp_path):
 
 
 def test_a_tampered_certificate_is_named(tmp_path):
-    folder = tmp_path / "yang2021"
-    folder.mkdir()
-    path = PROOFS / "yang2021" / "certificates" / "43.json"
-    (folder / "43.json").write_text(path.read_text())
-    assert run("check-certificates", folder).returncode == 0
-    (folder / "43.json").write_text(path.read_text().replace('"1/2"', '"1/3"'))
-    result = run("check-certificates", folder)
-    assert result.returncode == 1 and "43.json" in result.stderr
+    section = (ROOT / "README.md").read_text().partition("## State your own claim")[2].partition("\n## ")[0]
+    (code,) = re.findall(r"```python\n(.*?)```", section, re.DOTALL)
+    (tmp_path / "mine.py").write_text(code)
+    run("prove", "mine.py", folder=tmp_path)
+    result = run("check-certificates", "certificates", "--paper", "mine.py", folder=tmp_path)
+    assert result.returncode == 0 and "the goals of their papers' claims: 1" in result.stdout
+    (path,) = (p for p in (tmp_path / "certificates").rglob("*.json") if p.name != "manifest.json")
+    path.write_text(path.read_text().replace("proved", "refuted"))
+    result = run("check-certificates", "certificates", folder=tmp_path)
+    assert result.returncode == 1 and path.name in result.stderr

@@ -26,7 +26,7 @@ def decision(equation: str, paper: str = "doe2026", proved: bool = True) -> Deci
     certificate = {"claim": claim.id, "version": 1, "verdict": "proved",
                    "goal": {"assume": [], "show": ["0 < 1"]}, "example": {},
                    "proofs": [{"rule": "combination", "terms": [{"coefficient": "1", "factors": []}]}]}
-    return Decision(claim, "proved", "m", "exact", 0.0, certificate if proved else None)
+    return Decision(claim, "proved" if proved else "undecided", "m", "exact", 0.0, certificate if proved else None)
 
 
 def tree(folder: Path) -> dict[str, str]:
@@ -59,10 +59,11 @@ def test_whatever_is_accepted_is_one_plain_name(paper, equation):
 
 def test_certificates_of_gains_are_named_as_safely(tmp_path):
     for claim in ("../a:b", "a:../b", "a:manifest", "a:", "nothing"):
-        assert "cannot name a certificate" in refusal(write_gains, [{"claim": claim}], tmp_path / "c")
+        made = [{"claim": claim, "verdict": "proved"}]
+        assert "cannot name a certificate" in refusal(write_gains, made, tmp_path / "c")
     assert not any(tmp_path.iterdir())
-    refusal(write_gains, [{"claim": "a:b"}], tmp_path / "c" / "..", tmp_path / "c")
-    refusal(write_gains, [{"claim": "a:b"}], Path("/tmp/elsewhere"), tmp_path / "c")
+    refusal(write_gains, [{"claim": "a:b", "verdict": "proved", "goal": {}}], tmp_path / "c" / "..", tmp_path / "c")
+    refusal(write_gains, [{"claim": "a:b", "verdict": "proved", "goal": {}}], Path("/tmp/elsewhere"), tmp_path / "c")
 
 
 def test_what_a_paper_no_longer_states_is_dropped_and_nothing_else(tmp_path):
@@ -97,10 +98,13 @@ FORGED = {
 }
 
 
+@pytest.mark.parametrize("version", [1, 2])
 @pytest.mark.parametrize("certificates", FORGED.values(), ids=FORGED)
-def test_a_forged_manifest_deletes_nothing(certificates, tmp_path):
+def test_a_forged_manifest_deletes_nothing(certificates, version, tmp_path):
     folder = tmp_path / "doe2026"
-    manifest(folder, json.dumps({"version": 1, "paper": "doe2026", "certificates": certificates}))
+    listed = {name: {"verdict": "proved", "certificate": digest} for name, digest in certificates.items()}
+    manifest(folder, json.dumps({"version": 1, "paper": "doe2026", "certificates": certificates} if version == 1 else
+                                {"version": 2, "paper": "doe2026", "claims": listed}))
     for place in (tmp_path, folder):
         (place / "mine.json").write_text(MINE)
     write_certificates([decision("1")], Places(tmp_path))
@@ -109,6 +113,7 @@ def test_a_forged_manifest_deletes_nothing(certificates, tmp_path):
 
 @pytest.mark.parametrize("text", ["", "no JSON", "[]", "{}", '{"version": 2}', '{"name": "an app", "icons": []}',
                                   '{"version": 1, "paper": "doe2026", "certificates": []}', "[" * 100_000,
+                                  '{"version": 2, "paper": "doe2026", "claims": []}',
                                   '{"version": 1, "paper": "other2020", "certificates": {}}'])
 def test_a_manifest_that_is_not_ours_is_kept(text, tmp_path):
     manifest(tmp_path / "doe2026", text)
@@ -165,7 +170,7 @@ def test_a_link_leads_no_certificate_elsewhere(link, tmp_path):
     (other / "1.json").write_text(MINE)
     (paper / link).symlink_to(other)
     assert "link" in refusal(write_folder, paper / "certificates" / "gains" if "gains" in link else paper / link, paper,
-                             "doe2026", {"1": "x"}, None)
+                             "doe2026", {"1": ("undecided", None)}, True)
     assert tree(other) == {"1.json": MINE}
     if link == "certificates":
         assert "link" in refusal(check_places, [paper], None, {})

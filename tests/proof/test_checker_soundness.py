@@ -5,7 +5,7 @@ import json
 import pytest
 from verdicts import assert_refused
 
-from workbench.proof.checker import check, check_folder
+from workbench.proof.checker import check, check_file, check_folder
 
 IDENTITY = {"rule": "identity"}
 
@@ -283,7 +283,7 @@ def test_true_certificate_of_the_same_form_is_accepted(name):
 def test_a_key_that_stands_twice_is_refused(tmp_path):
     text = json.dumps(GENUINE["a square"]).replace('"show": [', '"show": ["x <= 0"], "show": [')
     (tmp_path / "twice.json").write_text(text)
-    (_, _, reason), = check_folder(tmp_path)
+    _, _, reason = check_file(tmp_path / "twice.json")
     assert reason == "a key stands twice in one object"
 
 

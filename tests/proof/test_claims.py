@@ -53,7 +53,7 @@ def test_committed_certificate_is_the_one_that_is_found_today(claim, decisions):
         assert decision.verdict in ("assumed", "undecided")
     else:
         assert decision.trust == "exact"
-        assert path.read_text(encoding="utf-8") == certificate_text(decision)
+        assert path.read_text(encoding="utf-8") == certificate_text(decision.certificate)
 
 
 def test_no_certificate_is_left_of_a_claim_that_is_no_longer_made(decisions):
@@ -62,12 +62,15 @@ def test_no_certificate_is_left_of_a_claim_that_is_no_longer_made(decisions):
 
 
 @pytest.mark.parametrize("paper", PAPERS)
-def test_the_manifest_names_what_stands_beside_it(paper):
+def test_the_manifest_names_all_claims_and_what_stands_beside_it(paper, decisions):
     folder = PROOFS / paper / CERTIFICATES
     manifest = json.loads((folder / MANIFEST).read_text(encoding="utf-8"))
     found = {path.stem: hashlib.sha256(path.read_bytes()).hexdigest() for path in folder.glob("*.json")}
     del found[Path(MANIFEST).stem]
-    assert manifest == {"version": 1, "paper": paper, "certificates": found}
+    assert (manifest["version"], manifest["paper"]) == (2, paper)
+    assert {name: entry["certificate"] for name, entry in manifest["claims"].items() if entry["certificate"]} == found
+    assert {name: entry["verdict"] for name, entry in manifest["claims"].items()} == {
+        d.claim.equation: d.verdict for d in decisions.values() if d.claim.paper == paper}
 
 
 def test_document_has_the_stable_keys(decisions):

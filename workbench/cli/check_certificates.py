@@ -1,4 +1,4 @@
-"""`workbench check-certificates`: re-check what was proved."""
+"""`workbench check-certificates`: re-check what was proved, and that it is what the paper's claims state."""
 
 from __future__ import annotations
 
@@ -8,21 +8,49 @@ from typing import Annotated
 import typer
 
 from workbench.cli.terminal import err_console, out_console
-from workbench.errors import WorkbenchError
-from workbench.proof.checker import check_folder
+from workbench.errors import InputError, WorkbenchError
+from workbench.proof.checker import Row, check_file, check_folder
 
 NAME = "check-certificates"
 
 
-def command(folder: Annotated[Path, typer.Argument(help="Folder with certificates in it or below it")]) -> None:
-    """Re-check certificates with checker.py alone; exit 0 when all hold, 1 when one does not."""
-    results = check_folder(folder)
-    if not results:
+def command(folder: Annotated[Path, typer.Argument(help="Folder with certificates in it or below it, or one file")],
+            paper: Annotated[list[Path] | None, typer.Option(
+                help="A paper's folder or proof file whose claims the certificates must be of; a folder of "
+                     "certificates in its paper's own is held against it without.")] = None,
+            claim_digest: Annotated[str | None, typer.Option(
+                help="For one file: the goal digest of the claim that it must be of.")] = None) -> None:
+    """Re-check certificates with checker.py, and hold them against their manifest and, where it is at hand, the paper
+    whose claims they are of; exit 0 when all hold, 1 when one does not."""
+    if folder.is_file():
+        rows, bound = [check_file(folder, None, claim_digest)], "the digest given" if claim_digest else None
+    elif claim_digest is not None:
+        raise InputError("--claim-digest", "", f"is for one certificate's file, and {folder} is none: leave it out")
+    else:
+        rows, bound = _folder(folder, paper or [])
+    if not rows:
         raise WorkbenchError(f"{folder}: holds no certificate (*.json): run 'workbench prove' first")
-    for path, verdict, reason in results:
+    wrong = {path for path, _, reason in rows if reason is not None}
+    for path, verdict, reason in rows:
         if reason is not None:
             err_console.print(f"[red]{path}: {verdict}: INVALID: {reason}[/red]", soft_wrap=True)
-    wrong = sum(reason is not None for _, _, reason in results)
-    out_console.print(f"{len(results) - wrong} of {len(results)} certificates hold")
+    files = {path for path, _, _ in rows}
+    out_console.print(f"{len(files) - len(wrong)} of {len(files)} certificates hold; held against "
+                      f"{bound or 'no claim'}", soft_wrap=True)
     if wrong:
         raise typer.Exit(1)
+
+
+def _folder(folder: Path, named: list[Path]) -> tuple[list[Row], str]:
+    """The rows of a folder, and what its certificates were held against."""
+    from workbench.proof.binding import check_claims, papers_at_hand
+
+    rows = check_folder(folder)
+    bound = 0
+    for place, path in papers_at_hand(folder, named).items():
+        found, count = check_claims(place, path)
+        rows, bound = rows + found, bound + count
+    others = len({path for path, _, _ in rows}) - bound
+    whole = f"the goals of their papers' claims: {bound}" if bound else ""
+    alone = f"their manifest alone, for no claims are at hand: {others}" if others > 0 else ""
+    return rows, ", ".join(part for part in (whole, alone) if part)

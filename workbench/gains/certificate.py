@@ -7,7 +7,6 @@ numbers, add up to a negative number whatever the unknowns are.
 
 from __future__ import annotations
 
-import json
 from collections.abc import Iterable, Mapping
 from fractions import Fraction
 from pathlib import Path
@@ -25,6 +24,7 @@ from workbench.proof.decide.engine import prove_goal
 from workbench.proof.decide.refute import find_example
 from workbench.proof.document import write_folder
 from workbench.proof.text import goal_text, relation_text, text
+from workbench.proof.verdict import Verdict
 
 # (number of the region's inequality or -1, positive coefficient, root as exponents -> coefficient) of a square.
 Proof = list[tuple[int, Fraction, dict[Exponents, Fraction]]]
@@ -154,19 +154,14 @@ def _form(matrix: Matrix, point: tuple[Fraction, ...]) -> Fraction:
                Fraction(0))
 
 
-def certificate_text(certificate: Certificate) -> str:
-    """The certificate as readable text with fixed bytes."""
-    return json.dumps(certificate, indent=1, sort_keys=True, ensure_ascii=False) + "\n"
-
-
 def write_certificates(certificates: Iterable[Certificate], folder: Path, within: Path | None = None) -> None:
     """Write each as <name>.json into a folder, with a manifest; InputError where that cannot be.
 
     within: the folder that was asked for, which no link may lead out of; by default the folder itself.
     """
-    papers: dict[str, dict[str, str]] = {}
+    papers: dict[str, dict[str, tuple[Verdict, Certificate | None]]] = {}
     for certificate in certificates:
         paper, _, name = str(certificate["claim"]).partition(":")
-        papers.setdefault(paper, {})[name] = certificate_text(certificate)
-    for paper, written in papers.items():
-        write_folder(folder, within or folder, paper, written, None)
+        papers.setdefault(paper, {})[name] = (certificate["verdict"], certificate)
+    for paper, rows in papers.items():
+        write_folder(folder, within or folder, paper, rows, True)

@@ -1,7 +1,7 @@
 """Decisions kept between runs, as JSON in the user's cache: by claim, and all those of a proof file together.
 
 An entry is two lines: the sha256 of the second, and the content. One that is cut off, changed or of another shape is
-no entry. Certificates are not checked here.
+no entry, and so is a decision without a certificate of its claim and verdict. Certificates are not checked here.
 """
 
 from __future__ import annotations
@@ -18,6 +18,7 @@ from workbench.errors import ClaimError
 from workbench.files.cache_folder import cache_folder, drop, keep
 from workbench.files.regular import contents
 from workbench.files.text import digest_read
+from workbench.proof.checker import UNDECIDED
 from workbench.proof.dependencies import changed_since, digest
 from workbench.proof.engine_digest import engine_digest
 from workbench.proof.verdict import Decision, Stated
@@ -97,7 +98,12 @@ def _record(decision: Decision) -> dict[str, Any]:
 def _decision(record: dict[str, Any]) -> Decision:
     claim = record["claim"]
     stated = Stated(**claim | {"premises": tuple(claim["premises"]), "rests_on": tuple(claim["rests_on"])})
-    return Decision(**record | {"claim": stated})
+    found, certificate = Decision(**record | {"claim": stated}), record["certificate"]
+    carries = (found.verdict in UNDECIDED if certificate is None
+               else (certificate["claim"], certificate["verdict"]) == (stated.id, found.verdict))
+    if not carries:
+        raise ValueError("a decision without what its verdict must carry")
+    return found
 
 
 def _file_content(record: dict[str, Any]) -> dict[str, Any]:

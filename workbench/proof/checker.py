@@ -5,9 +5,9 @@ A certificate states a goal: for all real values of its symbols, the relations i
 any number n of indexed symbols, also none, formally) and D(...) (derivative along `flow`, which maps symbols to rates).
 `proved` carries a proof, `refuted`/`violated`/`gap` a point (or functions of time) where the goal fails.
 
-D holds symbols without a rate constant. Only the rule `nonincreasing` and models follow the flow through time:
-`always` holds at every instant from time zero on, `initial` names values at time zero, `assume` and `show` speak
-of one later instant, and symbols that rates mention without having a rate are inputs, which may vary.
+D holds symbols without a rate constant; of `inputs`, which may vary without a known rate, it is not taken. Only the
+rule `nonincreasing`, paths and models follow the flow through time: `always` holds at every instant from time zero on,
+`initial` names values at time zero, and `assume` and `show` speak of one later instant.
 
 What must be believed: this file, and the facts named in `fact`: log x <= x - 1 (x > 0), exp x >= 1 + x,
 exp x > 0; abs(x)**2 = x**2, abs(x) >= 0; sqrt(x)**2 = x, sqrt(x) >= 0 (x >= 0), sqrt(x) > 0 (x > 0); a function
@@ -27,6 +27,7 @@ from fractions import Fraction
 from pathlib import Path
 from typing import Any
 
+MOST_TERMS = 16  # of the sums at a point
 SUM = "Sum()"  # the formal sum over the index: a product SUM * term means the sum of the terms
 FLIP = {"<=": ">=", "<": ">"}
 OPERATORS = ("<=", ">=", "==", "!=", "<", ">")
@@ -34,7 +35,11 @@ FUNCTIONS = ("log", "exp", "tanh", "abs", "sign", "sqrt")
 NAME = re.compile(r"[A-Za-z_][A-Za-z0-9_]*")  # no atom of this file looks like that
 EXPRESSION = re.compile(r"[A-Za-z0-9_ +*/(),-]*")
 RATIONAL = re.compile(r"-?[0-9]+(/[0-9]+)?")
-MOST_PRODUCTS, MOST_BITS, LARGEST_EXPONENT = 20_000, 200_000, 10_000  # more is refused, not computed
+DIGEST = re.compile(r"[0-9a-f]{64}")
+EQUATION = re.compile(r"[A-Za-z0-9][A-Za-z0-9._+-]*")
+# More is refused, not computed.
+MOST_WORK, MOST_PRODUCTS, MOST_BITS, MOST_TEXT, MOST_DEPTH = 10_000_000, 20_000, 20_000, 100_000, 100
+LARGEST_EXPONENT = 10_000
 
 Monomial = tuple[tuple[str, int], ...]
 Poly = dict[Monomial, Fraction]
@@ -43,6 +48,29 @@ Sign = tuple["Ratio", str]  # a value and what is known of it: > 0, >= 0, == 0 o
 
 class CertificateError(Exception):
     """The certificate does not establish its verdict; says why."""
+
+
+class Work:
+    """What checking one certificate has cost: products of terms, weighed by the length of their numbers, and looks at
+    terms. Outside of `check` nothing is counted."""
+
+    spent, depth, counts = 0, 0, False
+
+
+def spend(units: int) -> None:
+    """Count work; CertificateError where a certificate costs more than any that is honest."""
+    if Work.counts:
+        Work.spent += units
+        if Work.spent > MOST_WORK:
+            raise CertificateError(f"takes more than {MOST_WORK} steps of work: state it in smaller steps")
+
+
+def bits_of(poly: Poly) -> int:
+    """The length of the longest coefficient; CertificateError where it is longer than any that is honest."""
+    longest = max((c.numerator.bit_length() + c.denominator.bit_length() for c in poly.values()), default=0)
+    if longest > MOST_BITS:
+        raise CertificateError(f"a number has more than {MOST_BITS} bits")
+    return longest
 
 
 # --- polynomials and rational functions over atoms --------------------------------------------------------
@@ -55,6 +83,7 @@ def constant(value: Fraction | int) -> Poly:
 
 def add(a: Poly, b: Poly, scale: Fraction | int = 1) -> Poly:
     """a + scale * b."""
+    spend(len(a) + len(b))
     total = dict(a)
     for monomial, coefficient in b.items():
         value = total.get(monomial, Fraction(0)) + scale * coefficient
@@ -77,6 +106,7 @@ def multiply(a: Poly, b: Poly) -> Poly:
     """The product a * b."""
     if len(a) * len(b) > MOST_PRODUCTS:
         raise CertificateError("an expression is too large to be expanded")
+    spend(len(a) * len(b) * (1 + (bits_of(a) + bits_of(b)) // 256))
     total: Poly = {}
     for m1, c1 in a.items():
         for m2, c2 in b.items():
@@ -99,6 +129,7 @@ def divide_exactly(a: Poly, b: Poly) -> Poly | None:
     quotient: Poly = {}
     rest = dict(a)
     while rest:
+        spend(len(rest) * (1 + len(atoms) // 4))
         top = max(rest, key=order)
         step = times_monomial(top, tuple((x, -n) for x, n in lead))
         if any(n < 0 for _, n in step):
@@ -170,6 +201,7 @@ def same(a: Ratio, b: Ratio) -> bool:
 
 def atoms_of(value: Ratio) -> set[str]:
     """The atoms in numerator and denominator."""
+    spend(1 + len(value.num) // 4)
     return {atom for m in (*value.num, *value.den) for atom, _ in m}
 
 
@@ -178,6 +210,9 @@ def atoms_of(value: Ratio) -> set[str]:
 
 def parse(text: str) -> ast.expr:
     """The syntax tree of an expression; nothing is evaluated."""
+    if len(text) > MOST_TEXT:
+        raise CertificateError(f"an expression is longer than {MOST_TEXT} characters")
+    spend(1 + len(text) // 4)
     if not EXPRESSION.fullmatch(text):
         raise CertificateError(f"'{text[:80]}' is not an expression of the certificate language")
     try:
@@ -189,9 +224,9 @@ def parse(text: str) -> ast.expr:
 class Context:
     """Reads expressions of one goal into Ratios; log and exp of an argument become atoms."""
 
-    def __init__(self, flow: dict[str, str], indexed: list[str]) -> None:
+    def __init__(self, flow: dict[str, str], indexed: list[str], inputs: list[str] | None = None) -> None:
         self.functions: dict[str, tuple[str, Ratio]] = {}
-        self.indexed, self.rates = set(indexed), flow
+        self.indexed, self.rates, self.inputs = set(indexed), flow, set(inputs or [])
         self.flow: dict[str, Ratio] = {}
         if any(calls(rate, "D") for rate in flow.values()):
             raise CertificateError("a rate is given by a derivative")
@@ -262,8 +297,7 @@ class Context:
         result = number(1)
         for _ in range(abs(int(value))):
             result = result * base
-            if any(c.numerator.bit_length() + c.denominator.bit_length() > MOST_BITS for c in result.num.values()):
-                raise CertificateError("a power is too large to be expanded")
+            bits_of(result.num)
         return result if value >= 0 else result.inverse()
 
     def call(self, name: str, argument: Ratio) -> Ratio:
@@ -271,6 +305,10 @@ class Context:
         if name == "Sum":
             return self._of_one_index(argument) * symbol(SUM)
         if name == "D":
+            if unknown := symbols_of(self, argument) & self.inputs:
+                raise CertificateError(f"a derivative of the input {min(unknown)} is not taken: its rate is not known")
+            if not symbols_of(self, argument) & self.flow.keys():
+                raise CertificateError("a derivative of what has no rate: state that its rate is 0 if it is constant")
             return self.derivative(argument, self.flow)
         if name not in FUNCTIONS:
             raise CertificateError(f"unknown function '{name}'")
@@ -356,6 +394,7 @@ class Context:
     def _poly_derivative(self, poly: Poly, flow: dict[str, Ratio]) -> Ratio:
         total = number(0)
         for monomial, coefficient in poly.items():
+            spend(1 + len(monomial))
             for atom, power in monomial:
                 rate = self._rate(atom, flow)
                 if not rate.is_zero():
@@ -377,13 +416,9 @@ class Context:
         rates = self.rates.values() if calls(text, "D") else ()
         return [place for part in (text, *rates) for place in partial_operations(part)]
 
-    def inputs(self) -> set[str]:
-        """Symbols that rates mention without having a rate themselves: they may vary in time."""
-        return set().union(*(symbols_of(self, rate) for rate in self.flow.values())) - self.flow.keys() - {SUM}
-
     def moving(self) -> set[str]:
         """Symbols that may change along the flow."""
-        return self.inputs() | {name for name, rate in self.flow.items() if not rate.is_zero()}
+        return self.inputs | {name for name, rate in self.flow.items() if not rate.is_zero()}
 
 
 # --- signs -------------------------------------------------------------------------------------------------
@@ -560,8 +595,14 @@ def prove(value: Ratio, operator: str, given: Relations, proof: dict[str, Any]) 
     rules = {"identity": _identity, "combination": _combination, "cut": _cut, "cases": _cases,
              "contradiction": _contradiction, "monotone": _monotone, "nonincreasing": _nonincreasing}
     if proof.get("rule") not in rules:
-        raise CertificateError(f"unknown rule '{proof.get('rule')}'")
-    rules[proof["rule"]](value, operator, given, proof)
+        raise CertificateError(f"unknown rule '{str(proof.get('rule'))[:40]}'")
+    if Work.depth >= MOST_DEPTH:
+        raise CertificateError(f"a proof in more than {MOST_DEPTH} proofs")
+    Work.depth += 1
+    try:
+        rules[proof["rule"]](value, operator, given, proof)
+    finally:
+        Work.depth -= 1
 
 
 def _identity(value: Ratio, operator: str, given: Relations, proof: dict[str, Any]) -> None:
@@ -636,7 +677,7 @@ def _nonincreasing(value: Ratio, operator: str, given: Relations, proof: dict[st
     for text in (*context.rates.values(), proof["function"]):
         along.require_defined(text)
     function = context.read(proof["function"])
-    if symbols_of(context, function) & context.inputs():
+    if symbols_of(context, function) & context.inputs:
         raise CertificateError("the function mentions an input, whose rate is not known")
     prove(-context.derivative(function, context.flow), ">=", along, proof["decrease"])
     drop = substitute(context, function, given.initial) + -function
@@ -742,6 +783,7 @@ def substitute(context: Context, value: Ratio, point: dict[str, Ratio], done: di
     def poly(p: Poly) -> Ratio:
         total = number(0)
         for monomial, coefficient in p.items():
+            spend(1 + len(monomial))
             product = number(coefficient)
             for atom, power in monomial:
                 if atom in context.functions and atom not in known:
@@ -770,6 +812,8 @@ def exp_bounds(x: Fraction) -> tuple[Fraction, Fraction]:
         return 1 / high, 1 / low
     if x > LARGEST_EXPONENT:
         raise CertificateError("exp of a number that is too large to be computed")
+    if (ends := _short(x)) != (x, x):
+        return exp_bounds(ends[0])[0], exp_bounds(ends[1])[1]
     halvings = 0
     while x > Fraction(1, 2):
         x, halvings = x / 2, halvings + 1
@@ -788,17 +832,24 @@ def log_bounds(x: Fraction) -> tuple[Fraction, Fraction]:
     """Rational bounds of log(x), x > 0, by 2 atanh((x-1)/(x+1)) after scaling by powers of 2."""
     if x <= 0:
         raise CertificateError("log of a number that is not positive")
-    doublings = 0
+    doublings = x.numerator.bit_length() - x.denominator.bit_length()
+    x = x / 2**doublings if doublings >= 0 else x * 2**-doublings
     while x > Fraction(3, 2):
         x, doublings = x / 2, doublings + 1
     while x < Fraction(3, 4):
         x, doublings = x * 2, doublings - 1
-    low, high = _atanh_bounds((x - 1) / (x + 1))
+    (low, _), (_, high) = (_atanh_bounds((y - 1) / (y + 1)) for y in _short(x))
     if doublings:
         two_low, two_high = _atanh_bounds(Fraction(1, 3))
         low += doublings * (two_low if doublings > 0 else two_high)
         high += doublings * (two_high if doublings > 0 else two_low)
     return 2 * low, 2 * high
+
+
+def _short(x: Fraction) -> tuple[Fraction, Fraction]:
+    """Bounds of x in few digits; x itself where it has few."""
+    few = x.numerator.bit_length() + x.denominator.bit_length() <= 600
+    return (x, x) if few else (_round(x, -1), _round(x, 1))
 
 
 def _atanh_bounds(z: Fraction) -> tuple[Fraction, Fraction]:
@@ -838,8 +889,23 @@ def sign_bounds(x: Fraction, y: Fraction) -> tuple[Fraction, Fraction]:
     return Fraction((x > 0) - (x < 0)), Fraction((y > 0) - (y < 0))
 
 
-def bounds(context: Context, value: Ratio) -> tuple[Fraction, Fraction]:
-    """Rational bounds of a value without free symbols (n = 1 for sums)."""
+def bounds(context: Context, value: Ratio,
+           known: dict[str, tuple[Fraction, Fraction]] | None = None) -> tuple[Fraction, Fraction]:
+    """Rational bounds of a value without free symbols (n = 1 for sums); `known` are functions bounded already."""
+    known = {} if known is None else known
+
+    def function_bounds(atom: str) -> tuple[Fraction, Fraction]:
+        if atom not in known:
+            kind, argument = context.functions[atom]
+            x, y = bounds(context, argument, known)
+            if kind == "abs":
+                known[atom] = abs_bounds(x, y)
+            elif kind == "sign":
+                known[atom] = sign_bounds(x, y)
+            else:
+                function = {"log": log_bounds, "exp": exp_bounds, "sqrt": sqrt_bounds}[kind]
+                known[atom] = function(x)[0], function(y)[1]
+        return known[atom]
 
     def poly(p: Poly) -> tuple[Fraction, Fraction]:
         low = high = Fraction(0)
@@ -850,19 +916,12 @@ def bounds(context: Context, value: Ratio) -> tuple[Fraction, Fraction]:
                     continue
                 if atom not in context.functions:
                     raise CertificateError(f"symbol '{atom}' has no value at the point")
-                kind, argument = context.functions[atom]
-                x, y = bounds(context, argument)
-                match kind:
-                    case "abs":
-                        inner = abs_bounds(x, y)
-                    case "sign":
-                        inner = sign_bounds(x, y)
-                    case _:
-                        function = {"log": log_bounds, "exp": exp_bounds, "sqrt": sqrt_bounds}[kind]
-                        inner = function(x)[0], function(y)[1]
+                inner = function_bounds(atom)
+                spend(power)
                 for _ in range(power):
                     corners = [p * q for p in (a, b) for q in inner]
                     a, b = min(corners), max(corners)
+                    spend((bits_of(constant(a)) + bits_of(constant(b))) // 256)
             low, high = low + a, high + b
         return low, high
 
@@ -873,14 +932,46 @@ def bounds(context: Context, value: Ratio) -> tuple[Fraction, Fraction]:
     return min(corners), max(corners)
 
 
-def holds(context: Context, text: str, point: dict[str, Ratio]) -> bool:
-    """Whether a relation holds at a point; an error where it is undefined or the enclosure cannot tell."""
+Terms = list[dict[str, Ratio]]  # the indexed symbols' values in each term of the sums
+
+
+def at(context: Context, value: Ratio, point: dict[str, Ratio], terms: Terms | None) -> Ratio:
+    """The value at a point, with every formal sum added up over the terms; without them a sum has one term."""
+    if terms is None:
+        return substitute(context, value, point)
+    known = dict(point)
+    for atom in atoms_of(value) & context.functions.keys():
+        kind, argument = context.functions[atom]
+        if SUM in symbols_of(context, argument):
+            known[atom] = context.call(kind, at(context, argument, point, terms))
+    inside = {tuple(f for f in m if f[0] != SUM): c for m, c in value.num.items() if (SUM, 1) in m}
+    outside = Ratio({m: c for m, c in value.num.items() if (SUM, 1) not in m}, value.den)
+    if any(found & context.indexed and SUM not in found
+           for found in (symbols_of(context, symbol(atom)) for atom in atoms_of(outside))):
+        raise CertificateError("a sum is not told apart from what stands beside it")
+    total = substitute(context, outside, known)
+    for row in terms if inside else ():
+        total = total + substitute(context, Ratio(inside, value.den), known | row)
+    return total
+
+
+def require_defined_at(context: Context, text: str, point: dict[str, Ratio], terms: Terms | None = None) -> None:
+    """CertificateError unless an expression or relation is defined at a point, in every term of its sums."""
     for part, wanted in context.partial_operations(text):
-        low, high = bounds(context, substitute(context, context.node(part), point))
-        if not (low > 0 or (wanted == "non-zero" and high < 0) or (wanted == "non-negative" and low == 0)):
-            raise CertificateError(f"undefined at the point: {ast.unparse(part)}")
+        value = context.node(part)
+        each = terms is not None and symbols_of(context, value) & context.indexed
+        for here in [at(context, value, point, terms)] if not each else [
+                substitute(context, value, point | row) for row in terms or []]:
+            low, high = bounds(context, here)
+            if not (low > 0 or (wanted == "non-zero" and high < 0) or (wanted == "non-negative" and low == 0)):
+                raise CertificateError(f"undefined at the point: {ast.unparse(part)}")
+
+
+def holds(context: Context, text: str, point: dict[str, Ratio], terms: Terms | None = None) -> bool:
+    """Whether a relation holds at a point; an error where it is undefined or the enclosure cannot tell."""
+    require_defined_at(context, text, point, terms)
     value, operator = margin(context, text)
-    low, high = bounds(context, substitute(context, value, point))
+    low, high = bounds(context, at(context, value, point, terms))
     verdict = {">": (low > 0, high <= 0), ">=": (low >= 0, high < 0),
                "==": (low == high == 0, low > 0 or high < 0), "!=": (low > 0 or high < 0, low == high == 0)}
     true, false = verdict[operator]
@@ -894,15 +985,17 @@ def holds(context: Context, text: str, point: dict[str, Ratio]) -> bool:
 
 def read_goal(goal: dict[str, Any]) -> tuple[Context, Relations]:
     """The goal's context and its assumptions; every part must have the expected shape."""
-    lists, maps = ("assume", "show", "always", "indexed"), ("flow", "initial")
+    lists, maps = ("assume", "show", "always", "indexed", "inputs"), ("flow", "initial")
     if not goal.keys() <= {*lists, *maps, "eventually"}:
         raise CertificateError(f"a goal has no {', '.join(sorted(goal.keys() - {*lists, *maps, 'eventually'}))}")
     values = [goal.get(key, []) for key in lists] + [list(goal.get(key, {}).values()) for key in maps]
     if not all(isinstance(value, list) and all(isinstance(text, str) for text in value) for value in values):
         raise CertificateError("the parts of a goal are lists and maps of texts")
-    for name in (*goal.get("indexed", []), *goal.get("flow", {}), *goal.get("initial", {})):
+    for name in (*goal.get("indexed", []), *goal.get("inputs", []), *goal.get("flow", {}), *goal.get("initial", {})):
         read_name(name)
-    context = Context(goal.get("flow", {}), goal.get("indexed", []))
+    context = Context(goal.get("flow", {}), goal.get("indexed", []), goal.get("inputs", []))
+    if context.inputs & (context.indexed | context.flow.keys()):
+        raise CertificateError("an input has neither an index nor a rate")
     given = Relations(context, goal.get("assume", []))
     given.always = goal.get("always", [])
     for name, text in goal.get("initial", {}).items():
@@ -917,19 +1010,48 @@ def check_proved(goal: dict[str, Any], certificate: dict[str, Any]) -> None:
     """A proof of every relation in `show`, and a point that meets all assumptions (nothing from nothing)."""
     if goal.get("eventually"):
         raise CertificateError("a claim of some later time is proved by naming that time")
+    if all(_says_nothing(text) for text in goal["show"]):
+        raise CertificateError("trivial: both sides of every relation shown are the same text")
     context, given = read_goal(goal)
-    point = read_point(certificate["example"])
-    for text in (*goal.get("assume", []), *goal.get("always", [])):
-        if not holds(context, text, point):
-            raise CertificateError(f"the example breaks the assumption {text}")
-    for name, value in given.initial.items():
-        if context.flow[name].is_zero() and any(bounds(context, substitute(context, value + -symbol(name), point))):
-            raise CertificateError(f"the example breaks the initial value of {name}, which never changes")
+    _check_example(goal, context, given, certificate)
     if not goal["show"] or len(goal["show"]) != len(certificate["proofs"]):
         raise CertificateError("one proof is needed for every relation shown")
     for text, proof in zip(goal["show"], certificate["proofs"], strict=True):
         given.require_defined(text)
         prove(*margin(context, text), given, proof)
+
+
+def _says_nothing(text: str) -> bool:
+    """Whether a relation says of a text that it is itself."""
+    left, operator, right = split_relation(text)
+    return operator in ("==", "<=", ">=") and ast.dump(parse(left)) == ast.dump(parse(right))
+
+
+def _check_example(goal: dict[str, Any], context: Context, given: Relations, certificate: dict[str, Any]) -> None:
+    """An instant of a motion that meets all that is assumed, so that nothing is proved from nothing.
+
+    Where the goal names initial values, the point is time zero and meets them, or a path leads to it from them.
+    """
+    point = read_point(certificate["example"])
+    for text in (*goal.get("assume", []), *given.always):
+        if not holds(context, text, point):
+            raise CertificateError(f"the example breaks the assumption {text}")
+    for rate in context.rates.values():
+        require_defined_at(context, rate, point)
+    if "path" in certificate:
+        _check_reached(context, given, point, certificate)
+        return
+    for name, value in given.initial.items():
+        if not same(point[name], substitute(context, value, point)):
+            raise CertificateError(f"the example is no instant of a motion: {name} is not where it starts, and no path "
+                                   "leads there")
+    for text in given.always if given.initial else ():
+        value, operator = margin(context, text)
+        if operator != ">=" or symbols_of(context, value) & context.inputs:  # an input may turn the motion back
+            continue
+        if bounds(context, substitute(context, value, point)) == (0, 0) and bounds(
+                context, substitute(context, context.derivative(value, context.flow), point))[1] < 0:
+            raise CertificateError(f"the example's motion breaks at once what always holds: {text}")
 
 
 def check_false(goal: dict[str, Any], certificate: dict[str, Any]) -> None:
@@ -941,16 +1063,19 @@ def check_false(goal: dict[str, Any], certificate: dict[str, Any]) -> None:
         raise CertificateError("a point says nothing of later times")
     context, given = read_goal(goal)
     point = read_point(certificate["point"])
+    terms = read_terms(certificate["terms"], context, point) if "terms" in certificate else None
     for text in (*goal.get("assume", []), *goal.get("always", [])):
-        if not holds(context, text, point):
+        if not holds(context, text, point, terms):
             raise CertificateError(f"the point breaks the assumption {text}")
+    if terms is not None and given.initial:
+        raise CertificateError("of sums with several terms only one instant is known")
     if "path" in certificate:
         _check_reached(context, given, point, certificate)
     else:
         for name, value in given.initial.items():  # a point alone can only be the first of all instants
             if not same(point[name], substitute(context, value, point)):
                 raise CertificateError(f"nothing says that the flow reaches the point: {name} is not where it starts")
-    outcomes = [holds(context, text, point) for text in goal["show"]]  # all of them: each must be defined
+    outcomes = [holds(context, text, point, terms) for text in goal["show"]]  # all of them: each must be defined
     if all(outcomes):
         raise CertificateError("the goal holds at the point")
 
@@ -961,7 +1086,7 @@ def _check_reached(context: Context, given: Relations, point: dict[str, Ratio], 
     path = {name: context.read(text) for name, text in certificate["path"].items()}
     if given.initial.keys() != context.flow.keys() or context.indexed or time in point or duration < 0:
         raise CertificateError("a point is reached by a flow whose initial values are known, in a time of its own name")
-    moving, inputs = context.moving(), context.inputs()
+    moving, inputs = context.moving(), context.inputs
     if not moving - inputs <= path.keys() <= moving or any(symbols_of(context, f) - {time} for f in path.values()):
         raise CertificateError("the path must give all that moves, and nothing but inputs beside, as functions of time")
     later, line = Relations(context, [f"{time} >= 0"]), point | path
@@ -990,8 +1115,8 @@ def _check_model(goal: dict[str, Any], certificate: dict[str, Any]) -> None:
     functions = {name: context.read(text) for name, text in certificate["functions"].items()}
     if goal["flow"].get(time) != "1" or functions.keys() != rates.keys() or len(goal["show"]) != 1:
         raise CertificateError("the model must give every moving symbol as a function of time")
-    if len({time, *rates, *rates.values()}) != 1 + 2 * len(rates) or not all(map(NAME.fullmatch, rates.values())):
-        raise CertificateError("the model needs flows whose rates are free, each its own")
+    if len({time, *rates, *rates.values()}) != 1 + 2 * len(rates) or not set(rates.values()) <= context.inputs:
+        raise CertificateError("the model needs flows whose rates are inputs, each its own")
     if point.keys() & {time, *rates, *rates.values()} or context.indexed:
         raise CertificateError("the point names constants only")
     later = Relations(context, [f"{time} >= 0"])
@@ -1037,70 +1162,173 @@ def read_rational(text: Any) -> Fraction:
     return Fraction(text)
 
 
+def read_terms(terms: list[dict[str, Any]], context: Context, point: dict[str, Ratio]) -> Terms:
+    """The values of all indexed symbols, and of no others, in each term of the sums; none is an empty sum."""
+    found = [read_point(term) for term in terms]
+    if len(found) > MOST_TERMS or any(row.keys() != context.indexed for row in found) or point.keys() & context.indexed:
+        raise CertificateError(f"the terms of the sums give all indexed symbols and nothing else, at most {MOST_TERMS}")
+    return found
+
+
 def read_point(point: dict[str, Any]) -> dict[str, Ratio]:
     """Rational values 'p/q' of symbols."""
     return {read_name(name): number(read_rational(text)) for name, text in point.items()}
 
 
 CHECKS = {"proved": check_proved, "refuted": check_false, "violated": check_false, "gap": check_false}
+UNDECIDED = ("assumed", "undecided")  # verdicts without a certificate
 
 
 def check(certificate: dict[str, Any]) -> None:
     """Raise CertificateError, with the reason, unless the certificate establishes its verdict."""
+    Work.spent, Work.depth, Work.counts = 0, 0, True
     try:
         verdict, goal = certificate["verdict"], certificate["goal"]
-        if certificate.get("version") != 1 or verdict not in CHECKS:
+        if certificate.get("version") not in (1, 2) or verdict not in CHECKS:
             raise CertificateError(f"version {certificate.get('version')}, {verdict}: not for this checker")
+        if certificate["version"] == 2 or "goal_digest" in certificate:
+            _require_digest(certificate)
         CHECKS[verdict](goal, certificate)
         for name in ("correction", "repair"):
             if name in certificate:
                 check_proved(certificate[name]["goal"], certificate[name])
     except (KeyError, TypeError, ValueError, IndexError, AttributeError, ArithmeticError, RecursionError,
             MemoryError) as trouble:
-        raise CertificateError(f"malformed: {type(trouble).__name__} {trouble}") from None
+        raise CertificateError(f"malformed: {type(trouble).__name__} {str(trouble)[:200]}") from None
+    finally:
+        Work.counts = False
+
+
+# --- which claim a certificate is for ----------------------------------------------------------------------
+
+
+def digest_of(stated: dict[str, Any]) -> str:
+    """The sha256 of a statement's canonical JSON: keys sorted, no spaces, ASCII."""
+    text = json.dumps(stated, sort_keys=True, separators=(",", ":"), ensure_ascii=True, allow_nan=False)
+    return hashlib.sha256(text.encode()).hexdigest()
+
+
+def goal_digest(certificate: dict[str, Any]) -> str:
+    """The digest of what a certificate is for: claim, verdict and goal; of a violated condition its numbers too, and
+    the goals of a correction or a repair."""
+    stated = {name: certificate[name] for name in ("claim", "verdict", "goal")}
+    if stated["verdict"] == "violated":
+        stated["point"] = certificate["point"]
+    stated |= {name: certificate[name]["goal"] for name in ("correction", "repair") if name in certificate}
+    return digest_of(stated)
+
+
+def _require_digest(certificate: dict[str, Any]) -> str:
+    """The digest that a certificate names; CertificateError where it is not that of its goal."""
+    if "goal_digest" not in certificate:
+        raise CertificateError("names no goal_digest: it is bound to no claim")
+    if certificate["goal_digest"] != goal_digest(certificate):
+        raise CertificateError("its goal_digest is not that of its claim, verdict and goal")
+    return str(certificate["goal_digest"])
 
 
 MANIFEST = "manifest.json"
 LARGEST = 64 * 2**20
+Row = tuple[Path, str, "str | None"]
 
 
-def check_folder(folder: Path) -> list[tuple[Path, str, str | None]]:
-    """(file, verdict, reason it is invalid or None) for every certificate below a folder: <equation>.json in a folder
-    whose manifest.json says of which paper they are and which there are, or else in a folder named like the paper."""
-    results: list[tuple[Path, str, str | None]] = []
-    named = {path.parent: _manifest(path) for path in sorted(folder.rglob(MANIFEST))}
-    for place, (_, digests) in named.items():
-        for name in sorted(digests):
-            if not (place / f"{name}.json").is_file():
-                results.append((place / f"{name}.json", "?", f"{MANIFEST} names it, and it is missing"))
-        if not digests:
-            results.append((place / MANIFEST, "?", "names no certificate"))
-    for path in sorted(path for path in folder.rglob("*.json") if path.name != MANIFEST):
-        verdict = "?"
+def check_folder(folder: Path) -> list[Row]:
+    """(file, verdict, reason it is invalid or None) for every certificate below a folder.
+
+    A manifest.json beside them says of which paper they are, which claims that paper states, and for each its verdict,
+    the digest of its goal and that of its certificate. What is missing, extra, swapped or renamed is invalid, and so is
+    a certificate without a manifest: whatever it proves, nobody says of which claim.
+    """
+    results: list[Row] = []
+    manifests = {path.parent: path for path in sorted(folder.rglob(MANIFEST))}
+    stated: dict[Path, Manifest] = {}
+    for place, path in manifests.items():
         try:
-            text = _text(path)
-            certificate = json.loads(text, object_pairs_hook=_unique)
-            verdict = str(certificate.get("verdict")) if isinstance(certificate, dict) else "?"
-            paper, digests = named.get(path.parent, (path.resolve().parent.name, {}))
-            if path.parent in named and digests.get(path.stem) != hashlib.sha256(text.encode()).hexdigest():
-                raise CertificateError(f"{MANIFEST} names " + (
-                    "another content for it" if path.stem in digests else "no such certificate"))
-            if certificate.get("claim") != f"{paper}:{path.stem}":
-                raise CertificateError(f"the certificate of {certificate.get('claim')} under another claim's name")
-            check(certificate)
-            results.append((path, verdict, None))
-        except (CertificateError, ValueError, AttributeError, RecursionError, OSError) as trouble:
-            results.append((path, verdict, str(trouble)))
+            stated[place] = read_manifest(path)
+        except CertificateError as trouble:
+            results.append((path, "?", str(trouble)))
+            continue
+        for name, entry in stated[place].claims.items():
+            if entry["certificate"] is not None and not (place / f"{name}.json").is_file():
+                results.append((place / f"{name}.json", entry["verdict"], f"{MANIFEST} names it, and it is missing"))
+        if all(entry["certificate"] is None for entry in stated[place].claims.values()):
+            results.append((path, "?", "names no certificate"))
+    for path in sorted(path for path in folder.rglob("*.json") if path.name != MANIFEST):
+        results.append(check_file(path, stated.get(path.parent)))
     return results
 
 
-def _manifest(path: Path) -> tuple[str, dict[str, str]]:
-    """The paper and the digests of its certificates by their names; of a damaged manifest none."""
+def check_file(path: Path, manifest: Manifest | None = None, digest: str | None = None) -> Row:
+    """The same for one file, held against its manifest or the digest of its claim's goal; without both it is invalid,
+    whatever it proves."""
+    verdict = "?"
     try:
-        found = json.loads(_text(path), object_pairs_hook=_unique)
-        return str(found["paper"]), {str(name): str(digest) for name, digest in found["certificates"].items()}
-    except (CertificateError, ValueError, KeyError, TypeError, AttributeError, RecursionError, OSError):
-        return "", {}
+        text = _text(path)
+        certificate = _json(text)
+        if not isinstance(certificate, dict):
+            raise CertificateError("is no certificate")
+        verdict = str(certificate.get("verdict"))[:20]
+        if manifest is not None:
+            _require_named(certificate, hashlib.sha256(text.encode()).hexdigest(), path.stem, manifest)
+        elif digest is not None and _require_digest(certificate) != digest:
+            raise CertificateError("is of another goal than the one whose digest is given")
+        check(certificate)
+        if manifest is None and digest is None:
+            raise CertificateError(f"holds, bound to no claim: no readable {MANIFEST} stands beside it")
+    except (CertificateError, ValueError, KeyError, TypeError, AttributeError, RecursionError, OSError) as trouble:
+        return path, verdict, str(trouble)
+    return path, verdict, None
+
+
+def _require_named(certificate: dict[str, Any], digest: str, name: str, manifest: Manifest) -> None:
+    """CertificateError unless a certificate is the one that the manifest states under this name."""
+    entry = manifest.claims.get(name)
+    if entry is None or entry["certificate"] is None:
+        raise CertificateError(f"{MANIFEST} names no such certificate")
+    if certificate.get("claim") != f"{manifest.paper}:{name}":
+        raise CertificateError(f"the certificate of {str(certificate.get('claim'))[:80]} under another claim's name")
+    if certificate.get("verdict") != entry["verdict"] or _require_digest(certificate) != entry["goal_digest"]:
+        raise CertificateError(f"is of another goal or verdict than {MANIFEST} states for this claim")
+    if entry["certificate"] != digest:
+        raise CertificateError(f"{MANIFEST} names another content for it")
+
+
+class Manifest:
+    """What a paper's claims are: verdict, goal_digest and certificate (its sha256) of each, by its number."""
+
+    def __init__(self, paper: str, claims: dict[str, dict[str, Any]]) -> None:
+        self.paper, self.claims = paper, claims
+
+
+def read_manifest(path: Path) -> Manifest:
+    """A manifest read and found whole; CertificateError where it is not."""
+    try:
+        found = _json(_text(path))
+        if found["version"] != 2:
+            raise CertificateError(f"version {str(found['version'])[:20]} binds no certificate to its claim's goal: "
+                                   "run 'workbench prove' (of gains 'workbench gains') again")
+        paper, claims = found["paper"], found["claims"]
+        if found.keys() != {"version", "paper", "claims"} or not isinstance(paper, str) or not claims:
+            raise CertificateError("is no manifest of certificates")
+        for name, entry in claims.items():
+            whole = entry.keys() == {"verdict", "goal_digest", "certificate"} and (
+                DIGEST.fullmatch(entry["goal_digest"]) and DIGEST.fullmatch(entry["certificate"])
+                if entry["verdict"] in CHECKS else
+                entry["verdict"] in UNDECIDED and entry["goal_digest"] is None and entry["certificate"] is None)
+            if not whole or not EQUATION.fullmatch(name):
+                raise CertificateError(f"claim {name[:80]}: verdict, goal_digest and certificate do not go together")
+    except (ValueError, KeyError, TypeError, AttributeError, RecursionError, OSError):
+        raise CertificateError("is no manifest of certificates") from None
+    return Manifest(paper, claims)
+
+
+def _json(text: str) -> Any:
+    """JSON in which no key stands twice and every number is finite and whole."""
+    return json.loads(text, object_pairs_hook=_unique, parse_constant=_no_number, parse_float=_no_number)
+
+
+def _no_number(text: str) -> Any:
+    raise CertificateError(f"the number {text[:40]} is not exact: certificates have whole numbers, and texts 'p/q'")
 
 
 def _text(path: Path) -> str:
@@ -1121,10 +1349,17 @@ def _unique(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
     return dict(pairs)
 
 
+USAGE = "usage: checker.py FOLDER | checker.py FILE --claim-digest SHA256\n"
+
+
 def main() -> int:
-    """Check the folder named on the command line; 0 when all certificates hold, 1 when not, 2 when none."""
-    folder = Path(sys.argv[1]) if len(sys.argv) == 2 else Path()
-    results = check_folder(folder)
+    """Check what the command line names; 0 when all certificates hold, 1 when not, 2 when there is none."""
+    place, *option = sys.argv[1:] or ["."]
+    if option and not (len(option) == 2 and option[0] == "--claim-digest" and Path(place).is_file()):
+        sys.stderr.write(USAGE)
+        return 2
+    path = Path(place)
+    results = [check_file(path, None, option[1] if option else None)] if path.is_file() else check_folder(path)
     for path, verdict, reason in results:
         sys.stdout.write(f"{'ok     ' if reason is None else 'INVALID'} {verdict:9s} {path}"
                          f"{': ' + reason if reason else ''}\n")

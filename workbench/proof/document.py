@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 import os
-from collections.abc import Collection, Iterable, Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -13,7 +13,8 @@ from workbench.errors import InputError
 from workbench.files.outputs import check_outputs
 from workbench.files.own_files import MANIFEST, read_manifest, replace_files, sha256
 from workbench.files.writing import require_inside
-from workbench.proof.verdict import FATES, VERDICTS, Decision, Stated, is_equation, is_paper_name
+from workbench.proof.checker import goal_digest
+from workbench.proof.verdict import FATES, VERDICTS, Decision, Stated, Verdict, is_equation, is_paper_name
 
 if TYPE_CHECKING:
     from workbench.proof.prove import Proof
@@ -73,42 +74,45 @@ def check_places(papers: Iterable[Path], chosen: Path | None, others: Mapping[st
                 raise InputError(other or "", option, f"lies among the certificates in {folder}: name another place")
 
 
-def certificate_text(decision: Decision) -> str:
-    """The certificate as readable text with fixed bytes."""
-    return json.dumps(decision.certificate, indent=1, sort_keys=True, ensure_ascii=False) + "\n"
+def certificate_text(certificate: Mapping[str, Any]) -> str:
+    """A certificate with the digest of its claim's goal, as readable text with fixed bytes."""
+    bound = {**certificate, "version": 2, "goal_digest": goal_digest(dict(certificate))}
+    return json.dumps(bound, indent=1, sort_keys=True, ensure_ascii=False) + "\n"
 
 
 def write_certificates(decisions: Sequence[Decision], where: Places, whole_papers: bool = True) -> None:
-    """Write every certificate into the folder of its paper, with a manifest that names them and their digests.
+    """Write every certificate into the folder of its paper, with a manifest of all claims that were decided.
 
     What the manifest of an earlier call names is dropped where it is no longer made: of these claims, and where the
     decisions are of whole papers, of claims that these no longer state. No other file is ever deleted.
     Raises InputError where nothing can be written.
     """
     for paper in dict.fromkeys(d.claim.paper for d in decisions):
-        own = [d for d in decisions if d.claim.paper == paper]
-        written = {d.claim.equation: certificate_text(d) for d in own if d.certificate}
-        write_folder(where.folder(paper), where.root(paper), paper, written,
-                     None if whole_papers else {d.claim.equation for d in own})
+        rows = {d.claim.equation: (d.verdict, d.certificate) for d in decisions if d.claim.paper == paper}
+        write_folder(where.folder(paper), where.root(paper), paper, rows, whole_papers)
 
 
-def write_folder(folder: Path, within: Path, paper: str, written: Mapping[str, str],
-                 decided: Collection[str] | None) -> None:
-    """Write certificates by their equations into a folder, and its manifest.
+def write_folder(folder: Path, within: Path, paper: str, rows: Mapping[str, tuple[Verdict, Mapping[str, Any] | None]],
+                 whole: bool) -> None:
+    """Write the certificates of claims, by their equations, into a folder, and its manifest: for every claim its
+    verdict, the digest of its goal and that of its certificate, null where it has none.
 
-    within: the folder that was asked for, which no link may lead out of; decided: the equations of which an older file
-    may be dropped, None for all that the manifest names. Raises InputError where nothing can be written, or a file of
-    someone else's is in the way.
+    within: the folder that was asked for, which no link may lead out of; whole: whether claims that the manifest names
+    and that are not among these are dropped. Raises InputError where nothing can be written, or a file of someone
+    else's is in the way.
     """
-    for name in written:
+    for name in rows:
         if not is_paper_name(paper) or not is_equation(name):
             raise InputError(folder, f"{paper}:{name}", "cannot name a certificate: use letters, digits and '_' for "
                              "the paper, and '.', '+', '-' too for the claim")
-    before = _named(folder, paper)
-    stale = {name for name in before if name not in written and (decided is None or name in decided)}
-    digests = {name: digest for name, digest in before.items() if name not in stale}
-    digests |= {name: sha256(text) for name, text in written.items()}
-    manifest = {"version": 1, "paper": paper, "certificates": dict(sorted(digests.items()))}
+    before, kept = _named(folder, paper)
+    written = {name: certificate_text(found) for name, (_, found) in rows.items() if found}
+    entries = {} if whole else dict(kept)
+    entries |= {name: {"verdict": verdict, "goal_digest": goal_digest(dict(found)) if found else None,
+                       "certificate": sha256(written[name]) if found else None}
+                for name, (verdict, found) in rows.items()}
+    stale = {name for name in before if name not in written and (whole or name in rows)}
+    manifest = {"version": 2, "paper": paper, "claims": dict(sorted(entries.items()))}
     replace_files(folder, within, json.dumps(manifest, indent=1, ensure_ascii=False) + "\n",
                   {f"{name}.json": text for name, text in written.items()},
                   {f"{name}.json": digest for name, digest in before.items()},
@@ -116,18 +120,25 @@ def write_folder(folder: Path, within: Path, paper: str, written: Mapping[str, s
                   lambda name, data: _claim_of(data) == f"{paper}:{name.removesuffix('.json')}", ANOTHER_FOLDER)
 
 
-def _named(folder: Path, paper: str) -> dict[str, str]:
-    """What the manifest in a folder names, by equation; InputError where it is not this paper's."""
+def _named(folder: Path, paper: str) -> tuple[dict[str, str], dict[str, Any]]:
+    """Digests of the certificates that the manifest in a folder names, by equation, and its entries of claims.
+
+    One of version 1 names certificates alone. InputError where it is not this paper's.
+    """
     found = read_manifest(folder, ANOTHER_FOLDER)
     if found is None:
-        return {}
-    certificates = found.get("certificates")
-    if found.get("version") != 1 or not isinstance(certificates, dict):
+        return {}, {}
+    listed = found.get("claims") if found.get("version") == 2 else (
+        found.get("certificates") if found.get("version") == 1 else None)
+    if not isinstance(listed, dict):
         raise InputError(folder / MANIFEST, "", f"is no manifest of certificates: move it away, or {ANOTHER_FOLDER}")
     if found.get("paper") != paper:
         raise InputError(folder / MANIFEST, "", f"names the certificates of {str(found.get('paper'))[:60]!r}, not of "
                          f"{paper!r}: remove that folder, or {ANOTHER_FOLDER}")
-    return {name: digest for name, digest in certificates.items() if is_equation(name) and isinstance(digest, str)}
+    entries = {name: entry for name, entry in listed.items() if is_equation(name) and isinstance(entry, dict)}
+    digests = {name: entry.get("certificate") if isinstance(entry, dict) else entry for name, entry in listed.items()}
+    return ({name: digest for name, digest in digests.items() if is_equation(name) and isinstance(digest, str)},
+            entries)
 
 
 def _claim_of(data: bytes) -> str | None:

@@ -7,8 +7,9 @@ from functools import cache
 from pathlib import Path
 
 from workbench.errors import InputError, WorkbenchError
+from workbench.proof.binding import is_of
 from workbench.proof.cache import Kept, kept
-from workbench.proof.checker import CertificateError, check
+from workbench.proof.checker import CertificateError, check, goal_digest
 from workbench.proof.claim import Claim
 from workbench.proof.decide.engine import decide
 from workbench.proof.dependencies import watch
@@ -16,14 +17,16 @@ from workbench.proof.fingerprint import fingerprint
 from workbench.proof.loading import ProofFile
 from workbench.proof.messages import Decided, Listing
 from workbench.proof.paper import papers_in
+from workbench.proof.time_limit import OutOfTime, at_most_seconds
 from workbench.proof.verdict import Decision, Stated
 
 
 class Worker:
     """Lists and decides the claims of proof files, each file imported once."""
 
-    def __init__(self, cached: Kept | None) -> None:
+    def __init__(self, cached: Kept | None, limit: float | None = None) -> None:
         watch()
+        self.limit = limit
         # Deciders that were changed while this process imported them are nobody's: nothing is kept of them.
         self.cached = cached if cached is None or kept() == cached else None
         self.files: dict[Path, ProofFile] = {}
@@ -34,19 +37,30 @@ class Worker:
         return Listing(len(papers), tuple(_stated(c) for paper in papers for c in paper.claims), self._reads(path))
 
     def decided(self, path: Path, claim_id: str) -> Decided:
-        """One claim of the file decided; raises InputError, naming file and claim, when it cannot be."""
+        """One claim of the file decided, or why it states nothing that could be.
+
+        Raises InputError when the file cannot be imported.
+        """
         claim = next(c for paper in papers_in(self._file(path)) for c in paper.claims if c.id == claim_id)
         try:
-            with self._file(path).at_home():
+            with self._file(path).at_home(), at_most_seconds(self.limit):
                 decision, now = self._decision(claim)
+        except OutOfTime:
+            late = f"not decided within {self.limit:g} seconds: allow more with --limit, or state it in smaller steps"
+            return self._without_verdict(path, claim, late, None)
         except WorkbenchError as trouble:
             named = "" if claim_id in str(trouble) else f"claim {claim_id}: "
-            raise InputError(path, "", f"{named}{trouble}") from None
+            return self._without_verdict(path, claim, "misstated", str(InputError(path, "", f"{named}{trouble}")))
         except Exception as trouble:
             what = " ".join(f"{type(trouble).__name__}: {trouble}".split())
-            raise InputError(path, "", f"claim {claim_id}: the deciders fail on it ({what}): "
-                                       "state it in another form, in smaller steps if it is long") from trouble
+            fails = InputError(path, "", f"claim {claim_id}: the deciders fail on it ({what}): "
+                                         "state it in another form, in smaller steps if it is long")
+            return self._without_verdict(path, claim, "misstated", str(fails))
         return Decided(replace(decision, claim=_stated(claim)), now, self._reads(path))
+
+    def _without_verdict(self, path: Path, claim: Claim, method: str, misstated: str | None) -> Decided:
+        return Decided(Decision(_stated(claim), "undecided", method, None, 0.0), True, self._reads(path), misstated,
+                       lasting=False)
 
     def _decision(self, claim: Claim) -> tuple[Decision, bool]:
         # Each goal is made once, although the fingerprint needs it too.
@@ -56,7 +70,7 @@ class Worker:
         if self.cached is None or key is None:
             return decide(claim), True
         found = self.cached.claim(key)
-        if found is not None and _holds(found, claim.id):
+        if found is not None and _holds(found, claim):
             return found, False
         decision = decide(claim)
         self.cached.keep_claim(key, replace(decision, claim=_stated(claim)))
@@ -69,16 +83,16 @@ class Worker:
         return self._file(path).reads(self.cached.folder) if self.cached else frozenset()
 
 
-def _holds(decision: Decision, claim_id: str) -> bool:
-    """Whether a decision from the cache is of that claim and carries what its verdict must carry."""
+def _holds(decision: Decision, claim: Claim) -> bool:
+    """Whether a decision from the cache is of that claim and its goal, and carries what its verdict must carry."""
     certificate = decision.certificate
     if certificate is None:
         return decision.verdict == "undecided"
     try:
         check(certificate)
-    except CertificateError:
+        return certificate["verdict"] == decision.verdict and is_of(goal_digest(certificate), claim, decision.verdict)
+    except (CertificateError, KeyError, TypeError):
         return False
-    return bool(certificate["verdict"] == decision.verdict and certificate.get("claim") == claim_id)
 
 
 def _stated(claim: Claim) -> Stated:

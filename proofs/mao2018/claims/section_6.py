@@ -163,7 +163,7 @@ def lambda_not_negative() -> Goal:
     """-lambda_hat does not increase."""
     drift = sp.Symbol("lambda_hat_dot", real=True)
     return Goal((at_least(lambda_hat, 0),), (), {t: sp.Integer(1), lambda_hat: drift}, (at_least(drift, 0),),
-                {t: sp.Integer(0), lambda_hat: lambda_start}, decreasing=-lambda_hat)
+                {t: sp.Integer(0), lambda_hat: lambda_start}, decreasing=-lambda_hat, inputs=(drift,))
 
 
 given_57 = (*filippov, *bounded_by_unknown, at_least(m * k_v, rho_0))

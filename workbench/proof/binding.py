@@ -1,0 +1,121 @@
+"""Whether a certificate is of its claim: the digest of the claim's goal, made again from the claim alone."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+from workbench.errors import InputError, WorkbenchError
+from workbench.files.folders import papers_in as folders_in
+from workbench.proof.building import built
+from workbench.proof.checker import MANIFEST, CertificateError, Manifest, Row, digest_of, read_manifest
+from workbench.proof.claim import Claim, Goal, Verdict, name_of
+from workbench.proof.decide.engine import pinned
+from workbench.proof.document import CERTIFICATES
+from workbench.proof.loading import ProofFile
+from workbench.proof.paper import Paper, papers_in
+from workbench.proof.selection import files_of, states_claims, targets
+from workbench.proof.text import goal_text
+
+
+def stated_digest(claim: Claim, verdict: Verdict) -> str | None:
+    """The goal digest that a certificate of the claim with this verdict must have; None where it has no certificate.
+
+    Raises ClaimError where the claim's goal cannot be made.
+    """
+    if claim.build is None or verdict not in ("proved", "refuted", "violated", "gap"):
+        return None
+    goal = built(claim, claim.build)
+    return digest_of({"claim": claim.id, "verdict": verdict, **_parts(claim, goal, verdict)})
+
+
+def _parts(claim: Claim, goal: Goal, verdict: Verdict) -> dict[str, Any]:
+    """What beside name and verdict a certificate of the claim states, as the deciders state it."""
+    if verdict == "proved":
+        return {"goal": goal_text(goal if claim.at is None else pinned(goal, claim.at))}
+    parts: dict[str, Any] = {"goal": goal_text(goal)}
+    if verdict == "violated":
+        parts["point"] = {name_of(s): str(value) for s, value in (claim.at or {}).items()}
+        if claim.repair is not None:
+            parts["repair"] = goal_text(pinned(goal, claim.repair))
+    elif claim.correction is not None:
+        parts["correction"] = goal_text(built(claim, claim.correction, "correction"))
+    return parts
+
+
+def is_of(certificate_digest: str, claim: Claim, verdict: Verdict) -> bool:
+    """Whether a goal digest is the one of this claim; not so where the claim's goal cannot be made."""
+    try:
+        return stated_digest(claim, verdict) == certificate_digest
+    except WorkbenchError:
+        return False
+
+
+def papers_at_hand(folder: Path, named: Sequence[Path] = ()) -> dict[Path, Path]:
+    """By each folder of certificates the paper's folder, or the proof file, that states its claims.
+
+    The papers that are the folder, lie in it or have it as theirs are found by themselves; `named` are others, whose
+    certificates lie anywhere below the folder. Raises InputError for one that is named and has none there.
+    """
+    here = folder.resolve()
+    places = {place for place in (here, here.parent, *folders_in(here)) if states_claims(place)}
+    found = {place / CERTIFICATES: place for place in sorted(places) if (place / CERTIFICATES).is_relative_to(here)}
+    manifests = _manifests(folder)
+    for path in files_of(targets([str(p) for p in named])) if named else ():
+        names = [paper.name for paper in _papers(path)]
+        found |= {place: path for place, manifest in manifests.items() if manifest.paper in names and
+                  not (place.parent in manifests and manifests[place.parent].paper == manifest.paper)}
+        if not set(names) & {manifest.paper for manifest in manifests.values()}:
+            raise InputError(path, "", f"is of no paper whose certificates lie in {folder}: name theirs")
+    return found
+
+
+def _manifests(folder: Path) -> dict[Path, Manifest]:
+    found: dict[Path, Manifest] = {}
+    for path in sorted(folder.rglob(MANIFEST)):
+        try:
+            found[path.parent.resolve()] = read_manifest(path)
+        except CertificateError:  # said where the certificates themselves are checked
+            continue
+    return found
+
+
+def _papers(path: Path) -> list[Paper]:
+    return papers_in(ProofFile(path))
+
+
+def check_claims(place: Path, path: Path) -> tuple[list[Row], int]:
+    """Hold the manifest in a folder of certificates against the claims of its paper: a row for whatever differs, and
+    how many certificates are of the goals of their claims. Raises InputError where the paper cannot be imported."""
+    file = ProofFile(path)
+    try:
+        manifest = read_manifest(place / MANIFEST)
+    except CertificateError as trouble:
+        return [(place / MANIFEST, "?", f"{trouble} (the claims of {path} need one)")], 0
+    claims = {claim.equation: claim for paper in papers_in(file) if paper.name == manifest.paper
+              for claim in paper.claims}
+    rows: list[Row] = [(place / f"{name}.json", str(entry["verdict"]), f"{path} states no such claim")
+                       for name, entry in manifest.claims.items() if name not in claims]
+    bound = 0
+    with file.at_home():
+        for name, claim in claims.items():
+            entry = manifest.claims.get(name)
+            reason = _difference(claim, entry)
+            if reason is not None:
+                rows.append((place / f"{name}.json", str(entry["verdict"]) if entry else "?", reason))
+            bound += entry is not None and reason is None and entry["certificate"] is not None
+    return rows, bound
+
+
+def _difference(claim: Claim, entry: dict[str, Any] | None) -> str | None:
+    """What a manifest says other than the claim; None where they agree."""
+    if entry is None:
+        return f"{MANIFEST} does not name this claim of the paper: run 'workbench prove' again"
+    if entry["verdict"] != claim.recorded:
+        return f"the paper records {claim.recorded!r}, {MANIFEST} says {entry['verdict']!r}"
+    try:
+        stated = stated_digest(claim, claim.recorded)
+    except WorkbenchError as trouble:
+        return f"the claim's goal cannot be made: {trouble}"
+    return None if stated == entry["goal_digest"] else "is of another goal than the one that the paper's claim states"
