@@ -9,7 +9,7 @@ import sympy as sp
 from workbench.proof.claim import D, Goal, Relation, at_least, at_most, equal, less
 
 from ..active_mode import chi_d, d, delta_0, lambda_0, m, nu_failed, nu_s_sum, rho_0, rho_k0, signal_of
-from ..counterexamples import already, failing
+from ..counterexamples import already, at_instant, failing
 from ..error_dynamics import (
     ACTIVE_MODE,
     ALL_SIGNALS,
@@ -133,7 +133,8 @@ SUMS = "delta is the sum over the failed motors of delta_j, delta_0 that of delt
                   "reasons of 45 alone. " + SUMS)
 def v2_bound_unparameterized() -> Goal:
     """D(V_2) of (40) along (7), (8), (17) with (27)-(31), (37), (41), (44), (48)-(50)."""
-    return failing(_bound_51(mended=False))
+    return at_instant(failing(_bound_51(mended=False)), {
+        delta: sp.Integer(0), delta_0: sp.Integer(1), rho_k0: sp.Integer(15)})
 
 
 @paper.claim("51.mended", "V_2 does not increase with unparameterizable failures, laws and weights mended", "inequality",
