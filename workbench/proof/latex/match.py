@@ -37,7 +37,7 @@ def match(printed: str, notation: Mapping[str, sp.Expr], goal: Goal) -> Match:
     moved between them. In a chain `a = b <= c` equal sides stand for each other.
     """
     try:
-        line = read_line(printed)
+        goal, line = goal.evaluated(), read_line(printed)
         stated = statement(line, Converter(Notation(notation), limits_of(goal)))
         return _compared(stated.claimed, stated.conditions, goal)
     except ProseError as trouble:
