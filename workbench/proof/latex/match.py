@@ -40,7 +40,7 @@ def match(printed: str, notation: Mapping[str, sp.Expr], goal: Goal) -> Match:
     try:
         if {piece.kind for piece in scan(printed)} == {"text"}:
             return Match(False, "the line is words alone: it is read by a person", words=True)
-        line = read_line(printed)
+        goal, line = goal.evaluated(), read_line(printed)
         stated = statement(line, Converter(Notation(notation), limits_of(goal)))
         return _compared(stated.claimed, stated.conditions, goal)
     except ProseError as trouble:
