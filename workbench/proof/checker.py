@@ -37,7 +37,7 @@ RATIONAL = re.compile(r"-?[0-9]+(/[0-9]+)?")
 DIGEST = re.compile(r"[0-9a-f]{64}")
 EQUATION = re.compile(r"[A-Za-z0-9][A-Za-z0-9._+-]*")
 # More is refused, not computed.
-MOST_WORK, MOST_PRODUCTS, MOST_BITS, MOST_TEXT, MOST_DEPTH = 10_000_000, 20_000, 20_000, 100_000, 100
+MOST_WORK, MOST_PRODUCTS, MOST_BITS, MOST_TEXT, MOST_DEPTH = 2_000_000, 20_000, 20_000, 100_000, 100
 LARGEST_EXPONENT = 10_000
 
 Monomial = tuple[tuple[str, int], ...]
@@ -143,6 +143,7 @@ class Ratio:
     """A rational function: numerator and non-zero denominator polynomial over atoms."""
 
     def __init__(self, num: Poly, den: Poly | None = None) -> None:
+        spend(4 + len(num) + (len(den) if den is not None else 0))
         self.num, self.den = num, den if den is not None else constant(1)
         if not self.den:
             raise CertificateError("division by zero")
@@ -848,9 +849,11 @@ def log_bounds(x: Fraction) -> tuple[Fraction, Fraction]:
 
 
 def _short(x: Fraction) -> tuple[Fraction, Fraction]:
-    """Bounds of x in few digits; x itself where it has few."""
-    few = x.numerator.bit_length() + x.denominator.bit_length() <= 600
-    return (x, x) if few else (_round(x, -1), _round(x, 1))
+    """Bounds of x in few digits below its point; x itself where it has few."""
+    if x.numerator.bit_length() + x.denominator.bit_length() <= 600:
+        return x, x
+    whole = x.numerator * 10**60 // x.denominator
+    return Fraction(whole, 10**60), Fraction(whole + 1, 10**60)
 
 
 def _atanh_bounds(z: Fraction) -> tuple[Fraction, Fraction]:
