@@ -85,7 +85,7 @@ def tracking_bound(name: str, which: str, found: Found, values: Values) -> dict[
     bound = at_most(total, 2 * share(which, values) * seen + 2 * found.values[GAIN] * pushed)
     return goal_certificate(f"chen2019:{name}", Goal(
         (bound,), flow=flow, initial=dict.fromkeys(flow, sp.Integer(0)), decreasing=2 * storage - bound.margin,
-        lemmas=(at_least(storage, 0),)))
+        lemmas=(at_least(storage, 0),), inputs=(delta_u,)))
 
 
 def share(which: str, values: Values) -> sp.Expr:

@@ -19,7 +19,8 @@ def integrated(rates: dict[sp.Expr, sp.Expr], bound: Relation, always: tuple[Rel
     begin = dict.fromkeys(rates, sp.S.Zero) | (start or {}) | {c: c for c in constant}
     signs = tuple(greater(c, 0) for c in constant if c.is_positive)
     return Goal((bound,), signs, rates | dict.fromkeys(constant, sp.S.Zero), always, begin,
-                decreasing=-bound.margin if decreasing is None else decreasing)
+                decreasing=-bound.margin if decreasing is None else decreasing,
+                inputs=tuple(sorted({s for rate in rates.values() for s in rate.free_symbols} - {*rates, *constant}, key=str)))
 
 
 i_axis, J_i, y_i = sp.symbols("i J y", real=True)  # the iteration, an integral of it, a value of it
@@ -32,4 +33,4 @@ def along_iterations(shown: Relation, always: tuple[Relation, ...], model: dict[
     first = {x: sp.Symbol(f"{x}_0", real=True) for x in model}
     at_first = {first[x]: value.xreplace({i_axis: sp.S.Zero} | constants) for x, value in model.items()}
     return Goal((shown,), (), {i_axis: sp.Integer(1), **rates}, always, {i_axis: sp.S.Zero, **first}, eventually=i_axis,
-                model=model | constants | at_first)
+                model=model | constants | at_first, inputs=tuple(rates.values()))

@@ -67,6 +67,6 @@ def leakage_certificates() -> list[dict[str, Any]]:
     w, offset = sp.symbols("w l", real=True)
     bounded = Goal((at_most(V_t, offset / mu + (V_0 - offset / mu) * sp.exp(-mu * t)),), (),
                    {t: sp.Integer(1), V_t: w}, (at_most(w, -mu * V_t + offset), at_least(t, 0)),
-                   {t: sp.Integer(0), V_t: V_0}, decreasing=sp.exp(mu * t) * (V_t - offset / mu))
+                   {t: sp.Integer(0), V_t: V_0}, decreasing=sp.exp(mu * t) * (V_t - offset / mu), inputs=(w,))
     return [goal_certificate(f"mao2018:leakage.{name}", goal)
             for name, goal in (("rate", rate), ("decay", decayed), ("bounded", bounded))]

@@ -73,7 +73,7 @@ def steady_state_error(show: Relation, compensation: sp.Expr, constants: Flow, *
     used = {symbol for relation in (show, *assume, *always) for side in (relation.left, relation.right)
             for symbol in side.free_symbols}
     return Goal((show,), (at_most(s, 1), at_least(s, -1), at_least(m * k_v, rho_0), *assume), {t: one, **dots}, always,
-                eventually=t, model={**{x: value for x, value in fixed.items() if x in used}, **motion})
+                eventually=t, model={**{x: value for x, value in fixed.items() if x in used}, **motion}, inputs=tuple(dots.values()))
 
 
 STEADY_STATE_ERROR = (

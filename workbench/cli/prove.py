@@ -6,6 +6,7 @@ from pathlib import Path
 from typing import Annotated
 
 import typer
+from rich.markup import escape
 
 from workbench.cli.options import JsonFile
 from workbench.cli.terminal import claim_card, claims_table, err_console, out_console, progress, verdict_lines
@@ -21,8 +22,14 @@ def command(paths: Annotated[list[str] | None, typer.Argument(
                 help="Where certificates go; default: 'certificates' in each paper's folder, or beside a proof "
                      "file.")] = None,
             jobs: Annotated[int | None, typer.Option(min=1, help="Processes; default: one a core.")] = None,
-            cache: Annotated[bool, typer.Option(help="Take what has not changed from the cache.")] = True) -> None:
-    """Decide every claim; exit 0 when each verdict is the recorded one, 1 when one differs, 2 on bad input."""
+            cache: Annotated[bool, typer.Option(help="Take what has not changed from the cache.")] = True,
+            limit: Annotated[float, typer.Option(
+                min=0.1, help="Seconds of processor time for one claim; one that takes longer stays undecided.")] = 60.0,
+            ) -> None:
+    """Decide every claim; exit 0 when each verdict is the recorded one, 1 when one differs, 2 on bad input.
+
+    A claim that states nothing that could be decided is bad input; the others are decided all the same.
+    """
     from workbench.files.json_output import write_json
     from workbench.files.outputs import check_outputs
     from workbench.proof.document import check_places, claims_document, places, write_certificates
@@ -33,7 +40,7 @@ def command(paths: Annotated[list[str] | None, typer.Argument(
     check_outputs({"--json": json}, [file for target in found for file in target.inputs()])
     check_places([file for target in found for file in target.files], certificates, {"--json": json})
     with progress() as show:
-        proof = run_prove(found, jobs, cache, lambda done, total: show("claims", done, total))
+        proof = run_prove(found, jobs, cache, lambda done, total: show("claims", done, total), limit)
     single = any(target.pattern is not None for target in found)
     where = places(proof, certificates)
     write_certificates(proof.decisions, where, whole_papers=not single)
@@ -48,5 +55,9 @@ def command(paths: Annotated[list[str] | None, typer.Argument(
     differing = [d for d in proof.decisions if d.verdict != d.claim.recorded]
     for d in differing:
         err_console.print(f"[red]{d.claim.id}: decided {d.verdict}, but recorded {d.claim.recorded}[/red]")
+    for trouble in proof.misstated.values():
+        err_console.print(f"[red]misstated: {escape(trouble)}[/red]")
+    if proof.misstated:
+        raise typer.Exit(2)
     if differing:
         raise typer.Exit(1)

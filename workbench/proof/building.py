@@ -8,6 +8,9 @@ from collections.abc import Callable
 from workbench.errors import ClaimError
 from workbench.files.mistakes import mistake
 from workbench.proof.claim import Claim, Goal
+from workbench.proof.text import relation_text, text
+
+REFLEXIVE = ("==", "<=", ">=")  # hold between a term and itself
 
 
 def built(claim: Claim, build: Callable[[], Goal], what: str = "goal") -> Goal:
@@ -22,4 +25,7 @@ def built(claim: Claim, build: Callable[[], Goal], what: str = "goal") -> Goal:
     if not isinstance(goal, Goal):
         raise ClaimError(f"claim {claim.id}: the function of its {what} returns no Goal: "
                          "end it with 'return Goal(...)'")
+    if all(r.operator in REFLEXIVE and text(r.left) == text(r.right) for r in goal.show):
+        raise ClaimError(f"claim {claim.id}: its {what} shows {relation_text(goal.show[0])}, the same on both sides, "
+                         "which states nothing: write each side as the paper does, from its own definitions")
     return goal

@@ -5,9 +5,9 @@ A certificate states a goal: for all real values of its symbols, the relations i
 any number n of indexed symbols, also none, formally) and D(...) (derivative along `flow`, which maps symbols to rates).
 `proved` carries a proof, `refuted`/`violated`/`gap` a point (or functions of time) where the goal fails.
 
-D holds symbols without a rate constant. Only the rule `nonincreasing` and models follow the flow through time:
-`always` holds at every instant from time zero on, `initial` names values at time zero, `assume` and `show` speak
-of one later instant, and symbols that rates mention without having a rate are inputs, which may vary.
+D holds symbols without a rate constant; of `inputs`, which may vary without a known rate, it is not taken. Only the
+rule `nonincreasing`, paths and models follow the flow through time: `always` holds at every instant from time zero on,
+`initial` names values at time zero, and `assume` and `show` speak of one later instant.
 
 What must be believed: this file, and the facts named in `fact`: log x <= x - 1 (x > 0), exp x >= 1 + x,
 exp x > 0; abs(x)**2 = x**2, abs(x) >= 0; sqrt(x)**2 = x, sqrt(x) >= 0 (x >= 0), sqrt(x) > 0 (x > 0); a function
@@ -27,6 +27,7 @@ from fractions import Fraction
 from pathlib import Path
 from typing import Any
 
+MOST_TERMS = 16  # of the sums at a point
 SUM = "Sum()"  # the formal sum over the index: a product SUM * term means the sum of the terms
 FLIP = {"<=": ">=", "<": ">"}
 OPERATORS = ("<=", ">=", "==", "!=", "<", ">")
@@ -224,9 +225,9 @@ def parse(text: str) -> ast.expr:
 class Context:
     """Reads expressions of one goal into Ratios; log and exp of an argument become atoms."""
 
-    def __init__(self, flow: dict[str, str], indexed: list[str]) -> None:
+    def __init__(self, flow: dict[str, str], indexed: list[str], inputs: list[str] | None = None) -> None:
         self.functions: dict[str, tuple[str, Ratio]] = {}
-        self.indexed, self.rates = set(indexed), flow
+        self.indexed, self.rates, self.inputs = set(indexed), flow, set(inputs or [])
         self.flow: dict[str, Ratio] = {}
         if any(calls(rate, "D") for rate in flow.values()):
             raise CertificateError("a rate is given by a derivative")
@@ -305,6 +306,8 @@ class Context:
         if name == "Sum":
             return self._of_one_index(argument) * symbol(SUM)
         if name == "D":
+            if unknown := symbols_of(self, argument) & self.inputs:
+                raise CertificateError(f"a derivative of the input {min(unknown)} is not taken: its rate is not known")
             if not symbols_of(self, argument) & self.flow.keys():
                 raise CertificateError("a derivative of what has no rate: state that its rate is 0 if it is constant")
             return self.derivative(argument, self.flow)
@@ -414,13 +417,9 @@ class Context:
         rates = self.rates.values() if calls(text, "D") else ()
         return [place for part in (text, *rates) for place in partial_operations(part)]
 
-    def inputs(self) -> set[str]:
-        """Symbols that rates mention without having a rate themselves: they may vary in time."""
-        return set().union(*(symbols_of(self, rate) for rate in self.flow.values())) - self.flow.keys() - {SUM}
-
     def moving(self) -> set[str]:
         """Symbols that may change along the flow."""
-        return self.inputs() | {name for name, rate in self.flow.items() if not rate.is_zero()}
+        return self.inputs | {name for name, rate in self.flow.items() if not rate.is_zero()}
 
 
 # --- signs -------------------------------------------------------------------------------------------------
@@ -679,7 +678,7 @@ def _nonincreasing(value: Ratio, operator: str, given: Relations, proof: dict[st
     for text in (*context.rates.values(), proof["function"]):
         along.require_defined(text)
     function = context.read(proof["function"])
-    if symbols_of(context, function) & context.inputs():
+    if symbols_of(context, function) & context.inputs:
         raise CertificateError("the function mentions an input, whose rate is not known")
     prove(-context.derivative(function, context.flow), ">=", along, proof["decrease"])
     drop = substitute(context, function, given.initial) + -function
@@ -936,19 +935,46 @@ def bounds(context: Context, value: Ratio,
     return min(corners), max(corners)
 
 
-def require_defined_at(context: Context, text: str, point: dict[str, Ratio]) -> None:
-    """CertificateError unless an expression or relation is defined at a point."""
+Terms = list[dict[str, Ratio]]  # the indexed symbols' values in each term of the sums
+
+
+def at(context: Context, value: Ratio, point: dict[str, Ratio], terms: Terms | None) -> Ratio:
+    """The value at a point, with every formal sum added up over the terms; without them a sum has one term."""
+    if terms is None:
+        return substitute(context, value, point)
+    known = dict(point)
+    for atom in atoms_of(value) & context.functions.keys():
+        kind, argument = context.functions[atom]
+        if SUM in symbols_of(context, argument):
+            known[atom] = context.call(kind, at(context, argument, point, terms))
+    inside = {tuple(f for f in m if f[0] != SUM): c for m, c in value.num.items() if (SUM, 1) in m}
+    outside = Ratio({m: c for m, c in value.num.items() if (SUM, 1) not in m}, value.den)
+    if any(found & context.indexed and SUM not in found
+           for found in (symbols_of(context, symbol(atom)) for atom in atoms_of(outside))):
+        raise CertificateError("a sum is not told apart from what stands beside it")
+    total = substitute(context, outside, known)
+    for row in terms if inside else ():
+        total = total + substitute(context, Ratio(inside, value.den), known | row)
+    return total
+
+
+def require_defined_at(context: Context, text: str, point: dict[str, Ratio], terms: Terms | None = None) -> None:
+    """CertificateError unless an expression or relation is defined at a point, in every term of its sums."""
     for part, wanted in context.partial_operations(text):
-        low, high = bounds(context, substitute(context, context.node(part), point))
-        if not (low > 0 or (wanted == "non-zero" and high < 0) or (wanted == "non-negative" and low == 0)):
-            raise CertificateError(f"undefined at the point: {ast.unparse(part)}")
+        value = context.node(part)
+        each = terms is not None and symbols_of(context, value) & context.indexed
+        for here in [at(context, value, point, terms)] if not each else [
+                substitute(context, value, point | row) for row in terms or []]:
+            low, high = bounds(context, here)
+            if not (low > 0 or (wanted == "non-zero" and high < 0) or (wanted == "non-negative" and low == 0)):
+                raise CertificateError(f"undefined at the point: {ast.unparse(part)}")
 
 
-def holds(context: Context, text: str, point: dict[str, Ratio]) -> bool:
+def holds(context: Context, text: str, point: dict[str, Ratio], terms: Terms | None = None) -> bool:
     """Whether a relation holds at a point; an error where it is undefined or the enclosure cannot tell."""
-    require_defined_at(context, text, point)
+    require_defined_at(context, text, point, terms)
     value, operator = margin(context, text)
-    low, high = bounds(context, substitute(context, value, point))
+    low, high = bounds(context, at(context, value, point, terms))
     verdict = {">": (low > 0, high <= 0), ">=": (low >= 0, high < 0),
                "==": (low == high == 0, low > 0 or high < 0), "!=": (low > 0 or high < 0, low == high == 0)}
     true, false = verdict[operator]
@@ -962,15 +988,17 @@ def holds(context: Context, text: str, point: dict[str, Ratio]) -> bool:
 
 def read_goal(goal: dict[str, Any]) -> tuple[Context, Relations]:
     """The goal's context and its assumptions; every part must have the expected shape."""
-    lists, maps = ("assume", "show", "always", "indexed"), ("flow", "initial")
+    lists, maps = ("assume", "show", "always", "indexed", "inputs"), ("flow", "initial")
     if not goal.keys() <= {*lists, *maps, "eventually"}:
         raise CertificateError(f"a goal has no {', '.join(sorted(goal.keys() - {*lists, *maps, 'eventually'}))}")
     values = [goal.get(key, []) for key in lists] + [list(goal.get(key, {}).values()) for key in maps]
     if not all(isinstance(value, list) and all(isinstance(text, str) for text in value) for value in values):
         raise CertificateError("the parts of a goal are lists and maps of texts")
-    for name in (*goal.get("indexed", []), *goal.get("flow", {}), *goal.get("initial", {})):
+    for name in (*goal.get("indexed", []), *goal.get("inputs", []), *goal.get("flow", {}), *goal.get("initial", {})):
         read_name(name)
-    context = Context(goal.get("flow", {}), goal.get("indexed", []))
+    context = Context(goal.get("flow", {}), goal.get("indexed", []), goal.get("inputs", []))
+    if context.inputs & (context.indexed | context.flow.keys()):
+        raise CertificateError("an input has neither an index nor a rate")
     given = Relations(context, goal.get("assume", []))
     given.always = goal.get("always", [])
     for name, text in goal.get("initial", {}).items():
@@ -1022,7 +1050,7 @@ def _check_example(goal: dict[str, Any], context: Context, given: Relations, cer
                                    "leads there")
     for text in given.always if given.initial else ():
         value, operator = margin(context, text)
-        if operator != ">=" or symbols_of(context, value) & context.inputs():  # an input may turn the motion back
+        if operator != ">=" or symbols_of(context, value) & context.inputs:  # an input may turn the motion back
             continue
         if bounds(context, substitute(context, value, point)) == (0, 0) and bounds(
                 context, substitute(context, context.derivative(value, context.flow), point))[1] < 0:
@@ -1038,16 +1066,19 @@ def check_false(goal: dict[str, Any], certificate: dict[str, Any]) -> None:
         raise CertificateError("a point says nothing of later times")
     context, given = read_goal(goal)
     point = read_point(certificate["point"])
+    terms = read_terms(certificate["terms"], context, point) if "terms" in certificate else None
     for text in (*goal.get("assume", []), *goal.get("always", [])):
-        if not holds(context, text, point):
+        if not holds(context, text, point, terms):
             raise CertificateError(f"the point breaks the assumption {text}")
+    if terms is not None and given.initial:
+        raise CertificateError("of sums with several terms only one instant is known")
     if "path" in certificate:
         _check_reached(context, given, point, certificate)
     else:
         for name, value in given.initial.items():  # a point alone can only be the first of all instants
             if not same(point[name], substitute(context, value, point)):
                 raise CertificateError(f"nothing says that the flow reaches the point: {name} is not where it starts")
-    outcomes = [holds(context, text, point) for text in goal["show"]]  # all of them: each must be defined
+    outcomes = [holds(context, text, point, terms) for text in goal["show"]]  # all of them: each must be defined
     if all(outcomes):
         raise CertificateError("the goal holds at the point")
 
@@ -1058,7 +1089,7 @@ def _check_reached(context: Context, given: Relations, point: dict[str, Ratio], 
     path = {name: context.read(text) for name, text in certificate["path"].items()}
     if given.initial.keys() != context.flow.keys() or context.indexed or time in point or duration < 0:
         raise CertificateError("a point is reached by a flow whose initial values are known, in a time of its own name")
-    moving, inputs = context.moving(), context.inputs()
+    moving, inputs = context.moving(), context.inputs
     if not moving - inputs <= path.keys() <= moving or any(symbols_of(context, f) - {time} for f in path.values()):
         raise CertificateError("the path must give all that moves, and nothing but inputs beside, as functions of time")
     later, line = Relations(context, [f"{time} >= 0"]), point | path
@@ -1087,8 +1118,8 @@ def _check_model(goal: dict[str, Any], certificate: dict[str, Any]) -> None:
     functions = {name: context.read(text) for name, text in certificate["functions"].items()}
     if goal["flow"].get(time) != "1" or functions.keys() != rates.keys() or len(goal["show"]) != 1:
         raise CertificateError("the model must give every moving symbol as a function of time")
-    if len({time, *rates, *rates.values()}) != 1 + 2 * len(rates) or not all(map(NAME.fullmatch, rates.values())):
-        raise CertificateError("the model needs flows whose rates are free, each its own")
+    if len({time, *rates, *rates.values()}) != 1 + 2 * len(rates) or not set(rates.values()) <= context.inputs:
+        raise CertificateError("the model needs flows whose rates are inputs, each its own")
     if point.keys() & {time, *rates, *rates.values()} or context.indexed:
         raise CertificateError("the point names constants only")
     later = Relations(context, [f"{time} >= 0"])
@@ -1132,6 +1163,14 @@ def read_rational(text: Any) -> Fraction:
     if not isinstance(text, str) or not RATIONAL.fullmatch(text):
         raise CertificateError(f"{str(text)[:80]!r} is not a rational number 'p/q'")
     return Fraction(text)
+
+
+def read_terms(terms: list[dict[str, Any]], context: Context, point: dict[str, Ratio]) -> Terms:
+    """The values of all indexed symbols, and of no others, in each term of the sums; none is an empty sum."""
+    found = [read_point(term) for term in terms]
+    if len(found) > MOST_TERMS or any(row.keys() != context.indexed for row in found) or point.keys() & context.indexed:
+        raise CertificateError(f"the terms of the sums give all indexed symbols and nothing else, at most {MOST_TERMS}")
+    return found
 
 
 def read_point(point: dict[str, Any]) -> dict[str, Ratio]:

@@ -2,10 +2,8 @@
 
 from __future__ import annotations
 
-import keyword
-import re
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from numbers import Rational
 from typing import Any, Literal
@@ -13,16 +11,12 @@ from typing import Any, Literal
 import sympy as sp
 
 from workbench.errors import ClaimError
+from workbench.proof.language import D, Language, name_of, saturation  # noqa: F401 - what goals are stated with
 from workbench.proof.latex.write import latex
+from workbench.proof.typed import as_evaluated, evaluated, kept_as_typed
 from workbench.proof.verdict import FAILED, VERDICTS, Decision, Kind, Stated, Verdict  # noqa: F401 - all records here
 
 Operator = Literal["==", "<=", "<", ">=", ">", "!="]
-
-
-class D(sp.Function):
-    """Derivative along the goal's flow, left unevaluated so that decider and checker derive it on their own."""
-
-    nargs = 1
 
 
 @dataclass(frozen=True)
@@ -87,10 +81,12 @@ def differ(left: Any, right: Any) -> Relation:
 class Goal:
     """For all values of the symbols: `assume` implies every relation in `show`.
 
-    The sign that sympy knows of a symbol (positive, nonnegative) is an assumption too. `flow` gives the rates
-    that D(...) uses; `always` holds at every instant along it, `initial` names values at time zero;
-    `eventually` is the time symbol when `show` is claimed only from some time on. `hint` are functions or
-    lemmas that a proof may use; a hint can help a decider, never convince the checker.
+    The sign that sympy knows of a symbol (positive, nonnegative) is an assumption too, of a symbol that moves at the
+    instant of which the goal speaks. `flow` gives the rates that D(...) uses; `inputs` are symbols without a rate that
+    may vary in time, all others are constant; `always` holds at every instant along the flow, `initial` names values
+    at time zero; `eventually` is the time symbol when `show` is claimed only from some time on. `hint` are functions
+    or lemmas that a proof may use; a hint can help a decider, never convince the checker. `named` are symbols that the
+    goal speaks of beside those that stand in it.
     """
 
     show: tuple[Relation, ...]
@@ -103,21 +99,30 @@ class Goal:
     facts: tuple[sp.Expr, ...] = ()
     lemmas: tuple[Relation, ...] = ()
     model: dict[sp.Expr, sp.Expr] = field(default_factory=dict)
+    inputs: tuple[sp.Symbol, ...] = ()
+    named: tuple[sp.Expr, ...] = ()
 
     def __post_init__(self) -> None:
+        with as_evaluated():
+            self._require_meaning()
+
+    def _require_meaning(self) -> None:
         self._require_shape()
         if not self.show:
             raise ClaimError("a goal shows nothing: give at least one relation")
-        language = _Language()
+        language = Language(self.flow, self.inputs)
         for relation in (*self.relations(), *self.lemmas):
             language.check(relation.left)
             language.check(relation.right)
         for moving, rate in self.flow.items():
             index = moving.indices[0] if isinstance(moving, sp.Indexed) else None
             language.check(moving, index)
-            language.check(rate, index)
+            language.check_rate(rate, index)
         for expr in (*self.initial.values(), *self.model.values(), *self.facts, sp.Add(self.decreasing or 0)):
             language.check(expr)
+        for symbol in (*self.inputs, *self.named):
+            language.check(symbol, symbol.indices[0] if isinstance(symbol, sp.Indexed) else None)
+        language.check_whole()
 
     def _require_shape(self) -> None:
         for part in ("show", "assume", "always", "lemmas"):
@@ -130,16 +135,43 @@ class Goal:
             if not all(isinstance(s, sp.Expr) for s in exact):
                 raise ClaimError(f"the part '{part}' of a goal names no symbols: write {{x: rate}}, no text")
             object.__setattr__(self, part, exact)
+        if not isinstance(self.inputs, tuple) or not all(isinstance(s, sp.Symbol) for s in self.inputs):
+            raise ClaimError("the part 'inputs' of a goal is no tuple of symbols: write inputs=(u, d)")
+        if both := [s for s in self.inputs if s in self.flow]:
+            raise ClaimError(f"{both[0]} has a rate and is an input as well: give one of the two")
 
     def relations(self) -> tuple[Relation, ...]:
         """All relations of the goal."""
         return (*self.show, *self.assume, *self.always)
 
+    def evaluated(self, functions: bool = True) -> Goal:
+        """The same goal for deciders, its expressions as sympy would have built them; it has the same symbols.
+
+        functions: whether sympy evaluates abs, sign, Max, Min and the like too, or leaves them to the deciders.
+        """
+        def usual(expr: sp.Expr) -> sp.Expr:
+            return evaluated(expr, functions)
+
+        def put(relations: tuple[Relation, ...]) -> tuple[Relation, ...]:
+            return tuple(Relation(usual(r.left), r.operator, usual(r.right)) for r in relations)
+
+        return replace(
+            self, show=put(self.show), assume=put(self.assume), always=put(self.always), lemmas=put(self.lemmas),
+            flow={s: usual(rate) for s, rate in self.flow.items()},
+            initial={s: usual(value) for s, value in self.initial.items()},
+            decreasing=self.decreasing if self.decreasing is None else usual(sp.Add(self.decreasing)),
+            facts=tuple(map(usual, self.facts)), model={s: usual(f) for s, f in self.model.items()},
+            named=tuple(self.symbols()))
+
+    def moving(self) -> set[sp.Expr]:
+        """The symbols that may change along the flow."""
+        return {s for s, rate in self.flow.items() if evaluated(rate) != 0} | set(self.inputs)
+
     def symbols(self) -> list[sp.Expr]:
         """Free symbols, one per name, indexed symbols by their base's name; sorted by name."""
         found: set[sp.Expr] = set()
         exprs = [e for r in self.relations() for e in (r.left, r.right)]
-        for expr in (*exprs, *self.flow, *self.flow.values(), *self.initial.values()):
+        for expr in (*exprs, *self.flow, *self.flow.values(), *self.initial.values(), *self.inputs, *self.named):
             indexed = expr.atoms(sp.Indexed)
             hidden = {s for i in indexed for s in i.free_symbols}
             hidden |= {s for total in expr.atoms(sp.Sum) for s in total.bound_symbols}
@@ -150,85 +182,17 @@ class Goal:
         return sorted(found, key=name_of)
 
     def signs(self) -> tuple[Relation, ...]:
-        """What sympy knows of the symbols, as relations."""
+        """What sympy knows of the symbols, as relations; of the time of `eventually`, that it starts at zero, is said
+        by the rule that uses it."""
         known: list[Relation] = []
         for s in self.symbols():
-            if isinstance(s, sp.Indexed) or s in self.flow:
+            if isinstance(s, sp.Indexed) or s == self.eventually:
                 continue
             if s.is_positive:
                 known.append(greater(s, 0))
             elif s.is_nonnegative:
                 known.append(at_least(s, 0))
         return tuple(known)
-
-
-class _Language:
-    """What certificates can say without loss; all expressions of one goal go through one of these.
-
-    Certificates know symbols by name only and print W[j] as W, so two symbols must not share a name, and an
-    index may stand only where its sum binds it.
-    """
-
-    def __init__(self) -> None:
-        self.names: dict[str, sp.Expr] = {}
-        self.limits: sp.Tuple | None = None
-
-    def check(self, expr: sp.Expr, index: sp.Symbol | None = None) -> None:
-        """Raise ClaimError unless certificates can state the expression exactly."""
-        if isinstance(expr, sp.Symbol):
-            if expr == index:
-                raise ClaimError(f"the index {index} stands as a number in a sum: use it as an index only")
-            self._name(str(expr), expr)
-        elif isinstance(expr, sp.Indexed):
-            if index is None or expr.indices != (index,):
-                raise ClaimError(f"{expr} stands where no sum binds its index: sum over it, with one index")
-            self._name(str(expr.base.label), expr.base)
-        elif isinstance(expr, sp.Sum):
-            if index is not None or len(expr.limits) != 1 or (self.limits or expr.limits[0]) != expr.limits[0]:
-                raise ClaimError(f"{expr}: all sums of a goal need the same one index and range, none in another")
-            self.limits = expr.limits[0]
-            self.check(expr.function, expr.limits[0][0])
-        elif isinstance(expr, sp.Pow):
-            if not (expr.exp * 2).is_Integer:
-                raise ClaimError(f"'{expr}' has no meaning in certificates: only whole and half powers have")
-            self.check(expr.base, index)
-        elif isinstance(expr, (sp.Add, sp.Mul, D, *FUNCTIONS)):
-            for part in expr.args:
-                self.check(part, index)
-        elif isinstance(expr, sp.Float):
-            raise ClaimError(f"the number {expr} is not exact: write it as sympy.Rational or Fraction")
-        elif not isinstance(expr, sp.Rational) and expr != sp.E:
-            raise ClaimError(f"'{expr}' has no meaning in certificates: state the claim with + - * / **, "
-                             f"{', '.join(LANGUAGE[2:])}")
-
-    def _name(self, name: str, owner: sp.Expr) -> None:
-        if not re.fullmatch(r"[A-Za-z_][A-Za-z0-9_]*", name) or keyword.iskeyword(name) or name in LANGUAGE:
-            raise ClaimError(f"symbol '{name}': certificates need names of letters, digits and underscores, "
-                             f"other than {', '.join(LANGUAGE)} and Python's own words")
-        if self.names.setdefault(name, owner) != owner:
-            raise ClaimError(f"two different symbols are named '{name}' (other assumptions, or one of them indexed): "
-                             "certificates could not tell them apart; give each its own name")
-        if owner.assumptions0 not in (BASES if isinstance(owner, sp.IndexedBase) else SYMBOLS):
-            raise ClaimError(f"symbol '{name}': sympy knows more of it than its certificate would say; make it real, "
-                             "positive or nonnegative (indexed: real) and state the rest as an assumption")
-
-
-# What sympy may know of a symbol: by more it would simplify a goal into one that holds for fewer values than stated.
-SYMBOLS = [sp.Symbol("x", **known).assumptions0 for known in ({}, {"real": True}, {"positive": True},
-                                                              {"nonnegative": True})]
-BASES = [sp.IndexedBase("x", **known).assumptions0 for known in ({}, {"real": True})]
-FUNCTIONS = (sp.log, sp.exp, sp.tanh, sp.Abs, sp.sign, sp.Max, sp.Min)
-LANGUAGE = ("Sum", "D", "log", "exp", "tanh", "abs", "sign", "sqrt", "Max", "Min")
-
-
-def saturation(value: Any, low: Any, high: Any) -> sp.Expr:
-    """sat(value, low, high): value, cut off at low and high (low <= high)."""
-    return sp.Min(sp.Max(value, low), high)
-
-
-def name_of(symbol: sp.Expr) -> str:
-    """The name under which a symbol or an indexed symbol stands in certificates."""
-    return str(symbol.base.label) if isinstance(symbol, sp.Indexed) else str(symbol)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -258,3 +222,6 @@ class Claim(Stated):
             if not isinstance(symbol, sp.Expr) or not isinstance(value, Rational):
                 raise ClaimError(f"claim {self.id}: stated value {symbol} = {value}: write a symbol and an exact "
                                  "number, as in {k: Fraction(1, 2)}")
+        for name in ("build", "correction"):
+            if getattr(self, name) is not None:
+                object.__setattr__(self, name, kept_as_typed(getattr(self, name)))

@@ -18,8 +18,14 @@ class Listing:
 
 @dataclass(frozen=True)
 class Decided:
-    """A claim decided, whether that was done now or found in the cache, and what its file has read until then."""
+    """A claim decided, whether that was done now or found in the cache, and what its file has read until then.
+
+    misstated: why there is nothing to decide, as one line that names the file; the decision is then `undecided`.
+    lasting: whether it would be decided in the same way again.
+    """
 
     decision: Decision
     now: bool
     reads: frozenset[str]
+    misstated: str | None = None
+    lasting: bool = True

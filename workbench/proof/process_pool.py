@@ -36,17 +36,18 @@ class Team(Protocol):
 
 
 @contextmanager
-def team(jobs: int, cached: Kept | None) -> Iterator[Team]:
+def team(jobs: int, cached: Kept | None, limit: float | None = None) -> Iterator[Team]:
     """As many workers as that; they are gone when the block is left, at once when it is left by an exception.
 
+    limit: of the seconds of processor time for each claim.
     Raises WorkbenchError when one of them dies.
     """
     with single_threaded():
         if jobs == 1:
-            yield _Alone(cached)
+            yield _Alone(cached, limit)
             return
         others = set(multiprocessing.active_children())
-        pool = ProcessPoolExecutor(jobs, multiprocessing.get_context("spawn"), _start, (cached,))
+        pool = ProcessPoolExecutor(jobs, multiprocessing.get_context("spawn"), _start, (cached, limit))
         try:
             yield _Several(pool, jobs)
         except BaseException as trouble:
@@ -62,8 +63,8 @@ def team(jobs: int, cached: Kept | None) -> Iterator[Team]:
 
 
 class _Alone:
-    def __init__(self, cached: Kept | None) -> None:
-        self.worker = _worker(cached)
+    def __init__(self, cached: Kept | None, limit: float | None) -> None:
+        self.worker = _worker(cached, limit)
 
     def listings(self, paths: Sequence[Path]) -> list[Listing]:
         return [self.worker.listing(path) for path in paths]
@@ -121,18 +122,18 @@ def _interruption_held() -> Iterator[None]:
         signal.pthread_sigmask(signal.SIG_SETMASK, before)
 
 
-def _worker(cached: Kept | None) -> Worker:
+def _worker(cached: Kept | None, limit: float | None) -> Worker:
     from workbench.proof.worker import Worker  # noqa: PLC0415 - only those who decide need sympy and the deciders
 
-    return Worker(cached)
+    return Worker(cached, limit)
 
 
 _here: list[Any] = []
 
 
-def _start(cached: Kept | None) -> None:
+def _start(cached: Kept | None, limit: float | None) -> None:
     follow_parent()
-    _here[:] = [_worker(cached)]
+    _here[:] = [_worker(cached, limit)]
 
 
 def _listing(path: Path) -> Any:

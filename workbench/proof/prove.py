@@ -5,7 +5,7 @@ from __future__ import annotations
 import time
 from collections.abc import Callable, Mapping, Sequence
 from contextlib import ExitStack
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cache
 from pathlib import Path
 
@@ -21,26 +21,30 @@ from workbench.proof.verdict import Decision, Stated
 from workbench.simulate.process_pool import cores
 
 Progress = Callable[[int, int], None]
+LIMIT = 60.0  # seconds of processor time for one claim
 
 
 @dataclass(frozen=True)
 class Proof:
     """The claims that were asked for, decided; `now` are the ids of all that were not found in the cache.
 
-    papers: by the name of each paper its folder or proof file.
+    papers: by the name of each paper its folder or proof file; misstated: by id why a claim that was asked for could
+    not be decided, in one line; it is not among the decisions.
     """
 
     decisions: list[Decision]
     now: frozenset[str]
     papers: Mapping[str, Path]
+    misstated: Mapping[str, str] = field(default_factory=dict)
 
 
 def prove(found: Sequence[Target], jobs: int | None = None, use_cache: bool = True,
-          on_progress: Progress = lambda done, total: None) -> Proof:
+          on_progress: Progress = lambda done, total: None, limit: float | None = LIMIT) -> Proof:
     """Decide the claims that the targets ask for, and those that they rest on; on_progress(decided, to decide).
 
-    The result is the same for every number of jobs, the seconds apart. Raises InputError, naming file and claim,
-    for what is wrong with a proof file.
+    The result is the same for every number of jobs, the seconds apart. A claim that takes more than `limit` seconds of
+    processor time stays undecided. Raises InputError, naming the file, for a proof file that cannot be read and for
+    claims that do not fit together; a claim that states nothing is told of, and the others are decided.
     """
     started_ns = time.time_ns()
     cached = kept() if use_cache else None
@@ -51,7 +55,7 @@ def prove(found: Sequence[Target], jobs: int | None = None, use_cache: bool = Tr
     with ExitStack() as stack:
         listings: dict[Path, Listing] = {}
         if missing:
-            workers = stack.enter_context(team(jobs or cores(), cached))
+            workers = stack.enter_context(team(jobs or cores(), cached, limit))
             listings = dict(zip(missing, workers.listings(missing), strict=True))
         stated = {file: listings[file].claims if file in listings else tuple(d.claim for d in entries[file].decisions)
                   for file in files}
@@ -67,10 +71,12 @@ def prove(found: Sequence[Target], jobs: int | None = None, use_cache: bool = Tr
         _keep_files(cached, listings, decided, started_ns)
     every = {d.claim.id: d for entry in entries.values() for d in entry.decisions if d.claim.id in wanted}
     every |= {claim_id: result.decision for claim_id, result in decided.items()}
+    misstated = {claim_id: result.misstated for claim_id, result in decided.items()
+                 if result.misstated is not None and claim_id in asked}
     every_judged = judged([every[claim_id] for claim_id in claims if claim_id in wanted])
-    return Proof([d for d in every_judged if d.claim.id in asked],
-                 frozenset(claim_id for claim_id, result in decided.items() if result.now),
-                 {claim.paper: file for file in files for claim in stated[file]})
+    return Proof([d for d in every_judged if d.claim.id in asked and d.claim.id not in misstated],
+                 frozenset(claim_id for claim_id, result in decided.items() if result.now and claim_id in asked and claim_id not in misstated),
+                 {claim.paper: file for file in files for claim in stated[file]}, misstated)
 
 
 def _well_formed(files: Sequence[Path], stated: dict[Path, tuple[Stated, ...]],
@@ -89,7 +95,7 @@ def _keep_files(cached: Kept, listings: dict[Path, Listing], decided: dict[str, 
     """Keep the proof files of which every claim is decided."""
     for file, listing in listings.items():
         results = [decided[claim.id] for claim in listing.claims if claim.id in decided]
-        if len(results) == len(listing.claims):
+        if len(results) == len(listing.claims) and all(result.lasting for result in results):
             reads = listing.reads.union(*(result.reads for result in results))
             cached.keep_file(file, FileEntry(listing.papers, tuple(r.decision for r in results)), reads, started_ns)
     if listings:

@@ -2,55 +2,111 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from typing import Any
 
 import sympy as sp
-from sympy.printing.str import StrPrinter
 
 from workbench.errors import ClaimError
 from workbench.proof.claim import Goal, Relation, name_of
+from workbench.proof.typed import evaluated
 
 NAMES = {"log": "log", "exp": "exp", "D": "D", "tanh": "tanh", "Abs": "abs", "Size": "abs", "sign": "sign",
          "Side": "sign", "Summed": "Sum", "Max": "Max", "Min": "Min"}
 
 
-class _Printer(StrPrinter):
-    """Python syntax over + - * / **, the functions of certificates, Sum and D."""
-
-    printmethod = "_certificate_text"  # sympy classes would print themselves otherwise
-
-    def _print_Indexed(self, expr: sp.Indexed) -> str:
-        return name_of(expr)
-
-    def _print_Sum(self, expr: sp.Sum) -> str:
-        return f"Sum({self._print(expr.function)})"
-
-    def _print_Function(self, expr: sp.Function) -> str:
-        name = expr.func.__name__
-        if name not in NAMES:
-            known = ", ".join(dict.fromkeys(NAMES.values()))
-            raise ClaimError(f"'{name}' has no meaning in certificates: state the claim with {known}")
-        arguments = sorted(map(self._print, expr.args)) if name in ("Max", "Min") else map(self._print, expr.args)
-        return f"{NAMES[name]}({', '.join(arguments)})"
-
-    _print_Max = _print_Min = _print_Abs = _print_Function
-
-    def _print_Pow(self, expr: sp.Pow, rational: bool = False) -> str:
-        if expr.exp.is_Rational and expr.exp.q == 2:
-            root = f"sqrt({self._print(expr.base)})"
-            return root if expr.exp.p == 1 else f"1/{root}" if expr.exp.p == -1 else f"{root}**({expr.exp.p})"
-        return str(super()._print_Pow(expr, rational))
-
-    def _print_Exp1(self, expr: sp.Expr) -> str:
-        return "exp(1)"
-
-
-_printer = _Printer({"order": "lex"})
+SUM, PRODUCT, POWER, ATOM = range(4)  # how tightly a text holds together
+Written = tuple[str, int]
 
 
 def text(expr: sp.Expr) -> str:
-    """An expression in the certificate language."""
-    return str(_printer.doprint(expr))
+    """An expression in the certificate language, term by term as it stands; brackets that only group are left out.
+
+    Raises ClaimError for what the language has no words for.
+    """
+    return _written(expr)[0]
+
+
+def _written(expr: sp.Expr) -> Written:
+    if isinstance(expr, sp.Indexed):
+        return name_of(expr), ATOM
+    if isinstance(expr, sp.Symbol):
+        return expr.name, ATOM
+    if isinstance(expr, sp.Integer):
+        return str(expr), ATOM if expr >= 0 else SUM
+    if isinstance(expr, sp.Add):
+        return _sum_text(expr), SUM
+    if isinstance(expr, (sp.Mul, sp.Rational)):
+        return _product_text(expr)
+    if isinstance(expr, sp.Pow) and expr.base != sp.E:
+        return _power_text(expr)
+    if isinstance(expr, sp.Sum):
+        return f"Sum({text(expr.function)})", ATOM
+    if expr == sp.E:
+        return "exp(1)", ATOM
+    if isinstance(expr, sp.Pow):  # of e
+        return f"exp({text(expr.exp)})", ATOM
+    name = expr.func.__name__
+    if name not in NAMES:
+        known = ", ".join(dict.fromkeys(NAMES.values()))
+        raise ClaimError(f"'{expr}' has no meaning in certificates: state the claim with {known}")
+    arguments = sorted(map(text, expr.args)) if name in ("Max", "Min") else map(text, expr.args)
+    return f"{NAMES[name]}({', '.join(arguments)})", ATOM
+
+
+def _held(expr: sp.Expr, least: int) -> str:
+    """The text, in brackets where it holds together less tightly than that."""
+    written, level = _written(expr)
+    return written if level >= least else f"({written})"
+
+
+def _flat(expr: sp.Expr, kind: type[sp.Expr]) -> Iterator[sp.Expr]:
+    """The terms of a sum of sums, or the factors of a product of products."""
+    for part in expr.args:
+        yield from _flat(part, kind) if isinstance(part, kind) else (part,)
+
+
+def _sum_text(expr: sp.Add) -> str:
+    first, *others = (_written(term)[0] for term in _flat(expr, sp.Add))
+    return first + "".join(f" - {term[1:]}" if term.startswith("-") else f" + {term}" for term in others)
+
+
+def _product_text(expr: sp.Mul | sp.Rational) -> Written:
+    """Factors above and below one fraction bar; a sign in front."""
+    factors = list(_flat(expr, sp.Mul)) if isinstance(expr, sp.Mul) else [expr]
+    above: list[str] = []
+    below: list[str] = []
+    sign = "-" if factors[0].is_Rational and factors[0] < 0 else ""
+    for place, factor in enumerate(factors):
+        if factor.is_Rational:
+            size = abs(factor) if place == 0 else factor
+            alone = len(factors) == 1 or isinstance(factor, sp.Integer) and not (sign and size == 1 and place == 0)
+            if size.p != 1 or alone:
+                above.append(_held(sp.Integer(size.p), PRODUCT))
+            if size.q != 1:
+                below.append(str(size.q))
+        elif isinstance(factor, sp.Pow) and factor.base != sp.E and (power := evaluated(factor.exp)) < 0:
+            below.append(_held(factor.base if power == -1 else sp.Pow(factor.base, -power, evaluate=False), POWER))
+        else:
+            above.append(_held(factor, PRODUCT))
+    top = "*".join(above) or "1"
+    if not below:
+        return f"{sign}{top}", SUM if sign else PRODUCT
+    bottom = below[0] if len(below) == 1 else f"({'*'.join(below)})"
+    return f"{sign}{top}/{bottom}", SUM if sign else PRODUCT
+
+
+def _power_text(expr: sp.Pow) -> Written:
+    power = evaluated(expr.exp)
+    if power.is_Rational and power.q == 2:
+        root = f"sqrt({text(expr.base)})"
+        return ((root, ATOM) if power == sp.S.Half else (f"1/{root}", PRODUCT) if power == -sp.S.Half
+                else (f"{root}**{_held(sp.Integer(power.p), ATOM)}", POWER))
+    if not power.is_Integer:
+        raise ClaimError(f"'{expr}' has no meaning in certificates: only whole and half powers have")
+    if power == -1:
+        return f"1/{_held(expr.base, POWER)}", PRODUCT
+    return f"{_held(expr.base, ATOM)}**{_held(power, ATOM)}", POWER
 
 
 def relation_text(relation: Relation) -> str:
@@ -74,6 +130,8 @@ def goal_text(goal: Goal) -> dict[str, Any]:
         record["indexed"] = indexed
     if goal.flow:
         record["flow"] = {name_of(s): text(rate) for s, rate in goal.flow.items()}
+    if goal.inputs:
+        record["inputs"] = sorted(map(name_of, goal.inputs))
     if goal.always:
         record["always"] = [relation_text(r) for r in goal.always]
     if goal.initial:

@@ -17,14 +17,16 @@ from workbench.proof.fingerprint import fingerprint
 from workbench.proof.loading import ProofFile
 from workbench.proof.messages import Decided, Listing
 from workbench.proof.paper import papers_in
+from workbench.proof.time_limit import OutOfTime, at_most_seconds
 from workbench.proof.verdict import Decision, Stated
 
 
 class Worker:
     """Lists and decides the claims of proof files, each file imported once."""
 
-    def __init__(self, cached: Kept | None) -> None:
+    def __init__(self, cached: Kept | None, limit: float | None = None) -> None:
         watch()
+        self.limit = limit
         # Deciders that were changed while this process imported them are nobody's: nothing is kept of them.
         self.cached = cached if cached is None or kept() == cached else None
         self.files: dict[Path, ProofFile] = {}
@@ -35,19 +37,30 @@ class Worker:
         return Listing(len(papers), tuple(_stated(c) for paper in papers for c in paper.claims), self._reads(path))
 
     def decided(self, path: Path, claim_id: str) -> Decided:
-        """One claim of the file decided; raises InputError, naming file and claim, when it cannot be."""
+        """One claim of the file decided, or why it states nothing that could be.
+
+        Raises InputError when the file cannot be imported.
+        """
         claim = next(c for paper in papers_in(self._file(path)) for c in paper.claims if c.id == claim_id)
         try:
-            with self._file(path).at_home():
+            with self._file(path).at_home(), at_most_seconds(self.limit):
                 decision, now = self._decision(claim)
+        except OutOfTime:
+            late = f"not decided within {self.limit:g} seconds: allow more with --limit, or state it in smaller steps"
+            return self._without_verdict(path, claim, late, None)
         except WorkbenchError as trouble:
             named = "" if claim_id in str(trouble) else f"claim {claim_id}: "
-            raise InputError(path, "", f"{named}{trouble}") from None
+            return self._without_verdict(path, claim, "misstated", str(InputError(path, "", f"{named}{trouble}")))
         except Exception as trouble:
             what = " ".join(f"{type(trouble).__name__}: {trouble}".split())
-            raise InputError(path, "", f"claim {claim_id}: the deciders fail on it ({what}): "
-                                       "state it in another form, in smaller steps if it is long") from trouble
+            fails = InputError(path, "", f"claim {claim_id}: the deciders fail on it ({what}): "
+                                         "state it in another form, in smaller steps if it is long")
+            return self._without_verdict(path, claim, "misstated", str(fails))
         return Decided(replace(decision, claim=_stated(claim)), now, self._reads(path))
+
+    def _without_verdict(self, path: Path, claim: Claim, method: str, misstated: str | None) -> Decided:
+        return Decided(Decision(_stated(claim), "undecided", method, None, 0.0), True, self._reads(path), misstated,
+                       lasting=False)
 
     def _decision(self, claim: Claim) -> tuple[Decision, bool]:
         # Each goal is made once, although the fingerprint needs it too.

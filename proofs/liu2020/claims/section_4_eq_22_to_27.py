@@ -93,7 +93,7 @@ def filter_bound() -> Goal:
     return Goal((at_most(e_s, level + (e_s_0 - level) * sp.exp(-k_4 * t)),), (at_least(t, 0),),
                 {t: sp.Integer(1), e_s: e_s_rate}, (equal(e_s_rate, -k_4 * e_s + drive), *within(drive, drive_max)),
                 {t: sp.Integer(0), e_s: e_s_0},
-                decreasing=sp.exp(k_4 * t) * (e_s - level))
+                decreasing=sp.exp(k_4 * t) * (e_s - level), inputs=(e_s_rate, drive))
 
 
 @paper.claim("23.filter", "The tracking error filters e_v", "identity",

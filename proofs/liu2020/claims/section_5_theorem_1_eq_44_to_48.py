@@ -132,7 +132,7 @@ def after_decay(i: int, decay: str, growth: str, bound: str, norm: str, not_nega
                  note=f"exp(rho t)(V - phi) does not increase. 0 <= V_{i} is {not_negative}.")
     def comparison() -> Goal:
         return Goal((at_most(V_t, bound_47),), (), along_v, decaying, from_zero,
-                    decreasing=sp.exp(rho * t) * (V_t - mu / rho))
+                    decreasing=sp.exp(rho * t) * (V_t - mu / rho), inputs=(w,))
 
     @paper.claim(f"{bound}.level", f"V_{i}(0) <= Theta_{i} keeps V_{i} <= Theta_{i}", "implication",
                  rf"V_{i}(0) \le \Theta_{i},\ \rho_{i} > \frac{{\mu_{i}}}{{\Theta_{i}}} \Rightarrow V_{i}(t) \le "
@@ -152,7 +152,7 @@ def after_decay(i: int, decay: str, growth: str, bound: str, norm: str, not_nega
     def vanishes() -> Goal:
         one = sp.Integer(1)
         return Goal((at_most(V_t, sp.S.Half),), (), along_v, decaying, from_zero, eventually=t,
-                    model={V_t: one, mu: one, rho: one, V_start: one})
+                    model={V_t: one, mu: one, rho: one, V_start: one}, inputs=(w,))
 
 
 after_decay(1, "45", "46", "47", "48", "36")
@@ -205,7 +205,7 @@ def runaway(loop: dict[sp.Expr, sp.Expr], estimate: sp.Expr) -> Goal:
     model = {symbol: sp.Integer(symbol not in zero) for symbol in constants} | dict.fromkeys(single, sp.Integer(0))
     model |= {limit: sp.Integer(100), estimate: 101 * sp.exp(t)}
     return Goal((at_most(estimate, limit),), (), {t: sp.Integer(1)} | rates, (at_least(t, 0), *always), eventually=t,
-                model=model)
+                model=model, inputs=tuple(rates.values()))
 
 
 s_tilde_rate = sp.Symbol("s_tilde_rate", real=True)

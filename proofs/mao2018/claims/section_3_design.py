@@ -91,7 +91,7 @@ def idle_modes() -> Goal:
 def no_jump_at_switches() -> Goal:
     """The derivative of V_2 by every indicator is zero."""
     one = sp.Integer(1)
-    return Goal((equal(D(V_healthy), 0),), flow={**dict.fromkeys(chis, one), chi_d: one})
+    return Goal((equal(D(V_healthy), 0),), flow={**dict.fromkeys(chis, one), chi_d: one, z_1: sp.Integer(0)})
 
 
 hat_rates = sp.symbols("a_hat_dot b_hat_dot c_hat_dot vartheta_hat_dot D_hat_dot", real=True)

@@ -131,7 +131,7 @@ def lambda_not_negative() -> Goal:
     """-lambda_hat does not increase."""
     drift = sp.Symbol("lambda_hat_dot", real=True)
     return Goal((at_least(lambda_hat, 0),), (), {t: sp.Integer(1), lambda_hat: drift}, (at_least(drift, 0),),
-                {t: sp.Integer(0), lambda_hat: lambda_start}, decreasing=-lambda_hat)
+                {t: sp.Integer(0), lambda_hat: lambda_start}, decreasing=-lambda_hat, inputs=(drift,))
 
 
 def _bound_57(repaired: bool) -> Goal:

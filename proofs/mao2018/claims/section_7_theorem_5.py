@@ -97,7 +97,7 @@ def damped_bounded() -> Goal:
     always = (inequality_65, at_least(V_t, z_1**2 / 2 + z_2**2 / 2))
     values: Flow = {z_1: sp.Integer(0), z_2: sp.Integer(0), r_1: sp.Integer(1), r_2: sp.Integer(1), K: sp.Integer(2)}
     return Goal((at_most(V_t, t),), (), {t: sp.Integer(1), V_t: w_t}, always, eventually=t,
-                model={**values, V_t: 1 + 2 * t})
+                model={**values, V_t: 1 + 2 * t}, inputs=(w_t, z_1, z_2))
 
 
 damped_constants: Flow = {lambda_0: sp.Integer(1), b_0: sp.Integer(1), c_0: sp.Integer(1),
@@ -133,7 +133,7 @@ def mean_square() -> Goal:
     """J + V - K t does not increase, where J is the integral."""
     return Goal((at_most(J, V_0 + K * t),), (at_least(V_t, 0), at_least(t, 0)),
                 {t: sp.Integer(1), V_t: w_t, J: -decay}, (inequality_65,),
-                {t: sp.Integer(0), V_t: V_0, J: sp.Integer(0)}, decreasing=J + V_t - K * t)
+                {t: sp.Integer(0), V_t: V_0, J: sp.Integer(0)}, decreasing=J + V_t - K * t, inputs=(w_t, z_1, z_2))
 
 
 @paper.claim("remark4", "Large k_1 and k_2 make the tracking errors small", "limit",

@@ -224,7 +224,7 @@ from_zero = {t: sp.Integer(0), V_t: V_0}
 def comparison() -> Goal:
     """For every V with V' <= -mu V + l at all times."""
     return Goal((at_most(V_t, l_ / mu + (V_0 - l_ / mu) * sp.exp(-mu * t)),), (), along_v, decaying, from_zero,
-                decreasing=sp.exp(mu * t) * (V_t - l_ / mu))
+                decreasing=sp.exp(mu * t) * (V_t - l_ / mu), inputs=(w,))
 
 
 @paper.claim("52.T", "From some time on V is at most l/mu", "limit",
@@ -237,7 +237,7 @@ def reached_in_finite_time() -> Goal:
     """V(t) = 1 + exp(-t) with mu = l = 1."""
     one = sp.Integer(1)
     return Goal((at_most(V_t, l_ / mu),), (), along_v, decaying, from_zero, eventually=t,
-                model={V_t: 1 + sp.exp(-t), mu: one, l_: one, V_0: sp.Integer(2)})
+                model={V_t: 1 + sp.exp(-t), mu: one, l_: one, V_0: sp.Integer(2)}, inputs=(w,))
 
 
 C, delta = sp.symbols("C delta", positive=True)

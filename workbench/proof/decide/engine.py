@@ -14,14 +14,17 @@ from workbench.errors import ClaimError
 from workbench.proof.building import built
 from workbench.proof.checker import CertificateError, check
 from workbench.proof.claim import Claim, Decision, Goal, Relation, Verdict, latex, name_of
-from workbench.proof.decide.refute import find_counterexample, find_example, value_at
+from workbench.proof.decide.nearest import smallest_margin
+from workbench.proof.decide.refute import examples, find_counterexample, shown_point, value_at
 from workbench.proof.decide.search import prove_relation
 from workbench.proof.derive import expand_derivatives
 from workbench.proof.fate import judged
 from workbench.proof.premises import premises_problem
-from workbench.proof.text import goal_text
+from workbench.proof.text import goal_text, relation_text
+from workbench.proof.typed import as_typed
 
 Certificate = dict[str, Any]
+LONGEST_LINE = 160  # of a relation in a sentence
 
 
 def decide(claim: Claim) -> Decision:
@@ -37,15 +40,15 @@ def decide(claim: Claim) -> Decision:
 def _decide_statement(claim: Claim, goal: Goal) -> Decision:
     verdict: Verdict = "gap" if claim.kind in ("implication", "limit") and not claim.closed_loop else "refuted"
     certificate_or_none = find_counterexample(goal, verdict, quick=True)  # a search of a proof would be in vain
-    proof = prove_goal(goal) if certificate_or_none is None else None
-    if proof is not None:
+    proof = attempted_proof(goal) if certificate_or_none is None else ""
+    if not isinstance(proof, str):
         certificate, method = proof
         return Decision(claim, "proved", method, "exact", 0.0, {"claim": claim.id, **certificate})
     certificate_or_none = certificate_or_none or find_counterexample(goal, verdict)
     if certificate_or_none is None:
-        return Decision(claim, "undecided", "identity, combination and point search found nothing", None, 0.0)
+        return Decision(claim, "undecided", _nearest(goal, proof), None, 0.0)
     certificate = {"claim": claim.id, **certificate_or_none}
-    point = certificate.get("functions", {}) | certificate["point"]
+    point = shown_point(certificate)
     correction = None
     if claim.correction is not None:
         nearest = built(claim, claim.correction, "correction")
@@ -56,7 +59,7 @@ def _decide_statement(claim: Claim, goal: Goal) -> Decision:
         correction = claim.corrected_statement or nearest.show[0].latex()
         check(certificate)
     return Decision(claim, verdict, "counterexample", "exact", 0.0, certificate, point, correction,
-                    None if goal.eventually else value_at(goal, certificate["point"]))
+                    None if goal.eventually else value_at(goal, certificate["point"], certificate.get("terms")))
 
 
 def _decide_condition(claim: Claim, goal: Goal) -> Decision:
@@ -70,9 +73,9 @@ def _decide_condition(claim: Claim, goal: Goal) -> Decision:
     except CertificateError as trouble:
         if "the goal holds" not in str(trouble):
             raise ClaimError(f"claim {claim.id}: the stated parameters do not fit the goal: {trouble}") from None
-        proof = prove_goal(pinned(goal, claim.at or {}))
-        if proof is None:
-            return Decision(claim, "undecided", "holds at the stated values, but no proof was found", None, 0.0)
+        proof = attempted_proof(pinned(goal, claim.at or {}))
+        if isinstance(proof, str):
+            return Decision(claim, "undecided", f"holds at the stated values, but {proof}", None, 0.0)
         return Decision(claim, "proved", f"exact evaluation at the stated values; {proof[1]}", "exact", 0.0,
                         {"claim": claim.id, **proof[0]}, computed=value_at(goal, stated))
     correction = None
@@ -100,33 +103,65 @@ def pinned(goal: Goal, values: dict[Any, Fraction]) -> Goal:
         # Derivatives first: D of a symbol that has become a number would be zero.
         carried = (Relation(expand_derivatives(r.left, goal.flow), r.operator, expand_derivatives(r.right, goal.flow))
                    for r in relations)
-        return tuple(r.subs(exact) for r in carried)
+        with as_typed():
+            return tuple(r.subs(exact) for r in carried)
 
     return replace(goal, show=put(goal.show), assume=put(goal.assume), always=put(goal.always), flow={},
-                   lemmas=put(goal.lemmas), facts=tuple(f.xreplace(exact) for f in goal.facts))
+                   lemmas=put(goal.lemmas), facts=tuple(f.xreplace(exact) for f in goal.facts), inputs=())
 
 
 def prove_goal(goal: Goal) -> tuple[Certificate, str] | None:
     """A checked certificate of verdict `proved` and the method that found it, or None."""
+    found = attempted_proof(goal)
+    return None if isinstance(found, str) else found
+
+
+def attempted_proof(goal: Goal) -> tuple[Certificate, str] | str:
+    """A checked certificate and the method that found it, or what was not shown."""
     if goal.eventually is not None:
-        return None
+        return "a claim of some later time is proved by naming that time"
+    record, missing = goal_text(goal), ""
+    for functions in (True, False):  # what sympy makes of Max, Min and abs the checker may have to be shown
+        found = _proofs(goal.evaluated(functions))
+        if isinstance(found, str):
+            return missing or found
+        missing = "no instant was found at which all assumptions hold: they may contradict each other"
+        for example in examples(goal):
+            certificate: Certificate = {"version": 1, "verdict": "proved", "goal": record, **example,
+                                        "proofs": found[0]}
+            try:
+                check(certificate)
+            except CertificateError as trouble:
+                missing = f"a proof was found that the checker does not accept: {trouble}"
+                if "example" not in str(trouble):
+                    break
+            else:
+                return certificate, found[1]
+    return missing
+
+
+def _proofs(goal: Goal) -> tuple[list[dict[str, Any]], str] | str:
+    """A proof of each relation that the goal shows, not yet checked, and how they were found; or what was not shown."""
     proofs, methods = [], []
-    for shown in goal.show:
+    for place, shown in enumerate(goal.show):
         found = prove_relation(goal, shown)
         if found is None:
-            return None
+            of = f" (relation {place + 1} of {len(goal.show)})" if len(goal.show) > 1 else ""
+            return f"not shown{of}: {_shortened(relation_text(shown))}"
         proofs.append(found[0])
         methods.append(found[1])
-    example = find_example(goal)
-    if example is None:
-        return None
-    certificate: Certificate = {"version": 1, "verdict": "proved", "goal": goal_text(goal), "example": example,
-                                "proofs": proofs}
-    try:
-        check(certificate)
-    except CertificateError:
-        return None
-    return certificate, ", ".join(dict.fromkeys(methods))
+    return proofs, ", ".join(dict.fromkeys(methods))
+
+
+def _nearest(goal: Goal, missing: str) -> str:
+    """What came nearest to a decision."""
+    if missing.startswith("a proof") or goal.eventually is not None:
+        return missing
+    return f"{missing}; {smallest_margin(goal)}"
+
+
+def _shortened(line: str) -> str:
+    return line if len(line) <= LONGEST_LINE else f"{line[:LONGEST_LINE]}..."
 
 
 def _fraction(value: Fraction) -> str:

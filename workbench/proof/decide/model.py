@@ -17,7 +17,8 @@ from workbench.proof.decide.identity import find_identity
 from workbench.proof.decide.landscape import Landscape, Numbers
 from workbench.proof.decide.proposals import proposals
 from workbench.proof.decide.sampling import TIDY, tidy_fraction, within_sign
-from workbench.proof.text import goal_text, text
+from workbench.proof.derive import expand_derivatives
+from workbench.proof.text import text
 
 NEGATED = {"<=": ">", "<": ">=", ">=": "<", ">": "<="}
 TIMES = np.array([0.0, 0.05, 0.2, 0.5, 1.0, 2.0, 4.0, 7.0, 10.0])  # exp(-2 t) still counts at the last
@@ -27,19 +28,22 @@ SHARES = (0.0, 0.3, 0.6, 1.0)  # of the proposed model that is drawn anew
 Functions = dict[sp.Expr, sp.Expr]
 
 
-def find_model(goal: Goal, verdict: Verdict, seed: int = 1) -> dict[str, Any] | None:
-    """A certificate made of the model that the goal proposes, or of one near it; None when none is found."""
+def find_model(goal: Goal, record: dict[str, Any], verdict: Verdict, seed: int = 1) -> dict[str, Any] | None:
+    """A certificate made of the model that the goal proposes, or of one near it; None when none is found.
+
+    record: the goal as its certificate states it.
+    """
     if goal.eventually is None:
         return None
     models = _models(goal, seed)
-    return next((found for model in models if (found := _certificate(goal, verdict, model)) is not None), None)
+    return next((found for model in models if (found := _certificate(goal, record, verdict, model)) is not None), None)
 
 
 def _models(goal: Goal, seed: int) -> Iterator[Functions]:
     """The proposed model, then states of rest, then others that numbers on a grid of times do not rule out."""
     if goal.model:
         yield goal.model
-    if set(goal.flow.values()) - {sp.Integer(1)} <= {s for s in goal.symbols() if isinstance(s, sp.Symbol)}:
+    if set(goal.flow.values()) - {sp.Integer(1)} <= set(goal.inputs):
         yield from _states_of_rest(goal, seed)
         yield from _drawn_models(goal, np.random.default_rng(seed))
 
@@ -48,15 +52,18 @@ def _states_of_rest(goal: Goal, seed: int) -> Iterator[Functions]:
     """Models in which nothing moves."""
     time = goal.eventually
     resting = {goal.flow[s]: sp.Integer(0) for s in goal.flow if s != time}
+
+    def rest(relations: tuple[Relation, ...]) -> tuple[Relation, ...]:
+        return tuple(_carried(goal, r).subs(resting) for r in relations)
+
     start = tuple(equal(s, value) for s, value in goal.initial.items() if s != time)
-    given = (*goal.assume, *(r.subs(resting) for r in goal.always), *start, at_least(time, 0))
-    at_rest = Goal(tuple(r.subs(resting) for r in goal.show), given)
+    at_rest = Goal(rest(goal.show), (*rest(goal.assume), *rest(goal.always), *start, at_least(time, 0)))
     for point in islice(proposals(at_rest, seed, break_shown=True), LOOKS):
         values = {s: Fraction(point.get(name_of(s), 1)) for s in goal.symbols() if s not in (time, *resting)}
         yield {s: sp.Rational(v.numerator, v.denominator) for s, v in values.items()}
 
 
-def _certificate(goal: Goal, verdict: Verdict, model: Functions) -> dict[str, Any] | None:
+def _certificate(goal: Goal, record: dict[str, Any], verdict: Verdict, model: Functions) -> dict[str, Any] | None:
     time = goal.eventually
     moving = [s for s in goal.flow if s != time]
     if not set(moving) <= model.keys() or len(goal.show) != 1 or goal.show[0].operator not in NEGATED:
@@ -67,7 +74,7 @@ def _certificate(goal: Goal, verdict: Verdict, model: Functions) -> dict[str, An
     later = (at_least(time, 0),)
 
     def along(relation: Relation) -> Relation:
-        return relation.subs(values).subs(constants)
+        return _carried(goal, relation).subs(values).subs(constants)
 
     def proof(relation: Relation) -> dict[str, Any] | None:
         if relation.operator in ("==", "<=", ">=") and find_identity(Goal((relation,)), relation):
@@ -84,7 +91,7 @@ def _certificate(goal: Goal, verdict: Verdict, model: Functions) -> dict[str, An
         if holds is None:
             return None
         always.append(holds)
-    certificate = {"version": 1, "verdict": verdict, "goal": goal_text(goal),
+    certificate = {"version": 1, "verdict": verdict, "goal": record,
                    "functions": {name_of(s): text(model[s]) for s in moving},
                    "point": {name_of(s): str(v) for s, v in constants.items()}, "always": always, "fails": fails}
     try:
@@ -92,6 +99,12 @@ def _certificate(goal: Goal, verdict: Verdict, model: Functions) -> dict[str, An
     except CertificateError:
         return None
     return certificate
+
+
+def _carried(goal: Goal, relation: Relation) -> Relation:
+    """The relation with its derivatives carried out along the goal's flow."""
+    left, right = (expand_derivatives(side, goal.flow) for side in (relation.left, relation.right))
+    return Relation(left, relation.operator, right)
 
 
 def _drawn_models(goal: Goal, rng: np.random.Generator) -> Iterator[Functions]:

@@ -20,7 +20,7 @@ from workbench.proof.decide.combination import find_combination
 from workbench.proof.decide.identity import find_identity
 from workbench.proof.decide.proposals import Point, proposals
 from workbench.proof.derive import expand_derivatives
-from workbench.proof.text import goal_text, text
+from workbench.proof.text import assumptions, text
 
 LOOKS = 30
 SAMPLES = (sp.Integer(0), sp.Rational(1, 2), sp.Integer(1), sp.Integer(100))  # of the duration; `always` goes on
@@ -30,30 +30,39 @@ MOST_TERMS = 80
 Way = dict[sp.Expr, sp.Expr]
 
 
-def find_path(goal: Goal, verdict: Verdict, seed: int, quick: bool = False) -> dict[str, Any] | None:
-    """A certificate with a point that the flow reaches from its initial values, or None."""
+def find_path(goal: Goal, record: dict[str, Any], verdict: Verdict, seed: int,
+              quick: bool = False) -> dict[str, Any] | None:
+    """A certificate with a point that the flow reaches from its initial values, or None.
+
+    record: the goal as its certificate states it.
+    """
+    for reached in reached_points(goal, seed, True, quick):
+        certificate = {**reached, "version": 1, "verdict": verdict, "goal": record}
+        try:
+            check(certificate)
+        except CertificateError:
+            continue
+        return certificate
+    return None
+
+
+def reached_points(goal: Goal, seed: int, break_shown: bool, quick: bool = False) -> Iterator[dict[str, Any]]:
+    """Points that meet the assumptions, and where wanted break what is shown, with the paths that lead to them."""
     if not goal.flow or set(goal.initial) != set(goal.flow) or any(isinstance(s, sp.Indexed) for s in goal.symbols()):
-        return None
+        return
     taken = {name_of(s) for s in goal.symbols()}
     duration, time = (sp.Symbol(next(n for n in (name, f"{name}_", f"{name}__") if n not in taken), **sign)
                       for name, sign in (("duration", {"positive": True}), ("time", {"real": True})))
-    record = goal_text(goal)
     for way in islice(_ways(goal, time), 1 if quick else None):
-        for point in _ends(goal, way, duration, time, seed, quick):
-            certificate = _certificate(goal, way, point, duration, time)
-            if certificate is not None:
-                certificate |= {"version": 1, "verdict": verdict, "goal": record}
-                try:
-                    check(certificate)
-                except CertificateError:
-                    continue
-                return certificate
-    return None
+        for point in _ends(goal, way, duration, time, seed, break_shown, quick):
+            reached = _reached(goal, way, point, duration, time)
+            if reached is not None:
+                yield reached
 
 
 def _ways(goal: Goal, time: sp.Symbol) -> Iterator[Way]:
     """Polynomials of time, with free coefficients, for what moves and for inputs: constant inputs first."""
-    inputs = sorted({s for rate in goal.flow.values() for s in rate.free_symbols} - set(goal.flow), key=str)
+    inputs = sorted(goal.inputs, key=str)
     seen: list[Way] = []
     for degrees in DEGREES:
         for varying in (False, True):
@@ -112,8 +121,10 @@ def _along(goal: Goal, way: Way, relation: Relation) -> Relation:
     return Relation(left, relation.operator, right)
 
 
-def _ends(goal: Goal, way: Way, duration: sp.Symbol, time: sp.Symbol, seed: int, quick: bool) -> list[Point]:
-    """Points by constants, coefficients and the duration at which the goal at the end of the way seems to fail."""
+def _ends(goal: Goal, way: Way, duration: sp.Symbol, time: sp.Symbol, seed: int,
+          break_shown: bool, quick: bool) -> list[Point]:
+    """Points by constants, coefficients and the duration at which the goal at the end of the way seems to fail, or its
+    assumptions to hold."""
     ends = {time: duration}
     held = [_along(goal, way, r).subs({time: part * duration}) for r in goal.always for part in SAMPLES]
     # Symbols that no relation mentions need values all the same.
@@ -121,19 +132,21 @@ def _ends(goal: Goal, way: Way, duration: sp.Symbol, time: sp.Symbol, seed: int,
     mentioned = tuple(at_least(s**2, 0) for s in sorted(used, key=str))
     try:
         at_end = Goal(tuple(_along(goal, way, r).subs(ends) for r in goal.show),
-                      (*(_along(goal, way, r).subs(ends) for r in goal.assume), *held, *mentioned))
-        return list(islice(proposals(at_end, seed, True, quick), LOOKS))
+                      (*(_along(goal, way, r).subs(ends) for r in assumptions(goal)), *held, *mentioned))
+        return list(islice(proposals(at_end, seed, break_shown, quick), LOOKS))
     except ClaimError:
         return []
 
 
-def _certificate(goal: Goal, way: Way, point: Point, duration: sp.Symbol, time: sp.Symbol) -> dict[str, Any] | None:
-    """The certificate for constants, coefficients and a duration; None without a proof of what must always hold."""
+def _reached(goal: Goal, way: Way, point: Point, duration: sp.Symbol, time: sp.Symbol) -> dict[str, Any] | None:
+    """What a certificate says of constants, coefficients and a duration; None without a proof of what must always hold."""
     chosen = {sp.Symbol(name): sp.Rational(v.numerator, v.denominator) for name, v in point.items()}
     values = {s: chosen[sp.Symbol(s.name)] for f in (*way.values(), *goal.symbols()) for s in f.free_symbols
               if isinstance(s, sp.Symbol) and sp.Symbol(s.name) in chosen}
     path = {s: sp.expand(f.xreplace(values)) for s, f in way.items()}
     lasting = chosen[sp.Symbol(duration.name)]
+    if lasting < 0:
+        return None
     ends = {name_of(s): f.xreplace({time: lasting}) for s, f in path.items()}
     ends |= {name_of(s): values[s] for s in goal.symbols() if s in values and s not in path}
     if not all(value.is_Rational for value in ends.values()):

@@ -2,27 +2,34 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from itertools import islice
 from typing import Any
 
 from workbench.errors import ClaimError
 from workbench.proof.checker import (
     CertificateError,
     Context,
+    at,
     bounds,
     check,
     holds,
     number,
     read_goal,
     read_rational,
+    read_terms,
     same,
     split_relation,
     substitute,
 )
 from workbench.proof.claim import Goal, Verdict
+from workbench.proof.decide.counts import counted_points
 from workbench.proof.decide.model import find_model
-from workbench.proof.decide.path import find_path
+from workbench.proof.decide.path import find_path, reached_points
 from workbench.proof.decide.proposals import Point, proposals
 from workbench.proof.text import goal_text
+
+EXAMPLES = 4  # of each kind, when the checker wants another
 
 
 def find_counterexample(goal: Goal, verdict: Verdict, seed: int = 1, quick: bool = False) -> dict[str, Any] | None:
@@ -33,25 +40,59 @@ def find_counterexample(goal: Goal, verdict: Verdict, seed: int = 1, quick: bool
     record = goal_text(goal)
     try:
         exact = Exact(record)
+        usual = goal.evaluated()
         if goal.eventually is not None:
-            return None if quick else find_model(goal, verdict)
-        for point in proposals(goal, seed, True, quick):
+            return None if quick else find_model(usual, record, verdict)
+        for point in proposals(usual, seed, True, quick):
             if exact.breaks(point):
                 certificate = {"version": 1, "verdict": verdict, "goal": record, "point": texts(point)}
                 if _accepted(certificate):
                     return certificate
+        if not quick and (found := _at_other_counts(usual, record, verdict, seed)) is not None:
+            return found
     except (CertificateError, ClaimError):  # nothing that the checker would accept can be said of such a goal
         return None
-    return find_path(goal, verdict, seed, quick)
+    return find_path(usual, record, verdict, seed, quick)
+
+
+def _at_other_counts(goal: Goal, record: dict[str, Any], verdict: Verdict, seed: int) -> dict[str, Any] | None:
+    """A certificate with a point at which the sums have no term, two or three."""
+    for point, terms in counted_points(goal, seed):
+        certificate = {"version": 1, "verdict": verdict, "goal": record, "point": texts(point),
+                       "terms": [texts(term) for term in terms]}
+        if _accepted(certificate):
+            return certificate
+    return None
+
+
+def shown_point(certificate: dict[str, Any]) -> dict[str, str]:
+    """The functions of time and the values of a counterexample, those of indexed symbols by their place."""
+    terms = certificate.get("terms", [])
+    rows = {f"{name}[{place}]": value for place, term in enumerate(terms, 1) for name, value in term.items()}
+    count = {"terms of the sums": str(len(terms))} if "terms" in certificate else {}
+    return dict(certificate.get("functions", {})) | count | rows | certificate["point"]
 
 
 def find_example(goal: Goal, seed: int = 1) -> dict[str, str] | None:
     """A rational point that meets all assumptions of a goal, so that nothing is proved from nothing."""
     try:
         exact = Exact(goal_text(goal))
-        return next((texts(point) for point in proposals(goal, seed, False) if exact.meets(point)), None)
+        return next((texts(point) for point in proposals(goal.evaluated(), seed, False) if exact.meets(point)), None)
     except (CertificateError, ClaimError):
         return None
+
+
+def examples(goal: Goal, seed: int = 1) -> Iterator[dict[str, Any]]:
+    """What certificates say of instants at which all assumptions hold; of a flow with initial values, the first
+    instant or one that a path leads to."""
+    try:
+        exact, usual = Exact(goal_text(goal)), goal.evaluated()
+        points = (point for point in proposals(usual, seed, False) if exact.meets(point))
+        yield from ({"example": texts(point)} for point in islice(points, EXAMPLES if goal.initial else 1))
+        for reached in islice(reached_points(usual, seed, False) if goal.initial else (), EXAMPLES):
+            yield {"example": reached.pop("point"), **reached}
+    except (CertificateError, ClaimError):
+        return
 
 
 def _accepted(certificate: dict[str, Any]) -> bool:
@@ -96,16 +137,17 @@ class Exact:
             return False
 
 
-def value_at(goal: Goal, point: dict[str, str]) -> str:
+def value_at(goal: Goal, point: dict[str, str], terms: list[dict[str, str]] | None = None) -> str:
     """The sides of the first relation that fails (or of the last) at a point, as exact or rounded numbers."""
     record = goal_text(goal)
     context = Context(record.get("flow", {}), record.get("indexed", []))
     values = {name: number(read_rational(v)) for name, v in point.items()}
+    rows = None if terms is None else read_terms(terms, context, values)
     for shown in record["show"]:
-        if not holds(context, shown, values) or shown is record["show"][-1]:
+        if not holds(context, shown, values, rows) or shown is record["show"][-1]:
             break
     left, operator, right = split_relation(shown)
-    sides = [bounds(context, substitute(context, context.read(side), values)) for side in (left, right)]
+    sides = [bounds(context, at(context, context.read(side), values, rows)) for side in (left, right)]
     a, b = (f"{float(low):.6g}" if low == high or float(low) == float(high) else f"{float((low + high) / 2):.6g}"
             for low, high in sides)
     return f"{a} {operator} {b}"

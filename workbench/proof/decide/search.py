@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from typing import Any
 
 import sympy as sp
@@ -39,7 +38,7 @@ def search(goal: Goal, shown: Relation, given: Given, lemmas: Given = (), depth:
     inspected = _inspected((shown, *given), goal)
     if inspected is not None and depth < MOST_CASES:
         here, *rest = (_carried(r, goal) for r in (shown, *lemmas, *given))
-        found = _by_cases(replace(goal, flow={}), here, tuple(rest[len(lemmas):]), tuple(rest[:len(lemmas)]),
+        found = _by_cases(Goal((EMPTY,), facts=goal.facts), here, tuple(rest[len(lemmas):]), tuple(rest[:len(lemmas)]),
                           *inspected, depth)
         if found is not None:
             return found
@@ -154,8 +153,7 @@ def _by_decrease(goal: Goal, shown: Relation) -> Found:
     """A bound from a function that does not increase along the flow."""
     function = sp.Add(goal.decreasing)
     # As the checker will see it: assumptions of the moving symbols emptied, those that always hold appended.
-    moving = {s for s, rate in goal.flow.items() if rate != 0}
-    moving |= {s for rate in goal.flow.values() for s in rate.free_symbols} - set(goal.flow)
+    moving = goal.moving()
     given = assumptions(goal)
     kept = tuple(EMPTY if r.margin.free_symbols & moving else r for r in given)
     decrease = search(goal, at_least(-D(function), 0), (*kept, *goal.always))

@@ -1,0 +1,162 @@
+"""What certificates can say without loss, and what is said of a goal that says more."""
+
+from __future__ import annotations
+
+import keyword
+import re
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+import sympy as sp
+
+from workbench.errors import ClaimError
+from workbench.proof.typed import evaluated
+
+# What sympy may know of a symbol: by more it would simplify a goal into one that holds for fewer values than stated.
+SYMBOLS = [sp.Symbol("x", **known).assumptions0 for known in ({}, {"real": True}, {"positive": True},
+                                                              {"nonnegative": True})]
+BASES = [sp.IndexedBase("x", **known).assumptions0 for known in ({}, {"real": True})]
+FUNCTIONS = (sp.log, sp.exp, sp.tanh, sp.Abs, sp.sign, sp.Max, sp.Min)
+LANGUAGE = ("Sum", "D", "log", "exp", "tanh", "abs", "sign", "sqrt", "Max", "Min")
+NO_NUMBERS = (sp.I, sp.zoo, sp.nan, sp.oo, -sp.oo)
+LARGEST_POWER, LARGEST_NUMBER = 64, 10**300  # of the checker; of floating point, in which points are sought
+
+
+class D(sp.Function):
+    """Derivative along the goal's flow, left unevaluated so that decider and checker derive it on their own."""
+
+    nargs = 1
+
+
+class Language:
+    """All expressions of one goal go through one of these; ClaimError for what a certificate cannot state exactly.
+
+    Certificates know symbols by name only and print W[j] as W, so two symbols must not share a name, and an
+    index may stand only where its sum binds it. A sum runs over every number of neurons, from 1 to a symbol.
+    """
+
+    def __init__(self, flow: Mapping[sp.Expr, sp.Expr], inputs: Sequence[sp.Symbol]) -> None:
+        self.names: dict[str, sp.Expr] = {}
+        self.limits: sp.Tuple | None = None
+        self.flow, self.inputs = flow, set(inputs)
+
+    def check(self, expr: sp.Expr, index: sp.Symbol | None = None) -> None:
+        """Raise ClaimError unless certificates can state the expression exactly, and it has a real value."""
+        if expr.has(*NO_NUMBERS) or (expr.args and evaluated(expr).has(*NO_NUMBERS)):
+            raise ClaimError(f"'{expr}' has no real value: it divides by zero, or takes the root or logarithm of a "
+                             "negative number")
+        self._check(expr, index)
+
+    def check_rate(self, rate: sp.Expr, index: sp.Symbol | None = None) -> None:
+        """The same for a rate, which is no derivative itself."""
+        if rate.has(D):
+            raise ClaimError(f"the rate {rate} is given by a derivative: write the rate of each symbol out")
+        self.check(rate, index)
+
+    def check_whole(self) -> None:
+        """Raise ClaimError when the index of the sums, or the number of their terms, stands elsewhere as a number."""
+        for symbol in () if self.limits is None else (self.limits[0], self.limits[2]):
+            if str(symbol) in self.names:
+                raise ClaimError(f"'{symbol}' is the index of the goal's sums or the number of their terms, and stands "
+                                 "elsewhere too: the sums hold for every number of terms, so give it another name")
+
+    def _check(self, expr: sp.Expr, index: sp.Symbol | None) -> None:
+        if isinstance(expr, sp.Symbol):
+            if expr == index:
+                raise ClaimError(f"the index {index} stands as a number in a sum: use it as an index only")
+            self._name(str(expr), expr)
+        elif isinstance(expr, sp.Indexed):
+            if index is None or expr.indices != (index,):
+                raise ClaimError(f"{expr} stands where no sum binds its index: sum over it, with one index")
+            self._name(str(expr.base.label), expr.base)
+        elif isinstance(expr, sp.Sum):
+            self._check_sum(expr, index)
+        elif isinstance(expr, sp.Pow) and expr.base == sp.E:
+            self._check(expr.exp, index)
+        elif isinstance(expr, sp.Pow):
+            power = evaluated(expr.exp)
+            if not sp.Mul(power, 2).is_Integer:
+                raise ClaimError(f"'{expr}' has no meaning in certificates: only whole and half powers have")
+            if abs(power) > LARGEST_POWER:
+                raise ClaimError(f"the power {power} is too large: certificates have powers up to {LARGEST_POWER}")
+            self._require_value(expr, power)
+            self._check(expr.base, index)
+        elif isinstance(expr, D):
+            self._check_derivative(expr)
+            self._check(expr.args[0], index)
+        elif isinstance(expr, (sp.Add, sp.Mul, *FUNCTIONS)):
+            if isinstance(expr, sp.log) and evaluated(expr.args[0]).is_nonpositive:
+                raise ClaimError(f"'{expr}' has no real value: the logarithm of what is never positive")
+            for part in expr.args:
+                self._check(part, index)
+        elif isinstance(expr, sp.Float):
+            raise ClaimError(f"the number {expr} is not exact: write it as sympy.Rational or Fraction")
+        elif isinstance(expr, sp.Rational):
+            if max(abs(expr.p), expr.q) > LARGEST_NUMBER:
+                raise ClaimError("a number has more than 300 digits: choose other units or smaller powers")
+        elif expr != sp.E:
+            raise ClaimError(f"'{expr}' has no meaning in certificates: state the claim with + - * / **, "
+                             f"{', '.join(LANGUAGE[2:])}")
+
+    @staticmethod
+    def _require_value(expr: sp.Pow, power: sp.Rational) -> None:
+        base = evaluated(expr.base)
+        if power < 0 and base.is_zero:
+            raise ClaimError(f"'{expr}' has no value: it divides by zero")
+        if power.q == 2 and base.is_negative:
+            raise ClaimError(f"'{expr}' has no real value: the root of what is negative")
+
+    def _check_sum(self, expr: sp.Sum, index: sp.Symbol | None) -> None:
+        limits = expr.limits[0]
+        if len(expr.limits) != 1 or len(limits) != 3 or limits[1] != 1 or not isinstance(limits[2], sp.Symbol):
+            raise ClaimError(f"'{expr}': a sum runs from 1 to a symbol, as in Sum(W[j], (j, 1, n)), for every number "
+                             "of terms; write a sum of so many terms out: W_1 + W_2 + W_3")
+        if index is not None or (self.limits or limits) != limits:
+            raise ClaimError(f"{expr}: all sums of a goal need the same one index and range, none in another")
+        self.limits = limits
+        self._check(expr.function, limits[0])
+
+    def _check_derivative(self, expr: D) -> None:
+        """What D is taken of moves, and all that moves in it has a known rate."""
+        inside = _carried_symbols(expr.args[0], self.flow)
+        if unknown := sorted(inside & self.inputs, key=str):
+            raise ClaimError(f"D({expr.args[0]}) needs the rate of the input {unknown[0]}: give it one in the flow")
+        if not inside & set(self.flow):
+            raise ClaimError(f"D({expr.args[0]}) is taken of what does not move: give a rate to one of its symbols in "
+                             "the flow, 0 where it is meant to be constant")
+
+    def _name(self, name: str, owner: sp.Expr) -> None:
+        if not re.fullmatch(r"[A-Za-z_][A-Za-z0-9_]*", name) or keyword.iskeyword(name) or name in LANGUAGE:
+            raise ClaimError(f"symbol '{name}': certificates need names of letters, digits and underscores, "
+                             f"other than {', '.join(LANGUAGE)} and Python's own words")
+        if self.names.setdefault(name, owner) != owner:
+            raise ClaimError(f"two different symbols are named '{name}' (other assumptions, or one of them indexed): "
+                             "certificates could not tell them apart; give each its own name")
+        if owner.assumptions0 not in (BASES if isinstance(owner, sp.IndexedBase) else SYMBOLS):
+            raise ClaimError(f"symbol '{name}': sympy knows more of it than its certificate would say; make it real, "
+                             "positive or nonnegative (indexed: real) and state the rest as an assumption")
+
+
+def _carried_symbols(expr: sp.Expr, flow: Mapping[sp.Expr, sp.Expr]) -> set[sp.Expr]:
+    """The symbols, indexed or not, of which the rates are needed to derive the expression."""
+    if isinstance(expr, D):  # of a rate, those that the rate mentions
+        inner = _carried_symbols(expr.args[0], flow)
+        return inner.union(*(_plain_symbols(flow[s]) for s in inner if s in flow))
+    if isinstance(expr, (sp.Symbol, sp.Indexed)):
+        return {expr}
+    parts = expr.args[:1] if isinstance(expr, sp.Sum) else expr.args
+    return set().union(*(_carried_symbols(part, flow) for part in parts))
+
+
+def _plain_symbols(expr: sp.Expr) -> set[sp.Expr]:
+    return _carried_symbols(expr, {})
+
+
+def saturation(value: Any, low: Any, high: Any) -> sp.Expr:
+    """sat(value, low, high): value, cut off at low and high (low <= high)."""
+    return sp.Min(sp.Max(value, low), high)
+
+
+def name_of(symbol: sp.Expr) -> str:
+    """The name under which a symbol or an indexed symbol stands in certificates."""
+    return str(symbol.base.label) if isinstance(symbol, sp.Indexed) else str(symbol)
