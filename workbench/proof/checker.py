@@ -34,6 +34,7 @@ OPERATORS = ("<=", ">=", "==", "!=", "<", ">")
 FUNCTIONS = ("log", "exp", "tanh", "abs", "sign", "sqrt")
 NAME = re.compile(r"[A-Za-z_][A-Za-z0-9_]*")  # no atom of this file looks like that
 EXPRESSION = re.compile(r"[A-Za-z0-9_ +*/(),-]*")
+OTHER_NUMBER = re.compile(r"(?<![A-Za-z0-9_])[0-9]+[A-Za-z_]")  # 0x10 and 1_0 are numbers to Python
 RATIONAL = re.compile(r"-?[0-9]+(/[0-9]+)?")
 DIGEST = re.compile(r"[0-9a-f]{64}")
 EQUATION = re.compile(r"[A-Za-z0-9][A-Za-z0-9._+-]*")
@@ -214,7 +215,7 @@ def parse(text: str) -> ast.expr:
     if len(text) > MOST_TEXT:
         raise CertificateError(f"an expression is longer than {MOST_TEXT} characters")
     spend(1 + len(text) // 4)
-    if not EXPRESSION.fullmatch(text):
+    if not EXPRESSION.fullmatch(text) or OTHER_NUMBER.search(text):
         raise CertificateError(f"'{text[:80]}' is not an expression of the certificate language")
     try:
         return ast.parse(text, mode="eval").body
