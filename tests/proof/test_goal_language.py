@@ -121,7 +121,7 @@ def test_contradictory_assumptions_prove_nothing():
 
 def test_no_point_refutes_a_true_statement_about_a_flow():
     """The final rate says nothing of the earlier ones; a point that the flow never reaches refutes nothing."""
-    along = {"flow": {x: w}, "initial": {x: x_0}, "decreasing": x}
+    along = {"flow": {x: w}, "initial": {x: x_0}, "decreasing": x, "inputs": (w,)}
     true = Goal((at_most(x, x_0),), always=(at_most(w, 0),), **along)
     false = Goal((at_most(x, x_0),), (at_most(w, 0),), **along)
     assert prove_goal(true) is not None
@@ -130,7 +130,7 @@ def test_no_point_refutes_a_true_statement_about_a_flow():
 
 
 def test_a_start_refutes_a_false_statement_about_a_flow():
-    goal = Goal((at_most(x, x_0 - 1),), flow={x: w}, initial={x: x_0}, always=(at_most(w, 0),))
+    goal = Goal((at_most(x, x_0 - 1),), flow={x: w}, initial={x: x_0}, always=(at_most(w, 0),), inputs=(w,))
     assert find_counterexample(goal, "refuted") is not None
 
 

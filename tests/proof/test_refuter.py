@@ -73,13 +73,14 @@ decaying = (at_most(rate, -mu * V + bound), at_least(t, 0))
 a, b = sp.symbols("a b", real=True)
 LATER = {
     "along a curve": Goal((at_most(b, 2 * V),), (), {a: -p * a + x, b: a**2, V: x**2}, (), {
-        a: sp.Integer(0), b: sp.Integer(0), V: sp.Integer(0)}),
+        a: sp.Integer(0), b: sp.Integer(0), V: sp.Integer(0)}, inputs=(x,)),
     "decays too fast": Goal((at_most(V, bound / mu + (V_0 - bound / mu) * sp.exp(-2 * mu * t)),), (), flow, decaying,
-                            start),
-    "grows, though it starts well": Goal((at_most(V, V_0),), (), flow, (at_most(rate, bound), at_least(t, 0)), start),
-    "an integral of a square": Goal((at_most(V, V_0),), (), {V: x**2}, (at_most(x, 1),), {V: V_0}),
+                            start, inputs=(rate,)),
+    "grows, though it starts well": Goal((at_most(V, V_0),), (), flow, (at_most(rate, bound), at_least(t, 0)), start,
+                                          inputs=(rate,)),
+    "an integral of a square": Goal((at_most(V, V_0),), (), {V: x**2}, (at_most(x, 1),), {V: V_0}, inputs=(x,)),
     "with a constant of the flow": Goal((at_least(V, V_0 - p * t),), (greater(p, 0),), {**flow, p: sp.Integer(0)},
-                                        (at_least(rate, -2 * p), at_least(t, 0)), {**start, p: p}),
+                                        (at_least(rate, -2 * p), at_least(t, 0)), {**start, p: p}, inputs=(rate,)),
 }
 
 
@@ -118,12 +119,13 @@ def test_a_path_that_the_flow_does_not_take_is_refused(changes):
 
 EVENTUALLY = {
     "a proposed model": Goal((at_most(V, bound / mu),), (), flow, decaying, start, eventually=t, model={
-        V: 1 + sp.exp(-t), mu: sp.Integer(1), bound: sp.Integer(1), V_0: sp.Integer(2)}),
+        V: 1 + sp.exp(-t), mu: sp.Integer(1), bound: sp.Integer(1), V_0: sp.Integer(2)}, inputs=(rate,)),
     "a model near the proposed one": Goal((at_least(V, bound / mu),), (), flow, decaying, start, eventually=t, model={
-        V: 1 + sp.exp(-t), mu: sp.Integer(1), bound: sp.Integer(1), V_0: sp.Integer(2)}),
+        V: 1 + sp.exp(-t), mu: sp.Integer(1), bound: sp.Integer(1), V_0: sp.Integer(2)}, inputs=(rate,)),
     "a state of rest": Goal((greater(x, 3),), (), {t: sp.Integer(1), x: w}, (
-        equal(w, d - p * x), at_least(t, 0)), eventually=t),
-    "nothing proposed": Goal((at_most(V, bound / mu),), (), flow, decaying, start, eventually=t),
+        equal(w, d - p * x), at_least(t, 0)), eventually=t, inputs=(w,)),
+    "nothing proposed": Goal((at_most(V, bound / mu),), (), flow, decaying, start, eventually=t,
+                             inputs=(rate,)),
 }
 
 
@@ -140,7 +142,7 @@ TRUE = {
     "a square": Goal((at_least((x - y) ** 2, 0),)),
     "a bound of a later instant": Goal((at_most(V, bound / mu + (V_0 - bound / mu) * sp.exp(-mu * t)),), (), flow,
                                        decaying, start),
-    "defined nowhere": Goal((at_most(sp.log(-x**2 - 1), 0),)),
+    "defined nowhere": Goal((at_most(sp.log(x * y - x**2 - y**2 - 1), 0),)),
     "undefined where it would fail": Goal((at_least(sp.log(x), -million**3),), (greater(x, 0), less(x, 1))),
     "no assumption ever holds": Goal((greater(x, x),), (greater(x, 0), less(x, 0))),
 }

@@ -42,10 +42,12 @@ class Language:
 
     def check(self, expr: sp.Expr, index: sp.Symbol | None = None) -> None:
         """Raise ClaimError unless certificates can state the expression exactly, and it has a real value."""
-        if expr.has(*NO_NUMBERS) or (expr.args and evaluated(expr).has(*NO_NUMBERS)):
+        known = not expr.has(*NO_NUMBERS)
+        if known:
+            self._check(expr, index)  # part by part, so that what is evaluated then has a value in every part
+        if not known or (expr.args and evaluated(expr).has(*NO_NUMBERS)):
             raise ClaimError(f"'{expr}' has no real value: it divides by zero, or takes the root or logarithm of a "
                              "negative number")
-        self._check(expr, index)
 
     def check_rate(self, rate: sp.Expr, index: sp.Symbol | None = None) -> None:
         """The same for a rate, which is no derivative itself."""
@@ -79,16 +81,16 @@ class Language:
                 raise ClaimError(f"'{expr}' has no meaning in certificates: only whole and half powers have")
             if abs(power) > LARGEST_POWER:
                 raise ClaimError(f"the power {power} is too large: certificates have powers up to {LARGEST_POWER}")
-            self._require_value(expr, power)
             self._check(expr.base, index)
+            self._require_value(expr, power)
         elif isinstance(expr, D):
             self._check_derivative(expr)
             self._check(expr.args[0], index)
         elif isinstance(expr, (sp.Add, sp.Mul, *FUNCTIONS)):
-            if isinstance(expr, sp.log) and evaluated(expr.args[0]).is_nonpositive:
-                raise ClaimError(f"'{expr}' has no real value: the logarithm of what is never positive")
             for part in expr.args:
                 self._check(part, index)
+            if isinstance(expr, sp.log) and evaluated(expr.args[0]).is_nonpositive:
+                raise ClaimError(f"'{expr}' has no real value: the logarithm of what is never positive")
         elif isinstance(expr, sp.Float):
             raise ClaimError(f"the number {expr} is not exact: write it as sympy.Rational or Fraction")
         elif isinstance(expr, sp.Rational):

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from fractions import Fraction
 from itertools import islice
 from typing import Any
 
@@ -30,6 +31,7 @@ from workbench.proof.decide.proposals import Point, proposals
 from workbench.proof.text import goal_text
 
 EXAMPLES = 4  # of each kind, when the checker wants another
+SIMPLE = (Fraction(0), Fraction(1), Fraction(-1), Fraction(2), Fraction(1, 2), Fraction(-2), Fraction(3))
 
 
 def find_counterexample(goal: Goal, verdict: Verdict, seed: int = 1, quick: bool = False) -> dict[str, Any] | None:
@@ -45,14 +47,27 @@ def find_counterexample(goal: Goal, verdict: Verdict, seed: int = 1, quick: bool
             return None if quick else find_model(usual, record, verdict)
         for point in proposals(usual, seed, True, quick):
             if exact.breaks(point):
-                certificate = {"version": 1, "verdict": verdict, "goal": record, "point": texts(point)}
-                if _accepted(certificate):
-                    return certificate
+                for shown in (_simplest(exact, point), point):
+                    certificate = {"version": 1, "verdict": verdict, "goal": record, "point": texts(shown)}
+                    if _accepted(certificate):
+                        return certificate
         if not quick and (found := _at_other_counts(usual, record, verdict, seed)) is not None:
             return found
     except (CertificateError, ClaimError):  # nothing that the checker would accept can be said of such a goal
         return None
     return find_path(usual, record, verdict, seed, quick)
+
+
+def _simplest(exact: Exact, point: Point) -> Point:
+    """A point that breaks the goal too, each value in turn made as simple as can be: zero first, then one."""
+    for name, value in sorted(point.items()):
+        rank = SIMPLE.index(value) if value in SIMPLE else len(SIMPLE)
+        for simpler in SIMPLE[:rank]:
+            tried = point | {name: simpler}
+            if exact.breaks(tried):
+                point = tried
+                break
+    return point
 
 
 def _at_other_counts(goal: Goal, record: dict[str, Any], verdict: Verdict, seed: int) -> dict[str, Any] | None:
