@@ -6,13 +6,14 @@ from low to high. Times v this is a cubic that must not be negative. Its Bernste
 are halved until they do. The bound is the claimed values, each cell's length times the mean of its two ends' least,
 plus the fixed part, all summed as fractions.
 
-The certificate holds the run: borders, limits and forces of the line, inertia and the speeds at both ends, and p(s). The
-cells must fill it, with the line's limits, and the line's part, the ends' and the jumps must follow from it. What it
-does not hold are the train's forces and Davis values: the coefficients of the minimisations are taken as they stand.
+The certificate holds the run: borders, limits and forces of the line, inertia and the speeds at both ends, and p(s).
+The cells must fill it, with the line's limits, and the line's part, the ends' and the jumps must follow from it. What
+it does not hold are the train's forces and Davis values: the minimisations' coefficients are taken as they stand.
 
-The fixed part is held against what the events of the timetable make of it: no more than the line's and the ends' part, the jumps at the worst speed that each place allows, and the windows at their prices; and the price
-of time in every term against the sum of the prices of all events that lie ahead of its cell and of what auxiliaries
-draw from the first departure to the last arrival.
+The fixed part is held against what the events of the timetable make of it: no more than the line's and the ends'
+part, the jumps at the worst speed that each place allows, and the windows at their prices; and the price of time in
+every term against the sum of the prices of all events that lie ahead of its cell and of what auxiliaries draw from the
+first departure to the last arrival.
 """
 
 from __future__ import annotations
