@@ -141,10 +141,11 @@ def test_a_tampered_certificate_is_refused(name):
         checked_bound(made)
 
 
-def test_the_untouched_certificate_proves_its_bound_and_old_ones_hold_too():
+def test_the_untouched_certificate_proves_its_bound_and_without_its_run_it_proves_none():
     made = document()
     assert checked_bound(made) >= Fraction(made["lower_bound_J"])
-    for name in ("events", "cell_price_w", "jumps", "line_j", "ends_j", "origin_s", "start_m"):
-        del made[name]
-    del made["terms"]["of_force"]
-    assert checked_bound(made) >= Fraction(made["lower_bound_J"])
+    for name in ("run", "p", "events", "cell_price_w", "jumps", "line_j", "ends_j", "origin_s", "start_m"):
+        with pytest.raises((ValueError, KeyError)):
+            checked_bound({key: value for key, value in made.items() if key != name})
+    with pytest.raises(ValueError, match="holds no line"):
+        checked_bound(made | {"version": 1})

@@ -6,10 +6,14 @@ from low to high. Times v this is a cubic that must not be negative. Its Bernste
 are halved until they do. The bound is the claimed values, each cell's length times the mean of its two ends' least,
 plus the fixed part, all summed as fractions.
 
-Where it states the events of a timetable, the fixed part is held against what they make of it: no more than the line's
-and the ends' part, the jumps at the worst speed that each place allows, and the windows at their prices; and the price
-of time in every term against the sum of the prices of all events that lie ahead of its cell and of what auxiliaries
-draw from the first departure to the last arrival.
+The certificate holds the run: borders, limits and forces of the line, inertia and the speeds at both ends, and p(s).
+The cells must fill it, with the line's limits, and the line's part, the ends' and the jumps must follow from it. What
+it does not hold are the train's forces and Davis values: the minimisations' coefficients are taken as they stand.
+
+The fixed part is held against what the events of the timetable make of it: no more than the line's and the ends'
+part, the jumps at the worst speed that each place allows, and the windows at their prices; and the price of time in
+every term against the sum of the prices of all events that lie ahead of its cell and of what auxiliaries draw from the
+first departure to the last arrival.
 """
 
 from __future__ import annotations
@@ -24,6 +28,9 @@ from typing import Any
 MOST_HALVINGS = 60
 # In bytes: no certificate comes near it.
 LARGEST = 64 * 2**20
+DEEPEST, HUGE, FASTEST = 6, 1e18, 200
+# Of positions in m, and of sums as a share: what rounding may do.
+NEAR, ROUNDED = Fraction(1, 10**6), Fraction(1, 10**12)
 
 
 def nonnegative(coefficients: tuple[Fraction, ...], low: Fraction, high: Fraction) -> bool:
@@ -52,9 +59,13 @@ def nonnegative(coefficients: tuple[Fraction, ...], low: Fraction, high: Fractio
 
 def checked_bound(certificate: dict[str, Any]) -> Fraction:
     """The bound in J that the certificate proves; raises ValueError with the reason when it proves none."""
+    if certificate.get("version") != 2:
+        raise ValueError("holds no line, no train and no p(s), so that nothing binds it to a run: write it again")
+    _require_plain_numbers(certificate)
     lengths = [Fraction(value) for value in certificate["cell_m"]]
-    if any(length <= 0 for length in lengths):
-        raise ValueError("a cell has no length")
+    if not lengths or any(length <= 0 for length in lengths):
+        raise ValueError("there are no cells, or a cell has no length")
+    _check_run(certificate, lengths)
     least: list[list[Fraction | None]] = [[None, None] for _ in lengths]
     reached: dict[tuple[int, int], Fraction] = {}
     terms = sorted(zip(*(certificate["terms"][name] for name in (
@@ -69,8 +80,7 @@ def checked_bound(certificate: dict[str, Any]) -> Fraction:
             raise ValueError(f"term {number}: its value is not proven")
         before = least[cell][end]
         least[cell][end] = value if before is None else min(before, value)
-    if "events" in certificate:
-        _check_timetable(certificate, lengths)
+    _check_timetable(certificate, lengths)
     total = Fraction(certificate["fixed_j"])
     for cell, (length, (left, right)) in enumerate(zip(lengths, least, strict=True)):
         top = Fraction(certificate["limit_mps"][cell])
@@ -78,6 +88,64 @@ def checked_bound(certificate: dict[str, Any]) -> Fraction:
             raise ValueError(f"cell {cell}: not every speed up to its limit is looked at")
         total += length * (left + right) / 2
     return total
+
+
+def _require_plain_numbers(part: Any, depth: int = 0) -> None:
+    """Raises ValueError for numbers that no train, line or timetable has, and for what is nested deeper than a
+    certificate is."""
+    if depth > DEEPEST:
+        raise ValueError("is nested too deeply")
+    if isinstance(part, dict | list):
+        for inner in part.values() if isinstance(part, dict) else part:
+            _require_plain_numbers(inner, depth + 1)
+    elif isinstance(part, int | float) and not -HUGE < part < HUGE:
+        raise ValueError(f"holds a number that is not between -{HUGE:g} and {HUGE:g}")
+
+
+def _check_run(certificate: dict[str, Any], lengths: list[Fraction]) -> None:
+    """Raises ValueError unless the cells fill the run without gaps, their limits are the line's, and the line's part,
+    that of the ends and the jumps follow from the line's force, the inertia and p(s)."""
+    run, p = certificate["run"], certificate["p"]
+    inertia, start, end = (Fraction(run[name]) for name in ("inertia_kg", "start_mps", "end_mps"))
+    x = [Fraction(value) for value in run["position_m"]]
+    limits = [Fraction(value) for value in run["limit_mps"]]
+    forces = [(Fraction(one), Fraction(two)) for one, two in run["force_n"]]
+    left, right = ([Fraction(value) for value in p[side]] for side in ("left", "right"))
+    if inertia <= 0 or start < 0 or end < 0 or any(b <= a for a, b in pairwise(x)) or not (
+            len(x) - 1 == len(limits) == len(forces) > 0) or not len(left) == len(right) == len(lengths):
+        raise ValueError("line, train and p(s) do not fit each other")
+    if any(not 0 < limit < FASTEST for limit in limits) or max(start, end) >= FASTEST:
+        raise ValueError(f"a limit of speed is not between 0 and {FASTEST} m/s: are they in km/h?")
+    borders = [Fraction(value) for value in p["position_m"]]
+    if len(borders) != len(lengths) + 1 or borders[0] != x[0] or borders[-1] != x[-1] or (
+            Fraction(certificate["start_m"]) != x[0]) or any(
+            abs(b - a - length) > NEAR for (a, b), length in zip(pairwise(borders), lengths, strict=True)):
+        raise ValueError("the cells do not fill the run from its start to its end")
+    line, section = Fraction(0), 0
+    tops: list[Fraction] = []
+    for (a, b), p_a, p_b in zip(pairwise(borders), left, right, strict=True):
+        tops.append(Fraction(0))
+        while x[section + 1] <= a:
+            section += 1
+        here = section
+        while here < len(limits) and x[here] < b:
+            tops[-1] = max(tops[-1], limits[here])
+            one, two = max(a, x[here]), min(b, x[here + 1])
+            p_one, p_two = (p_a + (p_b - p_a) * (at - a) / (b - a) for at in (one, two))
+            g_one, g_two = (forces[here][0] + (forces[here][1] - forces[here][0]) * (at - x[here])
+                            / (x[here + 1] - x[here]) for at in (one, two))
+            line += (two - one) * ((p_one * g_one + p_two * g_two) / 3 + (p_one * g_two + p_two * g_one) / 6)
+            here += 1
+    if any(Fraction(stated) < top for stated, top in zip(certificate["limit_mps"], tops, strict=True)):
+        raise ValueError("a cell's limit of speed is lower than the line's")
+    ends = inertia * (right[-1] * end**2 - left[0] * start**2) / 2
+    for name, found in (("line_j", line), ("ends_j", ends)):
+        if Fraction(certificate[name]) > found + abs(found) * ROUNDED:
+            raise ValueError(f"{name} is more than line and p(s) give")
+    for number, stated in enumerate(certificate["jumps"]["inertia_times_fall"]):
+        found = inertia * (right[number] - left[number + 1])
+        if Fraction(stated) > found + inertia * (abs(right[number]) + abs(left[number + 1])) * ROUNDED:
+            raise ValueError(f"jump {number} is more than p(s) gives")
 
 
 def _check_timetable(certificate: dict[str, Any], lengths: list[Fraction]) -> None:
@@ -159,18 +227,28 @@ def _contents(path: Path) -> bytes:
     return found
 
 
+def _unique(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
+    if len(dict(pairs)) != len(pairs):
+        raise ValueError("a key stands twice in one object")
+    return dict(pairs)
+
+
+def _no_number(text: str) -> Any:
+    raise ValueError(f"{text} is no number")
+
+
 def main(arguments: list[str]) -> int:
     """Check the files named; prints a line each; 0 when every one proves the bound that it states."""
     wrong = 0
     for name in arguments:
         try:
-            certificate = json.loads(_contents(Path(name)))
+            certificate = json.loads(_contents(Path(name)), object_pairs_hook=_unique, parse_constant=_no_number)
             bound = checked_bound(certificate)
             if bound < Fraction(certificate["lower_bound_J"]):
                 raise ValueError(f"it proves {float(bound):.9g} J, not {certificate['lower_bound_J']:.9g} J")
             sys.stdout.write(f"{name}: proves {float(bound):.9g} J\n")
         except (ValueError, KeyError, IndexError, TypeError, OSError, ZeroDivisionError, OverflowError,
-                RecursionError) as trouble:
+                RecursionError, AttributeError) as trouble:
             sys.stdout.write(f"{name}: INVALID: {trouble}\n")
             wrong += 1
     return 1 if wrong or not arguments else 0

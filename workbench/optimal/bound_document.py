@@ -40,7 +40,13 @@ def bound_document(vehicle: Vehicle, course: Course, found: Reference, start_mps
             + np.abs(terms.slope) * terms.high + np.abs(terms.square) * terms.high**2)
     values = minima(terms) - SLACK * size
     document: dict[str, Any] = {
-        "version": 1, "cell_m": np.diff(certificate.position_m).tolist(),
+        "version": 2,
+        "run": {"position_m": course.position_m.tolist(), "limit_mps": course.limit_mps.tolist(),
+                "force_n": course.force_n.tolist(), "inertia_kg": vehicle.inertia_kg, "start_mps": start_mps,
+                "end_mps": end_mps},
+        "p": {"position_m": certificate.position_m.tolist(), "left": certificate.left.tolist(),
+              "right": certificate.right.tolist()},
+        "cell_m": np.diff(certificate.position_m).tolist(),
         "limit_mps": cell_limits(course, certificate).tolist(),
         "fixed_j": fixed.total_j - ROUNDING * sum(map(abs, parts)),
         "line_j": fixed.line_j, "ends_j": fixed.ends_j,

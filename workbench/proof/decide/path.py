@@ -128,7 +128,7 @@ def _ends(goal: Goal, way: Way, duration: sp.Symbol, time: sp.Symbol, seed: int,
     ends = {time: duration}
     held = [_along(goal, way, r).subs({time: part * duration}) for r in goal.always for part in SAMPLES]
     # Symbols that no relation mentions need values all the same.
-    used = {s for f in way.values() for s in f.free_symbols} - {time}
+    used = {duration}.union(*(f.free_symbols for f in way.values())) - {time}
     mentioned = tuple(at_least(s**2, 0) for s in sorted(used, key=str))
     try:
         at_end = Goal(tuple(_along(goal, way, r).subs(ends) for r in goal.show),
