@@ -11,7 +11,7 @@ from workbench.proof.binding import is_of
 from workbench.proof.cache import Kept, kept
 from workbench.proof.checker import CertificateError, check, goal_digest
 from workbench.proof.claim import Claim
-from workbench.proof.decide.engine import decide
+from workbench.proof.decide.engine import beside_the_line, decide
 from workbench.proof.dependencies import watch
 from workbench.proof.fingerprint import fingerprint
 from workbench.proof.loading import ProofFile
@@ -71,7 +71,7 @@ class Worker:
             return decide(claim), True
         found = self.cached.claim(key)
         if found is not None and _holds(found, claim):
-            return found, False
+            return beside_the_line(claim, found), False
         decision = decide(claim)
         self.cached.keep_claim(key, replace(decision, claim=_stated(claim)))
         return decision, True
