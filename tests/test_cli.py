@@ -107,8 +107,8 @@ def short(tmp_path):
 
 def test_help_names_every_command():
     shown = run("--help").stdout
-    for command in ("prove", "check ", "new-paper", "check-certificates", "compare", "sweep", "tune", "report", "reference",
-                    "gains"):
+    for command in ("prove", "check ", "new-paper", "check-certificates", "compare", "sweep", "tune", "report",
+                    "reference", "gains"):
         assert command in shown
 
 

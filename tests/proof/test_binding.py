@@ -9,8 +9,8 @@ from small_papers import TEXT, proved, write_paper
 from typer.testing import CliRunner
 
 from workbench.cli.app import app
-from workbench.proof.binding import stated_digest
 from workbench.proof.checker import check_folder, goal_digest
+from workbench.proof.claim_digest import stated_digest
 from workbench.proof.document import Places, certificate_text, write_certificates
 from workbench.proof.paper import collect_papers
 

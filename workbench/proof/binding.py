@@ -1,4 +1,4 @@
-"""Whether a certificate is of its claim: the digest of the claim's goal, made again from the claim alone."""
+"""Whether the certificates in a folder are of the claims of their paper."""
 
 from __future__ import annotations
 
@@ -8,48 +8,13 @@ from typing import Any
 
 from workbench.errors import InputError, WorkbenchError
 from workbench.files.folders import papers_in as folders_in
-from workbench.proof.building import built
-from workbench.proof.checker import MANIFEST, CertificateError, Manifest, Row, digest_of, read_manifest
-from workbench.proof.claim import Claim, Goal, Verdict, name_of
-from workbench.proof.decide.engine import pinned
+from workbench.proof.checker import MANIFEST, CertificateError, Manifest, Row, read_manifest
+from workbench.proof.claim import Claim
+from workbench.proof.claim_digest import stated_digest
 from workbench.proof.document import CERTIFICATES
 from workbench.proof.loading import ProofFile
 from workbench.proof.paper import Paper, papers_in
 from workbench.proof.selection import files_of, states_claims, targets
-from workbench.proof.text import goal_text
-
-
-def stated_digest(claim: Claim, verdict: Verdict) -> str | None:
-    """The goal digest that a certificate of the claim with this verdict must have; None where it has no certificate.
-
-    Raises ClaimError where the claim's goal cannot be made.
-    """
-    if claim.build is None or verdict not in ("proved", "refuted", "violated", "gap"):
-        return None
-    goal = built(claim, claim.build)
-    return digest_of({"claim": claim.id, "verdict": verdict, **_parts(claim, goal, verdict)})
-
-
-def _parts(claim: Claim, goal: Goal, verdict: Verdict) -> dict[str, Any]:
-    """What beside name and verdict a certificate of the claim states, as the deciders state it."""
-    if verdict == "proved":
-        return {"goal": goal_text(goal if claim.at is None else pinned(goal, claim.at))}
-    parts: dict[str, Any] = {"goal": goal_text(goal)}
-    if verdict == "violated":
-        parts["point"] = {name_of(s): str(value) for s, value in (claim.at or {}).items()}
-        if claim.repair is not None:
-            parts["repair"] = goal_text(pinned(goal, claim.repair))
-    elif claim.correction is not None:
-        parts["correction"] = goal_text(built(claim, claim.correction, "correction"))
-    return parts
-
-
-def is_of(certificate_digest: str, claim: Claim, verdict: Verdict) -> bool:
-    """Whether a goal digest is the one of this claim; not so where the claim's goal cannot be made."""
-    try:
-        return stated_digest(claim, verdict) == certificate_digest
-    except WorkbenchError:
-        return False
 
 
 def papers_at_hand(folder: Path, named: Sequence[Path] = ()) -> dict[Path, Path]:

@@ -7,10 +7,10 @@ from functools import cache
 from pathlib import Path
 
 from workbench.errors import InputError, WorkbenchError
-from workbench.proof.binding import is_of
 from workbench.proof.cache import Kept, kept
 from workbench.proof.checker import CertificateError, check, goal_digest
 from workbench.proof.claim import Claim
+from workbench.proof.claim_digest import is_of
 from workbench.proof.decide.engine import beside_the_line, decide
 from workbench.proof.dependencies import watch
 from workbench.proof.fingerprint import fingerprint

@@ -14,7 +14,8 @@ from pydantic import Field
 
 from workbench.errors import InputError
 from workbench.files.toml import FileRecord, Text, load_record
-from workbench.proof.claim import LANGUAGE, Relation
+from workbench.proof.claim import Relation
+from workbench.proof.language import LANGUAGE
 from workbench.proof.latex.convert import Converter
 from workbench.proof.latex.error import LatexError
 from workbench.proof.latex.notation import Notation
