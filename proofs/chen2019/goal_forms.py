@@ -25,11 +25,25 @@ def carried(relations: tuple[Relation, ...], flow: dict[sp.Expr, sp.Expr]) -> tu
 def integrated(rates: dict[sp.Expr, sp.Expr], bound: Relation, always: tuple[Relation, ...] = (),
                constant: tuple[sp.Expr, ...] = (), start: dict[sp.Expr, sp.Expr] | None = None,
                decreasing: sp.Expr | None = None) -> Goal:
-    """`bound` at every time for integrals that start at zero (or at `start`), since its margin does not decrease."""
+    """`bound` at every time for integrals that start at zero (or at `start`), since its margin does not decrease.
+
+    What `rates` mention without a rate of its own varies in time, save what is `constant`.
+    """
     begin = dict.fromkeys(rates, sp.S.Zero) | (start or {}) | {c: c for c in constant}
     signs = tuple(greater(c, 0) for c in constant if c.is_positive)
-    return Goal((bound,), signs, rates | dict.fromkeys(constant, sp.S.Zero), always, begin,
-                decreasing=-bound.margin if decreasing is None else decreasing)
+    flow = rates | dict.fromkeys(constant, sp.S.Zero)
+    return Goal((bound,), signs, flow, always, begin, decreasing=-bound.margin if decreasing is None else decreasing,
+                inputs=varying(flow))
+
+
+def varying(flow: dict[sp.Expr, sp.Expr]) -> tuple[sp.Symbol, ...]:
+    """The symbols that the rates of `flow` mention and that have no rate; not those with a value a car."""
+    found: set[sp.Symbol] = set()
+    for rate in flow.values():
+        of_cars = {x for indexed in rate.atoms(sp.Indexed) for x in (indexed.base.label, *indexed.indices)}
+        limits = {x for total in rate.atoms(sp.Sum) for limit in total.limits for part in limit for x in part.free_symbols}
+        found |= rate.atoms(sp.Symbol) - of_cars - limits - flow.keys()
+    return tuple(sorted(found, key=str))
 
 
 i_axis, J_i, y_i = sp.symbols("i J y", real=True)  # the iteration, an integral of it, a value of it
@@ -42,7 +56,7 @@ def along_iterations(shown: Relation, always: tuple[Relation, ...], model: dict[
     first = {x: sp.Symbol(f"{x}_0", real=True) for x in model}
     at_first = {first[x]: value.xreplace({i_axis: sp.S.Zero} | constants) for x, value in model.items()}
     return Goal((shown,), (), {i_axis: sp.Integer(1), **rates}, always, {i_axis: sp.S.Zero, **first}, eventually=i_axis,
-                model=model | constants | at_first)
+                model=model | constants | at_first, inputs=tuple(rates.values()))
 
 
 class Integrals:

@@ -63,7 +63,7 @@ def auxiliary_stays_zero() -> Goal:
     """A positive definite function of lambda that starts at zero and does not increase."""
     W = idle_1**2 + idle_2**2 / (c_1 * c_2)
     rates = {one_car(x): one_car(rate).xreplace({one_car(Delta_u): sp.S.Zero}) for x, rate in auxiliary.items()}
-    return integrated(rates, at_most(W, 0), (), (c_1, c_2), decreasing=W)
+    return integrated(rates, at_most(W, 0), (), (c_1, c_2, c_3), decreasing=W)
 
 
 @paper.claim("25", "The CEF is not negative", "inequality", r"E_i \ge 0", "proved", severity="step",

@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import sympy as sp
 
-from workbench.proof.claim import D, Goal, Relation, at_least, at_most, equal, greater
+from workbench.proof.claim import D, Goal, Relation, at_least, at_most, equal
 from workbench.proof.derive import lie_derivative
 from workbench.trains.multi_particle import each_car, over_cars
 
@@ -97,8 +97,8 @@ RIGHT_34 = r"\int_0^t z_{2,i}^T \tilde{M}_i \dot{v}_i d\tau"
 def mass_integral() -> Goal:
     """Between integrals, with (22) as it stands and Assumption 1 at every instant."""
     return integrated({left: 2 * gamma_mass * mass_change, right: -mass_bound / c_3},
-                      at_most(left / (2 * gamma_mass), -c_3 * right), (*mass_within, greater(mass, 0)),
-                      (c_3, gamma_mass))
+                      at_most(left / (2 * gamma_mass), -c_3 * right), mass_within,
+                      (c_3, gamma_mass, mass, g_low, g_high))
 
 
 @paper.claim("22.form", "The saturation of (22), without cases", "identity",

@@ -108,8 +108,8 @@ def auxiliary_integrated() -> Goal:
     """For any sign of c_lambda, from any state."""
     rates = {V_end: lie_derivative(V_lambda, auxiliary), X: over_cars(lambda_1**2 + lambda_2**2), Y: over_cars(Delta_u**2)}
     bound = at_most(V_end - V_start, -c_lambda * X + c_3 * Y / 2)
-    return integrated(rates, bound, carried(paper.shown("49.last"), auxiliary), (c_lambda, c_3), {V_end: V_start},
-                      V_end + c_lambda * X - c_3 * Y / 2)
+    return integrated(rates, bound, carried(paper.shown("49.last"), auxiliary), (c_lambda, *gains),
+                      {V_end: V_start}, V_end + c_lambda * X - c_3 * Y / 2)
 
 
 IN_51 = {r"c_\lambda": c_lambda, INT_LAMBDA: X, INT_U: Y}

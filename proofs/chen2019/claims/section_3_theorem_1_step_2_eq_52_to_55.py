@@ -90,7 +90,7 @@ def errors_against_z() -> Goal:
     goal = _integrals_of_errors(1 + c_1)
     halves = {lam_1: e_s / 2, lam_2: (e_v + c_1 * e_s) / 2}
     rates = {x: rate.xreplace(halves) for x, rate in goal.flow.items()}
-    return replace(goal, flow={**rates, e_v: e_a}, initial={**goal.initial, e_v: sp.S.Zero})
+    return replace(goal, flow={**rates, e_v: e_a}, initial={**goal.initial, e_v: sp.S.Zero}, inputs=(e_a,))
 
 
 @paper.claim("53.glyph", "(53) with 1 + c_1^2", "inequality", _line_53("1+c_{1}^2"), "proved", origin="ours", glyph="53",

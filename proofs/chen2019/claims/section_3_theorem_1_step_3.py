@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import sympy as sp
 
-from workbench.proof.claim import D, Goal, Relation, at_least, at_most, equal
+from workbench.proof.claim import D, Goal, Relation, at_least, at_most
 from workbench.trains.multi_particle import c_0, c_a, c_d, c_k, c_v, over_cars
 
 from ..energy_function import E_1, S_1, S_2, Z_1, Z_2, E, E_now, J
@@ -19,7 +19,7 @@ level = sp.Symbol("B", positive=True)
 
 def _below_e_1() -> tuple[Relation, ...]:
     """E_i <= E_1, from (46), for E_i by (25)."""
-    return (equal(E_now, E), *paper.shown("46"), at_least(S_1 + Z_1, 0), at_least(S_2 + Z_2, 0))
+    return (*(r.subs({E_now: E}) for r in paper.shown("46")), at_least(S_1 + Z_1, 0), at_least(S_2 + Z_2, 0))
 
 
 @paper.claim("theorem1.1.z", "z_1 and z_2 are bounded, uniformly in the iterations", "implication",
