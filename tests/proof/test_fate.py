@@ -4,7 +4,7 @@ import pytest
 
 from workbench.errors import ClaimError
 from workbench.proof.fate import fates
-from workbench.proof.premises import is_charged, premises_problem, with_taint
+from workbench.proof.premises import premises_problem, with_taint
 from workbench.proof.verdict import Decision, Stated
 
 
@@ -63,12 +63,14 @@ def test_what_is_refuted_falls_and_says_by_what(functions, how):
     assert "(T.mended)" in fate(theorem, mended).why
 
 
-def test_an_unclear_glyph_charges_only_when_both_readings_fail():
-    for other, word, charged in (("proved", "stands", False), ("refuted", "stands with corrections", True)):
-        rows = (decided("1", "refuted", glyph="1.glyph"), decided("1.glyph", other, origin="ours", glyph="1"),
-                decided("T", "proved", severity="result", premises=(), rests_on=("1",)))
+def test_a_line_with_an_unclear_glyph_taints_and_costs_a_theorem_nothing_where_its_other_reading_holds():
+    for other, word in (("proved", "stands"), ("refuted", "stands with corrections")):
+        rows = with_taint([decided("1", "refuted", glyph="1.glyph"),
+                           decided("1.glyph", other, origin="ours", glyph="1"),
+                           decided("T", "proved", severity="result", premises=(), rests_on=("1",))])
+        assert rows[2].tainted_by == ("p2020:1",)
         assert fate(*rows).word == word
-        assert is_charged(rows[0], {d.claim.id: d for d in rows}) is charged
+        assert ("other reading" in fate(*rows).why) is (other == "proved")
     rows = (decided("T", "refuted", severity="result", glyph="T.glyph"),
             decided("T.glyph", "proved", origin="ours", glyph="T"))
     assert fate(*rows).word == "open"

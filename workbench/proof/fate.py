@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 
-from workbench.proof.premises import failed_below, with_taint
+from workbench.proof.premises import failed_below, holds_otherwise, with_taint
 from workbench.proof.verdict import Decision, Fate
 
 
@@ -35,18 +35,20 @@ def fates(decisions: Sequence[Decision]) -> dict[str, Fate]:
 
 def _fate(decision: Decision, by_id: dict[str, Decision], mended: Decision | None,
           failed_premises: tuple[str, ...]) -> Fate:
-    other = by_id.get(decision.claim.glyph) if decision.claim.glyph else None
     instead = f"; its mended form {_number(mended.claim.id)} is proved" if mended else ""
     if decision.verdict == "refuted":
-        if other is not None and other.verdict == "proved":
-            return Fate("open", f"depends on the reading: {_number(other.claim.id)} holds", (other.claim.id,))
+        if holds_otherwise(decision, by_id):
+            other = str(decision.claim.glyph)
+            return Fate("open", f"depends on the reading: {_number(other)} holds", (other,))
         return Fate("falls", f"refuted by {_how(decision)}{instead}", (mended.claim.id,) if mended else ())
     if decision.verdict == "proved" and not failed_premises:
-        if not decision.tainted_by:
-            return Fate("stands", "proved, and no line that the paper uses to get there fails")
-        lines = ", ".join(map(_number, decision.tainted_by))
-        return Fate("stands with corrections", f"proved as a whole, though the paper's way there fails at {lines}",
-                    decision.tainted_by)
+        failing = tuple(line for line in decision.tainted_by if not holds_otherwise(by_id[line], by_id))
+        open_glyphs = tuple(line for line in decision.tainted_by if line not in failing)
+        readings = f"; {_numbers(open_glyphs)} on the way holds in its other reading" if open_glyphs else ""
+        if not failing:
+            return Fate("stands", f"proved, and no line that the paper uses to get there fails{readings}", open_glyphs)
+        return Fate("stands with corrections", f"proved as a whole, though the paper's way there fails at "
+                    f"{_numbers(failing)}{readings}", failing)
     if mended is not None:
         return Fate("stands with corrections", f"{_shortfall(decision, failed_premises)}{instead}", (mended.claim.id,))
     return Fate("open", _shortfall(decision, failed_premises), failed_premises)
@@ -54,13 +56,17 @@ def _fate(decision: Decision, by_id: dict[str, Decision], mended: Decision | Non
 
 def _shortfall(decision: Decision, failed_premises: tuple[str, ...]) -> str:
     if decision.verdict == "proved":
-        return f"proved only from lines that fail: {', '.join(map(_number, failed_premises))}"
+        return f"proved only from lines that fail: {_numbers(failed_premises)}"
     return {"gap": "does not follow from its premises", "violated": "its conditions fail at the printed numbers",
             "assumed": "taken from the literature", "undecided": "not decided"}[decision.verdict]
 
 
 def _how(decision: Decision) -> str:
     return "an exact motion" if (decision.certificate or {}).get("functions") else "a counterexample"
+
+
+def _numbers(claim_ids: Sequence[str]) -> str:
+    return ", ".join(map(_number, claim_ids))
 
 
 def _number(claim_id: str) -> str:

@@ -61,14 +61,15 @@ def below(ids: Iterable[str], claims: Mapping[str, Stated]) -> set[str]:
     return seen
 
 
-def is_charged(decision: Decision, by_id: Mapping[str, Decision]) -> bool:
-    """Whether a decision speaks against what rests on it: it fails, something depends on it, and no other reading of
-    an unclear glyph holds."""
-    claim = decision.claim
-    if decision.verdict not in FAILED or claim.severity == "cosmetic":
-        return False
-    other = by_id.get(claim.glyph) if claim.glyph else None
-    return other is None or other.verdict != "proved"
+def speaks_against(decision: Decision) -> bool:
+    """Whether a decision speaks against what rests on it: it fails, and something depends on it."""
+    return decision.verdict in FAILED and decision.claim.severity != "cosmetic"
+
+
+def holds_otherwise(decision: Decision, by_id: Mapping[str, Decision]) -> bool:
+    """Whether the other reading of a line with an unclear glyph is proved."""
+    other = by_id.get(decision.claim.glyph) if decision.claim.glyph else None
+    return other is not None and other.verdict == "proved"
 
 
 def with_taint(decisions: Sequence[Decision]) -> list[Decision]:
@@ -86,7 +87,7 @@ def failed_below(decisions: Sequence[Decision], links: Links) -> dict[str, tuple
     found: dict[str, set[str]] = {}
     for name in _sorter([d.claim for d in decisions], links).static_order():
         ids = links(by_id[name].claim)
-        found[name] = {i for i in ids if is_charged(by_id[i], by_id)}.union(*(found[i] for i in ids))
+        found[name] = {i for i in ids if speaks_against(by_id[i])}.union(*(found[i] for i in ids))
     return {name: tuple(other for other in by_id if other in found[name]) for name in by_id}
 
 
