@@ -47,7 +47,8 @@ def rates_with(input_mu: sp.Expr) -> dict[sp.Expr, sp.Expr]:
     return {s: v, v: v_dot, s_r: v_r, v_r: v_r_dot, **saturated}
 
 
-sums_named = tuple(equal(x, value) for x, value in zip(q_sums, q_values, strict=True))
+# The symbol stands on the right: examples need not solve for it.
+sums_named = tuple(equal(value, x) for x, value in zip(q_sums, q_values, strict=True))
 
 
 def in_errors(expr: sp.Expr) -> sp.Expr:
