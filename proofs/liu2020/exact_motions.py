@@ -56,4 +56,4 @@ def _motion(loop: dict[sp.Expr, sp.Expr], functions: dict[sp.Expr, sp.Expr], gai
     model: dict[sp.Expr, sp.Expr] = {symbol: sp.Integer(str(symbol) not in ZERO) for symbol in constants}
     gaussian = tuple(relation for h in hidden for relation in (at_least(h, 0), at_most(h, 1)))
     return Goal((shown,), gaussian, {t: sp.Integer(1)} | rates, (at_least(t, 0), *always), eventually=t,
-                model=model | gains | functions)
+                model=model | gains | functions, inputs=tuple(rates.values()))

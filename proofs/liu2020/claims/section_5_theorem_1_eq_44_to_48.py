@@ -136,7 +136,8 @@ in_the_end = (greater(slack, 0), at_least(V_start, 0), at_least(t, V_start / (rh
              note="For any V: what (46) and (47) do, free of (45).")
 def comparison_lemma() -> Goal:
     """exp(rho t)(V - mu/rho) does not increase."""
-    return Goal((at_most(V_t, bound_47),), (), along_v, decaying, from_zero, decreasing=sp.exp(rho * t) * (V_t - mu / rho))
+    return Goal((at_most(V_t, bound_47),), (), along_v, decaying, from_zero, decreasing=sp.exp(rho * t) * (V_t - mu / rho),
+                inputs=(w,))
 
 
 def after_decay(i: int, decay: str, growth: str, bound: str, norm: str, not_negative: str) -> None:
@@ -168,7 +169,7 @@ def after_decay(i: int, decay: str, growth: str, bound: str, norm: str, not_nega
                  note=f"exp(rho t)(V - phi) does not increase. 0 <= V_{i} is {not_negative}.")
     def comparison() -> Goal:
         return Goal((at_most(0, V_t), at_most(V_t, bound_47)), (at_least(V_t, 0),), along_v, decaying,
-                    from_zero, decreasing=sp.exp(rho * t) * (V_t - mu / rho))
+                    from_zero, decreasing=sp.exp(rho * t) * (V_t - mu / rho), inputs=(w,))
 
     @paper.claim(f"{bound}.level", f"V_{i}(0) <= Theta_{i} keeps V_{i} <= Theta_{i}", "implication",
                  rf"V_{i}(0) \le \Theta_{i},\ \rho_{i} > (\mu_{i}/\Theta_{i}) \Rightarrow V_{i}(t) \le \Theta_{i}",

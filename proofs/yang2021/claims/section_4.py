@@ -16,6 +16,7 @@ from ..lyapunov import (
     V_1,
     V_estimates,
     V_t,
+    V_t_rate,
     V_weights,
     along_v,
     barrier,
@@ -63,7 +64,7 @@ def bounded_by_decay() -> Goal:
     """Every V with V' <= -mu V + l at all times, from V(0)."""
     share = sp.exp(-mu * t)
     return Goal((at_most(V_t, V_0 * share + (1 - share) * l_ / mu),), (), along_v, decaying, from_zero,
-                decreasing=sp.exp(mu * t) * (V_t - l_ / mu))
+                decreasing=sp.exp(mu * t) * (V_t - l_ / mu), inputs=(V_t_rate,))
 
 
 @paper.claim("20.band", "k = 0.21 constrains the position error to 0.2 m", "implication",

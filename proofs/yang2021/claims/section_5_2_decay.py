@@ -181,7 +181,7 @@ def comparison() -> Goal:
     """For every V with V' <= -mu V + l at all times."""
     not_negative = tuple(r.subs({V: V_t}) for r in paper.shown("38"))
     return Goal((at_most(0, V_t), at_most(V_t, bound_52)), not_negative, along_v, decaying, from_zero,
-                decreasing=sp.exp(mu * t) * (V_t - l_ / mu))
+                decreasing=sp.exp(mu * t) * (V_t - l_ / mu), inputs=(V_t_rate,))
 
 
 C, delta = sp.symbols("C delta", positive=True)

@@ -44,4 +44,5 @@ def reached_in_finite_time() -> Goal:
                  sp.Symbol("xdot_d", real=True): zero}
     given = (equal(mu, smallest), *error_bound, greater(output, 0), at_most(output, 1))
     return Goal((at_most(of_one_neuron(V), of_one_neuron(l_stated) / mu),), given, {t: one, **rates},
-                (inside, *(equal(rates[symbol], loop[symbol]) for symbol in moving)), eventually=t, model=motion | constants)
+                (inside, *(equal(rates[symbol], loop[symbol]) for symbol in moving)), eventually=t, model=motion | constants,
+                inputs=tuple(rates.values()))
