@@ -93,7 +93,7 @@ def failing(goal: Goal) -> Goal:
 def error_in_a(goal: Goal) -> Goal:
     """The goal for one mode of mass 1 that is active, with an error in the estimate of a alone."""
     one, zero = sp.Integer(1), sp.Integer(0)
-    values: Flow = dict.fromkeys([of_mode(n) for n in ("chi_m", "chi_d", "rho_hat", *(f"chi_{name}" for name in NAMES))], one)
+    values: Flow = dict.fromkeys([of_mode(n) for n in ("chi_m", "chi_d", *(f"chi_{name}" for name in NAMES))], one)
     values |= {of_mode(f"log_{name}"): zero for name in ("m", "Gamma_m", *(f"Gamma_{n}" for n in NAMES))}
     values |= {of_mode(name + mark): zero for name in NAMES[1:] for mark in ("", "_hat")}
     return already(goal, values | {of_mode("d"): zero, xddot_m: zero})

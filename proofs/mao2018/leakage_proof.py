@@ -67,7 +67,7 @@ def leakage_goals() -> dict[str, Goal]:
     w, offset = sp.symbols("w l", real=True)
     bounded = Goal((at_most(V_t, offset / mu + (V_0 - offset / mu) * sp.exp(-mu * t)),), (),
                    {t: sp.Integer(1), V_t: w}, (at_most(w, -mu * V_t + offset), at_least(t, 0)),
-                   {t: sp.Integer(0), V_t: V_0}, decreasing=sp.exp(mu * t) * (V_t - offset / mu))
+                   {t: sp.Integer(0), V_t: V_0}, decreasing=sp.exp(mu * t) * (V_t - offset / mu), inputs=(w,))
     return {"rate": rate, "decay": decayed, "bounded": bounded}
 
 

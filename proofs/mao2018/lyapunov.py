@@ -61,7 +61,7 @@ def square_integrable() -> Goal:
     """r_1 int z_1^2 + r_2 int z_2^2 <= V(0) for every V >= 0 with V' <= -r_1 z_1^2 - r_2 z_2^2."""
     return Goal((at_most(J, V_0), at_most(V_t + J, V_0)), (at_least(V_t, 0),), {t: sp.Integer(1), V_t: w_t, J: -decay},
                 (at_most(w_t, decay),), {t: sp.Integer(0), V_t: V_0, J: sp.Integer(0)},
-                decreasing=J + V_t)
+                decreasing=J + V_t, inputs=(w_t, z_1, z_2))
 
 
 def tracks(V: sp.Expr, decrease: tuple[Relation, ...], below: tuple[Relation, ...]) -> Goal:
@@ -73,4 +73,5 @@ def tracks(V: sp.Expr, decrease: tuple[Relation, ...], below: tuple[Relation, ..
     at_end = (*(relation.subs({V: V_t}) for relation in below), at_least(J, 0))  # J is an integral of squares
     return Goal((at_most(V_t, V_0), at_most(J, V_0), at_most(z_1**2, 2 * V_0), at_most(z_2**2, 2 * V_0)), at_end,
                 {t: sp.Integer(1), V_t: w_t, J: -decay, z_1: z_2 - r_1 * z_1, z_2: z_2_rate}, always,
-                {t: sp.Integer(0), V_t: V_0, J: sp.Integer(0), z_1: z_1_start, z_2: z_2_start}, decreasing=J + V_t)
+                {t: sp.Integer(0), V_t: V_0, J: sp.Integer(0), z_1: z_1_start, z_2: z_2_start}, decreasing=J + V_t,
+                inputs=(w_t, z_2_rate))

@@ -8,7 +8,7 @@ import sympy as sp
 
 from workbench.proof.claim import D, Goal, at_least, equal
 
-from ..active_mode import REGRESSORS, Gamma_m, alpha_1, chi_d, chis, estimate_laws, eta, m, rho_hat
+from ..active_mode import REGRESSORS, Gamma_m, alpha_1, chi_d, chis, estimate_laws, eta, hats, m, rho_hat
 from ..active_mode import wanted as wanted_active
 from ..counterexamples import error_in_a, ramp_time
 from ..error_dynamics import ACTIVE_MODE, ALL_MODES, Flow, over_modes
@@ -130,9 +130,10 @@ def idle_modes() -> Goal:
                   "constants. Section IV says that a_i, b_i, c_i, ... change their values at T_q and calls V_2 "
                   "discontinuous there; they do not, or infinitely many jumps would void the argument.")
 def no_jump_at_switches() -> Goal:
-    """The derivative of V_2 by every indicator is zero."""
-    one = sp.Integer(1)
-    return Goal((equal(D(V_healthy), 0),), flow={**dict.fromkeys(chis, one), chi_d: one})
+    """Only indicators move at a switch; states and estimates are continuous, so their rates are zero there."""
+    one, zero = sp.Integer(1), sp.Integer(0)
+    return Goal((equal(D(V_healthy), 0),),
+                flow={**dict.fromkeys((*chis, chi_d), one), **dict.fromkeys((z_1, z_2, rho_hat, *hats), zero)})
 
 
 z_2_rate = sp.Symbol("zdot_2", real=True)
