@@ -56,18 +56,9 @@ def saturation_slope() -> Goal:
     return Goal((at_most(step**2, step * (a - b)),), limits)
 
 
-def _one_acceleration() -> Goal:
-    inputs = zip((a, b), (u_a, u_b), strict=True)
-    mu_a, mu_b = (mu_of(kappa, x, mass + 1 / c_3 - room) for x in (a, b))
-    slope = at_most((u_a - u_b) ** 2, (u_a - u_b) * (mu_a - mu_b))
-    return Goal((at_most((a - b) ** 2, 0),), (*(equal(u, mass * x - rest) for x, u in inputs), slope))
-
-
 @paper.claim("16.unique", "(7), (8), (16) determine the acceleration, for any estimate of the mass", "implication",
              r"m a = \mathrm{sat}(\mu(a)) + \rho,\ m b = \mathrm{sat}(\mu(b)) + \rho \Rightarrow a = b", "gap",
-             origin="implied", premises=("16.loop", "8.slope"), rests_on=(), scope=EACH_CAR, correction=_one_acceleration,
-             corrected_statement=r"\hat m_{i,j} < m_j + \tfrac{1}{c_3},\ m a = \mathrm{sat}(\mu(a)) + \rho,\ "
-                                 r"m b = \mathrm{sat}(\mu(b)) + \rho \Rightarrow a = b",
+             origin="implied", premises=("16.loop", "8.slope"), rests_on=(), scope=EACH_CAR,
              note="(16) must define an input. rho gathers the other forces. At "
                   "m_hat = m + 1/c_3 every acceleration within the limits solves the equations (the counterexample: "
                   "both unsaturated), above it up to three do.")
@@ -84,7 +75,10 @@ def acceleration_unique() -> Goal:
              scope=EACH_CAR)
 def acceleration_unique_below() -> Goal:
     """With the room m + 1/c_3 - m_hat > 0 and 8.slope for the two inputs."""
-    return _one_acceleration()
+    inputs = zip((a, b), (u_a, u_b), strict=True)
+    mu_a, mu_b = (mu_of(kappa, x, mass + 1 / c_3 - room) for x in (a, b))
+    slope = at_most((u_a - u_b) ** 2, (u_a - u_b) * (mu_a - mu_b))
+    return Goal((at_most((a - b) ** 2, 0),), (*(equal(u, mass * x - rest) for x, u in inputs), slope))
 
 
 @paper.claim("16.exists", "Below m + 1/c_3 the loop has a solution, in closed form", "implication",

@@ -58,8 +58,7 @@ def _first_rate(printed: bool) -> Goal:
 
 
 @paper.claim("36", "Rate of the CEF in the first iteration", "identity", LINE_36, "refuted", severity="cosmetic",
-             premises=("24",), scope=EVERY_TRAIN, where=FIRST, correction=lambda: _first_rate(printed=False),
-             corrected_statement=TRUE_36,
+             premises=("24",), scope=EVERY_TRAIN, where=FIRST,
              reading="The index i of the first term is read as 1, and z without its transpose as transposed.",
              note="The two squares of (24) are missing, and 1/gamma_a should be 1/(2 gamma_a), as in (25) and (40). With "
                   "<= instead of = the printed line is true, which is all that (45) needs.")
