@@ -94,9 +94,8 @@ MENDED_45 = (BOUND + r"\ \text{with}\ \dot{\hat\rho}_{k\nu} = +\Gamma_{k\nu}z_2\
 
 @paper.claim("45", "V_2 does not increase with failures: the whole argument", "inequality", BOUND, "refuted",
              premises=("39", "25.idle"), rests_on=("45.a", "43"), scope=ALL_SIGNALS, where={"V_2": V_40}, closed_loop=True,
-             correction=lambda: _bound_45(mended=True), corrected_statement=MENDED_45,
              note="The last line of (45), for m_i k_nu >= rho_i^0 and lambda_i^0 >= d_i^0 >= |d_i|. " + REPAIR +
-                  "With it the checker derives V_2' from the plant and the laws and confirms the bound.")
+                  "With it the checker derives V_2' from the plant and the laws and confirms the bound (45.mended).")
 def v2_bound_failed() -> Goal:
     """D(V_2) of (40) along the closed loop as printed."""
     return _printed_45()

@@ -174,10 +174,6 @@ def _bound_57(V: sp.Expr, laws: dict[sp.Expr, sp.Expr], law: sp.Expr, *more: Rel
     return Goal((at_most(D(V), decay),), (*given_57, *more), flow)
 
 
-def _mended_57() -> Goal:
-    return _bound_57(V_53, laws_true, lambda_law_true, at_least(lambda_hat, 0))
-
-
 MENDED_57 = (r"\dot{V}_2 \leq -r_1z_1^2 - r_2z_2^2\ \text{with}\ \dot{\hat\lambda}_i^0 = +\Gamma_{di}|z_2|\chi_{\bar di},\ "
              r"\hat\lambda_i^0(0) \ge 0\ \text{and (45) repaired}")
 exact_failures = {k_v: sp.Integer(15), rho_k_hat: sp.Rational(1, 15), Gamma_d: sp.Integer(1)}
@@ -185,9 +181,9 @@ exact_failures = {k_v: sp.Integer(15), rho_k_hat: sp.Rational(1, 15), Gamma_d: s
 
 @paper.claim("57", "V_2 does not increase with unknown bounds: the whole argument", "inequality", BOUND + r" \leq 0",
              "refuted", premises=("39", "25.idle"), rests_on=("57.a", "57.b"), scope=ALL_SIGNALS, closed_loop=True,
-             where={"V_2": V_53_printed}, correction=_mended_57, corrected_statement=MENDED_57,
+             where={"V_2": V_53_printed},
              note="The last line of (57), for lambda_i^0 >= |d_i| and m_i k_nu >= rho_i^0; even where "
-                  "lambda_hat >= 0. " + REPAIR)
+                  "lambda_hat >= 0. Mended as 57.mended. " + REPAIR)
 def v2_bound_unknown() -> Goal:
     """D(V_2) along (7), (8), (27)-(31), (37), (41), (44), (54)-(56)."""
     goal = at_instant(_bound_57(V_53_printed, laws_printed, lambda_law, at_least(lambda_hat, 0)), full)
@@ -199,7 +195,7 @@ def v2_bound_unknown() -> Goal:
              scope=ALL_SIGNALS, note=REPAIR)
 def v2_bound_unknown_mended() -> Goal:
     """The same with (44) and (54) mended, the weights fitting."""
-    return _mended_57()
+    return _bound_57(V_53, laws_true, lambda_law_true, at_least(lambda_hat, 0))
 
 
 @paper.claim("theorem4", "Theorem 4: the position error tends to zero with unknown bounds", "limit",

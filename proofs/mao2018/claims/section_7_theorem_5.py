@@ -85,8 +85,7 @@ def v2_bound_sizes() -> Goal:
 @paper.claim("65", "Bound of the rate of V_2 with nonlinear damping: the whole argument", "inequality",
              r"\dot{V}_2 \leq -r_1z_1^2(t) - r_2z_2^2(t) + \left(\frac{b_0^2}{4k_1} + \frac{c_0^2}{4k_2}\right)", "refuted",
              premises=("39", "25.idle"), rests_on=("63.bound", "64"), scope=ALL_SIGNALS, closed_loop=True,
-             where={"V_2": V_40}, correction=lambda: _bound_65(mended=True), corrected_statement=MENDED_65,
-             note=DRIVEN + REPAIR)
+             where={"V_2": V_40}, note=DRIVEN + "Mended as 65.mended. " + REPAIR)
 def v2_bound_damping() -> Goal:
     """D(V_2) along (58)-(62)."""
     return driven(_bound_65(mended=False))
