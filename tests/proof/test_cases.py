@@ -85,7 +85,7 @@ def test_false_statements_are_refuted_at_a_point(name):
 def test_the_goal_is_written_with_the_functions_by_name():
     right = sp.sqrt(x**2 + 1) * sp.tanh(x) + sp.Abs(sp.sign(x) - y)
     record = goal_text(Goal((at_most(saturation(g, 0, high), right),)))
-    assert record["show"] == ["Min(Max(0, g), high) <= sqrt(x**2 + 1)*tanh(x) + abs(y - sign(x))"]
+    assert record["show"] == ["Min(Max(0, g), high) <= sqrt(1 + x**2)*tanh(x) + abs(y - sign(x))"]
 
 
 @pytest.mark.parametrize("expr", [sp.Abs(x), sp.sign(x), sp.Max(x, y), saturation(x, 0, 1)])

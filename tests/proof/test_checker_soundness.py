@@ -266,8 +266,9 @@ GENUINE = {
     "monotone": proved("x**3 >= 0", {"rule": "monotone", "variable": "x", "from": "0",
                                      "derivative": combination(("3", {"square": "x"})), "at_start": IDENTITY},
                        ["x >= 0"], {"x": "1"}),
-    "a flow that decreases": proved("x <= x0", DECREASE, example={"x": "0", "x0": "0", "w": "0"}, flow={"x": "w"}, inputs=["w"],
-                                    always=["w <= 0"], initial={"x": "x0"}),
+    "a flow that decreases": proved(
+        "x <= x0", DECREASE, example={"x": "0", "x0": "0", "w": "0"}, flow={"x": "w"}, inputs=["w"],
+        always=["w <= 0"], initial={"x": "x0"}),
     "a constant with a rate of zero": proved(
         "exp(m*t)*x <= x0", {"rule": "nonincreasing", "function": "exp(m*t)*x", "decrease": combination(),
                              "then": combination(("1", {"assume": 0}))},
