@@ -144,10 +144,11 @@ class Exact:
 
     def breaks(self, point: Point) -> bool:
         """Whether all assumptions hold and a relation shown does not, all of them being defined."""
+        if not self.meets(point):  # first, as derivatives in what is shown cost more
+            return False
         values = {name: number(value) for name, value in point.items()}
         try:
-            outcomes = [holds(self.context, text, values) for text in self.shown]  # all of them: each must be defined
-            return not all(outcomes) and self.meets(point)
+            return not all([holds(self.context, text, values) for text in self.shown])  # each must be defined
         except CertificateError:
             return False
 
