@@ -287,7 +287,7 @@ def eventually() -> Family:
     """Of some later time on, in a motion that what is assumed allows: a constant one, or one that never ends."""
     rate = sp.Symbol("w", real=True)
     for bound in (R(1), R(1, 2), R(3), R(10)):
-        common = {"flow": {t: sp.Integer(1), x: rate}, "eventually": t}
+        common = {"flow": {t: sp.Integer(1), x: rate}, "eventually": t, "inputs": (rate,)}
         yield f"vanishes {bound}", lambda b=bound, m=common: Goal(
             (at_most(x, 0),), always=(at_most(x, b),), **m)
         yield f"stays small {bound}", lambda b=bound, m=common: Goal(

@@ -223,7 +223,8 @@ ATTACKS = {
         proved("abs(x) == x", two("x", IDENTITY, impossible(("1", {"assume": 0}))), example=AT_ONE), "no strictly"),
     "the final sign taken for that of earlier instants": (
         proved("x <= x0", two("w", impossible(), nonincreasing("x", assumed(0), assumed(1))),
-               example={"x": "0", "x0": "0", "w": "0"}, flow={"x": "w"}, inputs=["w"], initial={"x": "x0"}), "no strictly|add up"),
+               example={"x": "0", "x0": "0", "w": "0"}, flow={"x": "w"}, inputs=["w"], initial={"x": "x0"}),
+        "no strictly|add up"),
     "the final sign, in the other order": (
         proved("x <= x0", two("-w", nonincreasing("x", assumed(0), assumed(1)), impossible()),
                example={"x": "0", "x0": "0", "w": "0"}, flow={"x": "w"}, inputs=["w"], initial={"x": "x0"}), "add up"),
