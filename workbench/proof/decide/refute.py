@@ -148,7 +148,8 @@ class Exact:
             return False
         values = {name: number(value) for name, value in point.items()}
         try:
-            return not all([holds(self.context, text, values) for text in self.shown])  # each must be defined
+            outcomes = [holds(self.context, text, values) for text in self.shown]  # all of them: each must be defined
+            return not all(outcomes)
         except CertificateError:
             return False
 
