@@ -236,8 +236,8 @@ def model_breaks(goal, functions, point):
     def holds(relation, at):
         value = (relation.left - relation.right).xreplace(values).xreplace(constants).xreplace({time: sp.Rational(at)})
         value = sp.N(value, 50)
-        return {"<=": value <= 0, "<": value < 0, ">=": value >= 0, ">": value > 0, "==": value == 0,
-                "!=": value != 0}[relation.operator]
+        return {"<=": value <= 0, "<": value < 0, ">=": value >= 0, ">": value > 0, "==": abs(value) < 1e-30,
+                "!=": abs(value) > 1e-30}[relation.operator]  # log 3 and the like have no end
 
     starts = all((values.get(s, s).xreplace(constants).xreplace({time: sp.Integer(0)}) - start.xreplace(constants)
                   ).equals(0) for s, start in goal.initial.items())
