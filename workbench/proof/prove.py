@@ -76,7 +76,7 @@ def prove(found: Sequence[Target], jobs: int | None = None, use_cache: bool = Tr
     every_judged = judged([every[claim_id] for claim_id in claims if claim_id in wanted])
     return Proof([d for d in every_judged if d.claim.id in asked and d.claim.id not in misstated],
                  frozenset(claim_id for claim_id, result in decided.items()
-                           if result.now and claim_id in asked and claim_id not in misstated),
+                           if result.now and claim_id not in misstated),
                  {claim.paper: file for file in files for claim in stated[file]}, misstated)
 
 
