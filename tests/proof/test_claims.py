@@ -28,7 +28,8 @@ CLAIM_OF = {claim.id: claim for claim in CLAIMS}
 POINTS = 200
 KEYS = {"id", "paper", "equation", "kind", "statement", "verdict", "method", "scope", "certificate", "counterexample",
         "correction", "premises", "tainted_by", "trust", "seconds", "title", "note", "recorded", "computed", "origin",
-        "match", "reading", "glyph", "glyph_claim", "severity", "rests_on", "mends", "fate", "fate_why", "fate_by"}
+        "match", "reading", "glyph", "glyph_claim", "severity", "rests_on", "mends", "fate", "fate_why", "fate_by",
+        "goal"}
 
 
 @pytest.fixture(scope="module")

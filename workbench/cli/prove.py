@@ -56,7 +56,7 @@ def command(paths: Annotated[list[str] | None, typer.Argument(
     for d in differing:
         err_console.print(f"[red]{d.claim.id}: decided {d.verdict}, but recorded {d.claim.recorded}[/red]")
     for trouble in proof.misstated.values():
-        err_console.print(f"[red]misstated: {escape(trouble)}[/red]")
+        err_console.print(f"[red]misstated: {escape(trouble)}[/red]", soft_wrap=True)
     if proof.misstated:
         raise typer.Exit(2)
     if differing:

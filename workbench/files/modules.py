@@ -19,7 +19,7 @@ from typing import Any
 
 from workbench.errors import InputError
 from workbench.files.mistakes import OF_A_FOLDER, mistake
-from workbench.files.text import inputs_read, read_source
+from workbench.files.text import inputs_read, read_source, written_since_read
 
 PREFIX = OF_A_FOLDER
 
@@ -100,7 +100,8 @@ def forget_changed(folder: Path) -> None:
     package = package_of(folder)
     since = _imported_ns.get(package)
     own = (path for path in (folder, *folder.rglob("*")) if "certificates" not in path.relative_to(folder).parts)
-    if since is None or not any(_written_ns(path) > since - TICK_NS for path in (*own, *inputs_read())):
+    if since is None or not (any(_written_ns(path) > since - TICK_NS for path in own)
+                             or any(path.exists() and written_since_read(path) for path in inputs_read())):
         return
     for name in [name for name in sys.modules if name.partition(".")[0] == package]:
         del sys.modules[name]

@@ -33,6 +33,16 @@ def digest_read(path: str | Path, since_ns: int = 0) -> str | None:
     return digest if read_ns >= since_ns else None
 
 
+def written_since_read(path: str | Path) -> bool:
+    """Whether a file that this process has read has been written to since, or has gone."""
+    _, read_ns = _digests.get(str(Path(path).absolute()), ("", 0))
+    try:
+        found = Path(path).stat()
+    except OSError:
+        return bool(read_ns)
+    return bool(read_ns) and max(found.st_mtime_ns, found.st_ctime_ns) > read_ns
+
+
 def read_text(path: Path, kind: str, where: str = "check the path") -> str:
     """A file's text, UTF-8 with or without a mark, its lines ended by a line feed.
 

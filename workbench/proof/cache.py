@@ -17,7 +17,7 @@ from typing import Any, TypeVar
 from workbench.errors import ClaimError
 from workbench.files.cache_folder import cache_folder, drop, keep
 from workbench.files.regular import contents
-from workbench.files.text import digest_read
+from workbench.files.text import digest_read, written_since_read
 from workbench.proof.checker import UNDECIDED
 from workbench.proof.dependencies import changed_since, digest
 from workbench.proof.engine_digest import engine_digest
@@ -65,8 +65,9 @@ class Kept:
 
     def keep_file(self, path: Path, entry: FileEntry, paths_read: Iterable[str], since_ns: int) -> None:
         """Keep the decisions of a proof file; not when a file that it reads has changed since that instant."""
-        # What was read in this run is what counts, and need not be read again; what was read before it may have gone.
-        reads = {name: digest_read(name, since_ns) or digest(name) for name in sorted(paths_read)}
+        # What was read is what counts, and need not be read again, unless it has changed since it was read.
+        reads = {name: digest_read(name, since_ns if written_since_read(name) else 0) or digest(name)
+                 for name in sorted(paths_read)}
         if any(found and changed_since(name, since_ns) for name, found in reads.items()):
             return
         _write(self._file(path), f"{self.engine} {path.resolve()}",

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import html
+import re
 from functools import cache
 from xml.etree import ElementTree
 
@@ -38,12 +39,22 @@ def formula(latex: str) -> Markup:
 @cache
 def _convert(latex: str) -> Markup:
     try:
-        root = convert_to_element(latex)
+        root = convert_to_element(_words_apart(latex))
         for element in root.iter():
             _clean(element)
         return Markup("").join(_serialise(part) for part in _parts(root))
     except Exception:  # the converter raises many kinds on input it does not know, some of them its own bugs
         return Markup("<code>{}</code>").format(escape(latex)) if latex else Markup("")
+
+
+def _words_apart(latex: str) -> str:
+    r"""`\text{a $x$ b}` as `\text{a }x\text{ b}`, and braces and signs as the converter knows them."""
+    def parts(found: re.Match[str]) -> str:
+        pieces = found[1].replace(r"\%", "%").split("$")
+        return "".join(piece if i % 2 else rf"\text{{{piece}}}" for i, piece in enumerate(pieces) if piece)
+
+    apart = re.sub(r"\\text\{((?:[^{}$]|\$[^$]*\$)*)\}", parts, latex)
+    return apart.replace(r"\left\{", r"\{").replace(r"\right\}", r"\}").replace(r"\arg \min", r"\mathrm{arg}\min")
 
 
 def _serialise(root: ElementTree.Element) -> Markup:
