@@ -19,6 +19,11 @@ ROUNDING = 1e-7
 ENOUGH_DIGITS, MOST_DIGITS = 400, 4_000  # what is still zero then is zero
 
 
+def rebuilt(expr):
+    """A term kept as typed, as sympy builds it: lambdify writes the power -1 of 1/100 as 1/1/100, which is 1/100."""
+    return expr.func(*map(rebuilt, expr.args)) if expr.args else expr
+
+
 class Evaluated:
     """A goal's assumptions and relations as functions of numbers, with every sum written out for n neurons."""
 
@@ -55,7 +60,7 @@ class Evaluated:
         def written_out(term, limits):
             return sp.Add(*(term.xreplace({limits[0]: sp.Integer(i)}) for i in range(1, self.neurons + 1)))
 
-        expr = sp.sympify(expr).replace(sp.Sum, written_out)
+        expr = rebuilt(sp.sympify(expr)).replace(sp.Sum, written_out)
         suffix = (lambda i: "") if self.neurons == 1 else (lambda i: f"__{i}")
         return expr.xreplace({w: sp.Symbol(f"{w.base.label}{suffix(w.indices[0])}", real=True)
                               for w in expr.atoms(sp.Indexed)})

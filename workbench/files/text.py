@@ -38,7 +38,7 @@ def written_since_read(path: str | Path) -> bool:
     _, read_ns = _digests.get(str(Path(path).absolute()), ("", 0))
     try:
         found = Path(path).stat()
-    except OSError:
+    except (OSError, ValueError):  # gone, or a name that no file can bear
         return bool(read_ns)
     return bool(read_ns) and max(found.st_mtime_ns, found.st_ctime_ns) > read_ns
 

@@ -173,11 +173,18 @@ def tracking_errors_bounded_for_all_gains() -> Goal:
     return _tracking("51.any_gains", 2 / c_z * E_before + 2 * any_gains * Y)
 
 
+def _tracking_at_stated_gains() -> Goal:
+    goal = _tracking("51.any_gains", 2 * E_before / c_z + 2 * any_gains * Y)
+    put = at_stated | {c_z: at_stated[c_1]}
+    return Goal(tuple(r.subs(put) for r in goal.show), tuple(r.subs(put) for r in goal.assume))
+
+
 @paper.claim("theorem1.3.stated", "At the stated gains part 3 bounds integrals of squares by what is not negative",
              "inequality", rf"0 \le {_right_54(INT_U)}\quad (c_1 = 0.01,\ c_2 = 100,\ c_3 = 0.04)", "refuted",
-             origin="ours", premises=("49.stated",),
+             origin="ours", premises=("49.stated",), correction=_tracking_at_stated_gains,
+             corrected_statement=rf"{INT_E_S}, {INT_E_V} \le 200E_{{i-1}} + {ANY_GAINS} {INT_U}",
              note="Part 3 does not claim it there, since c_lambda = -0.49 is not positive; read all the same, it would "
-                  "demand errors with negative integrals once the saturation is large. theorem1.3.any_gains holds there.")
+                  "demand errors with negative integrals once the saturation is large. Corrected with 51.any_gains.")
 def tracking_bound_not_negative() -> Goal:
     """The printed right side for any E_{i-1} and saturation."""
     c_lambda_stated = at_stated[c_1] - sp.S.Half
