@@ -14,7 +14,7 @@ from refusals import refusal
 
 from workbench.files.json_output import write_json
 from workbench.files.writing import make_folder, require_inside, write_bytes, write_text, write_tree
-from workbench.proof.cache import kept
+from workbench.proof.cache import decision_cache
 from workbench.simulate.journal import FORMAT, Journal
 
 OLD = "what stood there\n"
@@ -101,7 +101,7 @@ def test_a_journal_on_a_full_disk_keeps_its_whole_records(tmp_path):
 
 def test_a_cache_on_a_full_disk_costs_time_and_no_result(tmp_path, monkeypatch):
     monkeypatch.setenv("WORKBENCH_CACHE", str(tmp_path))
-    cached = kept()
+    cached = decision_cache()
     with files_up_to(10):
         cached.keep_file(tmp_path / "p.py", type("Entry", (), {"papers": 1, "decisions": ()})(), (), 0)
     assert cached.file(tmp_path / "p.py") is None

@@ -38,7 +38,7 @@ class FileEntry:
 
 
 @dataclass(frozen=True)
-class Kept:
+class DecisionCache:
     """The cache as one version of the deciders sees it."""
 
     folder: Path
@@ -84,10 +84,10 @@ class Kept:
                     drop(old)
 
 
-def kept() -> Kept | None:
+def decision_cache() -> DecisionCache | None:
     """The cache; None where none can be written or the deciders changed under this process."""
     folder, engine = cache_folder("decided-claims"), engine_digest()
-    return Kept(folder, engine) if folder and engine else None
+    return DecisionCache(folder, engine) if folder and engine else None
 
 
 def _record(decision: Decision) -> dict[str, Any]:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 
-from workbench.proof.premises import failed_below, holds_otherwise, with_taint
+from workbench.proof.premises import failed_below, holds_in_other_reading, with_taint
 from workbench.proof.verdict import Decision, Fate
 
 
@@ -37,12 +37,12 @@ def _fate(decision: Decision, by_id: dict[str, Decision], mended: Decision | Non
           failed_premises: tuple[str, ...]) -> Fate:
     instead = f"; its mended form {_number(mended.claim.id)} is proved" if mended else ""
     if decision.verdict == "refuted":
-        if holds_otherwise(decision, by_id):
+        if holds_in_other_reading(decision, by_id):
             other = str(decision.claim.glyph)
             return Fate("open", f"depends on the reading: {_number(other)} holds", (other,))
         return Fate("falls", f"refuted by {_how(decision)}{instead}", (mended.claim.id,) if mended else ())
     if decision.verdict == "proved" and not failed_premises:
-        failing = tuple(line for line in decision.tainted_by if not holds_otherwise(by_id[line], by_id))
+        failing = tuple(line for line in decision.tainted_by if not holds_in_other_reading(by_id[line], by_id))
         open_glyphs = tuple(line for line in decision.tainted_by if line not in failing)
         readings = f"; {_numbers(open_glyphs)} on the way holds in its other reading" if open_glyphs else ""
         if not failing:

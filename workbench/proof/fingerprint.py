@@ -13,7 +13,7 @@ import sympy as sp
 from workbench.proof.claim import Claim
 
 # Shown beside a verdict, but never looked at to reach it; how a line matches its goal is found anew each time.
-BESIDE_THE_DECISION = {"title", "printed", "recorded", "premises", "rests_on", "origin", "severity", "match", "reading",
+NOT_DECIDED_ON = {"title", "printed", "recorded", "premises", "rests_on", "origin", "severity", "match", "reading",
                        "glyph", "mends", "scope", "note", "notation"}
 
 
@@ -22,7 +22,7 @@ def fingerprint(claim: Claim) -> str | None:
 
     Every field counts but those named above, so that a field added to claims or goals is never forgotten.
     """
-    parts = {f.name: getattr(claim, f.name) for f in fields(claim) if f.name not in BESIDE_THE_DECISION}
+    parts = {f.name: getattr(claim, f.name) for f in fields(claim) if f.name not in NOT_DECIDED_ON}
     try:
         exact = {name: _exact(part() if callable(part) and not isinstance(part, sp.Basic) else part)
                  for name, part in parts.items()}

@@ -21,7 +21,7 @@ from workbench.proof.dependencies import reading, reads
 PREFIX = "workbench_proofs_"
 
 
-class _Beside:
+class _NeighbourModules:
     """Finds the modules that stand in a folder."""
 
     def __init__(self, folder: Path) -> None:
@@ -51,26 +51,26 @@ class ProofFile:
             forget_changed(path)
         self.path = path
         self.sources = {str(path.absolute())}
-        self._beside = None if path.is_dir() else _Beside(path.absolute().parent)
+        self._neighbours = None if path.is_dir() else _NeighbourModules(path.absolute().parent)
         self._own: dict[str, ModuleType] = {}
         self._modules: list[ModuleType] = []
 
     @contextmanager
     def at_home(self) -> Iterator[None]:
         """Whatever is imported within sees the modules beside the file first."""
-        if self._beside is None:  # a package, whose modules know each other
+        if self._neighbours is None:  # a package, whose modules know each other
             with reading(self.sources):
                 yield
             return
-        sys.meta_path.insert(0, self._beside)
+        sys.meta_path.insert(0, self._neighbours)
         hidden = {name: sys.modules[name] for name in self._own if name in sys.modules}
         sys.modules.update(self._own)
         try:
             with reading(self.sources):
                 yield
         finally:
-            sys.meta_path.remove(self._beside)
-            for name in [n for n in sys.modules if n.partition(".")[0] in self._beside.found]:
+            sys.meta_path.remove(self._neighbours)
+            for name in [n for n in sys.modules if n.partition(".")[0] in self._neighbours.found]:
                 self._own[name] = sys.modules.pop(name)
             sys.modules.update(hidden)
 

@@ -61,12 +61,12 @@ def below(ids: Iterable[str], claims: Mapping[str, Stated]) -> set[str]:
     return seen
 
 
-def speaks_against(decision: Decision) -> bool:
+def counts_as_failure(decision: Decision) -> bool:
     """Whether a decision speaks against what rests on it: it fails, and something depends on it."""
     return decision.verdict in FAILED and decision.claim.severity != "cosmetic"
 
 
-def holds_otherwise(decision: Decision, by_id: Mapping[str, Decision]) -> bool:
+def holds_in_other_reading(decision: Decision, by_id: Mapping[str, Decision]) -> bool:
     """Whether the other reading of a line with an unclear glyph is proved."""
     other = by_id.get(decision.claim.glyph) if decision.claim.glyph else None
     return other is not None and other.verdict == "proved"
@@ -87,7 +87,7 @@ def failed_below(decisions: Sequence[Decision], links: Links) -> dict[str, tuple
     found: dict[str, set[str]] = {}
     for name in _sorter([d.claim for d in decisions], links).static_order():
         ids = links(by_id[name].claim)
-        found[name] = {i for i in ids if speaks_against(by_id[i])}.union(*(found[i] for i in ids))
+        found[name] = {i for i in ids if counts_as_failure(by_id[i])}.union(*(found[i] for i in ids))
     return {name: tuple(other for other in by_id if other in found[name]) for name in by_id}
 
 

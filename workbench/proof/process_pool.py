@@ -12,7 +12,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, Protocol, TypeVar
 
 from workbench.errors import WorkbenchError
-from workbench.proof.cache import Kept
+from workbench.proof.cache import DecisionCache
 from workbench.proof.messages import Decided, Listing
 from workbench.simulate.process_pool import follow_parent, single_threaded
 
@@ -25,7 +25,7 @@ Task = tuple[Path, str]
 T = TypeVar("T")
 
 
-class Team(Protocol):
+class WorkerPool(Protocol):
     """Does the same for one worker and for several; raises the error of the first file or claim that has one."""
 
     def listings(self, paths: Sequence[Path]) -> list[Listing]:
@@ -36,7 +36,7 @@ class Team(Protocol):
 
 
 @contextmanager
-def team(jobs: int, cached: Kept | None, limit: float | None = None) -> Iterator[Team]:
+def worker_pool(jobs: int, cached: DecisionCache | None, limit: float | None = None) -> Iterator[WorkerPool]:
     """As many workers as that; they are gone when the block is left, at once when it is left by an exception.
 
     limit: of the seconds of processor time for each claim.
@@ -63,7 +63,7 @@ def team(jobs: int, cached: Kept | None, limit: float | None = None) -> Iterator
 
 
 class _Alone:
-    def __init__(self, cached: Kept | None, limit: float | None) -> None:
+    def __init__(self, cached: DecisionCache | None, limit: float | None) -> None:
         self.worker = _worker(cached, limit)
 
     def listings(self, paths: Sequence[Path]) -> list[Listing]:
@@ -122,7 +122,7 @@ def _interruption_held() -> Iterator[None]:
         signal.pthread_sigmask(signal.SIG_SETMASK, before)
 
 
-def _worker(cached: Kept | None, limit: float | None) -> Worker:
+def _worker(cached: DecisionCache | None, limit: float | None) -> Worker:
     from workbench.proof.worker import Worker  # noqa: PLC0415 - only those who decide need sympy and the deciders
 
     return Worker(cached, limit)
@@ -131,7 +131,7 @@ def _worker(cached: Kept | None, limit: float | None) -> Worker:
 _here: list[Any] = []
 
 
-def _start(cached: Kept | None, limit: float | None) -> None:
+def _start(cached: DecisionCache | None, limit: float | None) -> None:
     follow_parent()
     _here[:] = [_worker(cached, limit)]
 

@@ -10,12 +10,12 @@ from functools import cache
 from pathlib import Path
 
 from workbench.errors import InputError
-from workbench.proof.cache import FileEntry, Kept, kept
+from workbench.proof.cache import FileEntry, DecisionCache, decision_cache
 from workbench.proof.dependencies import digest
 from workbench.proof.fate import judged
 from workbench.proof.messages import Decided, Listing
 from workbench.proof.premises import below, premises_problem
-from workbench.proof.process_pool import team
+from workbench.proof.process_pool import worker_pool
 from workbench.proof.selection import NO_PAPER, Target, chosen, files_of
 from workbench.proof.verdict import Decision, Stated
 from workbench.simulate.process_pool import cores
@@ -47,7 +47,7 @@ def prove(found: Sequence[Target], jobs: int | None = None, use_cache: bool = Tr
     claims that do not fit together; a claim that states nothing is told of, and the others are decided.
     """
     started_ns = time.time_ns()
-    cached = kept() if use_cache else None
+    cached = decision_cache() if use_cache else None
     files = files_of(found)
     digests = cache(digest)  # many proof files read the same modules
     entries = {file: entry for file in files if cached and (entry := cached.file(file, digests))}
@@ -55,7 +55,7 @@ def prove(found: Sequence[Target], jobs: int | None = None, use_cache: bool = Tr
     with ExitStack() as stack:
         listings: dict[Path, Listing] = {}
         if missing:
-            workers = stack.enter_context(team(jobs or cores(), cached, limit))
+            workers = stack.enter_context(worker_pool(jobs or cores(), cached, limit))
             listings = dict(zip(missing, workers.listings(missing), strict=True))
         stated = {file: listings[file].claims if file in listings else tuple(d.claim for d in entries[file].decisions)
                   for file in files}
@@ -92,7 +92,7 @@ def _well_formed(files: Sequence[Path], stated: dict[Path, tuple[Stated, ...]],
     return {claim.id: claim for _, claim in every}
 
 
-def _keep_files(cached: Kept, listings: dict[Path, Listing], decided: dict[str, Decided], started_ns: int) -> None:
+def _keep_files(cached: DecisionCache, listings: dict[Path, Listing], decided: dict[str, Decided], started_ns: int) -> None:
     """Keep the proof files of which every claim is decided."""
     for file, listing in listings.items():
         results = [decided[claim.id] for claim in listing.claims if claim.id in decided]

@@ -7,11 +7,11 @@ from functools import cache
 from pathlib import Path
 
 from workbench.errors import InputError, WorkbenchError
-from workbench.proof.cache import Kept, kept
+from workbench.proof.cache import DecisionCache, decision_cache
 from workbench.proof.checker import CertificateError, check, goal_digest
 from workbench.proof.claim import Claim
 from workbench.proof.claim_digest import is_of
-from workbench.proof.decide.engine import beside_the_line, decide
+from workbench.proof.decide.engine import with_match, decide
 from workbench.proof.dependencies import watch
 from workbench.proof.fingerprint import fingerprint
 from workbench.proof.loading import ProofFile
@@ -24,11 +24,11 @@ from workbench.proof.verdict import Decision, Stated
 class Worker:
     """Lists and decides the claims of proof files, each file imported once."""
 
-    def __init__(self, cached: Kept | None, limit: float | None = None) -> None:
+    def __init__(self, cached: DecisionCache | None, limit: float | None = None) -> None:
         watch()
         self.limit = limit
         # Deciders that were changed while this process imported them are nobody's: nothing is kept of them.
-        self.cached = cached if cached is None or kept() == cached else None
+        self.cached = cached if cached is None or decision_cache() == cached else None
         self.files: dict[Path, ProofFile] = {}
 
     def listing(self, path: Path) -> Listing:
@@ -71,7 +71,7 @@ class Worker:
             return decide(claim), True
         found = self.cached.claim(key)
         if found is not None and _holds(found, claim):
-            return beside_the_line(claim, found), False
+            return with_match(claim, found), False
         decision = decide(claim)
         self.cached.keep_claim(key, replace(decision, claim=_stated(claim)))
         return decision, True

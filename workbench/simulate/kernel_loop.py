@@ -138,44 +138,44 @@ def delayed(sample, u, commands):
     return commands[(sample - late) % (late + 1)] if sample >= late else 0.0
 
 
-def felt(dt, before, v, push, felt_so_far):
+def add_ride(dt, before, v, push, ride_sums):
     """Add a plant step from speed `before` to v under `push` in m/s^2 to the array of `ride.py`, laid out as there."""
     a = (v - before) / dt
-    if felt_so_far[0] > 0.0:
-        jerk = abs(a - felt_so_far[1]) / dt
-        felt_so_far[2] += jerk * jerk
-        felt_so_far[3] = max(felt_so_far[3], jerk)
+    if ride_sums[0] > 0.0:
+        jerk = abs(a - ride_sums[1]) / dt
+        ride_sums[2] += jerk * jerk
+        ride_sums[3] = max(ride_sums[3], jerk)
         mantissa, exponent = math.frexp(jerk)
         place = 64 * (exponent + 20) + int(128.0 * mantissa) - 64
         if jerk == 0.0 or place < 0:
             place = 0
-        felt_so_far[min(31 + place, felt_so_far.shape[0] - 1)] += 1.0
-    felt_so_far[0] += 1.0
-    felt_so_far[1] = a
+        ride_sums[min(31 + place, ride_sums.shape[0] - 1)] += 1.0
+    ride_sums[0] += 1.0
+    ride_sums[1] = a
     if abs(push) >= 1e-3:
-        if push * felt_so_far[4] < 0.0:
-            felt_so_far[5] += 1.0
-        felt_so_far[4] = push
+        if push * ride_sums[4] < 0.0:
+            ride_sums[5] += 1.0
+        ride_sums[4] = push
     for i in range(10, 31, 7):
-        y = felt_so_far[i] * a + felt_so_far[i + 5]
-        felt_so_far[i + 5] = felt_so_far[i + 1] * a - felt_so_far[i + 3] * y + felt_so_far[i + 6]
-        felt_so_far[i + 6] = felt_so_far[i + 2] * a - felt_so_far[i + 4] * y
+        y = ride_sums[i] * a + ride_sums[i + 5]
+        ride_sums[i + 5] = ride_sums[i + 1] * a - ride_sums[i + 3] * y + ride_sums[i + 6]
+        ride_sums[i + 6] = ride_sums[i + 2] * a - ride_sums[i + 4] * y
         a = y
-    felt_so_far[8] += a * a
+    ride_sums[8] += a * a
 
 
-def too_fast(p, v, felt_so_far, limit_m, limit_mps):
+def add_overspeed(p, v, ride_sums, limit_m, limit_mps):
     """Add a plant step that ends at p with speed v to what is beyond the speed limits."""
-    section = int(felt_so_far[9])
+    section = int(ride_sums[9])
     while section < limit_m.shape[0] - 1 and p >= limit_m[section + 1]:
         section += 1
     while section > 0 and p < limit_m[section]:
         section -= 1
-    felt_so_far[9] = section
+    ride_sums[9] = section
     beyond = v - limit_mps[section]
     if beyond > 0.0:
-        felt_so_far[6] = max(felt_so_far[6], beyond)
-        felt_so_far[7] += 1.0
+        ride_sums[6] = max(ride_sums[6], beyond)
+        ride_sums[7] += 1.0
 
 
 # --- kernel ---
@@ -277,9 +277,9 @@ def closed_loop(first, count, per_sample, dt, state, hints, breaks, coefficients
             acc[7] += work
         else:
             acc[8] -= work
-        felt(dt, before, v, push / nominal_mass, ride[0])
+        add_ride(dt, before, v, push / nominal_mass, ride[0])
         if ride[1].shape[0] > 1:
-            too_fast(p, v, ride[0], ride[1], ride[2])
+            add_overspeed(p, v, ride[0], ride[1], ride[2])
         if not (abs(p) < 1e9 and abs(v) < 1e4):
             state[0], state[1], state[2], state[3] = p, v, u, force
             return 2, n + 1

@@ -36,10 +36,10 @@ def decide(claim: Claim) -> Decision:
         return Decision(claim, "assumed", claim.axiom or "", None, time.perf_counter() - started)
     goal = built(claim, claim.build)
     decision = _decide_statement(claim, goal) if claim.at is None else _decide_condition(claim, goal)
-    return beside_the_line(claim, replace(decision, seconds=time.perf_counter() - started))
+    return with_match(claim, replace(decision, seconds=time.perf_counter() - started))
 
 
-def beside_the_line(claim: Claim, decision: Decision) -> Decision:
+def with_match(claim: Claim, decision: Decision) -> Decision:
     """The decision with the goal as a reader sees it, and whether a machine finds it in the printed line."""
     if claim.build is None:
         return decision
