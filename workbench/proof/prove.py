@@ -10,7 +10,7 @@ from functools import cache
 from pathlib import Path
 
 from workbench.errors import InputError
-from workbench.proof.cache import FileEntry, DecisionCache, decision_cache
+from workbench.proof.cache import DecisionCache, FileEntry, decision_cache
 from workbench.proof.dependencies import digest
 from workbench.proof.fate import judged
 from workbench.proof.messages import Decided, Listing

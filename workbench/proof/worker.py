@@ -11,7 +11,7 @@ from workbench.proof.cache import DecisionCache, decision_cache
 from workbench.proof.checker import CertificateError, check, goal_digest
 from workbench.proof.claim import Claim
 from workbench.proof.claim_digest import is_of
-from workbench.proof.decide.engine import with_match, decide
+from workbench.proof.decide.engine import decide, with_match
 from workbench.proof.dependencies import watch
 from workbench.proof.fingerprint import fingerprint
 from workbench.proof.loading import ProofFile
