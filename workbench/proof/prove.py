@@ -92,7 +92,8 @@ def _well_formed(files: Sequence[Path], stated: dict[Path, tuple[Stated, ...]],
     return {claim.id: claim for _, claim in every}
 
 
-def _keep_files(cached: DecisionCache, listings: dict[Path, Listing], decided: dict[str, Decided], started_ns: int) -> None:
+def _keep_files(cached: DecisionCache, listings: dict[Path, Listing], decided: dict[str, Decided],
+                started_ns: int) -> None:
     """Keep the proof files of which every claim is decided."""
     for file, listing in listings.items():
         results = [decided[claim.id] for claim in listing.claims if claim.id in decided]
