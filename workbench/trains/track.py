@@ -83,7 +83,7 @@ class TunnelSection(Section):
 class SpeedSection(Section):
     """Speed limit in m/s, from start_m to end_m."""
 
-    speed_mps: Annotated[float, Strict(), Field(gt=0, le=200, allow_inf_nan=False)]
+    speed_mps: Annotated[float, Strict(), Field(ge=0.1, le=200, allow_inf_nan=False)]
 
 
 class Track(SourcedRecord):
@@ -93,7 +93,7 @@ class Track(SourcedRecord):
     """
 
     name: Text
-    length_m: Annotated[float, Strict(), Field(gt=0, le=1e8, allow_inf_nan=False)]
+    length_m: Annotated[float, Strict(), Field(gt=0, le=2e7, allow_inf_nan=False)]
     grade: tuple[GradeSection, ...]
     curve: tuple[CurveSection, ...]
     tunnel: tuple[TunnelSection, ...] = ()

@@ -20,6 +20,7 @@ from workbench.optimal.inputs.line_checks import (
     SAME_PLACE_M,
     SHARPEST_RADIUS_M,
     SHORTEST_TRAIN_M,
+    SLOWEST_MPS,
     STEEPEST_PERMILLE,
     require_starts,
     require_stops,
@@ -91,9 +92,9 @@ class Line:
             require_starts("curvatures", [row[0] for row in self.curves], self.length_m)
         require_tunnels("tunnels", [astuple(tunnel) for tunnel in self.tunnels], self.length_m)
         for number, (_, limit) in enumerate(self.limits):
-            if not (0 < limit <= FASTEST_MPS or limit == math.inf):
-                raise InputError("", f"speed limits[{number}]", f"{limit:g} m/s is no speed limit between 0 and "
-                                 f"{FASTEST_MPS:g} m/s: correct it or its unit")
+            if not (SLOWEST_MPS <= limit <= FASTEST_MPS or limit == math.inf):
+                raise InputError("", f"speed limits[{number}]", f"{limit:g} m/s is no speed limit between "
+                                 f"{SLOWEST_MPS:g} and {FASTEST_MPS:g} m/s: correct it or its unit")
         for number, (_, grade) in enumerate(self.grades):
             if not abs(grade) <= STEEPEST_PERMILLE:
                 raise InputError("", f"gradients[{number}]", f"{grade:g} per mille is no railway's grade, at most "
