@@ -9,7 +9,7 @@ from scenarios import YANG
 from workbench.errors import WorkbenchError
 from workbench.model.pid import pid
 from workbench.model.sensing import PERFECT, Sensing
-from workbench.simulate import closed_loop, kernel_loop
+from workbench.simulate import closed_loop, sensing_loop
 from workbench.simulate.closed_loop import Run, law_values, run_law, setting_of
 from workbench.trains.scenario import Scenario, load_scenario
 
@@ -57,10 +57,10 @@ def test_measurements_and_commands_are_late_by_whole_samples(late: int) -> None:
     _, past, commands = Sensing(measurement_delay_s=late * 0.1, command_delay_s=late * 0.1).arrays(100, 0.1)
     told, wanted, waiting = [], deque([0.0] * late), deque()
     for sample in range(50):
-        told.append(kernel_loop.measured(sample, float(sample), -float(sample), (np.zeros((0, 2)), past, commands)))
+        told.append(sensing_loop.measured(sample, float(sample), -float(sample), (np.zeros((0, 2)), past, commands)))
         waiting.append(1.0 + sample)
         wanted.append(1.0 + sample)
-        assert kernel_loop.delayed(sample, 1.0 + sample, commands) == wanted.popleft()
+        assert sensing_loop.delayed(sample, 1.0 + sample, commands) == wanted.popleft()
     assert told == [(float(max(k - late, 0)), -float(max(k - late, 0))) for k in range(50)]
 
 

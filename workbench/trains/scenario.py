@@ -28,6 +28,7 @@ from workbench.model.curve_table import TableCurve
 from workbench.model.desired_curve import CruiseSpeed, DavisCruise, DesiredCurve, build_curve
 from workbench.model.events import Disturbance, Failure, Mode
 from workbench.model.tuning import Searched, TrackingObjective
+from workbench.trains.actuator import Actuator
 from workbench.trains.track import Track, load_track
 from workbench.trains.train import Train
 
@@ -58,7 +59,10 @@ class NeuronGrid(SourcedRecord):
 
 
 class ControllerSpec(SourcedRecord):
-    """One controller of a scenario: which law, its sampling period, its parameters and initial values."""
+    """One controller of a scenario: which law, its sampling period, its parameters and initial values.
+
+    predictor: it is told the actuator's delay, over which the state that it answers is predicted; MPC the lag too.
+    """
 
     law: Text
     title: Text | None = None
@@ -67,6 +71,7 @@ class ControllerSpec(SourcedRecord):
     initial: dict[str, Number] = Field(default_factory=dict)
     estimates: Literal["corrected", "explicit"] = "corrected"
     neurons: NeuronGrid | None = None
+    predictor: Annotated[bool, Strict()] = False
 
 
 class Uncertainty(SourcedRecord):
@@ -147,6 +152,7 @@ class Scenario(FileRecord):
     disturbance: Disturbance
     modes: tuple[Mode, ...] = ()
     failures: tuple[Failure, ...] = ()
+    actuator: Actuator | None = None
     controllers: dict[Name, ControllerSpec]
     uncertainty: Uncertainty
     printed_table: PrintedTable | None = None
@@ -165,6 +171,11 @@ class Scenario(FileRecord):
             if round(ratio) < 1 or abs(ratio - round(ratio)) > 1e-9 * ratio:
                 raise ValueError(f"controllers.{name}.period_s = {spec.period_s:g} is not a whole number of "
                                  f"plant steps of {step:g} s: choose a multiple")
+        if self.actuator is not None:
+            try:
+                self.actuator.delay_steps(step)
+            except ValueError as trouble:
+                raise ValueError(f"actuator.{trouble}") from None
         starts = [mode.from_s for mode in self.modes]
         if starts != sorted(set(starts)):
             raise ValueError("modes: from_s does not increase from mode to mode: order them by time")
