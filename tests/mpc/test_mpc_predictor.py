@@ -41,22 +41,19 @@ def test_the_prediction_is_exact_for_the_model(delay, lag, seed):
     problem, late = told(PROBLEM, Actuator(delay_s=delay, lag_s=lag))
     assert late == delay and problem.actuator == ("lag" if lag else "direct")
     follow, random = kernels(problem.actuator).follow, np.random.default_rng(seed)
-    commands, push = random.uniform(-1, 1, 12), random.uniform(-0.1, 0.1, 12)
+    commands, push = random.uniform(-1, 1, 12).tolist(), random.uniform(-0.1, 0.1, 20)
     whole, rest = divmod(round(100 * delay), 10)
-    # The model's own train, in pieces of which each has one command.
-    predictor, x, expected = Predictor(problem, push, late), (0.0, 10.0, 0.0), []
+    history = [0.0] * (whole + 1) + commands  # what acts first is as many places before as the delay has periods
+    predictor = Predictor(problem, push, late)
     for k in range(12):
-        expected.append((k, predictor.ahead(k, np.array(x), 0.0)))
-        earlier, acts = predictor.acting(commands[k])
-        assert earlier == (commands[k - whole - 1] if k > whole else 0.0)
-        assert acts == (commands[k - whole] if k >= whole else 0.0)
+        x = (3.0, 10.0, 0.1)
+        found = predictor.ahead(k, np.array(x), 0.01)
         if rest:
-            x = follow(*x, earlier, push[k], problem.parameters_over(rest / 100))
-        if expected and k >= whole and k - whole < len(expected) and not np.ptp(push[k - whole : k + 1]):
-            assert x == pytest.approx(expected[k - whole][1])
-        if rest == 0 and whole == 0:
-            assert expected[k][1] == pytest.approx(x)
-        x = follow(*x, acts, push[k], problem.parameters_over(0.1 - rest / 100))
+            x = follow(*x, history[k], push[k] + 0.01, problem.parameters_over(rest / 100))
+        for j in range(whole):
+            x = follow(*x, history[k + 1 + j], push[k + j] + 0.01, problem.parameters)
+        assert found == pytest.approx(x, abs=1e-12)
+        assert predictor.acting(commands[k]) == (history[k], history[k + 1])
 
 
 def test_over_whole_periods_what_was_predicted_comes():

@@ -67,7 +67,7 @@ class _Arrays:
     changes: Array
     plant: Array
     drive: Array
-    sensing: tuple[Array, Array, Array]
+    sensing: tuple[Array, Array, Array, Array]
     acc: Array
     ride: Ride
     log: Array
@@ -195,7 +195,7 @@ def _run_compiled(kernel: Any, arrays: _Arrays, law: tuple[Array, Array, Array, 
 
 
 def _run_sampled(kernel: Any, arrays: _Arrays, controller: SampledController, fixed: tuple[float, float],
-                 plan: tuple[int, int, float, int], sensing: tuple[Array, Array, Array]) -> tuple[int, int, Array]:
+                 plan: tuple[int, int, float, int], sensing: tuple[Array, Array, Array, Array]) -> tuple[int, int, Array]:
     """One call of the controller a sample; the kernel integrates the plant between them."""
     steps, per_sample, dt, log_every = plan
     command = np.zeros(1)

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from workbench.model.desired_curve import DesiredCurve
 from workbench.model.events import failure_rows, mode_rows
-from workbench.model.sensing import PERFECT, Sensing
+from workbench.model.sensing import PERFECT, Instruments, Sensing
 from workbench.simulate.ride import SpeedLimits
 from workbench.trains.actuator import Actuator, Known
 from workbench.trains.scenario import Scenario
@@ -27,6 +27,7 @@ class Factors:
     davis_b: float = 1.0
     davis_c: float = 1.0
     line_resistance: float = 1.0
+    odometer_scale: float = 1.0
 
 
 NOMINAL = Factors()
@@ -88,5 +89,6 @@ def setting_of(scenario: Scenario, factors: Factors = NOMINAL) -> Setting:
         terms=scenario.disturbance.rows(), failures=failure_rows(scenario.failures),
         changes=mode_rows(scenario.modes, train.mass_kg, of_davis),
         speed_limits=SpeedLimits(*speed_limits(scenario.track)), actuator=scenario.actuator,
+        sensing=(scenario.sensing or Instruments()).sensing(factors.odometer_scale),
         known=Known(train.mass_kg, train.davis_newton),
     )
