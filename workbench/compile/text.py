@@ -46,9 +46,11 @@ def loop_text(loop: ModuleType) -> str:
 
 
 def shared_functions(loop: ModuleType) -> str:
-    """What stands between the markers in the source of `loop`: functions that need none of the generated ones."""
-    above, _, _ = inspect.getsource(loop).partition(MARKER)
-    return above.partition(SHARED)[2].strip("\n")
+    """Functions that need none of the generated ones: what stands between the markers in the source of `loop`, and
+    below the first one in the modules that it `SHARES`."""
+    files = (loop, *getattr(loop, "SHARES", ()))
+    return "\n\n\n".join(inspect.getsource(file).partition(MARKER)[0].partition(SHARED)[2].strip("\n")
+                         for file in files).strip("\n")
 
 
 def shared_text(loop: ModuleType) -> str:

@@ -47,6 +47,8 @@ class Entrant:
         for key, given in (("initial", spec.initial), ("neurons", spec.neurons)):
             if given:
                 raise InputError("", f"{where}.{key}", f"'{spec.law}' has none in a contest: remove it")
+        if spec.predictor:
+            raise InputError("", f"{where}.predictor", f"'{spec.law}' runs by itself and has none: remove it")
         for key in self.parameters:
             if key not in spec.parameters:
                 raise InputError("", f"{where}.parameters", f"'{key}' is missing: add it")

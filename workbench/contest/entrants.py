@@ -73,7 +73,7 @@ def play(scenario: Scenario, name: str, setting: Setting) -> Played:
     law = None if entrant else compiled_law(scenario, spec)
     if law is not None:
         return Played(run_law(law, law_values(law, spec, name), setting, spec.period_s, spec.estimates, name,
-                              spec.title or law.title, module=law_loop(law, setting, spec.estimates)))
+                              spec.title or law.title, module=law_loop(law, setting, spec.estimates), predictor=spec.predictor))
     if entrant is None:
         held = law_loop(held_command, setting, spec.estimates)
         return Played(simulate_in(scenario, name, setting, held=held))

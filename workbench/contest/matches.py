@@ -13,7 +13,6 @@ from workbench.contest.entrant import Played
 from workbench.contest.entrants import held_samples, play
 from workbench.contest.record import Condition, Contest
 from workbench.model.events import Failure
-from workbench.model.sensing import Sensing
 from workbench.simulate.closed_loop import Factors, Run, setting_of
 from workbench.simulate.metrics import measure
 from workbench.simulate.process_pool import run_tasks
@@ -32,6 +31,9 @@ LOGGED_JERK = "logged_jerk_rms"
 # What is an error from the desired curve: says nothing about who follows none.
 OF_CURVE = ("position_rms", "speed_rms", "largest_position_error", "band_share")
 STANDING_MPS = 0.1
+# What a condition states of `model.sensing`.
+SENSED = ("position_noise_m", "speed_noise_mps", "measurement_delay_s", "command_delay_s", "position_quantum_m",
+          "balise_spacing_m", "speed_from")
 
 
 @dataclass(frozen=True)
@@ -93,13 +95,15 @@ def play_match(scenario: Scenario, name: str, condition: Condition, draw: int, s
     noise_seed = int(generator.integers(2**31))
     world = world_of(scenario, condition)
     setting = setting_of(world, Factors(*(float(factor) for factor in factors)))
-    sensing = Sensing(condition.position_noise_m, condition.speed_noise_mps, condition.measurement_delay_s,
-                      condition.command_delay_s, noise_seed)
+    scale = 1 + condition.odometer_spread * float(generator.uniform(-1.0, 1.0))
+    stated = {key: getattr(condition, key) for key in SENSED if key in condition.model_fields_set}
+    sensing = replace(setting.sensing, **stated, seed=noise_seed,
+                      odometer_scale=setting.sensing.odometer_scale * scale)
     return play(world, name, replace(setting, sensing=sensing))
 
 
 def world_of(scenario: Scenario, condition: Condition) -> Scenario:
-    """What all draws of a condition share, and controllers know but for failures: limits, whether level, sampling."""
+    """What all draws of a condition share, and controllers know but for failures: limits, actuator, whether level, sampling."""
     train = scenario.train
     limited = train.model_copy(update={"max_traction_n": train.max_traction_n * condition.force_share,
                                        "max_braking_n": train.max_braking_n * condition.force_share})
@@ -108,7 +112,8 @@ def world_of(scenario: Scenario, condition: Condition) -> Scenario:
         failures += (Failure.model_construct(
             from_s=condition.failure_from_s, to_s=None, omega_rad_s=0.0, phase_rad=0.0,
             failed_share=condition.failed_share, offset_n=condition.failure_n, amplitude_n=0.0),)
-    world = scenario.model_copy(update={"train": limited, "failures": failures})
+    world = scenario.model_copy(update={"train": limited, "failures": failures,
+                                        "actuator": condition.acting(scenario)})
     if condition.level:
         world = world.model_copy(update={"track": _levelled(world)})
     if condition.period_s is not None:

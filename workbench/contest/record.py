@@ -8,8 +8,10 @@ from pydantic import Field, PrivateAttr, Strict, model_validator
 
 from workbench.errors import InputError
 from workbench.files.toml import Count, Name, NonNegative, Positive, SourcedRecord, Text
+from workbench.model.sensing import SpeedFrom
 from workbench.model.tuning import Searched, Seed
 from workbench.paper.study import Study
+from workbench.trains.actuator import Actuator
 from workbench.trains.scenario import ControllerSpec, Interval, Scenario
 
 Spread = Annotated[float, Strict(), Field(ge=0, lt=1, allow_inf_nan=False)]
@@ -20,9 +22,11 @@ class Condition(SourcedRecord):
     """One way in which the world differs from what controllers know; all else is the scenario's.
 
     spread: mass, Davis coefficients and the line's resistance are drawn from 1 - spread to 1 + spread; level: the line
-    has no grades. failed_share of the motors give failure_n (in all) from failure_from_s on. Noise and delays are those
-    of `sensing.py`; force_share: of traction and braking limits that is left, known to the controllers. period_s: at
-    which all sample, instead of each at its own; a multiple of the plant's step.
+    has no grades. failed_share of the motors give failure_n (in all) from failure_from_s on. Noise, delays and odometer are
+    those of `sensing.py`, with the odometer's scale drawn from 1 - odometer_spread to 1 + odometer_spread; what is not stated is
+    as in the scenario. force_share: of traction and braking limits that is left, known to the controllers. period_s: at
+    which all sample, instead of each at its own; a multiple of the plant's step. actuator: instead of the scenario's;
+    direct: with none, whatever the scenario states.
     """
 
     title: Text
@@ -35,13 +39,29 @@ class Condition(SourcedRecord):
     speed_noise_mps: NonNegative = 0.0
     measurement_delay_s: NonNegative = 0.0
     command_delay_s: NonNegative = 0.0
+    position_quantum_m: NonNegative = 0.0
+    odometer_spread: Annotated[float, Strict(), Field(ge=0, le=0.2, allow_inf_nan=False)] = 0.0
+    balise_spacing_m: NonNegative = 0.0
+    speed_from: SpeedFrom = "tachometer"
+    actuator: Actuator | None = None
+    direct: Annotated[bool, Strict()] = False
     force_share: Share = 1.0
     period_s: Interval | None = None
 
     @property
     def random(self) -> bool:
         """Whether a run depends on its seed."""
-        return bool(self.spread or self.position_noise_m or self.speed_noise_mps)
+        return bool(self.spread or self.position_noise_m or self.speed_noise_mps or self.odometer_spread)
+
+    @model_validator(mode="after")
+    def _one_actuator_or_none(self) -> Self:
+        if self.direct and self.actuator is not None:
+            raise ValueError("direct = true has no actuator: leave one of the two out")
+        return self
+
+    def acting(self, scenario: Scenario) -> Actuator | None:
+        """The actuator under this condition."""
+        return None if self.direct else self.actuator or scenario.actuator
 
 
 class Objective(SourcedRecord):

@@ -59,6 +59,11 @@ def _delays_alike(contest: Contest, scenario: Scenario, path: Path) -> None:
                                             abs(stated.period_s / step - round(stated.period_s / step)) > 1e-6):
             raise InputError(path, f"conditions.{condition}.period_s", f"{stated.period_s:g} is not a whole number of "
                              f"plant steps of {step:g} s: choose a multiple")
+        try:
+            if (actuator := stated.acting(scenario)) is not None:
+                actuator.delay_steps(step)
+        except ValueError as trouble:
+            raise InputError(path, f"conditions.{condition}.actuator", str(trouble)) from None
         for key in ("measurement_delay_s", "command_delay_s"):
             delay = getattr(stated, key)
             for name, spec in scenario.controllers.items():

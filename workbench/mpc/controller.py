@@ -14,6 +14,7 @@ from workbench.mpc.fallback import Fallback
 from workbench.mpc.linear import LinearMpc
 from workbench.mpc.nonlinear import NonlinearMpc
 from workbench.mpc.offset_free import Observer
+from workbench.mpc.predictor import Predictor, told
 from workbench.mpc.preview import preview
 from workbench.mpc.problem import Array, Problem, Weights
 from workbench.mpc.solution import Tracker
@@ -111,12 +112,23 @@ class MpcController:
             duration = curve.trip_time_s + scenario.simulation.dwell_s
             line = resistance_table(scenario.track) if kind.told_grades else None
             kept = () if kind.follows_curve else scenario.track.speed_limit
-            self.ahead = preview(self.problem, curve, duration, line=line, limits=kept)
+            late_s = 0.0
+            if spec.predictor and scenario.actuator is not None:
+                if kind.tracker is _tube:
+                    raise InputError("", "predictor", f"'{spec.law}' promises nothing behind an actuator: leave "
+                                     "predictor out")
+                self.problem, late_s = told(self.problem, scenario.actuator)
+            self.ahead = preview(self.problem, curve, duration, line=line, limits=kept, late_s=late_s)
+            now = preview(self.problem, curve, duration, line=line) if late_s else self.ahead
             start = scenario.simulation.initial_position_m - float(self.ahead[0, 0])
             tracker = kind.tracker(self.problem, self.ahead, values, start)
-            self._observer = Observer(self.problem, self.ahead, values.get("observer_gain", 0.0))
+            self._observer = Observer(self.problem, now, values.get("observer_gain", 0.0))
         except InputError as trouble:
             raise InputError("", f"{where}: {trouble.key}", trouble.problem) from None
+        self._predictor: Predictor | None = None
+        if spec.predictor and scenario.actuator is not None:
+            self._predictor = Predictor(self.problem, now[:, 5], late_s)
+            self._observer.force = 0.0  # an actuator starts at rest
         limits = (self.problem.lowest_command_mps2, self.problem.highest_command_mps2)
         self._fallback = Fallback(tracker, tracker.lqr, self.ahead, limits, values["deadline_s"])
         self.title, self.information, self.counters = kind.title, kind.information, self._fallback.counters
@@ -151,10 +163,14 @@ class MpcController:
                 self.counters["beyond_bound"] += 1
                 self._farthest = max(self._farthest, abs(self._observer.surprise))
             state = np.array([position_m, speed_mps, self._observer.force])
+            if self._predictor:
+                state = self._predictor.ahead(k, state, disturbance)
             answer = self._fallback.command(k, state, disturbance)
         else:
             answer = self._fallback.command(k, None, self._observer.disturbance)
-        self._observer.predict(k, speed_mps if good else None, answer)
+        before, acts = self._predictor.acting(answer) if self._predictor else (answer, answer)
+        self._observer.predict(k, speed_mps if good else None, acts,
+                               (before, self._predictor.rest_s) if self._predictor else None)
         self._held = answer
         return answer
 

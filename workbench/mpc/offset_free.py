@@ -28,6 +28,7 @@ class Observer:
                              "is believed, 0 for no observer")
         self._follow: Callable[..., tuple[float, float, float]] = kernels(problem.actuator).follow
         self._parameters, self._period_s = problem.parameters, problem.period_s
+        self._problem = problem
         self._ahead, self._gain, self._largest = ahead, gain, largest_mps2
         self.disturbance, self.force = 0.0, float(ahead[0, 2])
         self._expected_speed: float | None = None
@@ -42,10 +43,17 @@ class Observer:
             self.disturbance = min(max(moved, -self._largest), self._largest)
         return self.disturbance
 
-    def predict(self, sample: int, speed_mps: float | None, command: float) -> None:
-        """Follow the command to the next sample; without a speed there is nothing to be surprised by."""
-        told = float(self._ahead[sample, 5])
-        speed = 0.0 if speed_mps is None else speed_mps
-        _, expected, force = self._follow(0.0, speed, self.force, command, told + self.disturbance, self._parameters)
+    def predict(self, sample: int, speed_mps: float | None, command: float,
+                before: tuple[float, float] | None = None) -> None:
+        """Follow the command to the next sample; without a speed there is nothing to be surprised by.
+
+        before: the command that acts for the first seconds, and how many, where the sample's own comes late.
+        """
+        push = float(self._ahead[sample, 5]) + self.disturbance
+        speed, force, left = (0.0 if speed_mps is None else speed_mps), self.force, self._parameters
+        if before is not None and before[1] > 0:
+            first, left = (self._problem.parameters_over(seconds) for seconds in (before[1], self._period_s - before[1]))
+            _, speed, force = self._follow(0.0, speed, force, before[0], push, first)
+        _, expected, force = self._follow(0.0, speed, force, command, push, left)
         self.force = force if math.isfinite(force) else command
         self._expected_speed = expected if speed_mps is not None else None

@@ -88,7 +88,11 @@ class Problem:
     @property
     def parameters(self) -> Array:
         """Of the model, in its order."""
-        return np.array([*self.davis, self.period_s, self.lag_s])
+        return self.parameters_over(self.period_s)
+
+    def parameters_over(self, seconds: float) -> Array:
+        """Of the model, for a step of so many seconds instead of a period."""
+        return np.array([*self.davis, seconds, self.lag_s])
 
     def limits(self) -> Array:
         """As the kernels read them."""

@@ -54,6 +54,9 @@ class TrackingMpc:
     def __init__(self, scenario: Scenario, spec: ControllerSpec, name: str, solver: str = SOLVER) -> None:
         where = f"controllers.{name}.parameters"
         values = _checked(spec.parameters, where)
+        if spec.predictor:
+            raise InputError("", f"controllers.{name}.predictor", f"'{spec.law}' knows no actuator: take mpc.linear or "
+                             "leave it out")
         self.horizon = int(values["horizon"])
         self._T = spec.period_s
         self._observer_gain = values["observer_gain"]

@@ -12,36 +12,21 @@ from numpy.typing import NDArray
 
 from workbench.compile.kernel import Estimates, kernel_module
 from workbench.errors import WorkbenchError
-from workbench.model.desired_curve import DesiredCurve
-from workbench.model.events import failure_rows, mode_rows
 from workbench.model.law import ControlLaw
-from workbench.model.sensing import PERFECT, Sensing
-from workbench.simulate import kernel_loop
+from workbench.model.sensing import PERFECT
+from workbench.simulate import kernel_loop, sensing_loop
 from workbench.simulate.controllers import SAMPLED, SampledController, compiled_law, held_command
 from workbench.simulate.kernel_loop import ACCUMULATORS, DIVERGED, LEFT_DOMAIN, LOG_COLUMNS, RUNNING
 from workbench.simulate.law_values import check_controllers, controller_spec, law_values
-from workbench.simulate.ride import Ride, SpeedLimits, ride
+from workbench.simulate.ride import Ride, ride
+from workbench.simulate.setting import LEVEL, NOMINAL, UNLIMITED, Factors, Setting, setting_of
+from workbench.trains.actuator import Known, drive, drive_totals
 from workbench.trains.scenario import Scenario
-from workbench.trains.track import ResistanceTable, resistance_table, speed_limits
 from workbench.trains.train import Plant, single_particle
 
 TIMED_BLOCK = 1000
 
 Array = NDArray[np.float64]
-
-
-@dataclass(frozen=True)
-class Factors:
-    """How the true train and line differ from the nominal ones that controllers may know; 1 is nominal."""
-
-    mass: float = 1.0
-    davis_a: float = 1.0
-    davis_b: float = 1.0
-    davis_c: float = 1.0
-    line_resistance: float = 1.0
-
-
-NOMINAL = Factors()
 
 
 @dataclass(frozen=True)
@@ -67,62 +52,6 @@ class Run:
         return self.log[:, self.columns.index(name)]
 
 
-# A line without grade, curve or tunnel.
-LEVEL = ResistanceTable(np.zeros(1), np.zeros(1))
-UNLIMITED = (np.inf, np.inf, np.inf)
-
-
-@dataclass(frozen=True)
-class Setting:
-    """What a run happens in, in the units of its names.
-
-    davis_n: the train's Davis coefficients in N, N s/m, N s^2/m^2; terms, failures, changes: rows of `push_rows`,
-    `failure_rows` and `mode_rows`; limits: traction force (N), braking force (N), power (W). The nominal mass turns
-    commands in m/s^2 into forces; the true one is mass_kg. plant_values: of a plant's parameters beyond these.
-    """
-
-    curve: DesiredCurve
-    mass_kg: float
-    nominal_mass_kg: float
-    davis_n: tuple[float, float, float]
-    plant_step_s: float
-    end_s: float
-    log_every_s: float
-    position_band_m: float
-    initial_position_m: float = 0.0
-    limits: tuple[float, float, float] = UNLIMITED
-    line: ResistanceTable = LEVEL
-    terms: Array = field(default_factory=lambda: np.zeros((0, 7)))
-    failures: Array = field(default_factory=lambda: np.zeros((0, 7)))
-    changes: Array = field(default_factory=lambda: np.zeros((0, 5)))
-    plant_values: tuple[float, ...] = ()
-    sensing: Sensing = PERFECT
-    speed_limits: SpeedLimits = field(default_factory=SpeedLimits)
-
-    def plan(self, period_s: float) -> tuple[int, int, float, int]:
-        """Steps in all, steps a sample, seconds a step, steps a row of the log."""
-        step = self.plant_step_s
-        return (round(self.end_s / step), round(period_s / step), step, max(1, round(self.log_every_s / step)))
-
-
-def setting_of(scenario: Scenario, factors: Factors = NOMINAL) -> Setting:
-    """What a scenario states of its runs, for a train and line that differ from the nominal ones by `factors`."""
-    curve, train, simulation = scenario.desired_curve(), scenario.train, scenario.simulation
-    table, of_davis = resistance_table(scenario.track), (factors.davis_a, factors.davis_b, factors.davis_c)
-    a, b, c = (value * factor for value, factor in zip(train.davis_newton, of_davis, strict=True))
-    return Setting(
-        curve=curve, mass_kg=train.mass_kg * factors.mass, nominal_mass_kg=train.mass_kg, davis_n=(a, b, c),
-        plant_step_s=simulation.plant_step_s, end_s=curve.trip_time_s + simulation.dwell_s,
-        log_every_s=simulation.log_every_s, position_band_m=simulation.position_band_m,
-        initial_position_m=simulation.initial_position_m,
-        limits=(train.max_traction_n, train.max_braking_n, train.max_power_w or np.inf),
-        line=ResistanceTable(table.position_m, table.specific_force * factors.line_resistance),
-        terms=scenario.disturbance.rows(), failures=failure_rows(scenario.failures),
-        changes=mode_rows(scenario.modes, train.mass_kg, of_davis),
-        speed_limits=SpeedLimits(*speed_limits(scenario.track)),
-    )
-
-
 @dataclass
 class _Arrays:
     """The arrays a kernel reads and writes; built once a run."""
@@ -137,15 +66,15 @@ class _Arrays:
     failures: Array
     changes: Array
     plant: Array
-    limits: Array
-    sensing: tuple[Array, Array, Array]
+    drive: Array
+    sensing: tuple[Array, Array, Array, Array]
     acc: Array
     ride: Ride
     log: Array
 
     def before_law(self) -> tuple[Any, ...]:
         return (self.state, self.hints, self.breaks, self.coefficients, self.edges, self.values, self.terms,
-                self.failures, self.changes, self.plant, self.limits, self.sensing)
+                self.failures, self.changes, self.plant, self.drive, self.sensing)
 
     def after_law(self) -> tuple[Any, ...]:
         return self.acc, self.ride.arrays(), self.log
@@ -170,7 +99,7 @@ def simulate_in(scenario: Scenario, name: str, setting: Setting, plant: Plant | 
     law = compiled_law(scenario, spec)
     if law is not None:
         return run_law(law, law_values(law, spec, name), setting, spec.period_s, spec.estimates, name,
-                       spec.title or law.title, plant)
+                       spec.title or law.title, plant, predictor=spec.predictor)
     # The kernel holds what it is told; noise and delays lie between it and the controller.
     plan = setting.plan(spec.period_s)
     arrays, sensing = _arrays(replace(setting, sensing=PERFECT), spec.period_s, held_command), setting.sensing
@@ -184,19 +113,20 @@ def simulate_in(scenario: Scenario, name: str, setting: Setting, plant: Plant | 
 
 def run_law(law: ControlLaw, values: tuple[Array, Array, Array, Array], setting: Setting, period_s: float,
             estimates: Estimates = "corrected", name: str = "", title: str = "", plant: Plant | None = None,
-            module: ModuleType | None = None) -> Run:
+            module: ModuleType | None = None, predictor: bool = False) -> Run:
     """Run a compiled law once; one that leaves its domain or diverges is reported failed.
 
     values: the law's parameters, initial scalar states, initial neuron states and neuron data, as `law_values` gives
     them; plant: of position, speed, force, opposing force, mass and Davis coefficients, in the order of
     `single_particle`, which it is unless given; the setting's plant_values come after these. module: compiled already,
-    of a law that is more than its expressions; it may write into the neuron data.
+    of a law that is more than its expressions; it may write into the neuron data. predictor: the law is told the state
+    at which its command takes effect, predicted over the delay of the setting's actuator.
     Raises WorkbenchError where the values are not those of the law's states.
     """
     if len(values[1]) != len(law.scalar_states):  # a kernel writes them into rows of the log, whose width the law says
         raise WorkbenchError(f"{law.id}: {len(values[1])} initial values for {len(law.scalar_states)} states of one "
                              "number each: give one value a state")
-    arrays, plan = _arrays(setting, period_s, law), setting.plan(period_s)
+    arrays, plan = _arrays(setting, period_s, law, predictor), setting.plan(period_s)
     kernel = (module or kernel_module(plant or single_particle(), law, kernel_loop, estimates)).closed_loop
     parameters, scalars, neurons, data = values
     # The kernel advances states in place, and the caller's values are for other runs too.
@@ -217,13 +147,14 @@ def _run(name: str, title: str, law: ControlLaw, arrays: _Arrays, plan: tuple[in
     return Run(
         controller=name, title=title, columns=(*LOG_COLUMNS, *(str(s.symbol) for s in law.scalar_states)),
         log=arrays.log[: max(1, min(len(arrays.log), (reached - 1) // log_every + 1))],
-        totals=dict(zip(ACCUMULATORS, arrays.acc.tolist(), strict=True)) | arrays.ride.totals(),
+        totals=dict(zip(ACCUMULATORS, arrays.acc.tolist(), strict=True)) | arrays.ride.totals() |
+        drive_totals(arrays.drive),
         final_position_m=float(arrays.state[0]), end_s=reached * dt, failed=failed, step_us=step_us,
         period_s=per_sample * dt, counters=counters,
     )
 
 
-def _arrays(setting: Setting, period_s: float, law: ControlLaw) -> _Arrays:
+def _arrays(setting: Setting, period_s: float, law: ControlLaw, predictor: bool = False) -> _Arrays:
     steps, _, _, log_every = setting.plan(period_s)
     acc = np.zeros(len(ACCUMULATORS))
     for name in ("position_error_max", "speed_error_max", "command_max_mps2"):
@@ -237,7 +168,8 @@ def _arrays(setting: Setting, period_s: float, law: ControlLaw) -> _Arrays:
         coefficients=setting.curve.coefficients, edges=setting.line.position_m, values=setting.line.specific_force,
         terms=setting.terms, failures=setting.failures, changes=setting.changes,
         plant=np.array([setting.mass_kg, *setting.davis_n, *setting.plant_values]),
-        limits=np.array(setting.limits),
+        drive=drive(setting.limits, setting.actuator, setting.plant_step_s, setting.mass_kg,
+                    (setting.known or Known(setting.nominal_mass_kg, setting.davis_n)) if predictor else None),
         sensing=setting.sensing.arrays(-(-steps // max(1, round(period_s / setting.plant_step_s))), period_s), acc=acc,
         ride=ride(setting.plant_step_s, setting.speed_limits),
         log=np.zeros((steps // log_every + 1, len(LOG_COLUMNS) + len(law.scalar_states))),
@@ -263,7 +195,7 @@ def _run_compiled(kernel: Any, arrays: _Arrays, law: tuple[Array, Array, Array, 
 
 
 def _run_sampled(kernel: Any, arrays: _Arrays, controller: SampledController, fixed: tuple[float, float],
-                 plan: tuple[int, int, float, int], sensing: tuple[Array, Array, Array]) -> tuple[int, int, Array]:
+                 plan: tuple[int, int, float, int], sensing: tuple[Array, Array, Array, Array]) -> tuple[int, int, Array]:
     """One call of the controller a sample; the kernel integrates the plant between them."""
     steps, per_sample, dt, log_every = plan
     command = np.zeros(1)
@@ -272,10 +204,10 @@ def _run_sampled(kernel: Any, arrays: _Arrays, controller: SampledController, fi
     first, status = 0, RUNNING
     for sample in range(len(step_us)):
         before = time.perf_counter()
-        told = kernel_loop.measured(sample, arrays.state[0], arrays.state[1], sensing)
+        told = sensing_loop.measured(sample, arrays.state[0], arrays.state[1], sensing)
         asked = controller.command(first * dt, *told)
         step_us[sample] = (time.perf_counter() - before) * 1e6
-        command[0] = kernel_loop.delayed(sample, asked, sensing[2])
+        command[0] = sensing_loop.delayed(sample, asked, sensing[2])
         status, first = kernel(first, min(per_sample, steps - first), per_sample, dt, *before_law, *fixed,
                                command, *empty, *after_law, log_every)
         if status != RUNNING:
@@ -294,5 +226,5 @@ def _why(status: int, at_s: float, state: Array, law: ControlLaw, law_id: str) -
     return None
 
 
-__all__ = ["NOMINAL", "Factors", "Run", "Setting", "check_controllers", "law_values", "run_law", "setting_of",
+__all__ = ["LEVEL", "NOMINAL", "UNLIMITED", "Factors", "Run", "Setting", "check_controllers", "law_values", "run_law", "setting_of",
            "simulate"]

@@ -10,6 +10,11 @@ samples; the command is held.
 
 import math
 
+from workbench.simulate import actuator_loop, sensing_loop
+
+# Further files whose functions below their marker are shared by all modules.
+SHARES = (sensing_loop, actuator_loop)
+
 # Layout of the accumulators and of a row of the log; the Python side uses these names.
 ACCUMULATORS = (
     "samples", "position_error_min", "position_error_max", "speed_error_min", "speed_error_max",
@@ -111,33 +116,6 @@ def at_time(t, changes, plant, now):
     return before[4] + part * (after[4] - before[4])
 
 
-def measured(sample, p, v, sensing):
-    """Position and speed as the law is told them: with the noise of the sample, some samples late.
-
-    sensing: noise, a row a sample and none for no noise; the last measurements, as many rows as they are late and one;
-    the last commands, likewise.
-    """
-    noise, past = sensing[0], sensing[1]
-    if noise.shape[0] > 0:
-        p += noise[sample % noise.shape[0], 0]
-        v += noise[sample % noise.shape[0], 1]
-    late = past.shape[0] - 1
-    if late == 0:
-        return p, v
-    past[sample % (late + 1), 0], past[sample % (late + 1), 1] = p, v
-    told = max(sample - late, 0) % (late + 1)
-    return past[told, 0], past[told, 1]
-
-
-def delayed(sample, u, commands):
-    """The command that reaches the motors, as many samples late as `commands` has rows beyond the first; 0 before."""
-    late = commands.shape[0] - 1
-    if late == 0:
-        return u
-    commands[sample % (late + 1)] = u
-    return commands[(sample - late) % (late + 1)] if sample >= late else 0.0
-
-
 def add_ride(dt, before, v, push, ride_sums):
     """Add a plant step from speed `before` to v under `push` in m/s^2 to the array of `ride.py`, laid out as there."""
     a = (v - before) / dt
@@ -192,10 +170,11 @@ def rates_at(t, p, v, force, hint, edges, values, terms, failures, changes, plan
 
 
 def closed_loop(first, count, per_sample, dt, state, hints, breaks, coefficients, edges, values, terms, failures,
-                changes, plant, limits, sensing, band, nominal_mass, parameters, scalars, neurons, neuron_data, acc,
+                changes, plant, drive, sensing, band, nominal_mass, parameters, scalars, neurons, neuron_data, acc,
                 ride, log, log_every):
     """Steps first to first + count - 1; returns RUNNING, LEFT_DOMAIN or DIVERGED, and the step reached."""
-    # limits: traction force (N), braking force (N), power (W); state: position, speed, held command, force
+    # drive: traction force (N), braking force (N), power (W), and with an actuator what `trains/actuator.py` lays out
+    # behind them; state: position, speed, held command, force
     p, v, u, force = state[0], state[1], state[2], state[3]
     curve_hint, track_hint = hints[0], hints[1]
     period = dt * per_sample
@@ -225,21 +204,27 @@ def closed_loop(first, count, per_sample, dt, state, hints, breaks, coefficients
         if n % per_sample == 0:
             sample = n // per_sample
             p_told, v_told = measured(sample, p, v, sensing)
-            if not domain_margin(t, p_told, v_told, x_d, xdot_d, xddot_d, period, parameters) > 0.0:
+            t_law, x_law, xdot_law, xddot_law = t, x_d, xdot_d, xddot_d
+            if drive.shape[0] > 3 and drive[13] > 0.0:
+                p_told, v_told = predicted(n, dt, p_told, v_told, drive)
+                t_law = t + dt * drive[4]
+                _, x_law, xdot_law, xddot_law = desired(t_law, curve_hint, breaks, coefficients)
+            if not domain_margin(t_law, p_told, v_told, x_law, xdot_law, xddot_law, period, parameters) > 0.0:
                 state[0], state[1], state[2], state[3] = p, v, u, force
                 return 1, n
-            u = control_step(t, p_told, v_told, x_d, xdot_d, xddot_d, period, parameters, scalars, neurons, neuron_data)
+            u = control_step(t_law, p_told, v_told, x_law, xdot_law, xddot_law, period, parameters, scalars, neurons,
+                             neuron_data)
             if not math.isfinite(u):
                 state[0], state[1], state[2], state[3] = p, v, u, force
                 return 2, n
             u = delayed(sample, u, sensing[2])
             wanted = nominal_mass * u
-            highest = min(limits[0], limits[2] / max(abs(v), 1e-3))
-            force = min(max(wanted, -limits[1]), highest)
+            highest = min(drive[0], drive[2] / max(abs(v), 1e-3))
+            force = min(max(wanted, -drive[1]), highest)
             acc[15] += 1.0
             # At a limit counts like beyond it, so that a controller which knows the limits is told alike; up to
             # a rounding error, by which such a controller may stay below.
-            if wanted >= highest * (1.0 - 1e-9) or wanted <= -limits[1] * (1.0 - 1e-9):
+            if wanted >= highest * (1.0 - 1e-9) or wanted <= -drive[1] * (1.0 - 1e-9):
                 acc[9] += 1.0
             acc[11] = max(acc[11], u)
             acc[12] = min(acc[12], u)
@@ -250,6 +235,8 @@ def closed_loop(first, count, per_sample, dt, state, hints, breaks, coefficients
                 acc[17] += abs(change)
                 acc[19] = change
             acc[18] = u
+        if drive.shape[0] > 3:
+            force = acting(n, dt, nominal_mass * u, v, drive)
         if n % log_every == 0 and n // log_every < log.shape[0]:
             row = n // log_every
             log[row, 0], log[row, 1], log[row, 2], log[row, 3] = t, p, v, x_d

@@ -19,7 +19,8 @@ class Metrics:
     the log, which misses what happens between them; comfort_rms: acceleration weighted by W_d of ISO 2631-1 (m/s^2);
     command_variation: of the commands, summed, each second (m/s^3); switchings: between traction and braking each
     second; overspeed_max: beyond the line's speed limits (m/s); saturated_fraction: of samples whose force was at a
-    limit; limit_violations: plant steps outside the position band; failed: why the run ended early, or None. Of a
+    limit; rate_limited_fraction, adhesion_limited_fraction: of plant steps at these limits of an actuator;
+    limit_violations: plant steps outside the position band; failed: why the run ended early, or None. Of a
     failed run the extrema hold up to its end, and what only a whole run has (RMS, stopping error, energy, ride) is
     NaN, in rows None.
     step_us: a compiled law is timed in blocks of 1,000 samples, plant included; MPC call by call, plant
@@ -44,6 +45,8 @@ class Metrics:
     switchings: float
     overspeed_max: float
     saturated_fraction: float
+    rate_limited_fraction: float
+    adhesion_limited_fraction: float
     limit_violations: int
     step_us_median: float
     step_us_p99: float
@@ -94,6 +97,8 @@ def measure_run(run: Run, length_m: float) -> Metrics:
         command_variation=whole * total["command_variation_mps2"] / seconds,
         switchings=whole * total["force_switchings"] / seconds, overspeed_max=whole * total["overspeed_max_mps"],
         saturated_fraction=total["saturated_samples"] / max(1.0, total["commands"]),
+        rate_limited_fraction=total["rate_limited_steps"] / samples,
+        adhesion_limited_fraction=total["adhesion_limited_steps"] / samples,
         limit_violations=int(total["band_violations"]),
         step_us_median=float(np.median(run.step_us)), step_us_p99=float(np.percentile(run.step_us, 99)),
         deadline_misses=int(np.sum(run.step_us > run.period_s * 1e6)),

@@ -97,8 +97,9 @@ def draw_factors(scenario: Scenario, run_index: int, seed: int | None = None) ->
     uncertainty = scenario.uncertainty
     sequence = np.random.SeedSequence(uncertainty.seed if seed is None else seed, spawn_key=(run_index,))
     drawn = np.random.default_rng(sequence).uniform(-1.0, 1.0, len(fields(Factors)))
+    spreads = dict.fromkeys(uncertainty.factors, uncertainty.spread) | {"odometer_scale": uncertainty.odometer_spread}
     return Factors(**{
-        f.name: 1.0 + uncertainty.spread * float(x) if f.name in uncertainty.factors else 1.0
+        f.name: 1.0 + spreads[f.name] * float(x) if spreads.get(f.name) else 1.0
         for f, x in zip(fields(Factors), drawn, strict=True)
     })
 

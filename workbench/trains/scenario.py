@@ -27,7 +27,9 @@ from workbench.files.toml import (
 from workbench.model.curve_table import TableCurve
 from workbench.model.desired_curve import CruiseSpeed, DavisCruise, DesiredCurve, build_curve
 from workbench.model.events import Disturbance, Failure, Mode
+from workbench.model.sensing import Instruments
 from workbench.model.tuning import Searched, TrackingObjective
+from workbench.trains.actuator import Actuator
 from workbench.trains.track import Track, load_track
 from workbench.trains.train import Train
 
@@ -58,7 +60,10 @@ class NeuronGrid(SourcedRecord):
 
 
 class ControllerSpec(SourcedRecord):
-    """One controller of a scenario: which law, its sampling period, its parameters and initial values."""
+    """One controller of a scenario: which law, its sampling period, its parameters and initial values.
+
+    predictor: it is told the actuator's delay, over which the state that it answers is predicted; MPC the lag too.
+    """
 
     law: Text
     title: Text | None = None
@@ -67,15 +72,20 @@ class ControllerSpec(SourcedRecord):
     initial: dict[str, Number] = Field(default_factory=dict)
     estimates: Literal["corrected", "explicit"] = "corrected"
     neurons: NeuronGrid | None = None
+    predictor: Annotated[bool, Strict()] = False
 
 
 class Uncertainty(SourcedRecord):
-    """Monte Carlo: every named factor is drawn uniformly from 1 - spread to 1 + spread."""
+    """Monte Carlo: every named factor is drawn uniformly from 1 - spread to 1 + spread.
+
+    odometer_spread: likewise of the wheels that the odometer counts, which differ by less than trains do.
+    """
 
     runs: Count
     seed: Annotated[int, Strict(), Field(ge=0)]
     spread: Annotated[float, Strict(), Field(ge=0, lt=1, allow_inf_nan=False)]
     factors: tuple[Literal["mass", "davis_a", "davis_b", "davis_c", "line_resistance"], ...]
+    odometer_spread: Annotated[float, Strict(), Field(ge=0, le=0.2, allow_inf_nan=False)] = 0.0
 
 
 class PrintedRow(Record):
@@ -147,6 +157,8 @@ class Scenario(FileRecord):
     disturbance: Disturbance
     modes: tuple[Mode, ...] = ()
     failures: tuple[Failure, ...] = ()
+    actuator: Actuator | None = None
+    sensing: Instruments | None = None
     controllers: dict[Name, ControllerSpec]
     uncertainty: Uncertainty
     printed_table: PrintedTable | None = None
@@ -165,6 +177,16 @@ class Scenario(FileRecord):
             if round(ratio) < 1 or abs(ratio - round(ratio)) > 1e-9 * ratio:
                 raise ValueError(f"controllers.{name}.period_s = {spec.period_s:g} is not a whole number of "
                                  f"plant steps of {step:g} s: choose a multiple")
+            for key in ("measurement_delay_s", "command_delay_s") if self.sensing else ():
+                late = getattr(self.sensing, key) / spec.period_s
+                if abs(late - round(late)) > 1e-6:
+                    raise ValueError(f"sensing.{key} is no whole number of the {spec.period_s:g} s at which '{name}' "
+                                     "samples: choose a multiple of every period")
+        if self.actuator is not None:
+            try:
+                self.actuator.delay_steps(step)
+            except ValueError as trouble:
+                raise ValueError(f"actuator.{trouble}") from None
         starts = [mode.from_s for mode in self.modes]
         if starts != sorted(set(starts)):
             raise ValueError("modes: from_s does not increase from mode to mode: order them by time")
