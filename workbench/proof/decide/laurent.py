@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from fractions import Fraction
+from functools import lru_cache
 
 import sympy as sp
 
@@ -21,7 +22,9 @@ def to_laurent(flat: sp.Expr, atoms: Atoms) -> Laurent:
 
     Raises ClaimError when a denominator is not a product of symbols and of polynomials assumed positive.
     """
-    numerator, denominator = sp.fraction(sp.cancel(sp.together(flat)))
+    if _has_monomials_below_only(flat) and all(margin.is_Add for margin, _ in atoms.strict):
+        return reduce_inverses(_expand(flat, atoms), atoms)
+    numerator, denominator = as_fraction(flat)
     rest = sp.Integer(1)
     for margin, position in atoms.strict:
         while denominator.has(*margin.free_symbols):
@@ -38,6 +41,17 @@ def to_laurent(flat: sp.Expr, atoms: Atoms) -> Laurent:
         else:
             raise ClaimError(f"the denominator {factor} is not assumed positive: state its sign in the goal")
     return reduce_inverses(_expand(sp.expand(numerator / constant) * rest, atoms), atoms)
+
+
+@lru_cache(maxsize=512)
+def as_fraction(flat: sp.Expr) -> tuple[sp.Expr, sp.Expr]:
+    """Numerator and denominator of a rational function, without common factors."""
+    numerator, denominator = sp.fraction(sp.cancel(sp.together(flat)))
+    return numerator, denominator
+
+
+def _has_monomials_below_only(flat: sp.Expr) -> bool:
+    return all(power.base.is_Symbol or power.exp.is_nonnegative for power in flat.atoms(sp.Pow))
 
 
 def _inverse_atom(margin: sp.Expr, position: int, atoms: Atoms) -> sp.Symbol:

@@ -10,6 +10,7 @@ from workbench.proof.claim import D, Goal, Relation, at_least, equal, greater
 from workbench.proof.decide.combination import find_combination
 from workbench.proof.decide.identity import find_identity
 from workbench.proof.decide.squares import find_squares
+from workbench.proof.decide.vanishing import vanishes
 from workbench.proof.derive import Side, Size, expand_derivatives, unfold
 from workbench.proof.text import assumptions, relation_text, text
 
@@ -77,7 +78,7 @@ def _inspected(relations: Given, goal: Goal) -> tuple[sp.Expr, bool] | None:
 
 def _turn(one: sp.Expr, other: sp.Expr) -> int:
     """1 when the expressions are equal, -1 when they are opposite, else 0."""
-    return 1 if sp.cancel(one - other) == 0 else -1 if sp.cancel(one + other) == 0 else 0
+    return 1 if vanishes(one - other) else -1 if vanishes(one + other) else 0
 
 
 def _by_cases(goal: Goal, shown: Relation, given: Given, lemmas: Given, argument: sp.Expr, signed: bool,
