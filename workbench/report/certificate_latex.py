@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import ast
 import re
+from collections.abc import Callable
 from fractions import Fraction
 
 from workbench.proof.checker import parse, split_relation
@@ -73,124 +74,139 @@ def _scientific(digits: str) -> str:
 
 def _tidied(node: ast.expr) -> ast.expr:
     """The same value without the ones and zeros that a goal kept as typed carries."""
-    match node:
-        case ast.BinOp(left, op, right):
-            return _tidied_operation(_tidied(left), op, _tidied(right))
-        case ast.UnaryOp(ast.USub(), operand):
-            inner = _tidied(operand)
-            if isinstance(inner, ast.UnaryOp) and isinstance(inner.op, ast.USub):
-                return inner.operand
-            return ZERO if _is(inner, 0) else ast.UnaryOp(ast.USub(), inner)
-        case ast.Call(func, args):
-            inside = [_tidied(arg) for arg in args]
-            name = func.id if isinstance(func, ast.Name) else ""
-            if name == "exp" and _is(inside[0], 0):
-                return ONE
-            if name in ("Sum", "D") and _is(inside[0], 0):
-                return ZERO
-            return ast.Call(func, inside, [])
+    if isinstance(node, ast.BinOp):
+        left, right = _tidied(node.left), _tidied(node.right)
+        rule = _TIDIED.get(type(node.op))
+        found = rule(left, right) if rule else None
+        return found if found is not None else ast.BinOp(left, node.op, right)
+    if isinstance(node, ast.UnaryOp):
+        return _negative(_tidied(node.operand))
+    if isinstance(node, ast.Call) and isinstance(node.func, ast.Name):
+        inside = [_tidied(arg) for arg in node.args]
+        if _is(inside[0], 0) and node.func.id in ("exp", "Sum", "D"):
+            return ONE if node.func.id == "exp" else ZERO
+        return ast.Call(node.func, inside, [])
     return node
 
 
-def _tidied_operation(left: ast.expr, op: ast.operator, right: ast.expr) -> ast.expr:
-    match op:
-        case ast.Add() if _is(left, 0):
-            return right
-        case ast.Add() | ast.Sub() if _is(right, 0):
-            return left
-        case ast.Sub() if _is(left, 0):
-            return _tidied(ast.UnaryOp(ast.USub(), right))
-        case ast.Mult() if _is(left, 0) or _is(right, 0):
-            return ZERO
-        case ast.Mult() if _is(left, 1):
-            return right
-        case ast.Mult() | ast.Div() if _is(right, 1):
-            return left
-        case ast.Mult() | ast.Add() if isinstance(left, ast.Constant) and isinstance(right, ast.Constant):
-            both = (left.value, right.value)
-            return ast.Constant(both[0] * both[1] if isinstance(op, ast.Mult) else both[0] + both[1])
-        case ast.Mult() if isinstance(right, ast.Constant) and not isinstance(left, ast.Constant):
-            return ast.BinOp(right, op, left)
-        case ast.Mult() if isinstance(right, ast.UnaryOp) and isinstance(right.op, ast.USub):
-            return ast.UnaryOp(ast.USub(), _tidied_operation(left, op, right.operand))
-        case ast.Add() if isinstance(right, ast.UnaryOp) and isinstance(right.op, ast.USub):
-            return _tidied_operation(left, ast.Sub(), right.operand)
-        case ast.Sub() if isinstance(right, ast.UnaryOp) and isinstance(right.op, ast.USub):
-            return _tidied_operation(left, ast.Add(), right.operand)
-        case ast.Add() if isinstance(left, ast.UnaryOp) and isinstance(left.op, ast.USub):
-            return ast.BinOp(right, ast.Sub(), left.operand)
-        case ast.Pow() if _is(left, 0) and isinstance(right, ast.Constant) and right.value > 0:
-            return ZERO
-        case ast.Mult() if isinstance(left, ast.UnaryOp) and isinstance(left.op, ast.USub):
-            return ast.UnaryOp(ast.USub(), _tidied_operation(left.operand, op, right))
-        case ast.Div() if _is(left, 0):
-            return ZERO
-        case ast.Div() if isinstance(left, ast.UnaryOp) and isinstance(left.op, ast.USub):
-            return ast.UnaryOp(ast.USub(), ast.BinOp(left.operand, op, right))
-    return ast.BinOp(left, op, right)
+def _negative(node: ast.expr) -> ast.expr:
+    under = _negated(node)
+    return under if under is not None else ZERO if _is(node, 0) else ast.UnaryOp(ast.USub(), node)
+
+
+def _tidied_sum(left: ast.expr, right: ast.expr) -> ast.expr | None:
+    if _is(left, 0) or _is(right, 0):
+        return right if _is(left, 0) else left
+    if _whole(left) is not None and _whole(right) is not None:
+        return ast.Constant((_whole(left) or 0) + (_whole(right) or 0))
+    under_right, under_left = _negated(right), _negated(left)
+    if under_right is not None:
+        return ast.BinOp(left, ast.Sub(), under_right)
+    return ast.BinOp(right, ast.Sub(), under_left) if under_left is not None else None
+
+
+def _tidied_difference(left: ast.expr, right: ast.expr) -> ast.expr | None:
+    if _is(right, 0) or _is(left, 0):
+        return left if _is(right, 0) else _negative(right)
+    under = _negated(right)
+    return ast.BinOp(left, ast.Add(), under) if under is not None else None
+
+
+def _tidied_product(left: ast.expr, right: ast.expr) -> ast.expr | None:
+    if _is(left, 0) or _is(right, 0):
+        return ZERO
+    if _is(left, 1) or _is(right, 1):
+        return right if _is(left, 1) else left
+    for one, other, swapped in ((left, right, False), (right, left, True)):
+        under = _negated(one)
+        if under is not None:
+            factors = (other, under) if swapped else (under, other)
+            return _negative(_tidied_product(*factors) or ast.BinOp(factors[0], ast.Mult(), factors[1]))
+    first, second = _whole(left), _whole(right)
+    if second is not None:
+        return ast.Constant(first * second) if first is not None else ast.BinOp(right, ast.Mult(), left)
+    return None
+
+
+def _tidied_quotient(left: ast.expr, right: ast.expr) -> ast.expr | None:
+    if _is(right, 1) or _is(left, 0):
+        return left
+    under = _negated(left)
+    return _negative(ast.BinOp(under, ast.Div(), right)) if under is not None else None
+
+
+def _tidied_power(left: ast.expr, right: ast.expr) -> ast.expr | None:
+    return ZERO if _is(left, 0) and (_whole(right) or 0) > 0 else None
+
+
+Rule = Callable[[ast.expr, ast.expr], ast.expr | None]
+_TIDIED: dict[type[ast.operator], Rule] = {ast.Add: _tidied_sum, ast.Sub: _tidied_difference,
+                                           ast.Mult: _tidied_product, ast.Div: _tidied_quotient,
+                                           ast.Pow: _tidied_power}
 
 
 def _is(node: ast.expr, value: int) -> bool:
-    return isinstance(node, ast.Constant) and node.value == value
+    return _whole(node) == value
+
+
+def _whole(node: ast.expr) -> int | None:
+    return node.value if isinstance(node, ast.Constant) and isinstance(node.value, int) else None
+
+
+def _negated(node: ast.expr) -> ast.expr | None:
+    """What stands behind a sign."""
+    return node.operand if isinstance(node, ast.UnaryOp) and isinstance(node.op, ast.USub) else None
 
 
 def _written(node: ast.expr) -> Written:
     match node:
+        case ast.BinOp():
+            return _operation(node)
         case ast.Constant(value):
-            return (value_latex(Fraction(str(value))), ATOM)
+            return value_latex(Fraction(str(value))), ATOM
         case ast.Name(name):
-            return (name_latex(name), PRODUCT if name.startswith(LOGARITHM) else ATOM)
+            return name_latex(name), PRODUCT if name.startswith(LOGARITHM) else ATOM
         case ast.UnaryOp(ast.USub(), operand):
-            return (f"-{_held(operand, PRODUCT)}", SUM)
-        case ast.BinOp(left, ast.Add(), right):
-            return (f"{_held(left, SUM)} + {_after_sign(right)}", SUM)
-        case ast.BinOp(left, ast.Sub(), right):
-            return (f"{_held(left, SUM)} - {_held(right, PRODUCT)}", SUM)
-        case ast.BinOp(left, ast.Mult(), right):
-            first, second = _held(left, PRODUCT), _held(right, PRODUCT)
-            return (first + (r" \cdot " if second[:1].isdigit() else " ") + second, PRODUCT)
-        case ast.BinOp(left, ast.Div(), right):
-            if _short_number(left) and _short_number(right):
-                return (rf"\frac{{{_written(left)[0]}}}{{{_written(right)[0]}}}", POWER)
-            return (rf"\frac{{{_written(left)[0]}}}{{{_written(right)[0]}}}", PRODUCT)
-        case ast.BinOp(left, ast.Pow(), right):
-            return (f"{_held(left, ATOM)}^{{{_written(right)[0]}}}", POWER)
+            return f"-{_held(operand, PRODUCT)}", SUM
         case ast.Call(ast.Name(name), args):
             return _call(name, args)
-    return (rf"\text{{{ast.unparse(node)}}}", SUM)
+    return rf"\text{{{ast.unparse(node)}}}", SUM
 
 
-def _short_number(node: ast.expr) -> bool:
-    return isinstance(node, ast.Constant)
+def _operation(node: ast.BinOp) -> Written:
+    left, right = node.left, node.right
+    match node.op:
+        case ast.Add():
+            written = _written(right)[0]
+            return f"{_held(left, SUM)} + " + (rf"\left({written}\right)" if written.startswith("-") else written), SUM
+        case ast.Sub():
+            return f"{_held(left, SUM)} - {_held(right, PRODUCT)}", SUM
+        case ast.Div():
+            numbers = isinstance(left, ast.Constant) and isinstance(right, ast.Constant)
+            return rf"\frac{{{_written(left)[0]}}}{{{_written(right)[0]}}}", POWER if numbers else PRODUCT
+        case ast.Pow():
+            base, power = _held(left, ATOM), _written(right)[0]
+            return f"{base[:-1]}{power}}}" if base.endswith("^{*}") else f"{base}^{{{power}}}", POWER
+    first, second = _held(left, PRODUCT), _held(right, PRODUCT)
+    return first + (r" \cdot " if second[:1].isdigit() else " ") + second, PRODUCT
 
 
-def _after_sign(node: ast.expr) -> str:
-    written, _ = _written(node)
-    return rf"\left({written}\right)" if written.startswith("-") else written
+_CALLED = {"sqrt": r"\sqrt{%s}", "abs": r"\left|%s\right|", "log": r"\ln\left(%s\right)",
+           "sign": r"\operatorname{sgn}\left(%s\right)", "Max": r"\max\left(%s\right)",
+           "Min": r"\min\left(%s\right)", "tanh": r"\tanh\left(%s\right)"}
 
 
 def _call(name: str, args: list[ast.expr]) -> Written:
-    if name == "exp":
-        letter = _exponential_of_logarithm(args[0])
-        if letter is not None:
-            return letter
-        return (f"e^{{{_written(args[0])[0]}}}", POWER)
-    inside = [_written(arg)[0] for arg in args]
+    inside = ", ".join(_written(arg)[0] for arg in args)
     match name:
+        case "exp":
+            return _exponential_of_logarithm(args[0]) or (f"e^{{{inside}}}", POWER)
         case "Sum":
-            return (rf"\sum_{{i}} {_held(args[0], PRODUCT)}", PRODUCT)
+            return rf"\sum_{{i}} {_held(args[0], PRODUCT)}", PRODUCT
         case "D":
-            if isinstance(args[0], ast.Name):
-                return (rf"\frac{{d}}{{dt}} {inside[0]}", PRODUCT)
-            return (rf"\frac{{d}}{{dt}}\left[{inside[0]}\right]", PRODUCT)
-        case "sqrt":
-            return (rf"\sqrt{{{inside[0]}}}", ATOM)
-        case "abs":
-            return (rf"\left|{inside[0]}\right|", ATOM)
-        case "log":
-            return (rf"\ln\left({inside[0]}\right)", ATOM)
-    word = {"sign": r"\operatorname{sgn}", "Max": r"\max", "Min": r"\min", "tanh": r"\tanh"}.get(name, name)
-    return (rf"{word}\left({', '.join(inside)}\right)", ATOM)
+            whole = inside if isinstance(args[0], ast.Name) else rf"\left[{inside}\right]"
+            return rf"\frac{{d}}{{dt}} {whole}", PRODUCT
+    return _CALLED.get(name, rf"\text{{{name}}}\left(%s\right)") % inside, ATOM
 
 
 def _exponential_of_logarithm(node: ast.expr) -> Written | None:

@@ -16,7 +16,6 @@ from workbench.proof.checker import (
     at,
     bounds,
     holds,
-    number,
     read_goal,
     read_point,
     read_terms,

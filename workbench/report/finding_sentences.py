@@ -5,7 +5,7 @@ from __future__ import annotations
 from workbench.report.counterexample import Counterexample
 from workbench.report.finding import Finding, Gravity
 from workbench.report.places_in_paper import place_of, places_of
-from workbench.report.worded import listed
+from workbench.report.worded import listed, math
 
 HEADINGS: dict[Gravity, str] = {
     "falls": "Headline statements that fall", "corrected": "Headline statements that stand with corrections",
@@ -48,7 +48,9 @@ def breaks_at(point: Counterexample) -> str:
         says = f"${point.relation}$ fails"
     else:
         line = f"${point.relation}$" if len(point.relation) <= SHORT else "the line"
-        says = f"{line} would say ${point.left} {point.operator} {point.right}$".replace(r"= \approx", "=")
+        rounded = ", rounded" if r"\approx" in point.left + point.right else ""
+        sides = f"{point.left} {point.operator} {point.right}".replace(r"\approx ", "")
+        says = f"{line} would say ${sides}${rounded}"
     if point.motion:
         return f"with {at} at all times everything assumed holds, but {says}"
     return f"with {at}, {says}" if at else says
@@ -61,7 +63,7 @@ def correction_sentence(found: Finding) -> str:
     what = {"violated": "It holds with", "gap": "What does follow:"}.get(found.verdict, "It should read")
     if found.mended_by is not None and found.fate is not None:
         what = "Mended, it is proved:"
-    return f"{what} ${found.should_read}$."
+    return f"{what} {math(found.should_read)}."
 
 
 def consequence_sentence(found: Finding) -> str:
@@ -72,8 +74,9 @@ def consequence_sentence(found: Finding) -> str:
     one = len(found.headlines) + found.lines == 1
     text = f"{listed(resting)} rest{'s' if one else ''} on it." if resting else ""
     if found.because and found.gravity != "corrected":
-        below = f"The paper gets there by {listed(places_of(found.because))}, which fail{'s' * (len(found.because) == 1)}."
-        text = f"{text} {below}".strip()
+        below = places_of(found.because)
+        fail = "fails" if len(found.because) == 1 else "fail"
+        text = f"{text} The paper gets there by {listed(below)}, which {fail}.".strip()
     return text[:1].upper() + text[1:]
 
 
@@ -81,12 +84,12 @@ def reading_sentence(found: Finding) -> str:
     """How else the line may be read, where its extracted text leaves that open; empty where it does not."""
     if not found.other_reading:
         return ""
-    return f"Read as ${found.other_reading}$ it {'holds' if found.other_holds else 'fails too'}."
+    return f"Read as {math(found.other_reading)} it {'holds' if found.other_holds else 'fails too'}."
 
 
 def printed_sentence(found: Finding) -> str:
     """The line as printed."""
-    return f"Printed: ${found.printed}$."
+    return f"Printed: {math(found.printed)}."
 
 
 def sentences(found: Finding) -> list[str]:

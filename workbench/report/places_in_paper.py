@@ -35,7 +35,8 @@ def _part(suffix: str) -> str:
 
 
 def places_of(equations: Sequence[str]) -> list[str]:
-    """The names of several lines without their parts, those of one kind together: `Theorems 2, 3 and 4`, `equations (41) and (44)`."""
+    """The names of several lines without their parts, those of one kind together: `Theorems 2, 3 and 4`,
+    `equations (41) and (44)`."""
     groups: dict[str, list[str]] = {}
     for equation in equations:
         kind, _, number = place_of(equation).partition(" [")[0].partition(" ")

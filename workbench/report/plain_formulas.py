@@ -36,31 +36,36 @@ def _plain(latex: str) -> str:
 
 def _line(node: ElementTree.Element) -> str:
     parts = list(node)
-    match node.tag:
-        case "mi" | "mn" | "mtext":
-            return (node.text or "").replace("\u00a0", " ")
-        case "mo":
-            return node.text or ""
-        case "mspace":
-            return " "
-        case "mfrac":
-            return f"{_operand(parts[0])}/{_operand(parts[1], below=True)}"
-        case "msqrt":
-            inside = _row(parts)
-            return f"√{inside}" if len(inside) == 1 else f"√({inside})"
-        case "msub" | "munder" if len(parts) == 2:
-            return _line(parts[0]) + _moved(_line(parts[1]), _LOWERED, "_")
-        case "msup" if len(parts) == 2:
-            return _base(parts[0]) + _moved(_line(parts[1]), _RAISED, "^")
-        case "msubsup" | "munderover" if len(parts) == 3:
-            return (_line(parts[0]) + _moved(_line(parts[1]), _LOWERED, "_") + _moved(_line(parts[2]), _RAISED, "^"))
-        case "mover" if len(parts) == 2:
-            mark = _OVER.get(_line(parts[1]).strip())
-            inside = _line(parts[0])
-            if mark is None:
-                return inside + _moved(_line(parts[1]), _RAISED, "^")
-            return inside + mark if _is_letter(inside) else f"({inside}){mark}"
+    if node.tag in ("mi", "mn", "mtext", "mo", "mspace"):
+        return " " if node.tag == "mspace" else (node.text or "").replace("\u00a0", " ")
+    if node.tag == "mfrac":
+        return f"{_operand(parts[0])}/{_operand(parts[1], below=True)}"
+    if node.tag == "msqrt":
+        inside = _row(parts)
+        return f"√{inside}" if len(inside) == 1 else f"√({inside})"
+    if node.tag == "mover":
+        return _over(parts)
+    if node.tag in _SCRIPTS:
+        return _scripts(parts, _SCRIPTS[node.tag])
     return _row(parts)
+
+
+_SCRIPTS = {"msub": "_", "munder": "_", "msup": "^", "msubsup": "_^", "munderover": "_^"}
+
+
+def _scripts(parts: list[ElementTree.Element], marks: str) -> str:
+    """A base with what stands below and above it."""
+    text = _line(parts[0]) if marks.startswith("_") else _base(parts[0])
+    for mark, part in zip(marks, parts[1:], strict=True):
+        text += _moved(_line(part), _LOWERED if mark == "_" else _RAISED, mark)
+    return text
+
+
+def _over(parts: list[ElementTree.Element]) -> str:
+    inside, mark = _line(parts[0]), _OVER.get(_line(parts[1]).strip())
+    if mark is None:
+        return inside + _moved(_line(parts[1]), _RAISED, "^")
+    return inside + mark if _is_letter(inside) else f"({inside}){mark}"
 
 
 def _is_letter(text: str) -> bool:
@@ -77,10 +82,10 @@ def _row(parts: list[ElementTree.Element]) -> str:
             continue
         if piece == "|":
             bars += 1
-            found += f" {piece}" if bars % 2 and found[-1:] not in "" and found[-1] not in " ([/√" else piece
+            found += f" {piece}" if bars % 2 and found and found[-1] not in " ([/√" else piece
         elif part.tag == "mo" and piece in _SPACED:
             end = found.rstrip()
-            sign = piece in "+−" and (not end or end[-1] in "([{=≤≥<>,/" or (end[-1] == "|" and bars % 2 == 1))
+            sign = piece in "+−" and (not end or end[-1] in "([{=≤≥<>≈,/" or (end[-1] == "|" and bars % 2 == 1))
             found += piece if sign else f" {piece} "
         elif part.tag == "mo" and piece in (",", ";"):
             found += f"{piece} "
