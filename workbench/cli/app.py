@@ -11,6 +11,7 @@ from workbench.cli import (
     check_certificates,
     compare,
     diff,
+    errata,
     examples,
     gains,
     listing,
@@ -32,7 +33,7 @@ app = typer.Typer(no_args_is_help=True, add_completion=True, pretty_exceptions_e
 INTERRUPTED = 130  # with which typer ends after Ctrl-C
 
 for verb in (prove, show, diff, check, new_paper, check_certificates, compare, sweep, tune, report, reference, gains,
-             listing, examples):
+             listing, examples, errata):
     app.command(verb.NAME)(verb.command)
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import ast
 import re
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from fractions import Fraction
 
 from workbench.proof.checker import parse, split_relation
@@ -31,6 +31,39 @@ def expression_latex(text: str) -> str:
     Raises CertificateError for what is no expression.
     """
     return _written(_tidied(parse(text)))[0]
+
+
+def numbers_put_in(text: str, values: Mapping[str, Fraction]) -> str | None:
+    """An expression with numbers in place of its letters, nothing multiplied out; None where that says nothing: where
+    a letter has no number, or where rates or sums over an index stand in it."""
+    tree = _tidied(parse(text))
+    if any(isinstance(node, ast.Name) and node.id in ("D", "Sum") for node in ast.walk(tree)):
+        return None
+    names = {node.id for node in ast.walk(tree) if isinstance(node, ast.Name)} - _CALLED.keys() - {"exp"}
+    if not names or not names <= values.keys() or any(r"\approx" in value_latex(values[name]) for name in names):
+        return None
+    return _written(_PutIn(values).visit(tree))[0]
+
+
+class _PutIn(ast.NodeTransformer):
+    """Names become numbers."""
+
+    def __init__(self, values: Mapping[str, Fraction]) -> None:
+        self.values = values
+
+    def visit_Name(self, node: ast.Name) -> ast.expr:
+        return _number(self.values[node.id]) if node.id in self.values else node
+
+
+def _number(value: Fraction) -> ast.expr:
+    """A number as the tree that is written as a reader would write it."""
+    if value < 0:
+        return ast.UnaryOp(ast.USub(), _number(-value))
+    if value.denominator == 1:
+        return ast.Constant(value.numerator)
+    if r"\frac" not in value_latex(value):
+        return ast.Name(f"={value_latex(value)}")
+    return ast.BinOp(ast.Constant(value.numerator), ast.Div(), ast.Constant(value.denominator))
 
 
 def name_latex(name: str) -> str:
@@ -165,9 +198,14 @@ def _written(node: ast.expr) -> Written:
         case ast.Constant(value):
             return value_latex(Fraction(str(value))), ATOM
         case ast.Name(name):
-            return name_latex(name), PRODUCT if name.startswith(LOGARITHM) else ATOM
+            if name.startswith("="):  # a decimal put in
+                name, written = "", name[1:]
+            else:
+                written = name_latex(name)
+            return written, PRODUCT if name.startswith(LOGARITHM) else ATOM
         case ast.UnaryOp(ast.USub(), operand):
-            return f"-{_held(operand, PRODUCT)}", SUM
+            held = _held(operand, PRODUCT)
+            return f"-{held}", SUM
         case ast.Call(ast.Name(name), args):
             return _call(name, args)
     return rf"\text{{{ast.unparse(node)}}}", SUM

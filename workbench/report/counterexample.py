@@ -23,7 +23,14 @@ from workbench.proof.checker import (
     substitute,
     symbols_of,
 )
-from workbench.report.certificate_latex import SIGNS, expression_latex, name_latex, relation_latex, value_latex
+from workbench.report.certificate_latex import (
+    SIGNS,
+    expression_latex,
+    name_latex,
+    numbers_put_in,
+    relation_latex,
+    value_latex,
+)
 
 MANY = 6  # letters with one value, from which on they are called 'all others'
 
@@ -35,7 +42,8 @@ class Counterexample:
     relation: the one that fails; values: what its two sides depend on, letters of one value together; others: the
     value of all letters of `values` that are not named in it, where they are many; left, right: the sides there, None
     where they are no numbers; everything: all that the certificate names, letter by letter; motion: whether the values
-    are functions of time, with which the relation fails at all times.
+    are functions of time, with which the relation fails at all times; put_in: both sides with the numbers in place of
+    the letters, where they are formulas without rates and sums.
     """
 
     relation: str
@@ -46,6 +54,7 @@ class Counterexample:
     right: str | None
     everything: tuple[tuple[str, str], ...]
     motion: bool
+    put_in: tuple[str, str] | None = None
 
 
 def counterexample_of(certificate: Mapping[str, Any]) -> Counterexample | None:
@@ -69,7 +78,15 @@ def counterexample_of(certificate: Mapping[str, Any]) -> Counterexample | None:
     every = tuple((name_latex(name), value) for name, value in shown.items()) + tuple(
         (_indexed(name, i), value) for i, row in enumerate(rows, 1) for name, value in row.items())
     return Counterexample(relation_latex(failing), SIGNS[operator], values + in_sums, others,
-                          _value(context, left, point, terms), _value(context, right, point, terms), every, False)
+                          _value(context, left, point, terms), _value(context, right, point, terms), every, False,
+                          _put_in(left, right, certificate["point"]))
+
+
+def _put_in(left: str, right: str, point: Mapping[str, str]) -> tuple[str, str] | None:
+    values = {name: Fraction(text) for name, text in point.items()}
+    sides = [numbers_put_in(side, values) or expression_latex(side) for side in (left, right)]
+    return None if sides == [expression_latex(left), expression_latex(right)] or any(
+        "dt" in side or r"\sum" in side for side in sides) else (sides[0], sides[1])
 
 
 def _motion(certificate: Mapping[str, Any], context: Context, point: dict[str, Ratio]) -> Counterexample:

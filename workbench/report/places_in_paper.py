@@ -8,7 +8,9 @@ from collections.abc import Sequence
 from workbench.report.worded import listed
 
 _WORDS = {"theorem": "Theorem", "lemma": "Lemma", "remark": "Remark", "table": "Table", "figure": "Figure",
-          "proposition": "Proposition", "corollary": "Corollary", "A": "Assumption", "algorithm": "Algorithm"}
+          "proposition": "Proposition", "contribution": "Contribution", "section": "Section", "A": "Assumption",
+          "corollary": "Corollary", "property": "Property", "algorithm": "Algorithm"}
+_TEXT = {"intro": "Introduction", "text": "Text"}
 _NAMED = re.compile(r"([A-Za-z]+?)(\d+)((?:\.\w+)*)")
 _NUMBERED = re.compile(r"(\d+)((?:\.\w+)*)")
 
@@ -24,6 +26,8 @@ def place_of(equation: str) -> str:
     stem, dot, rest = equation.partition(".")
     if re.fullmatch(r"[IVX]+", stem):
         return f"Section {stem}" + _part(dot + rest)
+    if stem in _TEXT:
+        return _TEXT[stem] + _part(dot + rest)
     return stem[:1].upper() + stem[1:] + _part(dot + rest)
 
 
