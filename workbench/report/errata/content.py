@@ -41,8 +41,8 @@ def _counts(decisions: Sequence[Decision]) -> str:
     counts = Counter(d.verdict for d in decisions if d.claim.origin != "ours")
     words = listed([f"{counts[v]} {v}" for v in VERDICTS if counts[v]])
     return (f"Of {counts.total()} lines, {words}. Proved: true for all values of its domain. Refuted: false as "
-            "printed. Violated: a printed condition that the printed numbers break. Gap: it does not follow from what the paper "
-            "uses to get there. Assumed: a cited result, taken as given.")
+            "printed. Violated: a printed condition that the printed numbers break. Gap: it does not follow from what "
+            "the paper uses to get there. Assumed: a cited result, taken as given.")
 
 
 def _fates(decisions: Sequence[Decision]) -> list[Block]:
@@ -65,7 +65,8 @@ def _corrections(found: Sequence[Finding]) -> list[Block]:
 
 def _correction(number: int, found: Finding) -> list[Block]:
     where = f" (section {found.section})" if found.section else ""
-    blocks: list[Block] = [Heading(3, f"{number}. {found.place}{where}: {worded(found.title)}"),
+    title = found.title.removeprefix(f"{found.place}: ")
+    blocks: list[Block] = [Heading(3, f"{number}. {found.place}{where}: {worded(title)}"),
                            Formula(found.printed, "Printed")]
     if found.should_read:
         label = {"violated": "Holds with", "gap": "What does follow"}.get(found.verdict, "Should read")
@@ -85,7 +86,7 @@ def _correction(number: int, found: Finding) -> list[Block]:
 def _worked(point: Counterexample) -> list[Block]:
     """The relation with its numbers put in, and both sides evaluated."""
     if point.put_in is None or point.left is None or point.right is None or point.motion:
-        return [Formula(point.relation, "It fails for")] if point.motion else []
+        return [Formula(point.relation, "What fails at all times")] if point.motion else []
     sides = []
     for put_in, value in zip(point.put_in, (point.left, point.right), strict=True):
         sides.append(put_in if put_in == value else

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from importlib import import_module
 
 from workbench.report.errata.blocks import Block, Code, Formula, Heading, Items, Paragraph
 from workbench.report.errata.typst_formulas import quoted, typst_formula
@@ -20,7 +21,7 @@ HEAD = """#set document(date: none)
 def pdf_of(blocks: Sequence[Block]) -> bytes | None:
     """The document as PDF, the same bytes for the same blocks; None where Typst is not installed."""
     try:
-        import typst
+        typst = import_module("typst")
     except ImportError:
         return None
     return bytes(typst.compile(typst_source(blocks).encode(), format="pdf"))
@@ -39,7 +40,7 @@ def _block(block: Block) -> str:
             return (f"#strong({quoted(label + '.')}) " if label else "") + _text(text)
         case Formula(latex, label):
             above = f"#text(8.5pt, gray.darken(40%), {quoted(label)}) \\\n" if label else ""
-            return f"#block(inset: (left: 1em), above: 0.9em)[{above}{typst_formula(latex)}]"
+            return f"#block(inset: (left: 1em), above: 0.9em)[{above}{typst_formula(latex, display=True)}]"
         case Items(texts, depths):
             levels = depths or (0,) * len(texts)
             return "\n".join(f"{'  ' * depth}- {_text(text)}" for text, depth in zip(texts, levels, strict=True))

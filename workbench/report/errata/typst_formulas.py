@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from functools import cache
 from xml.etree import ElementTree
 
@@ -9,20 +10,40 @@ from workbench.report.formulas import LIMITS, formula_tree
 
 ACCENTS = {"˙": "dot", "¨": "dot.double", "^": "hat", "~": "tilde", "¯": "macron", "‾": "macron", "―": "macron",
            "→": "arrow", "ˇ": "caron", "˘": "breve", "´": "acute", "`": "grave"}
+WORDS = 3  # letters from which on words in a formula stand outside of it
 OPENING, CLOSING = frozenset("(["), frozenset(")]")
 ESCAPED = frozenset("(){}[]/,;_^&#$\"'\\*`~@<>=+-:!.")
 
 
-def typst_formula(latex: str) -> str:
-    """A LaTeX formula as Typst between dollar signs, in a line, its fractions in full size; what cannot be converted as
-    raw text."""
-    return _converted(latex.strip())
+def typst_formula(latex: str, display: bool = False) -> str:
+    """A LaTeX formula as Typst between dollar signs, in a line; its words stand outside, where lines may break; what
+    cannot be converted as raw text. display: fractions in full size."""
+    return _converted(latex.strip(), display)
 
 
 @cache
-def _converted(latex: str) -> str:
+def _converted(latex: str, display: bool) -> str:
     tree = formula_tree(latex)
-    return f"#raw({quoted(latex)})" if tree is None else f"${_row(list(tree), True)}$"
+    if tree is None:
+        return f"#raw({quoted(latex)});"
+    pieces: list[str] = []
+    row: list[ElementTree.Element] = []
+    for part in [*_flat(tree), None]:
+        words = part is not None and part.tag == "mtext" and len(part.text or "") >= WORDS
+        if part is not None and not words:
+            row.append(part)
+            continue
+        if row:
+            pieces.append(f"${_row(row, display)}$")
+        if part is not None:
+            pieces.append(f"#{quoted((part.text or '').replace(chr(160), ' '))};")
+        row = []
+    return "".join(pieces)
+
+
+def _flat(node: ElementTree.Element) -> list[ElementTree.Element]:
+    """The pieces of a formula, rows in it that only group undone."""
+    return [piece for part in node for piece in (_flat(part) if part.tag in ("mrow", "mstyle") else [part])]
 
 
 def quoted(text: str) -> str:
@@ -38,6 +59,8 @@ def _row(parts: list[ElementTree.Element], display: bool) -> str:
 
 
 def _sign(text: str, balanced: bool) -> str:
+    if text == "|":
+        return 'class("normal", |)'
     if balanced and text in OPENING | CLOSING:
         return text
     if len(text) == 1 and text not in ESCAPED:
@@ -49,8 +72,6 @@ def _piece(node: ElementTree.Element, display: bool) -> str:
     parts, text = list(node), node.text or ""
     if node.tag in _SIMPLE:
         return _SIMPLE[node.tag](node, text)
-    if node.tag == "mo":
-        return _sign(text, False)
     if node.tag == "mfrac":
         fraction = f"frac({_inner(parts[0])}, {_inner(parts[1])})"
         return f"display({fraction})" if display else fraction
@@ -58,9 +79,9 @@ def _piece(node: ElementTree.Element, display: bool) -> str:
         return _scripts(parts, _SCRIPTS[node.tag], node.tag.startswith("mu") or (parts[0].text or "") in LIMITS)
     if node.tag == "mover":
         return _over(parts)
-    if node.tag in ("msqrt", "mroot"):
-        return f"sqrt({_row(parts, False)})" if node.tag == "msqrt" else f"root({_inner(parts[1])}, {_inner(parts[0])})"
-    return _row(parts, display)
+    if node.tag == "mroot":
+        return f"root({_inner(parts[1])}, {_inner(parts[0])})"
+    return f"sqrt({_row(parts, False)})" if node.tag == "msqrt" else _row(parts, display)
 
 
 def _inner(node: ElementTree.Element) -> str:
@@ -80,8 +101,9 @@ def _number(node: ElementTree.Element, text: str) -> str:
     return text if text.replace(".", "", 1).isdigit() else quoted(text)
 
 
-_SIMPLE = {"mi": _letters, "mn": _number, "mtext": lambda node, text: quoted(text.replace("\u00a0", " ")),
-           "mspace": lambda node, text: "med"}
+_SIMPLE: dict[str, Callable[[ElementTree.Element, str], str]] = {
+    "mi": _letters, "mn": _number, "mtext": lambda node, text: quoted(text.replace("\u00a0", " ")),
+           "mspace": lambda node, text: "med", "mo": lambda node, text: _sign(text, False)}
 _SCRIPTS = {"msub": "b", "msup": "t", "msubsup": "bt", "munder": "b", "munderover": "bt"}
 
 
