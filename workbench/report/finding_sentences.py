@@ -2,10 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from dataclasses import asdict
+from typing import Any
+
 from workbench.report.counterexample import Counterexample
 from workbench.report.finding import Finding, Gravity
 from workbench.report.places_in_paper import place_of, places_of
-from workbench.report.worded import listed, math
+from workbench.report.worded import INNER, listed, math
 
 HEADINGS: dict[Gravity, str] = {
     "falls": "Headline statements that fall", "corrected": "Headline statements that stand with corrections",
@@ -96,6 +100,13 @@ def sentences(found: Finding) -> list[str]:
     """All that a referee would write of it."""
     return [s for s in (verdict_sentence(found), printed_sentence(found), correction_sentence(found),
                         reading_sentence(found), consequence_sentence(found)) if s]
+
+
+def findings_document(found: Sequence[Finding]) -> dict[str, Any]:
+    """The findings for programs: all their fields, formulas as LaTeX, and their sentences, in which formulas stand
+    between dollar signs."""
+    return {"findings": [{"place": f.place, "heading": HEADINGS[f.gravity], **asdict(f),
+                          "sentences": [s.replace(INNER, "$") for s in sentences(f)]} for f in found]}
 
 
 def fate_sentence(equation: str, word: str, why: str) -> str:

@@ -9,7 +9,7 @@ from collections.abc import Callable, Sequence
 from workbench.proof.latex.commands import GREEK
 from workbench.report.certificate_latex import name_latex
 
-_INNER = "\ue000"  # a dollar sign inside a formula
+INNER = "\ue000"  # a dollar sign inside a formula
 _FORMULA = re.compile(r"\$([^$]*)\$")
 _LETTER = re.compile(r"(?<![\w.$\\{/])([A-Za-z]+(?:_[A-Za-z0-9]+)+)(\^\d)?(?![\w]|\.py|[/(]\w)")
 _STEM = re.compile(r"([A-Za-z]+?)(?:d?dot|hat|tilde|bar)?\d*")
@@ -35,13 +35,13 @@ def _as_formula(found: re.Match[str]) -> str:
 
 def math(latex: str) -> str:
     """A formula as it stands in a sentence; dollar signs of its own, as in `\\text{for $k$}`, do not end it."""
-    return f"${latex.replace('$', _INNER)}$"
+    return f"${latex.replace('$', INNER)}$"
 
 
 def show(text: str, formula: Callable[[str], str], words: Callable[[str], str] = str) -> str:
     """The text with each of its formulas, and what stands between them, shown by a function."""
     pieces = _FORMULA.split(text)
-    return "".join(formula(piece.replace(_INNER, "$")) if i % 2 else words(piece)
+    return "".join(formula(piece.replace(INNER, "$")) if i % 2 else words(piece)
                    for i, piece in enumerate(pieces) if piece)
 
 

@@ -39,7 +39,7 @@ def _block(block: Block) -> str:
         case Paragraph(text, label):
             return (f"#strong({quoted(label + '.')}) " if label else "") + _text(text)
         case Formula(latex, label):
-            above = f"#text(8.5pt, gray.darken(40%), {quoted(label)}) \\\n" if label else ""
+            above = f"#block(below: 0.55em)[#text(8.5pt, gray.darken(40%), {quoted(label)})]\n" if label else ""
             return f"#block(inset: (left: 1em), above: 0.9em)[{above}{typst_formula(latex, display=True)}]"
         case Items(texts, depths):
             levels = depths or (0,) * len(texts)

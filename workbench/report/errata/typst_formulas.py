@@ -59,8 +59,8 @@ def _row(parts: list[ElementTree.Element], display: bool) -> str:
 
 
 def _sign(text: str, balanced: bool) -> str:
-    if text == "|":
-        return 'class("normal", |)'
+    if text in ("|", "‖"):
+        return f'class("normal", {text})'
     if balanced and text in OPENING | CLOSING:
         return text
     if len(text) == 1 and text not in ESCAPED:

@@ -4,9 +4,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Sequence
-from dataclasses import asdict
 from pathlib import Path
-from typing import Any
 
 from workbench.files.writing import make_folder, write_bytes, write_text
 from workbench.proof.verdict import Decision
@@ -15,28 +13,22 @@ from workbench.report.errata.latex import latex_document
 from workbench.report.errata.markdown import markdown
 from workbench.report.errata.page import html_document
 from workbench.report.errata.pdf import pdf_of
-from workbench.report.finding import Finding, findings
-from workbench.report.finding_sentences import sentences
+from workbench.report.finding import findings
+from workbench.report.finding_sentences import findings_document
 
 FILES = ("errata.md", "errata.tex", "errata.html", "findings.json", "errata.pdf")
 ANOTHER_FOLDER = "name another folder"
 NO_PDF = "errata.pdf is not written, because Typst is not installed: pip install typst"
 
 
-def findings_document(found: Sequence[Finding]) -> dict[str, Any]:
-    """The document of findings.json: every finding with all its fields, formulas as LaTeX, and its sentences, in which
-    formulas stand between dollar signs."""
-    return {"version": 1, "findings": [
-        {"place": f.place, **asdict(f), "sentences": [s.replace("\ue000", "$") for s in sentences(f)]} for f in found]}
-
-
 def errata_texts(decisions: Sequence[Decision], citation: str) -> dict[str, str]:
     """The text of every file but the PDF, by its name."""
     blocks = errata(decisions, citation)
+    document = {"version": 1, **findings_document(findings(decisions))}
     title = f"Corrections: {citation}"
     return {"errata.md": markdown(blocks), "errata.tex": latex_document(blocks),
             "errata.html": html_document(blocks, title),
-            "findings.json": json.dumps(findings_document(findings(decisions)), indent=1, ensure_ascii=False) + "\n"}
+            "findings.json": json.dumps(document, indent=1, ensure_ascii=False) + "\n"}
 
 
 def write_errata(decisions: Sequence[Decision], citation: str, out: Path) -> tuple[list[Path], str | None]:
