@@ -29,7 +29,7 @@ POINTS = 200
 KEYS = {"id", "paper", "equation", "kind", "statement", "verdict", "method", "scope", "certificate", "counterexample",
         "correction", "premises", "tainted_by", "trust", "seconds", "title", "note", "recorded", "computed", "origin",
         "match", "reading", "glyph", "glyph_claim", "severity", "rests_on", "mends", "fate", "fate_why", "fate_by",
-        "goal"}
+        "goal", "section", "goal_digest"}
 
 
 @pytest.fixture(scope="module")

@@ -36,12 +36,24 @@ def formula(latex: str) -> Markup:
     return _convert(latex.strip().strip("$").strip())
 
 
+def formula_tree(latex: str) -> ElementTree.Element | None:
+    """The MathML of a formula as a tree, of which nothing but harmless elements is left; None where it cannot be
+    converted."""
+    try:
+        root = convert_to_element(_words_apart(latex.strip().strip("$").strip()))
+        for element in root.iter():
+            _clean(element)
+    except Exception:  # the converter raises many kinds on input it does not know, some of them its own bugs
+        return None
+    return root
+
+
 @cache
 def _convert(latex: str) -> Markup:
     try:
-        root = convert_to_element(_words_apart(latex))
-        for element in root.iter():
-            _clean(element)
+        root = formula_tree(latex)
+        if root is None:
+            raise ValueError(latex)
         return Markup("").join(_serialise(part) for part in _parts(root))
     except Exception:  # the converter raises many kinds on input it does not know, some of them its own bugs
         return Markup("<code>{}</code>").format(escape(latex)) if latex else Markup("")
