@@ -25,7 +25,7 @@ class Study(FileRecord):
     """What every study's file begins with; each paper's study adds its own tables, every value with its source."""
 
     version: Annotated[int, BeforeValidator(known_version)]
-    kind: Literal["study", "contest"]
+    kind: Literal["study", "contest", "plant"]
     name: Name
     title: Text
     paper: Text
