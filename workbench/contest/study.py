@@ -12,16 +12,17 @@ import numpy as np
 
 from workbench.contest.energy import best_run
 from workbench.contest.entrants import check_entrants, entered, follows_curve, learns
-from workbench.contest.journal import matches_journal, matches_of
+from workbench.contest.journal import matches_journal, matches_of, world_digest
 from workbench.contest.learning import learning_findings, learning_plot, learning_tables
-from workbench.contest.matches import METRICS, Match, all_matches, draws_of, of, overspeed, run_match
+from workbench.contest.matches import METRICS, Match, all_matches, of, overspeed, run_match
 from workbench.contest.premises import premises_findings, premises_table, words_of
 from workbench.contest.record import Contest
 from workbench.contest.tables import COLUMNS, Told, all_tables
 from workbench.contest.tune import tune_all
+from workbench.contest.tuning_table import convergence_plot, tuning_findings, tuning_table
 from workbench.errors import InputError
 from workbench.files.numbers import number
-from workbench.paper.local_search import Tuned
+from workbench.paper.parameter_search import Kept, Name, Tuned
 from workbench.paper.results import Curve, Plot, StudyResult
 from workbench.paper.study import Progress, StudyKind
 from workbench.trains.scenario import Scenario, load_scenario, tunable
@@ -45,7 +46,22 @@ def located(contest: Contest, path: Path) -> Contest:
             if key not in tunable(scenario, name):
                 raise InputError(path, f"tuning.ranges.{name}.{key}", "is no parameter of this controller: choose "
                                  f"among {', '.join(tunable(scenario, name))}")
+    for metric in contest.racing.metrics if contest.racing else ():
+        if metric not in METRICS or (metric == "overspeed_mps" and not scenario.track.speed_limit):
+            raise InputError(path, "racing.metrics", f"'{metric}' is none of this line's: choose among "
+                             f"{', '.join(METRICS)}")
     return contest.with_world(scenario)
+
+
+def undecided(told: Told) -> list[str]:
+    """In a race the conditions in which somebody is not told apart from the best in a metric that decides.
+
+    Those whose runs agree are one.
+    """
+    race, numbers = told.contest.racing, {entry: i for i, entry in enumerate(told.entries)}
+    one = [{numbers[entry] for entry in group} for group in told.alike]
+    return [name for name, condition in told.contest.conditions.items() if race and condition.random and any(
+        not any(group >= set(told.rankings[name, metric].winners) for group in one) for metric in race.metrics)]
 
 
 def _delays_alike(contest: Contest, scenario: Scenario, path: Path) -> None:
@@ -88,7 +104,8 @@ def run_kept(contest: Contest, workers: int, on_progress: Progress, folder: Path
 def _run(contest: Contest, workers: int, on_progress: Progress, played: Sequence[Match],
          keep: Callable[[Match], None]) -> StudyResult:
     scenario = contest.world
-    matches = all_matches(contest, scenario, workers, on_progress, played, keep)
+    matches = all_matches(contest, scenario, workers, on_progress, played, keep, lambda now: undecided(
+        Told(contest, scenario, tuple(now), None)))
     best = best_run(scenario)
     told = Told(contest, scenario, matches, best.lower_bound_j if best else None)
     first: dict[str, str] = {}  # of an entry's failed runs under a condition the first; the findings say how many
@@ -97,8 +114,9 @@ def _run(contest: Contest, workers: int, on_progress: Progress, played: Sequence
             first.setdefault(f"{match.entry}, {contest.conditions[match.condition].title}", match.failed)
     failures, words = tuple(first.items()), tuple(words_of(told))
     return StudyResult(rows=tuple(_rows(told)),
-                       tables=(*all_tables(told), *premises_table(told, words), *learning_tables(told)),
-                       plots=(*_plots(told), *learning_plot(told)),
+                       tables=(*all_tables(told), *premises_table(told, words), *tuning_table(told),
+                               *learning_tables(told)),
+                       plots=(*_plots(told), *learning_plot(told), *convergence_plot(told)),
                        findings=(*_findings(told), *premises_findings(told, words), *learning_findings(told)),
                        failures=failures)
 
@@ -172,7 +190,7 @@ def _findings(told: Told) -> Iterator[str]:
         failed = Counter(match.entry for match in told.matches if match.condition == name and match.failed)
         if failed:
             words = ", ".join(f"{entry} {n}" for entry, n in failed.most_common())
-            runs = draws_of(told.contest, name)
+            runs = told.runs(name)
             yield f"Runs that fail, {stated.title}: {words}, of {runs} run{'s' if runs > 1 else ''} of each law."
     if told.lower_bound_j:
         first = next(iter(told.contest.conditions))
@@ -186,9 +204,10 @@ def _findings(told: Told) -> Iterator[str]:
                    f"{number(least / 3.6e6)} kWh, {number(100 * (least / told.lower_bound_j - 1))} % more.")
     yield from _without_curve(told)
     yield from _limits_of_the_curve(told)
-    for entry in told.entries:
-        if entry.tuned:
-            yield from _gain(told, entry.controller, entry.name)
+    yield from tuning_findings(told)
+    for group in told.alike:
+        if len(group) > 1:
+            yield f"{' and '.join(entry.name for entry in group)} agree in every run and metric: told as one row."
 
 
 def _without_curve(told: Told) -> Iterator[str]:
@@ -223,20 +242,8 @@ def _limits_of_the_curve(told: Told) -> Iterator[str]:
                "tracks it is too.")
 
 
-def _gain(told: Told, controller: str, tuned: str) -> Iterator[str]:
-    condition = told.contest.tuning.condition
-    names = [entry.name for entry in told.entries]
-    metric, words = (("position_rms", "position RMS {} m → {} m") if follows_curve(told.scenario, controller) else
-                     ("energy_J", "energy {} kWh → {} kWh"))
-    before, after = (told.values(condition, metric)[names.index(name)] for name in (controller, tuned))
-    if before is not None and after is not None:
-        change = words.format(*(number(float(value.mean()) / COLUMNS[metric].si) for value in (before, after)))
-        yield (f"Tuning of {controller} ({told.contest.tuning.runs} runs): {change} under "
-               f"{told.contest.conditions[condition].title}.")
+def _tuned(contest: Contest, names: list[str], workers: int, on_progress: Progress, kept: Kept) -> dict[Name, Tuned]:
+    return tune_all(contest, contest.world, names, workers, on_progress, kept)
 
 
-def _tuned(contest: Contest, names: list[str], workers: int, on_progress: Progress) -> dict[str, Tuned]:
-    return tune_all(contest, contest.world, names, workers, on_progress)
-
-
-KIND = StudyKind(Contest, run, located, _tuned, run_kept)
+KIND = StudyKind(Contest, run, located, _tuned, run_kept, depends=world_digest)

@@ -15,6 +15,8 @@ from workbench.trains.scenario import known_version
 
 if TYPE_CHECKING:
     from workbench.model.desired_curve import DesiredCurve
+    from workbench.paper.parameter_search import Kept, Tuned
+    from workbench.paper.parameter_search import Name as SearchedName
     from workbench.paper.tracked import Tracked
 
 # (runs finished, runs in all, what was run last)
@@ -61,8 +63,8 @@ class StudyKind:
 
     workers: processes to use, at least one. A run that fails is told in the result and raises nothing.
     located(study, path): of studies that name other files, the study with them found from its own path.
-    tune(study, names, workers, on_progress): of studies whose file has a [tuning] table, for each name the parameters
-    that were found, their cost and that of the stated ones.
+    tune(study, names, workers, on_progress, kept): of studies whose file has a [tuning] table, what was found for each
+    name, or for each condition and name. depends(study): of studies that name other files, a digest of those.
     run_kept(study, workers, on_progress, folder, resume): of studies that take long, `run` with what is finished kept
     in a folder, from which `resume` goes on; InputError where the folder is another's or cannot be written.
     track(study, curve): of papers with a main controller, how it follows a reference, its own where curve is None.
@@ -71,6 +73,7 @@ class StudyKind:
     record: type[Study]
     run: Callable[[Any, int, Progress], StudyResult]
     located: Callable[[Any, Path], Any] | None = None
-    tune: Callable[[Any, list[str], int, Progress], dict[str, tuple[dict[str, float], float, float]]] | None = None
+    tune: Callable[[Any, list[str], int, Progress, Kept], dict[SearchedName, Tuned]] | None = None
     run_kept: Callable[[Any, int, Progress, Path, bool], StudyResult] | None = None
     track: Callable[[Any, DesiredCurve | None], Tracked] | None = None
+    depends: Callable[[Any], str] | None = None
