@@ -13,8 +13,9 @@ import numpy as np
 from workbench.errors import InputError
 from workbench.files.writing import write_text
 from workbench.optimal.course import Array, Course
+from workbench.optimal.force_reserve import needed_force
 from workbench.optimal.reference import Reference
-from workbench.optimal.smooth import SmoothReference, SmoothRun, needed_force
+from workbench.optimal.smooth import SmoothReference, SmoothRun
 from workbench.optimal.vehicle import Vehicle
 
 if TYPE_CHECKING:

@@ -110,14 +110,15 @@ def nearest_legs(timetable: Timetable, leg_s: Array, least_s: Array) -> Array | 
     return np.asarray(leg_s + found.x[:legs] - found.x[legs:2 * legs])
 
 
-def require_possible(vehicle: Vehicle, timetable: Timetable, quickest: Profile) -> None:
+def require_possible(vehicle: Vehicle, timetable: Timetable, quickest: Profile, ideal: Profile) -> None:
     """Raises InfeasibleRunError where even the fastest run is too late for a window, or too slow at a point.
 
-    The fastest run is the fastest at every position, so that no run takes less between any two points.
+    The fastest run is the fastest at every position, so that no run takes less between any two points. `ideal` is that
+    run as near as a mesh comes to it; `quickest` a little slower one that surely keeps every limit, which is told.
     """
-    leg_s = leg_times(timetable, quickest)
+    leg_s = leg_times(timetable, ideal)
     for number, point in enumerate(timetable.points):
-        most = float(np.interp(point.position_m, quickest.position_m, quickest.half_square))
+        most = float(np.interp(point.position_m, ideal.position_m, ideal.half_square))
         if point.slowest_mps**2 / 2 > most * (1 + 1e-9) and 0 < number < len(timetable.points) - 1:
             raise InfeasibleRunError(
                 f"timing point {number + 1} at {point.position_m:g} m asks for {point.slowest_mps:.4g} m/s at least: "
