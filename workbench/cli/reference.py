@@ -25,7 +25,7 @@ def command(track: Annotated[Path, typer.Argument(help="Line: TOML of this proje
             from_speed: Annotated[float, typer.Option(metavar="MPS", help="Speed at the start in m/s.")] = 0.0,
             to_speed: Annotated[float, typer.Option(metavar="MPS", help="Speed at the end in m/s.")] = 0.0,
             intervals: Annotated[int | None, typer.Option(
-                min=10, max=100_000, help="Of the plan's mesh; default: as many as the gap asks for.")] = None,
+                min=10, max=20_000, help="Of the plan's mesh; default: as many as the gap asks for.")] = None,
             solver: Annotated[Literal["auto", "socp", "nlp"], typer.Option(
                 help="Cone program, nonlinear program, or what the gap asks for.")] = "auto",
             window: Annotated[float, typer.Option(metavar="S", help="Over which acceleration is smoothed.")] = 1.0,

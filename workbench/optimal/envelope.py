@@ -18,6 +18,8 @@ from workbench.trains.train import davis_resistance
 
 # By this share more than a run's last speed is aimed at where full traction leads to it, for the steps' error.
 RUN_UP = 1e-5
+# Over these lengths b follows from one slope, whatever the train; and as many at most.
+PART_M, MOST_PARTS = 20.0, 100_000
 # Times a cell's acceleration is lowered until every point of the cell allows it, and what rounding may add to b.
 STRICT_ROUNDS, ROUNDING = 12, 5e-16
 # A cell on which the limit of the force changes by more than this share is divided, into so many at most.
@@ -89,6 +91,27 @@ def _allowed(b: float, reached: float, sign: float, line: Array, drag: Array, sh
 
 
 @njit(cache=True)
+def _slope_in_parts(b: float, most: float, step: float, sign: float, line: Array, drag: Array, numbers: Array,
+                    limits: tuple[Array, Array], tables: tuple[Array, Array]) -> float:
+    """The mean `_slope` of a cell, in parts of PART_M and never above `most`; what ends below 0 stands still.
+
+    A cell may be so long that one step over it passes every speed limit and falls back below a standstill.
+    """
+    count = min(max(int(np.ceil(step / PART_M)), 1), MOST_PARTS)
+    part, now = step / count, b
+    for i in range(count):
+        line_0, line_1 = line[0] + i / count * (line[1] - line[0]), line[0] + (i + 1) / count * (line[1] - line[0])
+        drag_0, drag_1 = drag[0] + i / count * (drag[1] - drag[0]), drag[0] + (i + 1) / count * (drag[1] - drag[0])
+        first = _slope(now, sign, line_0, drag_0, numbers, limits, tables)
+        middle = min(max(now + part / 2 * first, 0.0), most)
+        now = min(now + part * _slope(middle, sign, (line_0 + line_1) / 2, (drag_0 + drag_1) / 2, numbers, limits,
+                                      tables), most)
+        if now <= 0.0:
+            return -b / step - 1.0
+    return (now - b) / step
+
+
+@njit(cache=True)
 def _pass(target: Array, start: float, step: Array, line: Array, drag: Array, usable: Array, stands: Array,
           sign: float, numbers: Array, limits: tuple[Array, Array], tables: tuple[Array, Array],
           is_strict: bool) -> tuple[Array, int]:
@@ -103,6 +126,9 @@ def _pass(target: Array, start: float, step: Array, line: Array, drag: Array, us
         middle = max(b[k] + step[k] / 2 * first, 0.0)
         slope = _slope(middle, sign, (line[k, 0] + line[k, 1]) / 2, (drag[k, 0] + drag[k, 1]) / 2, numbers, limits,
                        tables)
+        if b[k] + step[k] * slope <= 0.0:
+            slope = _slope_in_parts(b[k], max(target[k], target[k + 1]), step[k], sign, line[k], drag[k], numbers,
+                                    limits, tables)
         if is_strict:
             for number in range(STRICT_ROUNDS):
                 allowed = _allowed(b[k], max(b[k] + step[k] * slope, 0.0), sign, line[k], drag[k], usable[k], numbers,
