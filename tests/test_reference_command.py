@@ -68,9 +68,9 @@ def test_stops_on_the_way_take_their_time(tmp_path: Path) -> None:
     text = line.read_text(encoding="utf-8")
     assert "stops_m" in text, "the metro line must have stops for this test"
     train = SHARED / "trains" / "jiao2025.toml"
-    energies = []
+    energies, time = [], 3 * least_time(line, train) + 100
     for option in ((), ("--stops", "--dwell", 20)):
-        said(line, train, "--time", 3 * least_time(line, train) + 100, "--json", tmp_path / "r.json", *option)
+        said(line, train, "--time", time, "--json", tmp_path / "r.json", *option)
         energies.append(json.loads((tmp_path / "r.json").read_text(encoding="utf-8"))["energy_J"])
     assert energies[0] < energies[1]
 

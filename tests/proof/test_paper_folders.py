@@ -115,7 +115,7 @@ def test_only_what_a_folder_has_read_makes_it_be_imported_anew(paper, tmp_path, 
     mine.write_text("-1")
     ProofFile(paper).modules()
     assert module_in(paper, "numbers") is not module
-    assert module_in(paper, "numbers").SHARE == (-1 if when == "imported" else 2)
+    assert (-1 if when == "imported" else 2) == module_in(paper, "numbers").SHARE
 
 
 @pytest.mark.parametrize("jobs", [1, 2])
