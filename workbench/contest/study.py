@@ -34,6 +34,7 @@ def located(contest: Contest, path: Path) -> Contest:
     check_entrants(contest, stated, path, scenario_path)
     scenario = entered(contest, stated).in_folder(contest.folder)
     _delays_alike(contest, scenario, path)
+    contest = contest.with_world(scenario)
     for name, ranges in contest.tuning.ranges.items():
         if name not in scenario.controllers:
             raise InputError(path, f"tuning.ranges.{name}", "is no controller of the scenario: choose one of "
@@ -45,7 +46,7 @@ def located(contest: Contest, path: Path) -> Contest:
             if key not in tunable(scenario, name):
                 raise InputError(path, f"tuning.ranges.{name}.{key}", "is no parameter of this controller: choose "
                                  f"among {', '.join(tunable(scenario, name))}")
-    return contest.with_world(scenario)
+    return contest
 
 
 def _delays_alike(contest: Contest, scenario: Scenario, path: Path) -> None:

@@ -8,6 +8,7 @@ from workbench.contest.entrants import follows_curve
 from workbench.contest.matches import match_values, run_match
 from workbench.contest.record import Contest, Objective, WithoutCurve
 from workbench.errors import InputError
+from workbench.model.tuning import at_the_rail
 from workbench.paper.local_search import Tuned, score, search
 from workbench.simulate.process_pool import results_of
 from workbench.trains.scenario import Scenario, tunable, with_parameters
@@ -16,13 +17,14 @@ from workbench.trains.scenario import Scenario, tunable, with_parameters
 DRAWS_FROM = 1_000_000
 
 
-def objective(values: dict[str, float | None], goal: Objective | WithoutCurve) -> float:
-    """The cost of one run."""
+def objective(values: dict[str, float | None], goal: Objective | WithoutCurve, actuator: bool = False) -> float:
+    """The cost of one run; actuator: whether the plant has one, see `at_the_rail`."""
     if isinstance(goal, WithoutCurve):
-        return score(values, {"energy_J": goal.energy_j, "stopping_error": goal.stopping_m, "late_s": goal.late_s,
-                              "overspeed_mps": goal.overspeed_mps, "logged_jerk_rms": goal.jerk_mps3}, goal.failed)
-    units = {"position_rms": goal.position_m, "speed_rms": goal.speed_mps, "logged_jerk_rms": goal.jerk_mps3}
-    return score(values, units, goal.failed)
+        units = {"energy_J": goal.energy_j, "stopping_error": goal.stopping_m, "late_s": goal.late_s,
+                 "overspeed_mps": goal.overspeed_mps, "logged_jerk_rms": goal.jerk_mps3}
+    else:
+        units = {"position_rms": goal.position_m, "speed_rms": goal.speed_mps, "logged_jerk_rms": goal.jerk_mps3}
+    return score(values, at_the_rail(units, actuator), goal.failed)
 
 
 def tune(contest: Contest, scenario: Scenario, name: str) -> Tuned:
@@ -50,7 +52,7 @@ def tune(contest: Contest, scenario: Scenario, name: str) -> Tuned:
         total = 0.0
         for draw in range(draws):
             run = run_match(changed, name, condition, DRAWS_FROM + draw, budget.seed)
-            total += objective(match_values(run, changed), goal) / draws
+            total += objective(match_values(run, changed), goal, condition.acting(scenario) is not None) / draws
         return total
 
     return search(cost, tunable(scenario, name), ranges, budget.runs // draws, budget.seed,

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from workbench.errors import InputError
+from workbench.model.tuning import at_the_rail
 from workbench.paper.local_search import Tuned, score, search
 from workbench.simulate.closed_loop import simulate
 from workbench.simulate.metrics import measure
@@ -33,11 +34,12 @@ def _tune(scenario: Scenario, name: str) -> Tuned:
     if budget is None:
         raise InputError("", "tuning", "is missing: state budget, objective and ranges in this table")
     goal = budget.objective
+    units = at_the_rail(goal.units, scenario.actuator is not None)
 
     def cost(parameters: dict[str, float]) -> float:
         changed = with_parameters(scenario, name, parameters)
         found = measure(simulate(changed, name), changed)
-        values = {metric: None if found.failed else float(getattr(found, metric)) for metric in goal.units}
-        return score(values, goal.units, goal.failed)
+        values = {metric: None if found.failed else float(getattr(found, metric)) for metric in units}
+        return score(values, units, goal.failed)
 
     return search(cost, tunable(scenario, name), budget.ranges[name], budget.runs, budget.seed, 3 * goal.failed)
