@@ -1,6 +1,7 @@
 """What lies between a command and the force at the rail: against closed forms, scipy's integrator, and energy."""
 
 from dataclasses import replace
+from itertools import pairwise
 
 import numpy as np
 import pytest
@@ -106,20 +107,21 @@ def test_without_delay_lag_or_limits_it_is_not_there_to_the_last_bit():
 
 
 def piecewise(of_setting, period_s, lag, delay, rate, end_s):
-    """Position and speed at the end of the same loop by an adaptive method, from sample to sample and delay to delay."""
+    """Position and speed at the end of the same loop by an adaptive method, from change to change of the command."""
     mass, davis = of_setting.mass_kg, of_setting.davis_n
     line = float(of_setting.line.specific_force[0])
     y, commands = np.zeros(3), {}
-    marks = sorted({round(k * period_s + d, 9) for k in range(round(end_s / period_s)) for d in (0.0, delay)} | {end_s})
+    samples = range(round(end_s / period_s))
+    marks = sorted({round(k * period_s + d, 9) for k in samples for d in (0.0, delay)} | {end_s})
     curve = of_setting.curve
-    for begin, end in zip(marks[:-1], marks[1:], strict=True):
+    for begin, end in pairwise(marks):
         if abs(begin / period_s - round(begin / period_s)) < 1e-6:
             x, v, _ = (float(value) for value in np.ravel(curve.at(np.array([begin]))))
             commands[round(begin / period_s)] = 0.6 * (x - y[0]) + 1.4 * (v - y[1])
         acting = mass * commands.get(int(np.floor((begin - delay) / period_s + 1e-6)), 0.0)
 
         def rates(_, z, acting=acting):
-            p, v, force = z
+            _, v, force = z
             resisting = davis[0] + davis[1] * v + davis[2] * v**2 + mass * line
             return [v, (force - resisting) / mass, np.clip((acting - force) / lag, -rate, rate)]
         y = solve_ivp(rates, (begin, end), y, rtol=1e-11, atol=1e-9, max_step=0.01).y[:, -1]
@@ -134,7 +136,7 @@ def test_the_loop_with_lag_delay_and_rate_comes_to_scipys_with_the_square_of_the
     base = replace(base, line=replace(base.line, specific_force=0.0 * base.line.specific_force + 0.02))
     rate = 0.3 * base.mass_kg
     actuator = Actuator(lag_s=lag, delay_s=delay, rise_n_per_s=rate, fall_n_per_s=rate)
-    p, v, _ = piecewise(base, period, lag, delay, rate, end_s)
+    p, _, _ = piecewise(base, period, lag, delay, rate, end_s)
     errors = []
     for step in (0.04, 0.02, 0.01):
         run = driven(spring, replace(base, actuator=actuator, plant_step_s=step, log_every_s=step), period)

@@ -57,7 +57,7 @@ def test_measurements_and_commands_are_late_by_whole_samples(late: int) -> None:
     _, past, commands, none = Sensing(measurement_delay_s=late * 0.1, command_delay_s=late * 0.1).arrays(100, 0.1)
     told, wanted, waiting = [], deque([0.0] * late), deque()
     for sample in range(50):
-        told.append(sensing_loop.measured(sample, float(sample), -float(sample), 
+        told.append(sensing_loop.measured(sample, float(sample), -float(sample),
                                           (np.zeros((0, 2)), past, commands, none)))
         waiting.append(1.0 + sample)
         wanted.append(1.0 + sample)

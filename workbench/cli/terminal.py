@@ -127,10 +127,11 @@ def verdict_lines(document: dict[str, Any]) -> list[str]:
 def metrics_table(rows: Sequence[dict[str, Any]], title: str) -> Table:
     """The controllers of a comparison beside each other."""
     table = Table(title=title, title_justify="left", box=SIMPLE_HEAD, pad_edge=False)
-    _columns(table, "position\nerror (mm)", "speed error\n(mm/s)", "stop\n(mm)", "energy\n(MJ)", "step\n(µs)")
+    _columns(table, "period\n(ms)", "position\nerror (mm)", "speed error\n(mm/s)", "stop\n(mm)", "energy\n(MJ)",
+             "step\n(µs)")
     for r in rows:
         table.add_row(
-            r["controller"] + (" [red]failed[/red]" if r["failed"] else ""),
+            r["controller"] + (" [red]failed[/red]" if r["failed"] else ""), _number(r["period_s"], 1e3),
             _range(r["position_error_min"], r["position_error_max"]),
             _range(r["speed_error_min"], r["speed_error_max"]), _number(r["stopping_error"], 1e3),
             _number(r["energy_J"], 1e-6, 5), _number(r["step_us_median"]))

@@ -16,6 +16,9 @@ from workbench.simulate.law_values import check_controllers, law_values
 from workbench.simulate.setting_loop import law_loop
 from workbench.trains.scenario import Scenario
 
+# What a predictor is told of an actuator, by whether it stands before MPC.
+PREDICTS = {False: "the nominal train over the actuator's delay", True: "the actuator's delay and lag"}
+
 
 def entered(contest: Contest, scenario: Scenario) -> Scenario:
     """The contest's scenario with the contest's own entrants among its controllers."""
@@ -73,7 +76,8 @@ def play(scenario: Scenario, name: str, setting: Setting) -> Played:
     law = None if entrant else compiled_law(scenario, spec)
     if law is not None:
         return Played(run_law(law, law_values(law, spec, name), setting, spec.period_s, spec.estimates, name,
-                              spec.title or law.title, module=law_loop(law, setting, spec.estimates), predictor=spec.predictor))
+                              spec.title or law.title, module=law_loop(law, setting, spec.estimates),
+                              predictor=spec.predictor))
     if entrant is None:
         held = law_loop(held_command, setting, spec.estimates)
         return Played(simulate_in(scenario, name, setting, held=held))
@@ -86,9 +90,8 @@ def information(scenario: Scenario, name: str) -> str:
     spec = scenario.controllers[name]
     law = spec.law
     known = entrant_named(law, scenario.folder) or compiled_law(scenario, spec)
-    if known is not None:
-        return known.information
-    return KINDS[law].information if law in KINDS else "full state, nominal model"
+    told = known.information if known else KINDS[law].information if law in KINDS else "full state, nominal model"
+    return f"{told}; {PREDICTS[law in KINDS]}" if spec.predictor else told
 
 
 def follows_curve(scenario: Scenario, name: str) -> bool:

@@ -103,7 +103,7 @@ def play_match(scenario: Scenario, name: str, condition: Condition, draw: int, s
 
 
 def world_of(scenario: Scenario, condition: Condition) -> Scenario:
-    """What all draws of a condition share, and controllers know but for failures: limits, actuator, whether level, sampling."""
+    """What all draws of a condition share, and controllers know but for failures: limits, actuator, level, sampling."""
     train = scenario.train
     limited = train.model_copy(update={"max_traction_n": train.max_traction_n * condition.force_share,
                                        "max_braking_n": train.max_braking_n * condition.force_share})

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Literal, Self
+from typing import Annotated, Any, Literal, Self
 
 from pydantic import Field, PrivateAttr, Strict, model_validator
 
@@ -12,6 +12,7 @@ from workbench.model.sensing import SpeedFrom
 from workbench.model.tuning import Searched, SearchResult, Seed
 from workbench.paper.study import Study
 from workbench.trains.actuator import Actuator
+from workbench.trains.periods import at_periods, for_all_periods
 from workbench.trains.scenario import ControllerSpec, Interval, Scenario
 
 Spread = Annotated[float, Strict(), Field(ge=0, lt=1, allow_inf_nan=False)]
@@ -26,11 +27,11 @@ class Condition(SourcedRecord):
     """One way in which the world differs from what controllers know; all else is the scenario's.
 
     spread: mass, Davis coefficients and the line's resistance are drawn from 1 - spread to 1 + spread; level: the line
-    has no grades. failed_share of the motors give failure_n (in all) from failure_from_s on. Noise, delays and odometer are
-    those of `sensing.py`, with the odometer's scale drawn from 1 - odometer_spread to 1 + odometer_spread; what is not stated is
-    as in the scenario. force_share: of traction and braking limits that is left, known to the controllers. period_s: at
-    which all sample, instead of each at its own; a multiple of the plant's step. actuator: instead of the scenario's;
-    direct: with none, whatever the scenario states.
+    has no grades. failed_share of the motors give failure_n (in all) from failure_from_s on. Noise, delays and odometer
+    are those of `sensing.py`, with the odometer's scale drawn from 1 - odometer_spread to 1 + odometer_spread; what is
+    not stated is as in the scenario. force_share: of traction and braking limits that is left, known to the
+    controllers. period_s: at which all sample, instead of each at its own; a multiple of the plant's step. actuator:
+    instead of the scenario's; direct: with none, whatever the scenario states.
     """
 
     title: Text
@@ -181,6 +182,13 @@ class Contest(Study):
     racing: Racing | None = None
     _world: Scenario | None = PrivateAttr(default=None)
 
+    @model_validator(mode="before")
+    @classmethod
+    def _an_entrant_at_each_of_its_periods(cls, data: Any) -> Any:
+        if not (isinstance(data, dict) and "entrants" in data):
+            return data
+        return data | {"entrants": at_periods(data["entrants"], "entrants")}
+
     @property
     def world(self) -> Scenario:
         """The scenario with all who take part; InputError before `with_world` has given it."""
@@ -189,8 +197,9 @@ class Contest(Study):
         return self._world
 
     def with_world(self, world: Scenario) -> Self:
-        """The contest with its scenario and all who take part in it."""
-        found = self.model_copy()
+        """The contest with its scenario and all who take part in it; ranges hold for all periods of a name."""
+        ranges = for_all_periods(self.tuning.ranges, world.controllers)
+        found = self.model_copy(update={"tuning": self.tuning.model_copy(update={"ranges": ranges})})
         found._world = world
         return found
 

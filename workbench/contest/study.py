@@ -35,6 +35,7 @@ def located(contest: Contest, path: Path) -> Contest:
     check_entrants(contest, stated, path, scenario_path)
     scenario = entered(contest, stated).in_folder(contest.folder)
     _delays_alike(contest, scenario, path)
+    contest = contest.with_world(scenario)
     for name, ranges in contest.tuning.ranges.items():
         if name not in scenario.controllers:
             raise InputError(path, f"tuning.ranges.{name}", "is no controller of the scenario: choose one of "
@@ -50,7 +51,7 @@ def located(contest: Contest, path: Path) -> Contest:
         if metric not in METRICS or (metric == "overspeed_mps" and not scenario.track.speed_limit):
             raise InputError(path, "racing.metrics", f"'{metric}' is none of this line's: choose among "
                              f"{', '.join(METRICS)}")
-    return contest.with_world(scenario)
+    return contest
 
 
 def undecided(told: Told) -> list[str]:

@@ -13,6 +13,7 @@ from workbench.contest.effort import mpc_table
 from workbench.contest.entrants import follows_curve, held_samples, information
 from workbench.contest.matches import METRICS, OF_CURVE, Entry, Match, entries, looks, of
 from workbench.contest.record import Contest
+from workbench.contest.sampling import with_periods
 from workbench.files.numbers import number
 from workbench.paper.cells import Cell, Column, Phrase, Quantity
 from workbench.paper.comparison import STEP
@@ -261,6 +262,7 @@ def all_tables(told: Told) -> Iterator[ResultTable]:
     yield contestants_table(told)
     yield from mpc_table(told.scenario, told.entries, told.matches)
     for condition in told.contest.conditions:
-        yield condition_table(told, condition)
-    yield from energy_table(told)
+        yield with_periods(condition_table(told, condition), told.scenario, told.contest.conditions[condition])
+    for table in energy_table(told):
+        yield with_periods(table, told.scenario, next(iter(told.contest.conditions.values())))
     yield from absent_table(told)

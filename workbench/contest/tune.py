@@ -8,6 +8,7 @@ from workbench.contest.entrants import follows_curve
 from workbench.contest.matches import match_values, run_match
 from workbench.contest.record import Contest, Objective, WithoutCurve
 from workbench.errors import InputError
+from workbench.model.tuning import at_the_rail
 from workbench.paper.parameter_search import NOTHING_KEPT, Kept, Name, Restart, Tuned, score, search, search_all
 from workbench.trains.scenario import Scenario, tunable, with_parameters
 
@@ -50,15 +51,17 @@ def tune_restart(contest: Contest, scenario: Scenario, name: str, condition: str
     goal, budget = goal_of(contest, scenario, name), contest.tuning
 
     def cost(parameters: dict[str, float]) -> float:
-        return max(_mean(tuning_runs(contest, scenario, name, parameters, each), goal)
+        return max(_mean(tuning_runs(contest, scenario, name, parameters, each), goal,
+                         contest.conditions[each].acting(scenario) is not None)
                    for each in contest.tuned_in(condition))
 
     evaluations = contest.evaluations(condition) // budget.restarts
     return search(cost, tunable(scenario, name), budget.ranges[name], evaluations, budget.seed, restart)
 
 
-def _mean(runs: list[Metrics], goal: Objective | WithoutCurve) -> float:
-    return sum(score(values, goal.units, goal.failed) for values in runs) / len(runs)
+def _mean(runs: list[Metrics], goal: Objective | WithoutCurve, actuator: bool) -> float:
+    units = at_the_rail(goal.units, actuator)
+    return sum(score(values, units, goal.failed) for values in runs) / len(runs)
 
 
 def tune_all(contest: Contest, scenario: Scenario, names: list[str], workers: int,

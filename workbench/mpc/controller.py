@@ -93,7 +93,7 @@ class MpcController:
 
     def __init__(self, scenario: Scenario, spec: ControllerSpec, name: str) -> None:
         kind, where = KINDS[spec.law], f"controllers.{name}.parameters"
-        values = _checked(spec.parameters, kind, where)
+        values = _checked(_with_horizon(spec, where), kind, where)
         train, curve = scenario.train, scenario.desired_curve()
         self._held_samples, self._loop_period_s, self._held = int(values["held_samples"]), spec.period_s, 0.0
         try:
@@ -173,6 +173,16 @@ class MpcController:
                                (before, self._predictor.rest_s) if self._predictor else None)
         self._held = answer
         return answer
+
+
+def _with_horizon(spec: ControllerSpec, where: str) -> Values:
+    """The parameters with `horizon_s`, where that is given, in samples of the plan: for a law at several periods."""
+    given = dict(spec.parameters)
+    if (seconds := given.pop("horizon_s", None)) is None:
+        return given
+    if "horizon" in given:
+        raise InputError("", where, "horizon and horizon_s are both stated: leave one of the two out")
+    return given | {"horizon": float(round(seconds / (spec.period_s * given.get("held_samples", 1.0))))}
 
 
 def _whole(horizon: float) -> int:

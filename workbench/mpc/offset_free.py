@@ -52,7 +52,7 @@ class Observer:
         push = float(self._ahead[sample, 5]) + self.disturbance
         speed, force, left = (0.0 if speed_mps is None else speed_mps), self.force, self._parameters
         if before is not None and before[1] > 0:
-            first, left = (self._problem.parameters_over(seconds) for seconds in (before[1], self._period_s - before[1]))
+            first, left = map(self._problem.parameters_over, (before[1], self._period_s - before[1]))
             _, speed, force = self._follow(0.0, speed, force, before[0], push, first)
         _, expected, force = self._follow(0.0, speed, force, command, push, left)
         self.force = force if math.isfinite(force) else command

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from workbench.errors import InputError
+from workbench.model.tuning import at_the_rail
 from workbench.paper.parameter_search import NOTHING_KEPT, Kept, Name, Restart, Tuned, score, search, search_all
 from workbench.simulate.closed_loop import simulate
 from workbench.simulate.metrics import measure
@@ -37,12 +38,13 @@ def _budget(scenario: Scenario) -> ScenarioTuning:
 def _restart(scenario: Scenario, name: str, restart: int) -> Restart:
     budget = _budget(scenario)
     goal = budget.objective
+    units = at_the_rail(goal.units, scenario.actuator is not None)
 
     def cost(parameters: dict[str, float]) -> float:
         changed = with_parameters(scenario, name, parameters)
         found = measure(simulate(changed, name), changed)
-        values = {metric: None if found.failed else float(getattr(found, metric)) for metric in goal.units}
-        return score(values, goal.units, goal.failed)
+        values = {metric: None if found.failed else float(getattr(found, metric)) for metric in units}
+        return score(values, units, goal.failed)
 
     return search(cost, tunable(scenario, name), budget.ranges[name], budget.runs // budget.restarts, budget.seed,
                   restart)

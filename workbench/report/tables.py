@@ -77,6 +77,7 @@ def _count(value: float) -> str:
 # key, label, unit, how it is written, whether smaller is better (None: there is no better)
 _Write = Callable[[float], str]
 METRICS: tuple[tuple[str, str, str, _Write, bool], ...] = (
+    ("period_s", "Sampling period", "ms", _significant(1e3), False),
     ("position_error_min", "Position error, lowest", "mm", _significant(1e3), True),
     ("position_error_max", "Position error, highest", "mm", _significant(1e3), True),
     ("speed_error_min", "Speed error, lowest", "mm/s", _significant(1e3), True),
@@ -94,6 +95,8 @@ METRICS: tuple[tuple[str, str, str, _Write, bool], ...] = (
     ("switchings", "Changes between traction and braking each second", "1/s", _significant(), True),
     ("overspeed_max", "Largest excess over the speed limits", "m/s", _significant(), True),
     ("saturated_fraction", "Samples with the force at a limit", "%", _significant(100.0), True),
+    ("rate_limited_fraction", "Plant steps at a limit of the force's rate", "%", _significant(100.0), True),
+    ("adhesion_limited_fraction", "Plant steps at the adhesion limit", "%", _significant(100.0), True),
     ("limit_violations", "Plant steps outside the position band", "", _count, True),
     ("command_max", "Command, highest", "m/s²", _significant(), False),
     ("command_min", "Command, lowest", "m/s²", _significant(), False),

@@ -13,7 +13,7 @@ import math
 
 def driven(wanted, v, drive):
     """The force in N that a drive can give of what is wanted of it at a speed; drive: as in `trains/actuator.py`."""
-    return min(max(wanted, -drive[1]), min(drive[0], drive[2] / max(abs(v), 1e-3)))
+    return min(max(wanted, -drive[1]), drive[0], drive[2] / max(abs(v), 1e-3))
 
 
 def followed(force, wanted, dt, lag, rise, fall):

@@ -27,6 +27,7 @@ from workbench.trains.train import Plant, single_particle
 TIMED_BLOCK = 1000
 
 Array = NDArray[np.float64]
+Told = tuple[Array, Array, Array, Array]
 
 
 @dataclass(frozen=True)
@@ -67,7 +68,7 @@ class _Arrays:
     changes: Array
     plant: Array
     drive: Array
-    sensing: tuple[Array, Array, Array, Array]
+    sensing: Told
     acc: Array
     ride: Ride
     log: Array
@@ -195,7 +196,7 @@ def _run_compiled(kernel: Any, arrays: _Arrays, law: tuple[Array, Array, Array, 
 
 
 def _run_sampled(kernel: Any, arrays: _Arrays, controller: SampledController, fixed: tuple[float, float],
-                 plan: tuple[int, int, float, int], sensing: tuple[Array, Array, Array, Array]) -> tuple[int, int, Array]:
+                 plan: tuple[int, int, float, int], sensing: Told) -> tuple[int, int, Array]:
     """One call of the controller a sample; the kernel integrates the plant between them."""
     steps, per_sample, dt, log_every = plan
     command = np.zeros(1)
@@ -226,5 +227,5 @@ def _why(status: int, at_s: float, state: Array, law: ControlLaw, law_id: str) -
     return None
 
 
-__all__ = ["LEVEL", "NOMINAL", "UNLIMITED", "Factors", "Run", "Setting", "check_controllers", "law_values", "run_law", "setting_of",
-           "simulate"]
+__all__ = ["LEVEL", "NOMINAL", "UNLIMITED", "Factors", "Run", "Setting", "check_controllers", "law_values", "run_law",
+           "setting_of", "simulate"]

@@ -28,6 +28,7 @@ class Metrics:
     """
 
     controller: str
+    period_s: float
     position_error_min: float
     position_error_max: float
     speed_error_min: float
@@ -83,7 +84,7 @@ def measure_run(run: Run, length_m: float) -> Metrics:
     # The log's rows are a whole number of plant steps apart, which log_every_s need not be.
     logged_jerk = np.diff(run.column("v_mps"), 2) / np.diff(run.column("t_s")[:2]) ** 2
     return Metrics(
-        controller=run.controller,
+        controller=run.controller, period_s=run.period_s,
         position_error_min=total["position_error_min"], position_error_max=total["position_error_max"],
         speed_error_min=total["speed_error_min"], speed_error_max=total["speed_error_max"],
         position_rms=whole * float(np.sqrt(total["position_error_square_sum"] / samples)),

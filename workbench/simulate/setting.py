@@ -44,8 +44,8 @@ class Setting:
 
     davis_n: the train's Davis coefficients in N, N s/m, N s^2/m^2; terms, failures, changes: rows of `push_rows`,
     `failure_rows` and `mode_rows`; limits: traction force (N), braking force (N), power (W). The nominal mass turns
-    commands in m/s^2 into forces; the true one is mass_kg. plant_values: of a plant's parameters beyond these. known: the
-    train as controllers know it, for a predictor; the nominal mass and these Davis coefficients unless given.
+    commands in m/s^2 into forces; the true one is mass_kg. plant_values: of a plant's parameters beyond these. known:
+    the train as controllers know it, for a predictor; the nominal mass and these Davis coefficients unless given.
     """
 
     curve: DesiredCurve

@@ -30,6 +30,7 @@ from workbench.model.events import Disturbance, Failure, Mode
 from workbench.model.sensing import Instruments
 from workbench.model.tuning import Searched, TrackingObjective
 from workbench.trains.actuator import Actuator
+from workbench.trains.periods import with_periods
 from workbench.trains.track import Track, load_track
 from workbench.trains.train import Train
 
@@ -62,6 +63,7 @@ class NeuronGrid(SourcedRecord):
 class ControllerSpec(SourcedRecord):
     """One controller of a scenario: which law, its sampling period, its parameters and initial values.
 
+    In a file `periods_s` instead of `period_s` states as many controllers, whose names say the period (`periods.py`).
     predictor: it is told the actuator's delay, over which the state that it answers is predicted; MPC the lag too.
     """
 
@@ -167,6 +169,11 @@ class Scenario(FileRecord):
     tuning: ScenarioTuning | None = None
     reproduction: Annotated[bool, Strict()] = False
 
+    @model_validator(mode="before")
+    @classmethod
+    def _a_controller_at_each_of_its_periods(cls, data: Any) -> Any:
+        return with_periods(data)
+
     @model_validator(mode="after")
     def _parts_fit_together(self) -> Self:
         if not self.controllers:
@@ -249,6 +256,10 @@ def build_scenario(path: Path, data: dict[str, Any], like: Scenario | None = Non
 
     like: a scenario of the same file, whose line and table are taken where they are the same.
     """
+    try:
+        data = with_periods(data)
+    except ValueError as trouble:
+        raise InputError(path, "", str(trouble)) from None
     line, reproduction = data.get("track"), data.get(REPRODUCTION) is True
     if not isinstance(line, str):
         raise InputError(path, "track", "name the line's TOML file, relative to this one")
