@@ -1,5 +1,5 @@
-"""Values that deciders look at: on tapes as numpy has them, modulo a prime as algebra has them, exact as sympy has them;
-and margins that grow."""
+"""Values that deciders look at: on tapes as numpy has them, modulo a prime as algebra has them, exact as sympy has
+them; and margins that grow."""
 
 from fractions import Fraction
 
