@@ -36,11 +36,14 @@ def command(track: Annotated[Path, typer.Argument(help="Line: TOML of this proje
             every: Annotated[float, typer.Option(metavar="S", help="Step of the CSV.")] = 0.5,
             figure: Annotated[Path | None, typer.Option(metavar="FILE", help="Figure as SVG, PNG or PDF.")] = None,
             certificate: Annotated[Path | None, typer.Option(
-                metavar="FILE", help="Write the bound's certificate, and re-check it exactly.")] = None) -> None:
+                metavar="FILE", help="Write the bound's certificate, and re-check it exactly.")] = None,
+            check: Annotated[Path | None, typer.Option(
+                metavar="FILE", help="Only re-check a bound's certificate against this line, train and times.")] = None,
+            ) -> None:
     """The energy-optimal run of a train on a line, a smooth reference, and a proven bound on what could be saved."""
     from workbench.report.reference_command import Request, reference_run
 
     done = reference_run(Request(track, train, time, stops, dwell, from_m, to_m, from_speed, to_speed, intervals,
-                               window, max_jerk, json, csv, every, figure, certificate, solver, timetable))
+                               window, max_jerk, json, csv, every, figure, certificate, solver, timetable, check))
     for line in done:
         out_console.print(line, soft_wrap=True, highlight=False, markup=False)

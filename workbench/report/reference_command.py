@@ -11,7 +11,7 @@ import numpy as np
 from workbench.errors import InputError
 from workbench.files.json_output import write_json
 from workbench.files.outputs import check_outputs, is_stream
-from workbench.optimal.bound_document import write_certificate
+from workbench.optimal.bound_document import digests, read_bound, write_certificate
 from workbench.optimal.cars.car_train import CarTrain
 from workbench.optimal.cars.cars_document import cars_document, write_cars_csv
 from workbench.optimal.cars.multi_car import CarsRun, car_course, run_cars
@@ -24,7 +24,7 @@ from workbench.optimal.inputs.line import Line, course
 from workbench.optimal.reference import Reference, Solver, find_reference, find_timed_reference, least_time
 from workbench.optimal.regimes import time_shares
 from workbench.optimal.smooth import SmoothReference, smooth_reference
-from workbench.optimal.timetable import Timetable
+from workbench.optimal.timetable import Timetable, as_timetable
 from workbench.optimal.vehicle import Vehicle
 from workbench.report.cars_figure import couplers_figure
 from workbench.report.reference_figure import save_figure, saved
@@ -57,6 +57,7 @@ class Request:
     certificate: Path | None
     solver: Solver = "auto"
     timetable: Path | None = None
+    check: Path | None = None
 
 
 def reference_run(asked: Request) -> Iterator[str]:
@@ -83,9 +84,22 @@ def reference_run(asked: Request) -> Iterator[str]:
         least = least_time(vehicle, run, asked.start_mps, asked.end_mps).trip_time_s + dwell
         raise InputError("", "--time", f"is missing: give a trip time of {least:.1f} s or more, the least feasible "
                          f"one{_with_stops(stops, asked.dwell_s)}")
+    if asked.check:
+        yield _checked(asked.check, vehicle, run, as_timetable(run, asked.trip_time_s - dwell), asked)
+        return
     found, smooth = _solve(asked, vehicle, run, dwell)
     cars = run_cars(train, run, car_course(line, train), smooth.run) if train else None
     yield from _told(asked, line, vehicle, run, (*notes, *more), _Answer(found, smooth, cars), stops)
+
+
+def _checked(path: Path, vehicle: Vehicle, run: Course, timetable: Timetable, asked: Request) -> str:
+    """What a bound's certificate proves of this line, train and times; InputError where it proves nothing of them."""
+    stated = digests(vehicle, timetable.on(run), timetable, asked.start_mps, asked.end_mps)
+    proven = read_bound(path)
+    for name, digest in stated.items():
+        if proven.digests[name] != digest:
+            raise InputError(path, f"digests.{name}", f"is not that of the {name} given: the bound is of another one")
+    return f"{path}: proves {proven.bound_j / KWH_J:.6g} kWh for this line, train and times"
 
 
 @dataclass(frozen=True)
@@ -116,6 +130,9 @@ def _timed_run(asked: Request, line: Line, vehicle: Vehicle, train: CarTrain | N
     asked = replace(asked, start_mps=speeds[0], end_mps=speeds[1])
     timetable = journey.timetable
     run = timetable.on(course(line, vehicle, timetable.points[0].position_m, timetable.points[-1].position_m))
+    if asked.check:
+        yield _checked(asked.check, vehicle, run, timetable, asked)
+        return
     found = find_timed_reference(vehicle, run, timetable, speeds[0], speeds[1], asked.intervals, asked.solver)
     smooth = _smooth(asked, vehicle, run, timetable)
     cars = run_cars(train, run, car_course(line, train), smooth.run) if train else None

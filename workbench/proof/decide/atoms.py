@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from fractions import Fraction
 
 import sympy as sp
 
@@ -27,9 +28,18 @@ class Atoms:
     inverses: dict[sp.Symbol, sp.Expr] = field(default_factory=dict)
     strict: list[tuple[sp.Expr, int]] = field(default_factory=list)
     indexed: set[sp.Symbol] = field(default_factory=set)
+    expanded: dict[sp.Symbol, dict[tuple[int, ...], Fraction]] = field(default_factory=dict)  # of inverses
+    places: dict[sp.Symbol, int] = field(default_factory=dict)  # of generators
+    known_meanings: tuple[tuple[int, ...], dict[sp.Symbol, sp.Expr]] = ((), {})
 
     def meanings(self) -> dict[sp.Symbol, sp.Expr]:
         """What the generators for functions and inverses stand for."""
+        state = tuple(map(len, (self.squares, self.sides, self.exps, self.logs, self.inverses)))
+        if self.known_meanings[0] != state:
+            self.known_meanings = state, self._meanings()
+        return self.known_meanings[1]
+
+    def _meanings(self) -> dict[sp.Symbol, sp.Expr]:
         functions: dict[sp.Symbol, sp.Expr] = {s: itself for s, (itself, _) in self.squares.items()} | self.sides
         functions |= {s: sp.exp(a.xreplace(functions)) for a, s in self.exps.items()}
         functions |= {s: sp.log(a.xreplace(functions)) for a, s in self.logs.items()}
@@ -37,9 +47,10 @@ class Atoms:
 
     def index(self, generator: sp.Symbol) -> int:
         """The generator's position, added when new."""
-        if generator not in self.generators:
+        if generator not in self.places:
+            self.places[generator] = len(self.generators)
             self.generators.append(generator)
-        return self.generators.index(generator)
+        return self.places[generator]
 
 
 def flatten(expr: sp.Expr, atoms: Atoms, flow: dict[sp.Expr, sp.Expr]) -> sp.Expr:

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from fractions import Fraction
 from functools import lru_cache
+from operator import add as plus
+from operator import sub
 
 import sympy as sp
 
@@ -110,7 +112,9 @@ def reduce_inverses(poly: Laurent, atoms: Atoms) -> Laurent:
     """Normal form modulo z s = 1: no monomial keeps z together with the leading monomial of s."""
     total = dict(poly)
     for symbol, margin in atoms.inverses.items():
-        terms = _expand(margin, atoms)
+        terms, place = _inverted(symbol, margin, atoms), atoms.index(symbol)
+        if not any(len(e) > place and e[place] >= 1 for e in total):
+            continue
         z, size = atoms.index(symbol), len(atoms.generators)  # now that the margin's symbols have their places
         # Invertible generators count last: k^-2 z k^2 would escape the rule otherwise. Graded, so that it ends.
         lead = max(terms, key=lambda e: (sum(
@@ -135,11 +139,18 @@ def reduce_inverses(poly: Laurent, atoms: Atoms) -> Laurent:
     return total
 
 
+def _inverted(symbol: sp.Symbol, margin: sp.Expr, atoms: Atoms) -> Laurent:
+    """The polynomial that an inverse atom inverts."""
+    if symbol not in atoms.expanded:
+        atoms.expanded[symbol] = _expand(margin, atoms)
+    return atoms.expanded[symbol]
+
+
 def unreduced(poly: Laurent, atoms: Atoms) -> set[Exponents]:
     """Monomials that the normal form hides: every monomial times z s, term by term, since z s = 1."""
     hidden: set[Exponents] = set()
     for symbol, margin in atoms.inverses.items():
-        z, terms = atoms.index(symbol), _expand(margin, atoms)
+        z, terms = atoms.index(symbol), _inverted(symbol, margin, atoms)
         for exponents in poly:
             with_z = exponents if len(exponents) > z and exponents[z] else _plus(exponents, (0,) * z + (1,))
             hidden |= {trim(_plus(with_z, e)) for e in terms}
@@ -147,17 +158,17 @@ def unreduced(poly: Laurent, atoms: Atoms) -> set[Exponents]:
 
 
 def _pad(exponents: Exponents, length: int) -> Exponents:
-    return exponents + (0,) * (length - len(exponents))
+    return exponents if len(exponents) == length else exponents + (0,) * (length - len(exponents))
 
 
 def _minus(a: Exponents, b: Exponents) -> Exponents:
     n = max(len(a), len(b))
-    return tuple(x - y for x, y in zip(_pad(a, n), _pad(b, n), strict=True))
+    return tuple(map(sub, _pad(a, n), _pad(b, n)))
 
 
 def _plus(a: Exponents, b: Exponents) -> Exponents:
     n = max(len(a), len(b))
-    return tuple(x + y for x, y in zip(_pad(a, n), _pad(b, n), strict=True))
+    return tuple(map(plus, _pad(a, n), _pad(b, n)))
 
 
 def trim(exponents: Exponents) -> Exponents:
