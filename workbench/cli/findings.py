@@ -9,7 +9,7 @@ from rich.padding import Padding
 from rich.text import Text
 
 from workbench.cli.terminal import COLOURS, out_console
-from workbench.proof.verdict import VERDICTS, Decision
+from workbench.proof.verdict import VERDICTS, Decision, FateWord
 from workbench.report.finding import Finding, Gravity, findings
 from workbench.report.finding_sentences import (
     HEADINGS,
@@ -23,7 +23,8 @@ from workbench.report.finding_sentences import (
 from workbench.report.plain_formulas import plain_formula
 from workbench.report.worded import show, worded
 
-FATE_COLOURS = {"falls": "red", "stands with corrections": "yellow", "open": "yellow", "stands": "green"}
+FATE_COLOURS: dict[FateWord, str] = {"falls": "red", "stands with corrections": "yellow", "open": "yellow",
+                                     "stands": "green"}
 # What is told in full unless more is asked for; of the others the number.
 GRAVE: tuple[Gravity, ...] = ("falls", "corrected", "open", "step", "gap", "alone")
 
@@ -40,10 +41,11 @@ def print_findings(decisions: Sequence[Decision], every: bool = False, verbose: 
 def _print_paper(paper: str, decisions: Sequence[Decision], found: Sequence[Finding], every: bool,
                  verbose: bool) -> None:
     _paragraph(Text(paper, "bold"), 0)
-    for d in decisions:
-        if d.fate is not None:
-            _paragraph(Text.assemble((f"{d.fate.word}: ", FATE_COLOURS[d.fate.word]),
-                                     fate_sentence(d.claim.equation, d.fate.word, d.fate.why)), 2)
+    for word, colour in FATE_COLOURS.items():  # those that fall first
+        for d in decisions:
+            if d.fate is None or d.fate.word != word:
+                continue
+            _paragraph(Text(fate_sentence(d.claim.equation, word, d.fate.why), colour), 2)
     left_out: Counter[Gravity] = Counter()
     heading = None
     for f in found:

@@ -93,7 +93,8 @@ def _decimal(value: Fraction) -> str | None:
     digits = f"{float(value):.6g}" if abs(value) < 10**30 else ""
     if not digits or Fraction(digits) != value:
         return None
-    short = len(digits.lstrip("-").replace(".", "").lstrip("0")) <= 4 or value.denominator > 1000
+    telling = digits.partition("e")[0].lstrip("-").replace(".", "").lstrip("0")
+    short = len(telling) <= 4 or value.denominator > 1000
     return _scientific(digits) if short else None
 
 

@@ -79,6 +79,13 @@ def claim_views(document: Mapping[str, Any]) -> list[ClaimView]:
     return [_view(entry, known) for entry in entries]
 
 
+def fated(claims: Sequence[ClaimView]) -> list[ClaimView]:
+    """The headline statements, those that fall first."""
+    order = ("falls", "stands with corrections", "open", "stands")
+    return sorted((claim for claim in claims if claim.fate),
+                  key=lambda claim: order.index(claim.fate) if claim.fate in order else 0)
+
+
 def by_section(claims: Sequence[ClaimView]) -> list[tuple[str, list[ClaimView]]]:
     """The claims of each section, in their order; one group where no section is known."""
     groups: dict[str, list[ClaimView]] = {}

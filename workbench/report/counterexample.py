@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any
@@ -67,9 +67,12 @@ def counterexample_of(certificate: Mapping[str, Any]) -> Counterexample | None:
     if "functions" in certificate:
         return _motion(certificate, context, point)
     terms = read_terms(certificate["terms"], context, point) if "terms" in certificate else None
-    failing = next((text for text in goal["show"] if not _holds(context, text, point, terms)), goal["show"][0])
+    failing = goal["show"][0]
+    if len(goal["show"]) > 1:
+        failing = next((text for text in goal["show"] if not _holds(context, text, point, terms)), failing)
     left, operator, right = split_relation(failing)
-    deciding = _symbols(context, left) | _symbols(context, right)
+    sides = [context.read(left), context.read(right)]
+    deciding = symbols_of(context, sides[0]) | symbols_of(context, sides[1])
     shown = {name: value_latex(Fraction(text)) for name, text in certificate["point"].items()}
     rows = [{name: value_latex(Fraction(text)) for name, text in row.items()} for row in certificate.get("terms", [])]
     values, others = _grouped({name: value for name, value in shown.items() if name in deciding})
@@ -78,7 +81,7 @@ def counterexample_of(certificate: Mapping[str, Any]) -> Counterexample | None:
     every = tuple((name_latex(name), value) for name, value in shown.items()) + tuple(
         (_indexed(name, i), value) for i, row in enumerate(rows, 1) for name, value in row.items())
     return Counterexample(relation_latex(failing), SIGNS[operator], values + in_sums, others,
-                          _value(context, left, point, terms), _value(context, right, point, terms), every, False,
+                          *_values(context, sides, point, terms), every, False,
                           _put_in(left, right, certificate["point"]))
 
 
@@ -115,16 +118,27 @@ def _holds(context: Context, text: str, point: dict[str, Ratio], terms: Terms | 
         return True
 
 
-def _value(context: Context, text: str, point: dict[str, Ratio], terms: Terms | None) -> str | None:
-    """A side at the point: the exact number where it is rational, else rounded."""
+def _values(context: Context, sides: Sequence[Ratio], point: dict[str, Ratio],
+            terms: Terms | None) -> tuple[str | None, str | None]:
+    """Both sides at the point: exact where they are rational and short, else rounded so far that they differ."""
     try:
-        low, high = bounds(context, at(context, context.read(text), point, terms))
+        found = [bounds(context, at(context, side, point, terms)) for side in sides]
     except CertificateError:
-        return None
-    if low == high:
-        return value_latex(low)
-    rounded = f"{float((low + high) / 2):.6g}"
-    mantissa, e, exponent = rounded.partition("e")
+        return None, None
+    numbers = [(low + high) / 2 for low, high in found]
+    exact = [low == high for low, high in found]
+    for digits in (6, 10, 15):
+        left, right = (value_latex(n) if is_exact else _rounded(n, digits)
+                       for n, is_exact in zip(numbers, exact, strict=True))
+        if left != right or numbers[0] == numbers[1]:
+            break
+        if r"\approx" in left:
+            exact = [False, False]
+    return left, right
+
+
+def _rounded(value: Fraction, digits: int) -> str:
+    mantissa, e, exponent = f"{float(value):.{digits}g}".partition("e")
     return rf"\approx {mantissa}" + (rf" \times 10^{{{int(exponent)}}}" if e else "")
 
 

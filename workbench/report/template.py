@@ -17,7 +17,7 @@ from markupsafe import Markup
 
 from workbench.files.numbers import number
 from workbench.files.regular import contents
-from workbench.report.claims import ClaimView, by_section, claim_views, counts
+from workbench.report.claims import ClaimView, by_section, claim_views, counts, fated
 from workbench.report.findings_view import finding_groups
 from workbench.report.sources import SourcedValue, stated
 
@@ -105,6 +105,7 @@ def render(template: str, document: Mapping[str, Any], sources: Sequence[Sourced
     environment.filters |= {"number": number, "stated": stated, "breakable": _breakable}
     return environment.get_template(template).render(
         claims=claims, counts=counts(claims), findings=finding_groups(document), sections=by_section(claims),
+        fated=fated(claims),
         choices=[(name, label, found) for name, label in CHOICES if len(found := _values(claims, name)) > 1],
         sources={kind: [s for s in sources if s.kind == kind] for kind in ("assumed", "paper", "convention")},
         versions=_versions(), style=Markup(contents(folder / "page.css").decode()), script=Markup(SCRIPT),

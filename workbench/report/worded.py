@@ -11,9 +11,9 @@ from workbench.report.certificate_latex import name_latex
 
 INNER = "\ue000"  # a dollar sign inside a formula
 _FORMULA = re.compile(r"\$([^$]*)\$")
-_LETTER = re.compile(r"(?<![\w.$\\{/])([A-Za-z]+(?:_[A-Za-z0-9]+)+)(\^\d)?(?![\w]|\.py|[/(]\w)")
+_LETTER = re.compile(r"(?<![\w.$\\{])([A-Za-z]+(?:_[A-Za-z0-9]+)+)(\^\d)?(?![\w]|\.py)")
 _STEM = re.compile(r"([A-Za-z]+?)(?:d?dot|hat|tilde|bar)?\d*")
-_SIGNS = (("<=", "≤"), (">=", "≥"), ("!=", "≠"), ("->", "→"))
+_SIGNS = (("==", "="), ("<=", "≤"), (">=", "≥"), ("!=", "≠"), ("->", "→"))
 _POWER = re.compile(r"(?<![\w$\\{])([A-Za-z])\^(\d)(?!\w)")
 
 
