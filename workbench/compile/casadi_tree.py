@@ -34,7 +34,7 @@ def casadi_of(exprs: Sequence[sp.Expr], known: Mapping[sp.Expr, Any], clock: Any
     return [ca.SX(of(expr)) for expr in exprs]
 
 
-def _built(node: sp.Basic, of: Any) -> Any:
+def _built(node: sp.Basic, of: Any) -> Any:  # noqa: PLR0911 - a case a kind of node
     match node:
         case sp.Add():
             return sum((of(one) for one in node.args[1:]), of(node.args[0]))

@@ -67,7 +67,8 @@ def into_array(name: str, exprs: Sequence[sp.Expr], arrays: Arrays, scalars: Map
     return "\n".join([f"def {name}({', '.join([*given, *arrays, 'out'])}):", *(lines or [f"{_INDENT}pass"]), ""])
 
 
-def smallest(name: str, exprs: Sequence[sp.Expr], arrays: Arrays, scalars: Mapping[str, sp.Symbol] | None = None) -> str:
+def smallest(name: str, exprs: Sequence[sp.Expr], arrays: Arrays,
+             scalars: Mapping[str, sp.Symbol] | None = None) -> str:
     """Source of name(scalars..., arrays...) -> the smallest of the expressions; 1 without any."""
     given = scalars or {"t": time}
     lines, values = _body(exprs, arrays, given)
@@ -102,7 +103,7 @@ def runge_kutta_step(exprs: Sequence[sp.Expr], states: Sequence[sp.Symbol], arra
 
 
 def numeric_vector(arguments: Sequence[sp.Symbol], exprs: Sequence[sp.Expr]) -> Callable[..., Any]:
-    """A Python function (time, *arguments) -> list of numbers, interpreted: for models of other libraries and checks."""
+    """A Python function (time, *arguments) -> list of numbers, interpreted: for other libraries and for checks."""
     names = {symbol: sp.Symbol(f"argument_{i}", real=True) for i, symbol in enumerate((time, *arguments))}
     found: Callable[..., Any] = sp.lambdify([*names.values()], [expr.xreplace(names) for expr in exprs],
                                             modules=["math"], cse=True)

@@ -1,4 +1,4 @@
-"""Tracking MPC of any plant, from the plant's own expressions: multiple shooting with limits on states, inputs and rates.
+"""Tracking MPC of any plant, from the plant's own expressions: multiple shooting, limits on states, inputs and rates.
 
 minimise   sum_k |y_k - r_k|^2_Q + |u_k - u_target|^2_R + |u_k - u_(k-1)|^2_S  + terminal weight + price of excess
 subject to x_(k+1) = one or more Runge-Kutta steps of the plant with its nominal parameters, disturbances at zero
@@ -144,7 +144,10 @@ class TrackingMpc:
         rated = [i for i in range(m) if math.isfinite(change[i])]
         z = [ca.SX.sym(f"z_{k}", n + m) for k in range(N + 1)]
         v = [ca.SX.sym(f"v_{k}", m + e) for k in range(N)]
-        cost, rows, lower, upper, equal = ca.SX(0), [], [], [], []
+        cost, rows = ca.SX(0), []
+        lower: list[Array] = []
+        upper: list[Array] = []
+        equal: list[bool] = []
 
         def row(value: Any, least: Any, most: Any) -> None:
             rows.append(value)
@@ -182,13 +185,14 @@ class TrackingMpc:
         self._solve = _solver(how.solver, nlp, equal)
         self._stage, self._excess = n + 2 * m + e, e
 
-    def command(self, t: float, measured: Array) -> Array:
+    def command(self, t: float, measured: Array) -> Any:
         """The first input of the plan from the state as measured at t."""
         N, n, m = self._how.horizon, self._n, self._m
         names = [*map(str, self._setting.plant.outputs)]
         x = np.array([measured[names.index(str(symbol))] for symbol in self._setting.plant.states])
-        times = t + self._period * np.arange(N + 1)
-        ahead = signals_at({name: self._setting.references[self._setting.tracks[name]] for name in self._tracked}, times)
+        times: Array = t + self._period * np.arange(N + 1, dtype=float)
+        tracks, references = self._setting.tracks, self._setting.references
+        ahead = signals_at({name: references[tracks[name]] for name in self._tracked}, times)
         start = np.concatenate([x, self._before])
         desired = np.array([ahead[name][0] for name in self._tracked])
         guess = self._shifted(start)

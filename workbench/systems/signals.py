@@ -22,7 +22,8 @@ from workbench.files.text import read_text
 from workbench.files.toml import Number, Positive, Record, Text
 
 Array = NDArray[np.float64]
-# Kinds in a row of numbers: [kind, offset, slope or height or amplitude, start or angular rate, phase, first piece, pieces].
+# Kinds in a row of numbers: kind, offset, slope or height or amplitude, start or angular rate, phase, first piece, how
+# many pieces.
 POLYNOMIAL, STEP, SINE, SPLINE = 0.0, 1.0, 2.0, 3.0
 WIDTH = 7
 MOST_ROWS = 100_000
@@ -169,7 +170,7 @@ def _at(signal: AnySignal, t: Array) -> Array:
             return np.array([offset + a * np.sin(angle), a * w * np.cos(angle), -a * w**2 * np.sin(angle),
                              -a * w**3 * np.cos(angle)])
     pieces = _pieces(signal)
-    at = np.searchsorted(pieces[1:, 0], t, side="right")
-    dt, (_, c0, c1, c2, c3) = t - pieces[at, 0], pieces[at].T
+    row = np.searchsorted(pieces[1:, 0], t, side="right")
+    dt, (_, c0, c1, c2, c3) = t - pieces[row, 0], pieces[row].T
     return np.array([c0 + dt * (c1 + dt * (c2 + dt * c3)), c1 + dt * (2 * c2 + 3 * dt * c3), 2 * c2 + 6 * dt * c3,
                      6 * c3])

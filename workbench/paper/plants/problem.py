@@ -11,7 +11,7 @@ import numpy as np
 
 from workbench.errors import InputError, WorkbenchError
 from workbench.files.folders import held_in
-from workbench.model.laws import names_near, named
+from workbench.model.laws import named, names_near
 from workbench.mpc.plant_tracking import PlantMpc
 from workbench.paper.plants.record import LawEntry, MpcEntry, PlantStudy
 from workbench.simulate.plants.run import Entrant
@@ -36,7 +36,8 @@ class LocatedPlantStudy(PlantStudy):
         if not found:
             raise InputError(self.folder / "plant.py", "", "is missing, or holds no Plant: define one at its top level")
         if self.plant is None and len(found) > 1:
-            raise InputError(self.file, "plant", f"is missing, and plant.py has several: name one of {', '.join(found)}")
+            raise InputError(self.file, "plant", "is missing, and plant.py has several: name one of "
+                             f"{', '.join(found)}")
         if self.plant is not None and self.plant not in found:
             raise InputError(self.file, "plant", f"'{self.plant}' is not in plant.py: name one of {', '.join(found)}")
         return found[self.plant] if self.plant is not None else next(iter(found.values()))
@@ -74,8 +75,8 @@ class LocatedPlantStudy(PlantStudy):
         entry = self.controllers[name]
         try:
             if isinstance(entry, LawEntry):
-                made = Entrant(shown or name, entry.period_s, self.law(entry.law), entry.parameters | dict(changed or {}),
-                               entry.initial)
+                made = Entrant(shown or name, entry.period_s, self.law(entry.law),
+                               entry.parameters | dict(changed or {}), entry.initial)
             else:
                 how = _mpc(entry, changed or {})
                 how.check(self.setting)
@@ -109,8 +110,8 @@ class LocatedPlantStudy(PlantStudy):
         parameters = {str(one.symbol): one for one in self.the_plant.parameters}
         for name in stated.factors:
             if name not in parameters:
-                raise InputError(self.file, "uncertainty.factors", f"'{name}' is no parameter of the plant: name one of "
-                                 f"{', '.join(parameters)}")
+                raise InputError(self.file, "uncertainty.factors", f"'{name}' is no parameter of the plant: name "
+                                 f"one of {', '.join(parameters)}")
             if stated.spread is None and parameters[name].known is None:
                 raise InputError(self.file, "uncertainty.spread", f"is missing, and plant.py does not say in which "
                                  f"interval '{name}' is known to lie: give one of the two")

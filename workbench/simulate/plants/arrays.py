@@ -85,12 +85,12 @@ class Arrays:
     values: Array
     log: Array
     log_every: int
-    law_states: Array
+    told: Array
 
     def for_advance(self) -> tuple[Any, ...]:
         """The arguments of `advance` after the number of states."""
         return (self.x, self.wanted, self.u, self.u_middle, self.u_end, self.delays, self.ring, self.fade_half,
-                self.fade_full, *self.for_signals(), self.log, self.log_every, self.law_states)
+                self.fade_full, *self.for_signals(), self.log, self.log_every, self.told)
 
     def for_signals(self) -> tuple[Any, ...]:
         """Signals, parameters and extremes."""
@@ -104,17 +104,19 @@ def arrays_of(setting: Setting, found: Compiled, law_states: Array) -> Arrays:
     x[:len(plant.states)] = [setting.initial.get(str(s), 0.0) for s in plant.states]
     delays = np.array([setting.steps_of(setting.delay_s.get(str(s), 0.0), "delay_s") for s in plant.inputs], np.int64)
     lags = [setting.lag_s.get(str(s), 0.0) for s in plant.inputs]
-    fades = [np.array([math.exp(-setting.step_s * share / lag) if lag else 0.0 for lag in lags]) for share in (0.5, 1)]
+    half, full = (np.array([math.exp(-setting.step_s * share / lag) if lag else 0.0 for lag in lags])
+                  for share in (0.5, 1.0))
     table, pieces = table_of(list(setting.signals.values()))
     every = max(1, setting.steps_of(setting.log_every_s, "log_every_s")) if setting.log_every_s else log_step(setting)
     rows = math.ceil(round(setting.duration_s / setting.step_s) / every) + 1
     columns = 1 + len(plant.states) + 2 * m + len(table) + len(law_states)
-    signals = [np.zeros(4 * len(table)) for _ in range(3)]
+    size = 4 * len(table)
     return Arrays(
-        x, *(np.zeros(m) for _ in range(4)), delays, np.zeros((int(delays.max(initial=0)) + 1, m)), *fades, table,
-        pieces, *signals, np.array([*setting.parameters.values()], dtype=float),
-        np.full(len(found.extremes), -math.inf), np.zeros(len(found.extremes)), np.zeros((rows, columns)), every,
-        law_states)
+        x=x, wanted=np.zeros(m), u=np.zeros(m), u_middle=np.zeros(m), u_end=np.zeros(m), delays=delays,
+        ring=np.zeros((int(delays.max(initial=0)) + 1, m)), fade_half=half, fade_full=full, table=table, pieces=pieces,
+        s=np.zeros(size), s_middle=np.zeros(size), s_end=np.zeros(size),
+        p=np.array([*setting.parameters.values()], dtype=float), extremes=np.full(len(found.extremes), -math.inf),
+        values=np.zeros(len(found.extremes)), log=np.zeros((rows, columns)), log_every=every, told=law_states.copy())
 
 
 def log_step(setting: Setting) -> int:

@@ -1,11 +1,11 @@
 """The sampled closed loop of any plant; joined with the generated functions of a plant and a law, and compiled.
 
 Generated: plant_step, plant_rates, plant_outputs, plant_margin, extreme_values, law_step, law_margin. Arrays:
-x the states and what is integrated with them; u inputs as they act; s signals, four values each (value and three rates),
-disturbances first, then references; p parameters.
+x the states and what is integrated with them; u inputs as they act; s signals, four values each (value and three
+rates), disturbances first, then references; p parameters.
 """
 
-# ruff: noqa: F821, ANN001, ANN201, PLR0912
+# ruff: noqa: F821, ANN001, ANN201
 # mypy: ignore-errors
 
 import math
@@ -65,11 +65,12 @@ def limited(command, lower, upper, out):
 
 
 def advance(first, count, h, states, x, wanted, u, u_middle, u_end, delays, ring, fade_half, fade_full, table, pieces,
-            s, s_middle, s_end, p, extremes, values, log, log_every, law_states):
+            s, s_middle, s_end, p, extremes, values, log, log_every, told):
     """Move the plant by `count` steps with the command `wanted` held; (status, steps done).
 
     ring: the last commands, a row a step, for delayed inputs; fade: what is left of an input's distance to its
-    command after half a step and a whole one, 0 for an input without lag.
+    command after half a step and a whole one, 0 for an input without lag; told: the law's states as the command was
+    taken from them, for the log.
     """
     length = ring.shape[0]
     delayed, signals = length > 1, table.shape[0]
@@ -79,8 +80,6 @@ def advance(first, count, h, states, x, wanted, u, u_middle, u_end, delays, ring
             signal_values(t, t, table, pieces, s)
             signal_values(t + 0.5 * h, t, table, pieces, s_middle)
             signal_values(t + h, t, table, pieces, s_end)
-        if k % log_every == 0:
-            record(t, states, x, u, wanted, s, law_states, log, k // log_every)
         if delayed:
             for i in range(u.shape[0]):
                 ring[k % length, i] = wanted[i]
@@ -91,6 +90,8 @@ def advance(first, count, h, states, x, wanted, u, u_middle, u_end, delays, ring
             away = u[i] - command
             u_middle[i] = command + fade_half[i] * away
             u_end[i] = command + fade_full[i] * away
+        if k % log_every == 0:
+            record(t, states, x, u, wanted, s, told, log, k // log_every)
         if extremes.shape[0] > 0:
             add_extremes(t, x, u, s, p, extremes, values)
         plant_step(t, h, x, u, s, u_middle, s_middle, u_end, s_end, p)
@@ -132,8 +133,8 @@ def record(t, states, x, u, wanted, s, law_states, log, row):
 
 
 def closed_loop(samples, every, h, states, x, wanted, u, u_middle, u_end, delays, ring, fade_half, fade_full, lower,
-                upper, table, pieces, s, s_middle, s_end, p, extremes, values, log, log_every, measured, noise, late,
-                seen, law_states, law_parameters, command):
+                upper, table, pieces, s, s_middle, s_end, p, extremes, values, log, log_every, told, measured, noise,
+                late, seen, law_states, law_parameters, command):
     """Samples of `every` plant steps each: measure, command, hold; (status, plant steps done)."""
     period, kept = every * h, seen.shape[0]
     for sample in range(samples):
@@ -146,12 +147,14 @@ def closed_loop(samples, every, h, states, x, wanted, u, u_middle, u_end, delays
         signal_values(t, t, table, pieces, s)
         if not law_margin(t, period, measured, s, law_states, law_parameters) > 0.0:
             return 4, sample * every
+        for i in range(told.shape[0]):
+            told[i] = law_states[i]
         law_step(t, period, measured, s, law_states, law_parameters, command)
         if not limited(command, lower, upper, wanted):
             return 3, sample * every
         status, done = advance(sample * every, every, h, states, x, wanted, u, u_middle, u_end, delays, ring, fade_half,
                                fade_full, table, pieces, s, s_middle, s_end, p, extremes, values, log, log_every,
-                               law_states)
+                               told)
         if status != 0:
             return status, sample * every + done
     return 0, samples * every

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import time as clock
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import Any, Protocol
@@ -25,7 +25,7 @@ Array = NDArray[np.float64]
 class SampledController(Protocol):
     """What is called once a sample, as MPC is; made anew for each run."""
 
-    def command(self, t: float, measured: Array) -> Sequence[float]:
+    def command(self, t: float, measured: Array) -> Any:
         """One number an input, in the plant's order, from the outputs as measured at t (s)."""
 
 
@@ -69,8 +69,8 @@ class Entrant:
             names = [*map(str, self.law.state_symbols)]
             for name in self.initial:
                 if name not in names:
-                    raise ValueError(f"initial value of '{name}', which is no state of law '{self.law.id}': name one of "
-                                     f"{', '.join(names) or 'none'}")
+                    raise ValueError(f"initial value of '{name}', which is no state of law '{self.law.id}': name "
+                                     f"one of {', '.join(names) or 'none'}")
 
 
 @dataclass(frozen=True)
@@ -121,7 +121,7 @@ def run(setting: Setting, entrant: Entrant, nominal: Mapping[str, float] | None 
     noise = np.random.default_rng(setting.seed).normal(size=(samples, len(outputs))) * deviations
     loop = _Loop(setting, found, arrays, every, noise, late)
     if law is not None and setting.integrator == "rk4":
-        status, done, taken, fallbacks = *loop.compiled_law(samples, values), 0
+        status, done, taken, fallbacks = *loop.compiled_law(samples, states, values), 0
     else:
         # A controller is built with what it believes: the truth is not its to know.
         own = _Interpreted(found, entrant.period_s, states, values, arrays) if law is not None else (
@@ -163,15 +163,15 @@ class _Loop:
         self.measured = np.zeros(len(self.setting.plant.outputs))
         self.seen = np.zeros((int(self.late.max(initial=0)) + 1, len(self.measured)))
 
-    def compiled_law(self, samples: int, values: Array) -> tuple[int, int, Array]:
+    def compiled_law(self, samples: int, states: Array, values: Array) -> tuple[int, int, Array]:
         """The whole run in one call."""
         a, command = self.arrays, np.zeros(len(self.arrays.u))
 
         def go(count: int) -> tuple[int, int]:
             found: tuple[int, int] = self.found.module.closed_loop(
                 count, self.every, self.h, self.states, a.x, a.wanted, a.u, a.u_middle, a.u_end, a.delays, a.ring,
-                a.fade_half, a.fade_full, *self.limits, *a.for_signals(), a.log, a.log_every, self.measured, self.noise,
-                self.late, self.seen, a.law_states, values, command)
+                a.fade_half, a.fade_full, *self.limits, *a.for_signals(), a.log, a.log_every, a.told, self.measured,
+                self.noise, self.late, self.seen, states, values, command)
             return found
 
         go(0)  # so that loading the code is not timed
@@ -212,12 +212,13 @@ class _Interpreted:
         self._found, self._period, self._states, self._values, self._arrays = found, period_s, states, values, arrays
         self.outside = False
 
-    def command(self, t: float, measured: Array) -> Array:
+    def command(self, t: float, measured: Array) -> Any:
         """The law's command; its states move by one period."""
         given = t, self._period, measured, self._arrays.s, self._states, self._values
         out = np.zeros(len(self._arrays.u))
         self.outside = not self._found.module.law_margin(*given) > 0
         if not self.outside:
+            self._arrays.told[:] = self._states
             self._found.module.law_step(*given, out)
         return out
 
@@ -228,7 +229,7 @@ def _told(setting: Setting, entrant: Entrant, found: Compiled, a: Arrays, status
     found.module.signal_values(t, t, a.table, a.pieces, a.s)
     rows = -(-done // a.log_every)
     if status == RUNNING and done % a.log_every == 0:
-        found.module.record(t, n, a.x, a.u, a.wanted, a.s, a.law_states, a.log, rows)
+        found.module.record(t, n, a.x, a.u, a.wanted, a.s, a.told, a.log, rows)
         rows += 1
     plant, law = setting.plant, entrant.law
     columns = ("t_s", *map(str, plant.states), *map(str, plant.inputs), *(f"{u}_wanted" for u in plant.inputs),

@@ -28,11 +28,11 @@ def advance_by_solver(module: ModuleType, setting: Setting, first: int, count: i
     for k in range(first, first + count):
         t = k * h
         module.signal_values(t, t, a.table, a.pieces, a.s)
-        if k % a.log_every == 0:
-            module.record(t, n, a.x, a.u, a.wanted, a.s, a.law_states, a.log, k // a.log_every)
         a.ring[k % len(a.ring)] = a.wanted
         held = np.array([a.ring[(k - delay) % len(a.ring), i] for i, delay in enumerate(a.delays)])
         a.u[:] = np.where(lags > 0, a.u, held)
+        if k % a.log_every == 0:
+            module.record(t, n, a.x, a.u, a.wanted, a.s, a.told, a.log, k // a.log_every)
         if len(a.extremes):
             module.add_extremes(t, a.x, a.u, a.s, a.p, a.extremes, a.values)
 
