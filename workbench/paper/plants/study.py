@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 
 from workbench.errors import InputError
 from workbench.files.numbers import number
 from workbench.paper.cells import Column
-from workbench.paper.local_search import Tuned, score, search
+from workbench.paper.parameter_search import NOTHING_KEPT, Kept, Name, Restart, Tuned, score, search, search_all
 from workbench.paper.plants.problem import LocatedPlantStudy, located
 from workbench.paper.plants.record import PlantStudy
 from workbench.paper.results import Curve, Plot, ResultTable, StudyResult, thinned
@@ -88,7 +88,8 @@ def _findings(setting: Setting, runs: Sequence[PlantRun]) -> Iterator[str]:
                    "there.")
 
 
-def tune(study: LocatedPlantStudy, names: list[str], workers: int, on_progress: Progress) -> dict[str, Tuned]:
+def tune(study: LocatedPlantStudy, names: list[str], workers: int, on_progress: Progress,
+         kept: Kept = NOTHING_KEPT) -> dict[Name, Tuned]:
     """The best parameters found for each controller by one budget, optimiser and seed; InputError for wrong names."""
     budget = study.tuning
     assert budget is not None
@@ -100,20 +101,19 @@ def tune(study: LocatedPlantStudy, names: list[str], workers: int, on_progress: 
         for key in budget.ranges[name].keys() - study.tunable(name).keys():
             raise InputError(study.file, f"tuning.ranges.{name}.{key}", "is nothing that this controller states: name "
                              f"one of {', '.join(study.tunable(name))}")
-    return results_of(_tune_task, study, names, workers, lambda done, name, _: on_progress(done, len(names), name))
+    return search_all(_restart, study, names, budget.restarts, workers, on_progress, kept)
 
 
-def _tune_task(study: LocatedPlantStudy, name: str) -> Tuned:
+def _restart(study: LocatedPlantStudy, name: str, restart: int) -> Restart:
     budget = study.tuning
     assert budget is not None
 
-    def cost(values: Mapping[str, float]) -> float:
+    def cost(values: dict[str, float]) -> float:
         found = run_plant(study.setting, study.entrant(name, values), study.setting.parameters)
         sizes = {key: None if value is None else abs(value) for key, value in found.metrics.items()}
         return score(sizes, budget.objective, budget.failed)
 
-    return search(cost, study.tunable(name), budget.ranges[name], budget.runs, budget.seed,
-                  3 * budget.failed * len(budget.objective))
+    return search(cost, study.tunable(name), budget.ranges[name], budget.runs // budget.restarts, budget.seed, restart)
 
 
 KIND = StudyKind(PlantStudy, run, located, tune)
