@@ -1,15 +1,18 @@
-"""What every test starts from: a kernel cache beside the code, and hypothesis without chance or clock."""
+"""What every test starts from: one thread, a kernel cache beside the code, hypothesis without chance or clock; and what
+each module leaves behind."""
 
 import gc
 import os
 from pathlib import Path
 
+import one_thread  # noqa: F401 - before anything imports numpy
 import papers_import  # noqa: F401 - tests import from proofs
 import pytest
 from hypothesis import settings
 
 os.environ.setdefault("WORKBENCH_CACHE", str(Path(__file__).parent.parent / ".cache"))
-settings.register_profile("fixed", derandomize=True, deadline=None)
+# The same examples in every run, so that more of them find nothing that these have not found.
+settings.register_profile("fixed", derandomize=True, deadline=None, max_examples=50)
 settings.load_profile("fixed")
 
 

@@ -6,7 +6,7 @@ import os
 from pathlib import Path
 
 import pytest
-from test_cli import one_line, run
+from command_line import one_line, run
 
 from workbench.errors import InputError
 from workbench.files import writing

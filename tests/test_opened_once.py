@@ -77,20 +77,12 @@ def paper(tmp_path: Path) -> Path:
     head, _, rest = small_scenario().partition("[reference]")
     rest = rest[rest.index("[simulation]"):]
     text = f'{head}[reference]\nkind = "table"\nfile = "curve.csv"\n{rest}'
-    (folder / "study.toml").write_text(text + TUNING, encoding="utf-8")
-    (folder / "contest.toml").write_text(CONTEST, encoding="utf-8")
+    (folder / "study.toml").write_text(text + TUNING + SEARCHED, encoding="utf-8")
+    (folder / "contest.toml").write_text(CONTEST + SEARCHED, encoding="utf-8")
     return folder
 
 
-TUNING = """
-[[variants]]
-title = "a lighter train"
-set = { "train.mass_kg" = 150000.0 }
-
-[tuning]
-runs = 2
-seed = 1
-
+SEARCHED = """
 [tuning.objective]
 position_m = 0.1
 speed_mps = 0.1
@@ -100,6 +92,15 @@ failed = 100.0
 [tuning.ranges.own]
 K_p = [0.5, 2.0]
 K_d = [0.5, 4.0]
+"""
+TUNING = """
+[[variants]]
+title = "a lighter train"
+set = { "train.mass_kg" = 150000.0 }
+
+[tuning]
+runs = 2
+seed = 1
 """
 CONTEST = """
 version = 1
@@ -125,14 +126,6 @@ runs = 2
 seed = 1
 condition = "nominal"
 draws = 1
-[tuning.objective]
-position_m = 0.1
-speed_mps = 0.1
-jerk_mps3 = 0.3
-failed = 100.0
-[tuning.ranges.own]
-K_p = [0.5, 2.0]
-K_d = [0.5, 4.0]
 """
 STUDY = {"study.toml", "line.toml", "curve.csv", "laws.py", "numbers.py"}
 CLAIMS = {"paper.py", "claims/section_2.py", "claims/section_3.py", "laws.py", "numbers.py"}
