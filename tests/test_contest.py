@@ -54,7 +54,7 @@ def test_conditions_do_what_they_say(contest: Contest, scenario: Scenario) -> No
     share = contest.conditions["weak"].force_share
     assert weak.column("u_applied_mps2").max() <= share * scenario.train.max_traction_n / scenario.train.mass_kg + 1e-12
     assert weak.totals["saturated_samples"] > 0
-    failure = contest.conditions["failure"]
+    failure = contest.conditions["failure"].model_copy(update={"direct": True})  # so that force is command
     failed = run_match(scenario, "pid", failure, 0, contest.seed)
     t, asked, given_ = (failed.column(name) for name in ("t_s", "u_mps2", "u_applied_mps2"))
     after = t >= failure.failure_from_s - 1e-9

@@ -60,14 +60,17 @@ def test_a_tubes_promise_is_told_by_condition_and_kept(contest: Contest) -> None
     gusts = spec.model_copy(update={"parameters": spec.parameters | {"disturbance_mps2": 0.021}})
     scenario = whole.model_copy(update={"controllers": {"mpc_tube": gusts}})
     names = ("nominal", "level", "late_measurement")
+    direct = {name: contest.conditions[name].model_copy(update={"direct": True}) for name in names}
+    direct["acting"] = contest.conditions["level"]
     small = contest.model_copy(update={
         "seeds": 1, "resamples": 50, "entrants": {}, "absent": {},
-        "conditions": {name: contest.conditions[name] for name in names},
+        "conditions": direct,
         "tuning": contest.tuning.model_copy(update={"found": {}})})
     matches: tuple[Match, ...] = all_matches(small, scenario, 1, lambda *_: None)
-    assert len(matches) == sum(draws_of(small, name) for name in names) * len(entries(small, scenario))
+    assert len(matches) == sum(draws_of(small, name) for name in direct) * len(entries(small, scenario))
     told = Told(small, scenario, matches, None)
-    nominal, level, late = words = tuple(words_of(told))
+    nominal, level, late, acting = words = tuple(words_of(told))
+    assert acting.why == "an actuator is no part of it"
     assert level.why == ""
     assert level.needed <= 0.021 < level.largest
     assert level.beyond == 0
@@ -81,4 +84,4 @@ def test_a_tubes_promise_is_told_by_condition_and_kept(contest: Contest) -> None
     assert [row[-1] for row in table.rows] == [word.why or "holds" for word in words]
     sentence, = premises_findings(told, words)
     assert small.conditions["level"].title in sentence
-    assert "alone of 3 conditions" in sentence
+    assert "alone of 4 conditions" in sentence

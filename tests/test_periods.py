@@ -4,7 +4,8 @@ import pytest
 from contests import COMMON, common
 from scenarios import YANG, short_scenario
 
-from workbench.contest.entrants import entered
+from workbench.contest.entrant import Entrant
+from workbench.contest.entrants import entered, information
 from workbench.contest.matches import world_of
 from workbench.contest.record import Condition, Contest
 from workbench.contest.sampling import period_of, with_periods
@@ -135,3 +136,21 @@ def test_behind_an_actuator_the_jerk_that_counts_is_that_of_every_step():
     goal = common().tuning.objective
     assert objective(values, goal) == pytest.approx(0.3 / goal.jerk_mps3)
     assert objective(values, goal, actuator=True) == pytest.approx(3.0 / goal.jerk_mps3)
+
+
+def test_a_law_that_runs_by_itself_has_no_predictor():
+    entrant = Entrant("a law", "all", (), lambda *_: pytest.fail("is not played"))
+    spec = next(iter(short_scenario().controllers.values())).model_copy(update={
+        "parameters": {}, "initial": {}, "neurons": None, "predictor": True})
+    with pytest.raises(InputError, match=r"entrants\.a\.predictor"):
+        entrant.check(spec, "entrants.a")
+    entrant.check(spec.model_copy(update={"predictor": False}), "entrants.a")
+
+
+def test_who_is_told_of_the_actuator_is_said_so():
+    world = common().world
+    assert information(world, "mpc_told").endswith("the actuator's delay and lag")
+    assert "actuator" not in information(world, "mpc_linear")
+    predicting = world.controllers["pid"].model_copy(update={"predictor": True})
+    changed = world.model_copy(update={"controllers": {"pid": predicting}})
+    assert information(changed, "pid").endswith("the nominal train over the actuator's delay")

@@ -64,6 +64,10 @@ def lacks(scenario: Scenario, condition: Condition, around: Tube, needed: float)
         reasons.append("noise is no part of it")
     if condition.measurement_delay_s or condition.command_delay_s:
         reasons.append("delays are no part of it")
+    if condition.position_quantum_m or condition.odometer_spread:
+        reasons.append("an odometer is no part of it")
+    if condition.acting(scenario) is not None:
+        reasons.append("an actuator is no part of it")
     return "; ".join(reasons)
 
 

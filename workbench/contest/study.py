@@ -27,11 +27,18 @@ from workbench.paper.results import Curve, Plot, StudyResult
 from workbench.paper.study import Progress, StudyKind
 from workbench.trains.scenario import Scenario, load_scenario, tunable
 
+# Of a scenario's sensing what a contest states by condition.
+DRAWN = ("position_noise_m", "speed_noise_mps", "measurement_delay_s", "command_delay_s")
+
 
 def located(contest: Contest, path: Path) -> Contest:
     """The contest with its scenario, read; raises InputError where the scenario or a name in it is wrong."""
     scenario_path = path.parent / contest.scenario
     stated = load_scenario(scenario_path)
+    for key in DRAWN if stated.sensing else ():
+        if getattr(stated.sensing, key):
+            raise InputError(scenario_path, f"sensing.{key}", "is a contest's to say, which draws noise and holds "
+                             "delays to all periods: state it in the conditions")
     check_entrants(contest, stated, path, scenario_path)
     scenario = entered(contest, stated).in_folder(contest.folder)
     _delays_alike(contest, scenario, path)
