@@ -43,24 +43,6 @@ def progress() -> Iterator[Any]:
         yield show
 
 
-def claims_table(document: dict[str, Any], only_failed: bool = False) -> Table:
-    """All claims, or those that do not hold as printed."""
-    rows = [c for c in document["claims"] if not only_failed or c["verdict"] not in ("proved", "assumed")]
-    table = Table(title="claims that do not hold as printed" if only_failed else "claims", title_justify="left",
-                  box=SIMPLE_HEAD, pad_edge=False, expand=True)
-    for heading, share in (("id", 0), ("claim", 5), ("verdict", 0), ("shown by", 3), ("rests on failed", 3)):
-        table.add_column(heading, no_wrap=not share, ratio=share or None)
-    papers = len({c["paper"] for c in rows})
-    for c in rows:
-        shown = c["computed"] or c["method"]
-        if c["counterexample"] and not c["computed"]:
-            shown = _values(c["counterexample"])
-        name = c["equation"] if papers == 1 else c["id"]
-        table.add_row(escape(name), escape(c["title"]), _verdict(c["verdict"]), escape(shown),
-                      escape(", ".join(i.partition(":")[2] for i in c["tainted_by"])))
-    return table
-
-
 def answer_card(answer: dict[str, Any]) -> Table:
     """A pasted line decided: the verdict, the goal as it was read, and what shows it."""
     table = Table.grid(padding=(0, 2))
@@ -180,10 +162,6 @@ def _columns(table: Table, *headings: str) -> None:
     table.add_column("controller", no_wrap=True)
     for heading in headings:
         table.add_column(heading, justify="right", no_wrap=True)
-
-
-def _verdict(verdict: str) -> str:
-    return f"[{COLOURS[verdict]}]{verdict}[/{COLOURS[verdict]}]"
 
 
 def _values(point: dict[str, str]) -> str:
