@@ -21,6 +21,9 @@ from workbench.proof.document import CERTIFICATES, Places, certificate_text, cla
 from workbench.proof.paper import collect_papers
 from workbench.proof.prove import prove
 from workbench.proof.selection import targets
+from workbench.report.errata.content import errata
+from workbench.report.errata.pdf import pdf_of
+from workbench.report.errata.write import errata_texts
 from workbench.report.formulas import formula
 
 PLACES = Places(PROOFS, {paper: PROOFS / paper / CERTIFICATES for paper in PAPERS})
@@ -63,6 +66,15 @@ def test_committed_certificate_is_the_one_that_is_found_today(claim, decisions):
     else:
         assert decision.trust == "exact"
         assert path.read_text(encoding="utf-8") == certificate_text(decision.certificate)
+
+
+@pytest.mark.parametrize("paper", PAPERS)
+def test_the_committed_errata_are_what_is_made_now(paper, decisions):
+    citation = next(found.citation for found in collect_papers([PROOFS / paper]) if found.name == paper)
+    own = [d for d in decisions.values() if d.claim.paper == paper]
+    folder = PROOFS.parent / "docs" / "errata" / paper
+    assert errata_texts(own, citation)["errata.md"] == (folder / "errata.md").read_text(encoding="utf-8")
+    assert pdf_of(errata(own, citation)) == (folder / "errata.pdf").read_bytes()
 
 
 def test_no_certificate_is_left_of_a_claim_that_is_no_longer_made(decisions):

@@ -13,10 +13,10 @@ from workbench.cli.terminal import claim_card, out_console, progress
 NAME = "show"
 
 
-def command(claim: Annotated[str, typer.Argument(metavar="ID", help="PAPER:EQUATION, as in mao2018:44, or "
+def command(claim: Annotated[str, typer.Argument(metavar="ID", help="PAPER:EQUATION, as in doe2026:44, or "
                                                                     "FOLDER::EQUATION")],
             json: JsonFile = None) -> None:
-    """One claim with all that is known of it; patterns work too, as in 'mao2018:theorem*'."""
+    """One claim with all that is known of it; patterns work too, as in 'doe2026:theorem*'."""
     from workbench.files.json_output import write_json
     from workbench.files.outputs import check_outputs
     from workbench.proof.document import claims_document, places

@@ -7,7 +7,7 @@ import re
 from collections.abc import Callable, Mapping
 from fractions import Fraction
 
-from workbench.proof.checker import parse, split_relation
+from workbench.proof.checker import RATIONAL, parse, split_relation
 from workbench.proof.latex.letters import latex_name
 
 SUM, PRODUCT, POWER, ATOM = range(4)  # how tightly a text holds together
@@ -71,6 +71,15 @@ def name_latex(name: str) -> str:
     if name.startswith(LOGARITHM):
         return rf"\ln {name_latex(name[len(LOGARITHM):])}"
     return _WORD.sub(r"\\mathrm{\g<0>}", latex_name(name))
+
+
+def assignment_latex(name: str, value: str) -> str:
+    """`name = value` as LaTeX; the value is a fraction, or a function of time in the certificate language.
+
+    Raises CertificateError for what is neither.
+    """
+    typed = value_latex(Fraction(value)) if RATIONAL.fullmatch(value) else expression_latex(value)
+    return f"{name_latex(name)} = {typed}".replace(r"= \approx", r"\approx")
 
 
 def value_latex(value: Fraction) -> str:

@@ -4,14 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from fractions import Fraction
 from typing import Any
 from urllib.parse import quote
 
 from markupsafe import Markup, escape
 
-from workbench.proof.checker import RATIONAL, CertificateError
-from workbench.report.certificate_latex import expression_latex, name_latex, value_latex
+from workbench.proof.checker import CertificateError
+from workbench.report.certificate_latex import assignment_latex
 from workbench.report.formulas import formula
 from workbench.report.places_in_paper import place_of
 from workbench.report.worded import show, worded
@@ -161,7 +160,6 @@ def _lines(value: object) -> tuple[Markup, ...]:
 def _line(name: str, value: str) -> Markup:
     """A letter and its number, or its function of time, as a formula; as they are where they are none."""
     try:
-        typed = value_latex(Fraction(value)) if RATIONAL.fullmatch(value) else expression_latex(value)
+        return formula(assignment_latex(name, value))
     except CertificateError:
         return Markup("<code>{} = {}</code>").format(name, value)
-    return formula(f"{name_latex(name)} = {typed}".replace(r"= \approx", r"\approx"))

@@ -130,7 +130,7 @@ def _values(context: Context, sides: Sequence[Ratio], point: dict[str, Ratio],
     for digits in (6, 10, 15):
         left, right = (value_latex(n) if is_exact else _rounded(n, digits)
                        for n, is_exact in zip(numbers, exact, strict=True))
-        if left != right or numbers[0] == numbers[1]:
+        if left.removeprefix(r"\approx ") != right.removeprefix(r"\approx ") or numbers[0] == numbers[1]:
             break
         if r"\approx" in left:
             exact = [False, False]

@@ -122,8 +122,8 @@ def _base(node: ElementTree.Element) -> str:
 def _moved(text: str, table: dict[str, str], mark: str) -> str:
     """Text raised or lowered: by characters where all are there, else behind a mark."""
     text = text.strip() if "→" in text else text.replace(" ", "")
-    if text in ("*", "∗"):
-        return "*"
+    if mark == "^" and text[:1] in ("*", "∗"):
+        return "*" + (_moved(text[1:], table, mark) if text[1:] else "")
     if text and all(letter in table for letter in text):
         return "".join(table[letter] for letter in text)
     return f"{mark}{text}" if _is_letter(text) else f"{mark}{{{text}}}"
