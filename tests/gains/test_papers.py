@@ -9,7 +9,7 @@ import sys
 from functools import cache
 
 import pytest
-from scenarios import PAPERS, PROOFS, ROOT
+from scenarios import TRAIN_PAPERS, PROOFS, ROOT
 
 from workbench.cli.loading import load
 from workbench.gains.certificate import write_certificates
@@ -19,7 +19,7 @@ from workbench.paper.gain_search import gain_search_of
 from workbench.proof.checker import MANIFEST, CertificateError, check, check_folder
 from workbench.proof.document import certificate_text
 
-EVERY = tuple(PAPERS)
+EVERY = tuple(TRAIN_PAPERS)
 
 
 def committed_folder(paper):
