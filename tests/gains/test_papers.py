@@ -10,7 +10,7 @@ from functools import cache
 
 import pytest
 from command_line import run, run_apart
-from scenarios import PAPERS, PROOFS, ROOT
+from scenarios import PROOFS, ROOT, TRAIN_PAPERS
 
 from workbench.cli.loading import load
 from workbench.gains.certificate import write_certificates
@@ -20,7 +20,7 @@ from workbench.paper.gain_search import gain_search_of
 from workbench.proof.checker import MANIFEST, CertificateError, check, check_folder
 from workbench.proof.document import certificate_text
 
-EVERY = tuple(PAPERS)
+EVERY = tuple(TRAIN_PAPERS)
 
 
 def committed_folder(paper):

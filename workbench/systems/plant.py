@@ -198,7 +198,7 @@ class Plant:
             return np.array(outputs(t, *x, *u, *values), dtype=float)
 
         return control.NonlinearIOSystem(
-            update, output, name=self.id, states=[*map(str, self.states)],
+            update, output, name=self.id.replace(".", "_"), states=[*map(str, self.states)],
             inputs=[*map(str, (*self.inputs, *self.disturbances))], outputs=[*map(str, self.outputs)])
 
     def to_casadi(self, parameters: Mapping[str, Any] | None = None) -> Any:
@@ -212,4 +212,4 @@ class Plant:
                  **(dict(zip(self.disturbances, ca.vertsplit(d), strict=True)) if self.disturbances else {}),
                  **dict(zip(self.parameter_symbols, self.values(parameters).values(), strict=True))}
         rates = casadi_of(self.rates, known, t)
-        return ca.Function(self.id, [t, x, u, d], [ca.vertcat(*rates)], ["t", "x", "u", "d"], ["rates"])
+        return ca.Function("rates", [t, x, u, d], [ca.vertcat(*rates)], ["t", "x", "u", "d"], ["rates"])

@@ -78,7 +78,8 @@ def _study(study: LocatedPlantStudy) -> Iterator[Check]:
         yield Check(f"{name} runs to the end within its domain", done.failed is None, done.failed or "yes")
         if entrant.law is not None:
             yield _commands(study, entrant, entrant.law)
-    for lyapunov in held_in(study.folder, "lyapunov", Lyapunov).values():
+    stated = [one for module in ("laws", "lyapunov") for one in held_in(study.folder, module, Lyapunov).values()]
+    for lyapunov in {one.id: one for one in stated}.values():
         yield from _rates(study, lyapunov)
 
 
