@@ -27,6 +27,7 @@ from workbench.files.toml import (
 from workbench.model.curve_table import TableCurve
 from workbench.model.desired_curve import CruiseSpeed, DavisCruise, DesiredCurve, build_curve
 from workbench.model.events import Disturbance, Failure, Mode
+from workbench.model.sensitivity import Sensitivity
 from workbench.model.tuning import Searched, TrackingObjective
 from workbench.trains.track import Track, load_track
 from workbench.trains.train import Train
@@ -153,6 +154,7 @@ class Scenario(FileRecord):
     printed_values: tuple[PrintedValue, ...] = ()
     variants: tuple[Variant, ...] = ()
     tuning: ScenarioTuning | None = None
+    joint_sensitivity: Sensitivity | None = None
     reproduction: Annotated[bool, Strict()] = False
 
     @model_validator(mode="after")
