@@ -53,13 +53,12 @@ def test_the_front_of_a_known_trade_is_found_and_driven_again_on_the_contests_dr
     for front in (energy, comfort):
         gains = [1 / point.position_rms for point in front.points]
         assert len(gains) >= 6
-        assert max(gains) == pytest.approx(6.0, rel=0.25), "the end that tracks best, short of coming late"
-        assert max(gains) < 6.0
+        assert 4.5 < max(gains) < 6.0, "the end that tracks best, short of coming late"
         assert min(gains) < 1.0
         for point in front.points:  # near the known front, on which K_d is one
             assert abs(math.log(point.parameters["K_d"])) < 0.4
     tuning, again = ([draw for draw in known if (draw >= DRAWS_FROM) == of] for of in (True, False))
-    assert len(tuning) == energy.evaluations <= 2 * 12 * 10, "evaluations are not shared"
+    assert len(tuning) == energy.evaluations <= 2 * 16 * 10, "evaluations are not shared"
     assert set(again) == {0} and len(again) <= 2 * 12
     assert fronts_of(small, scenario, "pid") == (energy, comfort)
     tables, plots = list(front_tables(small, [energy, comfort])), list(front_plots(small, [energy, comfort]))

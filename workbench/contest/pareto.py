@@ -22,6 +22,7 @@ from workbench.contest.record import Contest, Pareto
 from workbench.contest.tables import ARRIVED_M, COLUMNS
 from workbench.contest.tune import DRAWS_FROM
 from workbench.errors import InputError
+from workbench.model.tuning import Range, is_whole
 from workbench.paper.cells import Cell, Phrase
 from workbench.paper.parameter_search import search
 from workbench.paper.results import Curve, Plot, ResultTable
@@ -33,6 +34,10 @@ JOURNAL_NAME = "pareto.journal.jsonl"
 TRACKING, AGAINST = "position_rms", ("energy_J", "comfort_rms")
 # What a run costs that fails, misses the end or comes late, where 1 is the worse end of the front.
 LOST = 100.0
+# Of a range, on a logarithmic scale: how far to both sides of the best point so far a weight is searched.
+NEAR = 0.2
+END_ROUNDS = 3
+Scale = tuple[tuple[float, float], tuple[float, float]]
 
 
 @dataclass(frozen=True)
@@ -103,21 +108,19 @@ def fronts_of(contest: Contest, scenario: Scenario, name: str) -> tuple[Front, .
         return seen[key]
 
     start = {key: tunable(scenario, name)[key] for key in tuning.ranges[name]}
-    # The ends first: between them the two are scaled.
-    weights = sorted(np.linspace(0.0, 1.0, stated.weights).tolist(), key=lambda w: (0.0 < w < 1.0, w))
+    # The ends first, more thoroughly than the others, since between them the two are scaled.
+    ends, inner = (0.0, 1.0) * END_ROUNDS, np.linspace(0.0, 1.0, stated.weights).tolist()[1:-1]
     for against in AGAINST:
-        scale: tuple[tuple[float, float], tuple[float, float]] | None = None
-        for number, weight in enumerate(weights):
+        scale: Scale | None = None
+        for number, weight in enumerate((*ends, *inner)):
             known = [one for one in seen.values() if one is not None]
-            if number == 2 and known:
-                ends = np.array([[getattr(one, key) for key in (TRACKING, against)]
-                                 for one in efficient(known, against)])
-                low, high = ends.min(axis=0).tolist(), ends.max(axis=0).tolist()
-                scale = (low[0], high[0]), (low[1], high[1])
+            if number == len(ends):
+                scale = _scale(efficient(known, against), against)
             cost = _cost(against, weight, scale)
             best = min(known, key=cost).parameters if known else start
+            ranges = around(best, tuning.ranges[name]) if known else tuning.ranges[name]
             search(lambda values, cost=cost: cost(point(values)), best,  # type: ignore[misc]
-                   tuning.ranges[name], stated.evaluations, tuning.seed, number)
+                   ranges, stated.evaluations, tuning.seed, number)
     pooled = [one for one in seen.values() if one is not None]
     again: dict[tuple[float, ...], Point | None] = {}
     found = []
@@ -132,8 +135,31 @@ def fronts_of(contest: Contest, scenario: Scenario, name: str) -> tuple[Front, .
     return tuple(found)
 
 
-def _cost(against: str, weight: float, scale: tuple[tuple[float, float], tuple[float, float]] | None
-          ) -> Callable[[Point | None], float]:
+def _scale(front: Sequence[Point], against: str) -> Scale | None:
+    """From where to where a front goes in both; None where there is none."""
+    if not front:
+        return None
+    rows = np.array([[getattr(one, key) for key in (TRACKING, against)] for one in front])
+    (low, other_low), (high, other_high) = rows.min(axis=0).tolist(), rows.max(axis=0).tolist()
+    return (low, high), (other_low, other_high)
+
+
+def around(best: Mapping[str, float], ranges: Mapping[str, Range]) -> dict[str, Range]:
+    """The part of each range that lies near the best point so far: few evaluations improve it, and not the middle."""
+    found: dict[str, Range] = {}
+    for key, limits in ranges.items():
+        low, high = limits
+        share = (high / low) ** NEAR
+        below, above = max(low, best[key] / share), min(high, best[key] * share)
+        if is_whole(limits):
+            below, above = math.floor(below), math.ceil(above)
+            found[key] = (max(below, int(low)), min(max(above, below + 1), int(high)))
+        else:
+            found[key] = (below, above)
+    return found
+
+
+def _cost(against: str, weight: float, scale: Scale | None) -> Callable[[Point | None], float]:
     """The weighted sum, each from 0 to 1 between the ends of the front; before these are known, of logarithms."""
     def cost(point: Point | None) -> float:
         if point is None:

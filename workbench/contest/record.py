@@ -144,7 +144,8 @@ class Racing(SourcedRecord):
 class Pareto(SourcedRecord):
     """What tracking costs in energy and in comfort: a search for each of so many weights, of every controller.
 
-    condition: in which; draws: of an evaluation; evaluations: of a weight's search; controllers: all that have ranges
+    condition: in which; draws: of an evaluation; evaluations: of a weight's search, of the ends three times as many,
+    all of them for each of both; controllers: all that have ranges
     without it; late_s: runs that still move so long after the arrival time are left out, so that energies are compared
     at equal arrival.
     """
