@@ -23,6 +23,9 @@ def command(paper: PaperOrFile,
                 min=1, help="Runs per controller; default: 100, of a plant's study as it states.")] = None,
             seed: Annotated[int | None, typer.Option(min=0, help="Default: as the scenario states.")] = None,
             controller: Annotated[list[str] | None, typer.Option(help="Only this one; may be repeated.")] = None,
+            sensitivity: Annotated[bool, typer.Option(
+                "--sensitivity", help="Instead: all values of [joint_sensitivity] drawn at once, and which decides.")
+            ] = False,
             resume: Annotated[bool, typer.Option(help="Go on after an interruption.")] = False,
             workers: Workers = None) -> None:
     """Monte Carlo over the scenario's uncertainty: one row a run, the same bytes for the same seed."""
@@ -32,6 +35,9 @@ def command(paper: PaperOrFile,
     from workbench.simulate.sweep import sweep as run_sweep
 
     loaded = load(paper)
+    if sensitivity:
+        _joint(loaded, out, resume, workers)
+        return
     if loaded.kind is not None and loaded.data.get("kind") == PLANT:
         _sweep_plant(loaded, out, runs, seed, controller, resume, workers)
         return
@@ -60,3 +66,16 @@ def _sweep_plant(loaded: Loaded, out: Path, runs: int | None, seed: int | None, 
                       lambda done, total, _: show("Monte Carlo", done, total))
     out_console.print(result_table(found.table()))
     out_console.print(f"rows: {out / CSV_NAME}")
+
+
+def _joint(loaded: Loaded, out: Path, resume: bool, workers: int | None) -> None:
+    from workbench.files.outputs import check_outputs
+    from workbench.paper.sensitivity import CSV_NAME, JOURNAL_NAME, sensitivity, sensitivity_lines, sensitivity_table
+
+    check_outputs({}, folders={"--out": (out, (CSV_NAME, JOURNAL_NAME))})
+    with progress() as show:
+        found = sensitivity(loaded, out, resume, workers, lambda done, total: show("joint sweep", done, total))
+    out_console.print(result_table(sensitivity_table(found)))
+    for line in sensitivity_lines(found):
+        out_console.print(line, markup=False, highlight=False)
+    out_console.print(f"points: {out / CSV_NAME}")

@@ -27,11 +27,16 @@ def matches_journal(folder: Path, contest: Contest, resume: bool) -> Journal:
 
     Matches depend on the contest's values, its scenario and the code alone, all of which the journal's digest holds.
     """
-    values = contest.model_dump(exclude=dict.fromkeys(FREE, True) | {"tuning": {"results", "results_in"}})
-    text = world_digest(contest) + json.dumps(values, sort_keys=True, default=str)
-    digest = hashlib.sha256(code_digest(*PLAYING) + text.encode()).hexdigest()[:20]
+    digest = contest_digest(contest, "pareto")
     return Journal(folder / JOURNAL_NAME, {"contest": contest.name, "seed": contest.seed,
                                            "digest of values, line and code": digest}, resume)
+
+
+def contest_digest(contest: Contest, *left_out: str) -> str:
+    """A digest of the values that runs depend on, but for some of them, of the scenario and of the code."""
+    free: Any = dict.fromkeys((*FREE, *left_out), True) | {"tuning": {"results", "results_in"}}
+    text = world_digest(contest) + json.dumps(contest.model_dump(exclude=free), sort_keys=True, default=str)
+    return hashlib.sha256(code_digest(*PLAYING) + text.encode()).hexdigest()[:20]
 
 
 def world_digest(contest: Contest) -> str:

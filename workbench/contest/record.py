@@ -162,6 +162,23 @@ class Racing(SourcedRecord):
         return self
 
 
+class Pareto(SourcedRecord):
+    """What tracking costs in energy and in comfort: a search for each of so many weights, of every controller.
+
+    condition: in which; draws: of an evaluation; evaluations: of a weight's search, of the ends three times as many,
+    all of them for each of both; controllers: all that have ranges
+    without it; late_s: runs that still move so long after the arrival time are left out, so that energies are compared
+    at equal arrival.
+    """
+
+    condition: Name
+    weights: Annotated[int, Strict(), Field(ge=2, le=100)] = 12
+    evaluations: Count = 10
+    draws: Count = 1
+    controllers: tuple[Name, ...] = ()
+    late_s: Positive = 1.0
+
+
 class Contest(Study):
     """A contest: its scenario's file (relative to this one), seeds, conditions and tuning.
 
@@ -180,6 +197,7 @@ class Contest(Study):
     entrants: dict[Name, ControllerSpec] = Field(default_factory=dict)
     absent: dict[Name, Text] = Field(default_factory=dict)
     racing: Racing | None = None
+    pareto: Pareto | None = None
     _world: Scenario | None = PrivateAttr(default=None)
 
     @model_validator(mode="before")
@@ -208,9 +226,11 @@ class Contest(Study):
         if not self.conditions:
             raise ValueError("conditions: none given: add a [conditions.<name>] table")
         named = [("condition", self.tuning.condition), *(("conditions", name) for name in self.tuning.conditions)]
+        named = [(f"tuning.{key}", name) for key, name in named]
+        named += [("pareto.condition", self.pareto.condition)] if self.pareto else []
         for key, name in named:
             if name not in self.conditions:
-                raise ValueError(f"tuning.{key}: '{name}' is no condition: choose one of {', '.join(self.conditions)}")
+                raise ValueError(f"{key}: '{name}' is no condition: choose one of {', '.join(self.conditions)}")
         return self
 
     def tuned_in(self, name: str) -> tuple[Name, ...]:

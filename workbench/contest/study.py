@@ -12,9 +12,10 @@ import numpy as np
 
 from workbench.contest.energy import best_run
 from workbench.contest.entrants import check_entrants, entered, follows_curve, learns
-from workbench.contest.journal import matches_journal, matches_of, world_digest
+from workbench.contest.journal import contest_digest, matches_journal, matches_of, world_digest
 from workbench.contest.learning import learning_findings, learning_plot, learning_tables
 from workbench.contest.matches import METRICS, Match, all_matches, of, overspeed, run_match
+from workbench.contest.pareto import all_fronts, front_plots, front_tables, who
 from workbench.contest.premises import premises_findings, premises_table, words_of
 from workbench.contest.record import Contest
 from workbench.contest.tables import COLUMNS, Told, all_tables
@@ -54,6 +55,11 @@ def located(contest: Contest, path: Path) -> Contest:
             if key not in tunable(scenario, name):
                 raise InputError(path, f"tuning.ranges.{name}.{key}", "is no parameter of this controller: choose "
                                  f"among {', '.join(tunable(scenario, name))}")
+    if contest.pareto:
+        try:
+            who(contest, scenario)
+        except InputError as trouble:
+            raise trouble.within(path) from None
     for metric in contest.racing.metrics if contest.racing else ():
         if metric not in METRICS or (metric == "overspeed_mps" and not scenario.track.speed_limit):
             raise InputError(path, "racing.metrics", f"'{metric}' is none of this line's: choose among "
@@ -100,20 +106,22 @@ def _delays_alike(contest: Contest, scenario: Scenario, path: Path) -> None:
 
 def run(contest: Contest, workers: int, on_progress: Progress) -> StudyResult:
     """All matches, their tables, figures and findings."""
-    return _run(contest, workers, on_progress, (), lambda match: None)
+    return _run(contest, workers, on_progress, (), lambda match: None, (None, False))
 
 
 def run_kept(contest: Contest, workers: int, on_progress: Progress, folder: Path, resume: bool) -> StudyResult:
-    """`run` with a journal of the matches in a folder; with `resume` those that it holds are not played again."""
+    """`run` with journals of matches and fronts in a folder; with `resume` what they hold is not run again."""
     with matches_journal(folder, contest, resume) as journal:
-        return _run(contest, workers, on_progress, matches_of(journal), lambda match: journal.append(asdict(match)))
+        return _run(contest, workers, on_progress, matches_of(journal), lambda match: journal.append(asdict(match)),
+                    (folder, resume))
 
 
 def _run(contest: Contest, workers: int, on_progress: Progress, played: Sequence[Match],
-         keep: Callable[[Match], None]) -> StudyResult:
+         keep: Callable[[Match], None], fronts_in: tuple[Path | None, bool]) -> StudyResult:
     scenario = contest.world
     matches = all_matches(contest, scenario, workers, on_progress, played, keep, lambda now: undecided(
         Told(contest, scenario, tuple(now), None)))
+    fronts = all_fronts(contest, scenario, workers, on_progress, *fronts_in, digest=contest_digest(contest))
     best = best_run(scenario)
     told = Told(contest, scenario, matches, best.lower_bound_j if best else None)
     first: dict[str, str] = {}  # of an entry's failed runs under a condition the first; the findings say how many
@@ -123,8 +131,9 @@ def _run(contest: Contest, workers: int, on_progress: Progress, played: Sequence
     failures, words = tuple(first.items()), tuple(words_of(told))
     return StudyResult(rows=tuple(_rows(told)),
                        tables=(*all_tables(told), *premises_table(told, words), *tuning_table(told),
-                               *learning_tables(told)),
-                       plots=(*_plots(told), *learning_plot(told), *convergence_plot(told)),
+                               *front_tables(contest, fronts), *learning_tables(told)),
+                       plots=(*_plots(told), *learning_plot(told), *convergence_plot(told),
+                              *front_plots(contest, fronts)),
                        findings=(*_findings(told), *premises_findings(told, words), *learning_findings(told)),
                        failures=failures)
 

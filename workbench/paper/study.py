@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal, TypeVar
 from pydantic import BeforeValidator, Strict, ValidationError
 
 from workbench.files.toml import FileRecord, Name, Text
+from workbench.model.sensitivity import Sensitivity
 from workbench.paper.results import StudyResult
 from workbench.trains.scenario import known_version
 
@@ -33,6 +34,7 @@ class Study(FileRecord):
     paper: Text
     citation: Text
     reproduction: Annotated[bool, Strict()] = False
+    joint_sensitivity: Sensitivity | None = None
 
 
 S = TypeVar("S", bound=Study)

@@ -36,7 +36,7 @@ from workbench.simulate.sweep import SweepSummary, summarise, sweep
 MONTE_CARLO = "monte_carlo"
 # What a report writes in its folder, certificates and curves apart, which their manifests name.
 FILES = ("report.html", "claims.json", "compare.json", "gains.json", f"{MONTE_CARLO}/sweep.csv",
-         f"{MONTE_CARLO}/sweep.journal.jsonl", "matches.journal.jsonl")
+         f"{MONTE_CARLO}/sweep.journal.jsonl", "matches.journal.jsonl", "pareto.journal.jsonl")
 # (what is being done, done, total); total 0 while it is not known
 Progress = Callable[[str, int, int], None]
 
