@@ -29,7 +29,7 @@ from workbench.model.desired_curve import CruiseSpeed, DavisCruise, DesiredCurve
 from workbench.model.events import Disturbance, Failure, Mode
 from workbench.model.tuning import Searched, TrackingObjective
 from workbench.trains.track import Track, load_track
-from workbench.trains.train import Train
+from workbench.trains.train_record import Train
 
 MOST_LOG_ROWS = 10_000_000
 
