@@ -14,7 +14,7 @@ from workbench.errors import WorkbenchError
 from workbench.optimal.course import Array, Course
 from workbench.optimal.profile import Profile, largest_force
 from workbench.optimal.vehicle import Vehicle
-from workbench.trains.train import davis_resistance
+from workbench.trains.resistance import davis_resistance
 
 # By this share more than a run's last speed is aimed at where full traction leads to it, for the steps' error.
 RUN_UP = 1e-5
@@ -168,8 +168,8 @@ def drivable(vehicle: Vehicle, course: Course, target: Array, start_mps: float =
     """The largest run below `target` (half the squared speed at each border of the course).
 
     A target too low to reach end_mps is raised there. Strictly within every limit, or to the second order of the
-    cells' length, which the best possible run comes nearer to from either side. Raises InfeasibleRunError naming the place where traction does
-    not climb or the brakes do not hold.
+    cells' length, which the best possible run comes nearer to from either side. Raises InfeasibleRunError naming the
+    place where traction does not climb or the brakes do not hold.
     """
     numbers = np.array([vehicle.inertia_kg, *vehicle.davis_n, vehicle.friction_brake_n, vehicle.max_acceleration_mps2,
                         vehicle.max_deceleration_mps2])

@@ -15,7 +15,7 @@ import numpy as np
 from workbench.optimal.course import Array, Course
 from workbench.optimal.profile import largest_force
 from workbench.optimal.vehicle import Vehicle
-from workbench.trains.train import davis_resistance
+from workbench.trains.resistance import davis_resistance
 
 # Each round keeps back so much more than what the last one was beyond, as a factor and as a share, wherever forces are
 # beyond or nearer to their limits than INSIDE.
@@ -31,7 +31,9 @@ STEP_S = 0.05
 class MotionOverTime(Protocol):
     """Pieces between breaks in time, on each of which the acceleration is smooth."""
 
-    breaks_s: Array
+    @property
+    def breaks_s(self) -> Array:
+        """Where pieces begin and end, s, shape (n + 1,)."""
 
     def at(self, time_s: Array) -> tuple[Array, Array, Array]:
         """Position (m), speed (m/s) and acceleration (m/s^2)."""

@@ -15,7 +15,7 @@ from workbench.optimal.envelope import drivable, with_fine_cells
 from workbench.optimal.profile import Profile, largest_force
 from workbench.optimal.socp import Plan
 from workbench.optimal.vehicle import Vehicle
-from workbench.trains.train import davis_resistance
+from workbench.trains.resistance import davis_resistance
 
 # From this share of its limit on, a mean force is taken for the limit itself.
 NEAR_LIMIT = 0.96

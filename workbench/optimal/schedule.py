@@ -6,7 +6,6 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.optimize import linprog
 
 from workbench.optimal.course import Array
 from workbench.optimal.envelope import InfeasibleRunError
@@ -104,6 +103,8 @@ def nearest_legs(timetable: Timetable, leg_s: Array, least_s: Array) -> Array | 
         limits.append(0.0)
     cost = np.concatenate((np.tile(1 / leg_s, 2), np.zeros(len(waits)), [WORST_WEIGHT]))
     bounds = [(0.0, None)] * legs + [(0.0, max(float(x), 0.0)) for x in leg_s - least_s]
+    from scipy.optimize import linprog  # noqa: PLC0415 - slow to import, and few timetables need it
+
     found = linprog(cost, A_ub=np.array(rows), b_ub=np.array(limits), bounds=bounds + [(0.0, None)] * (len(waits) + 1))
     if found.status != 0:
         return None

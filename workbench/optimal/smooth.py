@@ -182,7 +182,8 @@ def _within_limits(request: _Request) -> SmoothReference:
     """
     vehicle, course, window_s = request.vehicle, request.course, request.window_s
     reserves: tuple[Reserve, ...] = ()
-    first, best = 0.0, None
+    first = 0.0
+    best: SmoothReference | None = None
     for number in range(FORCE_ROUNDS):
         try:
             run, optimal = _averaged(request, reserves)
@@ -204,6 +205,7 @@ def _within_limits(request: _Request) -> SmoothReference:
         if not more:
             break
         reserves = more
+    assert best is not None
     return best
 
 

@@ -62,7 +62,7 @@ def _against(speed: float, share: float, line: Array, drag: Array, a: float, b: 
 
 
 @njit(cache=True)
-def _limits(v: float, limits: tuple[Array, Array], tables: tuple[Array, Array]) -> tuple[float, float]:
+def device_forces(v: float, limits: tuple[Array, Array], tables: tuple[Array, Array]) -> tuple[float, float]:
     """What traction and the electric brake give at a speed, N."""
     most = limits[0][0] if v * limits[0][0] <= limits[0][1] else limits[0][1] / v
     brake = limits[1][0] if v * limits[1][0] <= limits[1][1] else limits[1][1] / v
@@ -102,7 +102,7 @@ def _drive(time: Array, position: Array, speed: Array, acceleration: Array, limi
                 u = inertia * acceleration[k] + _against(v_plan, share, line[k], drag[k], a, b, c)
                 # The train: where it really is.
                 at, fast = s + ds, v + dv
-                plan_most, plan_brake = _limits(max(v_plan, 0.0), limits, tables)
+                plan_most, plan_brake = device_forces(max(v_plan, 0.0), limits, tables)
                 if u > 0:
                     over_force = max(over_force, u / plan_most - 1.0)
                 else:
@@ -122,7 +122,7 @@ def _drive(time: Array, position: Array, speed: Array, acceleration: Array, limi
                 slope[stage, 0], slope[stage, 1] = fast, (u - resistance) / inertia
                 weight = dt / 6 if stage in (0, 3) else dt / 3
                 pull = max(fast, 0.0)
-                brake = _limits(pull, limits, tables)[1]
+                brake = device_forces(pull, limits, tables)[1]
                 energy += weight * fast * (u / efficiency if u > 0 else regain * max(u, -brake))
             s += dt / 6 * (slope[0, 0] + 2 * slope[1, 0] + 2 * slope[2, 0] + slope[3, 0])
             v += dt / 6 * (slope[0, 1] + 2 * slope[1, 1] + 2 * slope[2, 1] + slope[3, 1])

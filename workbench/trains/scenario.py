@@ -33,7 +33,7 @@ from workbench.model.tuning import Searched, TrackingObjective
 from workbench.trains.actuator import Actuator
 from workbench.trains.periods import with_periods
 from workbench.trains.track import Track, load_track
-from workbench.trains.train import Train
+from workbench.trains.train_record import Train
 
 MOST_LOG_ROWS = 10_000_000
 
