@@ -2,9 +2,7 @@
 
 import hashlib
 import json
-import os
 import re
-import shutil
 from fractions import Fraction
 from pathlib import Path
 
@@ -39,16 +37,13 @@ KEYS = {"id", "paper", "equation", "kind", "statement", "verdict", "method", "sc
 
 @pytest.fixture(scope="module")
 def decisions(shared_folder):
-    """Every claim decided anew, once for all test processes: the second to ask finds what the first has decided."""
-    usual = Path(os.environ["WORKBENCH_CACHE"])
+    """Every claim decided, once for all test processes: the second to ask finds what the first has decided.
+
+    The cache is the one beside the code: a clone decides everything, and again what a change of claims, deciders or
+    libraries touches; tests that prove papers on their way to something else find it there.
+    """
     with FileLock(shared_folder / "decided.lock"):
-        with pytest.MonkeyPatch.context() as patch:
-            patch.setenv("WORKBENCH_CACHE", str(shared_folder / "decided"))
-            found = {d.claim.id: d for d in prove(targets([str(PROOFS)]), jobs=2).decisions}
-        # Tests that decide papers on their way to something else need not do it again.
-        kept = "decided-claims/claims"
-        shutil.copytree(shared_folder / "decided" / kept, usual / kept, dirs_exist_ok=True)
-    return found
+        return {d.claim.id: d for d in prove(targets([str(PROOFS)]), jobs=2).decisions}
 
 
 @pytest.mark.parametrize("claim", CLAIMS, ids=IDS)
