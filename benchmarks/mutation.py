@@ -12,22 +12,17 @@ see that point, should then answer `refuted`, `gap` or `violated` with a counter
 from __future__ import annotations
 
 import argparse
-import gc
 import json
 import random
-import signal
 import sys
 import time
-import weakref
 from collections import Counter
-from collections.abc import Iterator
 from concurrent.futures import ProcessPoolExecutor, as_completed
-from contextlib import contextmanager
+from contextlib import suppress
 from dataclasses import asdict, dataclass
 from fractions import Fraction
 from itertools import zip_longest
 from pathlib import Path
-from types import FrameType
 from typing import Any
 
 ROOT = Path(__file__).parents[1]
@@ -44,9 +39,9 @@ from workbench.proof.decide.engine import decide, pinned, prove_goal  # noqa: E4
 from workbench.proof.mutate import KINDS, Mutation, mutations  # noqa: E402
 from workbench.proof.paper import collect_papers  # noqa: E402
 from workbench.proof.text import goal_text, relation_text  # noqa: E402
+from workbench.proof.time_limit import OutOfTime, at_most_seconds  # noqa: E402
 
 WANTED_SHARE = 0.99
-WEAK_REFERENCES = (weakref.__file__, weakref.WeakSet.__init__.__code__.co_filename)
 
 
 @dataclass(frozen=True)
@@ -80,10 +75,6 @@ class Outcome:
     def paper(self) -> str:
         """The paper of the claim."""
         return self.claim.partition(":")[0]
-
-
-class OutOfTimeError(BaseException):
-    """The time of one mutant is over; no `except Exception` on the way may swallow it."""
 
 
 def plan(paths: list[Path], count: int, seed: int) -> list[Task]:
@@ -147,12 +138,12 @@ def judge(task: Task, seed: int, limit: float) -> Outcome:
     started = time.perf_counter()
     goal = task.goal
     witness: Any = None
-    with _at_most(limit):
+    with suppress(OutOfTime), at_most_seconds(limit):
         witness = falsified(goal, task.at, seed + task.number)
     verdict = "out of time"
     claim = Claim(id=task.claim, title="a mutant", kind=task.kind, printed="", recorded="undecided",
                   build=lambda: goal, at=task.at)
-    with _at_most(limit):
+    with suppress(OutOfTime), at_most_seconds(limit):
         try:
             verdict = decide(claim).verdict
         except ClaimError:  # its stated values break its own assumptions: it says nothing
@@ -160,7 +151,7 @@ def judge(task: Task, seed: int, limit: float) -> Outcome:
         except Exception as trouble:  # a decider that breaks is a finding, not the end of the run
             verdict = f"{type(trouble).__name__}: {trouble}"
     if witness is not None and verdict != "proved":  # refuted or not: would the provers have believed it?
-        with _at_most(limit):
+        with suppress(OutOfTime), at_most_seconds(limit):
             verdict = "proved" if _provable(task) else verdict
     shown = "; ".join(relation_text(r) for r in goal.show)
     return Outcome(task.number, task.claim, task.change, task.place, witness is not None,
@@ -172,43 +163,6 @@ def _provable(task: Task) -> bool:
         return prove_goal(pinned(task.goal, task.at) if task.at else task.goal) is not None
     except ClaimError:
         return False
-
-
-@contextmanager
-def _at_most(seconds: float) -> Iterator[None]:
-    """Leave the block after some seconds of this process's work (where the system has timers)."""
-    def over(_: int, frame: FrameType | None) -> None:
-        if _drops_exceptions(frame):
-            signal.setitimer(signal.ITIMER_PROF, 0.001)  # soon again, outside of it
-        else:
-            raise OutOfTimeError
-
-    if not hasattr(signal, "setitimer"):
-        yield
-        return
-    previous = signal.signal(signal.SIGPROF, over)
-    signal.setitimer(signal.ITIMER_PROF, seconds)
-    try:
-        yield
-    except OutOfTimeError:
-        pass
-    finally:
-        signal.setitimer(signal.ITIMER_PROF, 0)
-        signal.signal(signal.SIGPROF, previous)
-
-
-def _drops_exceptions(frame: FrameType | None) -> bool:
-    """Whether the frame is in a callback of the collector, a finalizer or a weak reference's callback.
-
-    Python reports what these raise and goes on, so that an exception raised there ends nothing.
-    """
-    collecting = {getattr(callback, "__code__", None) for callback in gc.callbacks}
-    while frame is not None:
-        code = frame.f_code
-        if code in collecting or code.co_name == "__del__" or code.co_filename in WEAK_REFERENCES:
-            return True
-        frame = frame.f_back
-    return False
 
 
 def run(tasks: list[Task], seed: int, jobs: int, limit: float) -> list[Outcome]:

@@ -25,7 +25,7 @@ REPEATS_WARM = 5
 
 def seconds(paths: list[str], jobs: int, folder: Path) -> float:
     """Seconds of one `workbench prove`, whatever the verdicts; its cache and its output stay in the folder."""
-    command = [sys.executable, "-m", "workbench", "prove", *paths, "--jobs", str(jobs),
+    command = [sys.executable, "-m", "workbench", "prove", *paths, "--workers", str(jobs),
                "--certificates", str(folder / "certificates"), "--json", str(folder / "claims.json")]
     before = time.perf_counter()
     done = subprocess.run(command, env=os.environ | {"WORKBENCH_CACHE": str(folder / "cache")}, capture_output=True,

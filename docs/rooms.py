@@ -17,10 +17,12 @@ PICTURE = HERE / "rooms.svg"
 # one floor may know each other, as long as no two know each other in both directions.
 ORDER = (
     ("cli",),
+    ("api",),
     ("report",),
     ("contest",),
     ("paper",),
     ("gains", "proof", "simulate", "mpc", "optimal"),
+    ("systems",),
     ("compile",),
     ("trains",),
     ("model",),

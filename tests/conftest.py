@@ -1,15 +1,35 @@
-"""What every test starts from: a kernel cache beside the code, and hypothesis without chance or clock."""
+"""What every test starts from: one thread, a kernel cache beside the code, hypothesis without chance or clock; and what
+each module leaves behind."""
 
+import gc
 import os
 from pathlib import Path
 
+import one_thread  # noqa: F401 - before anything imports numpy
 import papers_import  # noqa: F401 - tests import from proofs
 import pytest
 from hypothesis import settings
 
 os.environ.setdefault("WORKBENCH_CACHE", str(Path(__file__).parent.parent / ".cache"))
-settings.register_profile("fixed", derandomize=True, deadline=None)
+# The same examples in every run, so that more of them find nothing that these have not found.
+settings.register_profile("fixed", derandomize=True, deadline=None, max_examples=50)
 settings.load_profile("fixed")
+
+
+def pytest_collection_finish():
+    """What was imported stays until the end, so that the collector need not go through it again and again."""
+    gc.collect()
+    gc.freeze()
+
+
+@pytest.fixture(scope="module", autouse=True)
+def nothing_kept(request):
+    """What the functions of a test's module have cached goes with it: a test process runs a hundred modules."""
+    yield
+    for value in vars(request.module).values():
+        if getattr(value, "__module__", None) == request.module.__name__ and hasattr(value, "cache_clear"):
+            value.cache_clear()
+    gc.collect()
 
 
 @pytest.fixture(scope="session")

@@ -13,7 +13,7 @@ from workbench.optimal.course import Array, Course
 from workbench.optimal.grid import graded_grid
 from workbench.optimal.profile import largest_force
 from workbench.optimal.vehicle import Vehicle
-from workbench.trains.train import davis_resistance
+from workbench.trains.resistance import davis_resistance
 
 
 @njit(cache=True)

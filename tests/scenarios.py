@@ -13,6 +13,8 @@ from workbench.trains.track import Track
 ROOT = Path(__file__).resolve().parent.parent
 PROOFS, SHARED = ROOT / "proofs", ROOT / "benchmarks"
 PAPERS = [folder.name for folder in papers_in(PROOFS)]
+# Papers about trains have a line; the others bring a plant of their own.
+TRAIN_PAPERS = [paper for paper in PAPERS if (PROOFS / paper / "line.toml").is_file()]
 FILES = [*sorted(SHARED.glob("*.toml")), *(PROOFS / paper / "study.toml" for paper in PAPERS),
          *sorted(PROOFS.glob("*/contest.toml"))]
 BENCHMARKS = [path for path in FILES if "kind" not in tomllib.loads(path.read_text(encoding="utf-8"))]
@@ -27,7 +29,7 @@ def name_of(path: Path) -> str:
 
 
 # Every line that ships: the shared ones, and those of papers.
-LINES = [*sorted(SHARED.glob("lines/*.toml")), *(PROOFS / paper / "line.toml" for paper in PAPERS)]
+LINES = [*sorted(SHARED.glob("lines/*.toml")), *(PROOFS / paper / "line.toml" for paper in TRAIN_PAPERS)]
 TRAINS = sorted(SHARED.glob("trains/*.toml"))
 # Lines that every train can run, and with them each paper's own line under its own train.
 LINES_FOR_ALL = [*sorted(SHARED.glob("lines/*.toml")), PROOFS / "yang2021" / "line.toml"]

@@ -17,18 +17,20 @@ PATHS = {".".join(path.relative_to(ROOT.parent).with_suffix("").parts).removesuf
 # one floor may know each other, as long as no two know each other in both directions.
 ORDER = (
     ("cli",),
+    ("api",),
     ("report",),
     ("contest",),
     ("paper",),
     ("simulate", "mpc", "optimal", "gains", "proof"),
+    ("systems",),
     ("compile",),
     ("trains",),
     ("model",),
     ("files",),
 )
 FLOOR_OF = {room: -floor for floor, rooms in enumerate(ORDER) for room in rooms}
-# Files that stand in no room: the package's version, its errors, and what `python -m workbench` runs.
-ABOVE_ALL, BELOW_ALL = {"__main__"}, {"__init__", "errors"}
+# Files that stand in no room: the names that a program imports, the errors, and what `python -m workbench` runs.
+ABOVE_ALL, BELOW_ALL = {"__init__", "__main__"}, {"errors"}
 FLOOR_OF |= dict.fromkeys(ABOVE_ALL, 1) | dict.fromkeys(BELOW_ALL, -len(ORDER))
 
 LONGEST = 300

@@ -2,11 +2,10 @@
 
 import json
 import re
-import subprocess
-import sys
 from fractions import Fraction
 
 import pytest
+from command_line import run
 from scenarios import ROOT
 
 from workbench.errors import InputError, WorkbenchError
@@ -120,18 +119,17 @@ def test_words_of_python_and_of_certificates_may_be_letters(tmp_path):
 
 
 def test_the_command_says_its_verdict_by_its_exit_code(symbols, tmp_path):
-    def run(line, *more):
-        return subprocess.run([sys.executable, "-m", "workbench", "check", line, "--symbols", str(symbols), *more],
-                              capture_output=True, text=True, check=False, timeout=120)
+    def asked_for(line, *more):
+        return run("check", line, "--symbols", symbols, *more)
 
-    proved = run(r"\lambda^2 \ge 0", "--json", str(tmp_path / "answer.json"))
+    proved = asked_for(r"\lambda^2 \ge 0", "--json", str(tmp_path / "answer.json"))
     assert proved.returncode == 0 and "proved" in proved.stdout and r"\lambda^{2} \ge 0" in proved.stdout
     document = json.loads((tmp_path / "answer.json").read_text())
     assert document["verdict"] == "proved" and document["goal"]["show"] == [r"\lambda^{2} \ge 0"]
     check(document["certificate"])
-    refuted = run(r"\lambda^2 > 0")
+    refuted = asked_for(r"\lambda^2 > 0")
     assert refuted.returncode == 1 and r"\lambda = 0" in refuted.stdout
-    refused = run(r"\mu > 0")
+    refused = asked_for(r"\mu > 0")
     assert refused.returncode == 2 and refused.stderr.count("\n") == 1 and refused.stdout == ""
 
 

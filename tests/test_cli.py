@@ -2,11 +2,9 @@
 
 import json
 import re
-import subprocess
-import sys
-from pathlib import Path
 
 import pytest
+from command_line import one_line, run, run_apart
 from scenarios import ROOT
 
 ROW_KEYS = {"controller", "position_error_min", "position_error_max", "speed_error_min", "speed_error_max",
@@ -83,20 +81,6 @@ def short_toml(period_s: float = 0.01) -> str:
     return sourced(SHORT.replace("PERIOD", str(period_s)).replace("GAINS", GAINS))
 
 
-def run(*arguments: object, folder: Path = ROOT):
-    return subprocess.run([sys.executable, "-m", "workbench", *map(str, arguments)], cwd=folder,
-                          capture_output=True, text=True, check=False, timeout=300)
-
-
-def one_line(result) -> str:
-    """The single line of standard error of a call that ended with 2."""
-    assert result.returncode == 2, result.stderr
-    assert "Traceback" not in result.stderr
-    lines = result.stderr.strip().splitlines()
-    assert len(lines) == 1, result.stderr
-    return lines[0]
-
-
 @pytest.fixture
 def short(tmp_path):
     (tmp_path / "line.toml").write_text(LINE + LINE_SOURCE)
@@ -106,9 +90,9 @@ def short(tmp_path):
 
 
 def test_help_names_every_command():
-    shown = run("--help").stdout
+    shown = run_apart("--help").stdout
     for command in ("prove", "check ", "new-paper", "check-certificates", "compare", "sweep", "tune", "report",
-                    "reference", "gains"):
+                    "reference", "gains", "show", "diff", "errata"):
         assert command in shown
 
 
@@ -116,7 +100,7 @@ def test_the_example_of_the_readme_is_decided(tmp_path):
     section = (ROOT / "README.md").read_text().partition("## State your own claim")[2].partition("\n## ")[0]
     (code,) = re.findall(r"```python\n(.*?)```", section, re.DOTALL)
     (tmp_path / "my_paper.py").write_text(code)
-    result = run("prove", "my_paper.py", "--json", "out.json", folder=tmp_path)
+    result = run_apart("prove", "my_paper.py", "--write", "--json", "out.json", folder=tmp_path)
     assert result.returncode == 0, result.stderr
     document = json.loads((tmp_path / "out.json").read_text())
     assert document["version"] == 2 and document["summary"]["proved"] == 1
@@ -167,8 +151,8 @@ def test_report_of_a_short_scenario_without_a_proof(short, tmp_path):
 
 def test_bad_input_is_one_line_and_exit_code_2(short, tmp_path):
     missing = tmp_path / "missing.toml"
-    assert "missing.toml" in one_line(run("compare", missing))
-    assert "no such paper: name a paper's folder, a proof file" in one_line(run("prove", tmp_path / "missing.py"))
+    assert "missing.toml" in one_line(run_apart("compare", missing))
+    assert "name a paper's folder, a proof file" in one_line(run("prove", tmp_path / "missing.py"))
     assert "no certificate" in one_line(run("check-certificates", tmp_path / "nothing"))
     short.write_text(short_toml().replace("mass_kg = 200000.0", "mass_kg = -1.0"))
     line = one_line(run("compare", short))
@@ -190,7 +174,7 @@ def test_a_tampered_certificate_is_named(tmp_path):
     section = (ROOT / "README.md").read_text().partition("## State your own claim")[2].partition("\n## ")[0]
     (code,) = re.findall(r"```python\n(.*?)```", section, re.DOTALL)
     (tmp_path / "mine.py").write_text(code)
-    run("prove", "mine.py", folder=tmp_path)
+    run("prove", "mine.py", "--write", folder=tmp_path)
     result = run("check-certificates", "certificates", "--paper", "mine.py", folder=tmp_path)
     assert result.returncode == 0 and "the goals of their papers' claims: 1" in result.stdout
     (path,) = (p for p in (tmp_path / "certificates").rglob("*.json") if p.name != "manifest.json")

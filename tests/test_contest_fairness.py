@@ -10,7 +10,7 @@ from workbench.contest.record import Contest
 from workbench.contest.study import located
 from workbench.contest.tables import Told
 from workbench.errors import InputError
-from workbench.paper.statistics import resampled, winners
+from workbench.paper.statistics import Bootstrap, rankings
 
 
 @pytest.mark.parametrize("key", ["measurement_delay_s", "command_delay_s"])
@@ -43,12 +43,14 @@ def test_all_sample_alike_where_a_condition_says_so(contest: Contest) -> None:
 
 
 def test_a_difference_that_no_table_shows_is_no_win() -> None:
-    chosen = resampled(1, 200, 1)
-    one, near, far = (np.array([value]) for value in (1000.0, 1000.4, 1003.0))
-    assert winners([one, near, far], chosen, 0.95, 1e-3) == [0, 1]
-    assert winners([one, near, far], chosen, 0.95) == [0]
-    assert winners([near, one, None], chosen, 0.95, 1e-3) == [0, 1]
-    assert winners([np.zeros(1), np.array([1e-9])], chosen, 0.95, 1e-3) == [0]
+    def won(*values: float | None, alike: float = 0.0) -> tuple[int, ...]:
+        rows = [None if value is None else np.array([value]) for value in values]
+        return rankings({"": rows}, Bootstrap(200, 1, 0.95), alike)[""].winners
+
+    assert won(1000.0, 1000.4, 1003.0, alike=1e-3) == (0, 1)
+    assert won(1000.0, 1000.4, 1003.0) == (0,)
+    assert set(won(1000.4, 1000.0, None, alike=1e-3)) == {0, 1}
+    assert won(0.0, 1e-9, alike=1e-3) == (0,)
 
 
 def test_a_tubes_promise_is_told_by_condition_and_kept(contest: Contest) -> None:

@@ -29,11 +29,12 @@ from workbench.contest.matches import (
 from workbench.contest.record import Contest, WithoutCurve
 from workbench.contest.study import KIND, located
 from workbench.contest.tables import Told, condition_table, winners_table
-from workbench.contest.tune import objective, tune
+from workbench.contest.tune import tune_all
 from workbench.errors import CompileError, InputError
 from workbench.model.sensing import Sensing
 from workbench.mpc import linear, terminal, transcription, tube
 from workbench.mpc.controller import KINDS
+from workbench.paper.parameter_search import score
 from workbench.simulate import kernel_loop
 from workbench.simulate.closed_loop import Setting, run_law, setting_of, simulate_in
 from workbench.simulate.law_values import law_values
@@ -208,10 +209,10 @@ def test_it_is_tuned_for_what_it_is_for(contest: Contest, scenario: Scenario) ->
     assert isinstance(goal, WithoutCurve)
     values = {"energy_J": goal.energy_j, "stopping_error": goal.stopping_m, "late_s": goal.late_s,
               "overspeed_mps": goal.overspeed_mps, "logged_jerk_rms": goal.jerk_mps3, "position_rms": 1e9}
-    assert objective(values, goal) == pytest.approx(5.0)  # type: ignore[arg-type]
-    assert objective(dict.fromkeys(values), goal) == 5 * goal.failed
+    assert score(values, goal.units, goal.failed) == pytest.approx(5.0)
+    assert score(dict.fromkeys(values), goal.units, goal.failed) == 5 * goal.failed
     without = contest.tuning.model_copy(update={"without_curve": None})
     with pytest.raises(InputError, match="which follows no curve"):
-        tune(contest.model_copy(update={"tuning": without}), scenario, FREE)
+        tune_all(contest.model_copy(update={"tuning": without}), scenario, [FREE], 1, lambda *_: None)
     with pytest.raises(InputError, match="which follows no curve"):
         located(contest.model_copy(update={"tuning": without}), COMMON)

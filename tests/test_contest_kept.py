@@ -4,7 +4,7 @@ import json
 from pathlib import Path
 
 import pytest
-from contests import COMMON, common, few
+from contests import COMMON, common, few, only
 from scenarios import PROOFS
 from typer.testing import CliRunner
 
@@ -19,7 +19,8 @@ RUNNER = CliRunner()
 
 @pytest.fixture(scope="module")
 def contest() -> Contest:
-    return few(common(), "nominal", "ten")
+    whole = common()
+    return few(whole, "nominal", "ten").with_world(only(whole.world, "pid", "pocrac", "mpc_linear"))
 
 
 class StopError(Exception):

@@ -6,7 +6,7 @@ import os
 from pathlib import Path
 
 import pytest
-from test_cli import one_line, run
+from command_line import one_line, run
 
 from workbench.errors import InputError
 from workbench.files import writing
@@ -33,7 +33,7 @@ def test_a_newcomer_reads_less_than_a_hundred_and_fifty_lines(mine):
 
 
 def test_it_is_decided_as_recorded_and_shows_what_claims_there_are(mine):
-    result = run("prove", "mine2026", "--json", "out.json", folder=mine.parent)
+    result = run("prove", "mine2026", "--write", "--json", "out.json", folder=mine.parent)
     assert result.returncode == 0, result.stderr
     claims = json.loads((mine.parent / "out.json").read_text())["claims"]
     assert {c["kind"] for c in claims} >= {"identity", "inequality", "condition", "implication"}

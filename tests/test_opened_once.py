@@ -77,14 +77,55 @@ def paper(tmp_path: Path) -> Path:
     head, _, rest = small_scenario().partition("[reference]")
     rest = rest[rest.index("[simulation]"):]
     text = f'{head}[reference]\nkind = "table"\nfile = "curve.csv"\n{rest}'
-    (folder / "study.toml").write_text(text + TUNING, encoding="utf-8")
+    (folder / "study.toml").write_text(text + TUNING + SEARCHED, encoding="utf-8")
+    (folder / "contest.toml").write_text(CONTEST + SEARCHED, encoding="utf-8")
     return folder
 
 
+SEARCHED = """
+[tuning.objective]
+position_m = 0.1
+speed_mps = 0.1
+jerk_mps3 = 0.3
+failed = 100.0
+
+[tuning.ranges.own]
+K_p = [0.5, 2.0]
+K_d = [0.5, 4.0]
+"""
 TUNING = """
 [[variants]]
 title = "a lighter train"
 set = { "train.mass_kg" = 150000.0 }
+
+[tuning]
+runs = 2
+seed = 1
+"""
+CONTEST = """
+version = 1
+kind = "contest"
+name = "small"
+title = "a small contest"
+paper = "contest"
+citation = "none"
+scenario = "study.toml"
+seeds = 2
+seed = 1
+resamples = 20
+confidence = 0.95
+[source]
+seeds = "assumed"
+seed = "assumed"
+resamples = "assumed"
+confidence = "assumed"
+[conditions.nominal]
+title = "nominal"
+[tuning]
+runs = 2
+seed = 1
+condition = "nominal"
+draws = 1
 """
 STUDY = {"study.toml", "line.toml", "curve.csv", "laws.py", "numbers.py"}
 CLAIMS = {"paper.py", "claims/section_2.py", "claims/section_3.py", "laws.py", "numbers.py"}
@@ -93,6 +134,8 @@ CLAIMS = {"paper.py", "claims/section_2.py", "claims/section_3.py", "laws.py", "
 @pytest.mark.parametrize(("arguments", "needed"), [
     (("compare", "doe2030", "--variants", "--workers", 1), STUDY),
     (("sweep", "doe2030", "--runs", 1, "--out", "out", "--workers", 1), STUDY),
+    (("tune", "doe2030", "--controller", "own", "--workers", 1), STUDY),
+    (("compare", "doe2030/contest.toml", "--workers", 1), STUDY | {"contest.toml"}),
     (("gains", "doe2030", "--no-runs"), STUDY | {"gains.py"}),
     (("prove", "doe2030", "--jobs", 1), CLAIMS),
     (("prove", "doe2030", "--jobs", 1, "--no-cache"), CLAIMS),

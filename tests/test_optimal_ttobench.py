@@ -36,8 +36,7 @@ def test_every_public_instance_is_solved_within_a_thousandth(track, train, facto
     check = found.check
     assert check.energy_j == pytest.approx(found.energy_j, rel=2e-4)
     assert check.position_drift_m < 0.5
-    # On a cell of constant acceleration the force varies a little about the limit that the cell's ends keep.
-    assert check.force_excess < 0.012 and check.speed_excess_mps < 0.01
+    assert check.force_excess <= 1e-9 and check.speed_excess_mps < 0.01
 
 
 def test_the_cases_meet_every_track_train_and_factor():

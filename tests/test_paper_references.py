@@ -5,7 +5,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from scenarios import PAPERS, PROOFS, SHARED, YANG, variant_of
+from scenarios import TRAIN_PAPERS, PROOFS, SHARED, YANG, variant_of
 
 from proofs.chen2019.simulation import plans as chen2019_plans
 from proofs.chen2019.simulation.cars_trials import run_cars
@@ -21,14 +21,14 @@ RULES = sorted(PROOFS.glob("*/reference.toml"))
 
 
 def test_every_paper_has_one():
-    assert {path.parent.name for path in RULES} >= set(PAPERS)
+    assert {path.parent.name for path in RULES} >= set(TRAIN_PAPERS)
 
 
 @pytest.mark.parametrize("rule", RULES, ids=lambda path: path.parent.name)
 def test_the_stored_table_is_what_its_rule_gives(rule):
     made = requested_curve(rule)
     assert made.reference.optimal.gap < 1e-3 and made.reference.optimal.status == "optimal"
-    assert made.reference.speed_excess_mps < 1e-6 and made.reference.force_excess < 0.01
+    assert made.reference.speed_excess_mps < 1e-6 and made.reference.force_excess == 0
     # Solvers differ in their last digits from machine to machine: the energy is the same, the run nearly.
     stored = curve_through(read_rows(rule.with_suffix(".csv")))
     time = np.linspace(0, stored.trip_time_s, 4001)

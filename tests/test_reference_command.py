@@ -3,7 +3,9 @@
 import csv
 import json
 from pathlib import Path
+from typing import Any
 
+import numpy as np
 import pytest
 from scenarios import DRIVEN, SHARED, YANG, line_name
 from typer.testing import CliRunner
@@ -12,6 +14,7 @@ from workbench.cli.app import app
 from workbench.errors import WorkbenchError
 from workbench.optimal.bound_checker import main as check_bounds
 from workbench.optimal.inputs.files import load_vehicle
+from workbench.optimal.vehicle import Vehicle
 
 HILLS, TRAIN = SHARED / "lines" / "hills.toml", SHARED / "trains" / "yang2021.toml"
 KEYS = {"version", "energy_J", "lower_bound_J", "gap", "trip_time_s", "solver", "solve_s", "status"}
@@ -48,12 +51,37 @@ def test_every_bundled_train_runs_on_every_bundled_line(line: Path, train: Path,
     assert list(rows[0]) == ["t_s", "s_m", "v_mps", "a_mps2", "u_N"]
     assert float(rows[-1]["t_s"]) <= time
     assert float(rows[-1]["v_mps"]) == pytest.approx(0.0, abs=1e-6)
+    require_certified(tmp_path / "r_certified.csv", document, load_vehicle(train)[0])
+    smooth = document["smooth"]
+    assert smooth["force_excess"] == 0 and smooth["speed_excess_mps"] < 1e-9
+    assert smooth["gap"] == pytest.approx(1 - document["lower_bound_J"] / smooth["energy_J"])
+    assert smooth["simulated_energy_J"] == pytest.approx(smooth["energy_J"], rel=2e-3)
+    assert smooth["position_drift_m"] < 0.5
+
+
+def require_certified(table: Path, document: dict[str, Any], vehicle: Vehicle) -> None:
+    """The run of the bound, read back as another program would: its motion, its energy, and its limits to 1e-9."""
+    with table.open(encoding="utf-8") as file:
+        rows = np.array(list(csv.reader(file))[1:], dtype=float)
+    s, t, v, a, force, power, limit, most = rows.T
+    assert np.array_equal(rows, np.column_stack(list(document["certified"]["profile"].values())))
+    assert np.allclose(np.diff(t), 2 * np.diff(s) / (v[1:] + v[:-1]), rtol=1e-6, atol=1e-9)
+    assert np.allclose(v[1:]**2 - v[:-1]**2, 2 * a[:-1] * np.diff(s), rtol=1e-6, atol=1e-6)
+    assert np.all(np.abs(force) <= limit * (1 + 1e-9))
+    assert np.all(power <= vehicle.traction.power_w * (1 + 1e-9))
+    assert np.all(v <= np.minimum(most, np.append(np.inf, most[:-1])) * (1 + 1e-9))
+    # The force behind each row, up to the next one: all that a reader without the line can do.
+    if vehicle.regenerative.force_n == 0:
+        spent = float(np.sum(np.diff(s) * np.maximum(force[:-1], 0.0))) / vehicle.traction_efficiency
+        spent += vehicle.auxiliary_w * t[-1]
+        assert spent == pytest.approx(document["certified"]["energy_J"], rel=5e-3)
+    assert document["certified"]["gap"] == document["gap"]
 
 
 def test_all_outputs_of_one_run(tmp_path: Path) -> None:
     text = said(HILLS, TRAIN, "--time", 2600, "--json", tmp_path / "a.json", "--csv", tmp_path / "b.csv", "--every", 2,
                 "--figure", tmp_path / "c.svg", "--certificate", tmp_path / "d.json", "--intervals", 200)
-    assert {path.name for path in tmp_path.iterdir()} == {"a.json", "b.csv", "c.svg", "d.json"}
+    assert {path.name for path in tmp_path.iterdir()} == {"a.json", "b.csv", "b_certified.csv", "c.svg", "d.json"}
     assert "gap" in text and "proves" in text
     assert (tmp_path / "c.svg").read_text(encoding="utf-8").startswith("<?xml")
     assert check_bounds([str(tmp_path / "d.json")]) == 0
@@ -68,9 +96,9 @@ def test_stops_on_the_way_take_their_time(tmp_path: Path) -> None:
     text = line.read_text(encoding="utf-8")
     assert "stops_m" in text, "the metro line must have stops for this test"
     train = SHARED / "trains" / "jiao2025.toml"
-    energies = []
+    energies, time = [], 3 * least_time(line, train) + 100
     for option in ((), ("--stops", "--dwell", 20)):
-        said(line, train, "--time", 3 * least_time(line, train) + 100, "--json", tmp_path / "r.json", *option)
+        said(line, train, "--time", time, "--json", tmp_path / "r.json", *option)
         energies.append(json.loads((tmp_path / "r.json").read_text(encoding="utf-8"))["energy_J"])
     assert energies[0] < energies[1]
 

@@ -4,7 +4,7 @@ import tomllib
 
 import pytest
 from refusals import changed, refusal
-from scenarios import PAPERS, PROOFS
+from scenarios import TRAIN_PAPERS, PROOFS
 from test_cli import GAINS as GAIN_TEXT
 from test_cli import LINE, LINE_SOURCE, SHORT, short_toml
 
@@ -59,7 +59,7 @@ def test_reproduction_is_true_or_false(path, value):
     assert f"{path}: reproduction: " in refusal(load, path)
 
 
-@pytest.mark.parametrize("paper", PAPERS)
+@pytest.mark.parametrize("paper", TRAIN_PAPERS)
 def test_the_papers_that_ship_are_reproductions_and_say_where_everything_comes_from(paper):
     path = PROOFS / paper / "study.toml"
     assert tomllib.loads(path.read_text(encoding="utf-8"))["reproduction"] is True

@@ -27,12 +27,13 @@ def test_what_is_found_is_no_worse_than_what_is_stated_and_within_the_ranges():
                      rbf_pid={"K_p": (0.1, 10.0), "eta": (0.02, 2.0)})
     found = tune_scenario(scenario, ["pid", "rbf_pid"], 1, nothing)
     assert list(found) == ["pid", "rbf_pid"]
-    for values, cost, stated in found.values():
-        assert cost <= stated < 300.0
-        assert 0.05 < values["K_p"] < 10.0
-    changed = with_parameters(scenario, "rbf_pid", found["rbf_pid"][0]).controllers["rbf_pid"]
-    assert changed.initial["K_p"] == found["rbf_pid"][0]["K_p"] and "K_p" not in changed.parameters
-    assert changed.parameters["eta"] == found["rbf_pid"][0]["eta"]
+    for one in found.values():
+        assert one.cost <= one.stated < 300.0
+        assert 0.05 < one.values["K_p"] < 10.0
+    values = found["rbf_pid"].values
+    changed = with_parameters(scenario, "rbf_pid", values).controllers["rbf_pid"]
+    assert changed.initial["K_p"] == values["K_p"] and "K_p" not in changed.parameters
+    assert changed.parameters["eta"] == values["eta"]
 
 
 @pytest.mark.parametrize(("name", "ranges", "message"), [
@@ -68,3 +69,31 @@ def test_a_try_is_not_written(copied):
     with pytest.raises(InputError, match="--runs: is for trying"):
         list(tune_run(load(copied), ["pid"], True, 1, nothing, runs=2))
     assert (copied / "study.toml").read_bytes() == before
+
+
+def test_an_interrupted_search_goes_on_and_ends_as_one_that_was_not(copied, tmp_path):
+    path = copied / "study.toml"
+    text = path.read_text(encoding="utf-8")
+    short = text[text.index("[tuning]"):].partition("runs = ")[2].partition("\n")[0]
+    text = text.replace(f"[tuning]\nruns = {short}", "[tuning]\nrestarts = 2\nruns = 4")
+    path.write_text(text.replace("[tuning.source]", '[tuning.source]\nrestarts = "assumed: two"'), encoding="utf-8")
+    loaded, out = load(copied), tmp_path / "kept"
+    assert loaded.scenario.tuning.restarts == 2
+
+    class StopError(Exception):
+        pass
+
+    def stop(done, *_):
+        raise StopError
+
+    with pytest.raises(StopError):
+        list(tune_run(loaded, ["pid"], False, 1, stop, out=out))
+    seen = []
+    lines = list(tune_run(loaded, ["pid"], False, 1, lambda *now: seen.append(now), out=out, resume=True))
+    assert seen == [(2, 2, "pid")], "the first restart is searched again"
+    assert lines == list(tune_run(loaded, ["pid"], False, 1, nothing))
+    with pytest.raises(InputError, match="--resume: needs the folder"):
+        list(tune_run(loaded, ["pid"], False, 1, nothing, resume=True))
+    path.write_text(path.read_text(encoding="utf-8").replace("runs = 4", "runs = 6"), encoding="utf-8")
+    with pytest.raises(InputError, match="values and code"):
+        list(tune_run(load(copied), ["pid"], False, 1, nothing, out=out, resume=True))

@@ -111,13 +111,13 @@ def written(folder, **modules):
     return folder
 
 
-@pytest.fixture(scope="session")
+@pytest.fixture(scope="module")
 def tiny(tmp_path_factory):
     """A paper's folder with a study and a search of gains, for tests that only read it."""
     return written(tmp_path_factory.mktemp("papers") / "tiny", gains=GAINS)
 
 
-@pytest.fixture(scope="session")
+@pytest.fixture(scope="module")
 def made(tiny, tmp_path_factory):
     """The study's report, and where it lies."""
     out = tmp_path_factory.mktemp("report") / "out"

@@ -123,7 +123,7 @@ TAMPERING = {
     "a lower cell's price": lambda d: d["cell_price_w"].__setitem__(0, d["cell_price_w"][0] * 0.999),
     "a cell's price beyond the point": lambda d: d["cell_price_w"].__setitem__(-1, d["cell_price_w"][0]),
     "a point elsewhere": lambda d: d["events"][1].__setitem__("position_m", 2000.0),
-    "a term's time": lambda d: d["terms"]["of_force"].__setitem__(0, d["terms"]["of_force"][0] - 1e3),
+    "a term's limit of the force": lambda d: d["terms"]["pull"].__setitem__(0, 3),
     "a faster passing": lambda d: d["jumps"]["fastest_mps"].__setitem__(
         int(np.argmin(d["jumps"]["inertia_times_fall"])), 40.0),
     "a jump": lambda d: d["jumps"]["inertia_times_fall"].__setitem__(0, -1e9),

@@ -9,15 +9,14 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scenarios import BENCHMARKS, SHORT_LINE, YANG, name_of, short_scenario
 
-from workbench.trains.scenario import load_scenario
-from workbench.trains.track import (
-    Track,
+from workbench.trains.line_resistance import (
     additional_specific_resistance,
     curvature_per_m,
     grade_permille,
-    resistance_table,
     tunnel_n_per_kn,
 )
+from workbench.trains.scenario import load_scenario
+from workbench.trains.track import Track, resistance_table
 
 # Table 1 of yang2021, typed from the paper a second time: start (m), end (m), value.
 TABLE_1_SLOPE = ((0, 3800, "2"), (3800, 9200, "-1.5"), (9200, 21400, "0"), (21400, 23900, "5"),

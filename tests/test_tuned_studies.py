@@ -23,9 +23,9 @@ from workbench.errors import InputError
 from workbench.files.folders import held_in
 from workbench.files.modules import module_in
 from workbench.paper.drivers import Drivers, entries, shortened, tune_with
-from workbench.paper.local_search import score, search
 from workbench.paper.mpc_comparison import FOLLOWS_MPS, best_words
 from workbench.paper.pairs import compared_pairs, factors_of, pair_findings, pair_stage, pair_table, pairs_of
+from workbench.paper.parameter_search import Kept, binding, score, search
 from workbench.paper.results import ResultTable
 from workbench.paper.stages import run_stages
 from workbench.paper.study import StudyKind
@@ -72,18 +72,55 @@ def test_the_search_keeps_budget_and_ranges_and_never_makes_worse(best: list[flo
         tried.append(values)
         return sum((math.log(values[f"p{i}"]) - math.log(target)) ** 2 for i, target in enumerate(best))
 
-    found, least, first = search(cost, stated, ranges, runs, seed, 1e6)
-    assert len(tried) <= runs and tried[0]["p0"] == pytest.approx(0.01)
-    assert all(0.01 * 0.999 <= value <= 100.0 * 1.001 for values in tried for value in values.values())
-    assert least == min(map(cost, list(tried))) <= first
-    again = search(cost, stated, ranges, runs, seed, 1e6)
-    assert again == (found, least, first)
+    found = search(cost, stated, ranges, runs, seed)
+    assert len(tried) == runs == found.evaluations and tried[0]["p0"] == 0.01
+    assert all(0.01 <= value <= 100.0 for values in tried for value in values.values())
+    assert found.cost == min(map(cost, list(tried))) == cost(found.values) <= found.stated
+    numbers, costs = zip(*found.improvements, strict=True)
+    assert numbers[0] == 1 and costs[0] == found.stated and costs[-1] == found.cost
+    assert list(numbers) == sorted(set(numbers)) and list(costs) == sorted(set(costs), reverse=True)
+    assert search(cost, stated, ranges, runs, seed) == found
 
 
 def test_the_search_finds_a_known_minimum() -> None:
-    found, least, _ = search(lambda v: math.log(v["a"] / 3) ** 2 + math.log(v["b"] / 0.2) ** 2, {"a": 1.0, "b": 1.0},
-                             {"a": (0.1, 10.0), "b": (0.1, 10.0)}, 200, 1, 1e6)
-    assert least < 1e-5 and found == pytest.approx({"a": 3.0, "b": 0.2}, rel=0.01)
+    found = search(lambda v: math.log(v["a"] / 3) ** 2 + math.log(v["b"] / 0.2) ** 2, {"a": 1.0, "b": 1.0},
+                   {"a": (0.1, 10.0), "b": (0.1, 10.0)}, 200, 1)
+    assert found.cost < 1e-5 and found.values == pytest.approx({"a": 3.0, "b": 0.2}, rel=0.01)
+
+
+def test_a_range_of_whole_numbers_holds_whole_numbers_alone_and_one_parameter_will_do() -> None:
+    tried: list[dict[str, float]] = []
+
+    def cost(values: dict[str, float]) -> float:
+        tried.append(values)
+        return math.log(values["n"] / 17) ** 2 + math.log(values.get("a", 3.0) / 3) ** 2
+
+    assert search(cost, {"n": 4.0, "a": 1.0}, {"n": (2, 64), "a": (0.1, 10.0)}, 100, 1).values["n"] == 17
+    assert all(values["n"] == int(values["n"]) for values in tried)
+    assert search(cost, {"n": 4.0}, {"n": (2.0, 64.0)}, 60, 1).values["n"] == pytest.approx(17, rel=0.05)
+
+
+def test_restarts_differ_the_best_counts_and_workers_change_nothing() -> None:
+    of: Any = study("jiao2025")
+    budget = of.tuning.model_copy(update={"runs": 36, "restarts": 3, "set": SHORT["jiao2025"]})
+    short_of = of.model_copy(update={"tuning": budget})
+    tune = tune_with(DRIVERS["jiao2025"])
+    kept: dict[Any, Any] = {}
+    alone = tune(short_of, ["pd"], 1, lambda *_: None, Kept({}, kept.__setitem__))
+    assert alone == tune(short_of, ["pd"], 2, lambda *_: None)
+    assert len(kept) == 3 and alone["pd"].cost == min(one.cost for one in kept.values())
+    assert len({one.improvements for one in kept.values()}) > 1, "restarts are the same search"
+    assert {one.stated for one in kept.values()} == {alone["pd"].stated}, "each begins with what is stated"
+    seen: list[str] = []
+    two = {task: kept[task] for task in [("pd", 0), ("pd", 2)]}
+    assert tune(short_of, ["pd"], 1, lambda *_: None, Kept(two, lambda task, _: seen.append(task))) == alone
+    assert seen == [("pd", 1)]
+
+
+@pytest.mark.parametrize(("value", "end"), [(0.1, "low"), (0.104, "low"), (0.11, ""), (1.0, ""), (9.6, "high"),
+                                            (10.0, "high")])
+def test_an_end_binds_within_a_hundredth_of_the_range(value: float, end: str) -> None:
+    assert binding(value, (0.1, 10.0)) == end
 
 
 def test_a_score_is_the_sum_over_the_units_and_a_failure_costs_each_of_them() -> None:
@@ -256,11 +293,14 @@ def test_tuning_a_study_repeats_itself_and_is_written(copied: Path) -> None:
     tune = tune_with(DRIVERS["jiao2025"])
     alone, apart = (tune(of, names, workers, lambda *_: None) for workers in (1, 2))
     assert alone == apart and list(alone) == names
-    assert all(cost <= first for _, cost, first in alone.values())
+    assert all(found.cost <= found.stated for found in alone.values())
     lines = list(tune_run(load(copied), names, True, 1, lambda *_: None))
     assert lines[-1] == f"written: {path}" and len(lines) == 3
     again: Any = load(copied).study
-    assert {name: values for name, (values, *_) in alone.items()} == again.tuning.found
+    assert {name: found.values for name, found in alone.items()} == again.tuning.found
+    for name, result in again.tuning.results.items():
+        assert (result.cost, result.stated_cost) == (alone[name].cost, alone[name].stated)
+        assert result.improvements == alone[name].improvements
     assert [entry for entry in entries(again, DRIVERS["jiao2025"]) if entry[1]] == [("icfdl", True), ("pd", True)]
 
 

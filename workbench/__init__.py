@@ -1,3 +1,51 @@
-"""A control paper as one executable object: proof, simulation and comparison from the same expressions."""
+"""A control paper as one executable object: proof, simulation and comparison from the same expressions.
+
+`import workbench as wb` imports nothing else: each name below brings its module when it is first used.
+"""
+
+from __future__ import annotations
+
+from importlib import import_module
+from typing import TYPE_CHECKING, Any
 
 __version__ = "0.1.0"
+
+if TYPE_CHECKING:
+    from workbench.api.functions import check_paper, compare, entrant, load, prove, simulate
+    from workbench.api.results import Comparison, Proved, Run
+    from workbench.model.law import LawState, period, time
+    from workbench.mpc.plant_tracking import PlantMpc
+    from workbench.proof.paper import Paper
+    from workbench.simulate.plants.setting import Setting
+    from workbench.systems.law import Reference
+    from workbench.systems.law import StateLaw as Law
+    from workbench.systems.lyapunov import Lyapunov, closed_loop
+    from workbench.systems.metric import Metric
+    from workbench.systems.plant import Parameter, Plant
+    from workbench.systems.signals import Constant, Ramp, Sine, Spline, Step
+
+_WHERE = {
+    "api.functions": ("check_paper", "closed_loop", "compare", "entrant", "load", "prove", "simulate"),
+    "api.results": ("Comparison", "Proved", "Run"), "model.law": ("LawState", "period", "time"),
+    "mpc.plant_tracking": ("PlantMpc",), "proof.paper": ("Paper",), "simulate.plants.setting": ("Setting",),
+    "systems.law": ("Reference", "StateLaw"), "systems.lyapunov": ("Lyapunov", "closed_loop"),
+    "systems.metric": ("Metric",), "systems.plant": ("Parameter", "Plant"),
+    "systems.signals": ("Constant", "Ramp", "Sine", "Spline", "Step"),
+}
+_MODULES = {name: module for module, names in _WHERE.items() for name in names}
+_RENAMED = {"Law": "StateLaw"}
+
+__all__ = ["Comparison", "Constant", "Law", "LawState", "Lyapunov", "Metric", "Paper", "Parameter", "Plant",
+           "PlantMpc", "Proved", "Ramp", "Reference", "Run", "Setting", "Sine", "Spline", "Step", "check_paper",
+           "closed_loop", "compare", "entrant", "load", "period", "prove", "simulate", "time"]
+
+
+def __getattr__(name: str) -> Any:
+    own = _RENAMED.get(name, name)
+    if name == "StateLaw" or own not in _MODULES:
+        raise AttributeError(f"module 'workbench' has no attribute '{name}'")
+    return getattr(import_module(f"workbench.{_MODULES[own]}"), own)
+
+
+def __dir__() -> list[str]:
+    return [*__all__, "__version__"]

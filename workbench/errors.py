@@ -4,6 +4,9 @@ from __future__ import annotations
 
 from pathlib import Path
 
+# A key or a value of a file may be of any length; what is said of it begins with its place and ends with its remedy.
+LONGEST_PART, BEGINNING, END = 600, 200, 200
+
 
 class WorkbenchError(Exception):
     """Base of all errors that are the caller's to mend; the CLI prints it in one line and exits with 2."""
@@ -17,7 +20,7 @@ class InputError(WorkbenchError):
 
     def __init__(self, where: str | Path, key: str, problem: str) -> None:
         self.where, self.key, self.problem = str(where), key, problem
-        message = ": ".join(part for part in (self.where, key, problem) if part)
+        message = ": ".join(part for part in (self.where, _shortened(key), _shortened(problem)) if part)
         # Names and values come from files, so they may hold line breaks and control characters.
         super().__init__("".join(c if c.isprintable() else " " for c in message))
 
@@ -40,3 +43,9 @@ class ClaimError(WorkbenchError):
 
 class SolverError(WorkbenchError):
     """A numerical solver returned nothing that may be used: names the solver and its status."""
+
+
+def _shortened(text: str) -> str:
+    if len(text) <= LONGEST_PART:
+        return text
+    return f"{text[:BEGINNING]} ... ({len(text)} characters) ... {text[-END:]}"

@@ -9,8 +9,13 @@ from pathlib import Path
 import sympy as sp
 
 from workbench.model.desired_curve import DavisCruise, davis_cruise_speed
+from workbench.trains.line_resistance import (
+    additional_specific_resistance,
+    curvature_per_m,
+    grade_permille,
+    tunnel_n_per_kn,
+)
 from workbench.trains.scenario import load_scenario
-from workbench.trains.track import additional_specific_resistance, curvature_per_m, grade_permille, tunnel_n_per_kn
 
 from .error_dynamics import lambdas, sigmas, stars
 from .laws import alpha, beta, chi, k

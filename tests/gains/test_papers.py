@@ -9,7 +9,8 @@ import sys
 from functools import cache
 
 import pytest
-from scenarios import PAPERS, PROOFS, ROOT
+from command_line import run, run_apart
+from scenarios import PROOFS, ROOT, TRAIN_PAPERS
 
 from workbench.cli.loading import load
 from workbench.gains.certificate import write_certificates
@@ -19,7 +20,7 @@ from workbench.paper.gain_search import gain_search_of
 from workbench.proof.checker import MANIFEST, CertificateError, check, check_folder
 from workbench.proof.document import certificate_text
 
-EVERY = tuple(PAPERS)
+EVERY = tuple(TRAIN_PAPERS)
 
 
 def committed_folder(paper):
@@ -167,13 +168,8 @@ def test_every_found_set_is_simulated_beside_the_stated_gains(paper):
 # --- mistakes -----------------------------------------------------------------------------------------------------
 
 
-def cli(*arguments, cwd=ROOT):
-    command = [sys.executable, "-m", "workbench", "gains", *arguments]
-    return subprocess.run(command, capture_output=True, text=True, check=False, cwd=cwd)
-
-
 def test_the_command_writes_its_document(tmp_path):
-    done = cli("chen2019", "--no-runs", "--json", str(tmp_path / "g.json"), "--certificates", str(tmp_path / "c"))
+    done = run_apart("gains", "chen2019", "--no-runs", "--json", tmp_path / "g.json", "--certificates", tmp_path / "c")
     assert done.returncode == 0, done.stderr
     document = json.loads((tmp_path / "g.json").read_text(encoding="utf-8"))
     assert document["version"] == 1
@@ -186,7 +182,7 @@ def test_the_command_writes_its_document(tmp_path):
 
 
 def test_an_unknown_paper_is_one_line_and_exit_code_2():
-    done = cli("nobody2020")
+    done = run("gains", "nobody2020")
     assert done.returncode == 2
     assert done.stderr.strip().count("\n") == 0
     assert "nobody2020: is no file, folder or paper here" in done.stderr
@@ -214,14 +210,14 @@ MISTAKES = [
 
 @pytest.mark.parametrize(("old", "new", "message"), MISTAKES)
 def test_a_mistake_in_the_file_is_one_line_that_names_the_key(tmp_path, old, new, message):
-    done = cli(str(own_copy("chen2019", tmp_path, old, new)), "--no-runs")
+    done = run("gains", str(own_copy("chen2019", tmp_path, old, new)), "--no-runs")
     assert done.returncode == 2, done.stdout + done.stderr
     assert message in done.stderr
     assert done.stderr.strip().count("\n") == 0
 
 
 def test_numbers_that_the_search_is_not_made_for_are_one_line(tmp_path):
-    done = cli(str(own_copy("mao2018", tmp_path, "amplitude = 0.001", "amplitude = 0.0")), "--no-runs")
+    done = run("gains", str(own_copy("mao2018", tmp_path, "amplitude = 0.001", "amplitude = 0.0")), "--no-runs")
     assert done.returncode == 2
     assert "mao2018:damping" in done.stderr or "the search of gains fails on its numbers" in done.stderr
     assert done.stderr.strip().count("\n") == 0
@@ -232,7 +228,7 @@ def test_numbers_that_the_search_is_not_made_for_are_one_line(tmp_path):
 def test_a_missing_file_of_the_folder_is_said(tmp_path, file, words):
     folder = own_copy("yang2021", tmp_path)
     (folder / file).unlink()
-    done = cli(str(folder), "--no-runs")
+    done = run("gains", str(folder), "--no-runs")
     assert done.returncode == 2
     assert done.stderr.strip().count("\n") == 0
     assert words in done.stderr

@@ -21,7 +21,8 @@ from workbench.trains.track import resistance_table
 T, BRAKE, TRACTION, BAND = 0.1, 1.2, 1.0, 0.2
 WEIGHTS = {"horizon": 25.0, "position_weight": 25.0, "speed_weight": 14.8, "command_weight": 4.34,
            "change_weight": 0.0, "band_price": 1e4}
-OWN = {"observer_gain": 0.3, "energy_price": 1.0, "time_price": 0.0, "regenerated": 0.0, "disturbance_mps2": 0.15}
+OWN = {"observer_gain": 0.3, "energy_price": 1.0, "time_price": 0.0, "regenerated": 0.0, "disturbance_mps2": 0.15,
+       "forgetting": 0.995}
 
 
 def scenario_of(law, factory=short_scenario, **changes):

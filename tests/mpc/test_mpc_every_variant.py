@@ -18,7 +18,8 @@ from workbench.simulate.law_values import check_controllers
 T = 0.1
 NUMBERS = {"horizon": 25.0, "position_weight": 25.0, "speed_weight": 14.8, "command_weight": 4.34,
            "change_weight": 0.1, "band_price": 1000.0, "band_weight": 1000.0, "observer_gain": 0.3,
-           "energy_price": 0.05, "time_price": 1.0, "regenerated": 0.0, "disturbance_mps2": 0.05}
+           "energy_price": 0.05, "time_price": 1.0, "regenerated": 0.0, "disturbance_mps2": 0.05,
+           "forgetting": 0.995}
 VARIANTS = [law for law in SAMPLED if law.startswith("mpc.")]
 SOLVED_BY = [("mpc.tracking", solver) for solver in tracking.SOLVERS] + [(law, "") for law in KINDS]
 # Less traction than the curve needs, and a power limit above 11 m/s; a band that is left, so that its price is paid.

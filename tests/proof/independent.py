@@ -4,7 +4,7 @@ Deciders never see this file, and it takes nothing from them: sampling, tight po
 evaluation are its own.
 """
 
-from functools import reduce
+from functools import cached_property, reduce
 
 import mpmath
 import numpy as np
@@ -52,9 +52,17 @@ class Evaluated:
         self.symbols = sorted(found, key=str)
         self.given += [(s, ">") for s in self.symbols if s.is_positive]
         self.given += [(s, ">=") for s in self.symbols if s.is_nonnegative and not s.is_positive]
-        self.fast = sp.lambdify(self.symbols, [e for e, _ in (*self.given, *self.shown)], modules="numpy", cse=True)
-        self.exact = sp.lambdify(self.symbols, [e for e, _ in (*self.given, *self.shown)], modules="mpmath")
         self._tight, self._functions = None, {}
+
+    @cached_property
+    def fast(self):
+        """The differences of all relations as numpy computes them."""
+        return sp.lambdify(self.symbols, [e for e, _ in (*self.given, *self.shown)], modules="numpy", cse=True)
+
+    @cached_property
+    def exact(self):
+        """The differences of all relations as mpmath computes them, to the digits in force."""
+        return sp.lambdify(self.symbols, [e for e, _ in (*self.given, *self.shown)], modules="mpmath")
 
     def _plain(self, expr):
         def written_out(term, limits):
@@ -156,12 +164,24 @@ class Evaluated:
                 return found
         return None
 
-    def _confirmed(self, columns, outcomes, good, equations, most):
-        suspects, worst = np.zeros(len(good), bool), np.full(len(good), -np.inf)
+    def doubtful(self, outcomes):
+        """The rows where the values of what is shown do not clearly hold as floats, as rounding alone may do, the
+        farthest off first."""
+        suspects, worst = self._suspects(outcomes)
+        rows = np.flatnonzero(suspects)
+        return rows[np.argsort(-worst[rows], kind="stable")]
+
+    def _suspects(self, outcomes):
+        """(where a shown relation fails as a float, by how much the worst one does)."""
+        suspects, worst = np.zeros(len(outcomes[0]), bool), np.full(len(outcomes[0]), -np.inf)
         for (_, operator), value in zip(self.shown, outcomes, strict=True):
             with np.errstate(invalid="ignore"):
                 suspects |= np.isfinite(value) & ~self._holds(operator, value, CLEAR[operator])
                 worst = np.maximum(worst, np.nan_to_num(self._excess(operator, value), nan=-np.inf))
+        return suspects, worst
+
+    def _confirmed(self, columns, outcomes, good, equations, most):
+        suspects, worst = self._suspects(outcomes)
         rows = np.flatnonzero(suspects & good)
         for row in rows[np.argsort(-worst[rows], kind="stable")][:most]:
             point = {str(s): sp.Rational(float(c[row])) for s, c in zip(self.symbols, columns, strict=True)}

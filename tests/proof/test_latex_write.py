@@ -7,9 +7,10 @@ from latex_trees import LETTERS, VECTORS, W, expressions, h, over, theta, x, y
 from workbench.proof.claim import D, at_most, equal
 from workbench.proof.latex.compare import Comparison
 from workbench.proof.latex.convert import Converter
+from workbench.proof.latex.letters import latex_name
 from workbench.proof.latex.notation import Notation
 from workbench.proof.latex.read import read_line
-from workbench.proof.latex.write import latex, latex_name, letters_of
+from workbench.proof.latex.write import latex, letters_of
 
 FLOW = {x: -x, y: x, theta: -theta**2}
 

@@ -1,12 +1,15 @@
 """A paper's folder is proved as one: its claims in order, found anew when a file of it comes, goes or changes."""
 
 import shutil
+import time
 
 import pytest
 from small_folders import add_claims, small_folder, with_claims
 from small_papers import document, proved
 
 from workbench.errors import InputError
+from workbench.files.modules import TICK_NS, module_in
+from workbench.files.text import read_text
 from workbench.proof import cache as cache_module
 from workbench.proof.loading import ProofFile, claim_files
 from workbench.proof.paper import papers_in
@@ -88,6 +91,31 @@ def test_a_changed_number_changes_the_verdict(paper):
     assert [d.verdict for d in proved(paper).decisions] == ["proved", "proved"]
     (paper / "numbers.py").write_text("SHARE = -1\n")
     assert [d.verdict for d in proved(paper).decisions] == ["refuted", "refuted"]
+
+
+@pytest.mark.parametrize("when", ["imported", "asked"])
+def test_only_what_a_folder_has_read_makes_it_be_imported_anew(paper, tmp_path, when):
+    """Functions of its modules stay those that others hold, as worker processes are given them."""
+    mine, others = tmp_path / "share.txt", tmp_path / "others.txt"
+    mine.write_text("2")
+    others.write_text("a")
+    (paper / "numbers.py").write_text(
+        "from pathlib import Path\nfrom workbench.files.text import read_text\n\n\ndef share():\n"
+        f"    return int(read_text(Path({str(mine)!r}), 'number'))\n\n\n"
+        f"SHARE = {'share()' if when == 'imported' else 2}\n")
+    time.sleep(2 * TICK_NS / 1e9)  # what is imported at once after it was written could have changed since
+    ProofFile(paper).modules()
+    module = module_in(paper, "numbers")
+    if when == "asked":
+        module.share()
+    read_text(others, "text")
+    others.write_text("b")
+    ProofFile(paper).modules()
+    assert module_in(paper, "numbers") is module
+    mine.write_text("-1")
+    ProofFile(paper).modules()
+    assert module_in(paper, "numbers") is not module
+    assert (-1 if when == "imported" else 2) == module_in(paper, "numbers").SHARE
 
 
 @pytest.mark.parametrize("jobs", [1, 2])

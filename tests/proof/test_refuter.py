@@ -1,6 +1,7 @@
 """What the search for counterexamples must find: each goal is false in one way that chance alone hardly meets."""
 
 import copy
+import functools
 
 import numpy as np
 import pytest
@@ -95,8 +96,13 @@ def test_what_fails_only_later_is_refuted_by_a_path(name):
     assert falsified(goal, None, 1) is not None
 
 
+@functools.cache
+def found_path():
+    return find_counterexample(LATER["grows, though it starts well"], "gap")
+
+
 def corrupted_path(**changes):
-    certificate = copy.deepcopy(find_counterexample(LATER["grows, though it starts well"], "gap"))
+    certificate = copy.deepcopy(found_path())
     certificate["point"] |= changes.pop("point", {})
     goal = changes.pop("goal", {})
     return certificate | changes | {"goal": certificate["goal"] | goal}

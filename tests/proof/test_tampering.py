@@ -1,8 +1,10 @@
 """Every committed certificate, corrupted: refused, or true all the same by an independent check.
 
-Three corruptions, at places drawn with a fixed seed, each in every part of every certificate: a digit changed, a term
-missing, another claim's certificate. What the checker still accepts may be true (a coefficient with some slack, another
-counterexample): then sympy, numpy and mpmath must say so too, from the certificate's text alone.
+Three corruptions, at places drawn with a fixed seed, in every part of certificates: a digit changed, a term missing,
+another claim's certificate. Of those that a certificate can suffer every other one is drawn, so that each kind in each
+part meets hundreds of certificates; test_checker_standalone.py holds that they pass as they are. What the checker still
+accepts may be true (a coefficient with some slack, another counterexample): then sympy, numpy and mpmath must say so
+too, from the certificate's text alone.
 """
 
 import ast
@@ -32,6 +34,7 @@ NAMES = [f"{path.parents[1].name}:{path.stem}" for path in FILES]
 TURNED = {" <= ": " > ", " >= ": " < ", " < ": " >= ", " > ": " <= ", " == ": " != ", " != ": " == "}
 SHOWN_BY = ("proofs", "example", "point", "functions", "path", "duration", "always", "fails")
 PARTS = ("goal", *SHOWN_BY, "correction", "repair")
+SHARE = 0.5  # of the corruptions of a certificate
 COUNTS: Counter[str] = Counter()
 
 
@@ -184,7 +187,13 @@ def goal_of(record):
                 words[record["eventually"]] if "eventually" in record else None)
 
 
-@functools.cache
+@functools.lru_cache(maxsize=8)
+def evaluated(record):
+    """A goal, given as JSON, at points; many corruptions leave the goal as it was."""
+    return Evaluated(goal_of(json.loads(record)), neurons=1)
+
+
+@functools.lru_cache(maxsize=8)
 def not_broken(record):
     """Whether an independent search finds nothing against a goal, given as JSON."""
     return Evaluated(goal_of(json.loads(record))).falsifying_point(3, batches=2, count=3_000) is None
@@ -197,15 +206,13 @@ def established(certificate):
             return False
     record = json.dumps(certificate["goal"])
     if certificate["verdict"] == "proved":
-        goal = goal_of(certificate["goal"])
-        meets = Evaluated(goal, neurons=1).holds_at(certificate["example"])[0]
-        return meets and not_broken(record)
+        return evaluated(record).holds_at(certificate["example"])[0] and not_broken(record)
     goal = goal_of(certificate["goal"])
     if "functions" in certificate:
         return model_breaks(goal, certificate["functions"], certificate["point"])
     if "path" in certificate and not path_obeys(goal, certificate):
         return False
-    assumed, shown = Evaluated(goal, neurons=1).holds_at(certificate["point"])
+    assumed, shown = evaluated(record).holds_at(certificate["point"])
     return assumed and not shown
 
 
@@ -214,10 +221,10 @@ def established(certificate):
 
 @pytest.mark.parametrize("path", FILES, ids=NAMES)
 def test_no_corrupted_certificate_is_accepted_unless_it_is_true(path):
-    certificate = loaded(path)
-    assert accepted(certificate)
-    for what, other in corrupted(certificate, NAMES[FILES.index(path)]):
-        if other is None:
+    certificate, name = loaded(path), NAMES[FILES.index(path)]
+    drawn = random.Random(f"{name} drawn")
+    for what, other in corrupted(certificate, name):
+        if drawn.random() >= SHARE or other is None:
             continue
         if not accepted(other):
             COUNTS["refused"] += 1

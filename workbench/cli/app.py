@@ -10,6 +10,8 @@ from workbench.cli import (
     check,
     check_certificates,
     compare,
+    diff,
+    errata,
     examples,
     gains,
     listing,
@@ -17,6 +19,7 @@ from workbench.cli import (
     prove,
     reference,
     report,
+    show,
     sweep,
     tune,
 )
@@ -24,13 +27,13 @@ from workbench.cli.options import Version
 from workbench.cli.terminal import err_console
 from workbench.errors import WorkbenchError
 
-app = typer.Typer(no_args_is_help=True, add_completion=False, pretty_exceptions_enable=False,
+app = typer.Typer(no_args_is_help=True, add_completion=True, pretty_exceptions_enable=False,
                   help="A control paper as one executable object: proof, simulation, comparison.")
 
 INTERRUPTED = 130  # with which typer ends after Ctrl-C
 
-for verb in (prove, check, new_paper, check_certificates, compare, sweep, tune, report, reference, gains, listing,
-             examples):
+for verb in (prove, show, diff, check, new_paper, check_certificates, compare, sweep, tune, report, reference, gains,
+             listing, examples, errata):
     app.command(verb.NAME)(verb.command)
 
 

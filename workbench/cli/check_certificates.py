@@ -29,7 +29,7 @@ def command(folder: Annotated[Path, typer.Argument(help="Folder with certificate
     else:
         rows, bound = _folder(folder, paper or [])
     if not rows:
-        raise WorkbenchError(f"{folder}: holds no certificate (*.json): run 'workbench prove' first")
+        raise WorkbenchError(f"{folder}: holds no certificate (*.json): run 'workbench prove --write' first")
     wrong = {path for path, _, reason in rows if reason is not None}
     for path, verdict, reason in rows:
         if reason is not None:

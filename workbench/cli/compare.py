@@ -21,14 +21,16 @@ def command(paper: PaperOrFile, json: JsonFile = None,
             resume: Annotated[bool, typer.Option("--resume", help="Go on with the runs kept in --out.")] = False,
             workers: Workers = None) -> None:
     """Run all controllers of a scenario on the same train and line, and compare them; or all runs of a study."""
+    loaded = load(paper)  # before what runs is imported: a mistake in the file is said at once
+
     from workbench.contest.journal import JOURNAL_NAME
+    from workbench.contest.pareto import JOURNAL_NAME as FRONTS_NAME
     from workbench.files.json_output import write_json
     from workbench.files.outputs import check_outputs
     from workbench.report.build import check_resumable, comparison_document, run_study, study_document
     from workbench.simulate.compare import compare as run_comparison
 
-    loaded = load(paper)
-    check_outputs({"--json": json}, folders={"--out": (out, (JOURNAL_NAME,)) if out else None})
+    check_outputs({"--json": json}, folders={"--out": (out, (JOURNAL_NAME, FRONTS_NAME)) if out else None})
     check_resumable(loaded, out, resume)
     if loaded.kind is not None:
         if variants:

@@ -14,11 +14,13 @@ VERBS = ("prove", "compare", "sweep --out FOLDER", "report --out FOLDER")
 
 
 def command(name: Annotated[str, typer.Argument(help="The paper's name, as in doe2026")],
-            directory: Annotated[Path, typer.Option(help="Where its folder goes.")] = Path()) -> None:
+            directory: Annotated[Path, typer.Option(help="Where its folder goes.")] = Path(),
+            plant: Annotated[bool, typer.Option("--plant", help="About a plant of your own, not a train.")] = False,
+            ) -> None:
     """Write a paper's folder to start from: each kind of claim, a law, and a study that runs it beside PID and MPC."""
     from workbench.paper.new_paper import write_new_paper
 
-    folder = write_new_paper(name, directory)
+    folder = write_new_paper(name, directory, "plant" if plant else "train")
     files = ", ".join(path.relative_to(folder).as_posix() for path in sorted(folder.rglob("*.*")))
     lines = f"written: {folder} ({files})", *(f"to go on: workbench {_with(verb, folder)}" for verb in VERBS)
     for line in lines:

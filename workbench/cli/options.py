@@ -9,8 +9,10 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from workbench import __version__
+from workbench.cli.terminal import out_console
 from workbench.errors import InputError
 from workbench.files.folders import paper_named, papers_near
+from workbench.files.outputs import STANDARD_OUTPUT
 
 if TYPE_CHECKING:
     from workbench.paper.loading import Loaded
@@ -22,7 +24,16 @@ def _version(asked: bool) -> None:
         raise typer.Exit
 
 
-JsonFile = Annotated[Path | None, typer.Option("--json", metavar="FILE", help="Also write the result as JSON.")]
+def _json_file(path: Path | None) -> Path | None:
+    """The file, after standard output has been kept free for it where it is `-`."""
+    if path == STANDARD_OUTPUT:
+        out_console.stderr = True
+    return path
+
+
+JsonFile = Annotated[Path | None, typer.Option(
+    "--json", metavar="FILE", callback=_json_file, allow_dash=True,
+    help="Also write the result as JSON; - is standard output, and all else goes to standard error.")]
 Workers = Annotated[int | None, typer.Option(min=1, help="Processes; default: one a core.")]
 PaperOrFile = Annotated[str, typer.Argument(
     metavar="PAPER", help="A paper's folder, its name, or the TOML file of a scenario, study or contest")]

@@ -3,13 +3,17 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 from rich.markup import escape
 
-from workbench.cli.options import JsonFile
-from workbench.cli.terminal import claim_card, claims_table, err_console, out_console, progress, verdict_lines
+from workbench.cli.options import JsonFile, Workers
+from workbench.cli.terminal import claim_card, err_console, out_console, progress
+from workbench.errors import InputError
+
+if TYPE_CHECKING:
+    from workbench.proof.prove import Proof
 
 NAME = "prove"
 
@@ -18,17 +22,29 @@ def command(paths: Annotated[list[str] | None, typer.Argument(
                 help="Papers' folders, a folder of them, proof files, and claims as in proofs/PAPER::24; "
                      "default: proofs")] = None,
             json: JsonFile = None,
+            write: Annotated[bool, typer.Option(
+                "--write", help="Also write the certificates into 'certificates' in each paper's folder, or beside a "
+                                "proof file.")] = False,
             certificates: Annotated[Path | None, typer.Option(
-                help="Where certificates go; default: 'certificates' in each paper's folder, or beside a proof "
-                     "file.")] = None,
-            jobs: Annotated[int | None, typer.Option(min=1, help="Processes; default: one a core.")] = None,
+                metavar="FOLDER", help="Also write the certificates below this folder.")] = None,
+            all_rows: Annotated[bool, typer.Option("--all", help="Also every row in a line.")] = False,
+            failed: Annotated[bool, typer.Option(
+                "--failed", help="Every finding, slips and open readings too.")] = False,
+            quiet: Annotated[bool, typer.Option(
+                "--quiet", "-q", help="Say nothing but what differs from the record.")] = False,
+            verbose: Annotated[bool, typer.Option(
+                "--verbose", "-v", help="Each finding with its printed line and note.")] = False,
+            workers: Workers = None,
+            jobs: Annotated[int | None, typer.Option("--jobs", min=1, hidden=True)] = None,
             cache: Annotated[bool, typer.Option(help="Take what has not changed from the cache.")] = True,
             limit: Annotated[float, typer.Option(
                 min=0.1, help="Seconds of processor time for one claim; what takes longer stays undecided.")] = 60.0,
             ) -> None:
     """Decide every claim; exit 0 when each verdict is the recorded one, 1 when one differs, 2 on bad input.
 
-    A claim that states nothing that could be decided is bad input; the others are decided all the same.
+    First what does not stand, the fates of headline statements before all else, in sentences; counts last. Nothing is
+    written unless --write, --certificates or --json asks for it. A claim that states nothing that could be decided is
+    bad input; the others are decided all the same.
     """
     from workbench.files.json_output import write_json
     from workbench.files.outputs import check_outputs
@@ -36,25 +52,48 @@ def command(paths: Annotated[list[str] | None, typer.Argument(
     from workbench.proof.prove import prove as run_prove
     from workbench.proof.selection import targets
 
+    if write and certificates is not None:
+        raise InputError("", "--write", "and --certificates name two places: leave one out")
     found = targets(paths or ["proofs"])
     check_outputs({"--json": json}, [file for target in found for file in target.inputs()])
     check_places([file for target in found for file in target.files], certificates, {"--json": json})
     with progress() as show:
-        proof = run_prove(found, jobs, cache, lambda done, total: show("claims", done, total), limit)
+        proof = run_prove(found, workers or jobs, cache, lambda done, total: show("claims", done, total), limit)
     single = any(target.pattern is not None for target in found)
     where = places(proof, certificates)
-    write_certificates(proof.decisions, where, whole_papers=not single)
+    if write or certificates is not None:
+        write_certificates(proof.decisions, where, whole_papers=not single)
     document = claims_document(proof.decisions, where)
+    for row in document["claims"]:  # a certificate that nobody has written cannot be looked up
+        if row["certificate"] and not Path(row["certificate"]).is_file():
+            row["certificate"] = None
     if json:
         write_json(json, document)
-    for table in map(claim_card, document["claims"]) if single else [claims_table(document)]:
-        out_console.print(table)
-    out_console.print(*verdict_lines(document), sep="\n")
-    if not single:
-        out_console.print(f"{len(proof.now)} decided now, {len(proof.decisions) - len(proof.now)} from the cache")
+    if not quiet:
+        if single:
+            for card in map(claim_card, document["claims"]):
+                out_console.print(card)
+        else:
+            _print_all(proof, all_rows, failed, verbose)
+    _end(proof)
+
+
+def _print_all(proof: Proof, all_rows: bool, failed: bool, verbose: bool) -> None:
+    from workbench.cli.findings import print_counts, print_findings, print_rows
+
+    if all_rows:
+        print_rows(proof.decisions)
+    print_findings(proof.decisions, failed, verbose)
+    print_counts(proof.decisions)
+    out_console.print(f"{len(proof.now)} decided now, {len(proof.decisions) - len(proof.now)} from the cache")
+
+
+def _end(proof: Proof) -> None:
+    """What differs from the record, and what could not be decided; the exit code says so too."""
     differing = [d for d in proof.decisions if d.verdict != d.claim.recorded]
     for d in differing:
-        err_console.print(f"[red]{d.claim.id}: decided {d.verdict}, but recorded {d.claim.recorded}[/red]")
+        err_console.print(f"[red]{d.claim.id}: decided {d.verdict}, but recorded {d.claim.recorded}[/red]",
+                          soft_wrap=True)
     for trouble in proof.misstated.values():
         err_console.print(f"[red]misstated: {escape(trouble)}[/red]", soft_wrap=True)
     if proof.misstated:

@@ -7,14 +7,15 @@ from typing import Annotated, Literal
 
 import typer
 
-from workbench.cli.options import JsonFile
+from workbench.cli.options import JsonFile, Workers
 from workbench.cli.terminal import out_console
+from workbench.errors import InputError
 
 NAME = "reference"
 
 
-def command(track: Annotated[Path, typer.Argument(help="Line: TOML of this project, or TTOBench JSON")],
-            train: Annotated[Path, typer.Argument(help="Train: TOML of this project, or TTOBench JSON")],
+def command(track: Annotated[Path | None, typer.Argument(help="Line: TOML of this project, or TTOBench JSON")] = None,
+            train: Annotated[Path | None, typer.Argument(help="Train: TOML of this project, or TTOBench JSON")] = None,
             time: Annotated[float | None, typer.Option(metavar="S", help="Trip time in s, with its stops.")] = None,
             timetable: Annotated[Path | None, typer.Option(
                 metavar="FILE", help="Windows on the way: TOML, or a journey of TTOBench; not with --time.")] = None,
@@ -25,7 +26,7 @@ def command(track: Annotated[Path, typer.Argument(help="Line: TOML of this proje
             from_speed: Annotated[float, typer.Option(metavar="MPS", help="Speed at the start in m/s.")] = 0.0,
             to_speed: Annotated[float, typer.Option(metavar="MPS", help="Speed at the end in m/s.")] = 0.0,
             intervals: Annotated[int | None, typer.Option(
-                min=10, max=100_000, help="Of the plan's mesh; default: as many as the gap asks for.")] = None,
+                min=10, max=20_000, help="Of the plan's mesh; default: as many as the gap asks for.")] = None,
             solver: Annotated[Literal["auto", "socp", "nlp"], typer.Option(
                 help="Cone program, nonlinear program, or what the gap asks for.")] = "auto",
             window: Annotated[float, typer.Option(metavar="S", help="Over which acceleration is smoothed.")] = 1.0,
@@ -36,11 +37,28 @@ def command(track: Annotated[Path, typer.Argument(help="Line: TOML of this proje
             every: Annotated[float, typer.Option(metavar="S", help="Step of the CSV.")] = 0.5,
             figure: Annotated[Path | None, typer.Option(metavar="FILE", help="Figure as SVG, PNG or PDF.")] = None,
             certificate: Annotated[Path | None, typer.Option(
-                metavar="FILE", help="Write the bound's certificate, and re-check it exactly.")] = None) -> None:
+                metavar="FILE", help="Write the bound's certificate, and re-check it exactly.")] = None,
+            check: Annotated[Path | None, typer.Option(
+                metavar="FILE", help="Only re-check a bound's certificate against this line, train and times.")] = None,
+            fleet: Annotated[Path | None, typer.Option(
+                metavar="FILE", help="A day's trips (TOML) instead of TRACK and TRAIN; with --json, --csv.")] = None,
+            workers: Workers = None,
+            resume: Annotated[bool, typer.Option(
+                "--resume", help="Of --fleet: take the finished trips of --json.")] = False) -> None:
     """The energy-optimal run of a train on a line, a smooth reference, and a proven bound on what could be saved."""
+    if fleet:
+        if track or train or time is not None or timetable:
+            raise InputError("", "--fleet", "names lines, trains and times itself: leave TRACK, TRAIN and times out")
+        from workbench.report.fleet_command import FleetRequest, fleet_run
+
+        for line in fleet_run(FleetRequest(fleet, json, csv, workers, resume)):
+            out_console.print(line, soft_wrap=True, highlight=False, markup=False)
+        return
+    if track is None or train is None:
+        raise InputError("", "TRACK TRAIN", "are missing: name the files of a line and a train, or --fleet FILE")
     from workbench.report.reference_command import Request, reference_run
 
     done = reference_run(Request(track, train, time, stops, dwell, from_m, to_m, from_speed, to_speed, intervals,
-                               window, max_jerk, json, csv, every, figure, certificate, solver, timetable))
+                               window, max_jerk, json, csv, every, figure, certificate, solver, timetable, check))
     for line in done:
         out_console.print(line, soft_wrap=True, highlight=False, markup=False)

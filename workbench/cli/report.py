@@ -9,7 +9,6 @@ import typer
 
 from workbench.cli.options import PaperOrFile, Workers, load
 from workbench.cli.terminal import (
-    claims_table,
     metrics_table,
     out_console,
     print_failures,
@@ -65,7 +64,6 @@ def _print_study_report(made: StudyReport) -> None:
 
 def _print_report(made: Report) -> None:
     if made.claims:
-        out_console.print(claims_table(made.claims, only_failed=True))
         out_console.print(*verdict_lines(made.claims), sep="\n")
     rows = [m.row() for m in made.comparison.metrics]
     out_console.print(metrics_table(rows, f"{made.comparison.scenario.name}: as stated"))

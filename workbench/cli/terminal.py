@@ -43,33 +43,18 @@ def progress() -> Iterator[Any]:
         yield show
 
 
-def claims_table(document: dict[str, Any], only_failed: bool = False) -> Table:
-    """All claims, or those that do not hold as printed."""
-    rows = [c for c in document["claims"] if not only_failed or c["verdict"] not in ("proved", "assumed")]
-    table = Table(title="claims that do not hold as printed" if only_failed else "claims", title_justify="left",
-                  box=SIMPLE_HEAD, pad_edge=False, expand=True)
-    for heading, share in (("id", 0), ("claim", 5), ("verdict", 0), ("shown by", 3), ("rests on failed", 3)):
-        table.add_column(heading, no_wrap=not share, ratio=share or None)
-    papers = len({c["paper"] for c in rows})
-    for c in rows:
-        shown = c["computed"] or c["method"]
-        if c["counterexample"] and not c["computed"]:
-            shown = _values(c["counterexample"])
-        name = c["equation"] if papers == 1 else c["id"]
-        table.add_row(escape(name), escape(c["title"]), _verdict(c["verdict"]), escape(shown),
-                      escape(", ".join(i.partition(":")[2] for i in c["tainted_by"])))
-    return table
-
-
 def answer_card(answer: dict[str, Any]) -> Table:
     """A pasted line decided: the verdict, the goal as it was read, and what shows it."""
+    from workbench.report.plain_formulas import plain_formula
+
     table = Table.grid(padding=(0, 2))
     table.add_column(no_wrap=True, style="bold")
     table.add_column(overflow="fold")
-    goal = answer["goal"]
+    goal = {part: list(map(plain_formula, lines)) for part, lines in answer["goal"].items()}
     known = {"verdict": [answer["verdict"]], "the line as read": goal["show"], "given": goal["assume"],
              "along": goal["flow"], "constant": [", ".join(goal["constant"])],
-             "counterexample": [_values(answer["counterexample"])] if answer["counterexample"] else [],
+             "counterexample": [", ".join(plain_formula(f"{name} = {value}")
+                                          for name, value in (answer["counterexample"] or {}).items())],
              "shown by": [answer["method"]]}
     for what, texts in known.items():
         for number, text in enumerate(filter(None, texts)):
@@ -79,21 +64,29 @@ def answer_card(answer: dict[str, Any]) -> Table:
 
 def claim_card(row: dict[str, Any]) -> Table:
     """One claim with all that is known of it."""
+    from workbench.report.certificate_latex import assignment_latex
+    from workbench.report.plain_formulas import plain_formula
+    from workbench.report.worded import show, worded
+
     table = Table.grid(padding=(0, 2))
     table.add_column(no_wrap=True, style="bold")
     table.add_column(overflow="fold")
     recorded = "" if row["recorded"] == row["verdict"] else f", but recorded {row['recorded']}"
     known = {
-        "claim": f"{row['id']}: {row['title']}", "statement": row["statement"], "verdict": row["verdict"] + recorded,
+        "claim": f"{row['id']}: {row['title']}", "statement": plain_formula(row["statement"]),
+        "verdict": row["verdict"] + recorded,
         "shown by": row["method"], "value": row["computed"],
-        "counterexample": _values(row["counterexample"]) if row["counterexample"] else None,
-        "corrected": row["correction"], "fate": _fate(row), "holds for": row["scope"],
+        "counterexample": ", ".join(plain_formula(assignment_latex(*pair))
+                                    for pair in (row["counterexample"] or {}).items()),
+        "corrected": plain_formula(row["correction"] or ""), "fate": _fate(row), "holds for": row["scope"],
         "stands in the paper as": f"{ORIGIN_WORDS[row['origin']]}, {row['severity']}",
         "became a goal by": f"{MATCH_WORDS[row['match']]}{': ' if row['reading'] else ''}{row['reading']}",
-        "decided as": None if row["match"] == "parsed" else row["goal"],
-        "other reading": f"{row['glyph_claim']}: {row['glyph']}" if row["glyph"] else None, "mends": row["mends"],
+        "decided as": None if row["match"] == "parsed" else plain_formula(row["goal"] or ""),
+        "other reading": f"{row['glyph_claim']}: {plain_formula(row['glyph'])}" if row["glyph"] else None,
+        "mends": row["mends"],
         "rests on": ", ".join(row["rests_on"]), "our proof uses": ", ".join(row["premises"]),
-        "failed below": ", ".join(row["tainted_by"]), "note": row["note"], "certificate": row["certificate"],
+        "failed below": ", ".join(row["tainted_by"]), "note": show(worded(row["note"]), plain_formula),
+        "certificate": row["certificate"],
     }
     for what, text in known.items():
         if text:
@@ -181,14 +174,6 @@ def _columns(table: Table, *headings: str) -> None:
     table.add_column("controller", no_wrap=True)
     for heading in headings:
         table.add_column(heading, justify="right", no_wrap=True)
-
-
-def _verdict(verdict: str) -> str:
-    return f"[{COLOURS[verdict]}]{verdict}[/{COLOURS[verdict]}]"
-
-
-def _values(point: dict[str, str]) -> str:
-    return ", ".join(f"{name} = {value}" for name, value in point.items())
 
 
 def _number(value: float | None, scale: float = 1.0, digits: int = 3) -> str:

@@ -11,7 +11,7 @@ from workbench.errors import InputError
 from workbench.model.laws import law_named, named, names_near
 from workbench.mpc.controller import KINDS
 from workbench.simulate.closed_loop import Setting, run_law, simulate_in
-from workbench.simulate.controllers import SAMPLED, compiled_law, held_command, known_laws
+from workbench.simulate.controllers import SAMPLED, TOLD_THE_LINE, compiled_law, held_command, known_laws
 from workbench.simulate.law_values import check_controllers, law_values
 from workbench.simulate.setting_loop import law_loop
 from workbench.trains.scenario import Scenario
@@ -57,7 +57,7 @@ def check_entrants(contest: Contest, scenario: Scenario, path: Path, scenario_pa
                 entrant.check(spec, f"entrants.{name}")
             except InputError as trouble:
                 raise trouble.within(path) from None
-        elif spec.law in SAMPLED or law_named(spec.law, contest.folder):
+        elif spec.law in (*SAMPLED, *TOLD_THE_LINE) or law_named(spec.law, contest.folder):
             ordinary[name] = spec.model_copy(update={"law": _from(contest.folder, spec.law)})
         else:
             others = ", ".join(names_near(contest.folder, "contest", Entrant))

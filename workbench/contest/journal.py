@@ -19,7 +19,7 @@ JOURNAL_NAME = "matches.journal.jsonl"
 PLAYING = ("files/*.py", "model/*.py", "trains/*.py", "compile/*.py", "mpc/*.py", "simulate/*.py", "paper/*.py",
            "contest/*.py")
 # What may differ between a contest and the one that goes on with its matches: more draws, other intervals, words.
-FREE = {"seeds", "resamples", "confidence", "scenario", "title", "citation", "source", "absent"}
+FREE = ("seeds", "resamples", "confidence", "racing", "scenario", "title", "citation", "source", "absent")
 
 
 def matches_journal(folder: Path, contest: Contest, resume: bool) -> Journal:
@@ -27,12 +27,22 @@ def matches_journal(folder: Path, contest: Contest, resume: bool) -> Journal:
 
     Matches depend on the contest's values, its scenario and the code alone, all of which the journal's digest holds.
     """
-    scenario = contest.world
-    values = [contest.model_dump(exclude=FREE), scenario.model_dump(exclude={"title", "citation"})]
-    text = json.dumps(values, sort_keys=True, default=str)
-    digest = hashlib.sha256(code_digest(*PLAYING) + laws_digest(scenario) + text.encode()).hexdigest()[:20]
+    digest = contest_digest(contest, "pareto")
     return Journal(folder / JOURNAL_NAME, {"contest": contest.name, "seed": contest.seed,
                                            "digest of values, line and code": digest}, resume)
+
+
+def contest_digest(contest: Contest, *left_out: str) -> str:
+    """A digest of the values that runs depend on, but for some of them, of the scenario and of the code."""
+    free: Any = dict.fromkeys((*FREE, *left_out), True) | {"tuning": {"results", "results_in"}}
+    text = world_digest(contest) + json.dumps(contest.model_dump(exclude=free), sort_keys=True, default=str)
+    return hashlib.sha256(code_digest(*PLAYING) + text.encode()).hexdigest()[:20]
+
+
+def world_digest(contest: Contest) -> str:
+    """A digest of the scenario and of the laws of all who take part."""
+    text = json.dumps(contest.world.model_dump(exclude={"title", "citation"}), sort_keys=True, default=str)
+    return hashlib.sha256(laws_digest(contest.world) + text.encode()).hexdigest()
 
 
 def matches_of(journal: Journal) -> list[Match]:

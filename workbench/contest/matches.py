@@ -74,7 +74,7 @@ Task = tuple[str, int, Entry]
 def entries(contest: Contest, scenario: Scenario) -> tuple[Entry, ...]:
     """Every controller as stated, and again with the parameters that tuning found, where there are any."""
     return tuple(Entry(name, tuned) for name in scenario.controllers for tuned in (False, True)
-                 if not tuned or name in contest.tuning.found)
+                 if not tuned or contest.is_tuned(name))
 
 
 def draws_of(contest: Contest, condition: str) -> int:
@@ -169,7 +169,7 @@ def one_match(shared: tuple[Contest, Scenario], task: Task) -> Match:
     """The match of one task."""
     (contest, scenario), (condition, draw, entry) = shared, task
     if entry.tuned:
-        scenario = with_parameters(scenario, entry.controller, dict(contest.tuning.found[entry.controller]))
+        scenario = with_parameters(scenario, entry.controller, contest.found_for(entry.controller, condition) or {})
     played = play_match(scenario, entry.controller, contest.conditions[condition], draw, contest.seed)
     run = played.run
     steps = run.step_us[:: held_samples(scenario, entry.controller)]
@@ -178,26 +178,48 @@ def one_match(shared: tuple[Contest, Scenario], task: Task) -> Match:
                  middle, slow, run.counters, played.trials)
 
 
+Undecided = Callable[[Sequence[Match]], Sequence[str]]
+
+
+def looks(contest: Contest) -> int:
+    """How often a race may ask whether it is decided; once where there is none."""
+    race = contest.racing
+    return 1 if race is None else 1 + max(0, math.ceil((contest.seeds - race.first) / race.step))
+
+
 def all_matches(contest: Contest, scenario: Scenario, workers: int, on_progress: Callable[[int, int, str], None],
-                played: Sequence[Match] = (), keep: Callable[[Match], None] = lambda match: None) -> tuple[Match, ...]:
+                played: Sequence[Match] = (), keep: Callable[[Match], None] = lambda match: None,
+                undecided: Undecided = lambda matches: ()) -> tuple[Match, ...]:
     """Every match, ordered by condition, draw and entry; a condition without chance is run once.
 
-    Those already `played` are taken as they are; keep(match) is called with every other as it is finished.
+    Those already `played` are taken as they are; keep(match) is called with every other as it is finished. In a race
+    the draws grow round by round in the conditions that `undecided` names, for all who take part alike, so that what is
+    played depends on the matches alone and neither on workers nor on interruptions.
     """
-    tasks: list[Task] = [(name, draw, entry) for name in contest.conditions for draw in range(draws_of(contest, name))
-                         for entry in entries(contest, scenario)]
-    places = [(condition, draw, entry.name) for condition, draw, entry in tasks]
+    race = contest.racing
+    draws = {name: min(draws_of(contest, name), race.first) if race else draws_of(contest, name)
+             for name in contest.conditions}
     before = {(match.condition, match.draw, match.entry): match for match in played}
-    found = {place: before[place] for place in places if place in before}
+    found: dict[tuple[str, int, str], Match] = {}
+    while True:
+        tasks: list[Task] = [(name, draw, entry) for name, count in draws.items() for draw in range(count)
+                             for entry in entries(contest, scenario)]
+        places = [(condition, draw, entry.name) for condition, draw, entry in tasks]
+        found.update((place, before[place]) for place in places if place in before)
 
-    def record(match: Match) -> None:
-        keep(match)
-        found[match.condition, match.draw, match.entry] = match
-        on_progress(len(found), len(tasks), f"{match.entry}: {contest.conditions[match.condition].title}")
+        def record(match: Match, total: int = len(tasks)) -> None:
+            keep(match)
+            found[match.condition, match.draw, match.entry] = match
+            on_progress(len(found), total, f"{match.entry}: {contest.conditions[match.condition].title}")
 
-    todo = [task for task, place in zip(tasks, places, strict=True) if place not in found]
-    run_tasks(one_match, (contest, scenario), todo, workers, record)
-    return tuple(found[place] for place in places)
+        run_tasks(one_match, (contest, scenario), [task for task, place in zip(tasks, places, strict=True)
+                                                   if place not in found], workers, record)
+        matches = tuple(found[place] for place in places)
+        more = {name: min(contest.seeds, draws[name] + race.step) for name in undecided(matches)
+                if draws[name] < draws_of(contest, name)} if race else {}
+        if not more:
+            return matches
+        draws |= more
 
 
 def of(matches: Sequence[Match], condition: str, entry: str) -> list[Match]:

@@ -82,7 +82,7 @@ def words_of(told: Told) -> Iterator[Word]:
 def _word(told: Told, place: int, entry: Entry, name: str) -> Word:
     condition, scenario = told.contest.conditions[name], told.scenario
     if entry.tuned:
-        scenario = with_parameters(scenario, entry.controller, dict(told.contest.tuning.found[entry.controller]))
+        scenario = with_parameters(scenario, entry.controller, told.contest.found_for(entry.controller, name) or {})
     world = world_of(scenario, condition)
     made = MpcController(world, world.controllers[entry.controller], entry.controller)
     assert isinstance(made.tracker, TubeMpc)

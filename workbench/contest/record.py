@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Any, Self
+from typing import Annotated, Any, Literal, Self
 
 from pydantic import Field, PrivateAttr, Strict, model_validator
 
 from workbench.errors import InputError
 from workbench.files.toml import Count, Name, NonNegative, Positive, SourcedRecord, Text
 from workbench.model.sensing import SpeedFrom
-from workbench.model.tuning import Searched, Seed
+from workbench.model.tuning import Searched, SearchResult, Seed
 from workbench.paper.study import Study
 from workbench.trains.actuator import Actuator
 from workbench.trains.periods import at_periods, for_all_periods
@@ -17,6 +17,10 @@ from workbench.trains.scenario import ControllerSpec, Interval, Scenario
 
 Spread = Annotated[float, Strict(), Field(ge=0, lt=1, allow_inf_nan=False)]
 Share = Annotated[float, Strict(), Field(gt=0, le=1, allow_inf_nan=False)]
+# Fewer draws than these are never told apart at 95 per cent by a sign test.
+FEWEST_DRAWS = 6
+# Of a search for which no budget is stated.
+EVALUATIONS = 400
 
 
 class Condition(SourcedRecord):
@@ -66,12 +70,34 @@ class Condition(SourcedRecord):
 
 
 class Objective(SourcedRecord):
-    """What tuning minimises: the sum of each root mean square over its unit; a failed run costs `failed`."""
+    """What tuning minimises: the sum of each over its unit, of those that are given; a failed run costs `failed` each.
 
-    position_m: Positive
-    speed_mps: Positive
-    jerk_mps3: Positive
+    position_m, speed_mps: root mean squares of the errors; ride_jerk_mps3: of the jerk at every plant step; jerk_mps3:
+    of the log's rows alone; comfort_mps2: by ISO 2631; variation_mps3: of the command; energy_j: of traction.
+    """
+
     failed: Positive
+    position_m: Positive | None = None
+    speed_mps: Positive | None = None
+    jerk_mps3: Positive | None = None
+    ride_jerk_mps3: Positive | None = None
+    comfort_mps2: Positive | None = None
+    variation_mps3: Positive | None = None
+    energy_j: Positive | None = None
+
+    @model_validator(mode="after")
+    def _something_is_minimised(self) -> Self:
+        if not self.units:
+            raise ValueError("states no unit: give at least one of position_m, speed_mps, ride_jerk_mps3, comfort_mps2")
+        return self
+
+    @property
+    def units(self) -> dict[str, float]:
+        """Metric of a match -> its unit, of those that count."""
+        of = {"position_rms": self.position_m, "speed_rms": self.speed_mps, "logged_jerk_rms": self.jerk_mps3,
+              "jerk_rms": self.ride_jerk_mps3, "comfort_rms": self.comfort_mps2,
+              "command_variation": self.variation_mps3, "energy_J": self.energy_j}
+        return {name: unit for name, unit in of.items() if unit is not None}
 
 
 class WithoutCurve(SourcedRecord):
@@ -84,23 +110,80 @@ class WithoutCurve(SourcedRecord):
     jerk_mps3: Positive
     failed: Positive
 
+    @property
+    def units(self) -> dict[str, float]:
+        """Metric of a match -> its unit."""
+        return {"energy_J": self.energy_j, "stopping_error": self.stopping_m, "late_s": self.late_s,
+                "overspeed_mps": self.overspeed_mps, "logged_jerk_rms": self.jerk_mps3}
+
 
 class Tuning(Searched):
-    """The budget that every controller gets: runs, seed of the search, condition and draws of the runs.
+    """The budget that every controller gets: seed of the search, condition and draws of the runs.
 
-    ranges: of initial values too. without_curve: the objective of who follows no curve, needed where there is one.
+    mode: "condition" minimises the mean over the draws of one condition; "per condition" does so for each, with
+    parameters of their own; "minimax" minimises the largest of these means. conditions: those of "minimax"; all without
+    it. runs: of each search in all; without it EVALUATIONS evaluations, each as many runs as it needs. ranges: of
+    initial values too. without_curve: the objective of who follows no curve, needed where there is one. found_in,
+    results_in: of "per condition", condition -> what was found.
+    """
+
+    runs: Annotated[int, Strict(), Field(ge=0)] = 0
+    restarts: Count = 3
+    condition: Name
+    draws: Count
+    mode: Literal["condition", "per condition", "minimax"] = "condition"
+    conditions: tuple[Name, ...] = ()
+    objective: Objective
+    without_curve: WithoutCurve | None = None
+    found_in: dict[Name, dict[Name, dict[str, Positive]]] = Field(default_factory=dict)
+    results_in: dict[Name, dict[Name, SearchResult]] = Field(default_factory=dict)
+
+    @model_validator(mode="after")
+    def _found_fits(self) -> Self:
+        for condition, tables in self.found_in.items():
+            self.check_found(tables, f"found_in.{condition}")
+        return self
+
+
+class Racing(SourcedRecord):
+    """Draws are added until everyone is told apart from the best, or `seeds` are reached.
+
+    first: draws of the first round; step: of every other; metrics: whose rankings decide.
+    """
+
+    first: Count
+    step: Count
+    metrics: Annotated[tuple[Text, ...], Field(min_length=1)]
+
+    @model_validator(mode="after")
+    def _enough_to_say_anything(self) -> Self:
+        if self.first < FEWEST_DRAWS:
+            raise ValueError(f"first: {self.first} draws tell nothing apart: give at least {FEWEST_DRAWS}")
+        return self
+
+
+class Pareto(SourcedRecord):
+    """What tracking costs in energy and in comfort: a search for each of so many weights, of every controller.
+
+    condition: in which; draws: of an evaluation; evaluations: of a weight's search, of the ends three times as many,
+    all of them for each of both; controllers: all that have ranges
+    without it; late_s: runs that still move so long after the arrival time are left out, so that energies are compared
+    at equal arrival.
     """
 
     condition: Name
-    draws: Count
-    objective: Objective
-    without_curve: WithoutCurve | None = None
+    weights: Annotated[int, Strict(), Field(ge=2, le=100)] = 12
+    evaluations: Count = 10
+    draws: Count = 1
+    controllers: tuple[Name, ...] = ()
+    late_s: Positive = 1.0
 
 
 class Contest(Study):
     """A contest: its scenario's file (relative to this one), seeds, conditions and tuning.
 
-    entrants: who takes part beside the scenario's controllers; absent: laws that do not, and why.
+    seeds: draws of every condition in which anything is drawn; with racing the most. entrants: who takes part beside
+    the scenario's controllers; absent: laws that do not, and why.
     """
 
     scenario: Text
@@ -113,6 +196,8 @@ class Contest(Study):
     tuning: Tuning
     entrants: dict[Name, ControllerSpec] = Field(default_factory=dict)
     absent: dict[Name, Text] = Field(default_factory=dict)
+    racing: Racing | None = None
+    pareto: Pareto | None = None
     _world: Scenario | None = PrivateAttr(default=None)
 
     @model_validator(mode="before")
@@ -140,9 +225,44 @@ class Contest(Study):
     def _names_exist(self) -> Self:
         if not self.conditions:
             raise ValueError("conditions: none given: add a [conditions.<name>] table")
-        if self.tuning.condition not in self.conditions:
-            raise ValueError(f"tuning.condition: '{self.tuning.condition}' is no condition: choose one of "
-                             f"{', '.join(self.conditions)}")
+        named = [("condition", self.tuning.condition), *(("conditions", name) for name in self.tuning.conditions)]
+        named = [(f"tuning.{key}", name) for key, name in named]
+        named += [("pareto.condition", self.pareto.condition)] if self.pareto else []
+        for key, name in named:
+            if name not in self.conditions:
+                raise ValueError(f"{key}: '{name}' is no condition: choose one of {', '.join(self.conditions)}")
         return self
+
+    def tuned_in(self, name: str) -> tuple[Name, ...]:
+        """The conditions in which a search is run: `name` where each is tuned by itself."""
+        tuning = self.tuning
+        if tuning.mode == "per condition":
+            return (name,)
+        return (tuning.condition,) if tuning.mode == "condition" else tuning.conditions or tuple(self.conditions)
+
+    def runs_an_evaluation(self, name: str) -> int:
+        """How many runs one evaluation of a search takes."""
+        return sum(self.tuning.draws if self.conditions[each].random else 1 for each in self.tuned_in(name))
+
+    def evaluations(self, name: str) -> int:
+        """How often a search may try parameters, in all its restarts; name: as for `tuned_in`."""
+        return self.tuning.runs // self.runs_an_evaluation(name) if self.tuning.runs else EVALUATIONS
+
+    def found_for(self, controller: str, condition: str) -> dict[str, float] | None:
+        """What was found for a controller and counts in a condition; None where nothing was."""
+        tuning = self.tuning
+        own = tuning.found_in.get(condition, {}).get(controller) if tuning.mode == "per condition" else None
+        return own or tuning.found.get(controller)
+
+    def result_for(self, controller: str, condition: str) -> SearchResult | None:
+        """How that was found, where it is known."""
+        tuning = self.tuning
+        if tuning.mode == "per condition" and controller in tuning.found_in.get(condition, {}):
+            return tuning.results_in.get(condition, {}).get(controller)
+        return tuning.results.get(controller)
+
+    def is_tuned(self, controller: str) -> bool:
+        """Whether something was found for every condition."""
+        return all(self.found_for(controller, condition) is not None for condition in self.conditions)
 
 

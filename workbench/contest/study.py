@@ -12,16 +12,18 @@ import numpy as np
 
 from workbench.contest.energy import best_run
 from workbench.contest.entrants import check_entrants, entered, follows_curve, learns
-from workbench.contest.journal import matches_journal, matches_of
+from workbench.contest.journal import contest_digest, matches_journal, matches_of, world_digest
 from workbench.contest.learning import learning_findings, learning_plot, learning_tables
-from workbench.contest.matches import METRICS, Match, all_matches, draws_of, of, overspeed, run_match
+from workbench.contest.matches import METRICS, Match, all_matches, of, overspeed, run_match
+from workbench.contest.pareto import all_fronts, front_plots, front_tables, who
 from workbench.contest.premises import premises_findings, premises_table, words_of
 from workbench.contest.record import Contest
 from workbench.contest.tables import COLUMNS, Told, all_tables
 from workbench.contest.tune import tune_all
+from workbench.contest.tuning_table import convergence_plot, tuning_findings, tuning_table
 from workbench.errors import InputError
 from workbench.files.numbers import number
-from workbench.paper.local_search import Tuned
+from workbench.paper.parameter_search import Kept, Name, Tuned
 from workbench.paper.results import Curve, Plot, StudyResult
 from workbench.paper.study import Progress, StudyKind
 from workbench.trains.scenario import Scenario, load_scenario, tunable
@@ -53,7 +55,27 @@ def located(contest: Contest, path: Path) -> Contest:
             if key not in tunable(scenario, name):
                 raise InputError(path, f"tuning.ranges.{name}.{key}", "is no parameter of this controller: choose "
                                  f"among {', '.join(tunable(scenario, name))}")
+    if contest.pareto:
+        try:
+            who(contest, scenario)
+        except InputError as trouble:
+            raise trouble.within(path) from None
+    for metric in contest.racing.metrics if contest.racing else ():
+        if metric not in METRICS or (metric == "overspeed_mps" and not scenario.track.speed_limit):
+            raise InputError(path, "racing.metrics", f"'{metric}' is none of this line's: choose among "
+                             f"{', '.join(METRICS)}")
     return contest
+
+
+def undecided(told: Told) -> list[str]:
+    """In a race the conditions in which somebody is not told apart from the best in a metric that decides.
+
+    Those whose runs agree are one.
+    """
+    race, numbers = told.contest.racing, {entry: i for i, entry in enumerate(told.entries)}
+    one = [{numbers[entry] for entry in group} for group in told.alike]
+    return [name for name, condition in told.contest.conditions.items() if race and condition.random and any(
+        not any(group >= set(told.rankings[name, metric].winners) for group in one) for metric in race.metrics)]
 
 
 def _delays_alike(contest: Contest, scenario: Scenario, path: Path) -> None:
@@ -84,19 +106,22 @@ def _delays_alike(contest: Contest, scenario: Scenario, path: Path) -> None:
 
 def run(contest: Contest, workers: int, on_progress: Progress) -> StudyResult:
     """All matches, their tables, figures and findings."""
-    return _run(contest, workers, on_progress, (), lambda match: None)
+    return _run(contest, workers, on_progress, (), lambda match: None, (None, False))
 
 
 def run_kept(contest: Contest, workers: int, on_progress: Progress, folder: Path, resume: bool) -> StudyResult:
-    """`run` with a journal of the matches in a folder; with `resume` those that it holds are not played again."""
+    """`run` with journals of matches and fronts in a folder; with `resume` what they hold is not run again."""
     with matches_journal(folder, contest, resume) as journal:
-        return _run(contest, workers, on_progress, matches_of(journal), lambda match: journal.append(asdict(match)))
+        return _run(contest, workers, on_progress, matches_of(journal), lambda match: journal.append(asdict(match)),
+                    (folder, resume))
 
 
 def _run(contest: Contest, workers: int, on_progress: Progress, played: Sequence[Match],
-         keep: Callable[[Match], None]) -> StudyResult:
+         keep: Callable[[Match], None], fronts_in: tuple[Path | None, bool]) -> StudyResult:
     scenario = contest.world
-    matches = all_matches(contest, scenario, workers, on_progress, played, keep)
+    matches = all_matches(contest, scenario, workers, on_progress, played, keep, lambda now: undecided(
+        Told(contest, scenario, tuple(now), None)))
+    fronts = all_fronts(contest, scenario, workers, on_progress, *fronts_in, digest=contest_digest(contest))
     best = best_run(scenario)
     told = Told(contest, scenario, matches, best.lower_bound_j if best else None)
     first: dict[str, str] = {}  # of an entry's failed runs under a condition the first; the findings say how many
@@ -105,8 +130,10 @@ def _run(contest: Contest, workers: int, on_progress: Progress, played: Sequence
             first.setdefault(f"{match.entry}, {contest.conditions[match.condition].title}", match.failed)
     failures, words = tuple(first.items()), tuple(words_of(told))
     return StudyResult(rows=tuple(_rows(told)),
-                       tables=(*all_tables(told), *premises_table(told, words), *learning_tables(told)),
-                       plots=(*_plots(told), *learning_plot(told)),
+                       tables=(*all_tables(told), *premises_table(told, words), *tuning_table(told),
+                               *front_tables(contest, fronts), *learning_tables(told)),
+                       plots=(*_plots(told), *learning_plot(told), *convergence_plot(told),
+                              *front_plots(contest, fronts)),
                        findings=(*_findings(told), *premises_findings(told, words), *learning_findings(told)),
                        failures=failures)
 
@@ -180,7 +207,7 @@ def _findings(told: Told) -> Iterator[str]:
         failed = Counter(match.entry for match in told.matches if match.condition == name and match.failed)
         if failed:
             words = ", ".join(f"{entry} {n}" for entry, n in failed.most_common())
-            runs = draws_of(told.contest, name)
+            runs = told.runs(name)
             yield f"Runs that fail, {stated.title}: {words}, of {runs} run{'s' if runs > 1 else ''} of each law."
     if told.lower_bound_j:
         first = next(iter(told.contest.conditions))
@@ -194,9 +221,10 @@ def _findings(told: Told) -> Iterator[str]:
                    f"{number(least / 3.6e6)} kWh, {number(100 * (least / told.lower_bound_j - 1))} % more.")
     yield from _without_curve(told)
     yield from _limits_of_the_curve(told)
-    for entry in told.entries:
-        if entry.tuned:
-            yield from _gain(told, entry.controller, entry.name)
+    yield from tuning_findings(told)
+    for group in told.alike:
+        if len(group) > 1:
+            yield f"{' and '.join(entry.name for entry in group)} agree in every run and metric: told as one row."
 
 
 def _without_curve(told: Told) -> Iterator[str]:
@@ -231,20 +259,8 @@ def _limits_of_the_curve(told: Told) -> Iterator[str]:
                "tracks it is too.")
 
 
-def _gain(told: Told, controller: str, tuned: str) -> Iterator[str]:
-    condition = told.contest.tuning.condition
-    names = [entry.name for entry in told.entries]
-    metric, words = (("position_rms", "position RMS {} m → {} m") if follows_curve(told.scenario, controller) else
-                     ("energy_J", "energy {} kWh → {} kWh"))
-    before, after = (told.values(condition, metric)[names.index(name)] for name in (controller, tuned))
-    if before is not None and after is not None:
-        change = words.format(*(number(float(value.mean()) / COLUMNS[metric].si) for value in (before, after)))
-        yield (f"Tuning of {controller} ({told.contest.tuning.runs} runs): {change} under "
-               f"{told.contest.conditions[condition].title}.")
+def _tuned(contest: Contest, names: list[str], workers: int, on_progress: Progress, kept: Kept) -> dict[Name, Tuned]:
+    return tune_all(contest, contest.world, names, workers, on_progress, kept)
 
 
-def _tuned(contest: Contest, names: list[str], workers: int, on_progress: Progress) -> dict[str, Tuned]:
-    return tune_all(contest, contest.world, names, workers, on_progress)
-
-
-KIND = StudyKind(Contest, run, located, _tuned, run_kept)
+KIND = StudyKind(Contest, run, located, _tuned, run_kept, depends=world_digest)

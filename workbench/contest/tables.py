@@ -4,20 +4,21 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
 
 from workbench.contest.effort import mpc_table
 from workbench.contest.entrants import follows_curve, held_samples, information
-from workbench.contest.matches import METRICS, OF_CURVE, Entry, Match, entries, of
+from workbench.contest.matches import METRICS, OF_CURVE, Entry, Match, entries, looks, of
 from workbench.contest.record import Contest
 from workbench.contest.sampling import with_periods
 from workbench.files.numbers import number
 from workbench.paper.cells import Cell, Column, Phrase, Quantity
 from workbench.paper.comparison import STEP
 from workbench.paper.results import ResultTable
-from workbench.paper.statistics import mean_interval, resampled, winners
+from workbench.paper.statistics import Bootstrap, Ranking, mean_interval, rankings
 from workbench.trains.scenario import Scenario
 
 # Metrics of a match, SI.
@@ -61,10 +62,14 @@ class Told:
         """Whether a metric says anything about an entry: errors from the curve do not where none is followed."""
         return metric not in OF_CURVE or follows_curve(self.scenario, entry.controller)
 
-    def chosen(self, condition: str) -> NDArray[np.intp]:
-        """The bootstrap's draws of a condition."""
-        random = self.contest.conditions[condition].random
-        return resampled(self.contest.seeds if random else 1, self.contest.resamples, self.contest.seed)
+    @property
+    def how(self) -> Bootstrap:
+        """How intervals are made."""
+        return Bootstrap(self.contest.resamples, self.contest.seed, self.contest.confidence)
+
+    def runs(self, condition: str) -> int:
+        """How many runs every entry has under a condition."""
+        return max((match.draw for match in self.matches if match.condition == condition), default=-1) + 1
 
     def values(self, condition: str, metric: str) -> list[NDArray[np.float64] | None]:
         """A metric by entry and draw; None for an entry with a failed run."""
@@ -79,46 +84,91 @@ class Told:
         return [value is not None and bool(value.max() <= ARRIVED_M)
                 for value in self.values(condition, "stopping_error")]
 
+    def ranked(self, condition: str, metric: str) -> list[NDArray[np.float64] | None]:
+        """The values of those who can be ranked: their runs all arrive, and the metric says something about them."""
+        return [value if arrived and self.judged(entry, metric) else None for entry, value, arrived in zip(
+            self.entries, self.values(condition, metric), self.arrives(condition), strict=True)]
+
+    @cached_property
+    def rankings(self) -> dict[tuple[str, str], Ranking]:
+        """(condition, metric) -> who is best, corrected for all of them together.
+
+        With racing at the level of one of its looks, since a contest that may end early asks more than once.
+        """
+        return rankings({(condition, metric): self.ranked(condition, metric)
+                         for condition in self.contest.conditions for metric in self.metrics},
+                        look(self.contest), ALIKE)
+
     def winners(self, condition: str, metric: str) -> list[str]:
         """Names of the entries that are not worse than the best by more than chance, among those that arrive.
 
         Who is not judged by the metric is left out.
         """
-        ranked = [value if arrived and self.judged(entry, metric) else None for entry, value, arrived in zip(
-            self.entries, self.values(condition, metric), self.arrives(condition), strict=True)]
-        return [self.entries[i].name for i in winners(
-            ranked, self.chosen(condition), self.contest.confidence, ALIKE)]
+        return [self.entries[i].name for i in sorted(self.rankings[condition, metric].winners)]
+
+    @cached_property
+    def alike(self) -> tuple[tuple[Entry, ...], ...]:
+        """The entries, those together whose runs agree within ALIKE in every metric of every draw and condition."""
+        groups: list[list[Entry]] = []
+        rows = {entry.name: [list(match.values.values()) for match in self.matches if match.entry == entry.name]
+                for entry in self.entries}
+        for entry in self.entries:
+            for group in groups:
+                if _agree(rows[entry.name], rows[group[0].name]):
+                    group.append(entry)
+                    break
+            else:
+                groups.append([entry])
+        return tuple(map(tuple, groups))
+
+
+def _agree(one: list[list[float | None]], other: list[list[float | None]]) -> bool:
+    """Whether all numbers are the same to a thousandth of the largest of their metric, and failed in the same runs."""
+    a, b = np.array(one, dtype=float), np.array(other, dtype=float)
+    if a.size == 0 or a.shape != b.shape or not np.array_equal(np.isnan(a), np.isnan(b)) or np.isnan(a).all():
+        return False
+    scale = np.nanmax(np.abs(a), axis=0, initial=0.0)
+    return bool(np.all(np.isnan(a) | (np.abs(a - b) <= ALIKE * scale)))
+
+
+def look(contest: Contest) -> Bootstrap:
+    """How a ranking is decided: in a race at the level of one of its looks, so that all of them err no more."""
+    return Bootstrap(contest.resamples, contest.seed, 1 - (1 - contest.confidence) / looks(contest))
 
 
 def condition_table(told: Told, condition: str) -> ResultTable:
     """A row per entry: means with their intervals, failed runs."""
     stated = told.contest.conditions[condition]
-    chosen, rows = told.chosen(condition), []
+    rows = []
     best = {metric: told.winners(condition, metric) for metric in told.metrics}
     columns = {metric: told.values(condition, metric) for metric in told.metrics}
-    for i, entry in enumerate(told.entries):
+    numbers = {entry: i for i, entry in enumerate(told.entries)}
+    for group in told.alike:
+        entry, i = group[0], numbers[group[0]]
         matches = of(told.matches, condition, entry.name)
         failed = sum(match.failed is not None for match in matches)
-        cells: list[Cell] = [entry.name]
+        cells: list[Cell] = [" = ".join(one.name for one in group)]
         for metric in told.metrics:
             value = columns[metric][i]
             mark = " ●" if entry.name in best[metric] else "" if told.judged(entry, metric) else " (follows no curve)"
-            cells.append(None if value is None else _interval(value, chosen, told.contest.confidence, mark))
+            cells.append(None if value is None else _interval(value, told.how, mark))
         rows.append((*cells, Phrase("{} of {}", (failed, len(matches)))))
-    runs = told.contest.seeds if stated.random else 1
+    runs = told.runs(condition)
     noisy = stated.position_noise_m or stated.speed_noise_mps
     noise = " Noise is drawn anew at every sample, so that who samples more often has more to average." if noisy else ""
     return ResultTable(
         stated.title, f"{runs} run{'s' if runs > 1 else ''} each, the same draws for all",
         ("controller", *(COLUMNS[metric] for metric in told.metrics), "failed"), tuple(rows),
-        f"Means, in brackets their {100 * told.contest.confidence:g} % bootstrap interval. ● the best, and every one "
-        "whose paired difference from it may be chance. A controller with a run that fails, or that misses the end by "
-        f"more than {ARRIVED_M:g} m, is not ranked; nor is one by errors from a curve that it does not follow."
+        f"Means, in brackets their {100 * told.contest.confidence:g} % bootstrap interval (BCa). ● the best, and every "
+        "one whose paired difference from it may be chance, by Holm's correction over all metrics and conditions; = "
+        f"joins those whose runs agree within {100 * ALIKE:g} % in all of them. A controller with a run that fails, or "
+        f"that misses the end by more than {ARRIVED_M:g} m, is not ranked; nor is one by errors from a curve that it "
+        "does not follow."
         + noise)
 
 
-def _interval(values: NDArray[np.float64], chosen: NDArray[np.intp], confidence: float, mark: str) -> Cell:
-    found = mean_interval(values, chosen, confidence)
+def _interval(values: NDArray[np.float64], how: Bootstrap, mark: str) -> Cell:
+    found = mean_interval(values, how)
     if len(values) == 1:
         return Phrase(f"{{}}{mark}", (found.mean,)) if mark else found.mean
     return Phrase(f"{{}} [{{}}, {{}}]{mark}", (found.mean, found.low, found.high))
@@ -137,8 +187,8 @@ def winners_table(told: Told) -> ResultTable:
     return ResultTable(
         "Who wins where", "the tables below", ("condition", *(COLUMNS[metric].heading for metric in told.metrics)),
         tuple(rows),
-        "A difference inside its interval, or of less than a thousandth, is no win: then all that may be best are "
-        "named or counted. Ranked are those "
+        "A difference that may be chance, by Holm's correction over all metrics and conditions, or of less than a "
+        "thousandth, is no win: then all that may be best are named or counted. Ranked are those "
         f"whose runs all end within {ARRIVED_M:g} m of the end of the line. A trailing + marks the tuned parameters.")
 
 
@@ -148,13 +198,26 @@ def contestants_table(told: Told) -> ResultTable:
     for entry in told.entries:
         spec = told.scenario.controllers[entry.controller]
         steps = [match.step_us for match in told.matches if match.entry == entry.name]
-        parameters = told.contest.tuning.found[entry.controller] if entry.tuned else {}
+        parameters = told.contest.tuning.found.get(entry.controller, {}) if entry.tuned else {}
+        cost = _objective(told, entry)
         rows.append((entry.name, spec.title or spec.law, information(told.scenario, entry.controller),
-                     spec.period_s * held_samples(told.scenario, entry.controller), float(np.median(steps)) * STEP.si,
-                     _parameters(parameters) if parameters else "as stated"))
+                     spec.period_s * held_samples(told.scenario, entry.controller),
+                     float(np.median(steps)) * STEP.si, cost,
+                     _parameters(parameters) if parameters else "by condition" if entry.tuned else "as stated"))
     return ResultTable("The contestants", "the contest's file", (
-        "controller", "law", "is told", Column("period", "ms", 1e-3, None), STEP, "parameters"), tuple(rows),
-        "Time a step: a compiled law in blocks with the plant, MPC call by call without it.")
+        "controller", "law", "is told", Column("period", "ms", 1e-3, None), STEP, "objective", "parameters"),
+        tuple(rows),
+        "Time a step: a compiled law in blocks with the plant, MPC call by call without it. Objective: what tuning "
+        "minimises, on the draws of the search; of who has other parameters in each condition the least and the most.")
+
+
+def _objective(told: Told, entry: Entry) -> Cell:
+    found = [result for name in told.contest.conditions
+             if (result := told.contest.result_for(entry.controller, name)) is not None]
+    costs = [result.cost if entry.tuned else result.stated_cost for result in found]
+    if not costs:
+        return None
+    return costs[0] if min(costs) == max(costs) else Phrase("{} to {}", (min(costs), max(costs)))
 
 
 def _parameters(values: Mapping[str, float]) -> Cell:

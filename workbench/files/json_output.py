@@ -3,13 +3,19 @@
 from __future__ import annotations
 
 import json
+import sys
 from pathlib import Path
 from typing import Any
 
+from workbench.files.outputs import STANDARD_OUTPUT
 from workbench.files.writing import write_text
 
 
 def write_json(path: Path, document: dict[str, Any]) -> None:
-    """Write a document as JSON; NaN is refused. Raises InputError where it cannot be written."""
+    """Write a document as JSON, to standard output where the path is `-`; NaN is refused. Raises InputError where it
+    cannot be written."""
     text = json.dumps(document, indent=1, ensure_ascii=False, allow_nan=False) + "\n"
+    if path == STANDARD_OUTPUT:
+        sys.stdout.write(text)
+        return
     write_text(path, text, "name another file")

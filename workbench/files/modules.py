@@ -19,7 +19,7 @@ from typing import Any
 
 from workbench.errors import InputError
 from workbench.files.mistakes import OF_A_FOLDER, mistake
-from workbench.files.text import inputs_read, read_source, written_since_read
+from workbench.files.text import inputs_read_by, read_source, written_since_read
 
 PREFIX = OF_A_FOLDER
 
@@ -95,13 +95,13 @@ def module_in(folder: Path, name: str) -> ModuleType:
 
 
 def forget_changed(folder: Path) -> None:
-    """Forget a folder's modules where a file of it, or one that this process has read, was written since they were
-    imported: what is asked for next is imported anew."""
+    """Forget a folder's modules where a file of it, or an input that they have read, was written since: what is asked
+    for next is imported anew. Modules that read nothing of it stay what they are, since others hold their functions."""
     package = package_of(folder)
     since = _imported_ns.get(package)
     own = (path for path in (folder, *folder.rglob("*")) if "certificates" not in path.relative_to(folder).parts)
     if since is None or not (any(_written_ns(path) > since - TICK_NS for path in own)
-                             or any(path.exists() and written_since_read(path) for path in inputs_read())):
+                             or any(path.exists() and written_since_read(path) for path in inputs_read_by(package))):
         return
     for name in [name for name in sys.modules if name.partition(".")[0] == package]:
         del sys.modules[name]

@@ -14,6 +14,8 @@ INPUTS_ALONE = (".py", ".toml")
 # What these begin names the output of a shell or another process, even where that is a file.
 STREAMS = ("/dev/std", "/dev/fd/", "/proc/")
 
+STANDARD_OUTPUT = Path("-")
+
 # The folder that an option names, and the files that will be written in it.
 Folder = tuple[Path, Sequence[str]]
 
@@ -28,7 +30,7 @@ def check_outputs(files: Mapping[str, Path | None], inputs: Iterable[Path] = (),
     """
     taken = _Taken([*inputs_read(), *sources_read(), *inputs])
     for option, path in files.items():
-        if path is not None:
+        if path is not None and path != STANDARD_OUTPUT:
             _check_file(option, path)
             taken.take(option, path)
     for option, folder in (folders or {}).items():

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import hashlib
+import sys
 import time
 from pathlib import Path
 
@@ -12,7 +13,7 @@ from workbench.files.regular import LARGEST_DATA, LARGEST_TEXT, NotRegularError,
 # What is not named here is data.
 _LIMITS = {"TOML": LARGEST_TEXT}
 
-_read: set[Path] = set()
+_read: dict[Path, set[str]] = {}
 _sources: set[Path] = set()
 _digests: dict[str, tuple[str, int]] = {}
 
@@ -20,6 +21,12 @@ _digests: dict[str, tuple[str, int]] = {}
 def inputs_read() -> frozenset[Path]:
     """The files that this process has read as its inputs."""
     return frozenset(_read)
+
+
+def inputs_read_by(package: str) -> list[Path]:
+    """The inputs that this process has read while a module of a package, or what a module of it called, was running:
+    no other input can be in what its modules keep."""
+    return [path for path, packages in _read.items() if package in packages]
 
 
 def sources_read() -> frozenset[Path]:
@@ -49,7 +56,7 @@ def read_text(path: Path, kind: str, where: str = "check the path") -> str:
     kind: what it should hold, as 'TOML', which also says how large it may be; where: what to do when there is none.
     Raises InputError.
     """
-    _read.add(path.absolute())
+    _read.setdefault(path.absolute(), set()).update(_running_packages())
     try:
         text = _remembered(path, _contents(path, kind, where)).decode("utf-8-sig")
     except UnicodeDecodeError:
@@ -69,6 +76,15 @@ def read_source(path: str) -> bytes:
     except (NotRegularError, TooLargeError) as trouble:
         raise InputError(path, "", f"cannot be imported ({trouble.strerror}): name a regular file, or divide "
                          "it") from None
+
+
+def _running_packages() -> set[str]:
+    """The packages, by the first part of their names, whose functions have been entered and not been left."""
+    found, frame = set(), sys._getframe()
+    while frame.f_back is not None:
+        frame = frame.f_back
+        found.add(str(frame.f_globals.get("__name__")).partition(".")[0])
+    return found
 
 
 def _remembered(path: str | Path, data: bytes) -> bytes:

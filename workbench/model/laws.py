@@ -8,10 +8,11 @@ from typing import Any, TypeVar
 from workbench.errors import InputError
 from workbench.files.folders import held_in, is_paper, paper_named, papers_near
 from workbench.files.modules import module_in
+from workbench.model.cascaded_pid import cascaded_pid
 from workbench.model.law import ControlLaw
 from workbench.model.pid import pid
 
-GENERAL: dict[str, ControlLaw] = {pid.id: pid}
+GENERAL: dict[str, ControlLaw] = {law.id: law for law in (pid, cascaded_pid())}
 
 T = TypeVar("T")
 

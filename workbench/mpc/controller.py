@@ -9,6 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from workbench.errors import InputError
+from workbench.mpc.adaptive import AdaptiveMpc
 from workbench.mpc.economic import Prices, economic_mpc
 from workbench.mpc.fallback import Fallback
 from workbench.mpc.linear import LinearMpc
@@ -48,6 +49,11 @@ def _tube(problem: Problem, ahead: Array, values: Values, start_m: float) -> Tub
     return TubeMpc(problem, ahead, checked_tube(problem, ahead, values["disturbance_mps2"], start_m))
 
 
+def _adaptive(problem: Problem, ahead: Array, values: Values, start_m: float) -> Tracker:
+    del start_m
+    return AdaptiveMpc(problem, ahead, values["forgetting"])
+
+
 @dataclass(frozen=True)
 class Kind:
     """One of the family: what it is called, what it knows, how it solves, and the parameters beside COMMON.
@@ -78,6 +84,7 @@ KINDS: dict[str, Kind] = {
     "mpc.offset_free": Kind("offset-free nonlinear MPC", "full state, nominal model", _nonlinear, ("observer_gain",)),
     "mpc.told": Kind("offset-free nonlinear MPC, told the grades", "full state, nominal model, the line", _nonlinear,
                      ("observer_gain",), told_grades=True),
+    "mpc.adaptive": Kind("adaptive MPC", "full state, nominal model at the start", _adaptive, ("forgetting",)),
     "mpc.economic": Kind("economic MPC", "full state, nominal model, the line", _economic,
                          ("observer_gain", "energy_price", "time_price", "regenerated"), told_grades=True,
                          follows_curve=False),

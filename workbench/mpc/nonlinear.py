@@ -49,6 +49,13 @@ class NonlinearMpc:
             array[:] = 0
         self._sample = -1
 
+    def drive(self, davis: tuple[float, float, float], gain: float) -> None:
+        """Predict another train from now on: its Davis coefficients, and its limits as so many times the problem's."""
+        parameters, limits = self._fixed[0], self._fixed[3]
+        parameters[:3] = davis
+        # Commands and power are per unit of mass; the band, between them, is not.
+        limits[[0, 1, 3]] = gain * self.problem.limits()[[0, 1, 3]]
+
     def solve(self, sample: int, state: Array, disturbance: float = 0.0) -> Solution:
         """The plan from a state at a sample; the one before is shifted to start from, where it is one sample old."""
         N = self.horizon

@@ -10,8 +10,9 @@ import numpy as np
 from workbench.compile.kernel import numeric
 from workbench.model.desired_curve import DesiredCurve
 from workbench.mpc.problem import Array, Problem
+from workbench.trains.resistance import davis_resistance
 from workbench.trains.track import ResistanceTable, SpeedSection
-from workbench.trains.train import a_star, b_star, c_star, davis_resistance, x_2
+from workbench.trains.train import a_star, b_star, c_star, x_2
 
 COLUMNS = ("p_m", "v_mps", "F_mps2", "u_mps2", "speed_limit_mps", "f_mps2")
 # Davis resistance per unit of mass of (v, a, b, c).

@@ -1,4 +1,4 @@
-"""The cost beyond the horizon and the feedback behind it: the LQR of the linearised model, by python-control."""
+"""The cost beyond the horizon and the feedback behind it: the LQR of the linearised model."""
 
 from __future__ import annotations
 

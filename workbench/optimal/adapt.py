@@ -11,7 +11,7 @@ from workbench.optimal.grid import Grid, grid_on, kept_borders, with_force_borde
 from workbench.optimal.profile import Profile, cell_energy_j
 from workbench.optimal.socp import Plan
 from workbench.optimal.vehicle import Vehicle
-from workbench.trains.train import davis_resistance
+from workbench.trains.resistance import davis_resistance
 
 # Intervals that a finer mesh has more, as a share.
 GROWTH = 0.7

@@ -42,7 +42,7 @@ from workbench.optimal.certificate import Certificate
 from workbench.optimal.course import Array, Course
 from workbench.optimal.force_pieces import ForcePiece, force_pieces
 from workbench.optimal.timetable import Timetable, as_timetable
-from workbench.optimal.vehicle import Vehicle
+from workbench.optimal.vehicle import ForceLimit, Vehicle
 
 # Of 1 / v, 1, v and v^2.
 Coefficients = tuple[Array, Array, Array, Array]
@@ -50,6 +50,9 @@ Coefficients = tuple[Array, Array, Array, Array]
 DRAG_TOLERANCE = 1e-9
 # Ranges of speed on each of which one of several limits of the force is used.
 ACCELERATION_RANGES = 30
+# What limits a force: by their places in these lists limits stand in certificates.
+PULL_BY = ("force", "power", "table", "acceleration")
+BRAKE_BY = ("brakes", "deceleration", "mixed")
 
 
 @dataclass(frozen=True)
@@ -57,7 +60,8 @@ class Terms:
     """One minimisation: of inverse / v + constant + slope v + square v^2 for v from low to high, each shape (m,).
 
     cell: which cell it belongs to; its value is the least over all terms of a cell's end. end: 0 left, 1 right.
-    of_force: what of `inverse` is not the price of time, where it is known.
+    pull, brake: which limit of the force each takes, where it is known: PULL_BY, BRAKE_BY. electric: what limits the
+    electric brake, as PULL_BY.
     """
 
     cell: Array
@@ -68,7 +72,9 @@ class Terms:
     constant: Array
     slope: Array
     square: Array
-    of_force: Array | None = None
+    pull: Array | None = None
+    brake: Array | None = None
+    electric: Array | None = None
 
 
 def lower_bound(vehicle: Vehicle, course: Course, certificate: Certificate, asked: Timetable | float,
@@ -114,7 +120,7 @@ def bound_terms(vehicle: Vehicle, course: Course, certificate: Certificate, time
                 inside.astype(float), np.full(len(inside), float(end)), np.full(len(inside), low),
                 np.minimum(high, cells.limit_mps[inside]), (price + way[0])[inside],
                 (p * a + way[1])[inside], (p * b_1 + way[2])[inside], square[inside],
-                way[0][inside]]))
+                *(np.broadcast_to(choice, p.shape)[inside].astype(float) for choice in way[4:])]))
     return Terms(*np.concatenate(found, axis=1))
 
 
@@ -153,8 +159,9 @@ def _cells(course: Course, certificate: Certificate) -> _Cells:
 
 
 def _cheapest(vehicle: Vehicle, cells: _Cells, p: Array, middle: Array, speed: float, traction: ForcePiece,
-              brake: ForcePiece) -> Coefficients:
-    """The least of c(u) - p u from below, as (inverse, constant, slope, square) of the speed, on each cell.
+              brake: ForcePiece) -> tuple[Array, ...]:
+    """The least of c(u) - p u from below, as (inverse, constant, slope, square) of the speed, on each cell, followed by
+    the numbers of the limits it takes: of traction, of braking, of the electric brake.
 
     Each of several limits alone gives a bound; the one taken on a cell is the best in its middle, the same for both of
     its ends. Without limits of the acceleration the first of each is the only one.
@@ -165,6 +172,7 @@ def _cheapest(vehicle: Vehicle, cells: _Cells, p: Array, middle: Array, speed: f
     zero = np.zeros_like(p)
     a, b_1, c = vehicle.davis_n
     drag = cells.drag.min(axis=0), cells.drag.max(axis=0)
+    pulls, brakes_by = np.full_like(p, _kind(vehicle.traction, traction)), zero
     most = (zero - pull * traction.inverse_w, zero - pull * traction.constant_n,
             zero - pull * traction.slope_n_s_per_m, zero)
     least = (zero - regain * brake.inverse_w, zero - regain * brake.constant_n - rub * vehicle.friction_brake_n,
@@ -173,6 +181,7 @@ def _cheapest(vehicle: Vehicle, cells: _Cells, p: Array, middle: Array, speed: f
         top = (vehicle.inertia_kg * vehicle.max_acceleration_mps2 + a + cells.most_force, b_1, c + drag[1])
         # Where the force for it is traction's at every speed, so that the product with `pull` is concave.
         lower = (top[0] >= 0) & (top[0] + top[1] * speed + top[2] * speed**2 < traction.at(speed))
+        pulls = np.where(lower, PULL_BY.index("acceleration"), pulls)
         most = _choose(lower, (zero, -pull * top[0], -pull * top[1], -pull * top[2]), most)
     if np.isfinite(vehicle.max_deceleration_mps2):
         low = (a + cells.least_force - vehicle.inertia_kg * vehicle.max_deceleration_mps2, b_1, c + drag[0])
@@ -185,10 +194,21 @@ def _cheapest(vehicle: Vehicle, cells: _Cells, p: Array, middle: Array, speed: f
         electric = brake.at(speed)
         losses = (mid_regain * electric + mid_rub * vehicle.friction_brake_n, mid_regain * hardest,
                   vehicle.regenerative_efficiency * electric + mid_rub * hardest)
-        least = _choose(brakes & (losses[1] < np.minimum(losses[0], losses[2])),
-                        (zero, regain * low[0], regain * low[1], regain * low[2]),
-                        _choose(brakes & (losses[2] < losses[0]), _mixed(vehicle, brake, rub, low), least))
-    return most[0] + least[0], most[1] + least[1], most[2] + least[2], most[3] + least[3]
+        alone = brakes & (losses[1] < np.minimum(losses[0], losses[2]))
+        mixed = brakes & (losses[2] < losses[0])
+        brakes_by = np.where(alone, BRAKE_BY.index("deceleration"), np.where(mixed, BRAKE_BY.index("mixed"), zero))
+        least = _choose(alone, (zero, regain * low[0], regain * low[1], regain * low[2]),
+                        _choose(mixed, _mixed(vehicle, brake, rub, low), least))
+    return (most[0] + least[0], most[1] + least[1], most[2] + least[2], most[3] + least[3], pulls, brakes_by,
+            np.full_like(p, _kind(vehicle.regenerative, brake)))
+
+
+def _kind(limit: ForceLimit, piece: ForcePiece) -> int:
+    """Which part of a limit a piece of it is, as PULL_BY."""
+    if piece.inverse_w:
+        return PULL_BY.index("power")
+    constant = piece.slope_n_s_per_m == 0 and piece.constant_n == limit.force_n
+    return PULL_BY.index("force" if constant else "table")
 
 
 def _mixed(vehicle: Vehicle, brake: ForcePiece, rub: Array,

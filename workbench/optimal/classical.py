@@ -21,7 +21,8 @@ from scipy.optimize import brentq
 from workbench.compile.kernel import numeric
 from workbench.errors import WorkbenchError
 from workbench.optimal.vehicle import Vehicle
-from workbench.trains.train import a_0, b_0, c_0, davis_resistance, v
+from workbench.trains.resistance import davis_resistance
+from workbench.trains.train import a_0, b_0, c_0, v
 
 _ARGUMENTS = (v, a_0, b_0, c_0)
 _RESISTANCE = davis_resistance(v, a_0, b_0, c_0)

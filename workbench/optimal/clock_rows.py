@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-import cvxpy as cp
 import numpy as np
 from numpy.typing import NDArray
 from scipy import sparse
 
+from workbench.optimal.cone_program import ConeProgram, Linear, Rule, Solution
 from workbench.optimal.course import Array
 from workbench.optimal.timetable import Timetable
 
@@ -36,38 +36,48 @@ class ClockRows:
         """What is known to pass from the first departure to the last arrival beside running and free waits."""
         return float(self.fixed_s[-1] - self.fixed_s[0])
 
-    def rules(self, tau: cp.Variable, unit_s: float) -> tuple[NDArray[np.intp], NDArray[np.intp],
-                                                              list[cp.Constraint], cp.Expression]:
-        """Events with a latest time, those with an earliest one, and the rows that say so; durations in unit_s.
+    @property
+    def free_waits(self) -> int:
+        """How many waits are variables."""
+        return int(self.waits.shape[1])
 
-        Last what is run and freely waited from the first departure to the last arrival.
-        """
+    def rules(self, program: ConeProgram, tau: Linear, wait: Linear, unit_s: float) -> WindowRules:
+        """Adds the rows that say which events have a latest and an earliest time; durations in unit_s."""
         windows = [event.window for event in self.timetable.events]
         highest, lowest = (np.array([getattr(window, name) for window in windows])
                            for name in ("latest_s", "earliest_s"))
-        free = self.waits.shape[1]
         # What precedes the first departure is free where a wait there may serve, else it is none.
         late = np.flatnonzero(np.isfinite(highest) & ((np.arange(len(windows)) > 0) | self.waits.any(axis=1)))
         soon = np.flatnonzero(np.isfinite(lowest) & (np.arange(len(windows)) > 0))
-        wait = cp.Variable(free, nonneg=True) if free else None
 
-        def clock(at: NDArray[np.intp]) -> cp.Expression:
-            ran = self.runs[at] @ tau
-            return ran if wait is None else ran + self.waits[at] @ wait
+        def clock(at: NDArray[np.intp]) -> Linear:
+            matrix = self.runs[at] @ tau.matrix + sparse.csr_array(self.waits[at]) @ wait.matrix
+            return Linear(sparse.csr_array(matrix), np.zeros(len(at)))
 
-        found = [clock(late) <= (highest - self.fixed_s)[late] / unit_s]
-        if len(soon):
-            found.append(clock(soon) >= (lowest - self.fixed_s)[soon] / unit_s)
-        run = cp.sum(tau)
-        return late, soon, found, run if wait is None else run + (self.waits[-1] - self.waits[0]) @ wait
+        not_late = program.require_at_most(clock(late) - (highest - self.fixed_s)[late] / unit_s)
+        not_soon = program.require_at_most(-1.0 * clock(soon) + (lowest - self.fixed_s)[soon] / unit_s)
+        return WindowRules(late, soon, not_late, not_soon)
 
-    def prices(self, late: NDArray[np.intp], soon: NDArray[np.intp], rules: list[cp.Constraint]) -> Array:
-        """The price of each event in the program's unit of cost, of the solved rows."""
+    def between_ends(self, tau: Linear, wait: Linear) -> Array:
+        """What is run and freely waited from the first departure to the last arrival: a factor a variable."""
+        return np.asarray(tau.matrix.sum(axis=0)) + wait.matrix.T @ (self.waits[-1] - self.waits[0])
+
+    def prices(self, solved: Solution, rules: WindowRules) -> Array:
+        """The price of each event in the program's unit of cost."""
         found = np.zeros(len(self.fixed_s))
-        found[late] += np.maximum(rules[0].dual_value, 0.0)
-        if len(soon):
-            found[soon] -= np.maximum(rules[1].dual_value, 0.0)
+        found[rules.late] += np.maximum(solved.price(rules.not_late), 0.0)
+        found[rules.soon] -= np.maximum(solved.price(rules.not_soon), 0.0)
         return found
+
+
+@dataclass(frozen=True)
+class WindowRules:
+    """Events with a latest time, those with an earliest one, and the rows that say so."""
+
+    late: NDArray[np.intp]
+    soon: NDArray[np.intp]
+    not_late: Rule
+    not_soon: Rule
 
 
 def clock_rows(timetable: Timetable, position_m: Array, extra_s: Array | None = None) -> ClockRows:

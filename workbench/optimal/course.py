@@ -30,7 +30,8 @@ class Course:
     (n, 2), N, at the start and the end of each section and linear between: grade and curves, opposing motion.
     drag: shape (n, 2), N s^2/m^2, likewise: what tunnels add to the resistance's square term. stops_m: positions
     strictly inside at which the train must come to a stand, each one of position_m. points: passed strictly inside,
-    each at one of position_m too.
+    each at one of position_m too. usable: shape (n, 2), the shares of traction and of the brakes that a driven run may
+    use on each section, all of them where none is given; bounds do not count on it.
     Raises WorkbenchError when shapes, order or signs are wrong.
     """
 
@@ -40,6 +41,7 @@ class Course:
     drag: Array
     stops_m: tuple[float, ...] = ()
     points: tuple[Passage, ...] = ()
+    usable: Array | None = None
 
     def __post_init__(self) -> None:
         n = len(self.position_m) - 1
@@ -51,9 +53,18 @@ class Course:
                 and np.all(np.isfinite(self.force_n))):
             raise WorkbenchError("course: positions must increase, limits be positive, drag not be negative and "
                                  "forces be finite: correct the line")
+        if self.usable is not None and not (self.usable.shape == (n, 2) and np.all((self.usable > 0)
+                                                                                   & (self.usable <= 1))):
+            raise WorkbenchError("course: the usable shares of traction and brakes must lie above 0 and up to 1, two a "
+                                 "section: correct them")
         if not {*self.stops_m, *(p.position_m for p in self.points)} <= set(self.position_m[1:-1].tolist()):
             raise WorkbenchError("course: a stop or a point is no border of a section inside the run: add it to "
                                  "position_m")
+
+    @property
+    def usable_shares(self) -> Array:
+        """`usable`, shape (n, 2), ones where none is given."""
+        return np.ones((len(self.limit_mps), 2)) if self.usable is None else self.usable
 
     @property
     def length_m(self) -> float:
@@ -72,7 +83,7 @@ class Course:
             return low + share * (high - low)
 
         return replace(self, position_m=borders, limit_mps=self.limit_mps[section], force_n=cut(self.force_n),
-                       drag=cut(self.drag))
+                       drag=cut(self.drag), usable=None if self.usable is None else self.usable[section])
 
     def cut(self, from_m: float, to_m: float) -> Course:
         """The part of the course from one position to another, which must lie inside it."""
@@ -81,7 +92,8 @@ class Course:
         ends = np.flatnonzero(inside)
         return Course(whole.position_m[ends[0]:ends[-1] + 2], whole.limit_mps[inside], whole.force_n[inside],
                       whole.drag[inside], tuple(stop for stop in self.stops_m if from_m < stop < to_m),
-                      tuple(point for point in self.points if from_m < point.position_m < to_m))
+                      tuple(point for point in self.points if from_m < point.position_m < to_m),
+                      None if whole.usable is None else whole.usable[inside])
 
     def speed_windows_mps(self, nodes_m: Array) -> tuple[Array, Array]:
         """The least and the highest speed at positions by points and stops alone: 0 and infinite elsewhere."""

@@ -35,7 +35,7 @@ class CurveRequest(SourcedRecord):
     window_s: Positive
     every_s: Positive
     force_share: Annotated[float, Strict(), Field(gt=0.05, le=1, allow_inf_nan=False)] = 1.0
-    intervals: Annotated[int, Strict(), Field(ge=10, le=100_000)] | None = None
+    intervals: Annotated[int, Strict(), Field(ge=10, le=20_000)] | None = None
 
 
 @dataclass(frozen=True)

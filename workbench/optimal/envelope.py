@@ -1,7 +1,8 @@
 """What a train can drive at most: a forward pass with traction, a backward pass with the brakes.
 
 With the speed limits as the target it gives the fastest run. With a planned run as the target it gives the nearest
-run below it that keeps every limit at every point, not only on average over an interval.
+run below it that keeps every limit at every point, not only on average over an interval: a cell's constant acceleration
+is what the limit leaves at the worst of its points, found from the extremes of limit, resistance and line on it.
 """
 
 from __future__ import annotations
@@ -11,12 +12,18 @@ from numba import njit
 
 from workbench.errors import WorkbenchError
 from workbench.optimal.course import Array, Course
-from workbench.optimal.profile import Profile
+from workbench.optimal.profile import Profile, largest_force
 from workbench.optimal.vehicle import Vehicle
-from workbench.trains.train import davis_resistance
+from workbench.trains.resistance import davis_resistance
 
 # By this share more than a run's last speed is aimed at where full traction leads to it, for the steps' error.
 RUN_UP = 1e-5
+# Over these lengths b follows from one slope, whatever the train; and as many at most.
+PART_M, MOST_PARTS = 20.0, 100_000
+# Times a cell's acceleration is lowered until every point of the cell allows it, and what rounding may add to b.
+STRICT_ROUNDS, ROUNDING = 12, 5e-16
+# A cell on which the limit of the force changes by more than this share is divided, into so many at most.
+FINE, MOST_PARTS, SHORTEST_CELL_M = 4e-3, 16, 1e-2
 NO_TABLE = np.zeros((0, 2))
 compiled_resistance = njit(cache=True)(davis_resistance)
 
@@ -54,9 +61,64 @@ def _slope(b: float, sign: float, line: float, drag: float, numbers: Array, limi
 
 
 @njit(cache=True)
-def _pass(target: Array, start: float, step: Array, line: Array, drag: Array, stands: Array, sign: float,
-          numbers: Array, limits: tuple[Array, Array], tables: tuple[Array, Array]) -> tuple[Array, int]:
-    """Largest b below the target that `_slope` allows, from the first node on; and where it cannot go on, or -1."""
+def _least_force(limit: Array, table: Array, slow: float, fast: float) -> float:
+    """The least of the limit over speeds from slow to fast."""
+    least = min(_force(limit, table, slow), _force(limit, table, fast))
+    for k in range(len(table)):
+        if slow < table[k, 0] < fast:
+            least = min(least, _force(limit, table, table[k, 0]))
+    return least
+
+
+@njit(cache=True)
+def _allowed(b: float, reached: float, sign: float, line: Array, drag: Array, share: float, numbers: Array,
+             limits: tuple[Array, Array], tables: tuple[Array, Array]) -> float:
+    """What `_slope` allows at every point of a cell on which b changes linearly to `reached`."""
+    inertia, a, b_1, c, friction, fastest, hardest = numbers
+    v, w = np.sqrt(2.0 * max(b, 0.0)), np.sqrt(2.0 * max(reached, 0.0))
+    here = compiled_resistance(v, a, b_1, c + drag[0]) + line[0]
+    there = compiled_resistance(w, a, b_1, c + drag[1]) + line[1]
+    # What bends between both ends: b_1 v lies above its chord, a drag that changes times b above or below.
+    bend = 0.5 * (drag[1] - drag[0]) * (reached - b)
+    if sign > 0:
+        arch = b_1 * (w - v)**2 / (4.0 * (v + w)) if v + w > 0.0 else 0.0
+        most = max(here, there) + arch + max(-bend, 0.0)
+        force = share * _least_force(limits[0], tables[0], min(v, w), max(v, w))
+        return float(min((force - most) / inertia, fastest))
+    least = min(here, there) - max(bend, 0.0)
+    force = share * (_least_force(limits[1], tables[1], min(v, w), max(v, w)) + friction)
+    return float(min((force + least) / inertia, hardest))
+
+
+@njit(cache=True)
+def _slope_in_parts(b: float, most: float, step: float, sign: float, line: Array, drag: Array, numbers: Array,
+                    limits: tuple[Array, Array], tables: tuple[Array, Array]) -> float:
+    """The mean `_slope` of a cell, in parts of PART_M and never above `most`; what ends below 0 stands still.
+
+    A cell may be so long that one step over it passes every speed limit and falls back below a standstill.
+    """
+    count = min(max(int(np.ceil(step / PART_M)), 1), MOST_PARTS)
+    part, now = step / count, b
+    for i in range(count):
+        line_0, line_1 = line[0] + i / count * (line[1] - line[0]), line[0] + (i + 1) / count * (line[1] - line[0])
+        drag_0, drag_1 = drag[0] + i / count * (drag[1] - drag[0]), drag[0] + (i + 1) / count * (drag[1] - drag[0])
+        first = _slope(now, sign, line_0, drag_0, numbers, limits, tables)
+        middle = min(max(now + part / 2 * first, 0.0), most)
+        now = min(now + part * _slope(middle, sign, (line_0 + line_1) / 2, (drag_0 + drag_1) / 2, numbers, limits,
+                                      tables), most)
+        if now <= 0.0:
+            return -b / step - 1.0
+    return (now - b) / step
+
+
+@njit(cache=True)
+def _pass(target: Array, start: float, step: Array, line: Array, drag: Array, usable: Array, stands: Array,
+          sign: float, numbers: Array, limits: tuple[Array, Array], tables: tuple[Array, Array],
+          is_strict: bool) -> tuple[Array, int]:
+    """Largest b below the target that the limits allow, from the first node on; and where it cannot go on, or -1.
+
+    Strictly at every point of each cell, else to the second order of its length.
+    """
     b = target.copy()
     b[0] = min(start, target[0])
     for k in range(len(step)):
@@ -64,9 +126,21 @@ def _pass(target: Array, start: float, step: Array, line: Array, drag: Array, st
         middle = max(b[k] + step[k] / 2 * first, 0.0)
         slope = _slope(middle, sign, (line[k, 0] + line[k, 1]) / 2, (drag[k, 0] + drag[k, 1]) / 2, numbers, limits,
                        tables)
+        if b[k] + step[k] * slope <= 0.0:
+            slope = _slope_in_parts(b[k], max(target[k], target[k + 1]), step[k], sign, line[k], drag[k], numbers,
+                                    limits, tables)
+        if is_strict:
+            for number in range(STRICT_ROUNDS):
+                allowed = _allowed(b[k], max(b[k] + step[k] * slope, 0.0), sign, line[k], drag[k], usable[k], numbers,
+                                   limits, tables)
+                if allowed >= slope:
+                    break
+                slope = allowed - number * abs(slope - allowed)
         reached = b[k] + step[k] * slope
         if reached <= 0.0 and not (stands[k + 1] and reached > -1e-9):
             return b, k
+        if is_strict:
+            reached -= ROUNDING * max(b[k], reached)
         b[k + 1] = min(target[k + 1], reached)
     return b, -1
 
@@ -89,11 +163,13 @@ def _run_up(target: Array, top: Array, end: float, step: Array, line: Array, dra
     return raised
 
 
-def drivable(vehicle: Vehicle, course: Course, target: Array, start_mps: float = 0.0, end_mps: float = 0.0) -> Profile:
+def drivable(vehicle: Vehicle, course: Course, target: Array, start_mps: float = 0.0, end_mps: float = 0.0,
+             is_strict: bool = True) -> Profile:
     """The largest run below `target` (half the squared speed at each border of the course).
 
-    A target too low to reach end_mps is raised there. Raises InfeasibleRunError naming the place where traction does
-    not climb or the brakes do not hold.
+    A target too low to reach end_mps is raised there. Strictly within every limit, or to the second order of the
+    cells' length, which the best possible run comes nearer to from either side. Raises InfeasibleRunError naming the
+    place where traction does not climb or the brakes do not hold.
     """
     numbers = np.array([vehicle.inertia_kg, *vehicle.davis_n, vehicle.friction_brake_n, vehicle.max_acceleration_mps2,
                         vehicle.max_deceleration_mps2])
@@ -106,12 +182,14 @@ def drivable(vehicle: Vehicle, course: Course, target: Array, start_mps: float =
     if end_mps > 0:
         most = np.where(stands, 0.0, _top(course))
         top = _run_up(top, most, end_mps**2 / 2, step, course.force_n, course.drag, numbers, limits, tables)
-    forward, stuck = _pass(top, start_mps**2 / 2, step, course.force_n, course.drag, stands, 1.0, numbers, limits,
-                           tables)
+    usable = course.usable_shares
+    forward, stuck = _pass(top, start_mps**2 / 2, step, course.force_n, course.drag, usable[:, 0].copy(), stands, 1.0,
+                           numbers, limits, tables, is_strict)
     if stuck >= 0:
         raise InfeasibleRunError(_stall(vehicle, course, stuck))
     found, stuck = _pass(forward[::-1].copy(), end_mps**2 / 2, step[::-1].copy(), course.force_n[::-1, ::-1].copy(),
-                         course.drag[::-1, ::-1].copy(), stands[::-1].copy(), -1.0, numbers, limits, tables)
+                         course.drag[::-1, ::-1].copy(), usable[::-1, 1].copy(), stands[::-1].copy(), -1.0, numbers,
+                         limits, tables, is_strict)
     if stuck >= 0:
         raise InfeasibleRunError(_runaway(vehicle, course, len(step) - 1 - stuck))
     found = found[::-1].copy()
@@ -122,9 +200,34 @@ def drivable(vehicle: Vehicle, course: Course, target: Array, start_mps: float =
     return Profile(course, found)
 
 
-def fastest(vehicle: Vehicle, course: Course, start_mps: float = 0.0, end_mps: float = 0.0) -> Profile:
+def fastest(vehicle: Vehicle, course: Course, start_mps: float = 0.0, end_mps: float = 0.0,
+            is_strict: bool = True) -> Profile:
     """The run of least time; raises InfeasibleRunError where the train cannot drive the course at all."""
-    return drivable(vehicle, course, _top(course), start_mps, end_mps)
+    return drivable(vehicle, course, _top(course), start_mps, end_mps, is_strict)
+
+
+def changing_limits(vehicle: Vehicle, target: Array) -> Array:
+    """By which share the limit of the force changes on each cell of a run, shape (n,): half the squared speed at nodes.
+
+    A run that is at its limit gives up half of that share, since its acceleration is constant on a cell.
+    """
+    v = np.sqrt(2 * np.maximum(target, 0.0))
+    pull = largest_force(vehicle.traction, v)
+    brake = largest_force(vehicle.regenerative, v) + vehicle.friction_brake_n
+    limit = np.where(np.diff(target) > 0, 1.0, 0.0)
+    share = [np.abs(np.diff(force)) / np.maximum(np.maximum(force[1:], force[:-1]), 1e-9) for force in (pull, brake)]
+    a, b_1, c = vehicle.davis_n
+    resisted = np.abs(np.diff(davis_resistance(v, a, b_1, c))) / max(float(pull[0]), 1e-9)
+    return np.asarray(limit * share[0] + (1 - limit) * share[1] + resisted)
+
+
+def with_fine_cells(vehicle: Vehicle, course: Course, target: Array) -> Course:
+    """The course with cells divided on which the limit of the force changes by more than FINE along a run."""
+    parts = np.clip(np.ceil(changing_limits(vehicle, target) / FINE), 1, MOST_PARTS).astype(int)
+    x, step = course.position_m, np.diff(course.position_m)
+    parts = np.where(step / parts > SHORTEST_CELL_M, parts, 1)
+    inner = [x[k] + step[k] * np.arange(1, parts[k]) / parts[k] for k in np.flatnonzero(parts > 1)]
+    return course.split(np.concatenate(inner)) if inner else course
 
 
 def device_limits(vehicle: Vehicle) -> tuple[tuple[Array, Array], tuple[Array, Array]]:

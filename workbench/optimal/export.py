@@ -13,21 +13,26 @@ import numpy as np
 from workbench.errors import InputError
 from workbench.files.writing import write_text
 from workbench.optimal.course import Array, Course
+from workbench.optimal.force_reserve import needed_force
 from workbench.optimal.reference import Reference
-from workbench.optimal.smooth import SmoothReference, SmoothRun, needed_force
+from workbench.optimal.smooth import SmoothReference, SmoothRun
 from workbench.optimal.vehicle import Vehicle
+from workbench.optimal.verify_smooth import SmoothCheck
 
 if TYPE_CHECKING:
     import control
 
 COLUMNS = ("t_s", "s_m", "v_mps", "a_mps2", "u_N")
+# Of numbers in tables; the latter give back every bit.
+DIGITS, EXACT_DIGITS = 12, 17
 MOST_ROWS = 2_000_000
 # A lower price of a second is rounding of the solver's.
 LEAST_PRICE_W = 50.0
 
 
-def reference_document(found: Reference, smooth: SmoothReference | None) -> dict[str, Any]:
-    """The result as data, SI units: of the optimal run, and of the smooth one that tracks it."""
+def reference_document(found: Reference, smooth: SmoothReference | None,
+                       driven: SmoothCheck | None = None) -> dict[str, Any]:
+    """The result as data, SI units: of the optimal run, and of the smooth one that tracks it with its simulation."""
     check = found.check
     document: dict[str, Any] = {
         "version": 1, "energy_J": found.energy_j, "lower_bound_J": found.lower_bound_j, "gap": found.gap,
@@ -42,8 +47,20 @@ def reference_document(found: Reference, smooth: SmoothReference | None) -> dict
         document["smooth"] = {"energy_J": smooth.energy_j, "trip_time_s": smooth.run.trip_time_s,
                               "window_s": smooth.window_s, "max_jerk_mps3": smooth.max_jerk_mps3,
                               "force_excess": smooth.force_excess, "speed_excess_mps": smooth.speed_excess_mps,
-                              "departure_s": float(smooth.clock_s[0]), "window_miss_s": smooth.miss_s}
+                              "departure_s": float(smooth.clock_s[0]), "window_miss_s": smooth.miss_s,
+                              "lower_bound_J": found.lower_bound_j, "gap": smooth_gap(found, smooth),
+                              "usable_traction": smooth.usable[0], "usable_brakes": smooth.usable[1],
+                              "energy_without_reserve_J": smooth.unreserved_energy_j}
+    if driven is not None:
+        document["smooth"] |= {"simulated_energy_J": driven.energy_j, "position_drift_m": driven.position_drift_m,
+                               "speed_drift_mps": driven.speed_drift_mps, "correction_N": driven.correction_n}
     return document
+
+
+def smooth_gap(found: Reference, smooth: SmoothReference) -> float:
+    """How far a smooth run's energy lies above the bound of all runs, as a share of it; absolute for no energy."""
+    above = smooth.energy_j - found.lower_bound_j
+    return above / abs(smooth.energy_j) if smooth.energy_j else above
 
 
 def timing_rows(found: Reference, smooth: SmoothReference | None) -> list[dict[str, Any]]:
@@ -91,12 +108,12 @@ def samples(vehicle: Vehicle, course: Course, run: SmoothRun, every_s: float) ->
     return np.column_stack((time, s, v, a, force))
 
 
-def write_csv(path: Path, rows: Array) -> None:
-    """The rows under their header; raises InputError where the file cannot be written."""
+def write_csv(path: Path, rows: Array, columns: tuple[str, ...] = COLUMNS, digits: int = DIGITS) -> None:
+    """The rows under their header, with so many digits; raises InputError where the file cannot be written."""
     text = io.StringIO(newline="")
     writer = csv.writer(text)
-    writer.writerow(COLUMNS)
-    writer.writerows([f"{value:.12g}" for value in row] for row in rows.tolist())
+    writer.writerow(columns)
+    writer.writerows([f"{value:.{digits}g}" for value in row] for row in rows.tolist())
     write_text(path, text.getvalue())
 
 

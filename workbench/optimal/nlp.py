@@ -25,7 +25,8 @@ from workbench.optimal.grid import Grid
 from workbench.optimal.socp import LEAST_MARGIN, NoPlanError, Plan
 from workbench.optimal.timetable import Timetable, as_timetable
 from workbench.optimal.vehicle import ForceLimit, Vehicle
-from workbench.trains.train import a_0, b_0, c_0, davis_resistance, v
+from workbench.trains.resistance import davis_resistance
+from workbench.trains.train import a_0, b_0, c_0, v
 
 NlpSolver = Literal["fatrop", "ipopt"]
 # What is tried in turn: a solver, from the best run known (True) or from the fastest one.

@@ -9,7 +9,7 @@ from numpy.polynomial.legendre import leggauss
 
 from workbench.optimal.course import Array, Course
 from workbench.optimal.vehicle import ForceLimit, Vehicle
-from workbench.trains.train import davis_resistance
+from workbench.trains.resistance import davis_resistance
 
 _NODES, _WEIGHTS = leggauss(3)
 # Points of the quadrature within a cell, from 0 to 1, and their weights.

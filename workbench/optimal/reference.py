@@ -15,7 +15,7 @@ from workbench.optimal.adjoint import NEAR_LIMIT, certificate_from
 from workbench.optimal.bound import lower_bound
 from workbench.optimal.certificate import Certificate
 from workbench.optimal.course import Array, Course
-from workbench.optimal.envelope import InfeasibleRunError, fastest
+from workbench.optimal.envelope import InfeasibleRunError, fastest, with_fine_cells
 from workbench.optimal.fit_times import fitted
 from workbench.optimal.grid import Grid, graded_grid, kept_borders
 from workbench.optimal.profile import Profile
@@ -103,8 +103,8 @@ def find_timed_reference(vehicle: Vehicle, course: Course, timetable: Timetable,
     Raises InfeasibleRunError where no run meets the timetable, and where none was found that does.
     """
     course = timetable.on(course)
-    quickest = least_time(vehicle, course, start_mps, end_mps)
-    require_possible(vehicle, timetable, quickest)
+    quickest, ideal = _quickest(vehicle, course, start_mps, end_mps)
+    require_possible(vehicle, timetable, quickest, ideal)
     borders = kept_borders(course)
     drawn = counted(vehicle.auxiliary_w)
     nothing = Certificate(borders, np.zeros(len(borders) - 1), np.zeros(len(borders) - 1), drawn, auxiliary_w=drawn)
@@ -127,8 +127,14 @@ def find_timed_reference(vehicle: Vehicle, course: Course, timetable: Timetable,
 
 def least_time(vehicle: Vehicle, course: Course, start_mps: float = 0.0, end_mps: float = 0.0) -> Profile:
     """The fastest run, on a fine mesh; raises InfeasibleRunError where the train cannot drive the course."""
-    fine = graded_grid(course, FASTEST_CELLS)
-    return fastest(vehicle, course.split(fine.position_m[1:-1]), start_mps, end_mps)
+    return _quickest(vehicle, course, start_mps, end_mps)[0]
+
+
+def _quickest(vehicle: Vehicle, course: Course, start_mps: float, end_mps: float) -> tuple[Profile, Profile]:
+    """The fastest run whose every point keeps the limits, and one that may pass them a little within cells."""
+    cells = course.split(graded_grid(course, FASTEST_CELLS).position_m[1:-1])
+    ideal = fastest(vehicle, cells, start_mps, end_mps, is_strict=False)
+    return fastest(vehicle, with_fine_cells(vehicle, cells, ideal.half_square), start_mps, end_mps), ideal
 
 
 @dataclass(frozen=True)

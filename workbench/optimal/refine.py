@@ -11,11 +11,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from workbench.optimal.course import Array
-from workbench.optimal.envelope import drivable
+from workbench.optimal.envelope import drivable, with_fine_cells
 from workbench.optimal.profile import Profile, largest_force
 from workbench.optimal.socp import Plan
 from workbench.optimal.vehicle import Vehicle
-from workbench.trains.train import davis_resistance
+from workbench.trains.resistance import davis_resistance
 
 # From this share of its limit on, a mean force is taken for the limit itself.
 NEAR_LIMIT = 0.96
@@ -33,6 +33,9 @@ def refined(vehicle: Vehicle, plan: Plan, parts: int, start_mps: float = 0.0, en
     apart = np.minimum(inner - borders[after - 1], borders[after] - inner) > SLIVER_M
     course = plan.grid.course.split(np.concatenate((s[1:-1], inner[apart])))
     target = _target(vehicle, plan, course.position_m, course.force_n, course.drag)
+    fine = with_fine_cells(vehicle, course, target)
+    if fine is not course:
+        course, target = fine, _target(vehicle, plan, fine.position_m, fine.force_n, fine.drag)
     return drivable(vehicle, course, target, start_mps, end_mps)
 
 

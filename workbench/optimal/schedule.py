@@ -6,7 +6,6 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.optimize import linprog
 
 from workbench.optimal.course import Array
 from workbench.optimal.envelope import InfeasibleRunError
@@ -104,20 +103,23 @@ def nearest_legs(timetable: Timetable, leg_s: Array, least_s: Array) -> Array | 
         limits.append(0.0)
     cost = np.concatenate((np.tile(1 / leg_s, 2), np.zeros(len(waits)), [WORST_WEIGHT]))
     bounds = [(0.0, None)] * legs + [(0.0, max(float(x), 0.0)) for x in leg_s - least_s]
+    from scipy.optimize import linprog  # noqa: PLC0415 - slow to import, and few timetables need it
+
     found = linprog(cost, A_ub=np.array(rows), b_ub=np.array(limits), bounds=bounds + [(0.0, None)] * (len(waits) + 1))
     if found.status != 0:
         return None
     return np.asarray(leg_s + found.x[:legs] - found.x[legs:2 * legs])
 
 
-def require_possible(vehicle: Vehicle, timetable: Timetable, quickest: Profile) -> None:
+def require_possible(vehicle: Vehicle, timetable: Timetable, quickest: Profile, ideal: Profile) -> None:
     """Raises InfeasibleRunError where even the fastest run is too late for a window, or too slow at a point.
 
-    The fastest run is the fastest at every position, so that no run takes less between any two points.
+    The fastest run is the fastest at every position, so that no run takes less between any two points. `ideal` is that
+    run as near as a mesh comes to it; `quickest` a little slower one that surely keeps every limit, which is told.
     """
-    leg_s = leg_times(timetable, quickest)
+    leg_s = leg_times(timetable, ideal)
     for number, point in enumerate(timetable.points):
-        most = float(np.interp(point.position_m, quickest.position_m, quickest.half_square))
+        most = float(np.interp(point.position_m, ideal.position_m, ideal.half_square))
         if point.slowest_mps**2 / 2 > most * (1 + 1e-9) and 0 < number < len(timetable.points) - 1:
             raise InfeasibleRunError(
                 f"timing point {number + 1} at {point.position_m:g} m asks for {point.slowest_mps:.4g} m/s at least: "
@@ -138,7 +140,7 @@ def _too_late(vehicle: Vehicle, timetable: Timetable, quickest: Profile, events:
     """In a line: which event is too late by what, from where on, and what binds there."""
     if timetable.trip_time_s is not None:
         return (f"{timetable.trip_time_s:g} s is too short: the least feasible trip time is "
-                f"{quickest.trip_time_s:.1f} s, {binding(vehicle, quickest)}: allow more time")
+                f"{quickest.trip_time_s:.1f} s, {binding(vehicle, quickest) or 'by the course itself'}: allow more time")
     chain = timetable.events
     since, event = (chain[k] for k in events)
     point, origin = timetable.points[event.point], timetable.points[since.point]

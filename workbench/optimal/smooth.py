@@ -16,16 +16,18 @@ from workbench.errors import InputError
 from workbench.model.desired_curve import DEGREE, DesiredCurve
 from workbench.optimal.course import Array, Course
 from workbench.optimal.envelope import InfeasibleRunError
+from workbench.optimal.force_reserve import Reserve, force_samples, more_reserves, with_reserves
 from workbench.optimal.planned_ahead import planned_ahead, waits
-from workbench.optimal.profile import Profile, largest_force
-from workbench.optimal.reference import Reference, Solver, find_reference, find_timed_reference
+from workbench.optimal.profile import Profile
+from workbench.optimal.reference import PARTS, Reference, Solver, find_reference, find_timed_reference
 from workbench.optimal.timetable import Timetable, as_timetable
 from workbench.optimal.vehicle import Vehicle
-from workbench.trains.train import davis_resistance
 
 WINDOW_S = 1.0
 # Times a window is made longer until the jerk keeps its limit.
 JERK_ROUNDS = 12
+# Times more of the forces is kept back until the smooth run keeps their limits.
+FORCE_ROUNDS = 10
 # Borders closer than this are one.
 SLIVER_M = 0.01
 
@@ -119,7 +121,8 @@ class SmoothReference:
 
     energy_j: at the supply. force_excess: largest force beyond its limit, as a share of it; speed_excess_mps: above the
     speed limit; max_jerk_mps3: largest jerk. clock_s: when it is at each event of the timetable; miss_s: by how much
-    it misses a window at most.
+    it misses a window at most. usable: the least shares of traction and of the brakes that the plan was allowed so that
+    the smooth run keeps their limits; unreserved_energy_j: of the run smoothed without that, which passes them.
     """
 
     run: SmoothRun
@@ -131,6 +134,8 @@ class SmoothReference:
     max_jerk_mps3: float
     clock_s: Array
     miss_s: float
+    usable: tuple[float, float]
+    unreserved_energy_j: float
 
 
 def smooth_reference(vehicle: Vehicle, course: Course, asked: Timetable | float, window_s: float = WINDOW_S,
@@ -145,34 +150,107 @@ def smooth_reference(vehicle: Vehicle, course: Course, asked: Timetable | float,
         raise InputError("", "window", "the smoothing window and the limit of the jerk must be positive: correct them")
     wait = max(dwell_s, window_s) if course.stops_m else 0.0
     for _ in range(JERK_ROUNDS):
-        lowered = _lowered(vehicle, course, window_s)
-        start, end = course.position_m[[0, -1]]
-        if start_mps or end_mps:
-            lowered = lowered.cut(start + start_mps * window_s / 2, end - end_mps * window_s / 2)
-        if isinstance(asked, Timetable):
-            ahead = planned_ahead(asked, window_s, _margin(vehicle, window_s), lowered)
-            optimal = find_timed_reference(vehicle, lowered, ahead, start_mps, end_mps, intervals, solver)
-            run = smoothed(optimal.profile, window_s, waits(optimal.timetable, optimal.clock_s))
-        else:
-            spare = asked - window_s - len(course.stops_m) * wait
-            if spare <= 0:
-                waiting = f" and {len(course.stops_m)} stops of {wait:g} s" if course.stops_m else ""
-                raise InfeasibleRunError(f"smoothing over {window_s:.4g} s{waiting} leave nothing of {asked:g} s to "
-                                         "run: allow more time")
-            optimal = find_reference(vehicle, lowered, spare, start_mps, end_mps, intervals, solver)
-            run = smoothed(optimal.profile, window_s, wait)
-        jerk = float(np.abs(run.jerk_mps3).max())
+        request = _Request(vehicle, course, asked, window_s, wait, start_mps, end_mps, intervals, solver)
+        found = _within_limits(request)
+        jerk = found.max_jerk_mps3
         if max_jerk_mps3 is None or jerk <= max_jerk_mps3:
-            found = _judged(vehicle, course, run, optimal, window_s, jerk)
             return _with_clock(found, as_timetable(course, asked))
         window_s *= max(1.02 * jerk / max_jerk_mps3, 1.05)
         wait = max(wait, window_s) if course.stops_m else 0.0
     raise InfeasibleRunError(f"no window keeps the jerk below {max_jerk_mps3:g} m/s^3: allow more")
 
 
+@dataclass(frozen=True)
+class _Request:
+    """What is asked of a smooth run for one window; wait_s: at each inner stop of a trip time."""
+
+    vehicle: Vehicle
+    course: Course
+    asked: Timetable | float
+    window_s: float
+    wait_s: float
+    start_mps: float
+    end_mps: float
+    intervals: int | None
+    solver: Solver
+
+
+def _within_limits(request: _Request) -> SmoothReference:
+    """Planned with more and more kept back where the smooth run passes the limits of force, until it passes none.
+
+    The nearest one where that does not end: its `force_excess` says by how much.
+    """
+    vehicle, course, window_s = request.vehicle, request.course, request.window_s
+    reserves: tuple[Reserve, ...] = ()
+    first = 0.0
+    best: SmoothReference | None = None
+    for number in range(FORCE_ROUNDS):
+        try:
+            run, optimal = _averaged(request, reserves)
+            if not number:  # the same mesh from now on, and cones: a bound that knows no reserves says nothing of it
+                mesh = request.intervals or (len(optimal.profile.half_square) - 1) // PARTS
+                request = replace(request, intervals=mesh, solver="nlp" if request.solver == "nlp" else "socp")
+        except InfeasibleRunError as trouble:
+            if not number:
+                raise
+            least = trouble.least_time_s
+            raise InfeasibleRunError(f"{trouble} (with what smoothing must keep back of traction and brakes, "
+                                     f"{_shares(reserves)})", least) from None
+        found = _judged(vehicle, course, run, optimal, window_s)
+        first = found.energy_j if not number else first
+        found = replace(found, unreserved_energy_j=first, usable=_least_shares(reserves))
+        if best is None or found.force_excess < best.force_excess:
+            best = found
+        more = more_reserves(force_samples(vehicle, course, run), reserves, window_s) if found.force_excess > 0 else ()
+        if not more:
+            break
+        reserves = more
+    assert best is not None
+    return best
+
+
+def _least_shares(reserves: tuple[Reserve, ...]) -> tuple[float, float]:
+    of = [min((r.share for r in reserves if r.side == side), default=1.0) for side in (0, 1)]
+    return of[0], of[1]
+
+
+def _shares(reserves: tuple[Reserve, ...]) -> str:
+    pull, brake = _least_shares(reserves)
+    return f"up to {100 * (1 - pull):.2g} % and {100 * (1 - brake):.2g} %"
+
+
+def _averaged(request: _Request, reserves: tuple[Reserve, ...]) -> tuple[SmoothRun, Reference]:
+    """The smooth run and the one below it; raises InfeasibleRunError."""
+    vehicle, course, asked, window_s = request.vehicle, request.course, request.asked, request.window_s
+    lowered = with_reserves(_lowered(vehicle, course, window_s), reserves)
+    start, end = course.position_m[[0, -1]]
+    ends = request.start_mps, request.end_mps
+    if any(ends):
+        lowered = lowered.cut(start + ends[0] * window_s / 2, end - ends[1] * window_s / 2)
+    if isinstance(asked, Timetable):
+        ahead = planned_ahead(asked, window_s, _margin(vehicle, window_s), lowered)
+        optimal = find_timed_reference(vehicle, lowered, ahead, *ends, request.intervals, request.solver)
+        return smoothed(optimal.profile, window_s, waits(optimal.timetable, optimal.clock_s)), optimal
+    spare = asked - window_s - len(course.stops_m) * request.wait_s
+    if spare <= 0:
+        waiting = f" and {len(course.stops_m)} stops of {request.wait_s:g} s" if course.stops_m else ""
+        raise InfeasibleRunError(f"smoothing over {window_s:.4g} s{waiting} leave nothing of {asked:g} s to run: allow "
+                                 "more time")
+    optimal = find_reference(vehicle, lowered, spare, *ends, request.intervals, request.solver)
+    return smoothed(optimal.profile, window_s, request.wait_s), optimal
+
+
 def _margin(vehicle: Vehicle, window_s: float) -> float:
     """By what the average speed of a braking train exceeds a limit that falls, m/s."""
     return min(vehicle.max_deceleration_mps2, vehicle.braking_n / vehicle.inertia_kg) * window_s / 8
+
+
+def _margins(vehicle: Vehicle, course: Course, window_s: float) -> tuple[float, float]:
+    """By what the average speed exceeds a limit that falls and one that rises, m/s, with the line's help."""
+    line = course.force_n / vehicle.inertia_kg
+    brake = min(vehicle.max_deceleration_mps2, vehicle.braking_n / vehicle.inertia_kg + max(float(line.max()), 0.0))
+    pull = min(vehicle.max_acceleration_mps2, vehicle.traction.force_n / vehicle.inertia_kg - min(float(line.min()), 0))
+    return brake * window_s / 8, pull * window_s / 8
 
 
 def _with_clock(found: SmoothReference, timetable: Timetable) -> SmoothReference:
@@ -190,7 +268,7 @@ def _with_clock(found: SmoothReference, timetable: Timetable) -> SmoothReference
 
 
 def _lowered(vehicle: Vehicle, course: Course, window_s: float) -> Course:
-    """The course with limits lower by what the average of a braking train exceeds them, near where they change.
+    """The course with limits lower by what the average of a run exceeds them, near where they change.
 
     Near is a window's way at the limit itself: farther away the average knows one limit only.
     """
@@ -201,8 +279,12 @@ def _lowered(vehicle: Vehicle, course: Course, window_s: float) -> Course:
     limit, middle = course.limit_mps, (course.position_m[1:] + course.position_m[:-1]) / 2
     after = np.searchsorted(s[changes], middle)
     borders = np.concatenate(([-np.inf], s[changes], [np.inf]))
-    near = np.minimum(middle - borders[after], borders[after + 1] - middle) < window_s * limit
-    lower = np.where(near, np.maximum(limit - _margin(vehicle, window_s), limit / 2), limit)
+    brake, pull = _margins(vehicle, course, window_s)
+    steps = np.concatenate(([0.0], np.diff(speed)[changes - 1], [0.0]))
+    way = window_s * limit
+    margin = np.maximum(np.where(middle - borders[after] < way, np.where(steps[after] > 0, pull, brake), 0.0),
+                        np.where(borders[after + 1] - middle < way, np.where(steps[after + 1] > 0, pull, brake), 0.0))
+    lower = np.maximum(limit - margin, limit / 2)
     return replace(course, limit_mps=lower)
 
 
@@ -213,33 +295,14 @@ def _apart(points: Array, borders: Array) -> Array:
     return inside[np.minimum(inside - borders[after - 1], borders[after] - inside) > SLIVER_M]
 
 
-def _judged(vehicle: Vehicle, course: Course, run: SmoothRun, optimal: Reference, window_s: float,
-            jerk: float) -> SmoothReference:
+def _judged(vehicle: Vehicle, course: Course, run: SmoothRun, optimal: Reference, window_s: float) -> SmoothReference:
     """Energy and excesses by fine sampling of every piece."""
-    width = np.diff(run.breaks_s)
-    count = np.maximum(1, np.ceil(width / 0.1)).astype(int)
-    k = np.repeat(np.arange(len(width)), count)
-    step = width[k] / count[k]
-    first = np.insert(np.cumsum(count), 0, 0)[:-1]
-    time = run.breaks_s[k] + (np.arange(len(k)) - first[k] + 0.5) * step
-    s, v, a = run.at(time)
-    force = needed_force(vehicle, course, s, v, a)
-    most = largest_force(vehicle.traction, v)
-    electric = largest_force(vehicle.regenerative, v)
-    excess = np.where(force > 0, force / most, -force / (electric + vehicle.friction_brake_n)) - 1
+    found = force_samples(vehicle, course, run)
+    s, v, force = found.position_m, found.speed_mps, found.force_n
     limit = course.limit_mps[np.clip(np.searchsorted(course.position_m, s) - 1, 0, len(course.limit_mps) - 1)]
     power = v * np.where(force > 0, force / vehicle.traction_efficiency,
-                         vehicle.regenerative_efficiency * np.maximum(force, -electric))
-    return SmoothReference(run, optimal, window_s, float(power @ step) + vehicle.auxiliary_w * run.trip_time_s,
-                           max(float(excess.max()), 0.0), max(float((v - limit).max()), 0.0), jerk,
-                           optimal.clock_s, 0.0)
-
-
-def needed_force(vehicle: Vehicle, course: Course, s: Array, v: Array, a: Array) -> Array:
-    """Force at the wheel in N for positions (m), speeds (m/s) and accelerations (m/s^2)."""
-    k = np.clip(np.searchsorted(course.position_m, s) - 1, 0, len(course.limit_mps) - 1)
-    share = np.clip((s - course.position_m[k]) / np.diff(course.position_m)[k], 0.0, 1.0)
-    line = course.force_n[k, 0] + share * (course.force_n[k, 1] - course.force_n[k, 0])
-    drag = course.drag[k, 0] + share * (course.drag[k, 1] - course.drag[k, 0])
-    a_0, b_1, c = vehicle.davis_n
-    return np.asarray(vehicle.inertia_kg * a + davis_resistance(v, a_0, b_1, c + drag) + line)
+                         vehicle.regenerative_efficiency * np.maximum(force, -found.electric_n))
+    energy = float(power @ found.weight_s) + vehicle.auxiliary_w * run.trip_time_s
+    return SmoothReference(run, optimal, window_s, energy, max(float(found.excess.max()), 0.0),
+                           max(float((v - limit).max()), 0.0), float(np.abs(run.jerk_mps3).max()), optimal.clock_s, 0.0,
+                           (1.0, 1.0), energy)

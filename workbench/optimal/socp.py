@@ -8,18 +8,15 @@ power x time.
 
 from __future__ import annotations
 
-import time
-import warnings
 from dataclasses import dataclass, replace
 from itertools import pairwise
 
-import cvxpy as cp
 import numpy as np
 from numpy.typing import NDArray
 from scipy import sparse
 
-from workbench.errors import SolverError
 from workbench.optimal.clock_rows import clock_rows
+from workbench.optimal.cone_program import ConeProgram, Linear, NoPlanError
 from workbench.optimal.course import Array
 from workbench.optimal.force_pieces import force_pieces
 from workbench.optimal.grid import Grid
@@ -27,11 +24,6 @@ from workbench.optimal.open_rows import Mask, OpenRows, all_open, open_rows, rig
 from workbench.optimal.timetable import Timetable, as_timetable, counted
 from workbench.optimal.vehicle import ForceLimit, Vehicle
 
-# Accuracy asked of clarabel; what it returns is checked again by everything that follows.
-SETTINGS = {"tol_gap_abs": 1e-8, "tol_gap_rel": 1e-8, "tol_feas": 1e-8}
-# Without refining each step's linear equations a program takes half the time; some then end inaccurately, and are
-# solved again with it.
-QUICK = {"iterative_refinement_enable": False}
 # From so many intervals on a coarser program comes first.
 COARSE_FIRST = 2000
 # A plan keeps this far above a least speed, so that the driven run, which may be a little slower, does.
@@ -68,10 +60,6 @@ class Plan:
         """What a second less costs on each interval, auxiliaries included, shape (n,)."""
         drawn = counted(self.auxiliary_w)
         return self.timetable.cell_prices(self.timetable.fair(self.prices_w, drawn), self.grid.position_m, drawn)
-
-
-class NoPlanError(SolverError):
-    """The cone program has no solution; the message names the solver's status."""
 
 
 def solve_socp(vehicle: Vehicle, grid: Grid, asked: Timetable | float, start_mps: float = 0.0,
@@ -111,18 +99,14 @@ def _solve(vehicle: Vehicle, grid: Grid, asked: Timetable | float, ends_mps: tup
     half = speed**2
     work = force * grid.course.length_m
 
-    b, v, tau = cp.Variable(n + 1), cp.Variable(n + 1), cp.Variable(n)
-    pull = _where(rows.pull)
-    # A brake that the train does not have costs time all the same.
-    brake, grip = (_where(rows.brake) if most > 0 else cp.Constant(np.zeros(n))
-                   for most in (vehicle.regenerative.force_n, vehicle.friction_brake_n))
-    b_mean, v_mean = (b[1:] + b[:-1]) / 2, (v[1:] + v[:-1]) / 2
+    program, b, v, tau, (pull, brake, grip), wait = _variables(vehicle, n, rows, clock.free_waits)
+    b_mean, v_mean = 0.5 * (b[1:] + b[:-1]), 0.5 * (v[1:] + v[:-1])
     # Newton's law, in units between force and work: as force its numbers would be large on short intervals.
     row = np.sqrt(h / h.mean())
-    motion = (cp.multiply(row * inertia * half / (2 * h * force), b[1:] - b[:-1])
-              + cp.multiply(row, brake + grip - pull) + row * (a + grid.force_n) / force
-              + cp.multiply(row * (grid.drag + c) * half / force, b_mean)
-              + cp.multiply(row * b_1 * speed / force, v_mean) == 0)
+    motion = program.require_zero((row * inertia * half / (2 * h * force)) * (b[1:] - b[:-1])
+                                  + row * (brake + grip - pull) + row * (a + grid.force_n) / force
+                                  + (row * (grid.drag + c) * half / force) * b_mean
+                                  + (row * b_1 * speed / force) * v_mean)
     fixed = grid.stands.copy()
     fixed[[0, -1]] = True
     value = np.zeros(n + 1)
@@ -132,88 +116,82 @@ def _solve(vehicle: Vehicle, grid: Grid, asked: Timetable | float, ends_mps: tup
     fast = free & rows.top
     least = (np.minimum(grid.node_least_mps * LEAST_MARGIN, grid.node_limit_mps) / speed) ** 2
     held = free & (least > 0)
-    late, soon, windows, between_ends = clock.rules(tau, mean_time)
-    rules = [motion, b[fixed] == value[fixed], v[fixed] == np.sqrt(value[fixed]), b[fast] <= top[fast],
-             *windows, *([b[held] >= least[held]] if held.any() else []),
-             # v^2 <= b and tau (v_k + v_k+1) >= 2 h, in units of the scales
-             cp.SOC(b[free] + 1, cp.vstack([2 * v[free], b[free] - 1])),
-             cp.SOC(tau + 2 * v_mean, cp.vstack([tau - 2 * v_mean, 2 * np.sqrt(2 * h / (mean_time * speed))])),
-             *([grip <= vehicle.friction_brake_n / force] if vehicle.friction_brake_n > 0 else [])]
-    sides = [(pull, vehicle.traction, rows.pull_limit)]
-    if vehicle.regenerative.force_n > 0:
-        sides.append((brake, vehicle.regenerative, rows.brake))
-    for side, limit, near in sides:
-        rules += _force_rules(side, limit, grid, v_mean, tau, (force, speed, mean_time), np.flatnonzero(near))
+    program.require_zero(b[fixed] - value[fixed])
+    program.require_zero(v[fixed] - np.sqrt(value[fixed]))
+    program.require_at_most(-1.0 * program.variables(3 * n + 2, program.size - 3 * n - 2))
+    program.require_at_most(b[fast] - top[fast])
+    windows = clock.rules(program, tau, wait, mean_time)
+    program.require_at_most(-1.0 * b[held] + least[held])
+    if vehicle.friction_brake_n > 0:
+        program.require_at_most(grip - vehicle.friction_brake_n / force)
+    for side, limit, near in ((pull, vehicle.traction, rows.pull_limit), (brake, vehicle.regenerative, rows.brake)):
+        if limit.force_n > 0:
+            _require_limits(program, side, limit, grid, v_mean, tau, (force, speed, mean_time), np.flatnonzero(near))
     if b_1 > 0:  # else the resistance would fall with a speed that the relaxation lets go
-        rules.append(v[free] >= cp.multiply(1 / np.sqrt(top[free]), b[free]))
-    comfort = [(sign, sign * (b[1:] - b[:-1]) <= 2 * limit * h / half)
-               for limit, sign in ((vehicle.max_acceleration_mps2, 1), (vehicle.max_deceleration_mps2, -1))
+        program.require_at_most((1 / np.sqrt(top[free])) * b[free] - v[free])
+    comfort = [(sign, program.require_at_most(sign * (b[1:] - b[:-1]) - 2 * limit * h / half))
+               for limit, sign in ((vehicle.max_acceleration_mps2, 1.0), (vehicle.max_deceleration_mps2, -1.0))
                if np.isfinite(limit)]
-    rules += [rule for _, rule in comfort]
-    used = cp.sum(cp.multiply(h, pull)) / vehicle.traction_efficiency
-    returned = vehicle.regenerative_efficiency * cp.sum(cp.multiply(h, brake))
-    drawn = vehicle.auxiliary_w * mean_time / work * between_ends
-    problem = cp.Problem(cp.Minimize((used - returned) / grid.course.length_m + drawn), rules)
-    solve_s = _solved(problem, f"the cone program of {n} intervals for {clock.horizon_s:g} s")
-    price = row * motion.dual_value * work / (force * h)
+    # v^2 <= b and tau (v_k + v_k+1) >= 2 h, in units of the scales
+    program.require_cones(b[free] + 1.0, 2.0 * v[free], b[free] - 1.0)
+    program.require_cones(tau + 2.0 * v_mean, tau - 2.0 * v_mean,
+                          program.nothing(n) + 2 * np.sqrt(2 * h / (mean_time * speed)))
+    used = pull.matrix.T @ h / vehicle.traction_efficiency
+    returned = vehicle.regenerative_efficiency * (brake.matrix.T @ h)
+    drawn = vehicle.auxiliary_w * mean_time / work * clock.between_ends(tau, wait)
+    found = program.solve((used - returned) / grid.course.length_m + drawn,
+                          f"the cone program of {n} intervals for {clock.horizon_s:g} s")
+    price = row * found.price(motion) * work / (force * h)
     # Limits of the acceleration act on db/ds itself: they belong to the price of what changes b.
     adjoint = price
     for sign, rule in comfort:
-        adjoint = adjoint + sign * rule.dual_value * 2 * work / (half * inertia)
-    half_square = np.where(fixed, value, np.maximum(b.value, 0.0)) * half / 2
-    plan = Plan(grid, half_square, (pull.value - brake.value - grip.value) * force, adjoint,
-                clock.timetable, clock.prices(late, soon, windows) * work / mean_time,
-                float(problem.value) * work + vehicle.auxiliary_w * clock.fixed_between_ends_s,
-                solve_s, str(problem.status), vehicle.auxiliary_w)
+        adjoint = adjoint + sign * found.price(rule) * 2 * work / (half * inertia)
+    half_square = np.where(fixed, value, np.maximum(found.of(b), 0.0)) * half / 2
+    plan = Plan(grid, half_square, found.of(pull - brake - grip) * force, adjoint,
+                clock.timetable, clock.prices(found, windows) * work / mean_time,
+                found.cost * work + vehicle.auxiliary_w * clock.fixed_between_ends_s,
+                found.solve_s, found.status, vehicle.auxiliary_w)
     return plan, price
 
 
-def _where(used: Mask) -> cp.Expression:
-    """A non-negative variable on some of the intervals, and zero on the others."""
-    count, at = len(used), np.flatnonzero(used)
-    if len(at) == count:
-        return cp.Variable(count, nonneg=True)
-    if not len(at):
-        return cp.Constant(np.zeros(count))
-    place = sparse.csr_array((np.ones(len(at)), (at, np.arange(len(at)))), shape=(count, len(at)))
-    return place @ cp.Variable(len(at), nonneg=True)
+def _variables(vehicle: Vehicle, n: int, rows: OpenRows,
+               waits: int) -> tuple[ConeProgram, Linear, Linear, Linear, list[Linear], Linear]:
+    """The program with b, v, tau, the forces of traction, electric and friction brake, and the free waits.
+
+    From the forces on no variable is negative.
+    """
+    # A brake that the train does not have costs time all the same.
+    used = [(rows.pull, True), (rows.brake, vehicle.regenerative.force_n > 0),
+            (rows.brake, vehicle.friction_brake_n > 0)]
+    counts = [int(where.sum()) if is_there else 0 for where, is_there in used]
+    starts = 3 * n + 2 + np.insert(np.cumsum(counts), 0, 0)
+    program = ConeProgram(int(starts[-1]) + waits)
+    forces = [_where(program, where, int(start), count)
+              for (where, _), start, count in zip(used, starts, counts, strict=False)]
+    return (program, program.variables(0, n + 1), program.variables(n + 1, n + 1), program.variables(2 * n + 2, n),
+            forces, program.variables(int(starts[-1]), waits))
 
 
-def _solved(problem: cp.Problem, what: str) -> float:
-    """Solve, quickly first; the seconds it took. Raises NoPlanError where neither way gives a solution."""
-    spent, trouble = 0.0, ""
-    for settings in (SETTINGS | QUICK, SETTINGS):
-        started = time.perf_counter()
-        try:
-            with warnings.catch_warnings():
-                warnings.filterwarnings("ignore", "Solution may be inaccurate")
-                problem.solve(cp.CLARABEL, ignore_dpp=True, canon_backend="SCIPY", warm_start=False, **settings)
-        except cp.SolverError as error:
-            trouble = f"clarabel fails on {what} ({error}): try other intervals"
-            spent += time.perf_counter() - started
-            continue
-        spent += float(problem.solver_stats.solve_time or time.perf_counter() - started)
-        if problem.status == cp.OPTIMAL:
-            return spent
-        trouble = f"clarabel says '{problem.status}' of {what}: allow more time or other intervals"
-    # An inaccurate solution may serve: nothing that follows takes the solver's word for it.
-    if problem.status != cp.OPTIMAL_INACCURATE:
-        raise NoPlanError(trouble)
-    return spent
+def _where(program: ConeProgram, used: Mask, start: int, count: int) -> Linear:
+    """A force on some of the intervals, whose variables begin at `start`, and zero on the others."""
+    if not count:
+        return program.nothing(len(used))
+    at = np.flatnonzero(used)
+    place = sparse.csr_array((np.ones(count), (at, start + np.arange(count))), shape=(len(used), program.size))
+    return Linear(place, np.zeros(len(used)))
 
 
-def _force_rules(force: cp.Expression, limit: ForceLimit, grid: Grid, v_mean: cp.Expression, tau: cp.Variable,
-                 scales: tuple[float, float, float], at: NDArray[np.intp]) -> list[cp.Constraint]:
+def _require_limits(program: ConeProgram, force: Linear, limit: ForceLimit, grid: Grid, v_mean: Linear, tau: Linear,
+                    scales: tuple[float, float, float], at: NDArray[np.intp]) -> None:
     """Limits of one force on intervals `at`, in scaled units; a table by the lines of its upper concave hull."""
     unit, speed, mean_time = scales
     if not len(at):
-        return []
-    rules = [force[at] <= limit.force_n / unit]
+        return
+    program.require_at_most(force[at] - limit.force_n / unit)
     if np.isfinite(limit.power_w):
-        rules.append(cp.multiply(grid.step_m[at] * unit / (limit.power_w * mean_time), force[at]) <= tau[at])
+        program.require_at_most((grid.step_m[at] * unit / (limit.power_w * mean_time)) * force[at] - tau[at])
     for constant, slope in _hull_lines(limit, speed):
-        rules.append(force[at] <= constant / unit + slope * speed / unit * v_mean[at])
-    return rules
+        program.require_at_most(force[at] - (slope * speed / unit) * v_mean[at] - constant / unit)
 
 
 def _hull_lines(limit: ForceLimit, top_mps: float) -> list[tuple[float, float]]:

@@ -34,7 +34,8 @@ class Check:
     correction_n: the largest force that was added to keep to the plan.
 
     energy_j: at the supply, with auxiliaries. position_drift_m, speed_drift_mps: largest distance from the plan.
-    force_excess: the largest force beyond traction or both brakes, as a share of the limit there. speed_excess_mps:
+    force_excess: the plan's largest force beyond traction or both brakes, as a share of the limit there, before
+    corrections. speed_excess_mps:
     above the speed limit. lag_m: shape (n + 1,), by how much the train is behind the plan at each node of the run.
     """
 
@@ -58,6 +59,18 @@ def _against(speed: float, share: float, line: Array, drag: Array, a: float, b: 
     """What slows the train down at a share of a cell, N: resistance, tunnel and line."""
     tunnel = drag[0] + share * (drag[1] - drag[0])
     return float(compiled_resistance(speed, a, b, c + tunnel) + line[0] + share * (line[1] - line[0]))
+
+
+@njit(cache=True)
+def device_forces(v: float, limits: tuple[Array, Array], tables: tuple[Array, Array]) -> tuple[float, float]:
+    """What traction and the electric brake give at a speed, N."""
+    most = limits[0][0] if v * limits[0][0] <= limits[0][1] else limits[0][1] / v
+    brake = limits[1][0] if v * limits[1][0] <= limits[1][1] else limits[1][1] / v
+    if len(tables[0]):
+        most = min(most, np.interp(v, tables[0][:, 0], tables[0][:, 1]))
+    if len(tables[1]):
+        brake = min(brake, np.interp(v, tables[1][:, 0], tables[1][:, 1]))
+    return most, brake
 
 
 @njit(cache=True)
@@ -89,6 +102,11 @@ def _drive(time: Array, position: Array, speed: Array, acceleration: Array, limi
                 u = inertia * acceleration[k] + _against(v_plan, share, line[k], drag[k], a, b, c)
                 # The train: where it really is.
                 at, fast = s + ds, v + dv
+                plan_most, plan_brake = device_forces(max(v_plan, 0.0), limits, tables)
+                if u > 0:
+                    over_force = max(over_force, u / plan_most - 1.0)
+                else:
+                    over_force = max(over_force, -u / (plan_brake + friction) - 1.0)
                 push = inertia * (POSITION_GAIN * (s_plan - at) + SPEED_GAIN * (v_plan - fast))
                 corrected = max(corrected, abs(push))
                 u += push
@@ -104,17 +122,8 @@ def _drive(time: Array, position: Array, speed: Array, acceleration: Array, limi
                 slope[stage, 0], slope[stage, 1] = fast, (u - resistance) / inertia
                 weight = dt / 6 if stage in (0, 3) else dt / 3
                 pull = max(fast, 0.0)
-                most = limits[0][0] if pull * limits[0][0] <= limits[0][1] else limits[0][1] / pull
-                brake = limits[1][0] if pull * limits[1][0] <= limits[1][1] else limits[1][1] / pull
-                if len(tables[0]):
-                    most = min(most, np.interp(pull, tables[0][:, 0], tables[0][:, 1]))
-                if len(tables[1]):
-                    brake = min(brake, np.interp(pull, tables[1][:, 0], tables[1][:, 1]))
+                brake = device_forces(pull, limits, tables)[1]
                 energy += weight * fast * (u / efficiency if u > 0 else regain * max(u, -brake))
-                if u > 0:
-                    over_force = max(over_force, u / most - 1.0)
-                else:
-                    over_force = max(over_force, -u / (brake + friction) - 1.0)
             s += dt / 6 * (slope[0, 0] + 2 * slope[1, 0] + 2 * slope[2, 0] + slope[3, 0])
             v += dt / 6 * (slope[0, 1] + 2 * slope[1, 1] + 2 * slope[2, 1] + slope[3, 1])
             t = (i + 1) * dt

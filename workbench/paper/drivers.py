@@ -9,12 +9,11 @@ from typing import Any
 
 from workbench.errors import InputError
 from workbench.mpc.controller import KINDS
-from workbench.paper.local_search import Tuned, score, search
 from workbench.paper.mpc_comparison import MPC_KINDS
+from workbench.paper.parameter_search import NOTHING_KEPT, Kept, Name, Restart, Tuned, score, search, search_all
 from workbench.paper.study import Progress, Study, with_values
 from workbench.paper.tuning_record import Pairs, StudyTuning
 from workbench.simulate.closed_loop import NOMINAL, Factors
-from workbench.simulate.process_pool import results_of
 
 # By which names files know the kinds of MPC.
 MPC_NAMES = {kind.replace(".", "_"): kind for kind in MPC_KINDS}
@@ -123,17 +122,17 @@ def checked(drivers: Drivers) -> Callable[[Any, Path], Any]:
     return check
 
 
-def tune_with(drivers: Drivers) -> Callable[[Study, list[str], int, Progress], dict[str, Tuned]]:
+def tune_with(drivers: Drivers) -> Callable[[Study, list[str], int, Progress, Kept], dict[Name, Tuned]]:
     """What `StudyKind.tune` is for studies with these drivers: all names in parallel processes, in their order."""
 
-    def tune(study: Study, names: list[str], workers: int, on_progress: Progress) -> dict[str, Tuned]:
-        return results_of(_tune_one, (drivers, study), names, workers,
-                          lambda done, name, _: on_progress(done, len(names), name))
+    def tune(study: Any, names: list[str], workers: int, on_progress: Progress, kept: Kept = NOTHING_KEPT
+             ) -> dict[Name, Tuned]:
+        return search_all(_restart, (drivers, study), names, study.tuning.restarts, workers, on_progress, kept)
 
     return tune
 
 
-def _tune_one(shared: tuple[Drivers, Any], name: str) -> Tuned:
+def _restart(shared: tuple[Drivers, Any], name: str, restart: int) -> Restart:
     (drivers, study), budget = shared, shared[1].tuning
     short, goal = shortened(study, budget.set, "tuning.set"), budget.objective
 
@@ -142,8 +141,8 @@ def _tune_one(shared: tuple[Drivers, Any], name: str) -> Tuned:
         return sum(score(_finished(drivers.drive(changed, name, place, NOMINAL), goal.units), goal.units, goal.failed)
                    for place in budget.places) / len(budget.places)
 
-    return search(cost, drivers.parameters(short, name), budget.ranges[name], budget.runs // len(budget.places),
-                  budget.seed, 3 * goal.failed)
+    return search(cost, drivers.parameters(short, name), budget.ranges[name],
+                  budget.runs // len(budget.places) // budget.restarts, budget.seed, restart)
 
 
 def _finished(row: Mapping[str, Any], metrics: Mapping[str, float]) -> dict[str, float | None]:

@@ -14,6 +14,7 @@ from workbench.paper.study import Study, StudyKind
 from workbench.trains.scenario import Scenario, build_scenario
 
 Kinds = Mapping[str, Callable[[], StudyKind]]
+PLANT = "plant"
 
 
 @dataclass(frozen=True)
@@ -65,7 +66,7 @@ def load(path: Path, kinds: Kinds | None = None) -> Loaded:
     Raises InputError naming file, key and remedy.
     """
     path = study_file(path)
-    data, others = read_toml(path), kinds or {}
+    data, others = read_toml(path), {PLANT: _plant_kind, **(kinds or {})}
     named = data.get("kind")
     if named is None:
         return Loaded(path, data, build_scenario(path, data))
@@ -75,6 +76,12 @@ def load(path: Path, kinds: Kinds | None = None) -> Loaded:
     kind = study_kind(path) if named == "study" else others[str(named)]()
     study = validate_record(data, kind.record, path).in_folder(path.parent)
     return Loaded(path, data, kind.located(study, path) if kind.located else study, kind)
+
+
+def _plant_kind() -> StudyKind:
+    from workbench.paper.plants.study import KIND  # noqa: PLC0415 - casadi, which other files do without
+
+    return KIND
 
 
 def study_kind(path: Path) -> StudyKind:

@@ -14,7 +14,8 @@ from workbench.model.desired_curve import DesiredCurve
 from workbench.mpc.controller import KINDS, MpcController
 from workbench.simulate.closed_loop import Run, Setting, simulate_in
 from workbench.trains.scenario import ControllerSpec, Interval, Scenario, Simulation
-from workbench.trains.train import Plant, Train
+from workbench.trains.train import Plant
+from workbench.trains.train_record import Train
 
 # Offset-free MPC has an observer, the linear one has none and costs the least.
 MPC_KINDS = ("mpc.linear", "mpc.offset_free")

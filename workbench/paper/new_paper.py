@@ -12,18 +12,22 @@ from workbench.files.regular import contents
 from workbench.files.writing import write_tree
 
 TEMPLATE = Path(__file__).parent / "template"
+# What a new paper is about -> the folder that it starts from.
+TEMPLATES = {"train": TEMPLATE, "plant": Path(__file__).parent / "template_plant"}
 ANOTHER = "name it with letters, digits and underscores, as in doe2026"
 LONGEST_NAME = 100
 
 
-def template_files() -> list[PurePath]:
+def template_files(template: Path = TEMPLATE) -> list[PurePath]:
     """The files of a new paper, below its folder."""
-    found = (path.relative_to(TEMPLATE) for path in TEMPLATE.rglob("*") if path.suffix in (".py", ".toml"))
+    found = (path.relative_to(template) for path in template.rglob("*") if path.suffix in (".py", ".toml"))
     return sorted(PurePath(path) for path in found)
 
 
-def write_new_paper(name: str, directory: Path) -> Path:
+def write_new_paper(name: str, directory: Path, about: str = "train") -> Path:
     """Write the commented folder <name> with claims, a law and a study; the path of the folder.
+
+    about: "train" for a law of a train on a line, "plant" for a plant of one's own.
 
     Raises InputError for a name that cannot be a module's, where something of that name stands already, and for what
     cannot be written; then what was written before is removed again.
@@ -35,7 +39,8 @@ def write_new_paper(name: str, directory: Path) -> Path:
     folder = directory / name
     if folder.exists() or folder.is_symlink():
         raise InputError(folder, "", "exists already: name another paper, or move it away first")
-    texts = {place: contents(TEMPLATE / place).decode() for place in template_files()}
+    template = TEMPLATES[about]
+    texts = {place: contents(template / place).decode() for place in template_files(template)}
     write_tree(folder, {place: Template(text).substitute(name=name).encode() for place, text in texts.items()},
                "name another --directory")
     return folder

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -13,7 +13,7 @@ from workbench.paper.drivers import Drivers, entries, shortened
 from workbench.paper.mpc_comparison import FOLLOWS_MPS, JERK
 from workbench.paper.results import ResultTable
 from workbench.paper.stages import Stage
-from workbench.paper.statistics import Interval, mean_interval, overtakes, resampled
+from workbench.paper.statistics import Bootstrap, Interval, holm, mean_interval, overtakes
 from workbench.paper.tuning_record import Pairs
 from workbench.simulate.closed_loop import Factors
 
@@ -32,7 +32,8 @@ class Pair:
 
     differences: metric -> law less MPC with its interval over the draws in which both end, None where there are not
     two; means: metric -> of law and of MPC; failed: how many runs of law and of MPC failed; overtakes: metric -> the
-    trial from which on a law that learns is ahead by more than chance, or None.
+    trial from which on a law that learns is ahead by more than chance, or None; told_apart: the metrics whose
+    difference is more than chance, corrected for all metrics and places.
     """
 
     place: str
@@ -43,6 +44,7 @@ class Pair:
     differences: dict[str, Interval | None]
     failed: tuple[int, int]
     overtakes: dict[str, int | None]
+    told_apart: frozenset[str] = frozenset()
 
     @property
     def follow(self) -> tuple[bool, bool]:
@@ -59,7 +61,9 @@ class Pair:
         able = self.follow if metric in JERK else (not self.failed[0], not self.failed[1])
         if not all(able) or difference is None:
             return self.law if able[0] else self.rival if able[1] else None
-        return self.law if difference.high < 0 else self.rival if difference.low > 0 else None
+        if metric not in self.told_apart:
+            return None
+        return self.law if difference.mean < 0 else self.rival
 
 
 def factors_of(pairs: Pairs, draw: int) -> Factors:
@@ -106,7 +110,8 @@ def pairs_of(study: Any, drawn: Drawn, first_trial: int = 1) -> tuple[Pair, ...]
     # What was tuned for, and jerk as it was where that is known.
     metrics = tuple("jerk_rms" if metric in JERK and "jerk_rms" in of_runs else metric
                     for metric in study.tuning.objective.units)
-    chosen = resampled(stated.draws, stated.resamples, stated.seed)
+    how = Bootstrap(stated.resamples, stated.seed, stated.confidence)
+    how = how.for_comparisons(len(metrics) * len({place for place, _, _ in drawn}))
     found = []
     for place, law, tuned in drawn:
         for other, rival, state in drawn:
@@ -124,13 +129,28 @@ def pairs_of(study: Any, drawn: Drawn, first_trial: int = 1) -> tuple[Pair, ...]
                     continue
                 a, b = (np.array([pair[side][metric] for pair in ended]) for side in (0, 1))
                 means[metric] = float(a.mean()), float(b.mean())
-                differences[metric] = mean_interval(a - b, chosen, stated.confidence)
+                differences[metric] = mean_interval(a - b, how)
                 if metric in ended[0][0].get("trials", {}):
                     trials = np.array([ours["trials"][metric] for ours, _ in ended])
                     ahead[metric] = overtakes(trials, b, stated.resamples, stated.seed, stated.confidence,
                                               first_trial)
             found.append(Pair(place, law, rival, tuned, means, differences, (failed[0], failed[1]), ahead))
-    return tuple(found)
+    return _corrected(found, 1 - stated.confidence)
+
+
+def _corrected(pairs: Sequence[Pair], level: float) -> tuple[Pair, ...]:
+    """The pairs with what is more than chance, by Holm's correction over all metrics and places of law and rival."""
+    families: dict[tuple[str, str, bool], list[tuple[int, str, float]]] = {}
+    for number, pair in enumerate(pairs):
+        for metric, found in pair.differences.items():
+            if found is not None:
+                families.setdefault((pair.law, pair.rival, pair.tuned), []).append((number, metric, found.p))
+    told: dict[int, set[str]] = {}
+    for rows in families.values():
+        for (number, metric, _), chance in zip(rows, holm([p for _, _, p in rows]), strict=True):
+            if chance <= level:
+                told.setdefault(number, set()).add(metric)
+    return tuple(replace(pair, told_apart=frozenset(told.get(number, ()))) for number, pair in enumerate(pairs))
 
 
 def _cell(pair: Pair, metric: str, titles: Mapping[str, str], draws: int) -> Cell:
@@ -167,10 +187,10 @@ def pair_table(study: Any, drivers: Drivers, pairs: Sequence[Pair]) -> Iterator[
         ("run", "law", "MPC", "parameters", *(Column(*METRIC_NAMES[metric]) for metric in metrics),
          *(("trial from which on the law is ahead",) if learns else ())), tuple(rows),
         f"Means over {stated.draws} trains whose mass and resistance lie within ±{100 * stated.spread:g} % of what "
-        f"MPC knows, their difference with the {100 * stated.confidence:g} % interval of a paired bootstrap, and who "
-        "has less. A difference inside its interval is not called a win. A controller with runs that fail loses to "
-        "one without, and the numbers are of the trains on which both arrive; who errs by more than "
-        f"{FOLLOWS_MPS:g} m/s in speed RMS does not follow and wins nothing in jerk.")
+        f"MPC knows, their difference with the {100 * stated.confidence:g} % interval of a paired bootstrap (BCa), and "
+        "who has less. A difference that may be chance, by Holm's correction over metrics and runs, is no win. A "
+        "controller with runs that fail loses to one without, and the numbers are of the trains on which both arrive; "
+        f"who errs by more than {FOLLOWS_MPS:g} m/s in speed RMS does not follow and wins nothing in jerk.")
 
 
 def pair_findings(study: Any, drivers: Drivers, pairs: Sequence[Pair]) -> Iterator[str]:

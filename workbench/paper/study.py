@@ -10,11 +10,14 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal, TypeVar
 from pydantic import BeforeValidator, Strict, ValidationError
 
 from workbench.files.toml import FileRecord, Name, Text
+from workbench.model.sensitivity import Sensitivity
 from workbench.paper.results import StudyResult
 from workbench.trains.scenario import known_version
 
 if TYPE_CHECKING:
     from workbench.model.desired_curve import DesiredCurve
+    from workbench.paper.parameter_search import Kept, Tuned
+    from workbench.paper.parameter_search import Name as SearchedName
     from workbench.paper.tracked import Tracked
 
 # (runs finished, runs in all, what was run last)
@@ -25,12 +28,13 @@ class Study(FileRecord):
     """What every study's file begins with; each paper's study adds its own tables, every value with its source."""
 
     version: Annotated[int, BeforeValidator(known_version)]
-    kind: Literal["study", "contest"]
+    kind: Literal["study", "contest", "plant"]
     name: Name
     title: Text
     paper: Text
     citation: Text
     reproduction: Annotated[bool, Strict()] = False
+    joint_sensitivity: Sensitivity | None = None
 
 
 S = TypeVar("S", bound=Study)
@@ -61,8 +65,8 @@ class StudyKind:
 
     workers: processes to use, at least one. A run that fails is told in the result and raises nothing.
     located(study, path): of studies that name other files, the study with them found from its own path.
-    tune(study, names, workers, on_progress): of studies whose file has a [tuning] table, for each name the parameters
-    that were found, their cost and that of the stated ones.
+    tune(study, names, workers, on_progress, kept): of studies whose file has a [tuning] table, what was found for each
+    name, or for each condition and name. depends(study): of studies that name other files, a digest of those.
     run_kept(study, workers, on_progress, folder, resume): of studies that take long, `run` with what is finished kept
     in a folder, from which `resume` goes on; InputError where the folder is another's or cannot be written.
     track(study, curve): of papers with a main controller, how it follows a reference, its own where curve is None.
@@ -71,6 +75,7 @@ class StudyKind:
     record: type[Study]
     run: Callable[[Any, int, Progress], StudyResult]
     located: Callable[[Any, Path], Any] | None = None
-    tune: Callable[[Any, list[str], int, Progress], dict[str, tuple[dict[str, float], float, float]]] | None = None
+    tune: Callable[[Any, list[str], int, Progress, Kept], dict[SearchedName, Tuned]] | None = None
     run_kept: Callable[[Any, int, Progress, Path, bool], StudyResult] | None = None
     track: Callable[[Any, DesiredCurve | None], Tracked] | None = None
+    depends: Callable[[Any], str] | None = None

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+import json
+from collections.abc import Callable, Iterator, Mapping
 from pathlib import Path
 from typing import Any
 
@@ -10,18 +11,23 @@ from workbench.errors import InputError
 from workbench.files.outputs import check_rewritten
 from workbench.files.text import read_text
 from workbench.files.writing import write_text
+from workbench.model.tuning import BY_CONDITION, FOUND_KEYS, Range, SearchResult
 from workbench.paper.loading import Loaded
+from workbench.paper.parameter_search import NOTHING_KEPT, Name, Tuned, binding, words_of
 from workbench.paper.scenario_tuning import tune_scenario
+from workbench.paper.tuning_journal import kept_in, tuning_journal
 from workbench.simulate.process_pool import cores
 
 BEGIN, END = "# --- found by workbench tune: begin ---", "# --- found by workbench tune: end ---"
 
 
 def tune_run(loaded: Loaded, names: list[str], write: bool, workers: int | None,
-             on_progress: Callable[[int, int, str], None], runs: int | None = None) -> Iterator[str]:
+             on_progress: Callable[[int, int, str], None], runs: int | None = None, out: Path | None = None,
+             resume: bool = False) -> Iterator[str]:
     """Lines for the reader; with `write` the found parameters replace those in the file.
 
-    runs: of each controller, where not as many as the file states; what they find is not written.
+    runs: of each search, where not as many as the file states; what they find is not written. out: a folder that keeps
+    finished restarts, with which `resume` goes on.
     Raises InputError for a file without tuning and names without ranges.
     """
     path = loaded.path
@@ -34,33 +40,73 @@ def tune_run(loaded: Loaded, names: list[str], write: bool, workers: int | None,
     for name in chosen:
         if name not in budget.ranges:
             raise InputError(path, f"tuning.ranges.{name}", "is missing: name a controller with ranges, or add them")
+    if resume and out is None:
+        raise InputError("", "--resume", "needs the folder of the restarts to go on with: name it with --out")
     if runs is not None:
         if write:
             raise InputError("", "--runs", "is for trying: what --write puts into the file was found with the budget "
                              "that stands in it; leave one of the two out")
-        record = record.model_copy(update={"tuning": budget.model_copy(update={"runs": runs})})
+        record = _with_tuning(record, budget, runs)
     if write:
         check_rewritten(path)
         _before_found(path)
     try:
-        found = tune(record, chosen, workers or cores(), on_progress)
+        if out is None:
+            found = tune(record, chosen, workers or cores(), on_progress, NOTHING_KEPT)
+        else:
+            with tuning_journal(out, loaded, record, resume) as journal:
+                found = tune(record, chosen, workers or cores(), on_progress, kept_in(journal))
     except InputError as trouble:
         raise trouble if str(trouble.where) else trouble.within(path) from None
-    for name, (values, cost, stated) in found.items():
-        words = ", ".join(f"{key} = {value:g}" for key, value in values.items())
-        yield f"{name}: cost {stated:.4g} as stated, {cost:.4g} tuned: {words}"
+    for searched, tuned in found.items():
+        ranges = budget.ranges[searched if isinstance(searched, str) else searched[1]]
+        words = ", ".join(f"{key} = {value:g}{_binds(value, ranges[key])}" for key, value in tuned.values.items())
+        yield f"{words_of(searched)}: cost {tuned.stated:.4g} as stated, {tuned.cost:.4g} tuned: {words}"
     if write:
-        tables = budget.found | {name: values for name, (values, _, _) in found.items()}
-        _write(path, tables)
+        _write(path, budget, found)
         yield f"written: {path}"
 
 
-def _write(path: Path, tables: dict[str, dict[str, float]]) -> None:
+def _with_tuning(record: Any, budget: Any, runs: int) -> Any:
+    return record.model_copy(update={"tuning": budget.model_copy(update={"runs": runs})})
+
+
+def _binds(value: float, limits: Range) -> str:
+    end = binding(value, limits)
+    return f" (at the {end} end of its range)" if end else ""
+
+
+def _write(path: Path, budget: Any, found: Mapping[Name, Tuned]) -> None:
     """Replace what stands between the markers at the end of the file; everything else stays as it is."""
+    tables: dict[tuple[str, ...], dict[str, Any]] = {}
+    for kind in FOUND_KEYS:
+        for name, value in getattr(budget, kind, {}).items():
+            if kind in BY_CONDITION:
+                tables |= {(kind, name, controller): _plain(one) for controller, one in value.items()}
+            else:
+                tables[kind, name] = _plain(value)
+    for searched, tuned in found.items():
+        one = isinstance(searched, str)
+        place = (searched,) if isinstance(searched, str) else searched
+        tables["found" if one else BY_CONDITION[0], *place] = tuned.values
+        tables["results" if one else BY_CONDITION[1], *place] = {
+            "cost": tuned.cost, "stated_cost": tuned.stated, "evaluations": tuned.evaluations,
+            "improvements": [[list(row) for row in restart] for restart in tuned.improvements]}
     lines = [_before_found(path), "", BEGIN]
-    for name, values in tables.items():
-        lines += [f"[tuning.found.{name}]", *(f"{key} = {value!r}" for key, value in values.items()), ""]
+    for part in sorted(tables, key=lambda part: FOUND_KEYS.index(part[0])):
+        title = ".".join(json.dumps(name) if "." in name else name for name in part)
+        lines += [f"[tuning.{title}]", *(f"{key} = {_toml(value)}" for key, value in tables[part].items()), ""]
     write_text(path.resolve(), "\n".join([*lines[:-1], END]) + "\n", "check its permissions")
+
+
+def _plain(value: Any) -> dict[str, Any]:
+    found: dict[str, Any] = value.model_dump() if isinstance(value, SearchResult) else dict(value)
+    return found
+
+
+def _toml(value: Any) -> str:
+    """A number, or rows of them."""
+    return f"[{', '.join(map(_toml, value))}]" if isinstance(value, list | tuple) else repr(value)
 
 
 def _before_found(path: Path) -> str:

@@ -82,6 +82,9 @@ def constant(value: Fraction | int) -> Poly:
     return {(): Fraction(value)} if value else {}
 
 
+ONE: Poly = constant(1)
+
+
 def add(a: Poly, b: Poly, scale: Fraction | int = 1) -> Poly:
     """a + scale * b."""
     spend(len(a) + len(b))
@@ -97,6 +100,8 @@ def add(a: Poly, b: Poly, scale: Fraction | int = 1) -> Poly:
 
 def times_monomial(one: Monomial, two: Monomial) -> Monomial:
     """Product of two monomials; powers that vanish are dropped."""
+    if not one or not two:
+        return one or two
     powers = dict(one)
     for atom, power in two:
         powers[atom] = powers.get(atom, 0) + power
@@ -108,6 +113,8 @@ def multiply(a: Poly, b: Poly) -> Poly:
     if len(a) * len(b) > MOST_PRODUCTS:
         raise CertificateError("an expression is too large to be expanded")
     spend(len(a) * len(b) * (1 + (bits_of(a) + bits_of(b)) // 256))
+    if ONE in (a, b):
+        return dict(b if a == ONE else a)
     total: Poly = {}
     for m1, c1 in a.items():
         for m2, c2 in b.items():
@@ -146,10 +153,10 @@ class Ratio:
 
     def __init__(self, num: Poly, den: Poly | None = None) -> None:
         spend(4 + len(num) + (len(den) if den is not None else 0))
-        self.num, self.den = num, den if den is not None else constant(1)
+        self.num, self.den = num, den if den is not None else ONE
         if not self.den:
             raise CertificateError("division by zero")
-        if any(atom == SUM for m in self.den for atom, _ in m):
+        if self.den is not ONE and any(atom == SUM for m in self.den for atom, _ in m):
             raise CertificateError("division by a sum")
         if any(power > 1 for m in self.num for atom, power in m if atom == SUM):
             raise CertificateError("a product of two sums")
@@ -157,7 +164,7 @@ class Ratio:
             whole = divide_exactly(self.num, self.den)
             if whole is not None:
                 self.num, self.den = whole, constant(1)
-        else:  # a single term below: cancel it as far as it goes
+        elif self.den != ONE:  # a single term below: cancel it as far as it goes
             (monomial, coefficient), = self.den.items()
             shared = [(x, min(n, *(dict(m).get(x, 0) for m in self.num))) if self.num else (x, n)
                       for x, n in monomial]

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
+from functools import cached_property
 from numbers import Rational
 from typing import Any, Literal
 
@@ -149,6 +150,17 @@ class Goal:
 
         functions: whether sympy evaluates abs, sign, Max, Min and the like too, or leaves them to the deciders.
         """
+        return self._with_functions_evaluated if functions else self._with_functions_as_typed
+
+    @cached_property
+    def _with_functions_evaluated(self) -> Goal:
+        return self._evaluated(True)
+
+    @cached_property
+    def _with_functions_as_typed(self) -> Goal:
+        return self._evaluated(False)
+
+    def _evaluated(self, functions: bool) -> Goal:
         def usual(expr: sp.Expr) -> sp.Expr:
             return evaluated(expr, functions)
 
@@ -165,10 +177,14 @@ class Goal:
 
     def moving(self) -> set[sp.Expr]:
         """The symbols that may change along the flow."""
-        return {s for s, rate in self.flow.items() if evaluated(rate) != 0} | set(self.inputs)
+        return set(self._moving)
 
     def symbols(self) -> list[sp.Expr]:
         """Free symbols, one per name, indexed symbols by their base's name; sorted by name."""
+        return list(self._symbols)
+
+    @cached_property
+    def _symbols(self) -> tuple[sp.Expr, ...]:
         found: set[sp.Expr] = set()
         exprs = [e for r in self.relations() for e in (r.left, r.right)]
         for expr in (*exprs, *self.flow, *self.flow.values(), *self.initial.values(), *self.inputs, *self.named):
@@ -179,7 +195,11 @@ class Goal:
                        for s in e.free_symbols}
             found |= {s for s in expr.free_symbols if s not in hidden and not isinstance(s, sp.IndexedBase)}
             found |= indexed
-        return sorted(found, key=name_of)
+        return tuple(sorted(found, key=name_of))
+
+    @cached_property
+    def _moving(self) -> frozenset[sp.Expr]:
+        return frozenset(s for s, rate in self.flow.items() if evaluated(rate) != 0) | set(self.inputs)
 
     def signs(self) -> tuple[Relation, ...]:
         """What sympy knows of the symbols, as relations; of the time of `eventually`, that it starts at zero, is said

@@ -77,6 +77,9 @@ def lie_derivative(expr: sp.Expr, flow: dict[sp.Expr, sp.Expr]) -> sp.Expr:
 
 def expand_derivatives(expr: sp.Expr, flow: dict[sp.Expr, sp.Expr]) -> sp.Expr:
     """The expression with every D(...) carried out; ClaimError for one that has no derivative everywhere."""
+    if not expr.has(D):
+        return expr
+
     def carried(inner: sp.Expr) -> sp.Expr:
         return lie_derivative(unfold(inner), flow).replace(Size, sp.Abs).replace(Side, sp.sign)
 
@@ -89,9 +92,22 @@ def formal_sums(expr: sp.Expr) -> sp.Expr:
     An expression that vanishes in this form vanishes for every number of neurons.
     Raises ClaimError for a product of sums.
     """
+    if not expr.has(SUM, sp.Sum, Summed):
+        return expr
     flat = expr.replace(sp.Sum, lambda term, *_: SUM * term).replace(Summed, lambda term: SUM * term)
     # The root of a sum is one number, like any other factor.
     outside = flat.xreplace({root: sp.Dummy() for root in flat.atoms(sp.Pow) if not root.exp.is_Integer})
-    if outside.has(SUM) and sp.Poly(sp.fraction(sp.together(outside))[0], SUM).degree() > 1:
+    if _sums_in(outside) > 1 and sp.Poly(sp.fraction(sp.together(outside))[0], SUM).degree() > 1:
         raise ClaimError("a product of two sums over neurons cannot be decided for every number of neurons")
     return flat
+
+
+def _sums_in(expr: sp.Expr) -> int:
+    """At most how many sums are multiplied in an expression; several for what is too involved to tell."""
+    if expr == SUM:
+        return 1
+    if not expr.args or not expr.has(SUM):
+        return 0
+    if isinstance(expr, sp.Add):
+        return max(map(_sums_in, expr.args))
+    return sum(map(_sums_in, expr.args)) if isinstance(expr, sp.Mul) else 2

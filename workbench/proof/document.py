@@ -170,7 +170,9 @@ def claims_document(decisions: Sequence[Decision], where: Places) -> dict[str, A
             "goal": d.goal,
             "reading": claim.reading, "glyph": d.other_reading,
             "glyph_claim": claim.glyph, "severity": claim.severity, "rests_on": list(claim.chain),
-            "mends": claim.mends, "fate": d.fate.word if d.fate else None,
+            "mends": claim.mends, "section": claim.section,
+            "goal_digest": goal_digest(d.certificate) if d.certificate else None,
+            "fate": d.fate.word if d.fate else None,
             "fate_why": d.fate.why if d.fate else None, "fate_by": list(d.fate.by) if d.fate else [],
         })
     return {"version": 2, "claims": rows, "summary": _counts(decisions),

@@ -137,6 +137,8 @@ class Language:
                              "the flow, 0 where it is meant to be constant")
 
     def _name(self, name: str, owner: sp.Expr) -> None:
+        if self.names.get(name) is owner:
+            return
         if not re.fullmatch(r"[A-Za-z_][A-Za-z0-9_]*", name) or keyword.iskeyword(name) or name in LANGUAGE:
             raise ClaimError(f"symbol '{name}': certificates need names of letters, digits and underscores, "
                              f"other than {', '.join(LANGUAGE)} and Python's own words")
@@ -170,4 +172,5 @@ def saturation(value: Any, low: Any, high: Any) -> sp.Expr:
 
 def name_of(symbol: sp.Expr) -> str:
     """The name under which a symbol or an indexed symbol stands in certificates."""
-    return str(symbol.base.label) if isinstance(symbol, sp.Indexed) else str(symbol)
+    label = symbol.base.label if isinstance(symbol, sp.Indexed) else symbol
+    return label.name if type(label) is sp.Symbol else str(label)  # sympy's printer takes long to say the same

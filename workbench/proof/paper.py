@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Mapping
 from fractions import Fraction
 from pathlib import Path
@@ -16,6 +17,7 @@ from workbench.proof.selection import NO_PAPER, files_of, targets
 from workbench.proof.verdict import Match, Origin, Severity
 
 Builder = Callable[[], Goal]
+_SECTION = re.compile(r"section_(\d+)(?:_(\d+)|[a-z])?(?=_|$)")
 
 
 class Paper:
@@ -52,6 +54,7 @@ class Paper:
                 glyph=glyph and self._id(glyph), mends=mends and self._id(mends), closed_loop=closed_loop,
                 notation={**self.notation, **(where or {})}, scope=scope, at=at, correction=correction,
                 corrected_statement=corrected_statement, repair=repair, note=note or (build.__doc__ or "").strip(),
+                section=section_of(build.__module__),
             ))
             return build
 
@@ -83,6 +86,13 @@ class Paper:
 
     def _id(self, equation: str) -> str:
         return equation if ":" in equation else f"{self.name}:{equation}"
+
+
+def section_of(module: str) -> str:
+    """The section that a module of claims is named after: 5.1 for `...section_5_1_laws`, 2 for `...section_2a_train`;
+    empty for a module of another name."""
+    found = _SECTION.search(module.rpartition(".")[2])
+    return ".".join(filter(None, found.groups())) if found else ""
 
 
 def collect_papers(paths: list[Path]) -> list[Paper]:

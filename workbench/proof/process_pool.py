@@ -56,7 +56,7 @@ def worker_pool(jobs: int, cached: DecisionCache | None, limit: float | None = N
                 process.kill()
             if isinstance(trouble, BrokenProcessPool):
                 raise WorkbenchError("a worker process died (out of memory, or killed): run again with fewer, as "
-                                     "with --jobs 1; what was decided is kept") from None
+                                     "with --workers 1; what was decided is kept") from None
             raise
         finally:
             pool.shutdown(wait=True, cancel_futures=True)

@@ -9,7 +9,7 @@ from fnmatch import fnmatchcase
 from pathlib import Path
 
 from workbench.errors import InputError
-from workbench.files.folders import CLAIMS_FOLDER, PAPER_FILE, is_folder, is_paper, paper_named, papers_in
+from workbench.files.folders import CLAIMS_FOLDER, PAPER_FILE, is_folder, is_paper, paper_named, papers_in, papers_near
 from workbench.files.modules import python_files
 from workbench.proof.verdict import Stated
 
@@ -66,9 +66,18 @@ def _target(argument: str) -> Target:
         if near is None:
             if path.is_symlink() or _is_there(path):
                 raise InputError(path, "", "is neither a paper's folder nor a regular .py file: name one of these")
-            raise InputError(path, "", "no such paper: name a paper's folder, a proof file, or a folder of them")
+            raise InputError(path, "", f"no such paper: {_meant(path)}name a paper's folder, a proof file, or a folder "
+                             "of them")
         path, files = near, (near,)
     return Target(path, files, pattern if separator else None)
+
+
+def _meant(path: Path) -> str:
+    """A question after the paper or proof file of a name like this one, where there is one."""
+    beside = sorted(p.name for p in path.parent.glob("*.py")) if is_folder(path.parent) else []
+    folders = [p.name for p in papers_near(path.parent if is_folder(path.parent) else Path.cwd())]
+    near = get_close_matches(path.name, [*folders, *beside], n=1)
+    return f"did you mean '{near[0]}'? Else " if near else ""
 
 
 def _is_file(path: Path) -> bool:

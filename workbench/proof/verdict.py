@@ -49,7 +49,8 @@ class Stated:
     which carry taint: unless stated the premises, and nothing of a question of ours. match: `read` or `words`
     (`parsed` is found by machine), reading: how a line was read by a person. glyph: id of the claim that decides the
     other reading of a line whose extracted text leaves a sign, power or index open; mends: id of the claim of which
-    this is a repaired form. note: what a reader should know.
+    this is a repaired form. note: what a reader should know. section: the paper's section, as the claims' file is
+    called.
     """
 
     id: str
@@ -67,6 +68,7 @@ class Stated:
     mends: str | None = None
     scope: str = "all values of the domain"
     note: str = ""
+    section: str = ""
 
     def __post_init__(self) -> None:
         paper, _, equation = self.id.partition(":")

@@ -24,6 +24,8 @@ from workbench.paper.study import Study
 from workbench.proof.document import CERTIFICATES, Places, claims_document, write_certificates
 from workbench.proof.prove import prove
 from workbench.proof.selection import Target, targets
+from workbench.report.finding import findings
+from workbench.report.finding_sentences import findings_document
 from workbench.report.gains import gains_document, gains_result
 from workbench.report.page import ReportContent, build_page
 from workbench.report.study_page import ANOTHER_OUT, CURVES, StudyContent, build_study_page, write_curves
@@ -34,7 +36,7 @@ from workbench.simulate.sweep import SweepSummary, summarise, sweep
 MONTE_CARLO = "monte_carlo"
 # What a report writes in its folder, certificates and curves apart, which their manifests name.
 FILES = ("report.html", "claims.json", "compare.json", "gains.json", f"{MONTE_CARLO}/sweep.csv",
-         f"{MONTE_CARLO}/sweep.journal.jsonl", "matches.journal.jsonl")
+         f"{MONTE_CARLO}/sweep.journal.jsonl", "matches.journal.jsonl", "pareto.journal.jsonl")
 # (what is being done, done, total); total 0 while it is not known
 Progress = Callable[[str, int, int], None]
 
@@ -193,7 +195,7 @@ def _decide(asked: Asked, on_progress: Progress, timings: dict[str, float]) -> d
                           on_progress=lambda *step: on_progress("claims", *step)).decisions
         places = Places(asked.out / CERTIFICATES)
         write_certificates(decisions, places)
-        claims = claims_document(decisions, places)
+        claims = {**claims_document(decisions, places), **findings_document(findings(decisions))}
         write_json(asked.out / "claims.json", claims)
     return claims
 

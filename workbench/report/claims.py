@@ -7,9 +7,13 @@ from dataclasses import dataclass
 from typing import Any
 from urllib.parse import quote
 
-from markupsafe import Markup
+from markupsafe import Markup, escape
 
+from workbench.proof.checker import CertificateError
+from workbench.report.certificate_latex import assignment_latex
 from workbench.report.formulas import formula
+from workbench.report.places_in_paper import place_of
+from workbench.report.worded import show, worded
 
 # The order in which a reader wants to see them, with a sign for who cannot tell the colours.
 VERDICTS = {"refuted": "✗", "violated": "!", "gap": "⋯", "undecided": "?", "assumed": "≔", "proved": "✓"}
@@ -40,8 +44,11 @@ class ClaimView:
 
     id: str
     anchor: str
-    title: str
+    title: Markup
     equation: str
+    section: str
+    origin: str
+    severity: str
     kind: str
     statement: Markup
     decided: Markup
@@ -52,15 +59,16 @@ class ClaimView:
     recorded: str
     method: str
     trust: str
-    note: str
+    note: Markup
     tainted_by: tuple[ClaimRef, ...]
     premises: tuple[ClaimRef, ...]
-    counterexample: tuple[str, ...]
-    facts: tuple[tuple[str, str], ...]
+    counterexample: tuple[Markup, ...]
+    facts: tuple[tuple[str, Markup], ...]
     open: bool
     ours: bool
     fate: str
     fate_why: str
+    place: str
 
 
 def claim_views(document: Mapping[str, Any]) -> list[ClaimView]:
@@ -68,6 +76,21 @@ def claim_views(document: Mapping[str, Any]) -> list[ClaimView]:
     entries = [entry for entry in _list(document.get("claims")) if isinstance(entry, Mapping)]
     known = {_text(entry.get("id")) for entry in entries}
     return [_view(entry, known) for entry in entries]
+
+
+def fated(claims: Sequence[ClaimView]) -> list[ClaimView]:
+    """The headline statements, those that fall first."""
+    order = ("falls", "stands with corrections", "open", "stands")
+    return sorted((claim for claim in claims if claim.fate),
+                  key=lambda claim: order.index(claim.fate) if claim.fate in order else 0)
+
+
+def by_section(claims: Sequence[ClaimView]) -> list[tuple[str, list[ClaimView]]]:
+    """The claims of each section, in their order; one group where no section is known."""
+    groups: dict[str, list[ClaimView]] = {}
+    for claim in claims:
+        groups.setdefault(claim.section, []).append(claim)
+    return list(groups.items())
 
 
 def counts(claims: Sequence[ClaimView]) -> dict[str, int]:
@@ -82,30 +105,30 @@ def _view(entry: Mapping[str, Any], known: set[str]) -> ClaimView:
     verdict = _text(entry.get("verdict")) or "undecided"
     recorded = _text(entry.get("recorded"))
     seconds = entry.get("seconds")
-    shown = [(label, _text(entry.get(key))) for label, key in FACTS]
-    origin = _text(entry.get("origin"))
+    shown = [(label, in_words(_text(entry.get(key)), label != "Certificate")) for label, key in FACTS]
+    origin, severity = _text(entry.get("origin")), _text(entry.get("severity"))
     if origin:
-        place = ", ".join(filter(None, (ORIGINS.get(origin, origin), _text(entry.get("severity")))))
-        shown.insert(0, ("Stands as", place))
+        shown.insert(0, ("Stands as", escape(", ".join(filter(None, (ORIGINS.get(origin, origin), severity))))))
     if isinstance(seconds, int | float):
-        shown.append(("Decided in", f"{seconds:.2g} s"))
+        shown.append(("Decided in", escape(f"{seconds:.2g} s")))
     refs = {key: tuple(ClaimRef(name, anchor(name) if name in known else None)
                        for name in map(_text, _list(entry.get(key)))) for key in ("tainted_by", "premises")}
     trust = _text(entry.get("trust"))
     return ClaimView(
-        id=_text(entry.get("id")), anchor=anchor(_text(entry.get("id"))), title=_text(entry.get("title")),
-        equation=_text(entry.get("equation")), kind=_text(entry.get("kind")),
+        id=_text(entry.get("id")), anchor=anchor(_text(entry.get("id"))), title=in_words(_text(entry.get("title"))),
+        equation=_text(entry.get("equation")), section=_text(entry.get("section")), origin=origin, severity=severity,
+        kind=_text(entry.get("kind")),
         statement=formula(_text(entry.get("statement"))),
         decided=formula(_text(entry.get("goal"))) if entry.get("match") != "parsed" else Markup(""),
         correction=formula(_text(entry.get("correction"))),
         correction_label=CORRECTIONS.get(verdict, "Correction"),
         verdict=verdict, sign=VERDICTS.get(verdict, "?"), recorded=recorded if recorded != verdict else "",
-        method=_text(entry.get("method")), trust=TRUST.get(trust, trust), note=_text(entry.get("note")),
+        method=_text(entry.get("method")), trust=TRUST.get(trust, trust), note=in_words(_text(entry.get("note"))),
         tainted_by=refs["tainted_by"], premises=refs["premises"],
         counterexample=_lines(entry.get("counterexample")),
         facts=tuple((label, text) for label, text in shown if text), open=verdict in NOT_AS_PRINTED,
         ours=origin == "ours", fate=_text(entry.get("fate")),
-        fate_why=_text(entry.get("fate_why")),
+        fate_why=_text(entry.get("fate_why")), place=place_of(_text(entry.get("equation"))),
     )
 
 
@@ -122,8 +145,21 @@ def _list(value: object) -> list[Any]:
     return list(value) if isinstance(value, list | tuple) else [] if value is None else [value]
 
 
-def _lines(value: object) -> tuple[str, ...]:
+def in_words(text: str, letters: bool = True) -> Markup:
+    """A text with its letters, such as z_1 or rho_hat, as formulas."""
+    return Markup(show(worded(text), formula, lambda words: str(escape(words)))) if letters else escape(text)
+
+
+def _lines(value: object) -> tuple[Markup, ...]:
     """A counterexample as lines `name = value`, whatever its shape."""
     if isinstance(value, Mapping):
-        return tuple(f"{name} = {_text(entry)}" for name, entry in value.items())
-    return tuple(_text(entry) for entry in _list(value))
+        return tuple(_line(_text(name), _text(entry)) for name, entry in value.items())
+    return tuple(Markup("<code>{}</code>").format(_text(entry)) for entry in _list(value))
+
+
+def _line(name: str, value: str) -> Markup:
+    """A letter and its number, or its function of time, as a formula; as they are where they are none."""
+    try:
+        return formula(assignment_latex(name, value))
+    except CertificateError:
+        return Markup("<code>{} = {}</code>").format(name, value)

@@ -10,6 +10,8 @@ from xml.etree import ElementTree
 from latex2mathml.converter import convert_to_element
 from markupsafe import Markup, escape
 
+from workbench.report.worded import worded
+
 # What a formula may consist of: a claim file is a stranger's, and \href, \style and \text can carry anything.
 ELEMENTS = frozenset((
     "math", "mrow", "mi", "mo", "mn", "mtext", "mspace", "mfrac", "msqrt", "mroot", "msub", "msup", "msubsup",
@@ -25,6 +27,8 @@ BREAKS = frozenset("=≤≥<>+−⟹⇒⇔⟺∧∨∈")
 LONG = 40
 OPERATORS = frozenset("⟹⟸⟺⟶⟵⟷⇒⇐⇔→←↔↦:")
 LIMITS = frozenset(("lim", "max", "min", "sup", "inf", "lim sup", "lim inf", "∑", "∏"))
+_SENTENCE = re.compile(r"[A-Za-z]{2,} [a-z]+ [a-z]+ ")
+_PHRASE = re.compile(r"(?<![\\\w])(?:[A-Za-z]{2,}[ -]){3,}[A-Za-z]{2,}")
 UNDER = {"msub": "munder", "msup": "mover", "msubsup": "munderover"}
 
 
@@ -36,15 +40,36 @@ def formula(latex: str) -> Markup:
     return _convert(latex.strip().strip("$").strip())
 
 
+def formula_tree(latex: str) -> ElementTree.Element | None:
+    """The MathML of a formula as a tree, of which nothing but harmless elements is left; None where it cannot be
+    converted."""
+    try:
+        root = convert_to_element(_words_apart(_as_text(latex.strip().strip("$").strip())))
+        for element in root.iter():
+            _clean(element)
+    except Exception:  # the converter raises many kinds on input it does not know, some of them its own bugs
+        return None
+    return root
+
+
 @cache
 def _convert(latex: str) -> Markup:
     try:
-        root = convert_to_element(_words_apart(latex))
-        for element in root.iter():
-            _clean(element)
+        root = formula_tree(latex)
+        if root is None:
+            raise ValueError(latex)
         return Markup("").join(_serialise(part) for part in _parts(root))
     except Exception:  # the converter raises many kinds on input it does not know, some of them its own bugs
         return Markup("<code>{}</code>").format(escape(latex)) if latex else Markup("")
+
+
+def _as_text(latex: str) -> str:
+    """A sentence that was printed without a mark that it is text, marked, the letters in it as formulas."""
+    if r"\text" in latex:
+        return latex
+    if not _SENTENCE.match(latex):
+        return _PHRASE.sub(r"\\text{ \g<0> }", latex)
+    return rf"\text{{{latex if '$' in latex else worded(latex)}}}"
 
 
 def _words_apart(latex: str) -> str:

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from markupsafe import Markup
 
 from workbench.files.numbers import length, number
-from workbench.report.claims import NOT_AS_PRINTED, VERDICTS, ClaimView, counts
+from workbench.report.claims import VERDICTS, ClaimView, counts
 from workbench.report.sources import SourcedValue
 from workbench.report.tables import largest_error
 from workbench.simulate.metrics import Metrics
@@ -19,24 +19,15 @@ NOTABLE = 1.1
 
 
 def proof_line(claims: Sequence[ClaimView]) -> Markup | None:
-    """What becomes of the headline statements, and the verdicts on the paper's lines in words, ours apart; with links
-    to what does not hold as printed."""
+    """The verdicts on the paper's lines in words, ours apart."""
     if not claims:
         return None
     paper = [claim for claim in claims if not claim.ours]
     line = Markup("<strong>Proof.</strong>")
-    for claim in (claim for claim in paper if claim.fate):
-        line += Markup(' {}: <a href="#{}">{}</a> <strong>{}</strong>, {}.').format(
-            claim.title, claim.anchor, claim.id, claim.fate, claim.fate_why)
     line += f" {len(paper)} lines of the paper: {_verdicts(paper)}."
-    wrong = [claim for claim in paper if claim.verdict in NOT_AS_PRINTED]
-    if wrong:
-        links = Markup(", ").join(Markup('<a href="#{}">{}</a>').format(c.anchor, c.id) for c in wrong[:8])
-        more = f" and {len(wrong) - 8} more" if len(wrong) > 8 else ""
-        line += Markup(" Not as printed: {}{}.").format(links, more)
     tainted = sum(claim.verdict == "proved" and bool(claim.tainted_by) for claim in paper)
     if tainted:
-        line += Markup(" {} of the proved rest on one of these.").format(tainted)
+        line += Markup(" {} of the proved rest on a line that fails.").format(tainted)
     own = [claim for claim in claims if claim.ours]
     if own:
         line += f" {len(own)} questions of ours: {_verdicts(own)}."

@@ -22,7 +22,7 @@ from workbench.optimal.regimes import REGIMES, regimes
 from workbench.optimal.timetable import Timetable, TimingPoint
 from workbench.optimal.vehicle import Vehicle
 from workbench.report.svg import FAINT, INK, PALETTE, Array, drawing, svg, thin
-from workbench.trains.track import STANDARD_GRAVITY_MPS2
+from workbench.trains.resistance import STANDARD_GRAVITY_MPS2
 
 SPEED_WINDOW = "speeds asked for"
 # Away from a page there are no page colours.

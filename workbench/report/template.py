@@ -5,6 +5,7 @@ from __future__ import annotations
 import base64
 import hashlib
 import platform
+from collections import Counter
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from importlib.metadata import PackageNotFoundError, version
@@ -16,7 +17,8 @@ from markupsafe import Markup
 
 from workbench.files.numbers import number
 from workbench.files.regular import contents
-from workbench.report.claims import claim_views, counts
+from workbench.report.claims import ClaimView, by_section, claim_views, counts, fated
+from workbench.report.findings_view import finding_groups
 from workbench.report.sources import SourcedValue, stated
 
 PACKAGES = ("workbench", "numpy", "scipy", "sympy", "numba", "casadi", "matplotlib")
@@ -25,29 +27,55 @@ PACKAGES = ("workbench", "numpy", "scipy", "sympy", "numba", "casadi", "matplotl
 SCRIPT = """
 const filter = document.getElementById("filter");
 const claims = [...document.querySelectorAll("tbody[data-verdict]")];
-const say = document.getElementById("shown");
-function show(verdict) {
+const folds = [...document.querySelectorAll("details.paper-section")];
+const START = "#show?";
+function chosen() {
+  return [...filter.querySelectorAll("select, input")].filter(field => field.value);
+}
+function show(keep) {
+  const fields = chosen();
   let count = 0;
   for (const claim of claims) {
-    claim.hidden = verdict !== "all" && claim.dataset.verdict !== verdict;
+    claim.hidden = fields.some(field => field.name === "q"
+      ? !claim.textContent.toLowerCase().includes(field.value.toLowerCase())
+      : claim.dataset[field.name] !== field.value);
     count += claim.hidden ? 0 : 1;
   }
-  for (const button of filter.querySelectorAll("button"))
-    button.setAttribute("aria-pressed", String(button.value === verdict));
-  say.textContent = count + " of " + claims.length + " claims shown";
+  for (const fold of folds) {
+    const left = fold.querySelector("tbody[data-verdict]:not([hidden])");
+    fold.hidden = !left;
+    if (fields.length && left) fold.open = true;
+  }
+  document.getElementById("shown").textContent = count + " of " + claims.length + " claims";
+  if (keep && fields.length)
+    history.replaceState(null, "", START + new URLSearchParams(fields.map(field => [field.name, field.value])));
+  else if (keep && location.hash.startsWith(START)) history.replaceState(null, "", "#proof");
+}
+function follow() {
+  if (location.hash.startsWith(START)) {
+    const asked = new URLSearchParams(location.hash.slice(START.length));
+    for (const field of filter.querySelectorAll("select, input")) field.value = asked.get(field.name) || "";
+    show(false);
+    document.getElementById("proof").scrollIntoView();
+    return;
+  }
+  const name = location.hash.slice(1);
+  const claim = document.getElementById(decodeURIComponent(name)) || document.getElementById(name);
+  if (!claim) return;
+  if (claim.closest("tbody[hidden]")) {  // a link to a claim that is filtered away shows all again
+    for (const field of filter.querySelectorAll("select, input")) field.value = "";
+    show(false);
+  }
+  const fold = claim.closest("details.paper-section");
+  if (fold && !fold.open) { fold.open = true; claim.scrollIntoView(); }
 }
 if (filter) {
   filter.hidden = false;
-  filter.addEventListener("click", e => {
-    const button = e.target.closest("button");
-    if (button) show(button.value);
-  });
-  // A link to a claim that is filtered away shows all again.
-  addEventListener("hashchange", () => {
-    const claim = document.getElementById(decodeURIComponent(location.hash.slice(1)))
-      || document.getElementById(location.hash.slice(1));
-    if (claim && claim.closest("tbody[hidden]")) { show("all"); claim.scrollIntoView(); }
-  });
+  filter.addEventListener("input", () => show(true));
+  document.getElementById("unfold").addEventListener("click", () => { for (const fold of folds) fold.open = true; });
+  addEventListener("hashchange", follow);
+  show(false);
+  follow();
 }
 addEventListener("beforeprint", () => {
   for (const fold of document.querySelectorAll("details")) fold.open = true;
@@ -76,10 +104,20 @@ def render(template: str, document: Mapping[str, Any], sources: Sequence[Sourced
                               trim_blocks=True, lstrip_blocks=True)
     environment.filters |= {"number": number, "stated": stated, "breakable": _breakable}
     return environment.get_template(template).render(
-        claims=claims, counts=counts(claims),
+        claims=claims, counts=counts(claims), findings=finding_groups(document), sections=by_section(claims),
+        fated=fated(claims),
+        choices=[(name, label, found) for name, label in CHOICES if len(found := _values(claims, name)) > 1],
         sources={kind: [s for s in sources if s.kind == kind] for kind in ("assumed", "paper", "convention")},
         versions=_versions(), style=Markup(contents(folder / "page.css").decode()), script=Markup(SCRIPT),
         script_hash=_hash(SCRIPT), **values)
+
+
+CHOICES = (("verdict", "Verdict"), ("severity", "Severity"), ("origin", "Origin"), ("section", "Section"))
+
+
+def _values(claims: Sequence[ClaimView], name: str) -> list[tuple[str, int]]:
+    """The values that a field of claims has, and how many claims have each."""
+    return [(value, n) for value, n in Counter(getattr(claim, name) for claim in claims).items() if value]
 
 
 def _versions() -> dict[str, str]:

@@ -5,13 +5,16 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Protocol
 
+import numpy as np
 import sympy as sp
 
+from workbench.model.cascaded_pid import cascaded_pid
 from workbench.model.law import ControlLaw
 from workbench.model.laws import law_named, laws_near
 from workbench.mpc.controller import KINDS
 from workbench.mpc.tracking import TrackingMpc
 from workbench.trains.scenario import ControllerSpec, Scenario
+from workbench.trains.track import resistance_table
 
 MOST_NAMED = 7  # laws of one paper or family in a message
 
@@ -40,8 +43,18 @@ SAMPLED: dict[str, Callable[[Scenario, ControllerSpec, str], SampledController]]
 }
 
 
+# Laws that are made for a line, of which they are told: of where its resistance changes (m) and by how much (N/kg).
+TOLD_THE_LINE: dict[str, Callable[[tuple[tuple[float, float], ...]], ControlLaw]] = {
+    "cascaded_pid.told": cascaded_pid,
+}
+
+
 def compiled_law(scenario: Scenario, spec: ControllerSpec) -> ControlLaw | None:
     """The law of a controller that is compiled whole; None for one that is called once a sample, and unknown ones."""
+    if spec.law in TOLD_THE_LINE:
+        line = resistance_table(scenario.track)
+        changes = np.diff(line.specific_force, prepend=0.0)
+        return TOLD_THE_LINE[spec.law](tuple(zip(line.position_m.tolist(), changes.tolist(), strict=True)))
     return None if spec.law in SAMPLED else law_named(spec.law, scenario.folder)
 
 
@@ -51,7 +64,7 @@ def known_laws(scenario: Scenario) -> str:
     Of a family of many the first ones stand for all.
     """
     families: dict[str, list[str]] = {}
-    for law in (*laws_near(scenario.folder), *SAMPLED):
+    for law in (*laws_near(scenario.folder), *TOLD_THE_LINE, *SAMPLED):
         family, dot, own = law.partition(".")
         families.setdefault(family + dot, []).append(own)
     return ", ".join(family + " | ".join(members if len(members) <= MOST_NAMED else [*members[:3], "..."])

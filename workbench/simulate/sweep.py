@@ -206,7 +206,8 @@ def csv_text(rows: Sequence[SweepRow]) -> str:
 
 def inputs_digest(scenario: Scenario) -> str:
     """What the rows depend on: the scenario's values, its line, and the code that computes them."""
-    data = scenario.model_dump(exclude={"printed_table", "printed_values", "variants", "tuning", "title", "citation"})
+    data = scenario.model_dump(exclude={"printed_table", "printed_values", "variants", "tuning", "joint_sensitivity",
+                                        "title", "citation"})
     text = json.dumps(data, sort_keys=True, default=str)
     return hashlib.sha256(code_digest(*SIMULATING) + laws_digest(scenario) + text.encode()).hexdigest()[:20]
 

@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 from pydantic import Field, Strict, model_validator
 
 from workbench.files.toml import Positive, SourcedRecord
-from workbench.trains.track import STANDARD_GRAVITY_MPS2
+from workbench.trains.resistance import STANDARD_GRAVITY_MPS2
 
 Array = NDArray[np.float64]
 

@@ -28,11 +28,12 @@ from workbench.model.curve_table import TableCurve
 from workbench.model.desired_curve import CruiseSpeed, DavisCruise, DesiredCurve, build_curve
 from workbench.model.events import Disturbance, Failure, Mode
 from workbench.model.sensing import Instruments
+from workbench.model.sensitivity import Sensitivity
 from workbench.model.tuning import Searched, TrackingObjective
 from workbench.trains.actuator import Actuator
 from workbench.trains.periods import with_periods
 from workbench.trains.track import Track, load_track
-from workbench.trains.train import Train
+from workbench.trains.train_record import Train
 
 MOST_LOG_ROWS = 10_000_000
 
@@ -167,6 +168,7 @@ class Scenario(FileRecord):
     printed_values: tuple[PrintedValue, ...] = ()
     variants: tuple[Variant, ...] = ()
     tuning: ScenarioTuning | None = None
+    joint_sensitivity: Sensitivity | None = None
     reproduction: Annotated[bool, Strict()] = False
 
     @model_validator(mode="before")

@@ -9,36 +9,10 @@ from pathlib import Path
 from typing import Annotated, Self
 
 import numpy as np
-import sympy as sp
 from numpy.typing import NDArray
 from pydantic import Field, Strict, model_validator
 
-from workbench.files.toml import NonNegative, Number, Positive, Record, SourcedRecord, Text, load_record
-
-STANDARD_GRAVITY_MPS2 = 9.80665
-
-grade_permille, curvature_per_m, tunnel_n_per_kn = sp.symbols("i kappa w_s", real=True)
-
-
-def additional_specific_resistance() -> sp.Expr:
-    """Resistance of grade, curve (600/R) and tunnel in N per kg of train, of (i, 1/R, w_s).
-
-    The curve term 600/R N/kN with R in m is the usual empirical one; straight track is 1/R = 0.
-    """
-    per_kilonewton = grade_permille + 600 * curvature_per_m + tunnel_n_per_kn
-    return sp.Rational(str(STANDARD_GRAVITY_MPS2)) * per_kilonewton / 1000
-
-
-def roeckl_specific_resistance() -> sp.Expr:
-    """The same with Roeckl's resistance of curves, 650/(R - 55) N/kN from R = 300 m on and 500/(R - 30) below.
-
-    The handbook form for standard gauge, R in m (for example D. Wende, Fahrdynamik des Schienenverkehrs, 2003).
-    The two branches do not meet: at R = 300 m they give 2.65 and 1.85 N/kN.
-    """
-    wide = 650 * curvature_per_m / (1 - 55 * curvature_per_m)
-    sharp = 500 * curvature_per_m / (1 - 30 * curvature_per_m)
-    curve = sp.Piecewise((wide, curvature_per_m <= sp.Rational(1, 300)), (sharp, True))
-    return sp.Rational(str(STANDARD_GRAVITY_MPS2)) * (grade_permille + curve + tunnel_n_per_kn) / 1000
+from workbench.files.toml import NonNegative, Positive, Record, SourcedRecord, Text, load_record
 
 
 class Section(Record):
@@ -83,7 +57,7 @@ class TunnelSection(Section):
 class SpeedSection(Section):
     """Speed limit in m/s, from start_m to end_m."""
 
-    speed_mps: Annotated[float, Strict(), Field(gt=0, le=200, allow_inf_nan=False)]
+    speed_mps: Annotated[float, Strict(), Field(ge=0.1, le=200, allow_inf_nan=False)]
 
 
 class Track(SourcedRecord):
@@ -93,7 +67,7 @@ class Track(SourcedRecord):
     """
 
     name: Text
-    length_m: Annotated[float, Strict(), Field(gt=0, le=1e8, allow_inf_nan=False)]
+    length_m: Annotated[float, Strict(), Field(gt=0, le=2e7, allow_inf_nan=False)]
     grade: tuple[GradeSection, ...]
     curve: tuple[CurveSection, ...]
     tunnel: tuple[TunnelSection, ...] = ()
@@ -161,6 +135,15 @@ class ResistanceTable:
 
 def resistance_table(track: Track) -> ResistanceTable:
     """The additional resistance of `track` by section, from `additional_specific_resistance`."""
+    import sympy as sp  # noqa: PLC0415 - lines are read by commands that need no expressions
+
+    from workbench.trains.line_resistance import (  # noqa: PLC0415 - as above
+        additional_specific_resistance,
+        curvature_per_m,
+        grade_permille,
+        tunnel_n_per_kn,
+    )
+
     layers: tuple[Sequence[Section], ...] = (track.grade, track.curve, track.tunnel)
     borders = {edge for layer in layers for s in layer for edge in (s.start_m, s.end_m)}
     starts = np.array(sorted(edge for edge in borders if edge < track.length_m))
@@ -189,8 +172,3 @@ def speed_limits(track: Track) -> tuple[NDArray[np.float64], NDArray[np.float64]
 def load_track(path: Path, reproduction: bool = False) -> Track:
     """Load a line from TOML; raises InputError naming file and key. reproduction: every value needs its source."""
     return load_record(path, Track, reproduction)
-
-
-__all__ = ["STANDARD_GRAVITY_MPS2", "CurveSection", "GradeSection", "Number", "ResistanceTable", "Section",
-           "SpeedSection", "Track", "TunnelSection", "additional_specific_resistance", "load_track", "resistance_table",
-           "roeckl_specific_resistance"]

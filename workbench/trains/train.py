@@ -3,12 +3,10 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Annotated, Self
 
 import sympy as sp
-from pydantic import Field, Strict, model_validator
 
-from workbench.files.toml import Positive, SourcedRecord
+from workbench.trains.resistance import davis_resistance
 
 p, v, F, f_add, t = sp.symbols("p v F f_add t", real=True)
 m = sp.Symbol("m", positive=True)
@@ -16,11 +14,6 @@ a_0, b_0, c_0 = sp.symbols("a_0 b_0 c_0", real=True)
 
 x_1, x_2, u, f = sp.symbols("x_1 x_2 u f", real=True)
 a_star, b_star, c_star = sp.symbols("a_star b_star c_star", real=True)
-
-
-def davis_resistance(speed: sp.Expr, a: sp.Expr, b: sp.Expr, c: sp.Expr) -> sp.Expr:
-    """Basic resistance a + b v + c v^2, the Davis equation; unit of a, v in m/s."""
-    return a + b * speed + c * speed**2
 
 
 @dataclass(frozen=True)
@@ -45,43 +38,3 @@ def single_particle_per_mass() -> Plant:
     g = -davis_resistance(x_2, a_star, b_star, c_star)
     rates = {x_1: x_2, x_2: u + g + f}
     return Plant(rates, u, f, (a_star, b_star, c_star), "Newton's second law, Davis equation, per kg")
-
-
-# A train that resists with more than 10 m/s^2 at standstill or at 1 m/s has its coefficients in another unit.
-DavisCoefficient = Annotated[float, Strict(), Field(ge=0, le=10, allow_inf_nan=False)]
-
-
-class Train(SourcedRecord):
-    """A single-particle train: mass, Davis coefficients per unit of mass, traction and brake limits.
-
-    Raises ValueError (through validation) for implausible values, which are mostly wrong units.
-    """
-
-    mass_kg: Annotated[float, Strict(), Field(gt=0, allow_inf_nan=False)]
-    davis_a_mps2: DavisCoefficient
-    davis_b_per_s: DavisCoefficient
-    davis_c_per_m: DavisCoefficient
-    max_traction_n: Positive
-    max_braking_n: Positive
-    max_power_w: Positive | None = None
-
-    @model_validator(mode="after")
-    def _plausible(self) -> Self:
-        if not 1e3 <= self.mass_kg <= 1e8:
-            raise ValueError(f"mass_kg = {self.mass_kg:g} is no train between 1e3 and 1e8 kg: "
-                             f"is it in tonnes?")
-        for name in ("max_traction_n", "max_braking_n"):
-            specific = getattr(self, name) / self.mass_kg
-            if not 0.01 <= specific <= 20:
-                raise ValueError(f"{name} gives {specific:g} m/s^2 for this mass, outside 0.01 to 20: "
-                                 f"is it in kN?")
-        if self.max_power_w is not None and not 0.1 <= self.max_power_w / self.mass_kg <= 1e3:
-            raise ValueError(f"max_power_w gives {self.max_power_w / self.mass_kg:g} W/kg for this mass, "
-                             f"outside 0.1 to 1000: is it in kW?")
-        return self
-
-    @property
-    def davis_newton(self) -> tuple[float, float, float]:
-        """Davis coefficients (a_0, b_0, c_0) of this train in N, N s/m, N s^2/m^2."""
-        return (self.davis_a_mps2 * self.mass_kg, self.davis_b_per_s * self.mass_kg,
-                self.davis_c_per_m * self.mass_kg)

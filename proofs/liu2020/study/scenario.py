@@ -12,7 +12,8 @@ from workbench.compile.kernel import numeric
 from workbench.model.desired_curve import DesiredCurve, start_cruise_stop
 from workbench.model.law import ControlLaw
 from workbench.simulate.closed_loop import Array, Run, Setting, run_law
-from workbench.trains.track import STANDARD_GRAVITY_MPS2, ResistanceTable
+from workbench.trains.resistance import STANDARD_GRAVITY_MPS2
+from workbench.trains.track import ResistanceTable
 
 from .. import plant as of_train
 from .record import FEEDBACK_GAINS, Line, LiuStudy, Section, Train

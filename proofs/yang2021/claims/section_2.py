@@ -7,7 +7,12 @@ from fractions import Fraction
 import sympy as sp
 
 from workbench.proof.claim import D, Goal, equal
-from workbench.trains.track import additional_specific_resistance, curvature_per_m, grade_permille, tunnel_n_per_kn
+from workbench.trains.line_resistance import (
+    additional_specific_resistance,
+    curvature_per_m,
+    grade_permille,
+    tunnel_n_per_kn,
+)
 from workbench.trains.train import F, a_0, b_0, c_0, f, f_add, m, p, single_particle, u, v
 
 from ..error_dynamics import plant

@@ -23,12 +23,12 @@ SHORT = {"train.cars": 2, "reference.cruise_mps": 5.0, "reference.acceleration_m
          "reference.trip_time_s": 60.0, "trials.count": 3, "trials.shown": [3]}
 
 
-@pytest.fixture(scope="session")
+@pytest.fixture(scope="module")
 def study():
     return load(FOLDER).study
 
 
-@pytest.fixture(scope="session")
+@pytest.fixture(scope="module")
 def short(study):
     return shortened(study, SHORT, "test")
 

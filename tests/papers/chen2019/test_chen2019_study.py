@@ -45,7 +45,7 @@ SHORT = {"train.traction_n": 2e5, "train.braking_n": 2e5, "reference.acceleratio
          "cost.end_s": 2.0}
 
 
-@pytest.fixture(scope="session")
+@pytest.fixture(scope="module")
 def study():
     return load(FOLDER).study
 
@@ -56,7 +56,7 @@ def changed(study, **values):
                        {key.replace("__", "."): value for key, value in values.items()}, "test")
 
 
-@pytest.fixture(scope="session")
+@pytest.fixture(scope="module")
 def short(study):
     """The stated study on a short trip, with the changes that the tests look at."""
     wanted = ("c_1 = 1, acceleration of the sample before", "c_3 = 1/100, room of 100 kg for the estimate of the mass",
@@ -68,7 +68,7 @@ def short(study):
                                        "reference.cruise_mps": 30.0, "reference.trip_time_s": 80.0}})})
 
 
-@pytest.fixture(scope="session")
+@pytest.fixture(scope="module")
 def runs(short):
     """Of every change by its title, and the stated one."""
     found = {}
@@ -283,7 +283,7 @@ def test_memory_grows_as_the_number_of_cars(study):
 # --- the study ------------------------------------------------------------------------------------------------------
 
 
-@pytest.fixture(scope="session")
+@pytest.fixture(scope="module")
 def result(short):
     return run(changed_count(short, 3), 1, lambda done, total, what: None)
 

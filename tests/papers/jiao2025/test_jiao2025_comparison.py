@@ -20,12 +20,12 @@ FOLDER = Path(__file__).parents[3] / "proofs" / "jiao2025"
 SHORT = {"trials.count": 3, "trials.compared": [1], "trials.line_shown": []}
 
 
-@pytest.fixture(scope="session")
+@pytest.fixture(scope="module")
 def study():
     return load(FOLDER).study
 
 
-@pytest.fixture(scope="session")
+@pytest.fixture(scope="module")
 def short(study):
     return shortened(study, SHORT, "test")
 

@@ -27,12 +27,12 @@ from workbench.report.sources import sourced_values
 FOLDER = Path(__file__).parents[3] / "proofs" / "jiao2025"
 
 
-@pytest.fixture(scope="session")
+@pytest.fixture(scope="module")
 def study():
     return load(FOLDER).study
 
 
-@pytest.fixture(scope="session")
+@pytest.fixture(scope="module")
 def small(study):
     """All trials of the short readings and of one with ten samples a k, few seeds, units and variants."""
     keep = ("N", "kN", "mass", "N_1s")
@@ -45,12 +45,12 @@ def small(study):
         "pairs": study.pairs.model_copy(update={"draws": 2})})
 
 
-@pytest.fixture(scope="session")
+@pytest.fixture(scope="module")
 def result(small):
     return run(small, 1, lambda done, total, what: None)
 
 
-@pytest.fixture(scope="session")
+@pytest.fixture(scope="module")
 def results(small):
     return Results(small, {case: run_trials(plan(small, case)) for case in cases(small) if case.unit_mps2 is None})
 

@@ -52,7 +52,7 @@ FILE = Path(__file__).parents[3] / "proofs" / "liu2020" / "study.toml"
 G = 9.80665
 
 
-@pytest.fixture(scope="session")
+@pytest.fixture(scope="module")
 def study():
     return load(FILE.parent).study
 
@@ -62,7 +62,7 @@ def read(path):
     return validate_record(read_toml(path), LiuStudy, path)
 
 
-@pytest.fixture(scope="session")
+@pytest.fixture(scope="module")
 def short(study):
     """12 km with a slope, networks that matter, steps of 5 ms: a run takes a fraction of a second."""
     source = dict.fromkeys(("from_m", "to_m", "slope"), "assumed: a test")
@@ -386,7 +386,7 @@ def test_table_3_comes_out_by_feedback_alone_with_ten_times_its_gain(study, colu
 # --- the study --------------------------------------------------------------------------------------------------------
 
 
-@pytest.fixture(scope="session")
+@pytest.fixture(scope="module")
 def small(short):
     """The short line with the changes that tables need, two leak rates."""
     wanted = (*short.runs.inferred_changes, short.runs.divergence_change, "steps of 0.01 s, k₃s̃′")
@@ -394,7 +394,7 @@ def small(short):
     return short.model_copy(update={"runs": runs, "changes": tuple(c for c in short.changes if c.title in wanted)})
 
 
-@pytest.fixture(scope="session")
+@pytest.fixture(scope="module")
 def result(small):
     steps = []
     found = run(small, 1, lambda done, total, what: steps.append((done, total, what)))

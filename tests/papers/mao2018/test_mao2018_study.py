@@ -35,7 +35,7 @@ CASES = (1, 2, 3, 4, 5)
 FASTER = 200
 
 
-@pytest.fixture(scope="session")
+@pytest.fixture(scope="module")
 def study():
     return load(FILE.parent).study
 
@@ -278,7 +278,7 @@ def test_a_boundary_layer_ends_the_chattering(study):
 # --- the study as a whole -----------------------------------------------------------------------------------------
 
 
-@pytest.fixture(scope="session")
+@pytest.fixture(scope="module")
 def short(study):
     """The first seconds of everything, and few changes."""
     some = [change for change in study.sensitivity if change.laws != "corrected" or len(change.cases) > 1]
@@ -288,7 +288,7 @@ def short(study):
         "pairs": study.pairs.model_copy(update={"draws": 2, "set": {}})})
 
 
-@pytest.fixture(scope="session")
+@pytest.fixture(scope="module")
 def told(short):
     """The short study's result, and what was told of its progress."""
     steps = []

@@ -13,7 +13,7 @@ from workbench.optimal.cars.car_train import CarTrain, car_limits
 from workbench.optimal.cars.share_forces import Rule, share_forces
 from workbench.optimal.course import Array
 from workbench.trains.multi_particle import basic_resistance, c_0, c_a, c_v
-from workbench.trains.track import STANDARD_GRAVITY_MPS2
+from workbench.trains.resistance import STANDARD_GRAVITY_MPS2
 
 _mass, _speed, _air = sp.symbols("mass speed air", real=True)
 _resists = numeric((c_0, c_v, c_a, _mass, _speed, _air), basic_resistance(_mass, _speed, _air))

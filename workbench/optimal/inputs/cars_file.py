@@ -2,15 +2,17 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Self
+from typing import TYPE_CHECKING, Annotated, Self
 
 from pydantic import Field, Strict, model_validator
 
 from workbench.errors import InputError
 from workbench.files.toml import SourcedRecord
-from workbench.optimal.cars.car_train import CarTrain
 from workbench.optimal.inputs.line_checks import SHORTEST_TRAIN_M
 from workbench.optimal.vehicle import Vehicle
+
+if TYPE_CHECKING:
+    from workbench.optimal.cars.car_train import CarTrain
 
 # Beyond it a coupler swings faster than a simulated step of 5 ms can follow: rad/s of two neighbours, and 1/s.
 FASTEST_SWING, FASTEST_DAMPING = 100.0, 100.0
@@ -43,6 +45,8 @@ class CarsTable(SourcedRecord):
 
 def car_train(table: CarsTable, vehicle: Vehicle) -> CarTrain:
     """The cars of a vehicle; raises InputError where they are no cars or too stiff to be simulated."""
+    from workbench.optimal.cars.car_train import CarTrain  # noqa: PLC0415 - its expressions are sympy's
+
     found = CarTrain(vehicle, table.motors, table.coupler_n_per_m, table.coupler_n_s_per_m)
     mass, length = found.car_inertia_kg, vehicle.length_m / found.cars
     if not 1e3 <= mass <= 2e5:

@@ -3,16 +3,19 @@
 from __future__ import annotations
 
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from workbench.errors import InputError
 from workbench.files.toml import load_record, read_toml
-from workbench.optimal.cars.car_train import CarTrain
 from workbench.optimal.inputs import ttobench
 from workbench.optimal.inputs.cars_file import car_train
 from workbench.optimal.inputs.line import Line, Tunnel
 from workbench.optimal.inputs.train_file import TrainFile, vehicle
 from workbench.optimal.vehicle import Vehicle
 from workbench.trains import track as tracks
+
+if TYPE_CHECKING:
+    from workbench.optimal.cars.car_train import CarTrain
 
 Notes = tuple[str, ...]
 

@@ -9,7 +9,6 @@ from itertools import pairwise
 from typing import Literal
 
 import numpy as np
-import sympy as sp
 
 from workbench.errors import InputError
 from workbench.optimal.course import Course
@@ -20,27 +19,34 @@ from workbench.optimal.inputs.line_checks import (
     SAME_PLACE_M,
     SHARPEST_RADIUS_M,
     SHORTEST_TRAIN_M,
+    SLOWEST_MPS,
     STEEPEST_PERMILLE,
     require_starts,
     require_stops,
     require_tunnels,
 )
 from workbench.optimal.vehicle import Vehicle
-from workbench.trains.track import (
-    additional_specific_resistance,
-    curvature_per_m,
-    grade_permille,
-    roeckl_specific_resistance,
-    tunnel_n_per_kn,
+from workbench.trains.resistance import (
+    ROECKL_KNEE_M,
+    STANDARD_GRAVITY_MPS2,
+    curve_n_per_kn,
+    of_weight,
+    roeckl_sharp_n_per_kn,
+    roeckl_wide_n_per_kn,
 )
 
 CurveRule = Literal["roeckl", "inverse_radius"]
 
-RULES: dict[CurveRule, Callable[[], sp.Expr]] = {
-    "roeckl": roeckl_specific_resistance, "inverse_radius": additional_specific_resistance,
-}
 # Roeckl's formula changes here, so that a clothoid's resistance jumps where it passes this curvature.
-KNEE_PER_M = 1 / 300
+KNEE_PER_M = 1 / ROECKL_KNEE_M
+
+
+def _roeckl(curvature_per_m: float) -> float:
+    wide = curvature_per_m <= KNEE_PER_M
+    return float((roeckl_wide_n_per_kn if wide else roeckl_sharp_n_per_kn)(curvature_per_m))
+
+
+RULES: dict[CurveRule, Callable[[float], float]] = {"roeckl": _roeckl, "inverse_radius": curve_n_per_kn}
 
 # A course is linear between its borders and the resistance of a clothoid is not: by how much it may differ, as a
 # fraction of the largest resistance of curves on the run. The clothoid itself is followed ten times closer.
@@ -67,7 +73,8 @@ class Line:
     stops_m: where trains may stop, first and last position included. limits: (position in m, limit in m/s).
     grades: (position in m, per mille, rising positive). curves: (position in m, curvature 1/R there and at the next
     position in 1/m, signed, linear between): clothoids; none is straight. tunnels do not overlap.
-    curve_rule: the resistance of curves, `roeckl_specific_resistance` or `additional_specific_resistance` of track.py.
+    curve_rule: the resistance of curves, `roeckl_specific_resistance` or `additional_specific_resistance` of
+    line_resistance.py.
     An infinite limit is none. Raises InputError where positions or values cannot be those of a line.
     """
 
@@ -91,9 +98,9 @@ class Line:
             require_starts("curvatures", [row[0] for row in self.curves], self.length_m)
         require_tunnels("tunnels", [astuple(tunnel) for tunnel in self.tunnels], self.length_m)
         for number, (_, limit) in enumerate(self.limits):
-            if not (0 < limit <= FASTEST_MPS or limit == math.inf):
-                raise InputError("", f"speed limits[{number}]", f"{limit:g} m/s is no speed limit between 0 and "
-                                 f"{FASTEST_MPS:g} m/s: correct it or its unit")
+            if not (SLOWEST_MPS <= limit <= FASTEST_MPS or limit == math.inf):
+                raise InputError("", f"speed limits[{number}]", f"{limit:g} m/s is no speed limit between "
+                                 f"{SLOWEST_MPS:g} and {FASTEST_MPS:g} m/s: correct it or its unit")
         for number, (_, grade) in enumerate(self.grades):
             if not abs(grade) <= STEEPEST_PERMILLE:
                 raise InputError("", f"gradients[{number}]", f"{grade:g} per mille is no railway's grade, at most "
@@ -159,8 +166,9 @@ def _require_run(line: Line, vehicle: Vehicle, from_m: float, to_m: float, stops
 
 def _forces(rule: CurveRule, mass_kg: float) -> Callable[[float, float, float], float]:
     """Force in N of a grade in per mille, a curvature in 1/m and a tunnel in N/kN; weight counts, not inertia."""
-    specific = sp.lambdify((grade_permille, curvature_per_m, tunnel_n_per_kn), RULES[rule](), modules="math")
-    return lambda grade, curvature, tunnel: mass_kg * float(specific(grade, curvature, tunnel))
+    resists = RULES[rule]
+    return lambda grade, curvature, tunnel: mass_kg * float(
+        of_weight(STANDARD_GRAVITY_MPS2, grade + resists(curvature) + tunnel))
 
 
 def _curve_profile(line: Line, force: Callable[[float], float]) -> tuple[AlongLine, list[float]]:

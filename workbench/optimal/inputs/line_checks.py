@@ -9,8 +9,8 @@ from workbench.errors import InputError
 
 SHARPEST_RADIUS_M = 50.0
 STEEPEST_PERMILLE = 100.0
-FASTEST_MPS = 200.0
-LONGEST_M = 1e8
+SLOWEST_MPS, FASTEST_MPS = 0.1, 200.0
+LONGEST_M = 2e7
 NEAREST_STOPS_M = 1.0
 # The end of a tunnel is a sum of two rounded numbers.
 SAME_PLACE_M = 1e-6

@@ -11,7 +11,7 @@ from workbench.files.toml import NonNegative, Positive, Record
 from workbench.optimal.inputs.cars_file import CarsTable
 from workbench.optimal.inputs.plausible import plausible
 from workbench.optimal.vehicle import ForceLimit, Vehicle
-from workbench.trains.train import Train
+from workbench.trains.train_record import Train
 
 Efficiency = Annotated[float, Strict(), Field(ge=0, le=1, allow_inf_nan=False)]
 

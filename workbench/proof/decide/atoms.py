@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from fractions import Fraction
 
 import sympy as sp
 
+from workbench.proof.decide.vanishing import vanishes
 from workbench.proof.derive import SUM, Side, Size, Summed, expand_derivatives, formal_sums, unfold
 from workbench.proof.text import text
 
@@ -26,9 +28,18 @@ class Atoms:
     inverses: dict[sp.Symbol, sp.Expr] = field(default_factory=dict)
     strict: list[tuple[sp.Expr, int]] = field(default_factory=list)
     indexed: set[sp.Symbol] = field(default_factory=set)
+    expanded: dict[sp.Symbol, dict[tuple[int, ...], Fraction]] = field(default_factory=dict)  # of inverses
+    places: dict[sp.Symbol, int] = field(default_factory=dict)  # of generators
+    known_meanings: tuple[tuple[int, ...], dict[sp.Symbol, sp.Expr]] = ((), {})
 
     def meanings(self) -> dict[sp.Symbol, sp.Expr]:
         """What the generators for functions and inverses stand for."""
+        state = tuple(map(len, (self.squares, self.sides, self.exps, self.logs, self.inverses)))
+        if self.known_meanings[0] != state:
+            self.known_meanings = state, self._meanings()
+        return self.known_meanings[1]
+
+    def _meanings(self) -> dict[sp.Symbol, sp.Expr]:
         functions: dict[sp.Symbol, sp.Expr] = {s: itself for s, (itself, _) in self.squares.items()} | self.sides
         functions |= {s: sp.exp(a.xreplace(functions)) for a, s in self.exps.items()}
         functions |= {s: sp.log(a.xreplace(functions)) for a, s in self.logs.items()}
@@ -36,9 +47,10 @@ class Atoms:
 
     def index(self, generator: sp.Symbol) -> int:
         """The generator's position, added when new."""
-        if generator not in self.generators:
+        if generator not in self.places:
+            self.places[generator] = len(self.generators)
             self.generators.append(generator)
-        return self.generators.index(generator)
+        return self.places[generator]
 
 
 def flatten(expr: sp.Expr, atoms: Atoms, flow: dict[sp.Expr, sp.Expr]) -> sp.Expr:
@@ -60,7 +72,7 @@ def square_atom(itself: sp.Expr, atoms: Atoms) -> sp.Expr:
     if isinstance(itself, Side):
         for symbol, known in atoms.sides.items():
             for turn in (1, -1):
-                if sp.cancel(known.args[0] - turn * inner) == 0:
+                if vanishes(known.args[0] - turn * inner):
                     return turn * symbol
         symbol = sp.Dummy(f"S{len(atoms.sides)}", real=True)
         atoms.sides[symbol] = itself
@@ -70,7 +82,7 @@ def square_atom(itself: sp.Expr, atoms: Atoms) -> sp.Expr:
     for symbol, (known, _) in atoms.squares.items():
         turns = (1, -1) if size else (1,)
         before = formal_sums(known.args[0])
-        if isinstance(known, Size) == size and any(sp.cancel(before - t * inner) == 0 for t in turns):
+        if isinstance(known, Size) == size and any(vanishes(before - t * inner) for t in turns):
             return symbol**power
     symbol = sp.Dummy(f"R{len(atoms.squares)}", nonnegative=True)
     name, argument = "abs" if size else "sqrt", text(_with_sums(inner))
@@ -91,9 +103,9 @@ def _with_sums(flat: sp.Expr) -> sp.Expr:
 def log_atom(argument: sp.Expr, atoms: Atoms) -> sp.Expr:
     """log(argument) as an atom, up to sign: log(1/A) = -log(A)."""
     for known, symbol in atoms.logs.items():
-        if sp.cancel(known - argument) == 0:
+        if vanishes(known - argument):
             return symbol
-        if sp.cancel(known * argument) == 1:
+        if vanishes(known * argument - 1):
             return -symbol
     symbol = sp.Dummy(f"L{len(atoms.logs)}", real=True)
     atoms.logs[argument] = symbol
@@ -115,9 +127,9 @@ def exp_atom(argument: sp.Expr, atoms: Atoms) -> sp.Expr:
     if moving != 0 and shift.is_Rational and shift != 0:
         return factor * exp_atom(shift, atoms) * exp_atom(moving, atoms)
     for known, symbol in atoms.exps.items():
-        if sp.cancel(known - rest) == 0:
+        if vanishes(known - rest):
             return factor * symbol
-        if sp.cancel(known + rest) == 0:
+        if vanishes(known + rest):
             return factor / symbol
     symbol = sp.Dummy(f"E{len(atoms.exps)}", positive=True)
     atoms.exps[rest] = symbol

@@ -5,12 +5,12 @@ from __future__ import annotations
 import random
 from collections.abc import Iterator, Sequence
 from fractions import Fraction
-from typing import Any
 
 import numpy as np
 import sympy as sp
 
-from workbench.proof.decide.landscape import Landscape, Numbers, compiled
+from workbench.proof.decide.landscape import Landscape, Numbers
+from workbench.proof.decide.tape import Tape
 
 MOST_TERMS = 60  # of an equation that is to be solved or factored
 MOST_TIES = 4
@@ -25,7 +25,7 @@ class Family:
     def __init__(self, symbols: Sequence[sp.Symbol]) -> None:
         self.symbols = list(symbols)
         self.bound: dict[sp.Symbol, sp.Expr] = {}
-        self._compiled: tuple[list[sp.Symbol], Any] | None = None
+        self._compiled: tuple[list[sp.Symbol], Tape] | None = None
 
     @property
     def free(self) -> list[sp.Symbol]:
@@ -54,7 +54,7 @@ class Family:
         if not self.bound:
             return [chosen[s] for s in self.symbols]
         if self._compiled is None or self._compiled[0] != free:
-            self._compiled = free, compiled(free, list(self.bound.values()))
+            self._compiled = free, Tape(free, list(self.bound.values()))
         with np.errstate(all="ignore"):
             values = self._compiled[1](*chosen.values())
         known = chosen | {s: np.broadcast_to(np.asarray(v, dtype=float), (count,))

@@ -182,10 +182,11 @@ def _binomial_squares(target: Laurent, support: set[Exponents], atoms: Atoms,
     size, sum_place = len(atoms.generators), atoms.generators.index(SUM)
     fresh = []
     wide = [e + (0,) * (size - len(e)) for e in sorted(support)]
-    for one, two in combinations(wide, 2):
-        common = tuple(min(a, b) if (a - b) % 2 == 0 else 0 for a, b in zip(one, two, strict=True))
-        if one[sum_place] != two[sum_place] or any((a - b) % 2 for a, b in zip(one, two, strict=True)):
+    odd = [tuple(n % 2 for n in e) for e in wide]
+    for (one, odd_one), (two, odd_two) in combinations(zip(wide, odd, strict=True), 2):
+        if odd_one != odd_two or one[sum_place] != two[sum_place]:
             continue
+        common = tuple(min(a, b) if (a - b) % 2 == 0 else 0 for a, b in zip(one, two, strict=True))
         # c keeps the odd powers of positive atoms; everything else is halved into p and q.
         c = tuple(x if g in atoms.positive or g == SUM else x - x % 2 if g in atoms.indexed else x
                   for x, g in zip(common, atoms.generators, strict=True))

@@ -3,24 +3,20 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Any
 
 import numpy as np
 import sympy as sp
 from numpy.typing import NDArray
 
 from workbench.proof.claim import Goal, Relation, name_of
+from workbench.proof.decide.once import once_per_goal
+from workbench.proof.decide.tape import Tape
 from workbench.proof.derive import expand_derivatives
 
 Numbers = NDArray[np.float64]
 
 ROUNDING = 1e-12
 TINY = 1e-300
-
-
-def compiled(symbols: Sequence[sp.Symbol], expr: Any) -> Any:
-    """A numpy function of columns of numbers."""
-    return sp.lambdify(symbols, expr, modules="numpy", cse=True)
 
 
 def plain(goal: Goal, expr: sp.Expr) -> sp.Expr:
@@ -42,7 +38,7 @@ class Landscape:
         under = {plain(goal, log.args[0]) for r in relations for log in r.left.atoms(sp.log) | r.right.atoms(sp.log)}
         self.domain = [(">", argument) for argument in sorted(under, key=sp.default_sort_key)]
         every = (*self.domain, *self.given, *self.shown)
-        self._all = compiled(self.symbols, [part for _, margin in every for part in (margin, _size(margin))])
+        self._all = Tape(self.symbols, [margin for _, margin in every], sizes=True)
 
     def look(self, columns: Sequence[Numbers]) -> tuple[Numbers, Numbers]:
         """(violation, excess) for each point: how far assumptions are from holding (0: they hold), and by how much
@@ -64,13 +60,15 @@ class Landscape:
         return violation, excess
 
 
+@once_per_goal
+def landscape_of(goal: Goal) -> Landscape:
+    """The goal's landscape."""
+    return Landscape(goal)
+
+
 def _signed(goal: Goal, relation: Relation) -> tuple[str, sp.Expr]:
     operator = {"<=": ">=", "<": ">"}.get(relation.operator, relation.operator)
     return operator, plain(goal, relation.margin)
-
-
-def _size(margin: sp.Expr) -> sp.Expr:
-    return sp.Add(*(sp.Abs(term) for term in sp.Add.make_args(margin)))
 
 
 def _violated(operator: str, margin: Numbers) -> Numbers:

@@ -3,6 +3,9 @@
 from __future__ import annotations
 
 from fractions import Fraction
+from functools import lru_cache
+from operator import add as plus
+from operator import sub
 
 import sympy as sp
 
@@ -21,7 +24,9 @@ def to_laurent(flat: sp.Expr, atoms: Atoms) -> Laurent:
 
     Raises ClaimError when a denominator is not a product of symbols and of polynomials assumed positive.
     """
-    numerator, denominator = sp.fraction(sp.cancel(sp.together(flat)))
+    if _has_monomials_below_only(flat) and all(margin.is_Add for margin, _ in atoms.strict):
+        return reduce_inverses(_expand(flat, atoms), atoms)
+    numerator, denominator = as_fraction(flat)
     rest = sp.Integer(1)
     for margin, position in atoms.strict:
         while denominator.has(*margin.free_symbols):
@@ -38,6 +43,17 @@ def to_laurent(flat: sp.Expr, atoms: Atoms) -> Laurent:
         else:
             raise ClaimError(f"the denominator {factor} is not assumed positive: state its sign in the goal")
     return reduce_inverses(_expand(sp.expand(numerator / constant) * rest, atoms), atoms)
+
+
+@lru_cache(maxsize=512)
+def as_fraction(flat: sp.Expr) -> tuple[sp.Expr, sp.Expr]:
+    """Numerator and denominator of a rational function, without common factors."""
+    numerator, denominator = sp.fraction(sp.cancel(sp.together(flat)))
+    return numerator, denominator
+
+
+def _has_monomials_below_only(flat: sp.Expr) -> bool:
+    return all(power.base.is_Symbol or power.exp.is_nonnegative for power in flat.atoms(sp.Pow))
 
 
 def _inverse_atom(margin: sp.Expr, position: int, atoms: Atoms) -> sp.Symbol:
@@ -96,7 +112,9 @@ def reduce_inverses(poly: Laurent, atoms: Atoms) -> Laurent:
     """Normal form modulo z s = 1: no monomial keeps z together with the leading monomial of s."""
     total = dict(poly)
     for symbol, margin in atoms.inverses.items():
-        terms = _expand(margin, atoms)
+        terms, place = _inverted(symbol, margin, atoms), atoms.index(symbol)
+        if not any(len(e) > place and e[place] >= 1 for e in total):
+            continue
         z, size = atoms.index(symbol), len(atoms.generators)  # now that the margin's symbols have their places
         # Invertible generators count last: k^-2 z k^2 would escape the rule otherwise. Graded, so that it ends.
         lead = max(terms, key=lambda e: (sum(
@@ -121,11 +139,18 @@ def reduce_inverses(poly: Laurent, atoms: Atoms) -> Laurent:
     return total
 
 
+def _inverted(symbol: sp.Symbol, margin: sp.Expr, atoms: Atoms) -> Laurent:
+    """The polynomial that an inverse atom inverts."""
+    if symbol not in atoms.expanded:
+        atoms.expanded[symbol] = _expand(margin, atoms)
+    return atoms.expanded[symbol]
+
+
 def unreduced(poly: Laurent, atoms: Atoms) -> set[Exponents]:
     """Monomials that the normal form hides: every monomial times z s, term by term, since z s = 1."""
     hidden: set[Exponents] = set()
     for symbol, margin in atoms.inverses.items():
-        z, terms = atoms.index(symbol), _expand(margin, atoms)
+        z, terms = atoms.index(symbol), _inverted(symbol, margin, atoms)
         for exponents in poly:
             with_z = exponents if len(exponents) > z and exponents[z] else _plus(exponents, (0,) * z + (1,))
             hidden |= {trim(_plus(with_z, e)) for e in terms}
@@ -133,17 +158,17 @@ def unreduced(poly: Laurent, atoms: Atoms) -> set[Exponents]:
 
 
 def _pad(exponents: Exponents, length: int) -> Exponents:
-    return exponents + (0,) * (length - len(exponents))
+    return exponents if len(exponents) == length else exponents + (0,) * (length - len(exponents))
 
 
 def _minus(a: Exponents, b: Exponents) -> Exponents:
     n = max(len(a), len(b))
-    return tuple(x - y for x, y in zip(_pad(a, n), _pad(b, n), strict=True))
+    return tuple(map(sub, _pad(a, n), _pad(b, n)))
 
 
 def _plus(a: Exponents, b: Exponents) -> Exponents:
     n = max(len(a), len(b))
-    return tuple(x + y for x, y in zip(_pad(a, n), _pad(b, n), strict=True))
+    return tuple(map(plus, _pad(a, n), _pad(b, n)))
 
 
 def trim(exponents: Exponents) -> Exponents:

@@ -17,6 +17,7 @@ from workbench.proof.decide.identity import find_identity
 from workbench.proof.decide.landscape import Landscape, Numbers
 from workbench.proof.decide.proposals import proposals
 from workbench.proof.decide.sampling import TIDY, tidy_fraction, within_sign
+from workbench.proof.decide.tape import Tape
 from workbench.proof.derive import expand_derivatives
 from workbench.proof.text import text
 
@@ -162,7 +163,7 @@ def _on_grid(functions: list[sp.Expr], time: sp.Symbol) -> tuple[Numbers, Number
     known: dict[sp.Expr, tuple[Numbers, Numbers]] = {}
     for function in functions:
         if function not in known:
-            pair = sp.lambdify(time, [function, sp.diff(function, time)], modules="numpy")(TIMES)
+            pair = Tape((time,), (function, sp.diff(function, time)))(TIMES)
             values, rates = (np.broadcast_to(np.asarray(v, dtype=float), TIMES.shape) for v in pair)
             known[function] = values, rates
     return (np.concatenate([known[f][0] for f in functions]), np.concatenate([known[f][1] for f in functions]))

@@ -9,7 +9,7 @@ import numpy as np
 from workbench.errors import ClaimError
 from workbench.proof.claim import Goal, name_of
 from workbench.proof.decide.boundary_points import families
-from workbench.proof.decide.landscape import Landscape, Numbers
+from workbench.proof.decide.landscape import Landscape, Numbers, landscape_of
 from workbench.proof.decide.local_search import climb
 from workbench.proof.decide.sampling import tidy_fraction, trial_columns
 
@@ -22,7 +22,7 @@ def smallest_margin(goal: Goal, seed: int = 1) -> str:
     It says where to look, and decides nothing.
     """
     try:
-        landscape = Landscape(goal.evaluated())
+        landscape = landscape_of(goal.evaluated())
     except ClaimError:
         return "no point could be tried"
     rng, best = np.random.default_rng(seed), None

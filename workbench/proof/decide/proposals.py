@@ -19,12 +19,14 @@ import sympy as sp
 
 from workbench.proof.claim import Goal, equal, name_of
 from workbench.proof.decide.boundary_points import Family, families
-from workbench.proof.decide.landscape import Landscape
+from workbench.proof.decide.exact_values import exact_function
+from workbench.proof.decide.landscape import Landscape, landscape_of
 from workbench.proof.decide.local_search import climb
+from workbench.proof.decide.once import once_per_goal
 from workbench.proof.decide.sampling import tidy_fraction, trial_columns
 
 SPECIAL = (Fraction(0), Fraction(1), Fraction(-1), Fraction(1, 2), Fraction(2), Fraction(-2), Fraction(3))
-SCALES = (Fraction(1, 100), Fraction(1, 10), Fraction(1), Fraction(10), Fraction(100))
+SCALES = (Fraction(1, 4000), Fraction(1, 400), Fraction(1, 40), Fraction(1, 4), Fraction(5, 2))
 FIRST_BLOCKS = (40, 160, 400, 1_400)  # `quick` does without the last
 POINTS = 600
 FAMILIES, CLIMBS = 60, 8
@@ -38,7 +40,7 @@ def proposals(goal: Goal, seed: int, break_shown: bool, quick: bool = False) -> 
 
     Raises ClaimError for a derivative that does not exist everywhere.
     """
-    landscape = Landscape(goal)
+    landscape = landscape_of(goal)
     yield from _familiar(goal, landscape, seed, break_shown, quick)
     if quick:
         return
@@ -72,16 +74,37 @@ def _worth_a_look(landscape: Landscape, family: Family, chosen: dict[sp.Symbol, 
 
 def _familiar(goal: Goal, landscape: Landscape, seed: int, break_shown: bool, quick: bool) -> Iterator[Point]:
     """Special values and a few random ones."""
-    source = sample_points(goal, seed)
-    names = [name_of(s) for s in goal.symbols()]
+    source = _drawn(goal).at(seed)
     for block in FIRST_BLOCKS[:-1] if quick else FIRST_BLOCKS:
-        points = list(islice(source, block))
-        violation, excess = landscape.look([np.array([float(p[name]) for p in points]) for name in names])
+        drawn = list(islice(source, block))
+        violation, excess = landscape.look(list(np.array([numbers for _, numbers in drawn]).T))
         passes = violation == 0
         if break_shown:
             passes &= excess > 0
         for row in np.flatnonzero(passes)[:10 * LOOKS]:
-            yield points[row]
+            yield drawn[row][0]
+
+
+class _Drawn:
+    """The sample points of a goal, by seed, drawn once for all that look at them."""
+
+    def __init__(self, goal: Goal) -> None:
+        self._goal, self._names = goal, [name_of(s) for s in goal.symbols()]
+        self._points: dict[int, tuple[list[tuple[Point, list[float]]], Iterator[Point]]] = {}
+
+    def at(self, seed: int) -> Iterator[tuple[Point, list[float]]]:
+        """The points from the first on, and as floats in the order of the goal's symbols; nobody may change them."""
+        points, source = self._points.setdefault(seed, ([], sample_points(self._goal, seed)))
+        for place in count():
+            if place == len(points):
+                point = next(source)
+                points.append((point, [float(point[name]) for name in self._names]))
+            yield points[place]
+
+
+@once_per_goal
+def _drawn(goal: Goal) -> _Drawn:
+    return _Drawn(goal)
 
 
 def sample_points(goal: Goal, seed: int) -> Iterator[Point]:
@@ -95,6 +118,7 @@ def sample_points(goal: Goal, seed: int) -> Iterator[Point]:
                  and not r.right.has(r.left)]
     # Only the first instant is known to be reached, so a counterexample stands there.
     equations += [equal(s, value) for s, value in goal.initial.items()]
+    follow = [(str(r.left), exact_function(r.right)) for r in equations]
     for attempt in count():
         point: Point = {}
         for name, positive, nonnegative in symbols:
@@ -102,19 +126,17 @@ def sample_points(goal: Goal, seed: int) -> Iterator[Point]:
             if nonnegative:
                 value = abs(value) or (Fraction(1) if positive else value)
             point[name] = value
-        for relation in equations:
-            right = relation.right.xreplace({
-                s: sp.Rational(point[name_of(s)].numerator, point[name_of(s)].denominator)
-                for s in relation.right.free_symbols if name_of(s) in point})
-            if right.is_Rational:
-                point[str(relation.left)] = Fraction(int(right.p), int(right.q))
+        for name, value_of in follow:
+            follows = value_of(point)
+            if follows is not None:
+                point[name] = follows
         yield point
 
 
 def _random(rng: random.Random) -> Fraction:
-    return _scaled(rng.randint(-100, 100), rng.choice(SCALES))
+    return _scaled(rng.randint(-100, 100), rng.choice(range(len(SCALES))))
 
 
 @cache
-def _scaled(fortieths: int, scale: Fraction) -> Fraction:
-    return Fraction(fortieths, 40) * scale
+def _scaled(count: int, place: int) -> Fraction:
+    return count * SCALES[place]

@@ -16,15 +16,13 @@ from workbench.proof.checker import (
     check,
     holds,
     number,
-    read_goal,
     read_rational,
     read_terms,
-    same,
     split_relation,
-    substitute,
 )
 from workbench.proof.claim import Goal, Verdict
 from workbench.proof.decide.counts import counted_points
+from workbench.proof.decide.exact_look import Exact
 from workbench.proof.decide.model import find_model
 from workbench.proof.decide.path import find_path, reached_points
 from workbench.proof.decide.proposals import Point, proposals
@@ -121,37 +119,6 @@ def _accepted(certificate: dict[str, Any]) -> bool:
 def texts(point: Point) -> dict[str, str]:
     """A point as it stands in certificates."""
     return {name: str(value) for name, value in point.items()}
-
-
-class Exact:
-    """The goal as the checker reads it, read once for all points; CertificateError when it cannot be read."""
-
-    def __init__(self, record: dict[str, Any]) -> None:
-        self.given = [*record["assume"], *record.get("always", [])]
-        self.shown = record["show"]
-        self.context, given = read_goal(record)
-        self.initial = given.initial
-
-    def meets(self, point: Point) -> bool:
-        """Whether all assumptions hold, at time zero where initial values are named."""
-        values = {name: number(value) for name, value in point.items()}
-        try:
-            if not all(same(values[name], substitute(self.context, v, values)) for name, v in self.initial.items()):
-                return False
-            return all(holds(self.context, text, values) for text in self.given)
-        except CertificateError:
-            return False
-
-    def breaks(self, point: Point) -> bool:
-        """Whether all assumptions hold and a relation shown does not, all of them being defined."""
-        if not self.meets(point):  # first, as derivatives in what is shown cost more
-            return False
-        values = {name: number(value) for name, value in point.items()}
-        try:
-            outcomes = [holds(self.context, text, values) for text in self.shown]  # all of them: each must be defined
-            return not all(outcomes)
-        except CertificateError:
-            return False
 
 
 def value_at(goal: Goal, point: dict[str, str], terms: list[dict[str, str]] | None = None) -> str:

@@ -10,6 +10,7 @@ from workbench.proof.claim import D, Goal, Relation, at_least, equal, greater
 from workbench.proof.decide.combination import find_combination
 from workbench.proof.decide.identity import find_identity
 from workbench.proof.decide.squares import find_squares
+from workbench.proof.decide.vanishing import vanishes
 from workbench.proof.derive import Side, Size, expand_derivatives, unfold
 from workbench.proof.text import assumptions, relation_text, text
 
@@ -18,6 +19,7 @@ Given = tuple[Relation, ...]
 Found = tuple[Proof, str] | None
 
 MOST_CASES = 6  # expressions whose sign is split, one inside the other
+MOST_STEPS = 3  # derivatives taken one after the other
 EMPTY = at_least(0, 0)
 
 
@@ -42,7 +44,8 @@ def search(goal: Goal, shown: Relation, given: Given, lemmas: Given = (), depth:
                           *inspected, depth)
         if found is not None:
             return found
-    return _by_lemmas(goal, shown, given, lemmas) or _by_contradiction(goal, shown, given)
+    return (_by_lemmas(goal, shown, given, lemmas) or _by_contradiction(goal, shown, given)
+            or _by_growth(goal, _carried(shown, goal), given))
 
 
 def _by_contradiction(goal: Goal, shown: Relation, given: Given) -> Found:
@@ -55,6 +58,48 @@ def _by_contradiction(goal: Goal, shown: Relation, given: Given) -> Found:
     here: Proof = {"rule": "combination", "terms": [{"coefficient": "1", "factors": [{"assume": len(given)}]}]}
     return {"rule": "cases", "of": text(shown.margin), "positive": here, "zero": here,
             "negative": impossible | {"rule": "contradiction"}}, "contradiction"
+
+
+def _by_growth(goal: Goal, shown: Relation, given: Given, steps: int = MOST_STEPS) -> Found:
+    """A margin with log or exp in it that is not negative where a symbol starts, and grows with it from there on."""
+    margin = shown.margin
+    if shown.operator in ("==", "!=") or not margin.has(sp.log, sp.exp) or margin.has(
+            sp.Sum, sp.Indexed, Size, Side) or steps == 0:
+        return None
+    for symbol, start in _starts(margin, given):
+        elsewhere = tuple(EMPTY if r.margin.has(symbol) else r for r in given)
+        place = Goal((EMPTY,), facts=goal.facts)
+        at_start = _grown(place, Relation(margin.xreplace({symbol: start}), ">" if shown.strict else ">=", sp.S.Zero),
+                          elsewhere, steps)
+        if at_start is None:
+            continue
+        rising = _grown(place, at_least(sp.diff(margin, symbol), 0), (*elsewhere, at_least(symbol, start)), steps)
+        if rising is not None:
+            return {"rule": "monotone", "variable": text(symbol), "from": text(start), "derivative": rising,
+                    "at_start": at_start}, "a margin that grows"
+    return None
+
+
+def _starts(margin: sp.Expr, given: Given) -> list[tuple[sp.Symbol, sp.Expr]]:
+    """(symbol, start) of the symbols in a margin that are known not to lie below an expression of others."""
+    found = []
+    for relation in given:
+        for symbol in sorted(margin.free_symbols, key=str) if relation.operator not in ("==", "!=") else ():
+            start = sp.expand(symbol - relation.margin)
+            if not start.has(symbol) and not start.has(sp.Sum, sp.Indexed):
+                found.append((symbol, start))
+    return found
+
+
+def _grown(goal: Goal, shown: Relation, given: Given, steps: int) -> Proof | None:
+    """A proof of what is left of a margin that grows."""
+    if shown.operator == ">=" and find_identity(goal, shown):
+        return {"rule": "identity"}
+    direct = find_combination(goal, shown, given)
+    if direct is not None:
+        return direct
+    found = _by_growth(goal, shown, given, steps - 1)
+    return None if found is None else found[0]
 
 
 def _carried(relation: Relation, goal: Goal) -> Relation:
@@ -77,7 +122,7 @@ def _inspected(relations: Given, goal: Goal) -> tuple[sp.Expr, bool] | None:
 
 def _turn(one: sp.Expr, other: sp.Expr) -> int:
     """1 when the expressions are equal, -1 when they are opposite, else 0."""
-    return 1 if sp.cancel(one - other) == 0 else -1 if sp.cancel(one + other) == 0 else 0
+    return 1 if vanishes(one - other) else -1 if vanishes(one + other) else 0
 
 
 def _by_cases(goal: Goal, shown: Relation, given: Given, lemmas: Given, argument: sp.Expr, signed: bool,

@@ -16,7 +16,7 @@ from workbench.errors import ClaimError
 from workbench.proof.claim import Goal, Relation
 from workbench.proof.decide.atoms import Atoms, Item, flatten
 from workbench.proof.decide.facts import tangents
-from workbench.proof.decide.laurent import goal_atoms, positive_by_terms
+from workbench.proof.decide.laurent import as_fraction, goal_atoms, positive_by_terms
 from workbench.proof.decide.situation import Signed, Situation, Substitution
 from workbench.proof.derive import SUM, Size
 from workbench.proof.text import text
@@ -70,7 +70,7 @@ def _names(atoms: Atoms) -> dict[sp.Symbol, sp.Symbol]:
 
 def _cleared(flat: sp.Expr, atoms: Atoms, relations: tuple[Relation, ...]) -> tuple[sp.Expr, tuple[Item, ...]]:
     """Numerator and the factor items of the positive denominator; ClaimError when its sign is not known."""
-    numerator, denominator = sp.fraction(sp.cancel(sp.together(flat)))
+    numerator, denominator = as_fraction(flat)
     items: list[Item] = []
     for margin, position in atoms.strict:
         while denominator.has(*margin.free_symbols):

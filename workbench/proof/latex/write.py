@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterable, Mapping
 from typing import Any
 
@@ -10,10 +9,7 @@ import sympy as sp
 from sympy.printing.latex import LatexPrinter
 from sympy.printing.precedence import PRECEDENCE
 
-from workbench.proof.latex.commands import GREEK
-
-ACCENTS = ("hat", "tilde", "bar", "dot", "ddot", "star")
-_STEM = re.compile(r"(?P<letter>[A-Za-z]+?)(?P<accent>dddot|ddot|dot|hat|tilde|bar)?(?P<digits>\d*)")
+from workbench.proof.latex.letters import latex_name
 
 
 def latex(expr: sp.Expr, letters: Mapping[str, str] | None = None) -> str:
@@ -39,38 +35,6 @@ def _names(expr: sp.Expr) -> set[str]:
     bases = {str(found.base.label) for found in expr.atoms(sp.Indexed)}
     hidden = {str(symbol) for found in expr.atoms(sp.Indexed) for symbol in found.base.free_symbols - {found.base}}
     return bases | {str(s) for s in expr.atoms(sp.Symbol) if str(s) not in hidden - bases}
-
-
-def latex_name(name: str) -> str:
-    """LaTeX of a symbol's name: parts after underscores are accents where known, else indices; x1 is x_1."""
-    if "\\" in name:
-        return name
-    stem, *parts = name.split("_")
-    found = _STEM.fullmatch(stem)
-    letter, accents, indices = stem, [], [part for part in parts if part not in ACCENTS and part]
-    if found is not None and (found["accent"] is None or _is_letter(found["letter"])):
-        letter = found["letter"]
-        accents = [found["accent"]] if found["accent"] else []
-        indices = ([found["digits"]] if found["digits"] else []) + indices
-    result = _letter(letter, rf"\mathrm{{{letter}}}")
-    accents += [part for part in parts if part in ACCENTS]
-    for accent in accents:
-        result = result if accent == "star" else rf"\{accent}{{{result}}}"
-    if indices:
-        result += f"_{{{','.join(_letter(part, part) for part in indices)}}}"
-    return result + "^{*}" * ("star" in accents)
-
-
-def _is_letter(name: str) -> bool:
-    return len(name) == 1 or _greek(name) in GREEK
-
-
-def _greek(name: str) -> str:
-    return "lambda" if name == "lamda" else name
-
-
-def _letter(name: str, else_: str) -> str:
-    return rf"\{_greek(name)}" if _greek(name) in GREEK and name.isalpha() else name if len(name) == 1 else else_
 
 
 class _Printer(LatexPrinter):

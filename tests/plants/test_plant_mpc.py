@@ -1,0 +1,122 @@
+"""MPC of any plant: against the linear optimum, a second solver, its limits, and what it refuses."""
+
+import math
+
+import numpy as np
+import pytest
+import sympy as sp
+from scipy.linalg import expm, solve_discrete_are
+from shown_plants import CART, PENDULUM, u, v, x
+
+from workbench.mpc.plant_tracking import PlantMpc
+from workbench.simulate.plants.run import Entrant, run
+from workbench.simulate.plants.setting import Setting
+from workbench.systems.plant import Parameter, Plant
+from workbench.systems.signals import Constant, Sine
+
+AT_REST = {"references": {"r": Constant(value=0.0)}, "tracks": {"x": "r"}}
+
+
+def finite_horizon_gain(A, B, Q, R, P, steps):
+    """The first feedback gain of the finite problem, by dynamic programming."""
+    for _ in range(steps):
+        K = np.linalg.solve(R + B.T @ P @ B, B.T @ P @ A)
+        P = Q + A.T @ P @ (A - B @ K)
+    return K
+
+
+@pytest.mark.parametrize("solver", ["fatrop", "ipopt"])
+def test_without_limits_it_is_the_linear_optimum(solver):
+    period, horizon = 0.1, 12
+    whole = expm(period * np.array([[0.0, 1.0, 0.0], [0.0, 0.0, 1.0], [0.0, 0.0, 0.0]]))
+    A, B = whole[:2, :2], whole[:2, 2:]
+    Q, R = np.diag([3.0, 0.0]), np.array([[0.05]])
+    # The first stage's state cannot be changed, so its weight is of no effect on the gain.
+    gain = finite_horizon_gain(A, B, Q, R, 2.0 * Q, horizon)
+    how = PlantMpc(horizon, {"x": 3.0}, {"u": 0.05}, terminal_weight=2.0, solver=solver)
+    controller = how.build(Setting(CART, 1.0, **AT_REST), period)
+    for at in ([1.0, 0.0], [-0.4, 0.7]):
+        assert controller.command(0.0, np.array(at)) == pytest.approx(-gain @ at, abs=1e-5)
+    assert controller.fallbacks == 0
+
+
+def test_with_a_long_horizon_it_is_the_regulator():
+    period = 0.1
+    whole = expm(period * np.array([[0.0, 1.0, 0.0], [0.0, 0.0, 1.0], [0.0, 0.0, 0.0]]))
+    A, B, Q, R = whole[:2, :2], whole[:2, 2:], np.diag([1.0, 0.0]), np.array([[0.1]])
+    P = solve_discrete_are(A, B, Q, R)
+    gain = np.linalg.solve(R + B.T @ P @ B, B.T @ P @ A)
+    controller = PlantMpc(150, {"x": 1.0}, {"u": 0.1}).build(Setting(CART, 1.0, **AT_REST), period)
+    assert controller.command(0.0, np.array([1.0, -0.5])) == pytest.approx(-gain @ [1.0, -0.5], abs=1e-4)
+
+
+def test_limits_of_inputs_rates_and_states_hold():
+    plant = Plant("limited", CART.states, CART.rates, CART.inputs, input_limits={u: (-1.0, 1.0)},
+                  state_limits={v: (-0.6, 0.6)})
+    how = PlantMpc(25, {"x": 1.0}, {"u": 0.01}, rate_limits={"u": 4.0})
+    found = run(Setting(plant, 8.0, step_s=0.01, initial={"x": 2.0}, log_every_s=0.01, **AT_REST),
+                Entrant("mpc", 0.1, build=how.build))
+    assert found.failed is None and found.fallbacks == 0
+    force = found.column("u")
+    assert np.max(np.abs(force)) <= 1.0 + 1e-6 and np.max(np.abs(np.diff(force))) <= 0.4 + 1e-6
+    assert found.metrics["v_limit_excess"] < 1e-4 and np.min(found.column("v")) < -0.59
+    assert found.metrics["x_error_final"] == pytest.approx(0.0, abs=0.01)
+
+
+def test_a_limit_that_cannot_be_kept_is_left_at_its_price_and_the_solver_goes_on():
+    plant = Plant("late", CART.states, CART.rates, CART.inputs, input_limits={u: (-1.0, 1.0)},
+                  state_limits={x: (-math.inf, 0.5)})
+    found = run(Setting(plant, 4.0, step_s=0.01, initial={"x": 0.4, "v": 1.0}, **AT_REST),
+                Entrant("mpc", 0.1, build=PlantMpc(20, {"x": 1.0}, {"u": 0.01}).build))
+    # Braking at the limit from 1 m/s ends 0.5 m ahead, at 0.9 m.
+    assert found.failed is None and found.fallbacks == 0
+    assert found.metrics["x_limit_excess"] == pytest.approx(0.4, abs=0.02)
+
+
+def test_both_solvers_swing_a_pendulum_up_alike_and_it_tracks():
+    setting = Setting(PENDULUM, 3.0, references={"r": Sine(offset=math.pi, amplitude=0.3, period_s=2.0)},
+                      tracks={"theta": "r"})
+    ends = []
+    for solver in ("fatrop", "ipopt"):
+        how = PlantMpc(20, {"theta": 10.0}, {"tau": 1e-3}, solver=solver)
+        found = run(setting, Entrant("mpc", 0.05, build=how.build))
+        assert found.failed is None and found.fallbacks == 0
+        assert abs(found.metrics["theta_error_final"]) < 0.01
+        ends.append(found.log[-1, 1:4])
+    assert ends[0] == pytest.approx(ends[1], abs=1e-4)
+
+
+def test_it_believes_the_nominal_plant_whatever_the_truth():
+    setting = Setting(PENDULUM, 0.5, references={"r": Constant(value=1.0)}, tracks={"theta": "r"})
+    how = PlantMpc(10, {"theta": 1.0}, {"tau": 0.1})
+    heavy = setting.varied(parameters={"m": 1.2})
+    nominal, told = (run(heavy, Entrant("mpc", 0.05, build=how.build), belief).column("tau")[0]
+                     for belief in (None, heavy.parameters))
+    stated = run(setting, Entrant("mpc", 0.05, build=how.build)).column("tau")[0]
+    assert nominal == pytest.approx(stated, abs=1e-9) and abs(told - stated) > 1e-3
+
+
+@pytest.mark.parametrize(("how", "words"), [
+    (PlantMpc(5, {"omega": 1.0}), "no reference is tracked"), (PlantMpc(5, {"theta": 1.0}, {"F": 1.0}), "no such input")])
+def test_names_that_the_plant_does_not_have_are_one_line(how, words):
+    with pytest.raises(ValueError, match=words):
+        how.check(Setting(PENDULUM, 1.0, references={"r": Constant(value=0.0)}, tracks={"theta": "r"}))
+
+
+def test_a_plant_that_hides_a_state_is_refused():
+    hidden = Plant("hidden", CART.states, CART.rates, CART.inputs, outputs={x: x})
+    with pytest.raises(ValueError, match="'v' is not measured"):
+        PlantMpc(5, {"x": 1.0}).check(Setting(hidden, 1.0, **AT_REST))
+    for wrong in ({"horizon": 0}, {"solver": "newton"}, {"weights": {"x": -1.0}}):
+        with pytest.raises(ValueError, match="horizon|solver|weights"):
+            PlantMpc(**({"horizon": 5, "weights": {"x": 1.0}} | wrong))
+
+
+def test_several_inputs_and_several_outputs():
+    a, b, f, g = sp.symbols("a b f g", real=True)
+    c = sp.Symbol("c", positive=True)
+    plant = Plant("two", (a, b), (f - a, c * g + a), inputs=(f, g), parameters=(Parameter(c, 2.0),))
+    setting = Setting(plant, 4.0, step_s=0.01, references={"r": Constant(value=1.0), "w": Sine(amplitude=1.0, period_s=4.0)},
+                      tracks={"a": "r", "b": "w"})
+    found = run(setting, Entrant("mpc", 0.1, build=PlantMpc(15, {"a": 1.0, "b": 1.0}, {"f": 1e-4, "g": 1e-4}).build))
+    assert abs(found.metrics["a_error_final"]) < 0.02 and abs(found.metrics["b_error_final"]) < 0.05

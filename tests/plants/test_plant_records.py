@@ -1,0 +1,169 @@
+"""Plants, laws, signals and metrics as records: what fits together is kept, what does not is one clear line."""
+
+import math
+
+import casadi as ca
+import numpy as np
+import pytest
+import sympy as sp
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from shown_plants import CART, COMPUTED_TORQUE, FREE, PENDULUM, omega, theta, torque, u, v, x
+
+from workbench.errors import CompileError, InputError
+from workbench.model.law import LawState, time
+from workbench.systems.law import Reference, StateLaw
+from workbench.systems.lyapunov import Lyapunov, closed_loop
+from workbench.systems.metric import Metric
+from workbench.systems.plant import Parameter, Plant
+from workbench.systems.signals import Constant, Ramp, Sine, Spline, Step, read_signal, signals_at, table_of
+
+k = sp.Symbol("k", positive=True)
+z = sp.Symbol("z", real=True)
+
+
+def plant(**changes):
+    return Plant(**({"id": "p", "states": (x, v), "rates": (v, u), "inputs": (u,)} | changes))
+
+
+@pytest.mark.parametrize(("changes", "words"), [
+    ({"rates": (v,)}, "2 states and 1 rates"),
+    ({"rates": (v, z)}, "rate of 'v' uses 'z', which is not declared"),
+    ({"rates": (v, sp.Symbol("u", positive=True))}, "other assumptions"),
+    ({"rates": (v, math.nan)}, "is nan"),
+    ({"rates": (v, sp.I * u)}, "not real"),
+    ({"rates": (v, "u")}, "no expression"),
+    ({"rates": (v, sp.zoo)}, "no number"),
+    ({"states": (x, x)}, "'x' is a name of a state, twice"),
+    ({"states": (x, "v")}, "no symbol"),
+    ({"states": (x, sp.Symbol("v"))}, "not known to be real"),
+    ({"states": (), "rates": ()}, "has no state"),
+    ({"inputs": (u, x)}, "a state and an input"),
+    ({"inputs": (u, time)}, "time or sampling period"),
+    ({"input_limits": {u: (1.0, -1.0)}}, "not below the upper limit"),
+    ({"input_limits": {x: (-1.0, 1.0)}}, "no input"),
+    ({"state_limits": {x: (0.0, math.nan)}}, "NaN"),
+    ({"state_limits": {x: 3.0}}, "no pair of numbers"),
+    ({"outputs": {z: u}}, "output 'z' uses 'u'"),
+    ({"units": {z: "m"}}, "does not have"),
+])
+def test_what_is_no_plant_is_one_line(changes, words):
+    with pytest.raises(ValueError, match=words) as caught:
+        plant(**changes)
+    assert "\n" not in str(caught.value)
+
+
+@pytest.mark.parametrize(("value", "known", "words"), [
+    (-1.0, None, "declared positive"), (math.inf, None, "not finite"), (1j, None, "no real number"),
+    ("1", None, "no real number"), (True, None, "no real number"), (3.0, (1.0, 2.0), "outside the known interval"),
+    (1.5, (2.0, 1.0), "exchange them")])
+def test_what_is_no_parameter_is_one_line(value, known, words):
+    with pytest.raises(ValueError, match=words):
+        Parameter(k, value, "", known)
+
+
+def test_a_law_is_held_against_its_plant():
+    with pytest.raises(ValueError, match="no input of plant 'cart'"):
+        FREE.check(CART)
+    with pytest.raises(ValueError, match="no command for input 'u'"):
+        StateLaw("l", {z: 0}).check(plant(inputs=(u, z), rates=(v, u + z)))
+    with pytest.raises(ValueError, match="uses 'v', a state that plant 'p' does not measure"):
+        StateLaw("l", {u: -v}).check(plant(outputs={x: x}))
+    with pytest.raises(ValueError, match="did you mean 'theta'"):
+        StateLaw("l", {torque: sp.Symbol("thet", real=True)}).check(PENDULUM)
+    with pytest.raises(ValueError, match="commands nothing"):
+        StateLaw("l", {})
+    with pytest.raises(ValueError, match="parameter 'k' of law 'l' has no value"):
+        StateLaw("l", {u: -k * x}, parameters=(k,)).values(CART, {}, {})
+    with pytest.raises(ValueError, match="no parameter of law"):
+        COMPUTED_TORQUE.values(PENDULUM, PENDULUM.values(), {"k_q": 1.0})
+    with pytest.raises(ValueError, match="measure 'median' is not known"):
+        Metric("m", "median", x)
+
+
+def test_a_law_takes_the_plants_nominal_values_unless_others_are_given():
+    values = COMPUTED_TORQUE.values(PENDULUM, PENDULUM.values(), {"k_p": 1.0, "k_d": 2.0, "m": 3.0})
+    assert values == {"k_p": 1.0, "k_d": 2.0, "m": 3.0, "l": 0.5, "g": 9.81, "b": 0.1}
+
+
+def test_linear_and_casadi_and_control_models_are_of_the_same_expressions():
+    at = {"theta": 0.7, "omega": -0.3, "tau": 1.2}
+    point = [0.7, -0.3], [1.2]
+    rates = PENDULUM.rates_at(*point)
+    by_hand = [-0.3, -9.81 / 0.5 * math.sin(0.7) + 0.03 + 1.2 / 0.25]
+    assert rates == pytest.approx(by_hand, rel=1e-14)
+    assert np.array(PENDULUM.to_casadi()(0, *point, [0.0])).ravel() == pytest.approx(rates, rel=1e-14)
+    system = PENDULUM.to_control()
+    assert system.dynamics(0.0, point[0], [1.2, 0.0]) == pytest.approx(rates, rel=1e-14)
+    linear = PENDULUM.linearise(at)
+    step = 1e-6
+    for column in range(2):
+        ahead, behind = (np.array(point[0]) + sign * step * np.eye(2)[column] for sign in (1, -1))
+        slope = (PENDULUM.rates_at(ahead, [1.2]) - PENDULUM.rates_at(behind, [1.2])) / (2 * step)
+        assert linear.A[:, column] == pytest.approx(slope, abs=1e-6)
+    assert linear.B.ravel() == pytest.approx([0.0, 4.0])
+    with pytest.raises(ValueError, match="no state and no input"):
+        PENDULUM.linearise({"phi": 1.0})
+
+
+@pytest.mark.parametrize("expr", [
+    sp.Piecewise((x**2, x < 0), (-v, (x > 1) & (v < 2)), (x * v, True)), sp.Max(x, 0, v) - sp.Min(x, 2 * v),
+    sp.sign(x) * sp.sqrt(sp.Abs(x)), sp.atan2(v, 2 + x**2) + sp.tanh(x) / (1 + sp.exp(-v)), sp.Abs(x) ** sp.Rational(3, 2),
+    sp.pi * x + sp.Rational(1, 3), sp.cosh(x / 3) - sp.floor(v)])
+def test_casadi_has_the_same_values_as_sympy(expr):
+    function = Plant("q", (x, v), (expr, 0)).to_casadi()
+    for at in ((0.5, -0.25), (-1.5, 0.75), (3.25, 1.5)):
+        exact = float(expr.subs({x: sp.Float(at[0], 30), v: sp.Float(at[1], 30)}))
+        assert float(function(0, ca.DM(at), [], [])[0]) == pytest.approx(exact, rel=1e-12, abs=1e-12)
+
+
+def test_what_casadi_does_not_have_is_said():
+    with pytest.raises(CompileError, match="besselj"):
+        Plant("q", (x,), (sp.besselj(0, x),)).to_casadi()
+
+
+@given(st.lists(st.floats(-5, 5), min_size=3, max_size=6))
+@settings(max_examples=20, deadline=None)
+def test_rates_of_signals_are_their_derivatives(values):
+    times = tuple(float(i) for i in range(len(values)))
+    signals = {"a": Sine(offset=1.0, amplitude=2.0, period_s=3.0, phase_rad=0.4), "b": Ramp(offset=1.0, slope_per_s=-2.0),
+               "c": Spline(times_s=times, values=tuple(values)), "d": Constant(value=3.0)}
+    t, step = np.linspace(-1.0, len(values) + 1.0, 37) + 0.0123, 1e-5
+    found, ahead, behind = (signals_at(signals, t + shift) for shift in (0.0, step, -step))
+    for name in signals:
+        for order in (1, 2):
+            slope = (ahead[name][order - 1] - behind[name][order - 1]) / (2 * step)
+            assert found[name][order] == pytest.approx(slope, abs=2e-3)
+    assert signals_at({"c": signals["c"]}, np.array(times))["c"][0] == pytest.approx(values, abs=1e-9)
+
+
+def test_a_spline_is_read_from_a_file_and_a_wrong_one_is_one_line(tmp_path):
+    (tmp_path / "r.csv").write_text("t_s,q\n0,1\n1,2\n2,0\n")
+    found = read_signal(Spline(file="r.csv", column="q"), tmp_path)
+    assert found == Spline(times_s=(0.0, 1.0, 2.0), values=(1.0, 2.0, 0.0))
+    assert table_of([found, Step(after=1.0)])[1].shape == (4, 5)
+    (tmp_path / "bad.csv").write_text("t_s,q\n0,1\n1,nan\n")
+    for file, column, words in (("r.csv", "p", "is no column"), ("bad.csv", "q", "line 3"), ("no.csv", "q", "no.csv")):
+        with pytest.raises(InputError, match=words):
+            read_signal(Spline(file=file, column=column), tmp_path)
+    for wrong in ({"times_s": (0.0, 0.0), "values": (1.0, 2.0)}, {"times_s": (0.0, 1.0), "values": (1.0,)},
+                  {"file": "r.csv"}, {}):
+        with pytest.raises(ValueError, match="spline|times_s|column"):
+            Spline(**wrong)
+
+
+def test_the_closed_loop_is_the_flow_of_plant_law_and_reference():
+    r, q = Reference("r"), sp.Symbol("q", real=True)
+    law = StateLaw("pi", {u: r.second_rate - k * (x - r.value) - q}, states=(LawState(q, rate=x - r.value),),
+                   parameters=(k,), references=(r,))
+    flow = closed_loop(CART, law)
+    assert flow == {x: v, v: r.second_rate - k * (x - r.value) - q, q: x - r.value, r.value: r.rate,
+                    r.rate: r.second_rate, r.second_rate: r.third_rate}
+    energy = Lyapunov("V", v**2 / 2, law)
+    assert sp.expand(energy.rate(CART) - v * flow[v]) == 0
+    with pytest.raises(ValueError, match="jumps by its update"):
+        closed_loop(CART, StateLaw("d", {u: q}, states=(LawState(q, update=x),)))
+
+
+def test_the_flow_of_a_plant_is_what_a_goal_takes():
+    assert PENDULUM.flow[theta] == omega and list(PENDULUM.flow) == [theta, omega]

@@ -1,0 +1,109 @@
+"""Errata: complete, in every format, and re-checkable by what they say."""
+
+import json
+import re
+import subprocess
+import sys
+from html.parser import HTMLParser
+from importlib import import_module
+from pathlib import Path
+
+import pytest
+from small_decisions import paper
+
+from workbench.proof import checker
+from workbench.proof.checker import goal_digest
+from workbench.report.errata import pdf
+from workbench.report.errata.blocks import Code, Formula, Heading, Items, Paragraph
+from workbench.report.errata.content import errata
+from workbench.report.errata.latex import latex_document
+from workbench.report.errata.markdown import markdown
+from workbench.report.errata.page import html_document
+from workbench.report.errata.proof_steps import proof_steps
+from workbench.report.errata.write import NO_PDF, write_errata
+
+CITATION = "J. Doe, A paper_of one's own & more, 2026"
+
+
+def test_every_failing_line_has_a_number_a_place_and_its_numbers(tmp_path):
+    text = markdown(errata(paper(), CITATION))
+    assert [int(n) for n in re.findall(r"^### (\d+)\. ", text, re.MULTILINE)] == [1, 2, 3, 4, 5]
+    assert "### 2. Equation (4) (section 3): the line 4" in text
+    assert "Theorem 1 falls" in text and "Lemma 2 stands" in text
+    assert "$$\nz_1^2 \\ge 1\n$$" in text and "0.5^{2} = 0.25" in text
+    assert "Readings that the extracted text leaves open" in text and "Theorem 1, mended" in text
+
+
+def test_the_commands_it_names_re_check_the_certificates(tmp_path):
+    (tmp_path / "checker.py").write_text(Path(checker.__file__).read_text())
+    (tmp_path / "certificates").mkdir()
+    for d in paper():
+        (tmp_path / "certificates" / f"{d.claim.equation}.json").write_text(json.dumps(d.certificate))
+    shown = [block.text for block in errata(paper(), CITATION) if isinstance(block, Code)]
+    commands = [text for text in shown if "--claim" in text]
+    assert len(commands) == 6
+    for command in commands[:2]:
+        done = subprocess.run([sys.executable, *command.split()[1:]], cwd=tmp_path, capture_output=True, text=True,
+                              check=False)
+        assert done.returncode == 0 and done.stdout.startswith("ok"), done.stdout
+    assert goal_digest(paper()[0].certificate) in commands[1]
+
+
+def test_a_proof_is_told_step_by_step_with_its_reasons():
+    steps = proof_steps({"goal": {"assume": ["k > 0", "x >= 1"], "show": ["k*x >= k"], "flow": {}}, "proofs": [
+        {"rule": "cut", "lemma": "x - 1 >= 0", "proof": {"rule": "combination", "terms": [
+            {"coefficient": "1", "factors": [{"assume": 1}]}]},
+         "then": {"rule": "combination", "terms": [{"coefficient": "1", "factors": [{"assume": 0}, {"assume": 2}]}]}}]})
+    told = [(s.depth, s.text) for s in steps]
+    assert told[0] == (0, r"To show: $k x \ge k$.")
+    assert any("shown above" in text and "assumed: $k > 0$" in text for _, text in told)
+    assert [depth for depth, _ in told] == [0, 1, 2, 3, 1, 2, 3]
+
+
+@pytest.mark.parametrize("proof", [
+    {"rule": "identity"}, {"rule": "contradiction", "terms": [{"coefficient": "2", "factors": [{"assume": 0}]}]},
+    {"rule": "cases", "of": "x", "nonnegative": {"rule": "identity"}, "nonpositive": {"rule": "identity"}},
+    {"rule": "combination", "multiplier": [{"inverse": 0}], "terms": []},
+    {"rule": "combination", "terms": [{"coefficient": "1/2", "factors": [
+        {"fact": "log_tangent", "of": "x"}, {"square": "x"}, {"sum_of_squares": "x"}, {"positive": "x"}, {"any": "x"},
+        {"square_of": 0}]}]},
+    {"rule": "nonincreasing", "function": "x", "decrease": {"rule": "identity"}, "then": {"rule": "identity"}}])
+def test_every_rule_of_the_checker_is_told(proof):
+    goal = {"assume": ["x > 0"], "show": ["x >= 0"], "flow": {"x": "-x"}, "initial": {"x": "x_0"}, "always": ["x > 0"]}
+    steps = proof_steps({"goal": goal, "proofs": [proof]})
+    assert len(steps) >= 2 and all(step.text.count("$") % 2 == 0 for step in steps)
+
+
+def test_nobodys_text_becomes_markup():
+    blocks = [Heading(1, "<b>a & b"), Paragraph("50% of #1 {x} $a < b$ \\cmd", "<i>"), Formula(r"a \& b", "x_y"),
+              Items(("one_two", "three"), (0, 2)), Code("a <b> & c")]
+    page = html_document(blocks, "<title>")
+    reader = HTMLParser()
+    reader.feed(page)
+    assert "<b>a" not in page and "<i>" not in page and "&lt;b&gt;" in page and "script" not in page
+    assert page.count("<ul>") == page.count("</ul>") == 3
+    tex = latex_document(blocks)
+    assert r"50\% of \#1 \{x\}" in tex and r"\textbackslash{}cmd" in tex and r"one\_two" in tex
+    assert r"one\_two" in markdown(blocks)
+
+
+def test_all_formats_are_written_and_a_missing_one_is_said(tmp_path, monkeypatch):
+    written, missing = write_errata(paper(), CITATION, tmp_path / "all")
+    assert {path.name for path in written} == {"errata.md", "errata.tex", "errata.html", "findings.json", "errata.pdf"}
+    assert missing is None and (tmp_path / "all" / "errata.pdf").read_bytes().startswith(b"%PDF")
+    assert json.loads((tmp_path / "all" / "findings.json").read_text())["version"] == 1
+
+    def none(name):
+        if name == "typst":
+            raise ImportError(name)
+        return import_module(name)
+
+    monkeypatch.setattr(pdf, "import_module", none)
+    written, missing = write_errata(paper(), CITATION, tmp_path / "some")
+    assert len(written) == 4 and missing == NO_PDF
+
+
+def test_the_same_decisions_make_the_same_bytes():
+    blocks = errata(paper(), CITATION)
+    assert pdf.pdf_of(blocks) == pdf.pdf_of(errata(paper(), CITATION))
+    assert markdown(blocks) == markdown(errata(paper(), CITATION))

@@ -1,0 +1,106 @@
+"""Findings: what a referee would write, made from the decisions alone."""
+
+from fractions import Fraction
+
+import pytest
+from small_decisions import certificate, paper
+
+from workbench.proof.fate import judged
+from workbench.report.counterexample import counterexample_of
+from workbench.report.finding import findings
+from workbench.report.finding_sentences import consequence_sentence, findings_document, sentences, verdict_sentence
+from workbench.report.places_in_paper import place_of, places_of
+from workbench.report.plain_formulas import plain_formula
+from workbench.report.worded import math, show, worded
+
+
+def found_by_equation():
+    return {f.equation: f for f in findings(paper())}
+
+
+def test_the_gravest_come_first_and_what_stands_or_is_ours_is_no_finding():
+    assert [(f.equation, f.gravity) for f in findings(paper())] == [
+        ("theorem1", "falls"), ("4", "step"), ("6", "gap"), ("table1", "alone"), ("5", "cosmetic"), ("7", "reading")]
+
+
+def test_a_finding_says_where_what_is_true_instead_and_what_falls_with_it():
+    step = found_by_equation()["4"]
+    assert step.place == "Equation (4)" and step.section == "3" and step.headlines == ("theorem1",)
+    text = " ".join(show(s, plain_formula) for s in sentences(step))
+    assert text == ("Equation (4) is false as printed: with z₁ = 0.5, z₁² ≥ 1 would say 0.25 ≥ 1. Printed: z₁² ≥ 1. "
+                    "It should read z₁² ≥ 0. Theorem 1 rests on it.")
+
+
+def test_a_theorem_that_falls_names_its_mended_form_and_why():
+    theorem = found_by_equation()["theorem1"]
+    assert theorem.mended_by == "theorem1.mended" and theorem.because == ("4",)
+    assert consequence_sentence(theorem) == "The paper gets there by equation (4), which fails."
+    assert "Mended, it is proved: $z_1^2 \\ge 0$." in sentences(theorem)
+
+
+def test_what_rests_on_a_line_is_computed_not_typed():
+    freed = [d for d in paper() if d.claim.equation != "theorem1"]
+    freed = [d for d in freed if d.claim.mends is None]
+    assert {f.equation: f.gravity for f in findings(judged(freed))}["4"] == "alone"
+
+
+def test_the_document_has_every_finding_with_its_sentences():
+    rows = findings_document(findings(paper()))["findings"]
+    assert [row["equation"] for row in rows] == [f.equation for f in findings(paper())]
+    assert all(row["sentences"] and row["digest"] and row["printed"] for row in rows)
+
+
+def test_both_sides_are_evaluated_exactly_and_shown_apart_when_rounded():
+    point = counterexample_of(certificate("a:1", "refuted", "exp(x) == 1", {"x": "1/1000000000"}))
+    assert point.right.removeprefix(r"\approx ") == "1" and Fraction(point.left.removeprefix(r"\approx ")) > 1
+    values = {"k_1": "2", "k_2": "3/2", "k_3": "1"}
+    point = counterexample_of(certificate("a:1", "violated", "k_1*k_2 - k_3 == 0", values))
+    assert (point.left, point.right, point.put_in) == ("2", "0", (r"2 \cdot 1.5 - 1", "0"))
+
+
+def test_a_relation_that_holds_is_not_the_one_that_breaks():
+    found = certificate("a:1", "refuted", "x >= 0", {"x": "-1"})
+    found["goal"]["show"] = ["x <= 0", "x >= 0"]
+    assert counterexample_of(found).relation == r"x \ge 0"
+
+
+def test_many_letters_of_one_value_are_said_together():
+    names = [f"a_{i}" for i in range(1, 9)]
+    found = certificate("a:1", "refuted", f"{' + '.join(names)} + b == 0", {**dict.fromkeys(names, "1"), "b": "2"})
+    point = counterexample_of(found)
+    assert point.values == ("b = 2",) and point.others == "1" and len(point.everything) == 9
+    assert counterexample_of(certificate("a:1", "proved", "x**2 >= 0", example={"x": "0"}, proofs=[
+        {"rule": "combination", "terms": [{"coefficient": "1", "factors": [{"square": "x"}]}]}])) is None
+
+
+def test_a_motion_is_told_as_functions_of_time():
+    goal = {"assume": [], "always": ["v == 1"], "show": ["x <= 1"], "flow": {"x": "v", "t": "1"}, "inputs": ["v"],
+            "eventually": "t"}
+    point = counterexample_of({"verdict": "refuted", "goal": goal, "functions": {"x": "2 + t"}, "point": {}})
+    assert point.motion and point.left == "2 + t" and point.right == "1" and point.values == ("x = 2 + t",)
+    theorem = found_by_equation()["theorem1"]
+    assert "motion" not in verdict_sentence(theorem)
+
+
+@pytest.mark.parametrize(("equation", "place"), [
+    ("44", "Equation (44)"), ("45.a", "Equation (45) [a]"), ("theorem2", "Theorem 2"), ("theorem1.3", "Theorem 1.3"),
+    ("remark4.mean", "Remark 4 [mean]"), ("A1", "Assumption 1"), ("VIII.stop", "Section VIII [stop]"),
+    ("intro.gain", "Introduction [gain]"), ("conclusion", "Conclusion")])
+def test_places_are_named_as_a_reader_names_them(equation, place):
+    assert place_of(equation) == place
+
+
+def test_places_of_one_kind_stand_together():
+    assert places_of(["theorem2", "41", "theorem3", "41.a", "44"]) == ["Theorems 2 and 3", "equations (41) and (44)"]
+
+
+@pytest.mark.parametrize(("text", "shown"), [
+    ("z_1 <= 0 and rho_hat -> 0", "z₁ ≤ 0 and ρ̂ → 0"), ("see leakage_proof.py and closed_loop", None),
+    ("t^2 and x_1^2", "t² and x₁²"), ("see proofs/paper.py", None)])
+def test_words_keep_their_letters_as_formulas(text, shown):
+    assert show(worded(text), plain_formula) == (text if shown is None else shown)
+
+
+def test_a_formula_with_dollars_of_its_own_does_not_end_early():
+    printed = r"\text{for all $k$}"
+    assert show(f"it is {math(printed)}.", lambda latex: f"<{latex}>") == f"it is <{printed}>."

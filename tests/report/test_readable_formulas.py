@@ -1,0 +1,84 @@
+"""The certificate language as a reader would write it, in LaTeX, in one line of Unicode and in Typst."""
+
+import ast
+from fractions import Fraction
+
+import pytest
+import sympy as sp
+from hypothesis import given
+from hypothesis import strategies as st
+
+from workbench.proof.checker import Context, bounds, read_point, substitute
+from workbench.proof.text import text
+from workbench.report.certificate_latex import (
+    _tidied,
+    expression_latex,
+    numbers_put_in,
+    parse,
+    relation_latex,
+    value_latex,
+)
+from workbench.report.errata.typst_formulas import typst_formula
+from workbench.report.plain_formulas import plain_formula
+
+
+@pytest.mark.parametrize(("written", "shown"), [
+    ("-8*t**2 - 8*t/3", "−8 t² − 8 t/3"), ("0 + a*1 - (-b)", "a + b"), ("(-1)*x*y", "−x y"), ("x*(a + b)", "x (a + b)"),
+    ("(a + b)/(2*c)", "(a + b)/(2 c)"), ("1/250*D_hat", "1/250 D̂"), ("exp(log_m)*exp(-log_g)", "m 1/g"),
+    ("abs(z_2)*k", "|z₂| k"), ("sqrt(x + 1)", "√(x + 1)"), ("a_star**2", "a*²"), ("D(V)", "d/dt V")])
+def test_expressions_are_written_as_a_reader_would(written, shown):
+    assert plain_formula(expression_latex(written)).replace(" ", "") == shown.replace(" ", "")
+
+
+def test_relations_have_their_signs():
+    assert plain_formula(relation_latex("z_1 <= 0")) == "z₁ ≤ 0"
+    assert relation_latex("x != y_1") == r"x \ne y_{1}"
+
+
+@pytest.mark.parametrize(("value", "shown"), [
+    ("3", "3"), ("-1/2", "-0.5"), ("1/3", r"\frac{1}{3}"), ("7/6250000", r"1.12 \times 10^{-6}"),
+    ("2000000", r"2 \times 10^{6}"), ("123456789/987654321", r"\approx 0.125"), ("-4/15", r"-\frac{4}{15}")])
+def test_numbers_are_short_and_say_when_they_are_rounded(value, shown):
+    assert value_latex(Fraction(value)) == shown
+
+
+NAMES = sp.symbols("a b c", positive=True)
+LEAVES = st.one_of(st.sampled_from(NAMES), st.integers(-2, 3).map(sp.Integer))
+
+
+def combined(parts):
+    pair = st.tuples(parts, parts)
+    return st.one_of(pair.map(lambda p: sp.Add(*p, evaluate=False)), pair.map(lambda p: sp.Mul(*p, evaluate=False)),
+                     parts.map(lambda p: sp.Pow(p, 2, evaluate=False)),
+                     parts.map(lambda p: sp.Mul(-1, p, evaluate=False)))
+
+
+@given(st.recursive(LEAVES, combined, max_leaves=8))
+def test_leaving_out_ones_and_zeros_changes_no_value(expression):
+    written = text(expression)
+    tidied = ast.unparse(ast.fix_missing_locations(ast.Expression(_tidied(parse(written)))))
+    context = Context({}, [])
+    point = read_point({"a": "2", "b": "-3/7", "c": "5"})
+    values = [bounds(context, substitute(context, context.read(one), point)) for one in (written, tidied)]
+    assert values[0] == values[1]
+
+
+def test_numbers_are_put_in_without_being_multiplied_out():
+    values = {"k": Fraction(2), "z": Fraction(-1, 2)}
+    assert numbers_put_in("k*z + 1", values) == r"2 \cdot \left(-0.5\right) + 1" or "2" in numbers_put_in("k*z", values)
+    assert numbers_put_in("D(k*z)", values) is None
+    assert numbers_put_in("k*unknown", values) is None
+
+
+@pytest.mark.parametrize("latex", [
+    r"\dot{V}_2 \le -r_1 z_1^2", r"\text{for all } k \ge 1", r"\frac{a}{b}, \sum_{i=1}^{l} m_i", r"\hat{\rho}",
+    r"\left|x\right| + \|x\|", r"\lim_{t \to \infty} e(t) = 0", r"[0, T)", r"\mathrm{word}_1", r"a*b, c; d \# e",
+    "A sentence that was printed as it is, with z_1 in it"])
+def test_typst_sets_every_formula(latex):
+    typst = pytest.importorskip("typst")
+    assert typst.compile(f"{typst_formula(latex)} {typst_formula(latex, display=True)}".encode(), format="pdf")
+
+
+def test_what_is_no_formula_stays_as_it_is():
+    assert plain_formula(r"\nosuchcommand{x}") == r"\nosuchcommand{x}"
+    assert typst_formula(r"\nosuchcommand{x}").startswith("#raw(")

@@ -1,0 +1,1 @@
+"""What a Python program uses of the workbench; `import workbench as wb` brings each name when it is used."""

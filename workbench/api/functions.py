@@ -1,0 +1,101 @@
+"""The functions of the API. All run in this process unless more workers are asked for, so that a script needs no guard.
+
+With `workers` above one, processes are started that import the script again: it then needs the usual
+`if __name__ == "__main__":`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+import sympy as sp
+
+from workbench.api.results import Comparison, Proved, Run
+from workbench.errors import InputError
+from workbench.paper.loading import Loaded
+from workbench.paper.loading import load as read
+from workbench.paper.plants.check import Checked
+from workbench.paper.plants.check import check_paper as check
+from workbench.paper.plants.problem import LocatedPlantStudy
+from workbench.proof.document import claims_document, places
+from workbench.proof.prove import prove as decide
+from workbench.proof.selection import targets
+from workbench.simulate.plants.run import Entrant
+from workbench.simulate.plants.run import run as run_plant
+from workbench.simulate.plants.setting import Setting
+from workbench.systems.law import StateLaw
+from workbench.systems.plant import Plant
+
+Names = Mapping[sp.Symbol, Any] | Mapping[str, Any]
+
+
+def load(path: str | Path) -> Loaded:
+    """A paper's folder or the TOML file of its study, read once; InputError naming file, key and remedy."""
+    return read(Path(path))
+
+
+def prove(path: str | Path, *, workers: int = 1, cache: bool = True) -> Proved:
+    """Decide the claims of a paper's folder, a proof file, or `FOLDER::claim`; nothing is written.
+
+    Raises InputError naming file, claim and remedy, ClaimError for a claim that states nothing.
+    """
+    proof = decide(targets([str(path)]), workers, cache)
+    for trouble in proof.misstated.values():
+        raise InputError("", "", trouble)
+    return Proved(claims_document(proof.decisions, places(proof, None)))
+
+
+def simulate(plant: Plant, law: StateLaw | Any, *, period_s: float, duration_s: float,
+             law_parameters: Names | None = None, law_initial: Names | None = None, **setting: Any) -> Run:
+    """Run one law, or a `PlantMpc`, on a plant; setting: the other fields of `Setting`, by name.
+
+    `simulate(pendulum, pd, period_s=0.01, duration_s=5, initial={"theta": 0.3}, references={"theta_d": Sine(...)},
+    tracks={"theta": "theta_d"})`. Raises ValueError, one line, for what does not fit.
+    """
+    made = Setting(plant, duration_s, **setting)
+    return Run(made, run_plant(made, entrant(law, period_s, law_parameters, law_initial), plant.values()))
+
+
+def entrant(law: StateLaw | Any, period_s: float, parameters: Names | None = None, initial: Names | None = None,
+            name: str = "") -> Entrant:
+    """A controller with its values for `compare`: a law, or what has `build(setting, period_s)`, as `PlantMpc`."""
+    if isinstance(law, StateLaw):
+        return Entrant(name or law.id, period_s, law, _named(parameters), _named(initial))
+    if not callable(getattr(law, "build", None)):
+        raise ValueError(f"{law!r} is no law and builds no controller: give a StateLaw or a PlantMpc")
+    return Entrant(name or "mpc", period_s, build=law.build)
+
+
+def _named(values: Names | None) -> dict[str, float]:
+    return {str(name): value for name, value in (values or {}).items()}
+
+
+def compare(what: str | Path | Loaded | Setting, entrants: Sequence[Entrant] = ()) -> Comparison:
+    """All controllers of a folder's study, or these entrants in a setting, on the same plant.
+
+    Raises InputError or ValueError, one line, for what does not fit; a run that fails is told in its result.
+    """
+    nominal: Mapping[str, float]
+    if isinstance(what, Setting):
+        names = [one.name for one in entrants]
+        if len(set(names)) < len(names):
+            raise ValueError(f"two entrants are called '{max(names, key=names.count)}': name them apart")
+        setting, nominal = what, what.plant.values()
+    else:
+        study = _plant_study(what if isinstance(what, Loaded) else load(what))
+        setting, entrants, nominal = study.setting, list(study.entrants().values()), study.setting.parameters
+    return Comparison(setting, tuple(Run(setting, run_plant(setting, one, nominal)) for one in entrants))
+
+
+def _plant_study(loaded: Loaded) -> LocatedPlantStudy:
+    if not isinstance(loaded.record, LocatedPlantStudy):
+        raise InputError(loaded.path, "kind", "is not 'plant': trains are compared by `workbench compare`")
+    return loaded.record
+
+
+def check_paper(folder: str | Path) -> Checked:
+    """Everything that can be checked of a folder without knowing its subject; see `Checked`."""
+    return check(Path(folder))
+

@@ -1,0 +1,129 @@
+"""What the functions of the API return: plain records with tables, figures, and frames of pandas."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from workbench.api.frames import data_frame
+from workbench.simulate.plants.run import PlantRun
+from workbench.simulate.plants.setting import Setting
+
+
+@dataclass(frozen=True)
+class Run:
+    """One run: `run["theta"]` is a column of its log; metrics by name; failed says why it ended early, or is None."""
+
+    setting: Setting
+    found: PlantRun
+
+    @property
+    def name(self) -> str:
+        """The controller's."""
+        return self.found.name
+
+    @property
+    def metrics(self) -> Mapping[str, float | None]:
+        """What the run is measured by; None for what a failed run does not have."""
+        return self.found.metrics
+
+    @property
+    def failed(self) -> str | None:
+        """Why the run ended early."""
+        return self.found.failed
+
+    @property
+    def columns(self) -> tuple[str, ...]:
+        """The names of the log's columns."""
+        return self.found.columns
+
+    def __getitem__(self, column: str) -> NDArray[np.float64]:
+        return self.found.column(column)
+
+    def to_pandas(self) -> Any:
+        """The log as a DataFrame with the time in seconds as its index; WorkbenchError without pandas."""
+        return data_frame(self.found.data, "t_s")
+
+    def plot(self, *columns: str) -> Any:
+        """A matplotlib Figure of the named columns, or of all states and inputs, over time."""
+        return _figure(self.setting, [self.found], columns)
+
+
+@dataclass(frozen=True)
+class Comparison:
+    """Runs of several controllers on the same plant: `comparison["pd"]` is a Run."""
+
+    setting: Setting
+    runs: tuple[Run, ...]
+
+    def __getitem__(self, name: str) -> Run:
+        found = {run.name: run for run in self.runs}
+        if name not in found:
+            raise KeyError(f"no controller '{name}': name one of {', '.join(found)}")
+        return found[name]
+
+    def __iter__(self) -> Iterator[Run]:
+        return iter(self.runs)
+
+    @property
+    def rows(self) -> list[dict[str, Any]]:
+        """A row a controller: its metrics, step time and failure."""
+        return [{"controller": run.name, **run.metrics, "step_us": run.found.step_us, "failed": run.failed}
+                for run in self.runs]
+
+    def to_pandas(self) -> Any:
+        """The rows as a DataFrame; WorkbenchError without pandas."""
+        return data_frame(self.rows, "controller")
+
+    def plot(self, *columns: str) -> Any:
+        """A matplotlib Figure of the named columns, or of all states and inputs, a line a controller."""
+        return _figure(self.setting, [run.found for run in self.runs], columns)
+
+
+@dataclass(frozen=True)
+class Proved:
+    """Claims decided: a row each, as `workbench prove --json` writes them."""
+
+    document: Mapping[str, Any]
+
+    @property
+    def rows(self) -> list[dict[str, Any]]:
+        """A row a claim."""
+        return list(self.document["claims"])
+
+    @property
+    def verdicts(self) -> dict[str, str]:
+        """Claim to verdict."""
+        return {row["id"]: row["verdict"] for row in self.rows}
+
+    @property
+    def as_recorded(self) -> bool:
+        """Whether every verdict is the one that the paper's file records."""
+        return all(row["verdict"] == row["recorded"] for row in self.rows)
+
+    def to_pandas(self) -> Any:
+        """The rows as a DataFrame; WorkbenchError without pandas."""
+        return data_frame(self.rows, "id")
+
+
+def _figure(setting: Setting, runs: Sequence[PlantRun], columns: Sequence[str]) -> Any:
+    from matplotlib.figure import Figure  # noqa: PLC0415 - for plots alone
+
+    plant = setting.plant
+    units = {str(symbol): unit for symbol, unit in plant.units.items()}
+    shown = columns or [*map(str, plant.states), *map(str, plant.inputs)]
+    figure = Figure(figsize=(7.0, 1.8 * len(shown)), layout="constrained")
+    for axes, name in zip(np.atleast_1d(figure.subplots(len(shown), 1, sharex=True)), shown, strict=True):
+        channel = setting.tracks.get(name)
+        if channel:
+            axes.plot(runs[0].column("t_s"), runs[0].column(channel), color="0.7", linewidth=3, label=channel)
+        for run in runs:
+            axes.plot(run.column("t_s"), run.column(name), label=run.name)
+        axes.set_ylabel(f"{name} ({units[name]})" if units.get(name) else name)
+    axes.set_xlabel("time (s)")
+    figure.axes[0].legend()
+    return figure

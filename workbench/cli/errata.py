@@ -1,0 +1,38 @@
+"""`workbench errata`: a paper's corrections as a document for its authors and editors."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from workbench.cli.options import Workers, path_of
+from workbench.cli.terminal import err_console, out_console, progress
+
+NAME = "errata"
+
+
+def command(paper: Annotated[str, typer.Argument(metavar="PAPER", help="A paper's folder, its name, or a proof file.")],
+            out: Annotated[Path | None, typer.Option(
+                metavar="FOLDER", help="Where the files go; default: errata/PAPER in the current folder.")] = None,
+            workers: Workers = None) -> None:
+    """Write the corrections of a paper as errata.md, .tex, .html, .pdf and findings.json."""
+    from workbench.files.outputs import check_outputs
+    from workbench.proof.paper import collect_papers
+    from workbench.proof.prove import prove
+    from workbench.proof.selection import targets
+    from workbench.report.errata.write import FILES, write_errata
+
+    found = targets([path_of(paper)])
+    with progress() as show:
+        proof = prove(found, workers, on_progress=lambda done, total: show("claims", done, total))
+    for name, place in proof.papers.items():
+        folder = Path("errata") / name if out is None else out if len(proof.papers) == 1 else out / name
+        check_outputs({}, [file for target in found for file in target.inputs()], {"--out": (folder, FILES)})
+        citation = next(p.citation for p in collect_papers([place]) if p.name == name)
+        written, missing = write_errata([d for d in proof.decisions if d.claim.paper == name], citation, folder)
+        for path in written:
+            out_console.print(str(path), soft_wrap=True, highlight=False, markup=False)
+        if missing:
+            err_console.print(missing, soft_wrap=True, highlight=False, markup=False)

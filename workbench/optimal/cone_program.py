@@ -1,0 +1,157 @@
+"""A second-order-cone program built block by block and given to clarabel: minimise c x, where A x + s = b, s in cones.
+
+cvxpy would compile the same program in several times the seconds that solving it takes; a run's has one structure.
+"""
+
+from __future__ import annotations
+
+import time
+from dataclasses import dataclass, field
+
+import clarabel
+import numpy as np
+from numpy.typing import NDArray
+from scipy import sparse
+
+from workbench.errors import SolverError
+from workbench.optimal.course import Array
+
+# Accuracy asked of clarabel; what it returns is checked again by everything that follows.
+TOLERANCE = 1e-8
+
+
+class NoPlanError(SolverError):
+    """The cone program has no solution; the message names the solver's status."""
+
+
+@dataclass(frozen=True)
+class Linear:
+    """Some rows of linear expressions of the program's variables: matrix x + constant.
+
+    matrix: shape (rows, variables); constant: shape (rows,).
+    """
+
+    matrix: sparse.csr_array
+    constant: Array
+
+    def __add__(self, other: Linear | Array | float) -> Linear:
+        if isinstance(other, Linear):
+            return Linear(sparse.csr_array(self.matrix + other.matrix), self.constant + other.constant)
+        return Linear(self.matrix, self.constant + other)
+
+    def __sub__(self, other: Linear | Array | float) -> Linear:
+        return self + (-1.0 * other)
+
+    def __rmul__(self, factor: Array | float) -> Linear:
+        rows = np.broadcast_to(np.asarray(factor, dtype=float), self.constant.shape)
+        return Linear(sparse.csr_array(sparse.diags_array(rows) @ self.matrix), rows * self.constant)
+
+    __array_ufunc__ = None  # so that numpy leaves `array * Linear` to this class
+
+    def __getitem__(self, rows: slice | NDArray[np.bool_] | NDArray[np.intp]) -> Linear:
+        return Linear(self.matrix[rows], self.constant[rows])
+
+
+@dataclass(frozen=True)
+class Rule:
+    """Rows of the program: where they begin, and how many."""
+
+    start: int
+    count: int
+
+
+@dataclass(frozen=True)
+class Solution:
+    """Values of all variables and multipliers of all rows, the least cost, clarabel's word and its seconds."""
+
+    x: Array
+    multipliers: Array
+    cost: float
+    status: str
+    solve_s: float
+
+    def of(self, expression: Linear) -> Array:
+        """The expression's value."""
+        return np.asarray(expression.matrix @ self.x + expression.constant)
+
+    def price(self, rule: Rule) -> Array:
+        """The multipliers of a rule's rows."""
+        return self.multipliers[rule.start:rule.start + rule.count]
+
+
+@dataclass
+class ConeProgram:
+    """Variables are numbered as they are made; rules are added in the order of their cones: zero, linear, cones."""
+
+    size: int
+    _blocks: list[tuple[str, Linear]] = field(default_factory=list)
+    _rows: int = 0
+
+    def variables(self, start: int, count: int) -> Linear:
+        """Some of the variables themselves."""
+        matrix = sparse.csr_array((np.ones(count), (np.arange(count), start + np.arange(count))),
+                                  shape=(count, self.size))
+        return Linear(matrix, np.zeros(count))
+
+    def nothing(self, count: int) -> Linear:
+        """Rows of zeros."""
+        return Linear(sparse.csr_array((count, self.size)), np.zeros(count))
+
+    def require_zero(self, expression: Linear) -> Rule:
+        """expression = 0."""
+        return self._add("zero", expression)
+
+    def require_at_most(self, expression: Linear) -> Rule:
+        """expression <= 0."""
+        return self._add("linear", expression)
+
+    def require_cones(self, length: Linear, one: Linear, two: Linear) -> Rule:
+        """The norm of (one, two) is at most length, row by row."""
+        count = len(length.constant)
+        order = np.arange(3 * count).reshape(3, count).T.ravel()
+        stacked = Linear(sparse.csr_array(sparse.vstack([length.matrix, one.matrix, two.matrix])[order]),
+                         np.concatenate((length.constant, one.constant, two.constant))[order])
+        return self._add("cone", -1.0 * stacked)
+
+    def _add(self, kind: str, expression: Linear) -> Rule:
+        rule = Rule(self._rows, len(expression.constant))
+        self._blocks.append((kind, expression))
+        self._rows += rule.count
+        return rule
+
+    def solve(self, cost: Array, what: str) -> Solution:
+        """Quickly first, then carefully; raises NoPlanError where neither way gives a solution."""
+        matrix = sparse.csc_array(sparse.vstack([block.matrix for _, block in self._blocks]))
+        right = -np.concatenate([block.constant for _, block in self._blocks])
+        cones: list[object] = []
+        for kind, block in self._blocks:
+            count = len(block.constant)
+            if kind == "cone":
+                cones += [clarabel.SecondOrderConeT(3)] * (count // 3)
+            elif count:
+                cones.append(clarabel.ZeroConeT(count) if kind == "zero" else clarabel.NonnegativeConeT(count))
+        spent, trouble, almost = 0.0, "", None
+        # Without refining each step's linear equations a program takes half the time; some then end inaccurately.
+        for is_quick in (True, False):
+            started = time.perf_counter()
+            answer = clarabel.DefaultSolver(sparse.csc_matrix((self.size, self.size)), cost,
+                                            sparse.csc_matrix(matrix), right, cones, _settings(is_quick)).solve()
+            spent += time.perf_counter() - started
+            status = str(answer.status)
+            found = Solution(np.asarray(answer.x), np.asarray(answer.z), float(answer.obj_val), status, spent)
+            if status == "Solved":
+                return found
+            almost = found if status == "AlmostSolved" else None
+            trouble = f"clarabel says '{status}' of {what}: allow more time or other intervals"
+        # An inaccurate solution may serve: nothing that follows takes the solver's word for it.
+        if almost is None:
+            raise NoPlanError(trouble)
+        return almost
+
+
+def _settings(is_quick: bool) -> clarabel.DefaultSettings:
+    settings = clarabel.DefaultSettings()
+    settings.verbose = False
+    settings.tol_gap_abs = settings.tol_gap_rel = settings.tol_feas = TOLERANCE
+    settings.iterative_refinement_enable = not is_quick
+    return settings

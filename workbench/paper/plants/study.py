@@ -1,0 +1,119 @@
+"""A plant's study as a study: all controllers on the same plant, told as rows, a table, figures and findings."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+
+from workbench.errors import InputError
+from workbench.files.numbers import number
+from workbench.paper.cells import Column
+from workbench.paper.parameter_search import NOTHING_KEPT, Kept, Name, Restart, Tuned, score, search, search_all
+from workbench.paper.plants.problem import LocatedPlantStudy, located
+from workbench.paper.plants.record import PlantStudy
+from workbench.paper.results import Curve, Plot, ResultTable, StudyResult, thinned
+from workbench.paper.study import Progress, StudyKind
+from workbench.simulate.plants.run import PlantRun
+from workbench.simulate.plants.run import run as run_plant
+from workbench.simulate.plants.setting import Setting
+from workbench.simulate.process_pool import results_of
+
+
+def run(study: LocatedPlantStudy, workers: int, on_progress: Progress) -> StudyResult:
+    """Every controller once, as stated and as tuned, with the plant as stated."""
+    names = list(study.entrants())
+    found = results_of(_run_task, study, names, workers, lambda done, name, _: on_progress(done, len(names), name))
+    return told(study, list(found.values()))
+
+
+def _run_task(study: LocatedPlantStudy, name: str) -> PlantRun:
+    return run_plant(study.setting, study.entrants()[name], study.setting.parameters)
+
+
+def told(study: LocatedPlantStudy, runs: Sequence[PlantRun]) -> StudyResult:
+    """Runs as a study's result."""
+    return StudyResult(tuple(map(row_of, runs)), (comparison_table(study.setting, runs),),
+                       tuple(_plots(study.setting, runs)), tuple(_findings(study.setting, runs)),
+                       tuple((run.name, run.failed) for run in runs if run.failed))
+
+
+def row_of(run: PlantRun) -> dict[str, object]:
+    """A run as plain data."""
+    return {"controller": run.name, **run.metrics, "step_us_median": run.step_us, "step_us_p99": run.step_us_p99,
+            "fallbacks": run.fallbacks, "reached_s": run.reached_s, "failed": run.failed}
+
+
+def comparison_table(setting: Setting, runs: Sequence[PlantRun]) -> ResultTable:
+    """The controllers beside each other, a column a metric."""
+    header = (Column("controller"), *(Column(m.title or m.id.replace("_", " "), m.unit) for m in setting.every_metric),
+              Column("step", "µs"))
+    rows = tuple((run.name, *(run.metrics[m.id] for m in setting.every_metric), run.step_us) for run in runs)
+    return ResultTable("Controllers on the same plant", f"plant {setting.plant.id}", header, rows,
+                       "A law's step is timed with the plant's integration, MPC's call by call without it.")
+
+
+def _plots(setting: Setting, runs: Sequence[PlantRun]) -> Iterator[Plot]:
+    plant = setting.plant
+    whole = [run for run in runs if len(run.log)]
+    for symbol in dict.fromkeys(s for s in (*plant.states, *plant.inputs)):
+        curves = [thinned(run.name, run.column("t_s"), run.column(str(symbol))) for run in whole]
+        channel = setting.tracks.get(str(symbol))
+        if channel and whole:
+            longest = max(whole, key=lambda run: run.reached_s)
+            curves.insert(0, _desired(longest, channel))
+        unit = plant.units.get(symbol, "")
+        kind = "input, as it acts" if symbol in plant.inputs else "state"
+        if curves:
+            yield Plot(f"{symbol}", f"{kind} of plant {plant.id}", "time (s)", f"{symbol} ({unit})" if unit else
+                       f"{symbol}", tuple(curves))
+
+
+def _desired(run: PlantRun, channel: str) -> Curve:
+    return thinned("desired", run.column("t_s"), run.column(channel))
+
+
+def _findings(setting: Setting, runs: Sequence[PlantRun]) -> Iterator[str]:
+    """Who is best in each metric of tracking, and who failed; ties by the last digit shown are said as such."""
+    for output in setting.tracks:
+        values = {run.name: value for run in runs if (value := run.metrics.get(f"{output}_error_rms")) is not None}
+        if len(values) > 1:
+            best = min(values.values())
+            least = [name for name, value in values.items() if number(value) == number(best)]
+            unit = next((m.unit for m in setting.every_metric if m.id == f"{output}_error_rms"), "")
+            yield f"RMS error of {output}, least: {' and '.join(least)}, {number(best)} {unit}".rstrip() + "."
+    for run in runs:
+        if run.failed:
+            yield f"{run.failed}."
+        if run.fallbacks:
+            yield (f"The solver of {run.name} gave nothing usable at {run.fallbacks} samples; its last plan went on "
+                   "there.")
+
+
+def tune(study: LocatedPlantStudy, names: list[str], workers: int, on_progress: Progress,
+         kept: Kept = NOTHING_KEPT) -> dict[Name, Tuned]:
+    """The best parameters found for each controller by one budget, optimiser and seed; InputError for wrong names."""
+    budget = study.tuning
+    assert budget is not None
+    metrics = [metric.id for metric in study.setting.every_metric]
+    for name in budget.objective:
+        if name not in metrics:
+            raise InputError(study.file, f"tuning.objective.{name}", f"is no metric: name one of {', '.join(metrics)}")
+    for name in names:
+        for key in budget.ranges[name].keys() - study.tunable(name).keys():
+            raise InputError(study.file, f"tuning.ranges.{name}.{key}", "is nothing that this controller states: name "
+                             f"one of {', '.join(study.tunable(name))}")
+    return search_all(_restart, study, names, budget.restarts, workers, on_progress, kept)
+
+
+def _restart(study: LocatedPlantStudy, name: str, restart: int) -> Restart:
+    budget = study.tuning
+    assert budget is not None
+
+    def cost(values: dict[str, float]) -> float:
+        found = run_plant(study.setting, study.entrant(name, values), study.setting.parameters)
+        sizes = {key: None if value is None else abs(value) for key, value in found.metrics.items()}
+        return score(sizes, budget.objective, budget.failed)
+
+    return search(cost, study.tunable(name), budget.ranges[name], budget.runs // budget.restarts, budget.seed, restart)
+
+
+KIND = StudyKind(PlantStudy, run, located, tune)

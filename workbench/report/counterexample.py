@@ -1,0 +1,184 @@
+"""Where a stated relation breaks: the numbers of a certificate put in, and both sides evaluated exactly."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from typing import Any
+
+from workbench.proof.checker import (
+    CertificateError,
+    Context,
+    Poly,
+    Ratio,
+    Terms,
+    at,
+    bounds,
+    holds,
+    read_goal,
+    read_point,
+    read_terms,
+    split_relation,
+    substitute,
+    symbols_of,
+)
+from workbench.report.certificate_latex import (
+    SIGNS,
+    expression_latex,
+    name_latex,
+    numbers_put_in,
+    relation_latex,
+    value_latex,
+)
+
+MANY = 6  # letters with one value, from which on they are called 'all others'
+
+
+@dataclass(frozen=True)
+class Counterexample:
+    """A point, or a motion, at which everything assumed holds and a relation does not; all formulas are LaTeX.
+
+    relation: the one that fails; values: what its two sides depend on, letters of one value together; others: the
+    value of all letters of `values` that are not named in it, where they are many; left, right: the sides there, None
+    where they are no numbers; everything: all that the certificate names, letter by letter; motion: whether the values
+    are functions of time, with which the relation fails at all times; put_in: both sides with the numbers in place of
+    the letters, where they are formulas without rates and sums.
+    """
+
+    relation: str
+    operator: str
+    values: tuple[str, ...]
+    others: str | None
+    left: str | None
+    right: str | None
+    everything: tuple[tuple[str, str], ...]
+    motion: bool
+    put_in: tuple[str, str] | None = None
+
+
+def counterexample_of(certificate: Mapping[str, Any]) -> Counterexample | None:
+    """What breaks the goal of a certificate that shows it false; None for one that proves it."""
+    if certificate.get("verdict") == "proved" or "point" not in certificate:
+        return None
+    goal = certificate["goal"]
+    context, _ = read_goal(goal)
+    point = read_point(certificate["point"])
+    if "functions" in certificate:
+        return _motion(certificate, context, point)
+    terms = read_terms(certificate["terms"], context, point) if "terms" in certificate else None
+    failing = goal["show"][0]
+    if len(goal["show"]) > 1:
+        failing = next((text for text in goal["show"] if not _holds(context, text, point, terms)), failing)
+    left, operator, right = split_relation(failing)
+    sides = [context.read(left), context.read(right)]
+    deciding = symbols_of(context, sides[0]) | symbols_of(context, sides[1])
+    shown = {name: value_latex(Fraction(text)) for name, text in certificate["point"].items()}
+    rows = [{name: value_latex(Fraction(text)) for name, text in row.items()} for row in certificate.get("terms", [])]
+    values, others = _grouped({name: value for name, value in shown.items() if name in deciding})
+    in_sums = tuple(f"{_indexed(name, i)} = {value}" for i, row in enumerate(rows, 1) for name, value in row.items()
+                    if name in deciding)
+    every = tuple((name_latex(name), value) for name, value in shown.items()) + tuple(
+        (_indexed(name, i), value) for i, row in enumerate(rows, 1) for name, value in row.items())
+    return Counterexample(relation_latex(failing), SIGNS[operator], values + in_sums, others,
+                          *_values(context, sides, point, terms), every, False,
+                          _put_in(left, right, certificate["point"]))
+
+
+def _put_in(left: str, right: str, point: Mapping[str, str]) -> tuple[str, str] | None:
+    values = {name: Fraction(text) for name, text in point.items()}
+    sides = [numbers_put_in(side, values) or expression_latex(side) for side in (left, right)]
+    return None if sides == [expression_latex(left), expression_latex(right)] or any(
+        "dt" in side or r"\sum" in side for side in sides) else (sides[0], sides[1])
+
+
+def _motion(certificate: Mapping[str, Any], context: Context, point: dict[str, Ratio]) -> Counterexample:
+    goal = certificate["goal"]
+    left, operator, right = split_relation(goal["show"][0])
+    functions = {name: context.read(text) for name, text in certificate["functions"].items()}
+    deciding = _symbols(context, left) | _symbols(context, right)
+    along = [_of_time(substitute(context, substitute(context, context.read(side), functions), point),
+                      goal["eventually"]) for side in (left, right)]
+    moving = {name: expression_latex(text) for name, text in certificate["functions"].items()}
+    fixed = {name: value_latex(Fraction(text)) for name, text in certificate["point"].items()}
+    named = {name: value for name, value in (moving | fixed).items() if name in deciding or name in moving}
+    values, others = _grouped(named)
+    return Counterexample(relation_latex(goal["show"][0]), SIGNS[operator], values, others, along[0], along[1],
+                          tuple((name_latex(name), value) for name, value in (moving | fixed).items()), True)
+
+
+def _symbols(context: Context, text: str) -> set[str]:
+    return symbols_of(context, context.read(text))
+
+
+def _holds(context: Context, text: str, point: dict[str, Ratio], terms: Terms | None) -> bool:
+    try:
+        return holds(context, text, point, terms)
+    except CertificateError:
+        return True
+
+
+def _values(context: Context, sides: Sequence[Ratio], point: dict[str, Ratio],
+            terms: Terms | None) -> tuple[str | None, str | None]:
+    """Both sides at the point: exact where they are rational and short, else rounded so far that they differ."""
+    try:
+        found = [bounds(context, at(context, side, point, terms)) for side in sides]
+    except CertificateError:
+        return None, None
+    numbers = [(low + high) / 2 for low, high in found]
+    exact = [low == high for low, high in found]
+    for digits in (6, 10, 15):
+        left, right = (value_latex(n) if is_exact else _rounded(n, digits)
+                       for n, is_exact in zip(numbers, exact, strict=True))
+        if left.removeprefix(r"\approx ") != right.removeprefix(r"\approx ") or numbers[0] == numbers[1]:
+            break
+        if r"\approx" in left:
+            exact = [False, False]
+    return left, right
+
+
+def _rounded(value: Fraction, digits: int) -> str:
+    mantissa, e, exponent = f"{float(value):.{digits}g}".partition("e")
+    return rf"\approx {mantissa}" + (rf" \times 10^{{{int(exponent)}}}" if e else "")
+
+
+def _of_time(value: Ratio, time: str) -> str | None:
+    """A polynomial of time as LaTeX; None for anything else."""
+    powers = _powers(value.num, time)
+    if powers is None or set(value.den) != {()}:
+        return None
+    below = value.den[()]
+    text = ""
+    for power, coefficient in sorted(powers.items()):
+        size = value_latex(abs(coefficient / below))
+        letter = "" if power == 0 else name_latex(time) if power == 1 else f"{name_latex(time)}^{{{power}}}"
+        sign = ("-" if coefficient < 0 else "") if not text else (" - " if coefficient < 0 else " + ")
+        text += sign + (letter if size == "1" and letter else f"{size} {letter}".strip())
+    return text or "0"
+
+
+def _powers(poly: Poly, time: str) -> dict[int, Fraction] | None:
+    found: dict[int, Fraction] = {}
+    for monomial, coefficient in poly.items():
+        if any(name != time for name, _ in monomial):
+            return None
+        found[sum(power for _, power in monomial)] = Fraction(coefficient)
+    return found
+
+
+def _grouped(values: Mapping[str, str]) -> tuple[tuple[str, ...], str | None]:
+    """Letters of one value together as `a = b = 1`, the telling ones first; a value that many have stands alone."""
+    groups: dict[str, list[str]] = {}
+    for name, value in values.items():
+        groups.setdefault(value, []).append(name_latex(name))
+    largest = max(groups, key=lambda value: len(groups[value]), default=None)
+    others = largest if largest is not None and len(groups[largest]) > MANY else None
+    plain = sorted(groups, key=lambda value: (value in ("0", "1"), len(groups[value])))
+    return tuple(" = ".join([*groups[value], value]).replace(r"= \approx", r"\approx")
+                 for value in plain if value != others), others
+
+
+def _indexed(name: str, term: int) -> str:
+    """The letter of an indexed symbol in one term of the sums."""
+    letter = name_latex(name)
+    return f"{letter[:-1]},{term}}}" if letter.endswith("}") and "_{" in letter else f"{letter}_{{{term}}}"

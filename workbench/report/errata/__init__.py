@@ -1,0 +1,1 @@
+"""Errata: a paper's corrections as a document that its authors and editors can read, in several formats."""

@@ -1,0 +1,143 @@
+"""What the errata of a paper say, as blocks: made from the decisions alone."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Sequence
+
+from workbench.proof.checker import goal_digest
+from workbench.proof.verdict import VERDICTS, Decision
+from workbench.report.counterexample import Counterexample
+from workbench.report.errata.blocks import Block, Code, Formula, Heading, Items, Paragraph
+from workbench.report.errata.proof_steps import proof_steps
+from workbench.report.finding import GRAVITIES, Finding, findings
+from workbench.report.finding_sentences import (
+    HEADINGS,
+    consequence_sentence,
+    fate_sentence,
+    reading_sentence,
+    verdict_sentence,
+)
+from workbench.report.places_in_paper import place_of
+from workbench.report.worded import listed, math, worded
+
+MOST_STEPS = 120  # lines of a proof beyond which a reader is sent to the certificate
+CHECKER = "checker.py"
+ABOUT = """Every line of the paper was stated as mathematics, as it is printed, and decided by a machine. Each verdict \
+below comes with a certificate, a proof or a counterexample in exact arithmetic, that one short program, checker.py, \
+re-checks with Python's standard library alone. Numbers in brackets are those of the paper; a word in square brackets \
+tells parts of one line apart."""
+
+
+def errata(decisions: Sequence[Decision], citation: str) -> list[Block]:
+    """The errata of one paper: fates, numbered corrections, open readings, mended statements with their proofs, and
+    how to re-check all of it. All claims of the paper must be among the decisions, as `judged` leaves them."""
+    found = findings(decisions)
+    return [Heading(1, "Corrections"), Paragraph(citation, "Paper"), Paragraph(ABOUT), Paragraph(_counts(decisions)),
+            *_fates(decisions), *_corrections(found), *_readings(found), *_mended(decisions), *_rechecking(decisions)]
+
+
+def _counts(decisions: Sequence[Decision]) -> str:
+    counts = Counter(d.verdict for d in decisions if d.claim.origin != "ours")
+    words = listed([f"{counts[v]} {v}" for v in VERDICTS if counts[v]])
+    return (f"Of {counts.total()} lines, {words}. Proved: true for all values of its domain. Refuted: false as "
+            "printed. Violated: a printed condition that the printed numbers break. Gap: it does not follow from what "
+            "the paper uses to get there. Assumed: a cited result, taken as given.")
+
+
+def _fates(decisions: Sequence[Decision]) -> list[Block]:
+    lines = tuple(worded(fate_sentence(d.claim.equation, d.fate.word, d.fate.why)) for d in decisions if d.fate)
+    return [Heading(2, "What becomes of the main statements"), Items(lines)] if lines else []
+
+
+def _corrections(found: Sequence[Finding]) -> list[Block]:
+    blocks: list[Block] = []
+    number = 0
+    for gravity in GRAVITIES[:-1]:
+        of_it = [f for f in found if f.gravity == gravity]
+        if of_it:
+            blocks.append(Heading(2, HEADINGS[gravity]))
+        for f in of_it:
+            number += 1
+            blocks += _correction(number, f)
+    return blocks or [Paragraph("No line of the paper was found to fail.")]
+
+
+def _correction(number: int, found: Finding) -> list[Block]:
+    where = f" (section {found.section})" if found.section else ""
+    title = found.title.removeprefix(f"{found.place}: ")
+    blocks: list[Block] = [Heading(3, f"{number}. {found.place}{where}: {worded(title)}"),
+                           Formula(found.printed, "Printed")]
+    if found.should_read:
+        label = {"violated": "Holds with", "gap": "What does follow"}.get(found.verdict, "Should read")
+        blocks.append(Formula(found.should_read, label))
+    blocks.append(Paragraph(verdict_sentence(found), "Finding"))
+    if found.counterexample is not None:
+        blocks += _worked(found.counterexample)
+    for label, text in (("Other reading", reading_sentence(found)), ("Consequence", consequence_sentence(found)),
+                        ("Note", worded(found.note))):
+        if text:
+            blocks.append(Paragraph(text, label))
+    if found.digest is not None:
+        blocks.append(Code(f"python {CHECKER} certificates/{found.equation}.json --claim-digest {found.digest}"))
+    return blocks
+
+
+def _worked(point: Counterexample) -> list[Block]:
+    """The relation with its numbers put in, and both sides evaluated."""
+    if point.put_in is None or point.left is None or point.right is None or point.motion:
+        return [Formula(point.relation, "What fails at all times")] if point.motion else []
+    sides = []
+    for put_in, value in zip(point.put_in, (point.left, point.right), strict=True):
+        sides.append(put_in if put_in == value else
+                     f"{put_in} {value}" if value.startswith(r"\approx") else f"{put_in} = {value}")
+    return [Formula(point.relation, "Decided as"),
+            Formula(rf"\text{{left}}:\ {sides[0]}", "Numbers put in"), Formula(rf"\text{{right}}:\ {sides[1]}")]
+
+
+def _readings(found: Sequence[Finding]) -> list[Block]:
+    of_it = [f for f in found if f.gravity == "reading"]
+    lines = tuple(f"{f.place}: {math(f.printed)}. {verdict_sentence(f)} {reading_sentence(f)}" for f in of_it)
+    if not lines:
+        return []
+    intro = ("The text of the paper was extracted by a machine, which may lose a sign, a power or an index. These "
+             "lines fail as extracted and hold in another reading; the printed page decides which it is.")
+    return [Heading(2, HEADINGS["reading"]), Paragraph(intro), Items(lines)]
+
+
+def _mended(decisions: Sequence[Decision]) -> list[Block]:
+    """The mended headline statements, each with its proof."""
+    by_id = {d.claim.id: d for d in decisions}
+    headlines = {d.claim.id: d for d in decisions if d.fate is not None}
+    blocks: list[Block] = []
+    for d in decisions:
+        if d.claim.mends not in headlines or d.verdict != "proved" or d.certificate is None:
+            continue
+        blocks.append(Heading(3, f"{place_of(headlines[d.claim.mends].claim.equation)}, mended"))
+        blocks.append(Formula(d.claim.printed, "Statement"))
+        if d.claim.note:
+            blocks.append(Paragraph(worded(d.claim.note), "Note"))
+        used = [f"({name.partition(':')[2]}), {by_id[name].verdict}" for name in d.claim.premises if name in by_id]
+        if used:
+            blocks.append(Paragraph(f"{listed(used)}.", "It uses"))
+        if d.goal:
+            blocks.append(Formula(d.goal, "Decided as"))
+        steps = proof_steps(d.certificate)
+        blocks.append(Items(tuple(s.text for s in steps[:MOST_STEPS]), tuple(s.depth for s in steps[:MOST_STEPS])))
+        if len(steps) > MOST_STEPS:
+            blocks.append(Paragraph(f"{len(steps) - MOST_STEPS} more steps stand in the certificate."))
+        blocks.append(Code(f"python {CHECKER} certificates/{d.claim.equation}.json --claim-digest "
+                           f"{goal_digest(d.certificate)}"))
+    return [Heading(2, "The main statements, mended and proved"), *blocks] if blocks else []
+
+
+def _rechecking(decisions: Sequence[Decision]) -> list[Block]:
+    paper = decisions[0].claim.paper if decisions else ""
+    return [Heading(2, "How to re-check"),
+            Paragraph("checker.py is one file that imports Python's standard library alone and knows nothing of the "
+                      "programs that found the proofs. With it and the folder of certificates, all of them are "
+                      "re-checked by:"),
+            Code(f"python {CHECKER} certificates"),
+            Paragraph(f"Each command above re-checks one, and that it is for the line named. The workbench writes the "
+                      f"certificates by 'workbench prove {paper} --write' and these corrections by 'workbench errata "
+                      f"{paper}'.")]

@@ -1,0 +1,61 @@
+"""Errata as one page of HTML, with formulas that browsers draw and nothing from elsewhere."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from markupsafe import Markup, escape
+
+from workbench.report.errata.blocks import Block, Code, Formula, Heading, Items, Paragraph
+from workbench.report.formulas import formula
+from workbench.report.worded import show
+
+STYLE = """:root{color-scheme:light dark}body{font:1.05rem/1.55 Georgia,serif;max-width:46rem;margin:2rem auto;
+padding:0 1rem}h1,h2,h3{line-height:1.25;font-family:system-ui,sans-serif}h2{margin-top:2.5rem;border-bottom:1px solid
+#8886}h3{margin-top:2rem;font-size:1.05rem}.formula{margin:.6rem 0;overflow-x:auto}.label{font:600 .85rem
+system-ui,sans-serif;display:block;color:#777}math{font-size:1.05em}pre{font-size:.78rem;overflow-x:auto;
+background:#8881;padding:.5rem}ul{padding-left:1.2rem}li{margin:.25rem 0}
+@media print{body{max-width:none;margin:0;font-size:10pt}pre{white-space:pre-wrap;word-break:break-all}}"""
+POLICY = "default-src 'none'; style-src 'unsafe-inline'; base-uri 'none'; form-action 'none'"
+
+
+def html_document(blocks: Sequence[Block], title: str) -> str:
+    """The document as one page of HTML."""
+    body = Markup("\n").join(_block(block) for block in blocks)
+    return str(Markup(
+        '<!doctype html>\n<html lang="en">\n<head>\n<meta charset="utf-8">\n'
+        '<meta name="viewport" content="width=device-width, initial-scale=1">\n'
+        '<meta http-equiv="Content-Security-Policy" content="{}">\n<title>{}</title>\n<style>{}</style>\n</head>\n'
+        "<body>\n<main>\n{}\n</main>\n</body>\n</html>\n").format(Markup(POLICY), title, Markup(STYLE), body))
+
+
+def _block(block: Block) -> Markup:
+    match block:
+        case Heading(level, text):
+            return Markup("<h{0}>{1}</h{0}>").format(level, _text(text))
+        case Paragraph(text, label):
+            bold = Markup("<strong>{}.</strong> ").format(label) if label else Markup("")
+            return Markup("<p>{}{}</p>").format(bold, _text(text))
+        case Formula(latex, label):
+            above = Markup('<span class="label">{}</span>').format(label) if label else Markup("")
+            return Markup('<div class="formula">{}{}</div>').format(above, formula(latex))
+        case Items(texts, depths):
+            return _items(texts, depths or (0,) * len(texts))
+        case Code(text):
+            return Markup("<pre>{}</pre>").format(text)
+
+
+def _items(texts: Sequence[str], depths: Sequence[int]) -> Markup:
+    """Nested lists, one `ul` a depth."""
+    found, at = Markup(""), -1
+    for text, depth in zip(texts, depths, strict=True):
+        while at < depth:
+            found, at = found + Markup("<ul>"), at + 1
+        while at > depth:
+            found, at = found + Markup("</ul>"), at - 1
+        found += Markup("<li>{}</li>").format(_text(text))
+    return found + Markup("</ul>") * (at + 1)
+
+
+def _text(text: str) -> Markup:
+    return Markup(show(text, formula, lambda words: str(escape(words))))

@@ -1,0 +1,106 @@
+"""What a referee would write of a paper: one finding a line that does not stand, made from the decisions alone."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Literal
+
+from workbench.proof.checker import goal_digest
+from workbench.proof.fate import is_headline
+from workbench.proof.premises import holds_in_other_reading
+from workbench.proof.verdict import FAILED, Decision, FateWord, Verdict
+from workbench.report.counterexample import Counterexample, counterexample_of
+from workbench.report.places_in_paper import place_of
+
+# What a finding is, the gravest first: a headline statement that falls, that stands only with corrections, that stays
+# open; a line that fails and that others rest on; one that does not follow; one that fails and that nothing rests on;
+# one of which nothing depends; one whose extracted text leaves a sign, power or index open, where the other reading
+# holds.
+Gravity = Literal["falls", "corrected", "open", "step", "gap", "alone", "cosmetic", "reading"]
+GRAVITIES: tuple[Gravity, ...] = ("falls", "corrected", "open", "step", "gap", "alone", "cosmetic", "reading")
+
+
+@dataclass(frozen=True)
+class Finding:
+    """A line of a paper that does not stand as printed, and what that means.
+
+    paper, equation, section, title: where; printed, should_read: LaTeX of the line and of the nearest true statement,
+    which is proved (empty where none is known); mended_by: the equation of the claim that proves it as a line of its
+    own; counterexample: what breaks it; headlines: the theorems and headline statements that rest on it, lines: how
+    many other lines do; because: the lines that fail on the way to it; other_reading: LaTeX of how else it may be
+    read, other_holds: whether that is proved; digest: that of the goal in its certificate, None without one.
+    """
+
+    paper: str
+    equation: str
+    section: str
+    title: str
+    gravity: Gravity
+    verdict: Verdict
+    printed: str
+    should_read: str
+    mended_by: str | None
+    counterexample: Counterexample | None
+    headlines: tuple[str, ...]
+    lines: int
+    because: tuple[str, ...]
+    fate: FateWord | None
+    fate_by: tuple[str, ...]
+    other_reading: str
+    other_holds: bool
+    note: str
+    digest: str | None
+
+    @property
+    def place(self) -> str:
+        """The line's name: Theorem 2, equation (44)."""
+        return place_of(self.equation)
+
+
+def findings(decisions: Sequence[Decision]) -> list[Finding]:
+    """The findings on the lines of papers, paper by paper, the gravest first; questions of ours are none.
+
+    All claims of a paper must be among the decisions, as `judged` leaves them.
+    """
+    by_id = {d.claim.id: d for d in decisions}
+    place = {d.claim.id: i for i, d in enumerate(decisions)}
+    alternatives = {d.claim.glyph for d in decisions if d.claim.glyph and place[d.claim.id] < place[d.claim.glyph]}
+    mended = {d.claim.mends: d for d in decisions if d.claim.mends and d.verdict == "proved"}
+    found = []
+    for d in decisions:
+        fails = d.verdict in FAILED or (d.fate is not None and d.fate.word != "stands")
+        if d.claim.origin == "ours" or not fails or d.claim.id in alternatives:
+            continue
+        found.append(_finding(d, by_id, mended.get(d.claim.id), decisions))
+    papers = list(dict.fromkeys(d.claim.paper for d in decisions))
+    return sorted(found, key=lambda f: (papers.index(f.paper), GRAVITIES.index(f.gravity), len(f.because) > 0,
+                                        -len(f.headlines), place[f"{f.paper}:{f.equation}"]))
+
+
+def _finding(d: Decision, by_id: dict[str, Decision], mended: Decision | None,
+             decisions: Sequence[Decision]) -> Finding:
+    resting = [other for other in decisions if d.claim.id in other.tainted_by and other.claim.origin != "ours"]
+    headlines = tuple(other.claim.equation for other in resting if is_headline(other))
+    lines = len(resting) - len(headlines)
+    holds = holds_in_other_reading(d, by_id)
+    return Finding(
+        d.claim.paper, d.claim.equation, d.claim.section, d.claim.title,
+        _gravity(d, bool(resting), holds), d.verdict, d.claim.printed,
+        d.correction or (mended.claim.printed if mended else ""), mended.claim.equation if mended else None,
+        counterexample_of(d.certificate) if d.certificate else None, headlines, lines,
+        tuple(name.partition(":")[2] for name in d.tainted_by), d.fate.word if d.fate else None,
+        tuple(name.partition(":")[2] for name in d.fate.by) if d.fate else (),
+        d.other_reading or "", holds, d.claim.note, goal_digest(d.certificate) if d.certificate else None)
+
+
+def _gravity(d: Decision, rested_on: bool, holds_otherwise: bool) -> Gravity:
+    if d.verdict in FAILED and holds_otherwise:
+        return "reading"
+    if d.fate is not None:
+        return {"falls": "falls", "stands with corrections": "corrected"}.get(d.fate.word, "open")  # type: ignore[return-value]
+    if d.claim.severity == "cosmetic":
+        return "cosmetic"
+    if d.verdict == "gap":
+        return "gap"
+    return "step" if rested_on else "alone"

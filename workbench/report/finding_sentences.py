@@ -1,0 +1,114 @@
+"""A finding in the sentences of a referee; formulas stand between dollar signs, as LaTeX."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import asdict
+from typing import Any
+
+from workbench.report.counterexample import Counterexample
+from workbench.report.finding import Finding, Gravity
+from workbench.report.places_in_paper import place_of, places_of
+from workbench.report.worded import INNER, listed, math
+
+HEADINGS: dict[Gravity, str] = {
+    "falls": "Headline statements that fall", "corrected": "Headline statements that stand with corrections",
+    "open": "Headline statements that stay open", "step": "Lines that fail and that others rest on",
+    "gap": "Lines that do not follow", "alone": "Lines that fail and that nothing else rests on",
+    "cosmetic": "Slips that nothing depends on", "reading": "Readings that the extracted text leaves open"}
+
+
+SHORT = 70  # characters of LaTeX up to which a relation is repeated beside its numbers
+
+
+def verdict_sentence(found: Finding) -> str:
+    """What is wrong, in one sentence, with the numbers that show it."""
+    where = "" if found.counterexample is None else f": {breaks_at(found.counterexample)}"
+    name = found.place
+    if found.gravity == "corrected":
+        below = f", but the paper's way there fails at {listed(places_of(found.because))}" if found.because else ""
+        if found.verdict == "proved":
+            return f"{name} holds{below}."
+        return f"{name} {_words(found)}{where}."
+    if found.verdict == "proved":
+        return f"{name} is shown only from lines that fail, {listed(places_of(found.fate_by))}."
+    return f"{name} {_words(found)}{where}."
+
+
+def _words(found: Finding) -> str:
+    motion = found.counterexample is not None and found.counterexample.motion
+    return {"refuted": "is false as printed, by a motion of the printed closed loop" if motion else
+            "is false as printed", "violated": "is broken by the printed numbers",
+            "gap": "does not follow from what the paper uses to get there", "undecided": "is not decided",
+            "assumed": "is taken from the literature", "proved": "holds"}[found.verdict]
+
+
+def breaks_at(point: Counterexample) -> str:
+    """The numbers put in, and what the line says there."""
+    named = ", ".join(f"${value}$" for value in point.values)
+    others = f"{'and ' if named else ''}{'all other letters' if named else 'all letters'} ${point.others}$"
+    at = " ".join(filter(None, (named, others if point.others is not None else "")))
+    if point.left is None or point.right is None:
+        says = f"${point.relation}$ fails"
+    else:
+        line = f"${point.relation}$" if len(point.relation) <= SHORT else "the line"
+        rounded = ", rounded" if r"\approx" in point.left + point.right else ""
+        sides = f"{point.left} {point.operator} {point.right}".replace(r"\approx ", "")
+        says = f"{line} would say ${sides}${rounded}"
+    if point.motion:
+        return f"with {at} at all times everything assumed holds, but {says}"
+    return f"with {at}, {says}" if at else says
+
+
+def correction_sentence(found: Finding) -> str:
+    """The nearest true statement, which is proved; empty where there is none."""
+    if not found.should_read:
+        return ""
+    what = {"violated": "It holds with", "gap": "What does follow:"}.get(found.verdict, "It should read")
+    if found.mended_by is not None and found.fate is not None:
+        what = "Mended, it is proved:"
+    return f"{what} {math(found.should_read)}."
+
+
+def consequence_sentence(found: Finding) -> str:
+    """What rests on the line, and what it rests on that fails; empty where neither is."""
+    resting = places_of(found.headlines)
+    if found.lines:
+        resting.append(f"{found.lines} {'other ' if resting else ''}line{'s' if found.lines > 1 else ''}")
+    one = len(found.headlines) + found.lines == 1
+    text = f"{listed(resting)} rest{'s' if one else ''} on it." if resting else ""
+    if found.because and found.gravity != "corrected":
+        below = places_of(found.because)
+        fail = "fails" if len(found.because) == 1 else "fail"
+        text = f"{text} The paper gets there by {listed(below)}, which {fail}.".strip()
+    return text[:1].upper() + text[1:]
+
+
+def reading_sentence(found: Finding) -> str:
+    """How else the line may be read, where its extracted text leaves that open; empty where it does not."""
+    if not found.other_reading:
+        return ""
+    return f"Read as {math(found.other_reading)} it {'holds' if found.other_holds else 'fails too'}."
+
+
+def printed_sentence(found: Finding) -> str:
+    """The line as printed."""
+    return f"Printed: {math(found.printed)}."
+
+
+def sentences(found: Finding) -> list[str]:
+    """All that a referee would write of it."""
+    return [s for s in (verdict_sentence(found), printed_sentence(found), correction_sentence(found),
+                        reading_sentence(found), consequence_sentence(found)) if s]
+
+
+def findings_document(found: Sequence[Finding]) -> dict[str, Any]:
+    """The findings for programs: all their fields, formulas as LaTeX, and their sentences, in which formulas stand
+    between dollar signs."""
+    return {"findings": [{"place": f.place, "heading": HEADINGS[f.gravity], **asdict(f),
+                          "sentences": [s.replace(INNER, "$") for s in sentences(f)]} for f in found]}
+
+
+def fate_sentence(equation: str, word: str, why: str) -> str:
+    """What becomes of a headline statement, in one sentence."""
+    return f"{place_of(equation)} {word}: {why}."

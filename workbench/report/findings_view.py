@@ -1,0 +1,66 @@
+"""The findings of a document as a page shows them; tolerant of whatever a document leaves out."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+from markupsafe import Markup, escape
+
+from workbench.report.claims import VERDICTS, anchor
+from workbench.report.formulas import formula
+from workbench.report.worded import show
+
+FOLDED = ("cosmetic", "reading")  # gravities that are told of when asked for
+
+
+@dataclass(frozen=True)
+class FindingView:
+    """One finding: its first sentence, the others, its printed line and its correction as formulas, and the command
+    that re-checks it."""
+
+    place: str
+    anchor: str
+    verdict: str
+    sign: str
+    sentence: Markup
+    others: tuple[Markup, ...]
+    printed: Markup
+    should_read: Markup
+    command: str
+
+
+@dataclass(frozen=True)
+class FindingGroup:
+    """The findings of one gravity."""
+
+    heading: str
+    folded: bool
+    findings: tuple[FindingView, ...]
+
+
+def finding_groups(document: Mapping[str, Any]) -> list[FindingGroup]:
+    """The findings of a document by gravity, in its order."""
+    groups: dict[str, list[Mapping[str, Any]]] = {}
+    for entry in document.get("findings") or ():
+        if isinstance(entry, Mapping):
+            groups.setdefault(str(entry.get("gravity")), []).append(entry)
+    return [FindingGroup(str(entries[0].get("heading", gravity)), gravity in FOLDED, tuple(map(_view, entries)))
+            for gravity, entries in groups.items()]
+
+
+def _view(entry: Mapping[str, Any]) -> FindingView:
+    verdict, equation = str(entry.get("verdict")), str(entry.get("equation"))
+    sentences = [str(s) for s in entry.get("sentences") or ("",)]
+    shown = [s for s in sentences[1:] if not s.startswith(("Printed:", "It should read", "Mended, it is proved:"))]
+    digest = entry.get("digest")
+    return FindingView(
+        str(entry.get("place", equation)), anchor(f"{entry.get('paper')}:{equation}"), verdict,
+        VERDICTS.get(verdict, "?"), _shown(sentences[0]), tuple(map(_shown, shown)),
+        formula(str(entry.get("printed") or "")), formula(str(entry.get("should_read") or "")),
+        f"python checker.py certificates/{equation}.json --claim-digest {digest}" if digest else "")
+
+
+def _shown(text: str) -> Markup:
+    return Markup(show(text, formula, lambda words: str(escape(words))))

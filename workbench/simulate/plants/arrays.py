@@ -1,0 +1,131 @@
+"""A setting as the arrays that the compiled loop moves, and the compiled module for a plant, its metrics and a law."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from types import ModuleType
+from typing import Any
+
+import numpy as np
+import sympy as sp
+from numpy.typing import NDArray
+
+from workbench.compile.kernel import loop_module
+from workbench.compile.vector_code import into_array, runge_kutta_step, smallest
+from workbench.model.law import period, time
+from workbench.simulate.plants import plant_loop
+from workbench.simulate.plants.setting import Setting
+from workbench.systems.law import StateLaw
+from workbench.systems.signals import table_of
+
+Array = NDArray[np.float64]
+IntArray = NDArray[np.int64]
+
+
+@dataclass(frozen=True)
+class Compiled:
+    """A compiled module and how its metrics are taken: which are integrated, and which are extremes."""
+
+    module: ModuleType
+    integrands: tuple[sp.Expr, ...]
+    extremes: tuple[sp.Expr, ...]
+
+
+def compiled(setting: Setting, law: StateLaw | None) -> Compiled:
+    """The loop of a plant in a setting under a law; without one its law commands nothing and must not be called.
+
+    Raises CompileError for an expression that has no code.
+    """
+    plant, metrics = setting.plant, setting.every_metric
+    integrands = tuple(m.integrand for m in metrics if m.integrand is not None)
+    extremes = tuple(m.expression if m.measure == "largest" else -m.expression for m in metrics
+                     if m.measure in ("largest", "smallest"))
+    given = {"u": plant.inputs, "s": setting.signal_symbols, "p": plant.parameter_symbols}
+    every = {"x": plant.states, **given}
+    sampled = {"t": time, "T_s": period}
+    held = {"y": (), "s": (), "q": (), "c": ()}
+    source = [
+        runge_kutta_step([*plant.rates, *integrands], plant.states, given),
+        into_array("plant_outputs", list(plant.outputs.values()), {"x": plant.states, "p": plant.parameter_symbols}),
+        smallest("plant_margin", plant.domain, every),
+        into_array("extreme_values", extremes, every)]
+    if law is None:
+        source += [into_array("law_step", [], held, sampled), smallest("law_margin", [], held, sampled)]
+    else:
+        arrays = {"y": [*plant.outputs], "s": setting.signal_symbols, "q": law.state_symbols, "c": law.parameters}
+        commands = [law.commands[symbol] for symbol in plant.inputs]
+        targets = [*(f"q[{i}]" for i in range(len(law.states))), *(f"out[{i}]" for i in range(len(commands)))]
+        source += [into_array("law_step", [*law.next_values, *commands], arrays, sampled, targets),
+                   smallest("law_margin", law.domain, arrays, sampled)]
+    what = f"plant {plant.id}" + (f" and law {law.id}" if law else "")
+    return Compiled(loop_module(what, source, plant_loop), integrands, extremes)
+
+
+@dataclass
+class Arrays:
+    """The state of a run as arrays, in the order in which `advance` takes them."""
+
+    x: Array
+    wanted: Array
+    u: Array
+    u_middle: Array
+    u_end: Array
+    delays: IntArray
+    ring: Array
+    fade_half: Array
+    fade_full: Array
+    table: Array
+    pieces: Array
+    s: Array
+    s_middle: Array
+    s_end: Array
+    p: Array
+    extremes: Array
+    values: Array
+    log: Array
+    log_every: int
+    told: Array
+
+    def for_advance(self) -> tuple[Any, ...]:
+        """The arguments of `advance` after the number of states."""
+        return (self.x, self.wanted, self.u, self.u_middle, self.u_end, self.delays, self.ring, self.fade_half,
+                self.fade_full, *self.for_signals(), self.log, self.log_every, self.told)
+
+    def for_signals(self) -> tuple[Any, ...]:
+        """Signals, parameters and extremes."""
+        return (self.table, self.pieces, self.s, self.s_middle, self.s_end, self.p, self.extremes, self.values)
+
+
+def arrays_of(setting: Setting, found: Compiled, law_states: Array) -> Arrays:
+    """The arrays at time zero; the inputs are where the first command will be, or at zero where they lag."""
+    plant, m = setting.plant, len(setting.plant.inputs)
+    x = np.zeros(len(plant.states) + len(found.integrands))
+    x[:len(plant.states)] = [setting.initial.get(str(s), 0.0) for s in plant.states]
+    delays = np.array([setting.steps_of(setting.delay_s.get(str(s), 0.0), "delay_s") for s in plant.inputs], np.int64)
+    lags = [setting.lag_s.get(str(s), 0.0) for s in plant.inputs]
+    half, full = (np.array([math.exp(-setting.step_s * share / lag) if lag else 0.0 for lag in lags])
+                  for share in (0.5, 1.0))
+    table, pieces = table_of(list(setting.signals.values()))
+    every = max(1, setting.steps_of(setting.log_every_s, "log_every_s")) if setting.log_every_s else log_step(setting)
+    rows = math.ceil(round(setting.duration_s / setting.step_s) / every) + 1
+    columns = 1 + len(plant.states) + 2 * m + len(table) + len(law_states)
+    size = 4 * len(table)
+    return Arrays(
+        x=x, wanted=np.zeros(m), u=np.zeros(m), u_middle=np.zeros(m), u_end=np.zeros(m), delays=delays,
+        ring=np.zeros((int(delays.max(initial=0)) + 1, m)), fade_half=half, fade_full=full, table=table, pieces=pieces,
+        s=np.zeros(size), s_middle=np.zeros(size), s_end=np.zeros(size),
+        p=np.array([*setting.parameters.values()], dtype=float), extremes=np.full(len(found.extremes), -math.inf),
+        values=np.zeros(len(found.extremes)), log=np.zeros((rows, columns)), log_every=every, told=law_states.copy())
+
+
+def log_step(setting: Setting) -> int:
+    """Plant steps between two rows of the log, where none is stated: some thousand rows a run."""
+    return max(1, round(setting.duration_s / setting.step_s) // 1000)
+
+
+def limits_of(setting: Setting) -> tuple[Array, Array]:
+    """The inputs' lower and upper limits, infinite where there is none."""
+    plant = setting.plant
+    pairs = [plant.input_limits.get(symbol, (-math.inf, math.inf)) for symbol in plant.inputs]
+    return np.array([low for low, _ in pairs], dtype=float), np.array([high for _, high in pairs], dtype=float)

@@ -1,0 +1,279 @@
+"""One run of a plant under a law or a sampled controller: what happened, what it is measured by, why it ended."""
+
+from __future__ import annotations
+
+import math
+import time as clock
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field, replace
+from functools import cached_property
+from typing import Any, Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+
+from workbench.compile.vector_code import numeric_vector
+from workbench.simulate.plants.arrays import Arrays, Compiled, arrays_of, compiled, limits_of
+from workbench.simulate.plants.plant_loop import DIVERGED, LAW_OUTSIDE, NO_COMMAND, OUTSIDE, RUNNING
+from workbench.simulate.plants.setting import Setting
+from workbench.simulate.plants.solver import advance_by_solver
+from workbench.systems.law import StateLaw
+
+Array = NDArray[np.float64]
+
+
+class SampledController(Protocol):
+    """What is called once a sample, as MPC is; made anew for each run."""
+
+    def command(self, t: float, measured: Array) -> Any:
+        """One number an input, in the plant's order, from the outputs as measured at t (s)."""
+
+
+@dataclass(frozen=True)
+class Entrant:
+    """A controller with its values, as it enters a run: a law, or `build(setting)` that makes a sampled controller.
+
+    parameters and initial: of a law, by name; what `build` is given holds the nominal parameters, whatever the truth.
+    """
+
+    name: str
+    period_s: float
+    law: StateLaw | None = None
+    parameters: Mapping[str, float] = field(default_factory=dict)
+    initial: Mapping[str, float] = field(default_factory=dict)
+    build: Callable[[Setting, float], SampledController] | None = None
+
+    def __post_init__(self) -> None:
+        if (self.law is None) == (self.build is None):
+            raise ValueError(f"controller '{self.name}': give either a law or what builds a controller")
+        if not (math.isfinite(self.period_s) and self.period_s > 0):
+            raise ValueError(f"controller '{self.name}': period_s = {self.period_s}: give a positive number of seconds")
+
+    def check(self, setting: Setting) -> None:
+        """ValueError unless the controller fits the plant and samples at whole plant steps."""
+        every = setting.steps_of(self.period_s, f"controller '{self.name}': period_s")
+        if every < 1 or abs(setting.duration_s / self.period_s - round(setting.duration_s / self.period_s)) > 1e-6:
+            raise ValueError(f"controller '{self.name}': duration_s = {setting.duration_s:g} s is no whole number of "
+                             f"periods of {self.period_s:g} s: choose a multiple")
+        for name, late in setting.late_s.items():
+            if abs(late / self.period_s - round(late / self.period_s)) > 1e-6:
+                raise ValueError(f"late_s.{name} = {late:g} s is no whole number of the {self.period_s:g} s at which "
+                                 f"'{self.name}' samples: choose a multiple")
+        if self.law is not None:
+            self.law.check(setting.plant)
+            for reference in self.law.references:
+                if reference.name not in setting.references:
+                    raise ValueError(f"law '{self.law.id}' follows reference '{reference.name}', which is not stated: "
+                                     f"state references.{reference.name}")
+            self.law.values(setting.plant, setting.plant.values(), self.parameters)
+            names = [*map(str, self.law.state_symbols)]
+            for name in self.initial:
+                if name not in names:
+                    raise ValueError(f"initial value of '{name}', which is no state of law '{self.law.id}': name "
+                                     f"one of {', '.join(names) or 'none'}")
+
+
+@dataclass(frozen=True)
+class PlantRun:
+    """What a controller did: its log, a row an instant, and its metrics by name; failed says why it ended early.
+
+    columns: t_s, states, inputs as they act, commands (`<input>_wanted`), signals by name, the law's states. step_us:
+    microseconds of a control step; of a law with the plant's integration, of a sampled controller alone, the 99th
+    percentile of which is step_us_p99. fallbacks: samples at which a sampled controller had to do without its solver.
+    """
+
+    name: str
+    columns: tuple[str, ...]
+    log: Array
+    metrics: Mapping[str, float | None]
+    failed: str | None
+    reached_s: float
+    step_us: float
+    step_us_p99: float
+    fallbacks: int = 0
+
+    @cached_property
+    def data(self) -> dict[str, Array]:
+        """The log's columns by name."""
+        return dict(zip(self.columns, self.log.T, strict=True))
+
+    def column(self, name: str) -> Array:
+        """A column of the log; KeyError with the names there are."""
+        if name not in self.data:
+            raise KeyError(f"'{name}' is no column of the run: name one of {', '.join(self.columns)}")
+        return self.data[name]
+
+
+def run(setting: Setting, entrant: Entrant, nominal: Mapping[str, float] | None = None) -> PlantRun:
+    """Run one controller; nominal: what it believes of the parameters, the plant's own values unless given.
+
+    Raises ValueError where controller and setting do not fit, CompileError where an expression has no code.
+    """
+    entrant.check(setting)
+    believed = dict(setting.plant.values() if nominal is None else nominal)
+    law, found = entrant.law, compiled(setting, entrant.law)
+    states, values = _law_values(setting, entrant, believed)
+    arrays = arrays_of(setting, found, states)
+    samples, every = round(setting.duration_s / entrant.period_s), round(entrant.period_s / setting.step_s)
+    outputs = [*map(str, setting.plant.outputs)]
+    late = np.array([round(setting.late_s.get(name, 0.0) / entrant.period_s) for name in outputs], np.int64)
+    deviations = np.array([setting.noise.get(name, 0.0) for name in outputs])
+    noise = np.random.default_rng(setting.seed).normal(size=(samples, len(outputs))) * deviations
+    loop = _Loop(setting, found, arrays, every, noise, late)
+    if law is not None and setting.integrator == "rk4":
+        status, done, taken, fallbacks = *loop.compiled_law(samples, states, values), 0
+    else:
+        # A controller is built with what it believes: the truth is not its to know.
+        own = _Interpreted(found, entrant.period_s, states, values, arrays) if law is not None else (
+            _built(entrant, setting.varied(parameters=believed)))
+        status, done, taken = loop.sampled(samples, own)
+        fallbacks = int(getattr(own, "fallbacks", 0))
+    return replace(_told(setting, entrant, found, arrays, status, done, taken), fallbacks=fallbacks)
+
+
+def _built(entrant: Entrant, setting: Setting) -> SampledController:
+    assert entrant.build is not None
+    return entrant.build(setting, entrant.period_s)
+
+
+def _law_values(setting: Setting, entrant: Entrant, believed: Mapping[str, float]) -> tuple[Array, Array]:
+    law = entrant.law
+    if law is None:
+        return np.zeros(0), np.zeros(0)
+    own = {str(symbol): value for symbol, value in law.initial.items()} | dict(entrant.initial)
+    values = law.values(setting.plant, believed, entrant.parameters)
+    return (np.array([own.get(str(symbol), 0.0) for symbol in law.state_symbols], dtype=float),
+            np.array([*values.values()], dtype=float))
+
+
+@dataclass
+class _Loop:
+    """The sampled loop of one run, by compiled code or sample by sample."""
+
+    setting: Setting
+    found: Compiled
+    arrays: Arrays
+    every: int
+    noise: Array
+    late: NDArray[np.int64]
+
+    def __post_init__(self) -> None:
+        self.h, self.states = self.setting.step_s, len(self.setting.plant.states)
+        self.limits = limits_of(self.setting)
+        self.measured = np.zeros(len(self.setting.plant.outputs))
+        self.seen = np.zeros((int(self.late.max(initial=0)) + 1, len(self.measured)))
+
+    def compiled_law(self, samples: int, states: Array, values: Array) -> tuple[int, int, Array]:
+        """The whole run in one call."""
+        a, command = self.arrays, np.zeros(len(self.arrays.u))
+
+        def go(count: int) -> tuple[int, int]:
+            found: tuple[int, int] = self.found.module.closed_loop(
+                count, self.every, self.h, self.states, a.x, a.wanted, a.u, a.u_middle, a.u_end, a.delays, a.ring,
+                a.fade_half, a.fade_full, *self.limits, *a.for_signals(), a.log, a.log_every, a.told, self.measured,
+                self.noise, self.late, self.seen, states, values, command)
+            return found
+
+        go(0)  # so that loading the code is not timed
+        before = clock.perf_counter()
+        status, done = go(samples)
+        return status, done, np.array([(clock.perf_counter() - before) * 1e6 / max(1, done // self.every)])
+
+    def sampled(self, samples: int, controller: SampledController) -> tuple[int, int, Array]:
+        """Sample by sample: the controller is called, the plant is moved by compiled code or a solver."""
+        module, a, taken = self.found.module, self.arrays, np.zeros(samples)
+        kept = len(self.seen)
+        for sample in range(samples):
+            t, first = sample * self.every * self.h, sample * self.every
+            module.plant_outputs(t, a.x, a.p, self.measured)
+            self.seen[sample % kept] = self.measured + self.noise[sample]
+            told = np.array([self.seen[max(sample - late, 0) % kept, i] for i, late in enumerate(self.late)])
+            module.signal_values(t, t, a.table, a.pieces, a.s)
+            before = clock.perf_counter()
+            wanted = np.asarray(controller.command(t, told), dtype=float)
+            taken[sample] = (clock.perf_counter() - before) * 1e6
+            if isinstance(controller, _Interpreted) and controller.outside:
+                return LAW_OUTSIDE, first, taken[:sample + 1]
+            if not module.limited(wanted, *self.limits, a.wanted):
+                return NO_COMMAND, first, taken[:sample + 1]
+            if self.setting.integrator == "rk4":
+                status, done = module.advance(first, self.every, self.h, self.states, *a.for_advance())
+            else:
+                status, done = advance_by_solver(module, self.setting, first, self.every, a)
+            if status != RUNNING:
+                return status, first + done, taken[:sample + 1]
+        return RUNNING, samples * self.every, taken
+
+
+class _Interpreted:
+    """A compiled law, called sample by sample."""
+
+    def __init__(self, found: Compiled, period_s: float, states: Array, values: Array, arrays: Arrays) -> None:
+        self._found, self._period, self._states, self._values, self._arrays = found, period_s, states, values, arrays
+        self.outside = False
+
+    def command(self, t: float, measured: Array) -> Any:
+        """The law's command; its states move by one period."""
+        given = t, self._period, measured, self._arrays.s, self._states, self._values
+        out = np.zeros(len(self._arrays.u))
+        self.outside = not self._found.module.law_margin(*given) > 0
+        if not self.outside:
+            self._arrays.told[:] = self._states
+            self._found.module.law_step(*given, out)
+        return out
+
+
+def _told(setting: Setting, entrant: Entrant, found: Compiled, a: Arrays, status: int, done: int,
+          taken: Array) -> PlantRun:
+    t, n = done * setting.step_s, len(setting.plant.states)
+    found.module.signal_values(t, t, a.table, a.pieces, a.s)
+    rows = -(-done // a.log_every)
+    if status == RUNNING and done % a.log_every == 0:
+        found.module.record(t, n, a.x, a.u, a.wanted, a.s, a.told, a.log, rows)
+        rows += 1
+    plant, law = setting.plant, entrant.law
+    columns = ("t_s", *map(str, plant.states), *map(str, plant.inputs), *(f"{u}_wanted" for u in plant.inputs),
+               *setting.signals, *(map(str, law.state_symbols) if law else ()))
+    return PlantRun(entrant.name, columns, a.log[:rows], _metrics(setting, a, t, status == RUNNING),
+                    _why(setting, entrant, status, t, a), t, float(np.median(taken)),
+                    float(np.percentile(taken, 99)))
+
+
+def _metrics(setting: Setting, a: Arrays, t: float, whole: bool) -> dict[str, float | None]:
+    metrics, n = setting.every_metric, len(setting.plant.states)
+    if not whole:
+        return dict.fromkeys((metric.id for metric in metrics), None)
+    signal = {symbol: value for symbol, value in zip(setting.signal_symbols, a.s, strict=True)
+              if symbol in setting.symbols}
+    last = numeric_vector((*setting.plant.states, *setting.plant.inputs, *setting.plant.parameter_symbols, *signal),
+                          [metric.expression for metric in metrics])
+    final = last(t, *a.x[:n], *a.u, *a.p, *signal.values())
+    found: dict[str, float | None] = {}
+    integrals, extremes = iter(a.x[n:]), iter(a.extremes)
+    for metric, value in zip(metrics, final, strict=True):
+        match metric.measure:
+            case "integral":
+                found[metric.id] = float(next(integrals))
+            case "mean":
+                found[metric.id] = float(next(integrals)) / t
+            case "root mean square":
+                found[metric.id] = math.sqrt(max(0.0, float(next(integrals)) / t))
+            case "largest":
+                found[metric.id] = max(float(next(extremes)), float(value))
+            case "smallest":
+                found[metric.id] = min(-float(next(extremes)), float(value))
+            case _:
+                found[metric.id] = float(value)
+    return {name: value if value is not None and math.isfinite(value) else None for name, value in found.items()}
+
+
+def _why(setting: Setting, entrant: Entrant, status: int, t: float, a: Arrays) -> str | None:
+    if status == RUNNING:
+        return None
+    plant = setting.plant
+    where = ", ".join(f"{symbol} = {value:.4g}" for symbol, value in zip(plant.states, a.x, strict=False))
+    law = entrant.law
+    domain = ", ".join(f"{e} > 0" for e in (plant.domain if status == OUTSIDE else law.domain if law else ()))
+    what = {DIVERGED: "diverged", OUTSIDE: f"left the plant's domain ({domain})",
+            NO_COMMAND: "gave a command that is no number", LAW_OUTSIDE: f"left its domain ({domain})"}
+    return f"{entrant.name} {what.get(status, 'was given up by the solver')} at t = {t:.4g} s, {where}"

@@ -1,0 +1,145 @@
+"""What a run of a plant is made with: values, initial state, signals, duration, steps, sensing, actuators, metrics."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
+from typing import Any, Literal, get_args
+
+import sympy as sp
+
+from workbench.systems.law import Reference
+from workbench.systems.metric import Metric
+from workbench.systems.plant import Plant
+from workbench.systems.signals import AnySignal, Constant
+from workbench.systems.symbols import CLOCK, require_known
+
+Integrator = Literal["rk4", "radau", "bdf", "lsoda"]
+MOST_STEPS = 100_000_000
+
+
+@dataclass(frozen=True)
+class Setting:
+    """Everything but the controller; names are those of the plant's symbols, times are in seconds.
+
+    parameters: true values instead of the plant's own; initial: states that are not zero; references and disturbances:
+    a signal each, disturbances zero where none is given; tracks: output to the reference that it shall follow;
+    noise: standard deviation of each output's measurement, drawn anew at each sample from `seed`; late_s: how old a
+    measurement is; lag_s: time constant of an input; delay_s: of an input; integrator: classical Runge-Kutta of fixed
+    step, or a solver of scipy for stiff plants. Raises ValueError, one line naming what does not fit.
+    """
+
+    plant: Plant
+    duration_s: float
+    step_s: float = 1e-3
+    log_every_s: float | None = None
+    parameters: Mapping[str, float] = field(default_factory=dict)
+    initial: Mapping[str, float] = field(default_factory=dict)
+    references: Mapping[str, AnySignal] = field(default_factory=dict)
+    disturbances: Mapping[str, AnySignal] = field(default_factory=dict)
+    tracks: Mapping[str, str] = field(default_factory=dict)
+    noise: Mapping[str, float] = field(default_factory=dict)
+    late_s: Mapping[str, float] = field(default_factory=dict)
+    lag_s: Mapping[str, float] = field(default_factory=dict)
+    delay_s: Mapping[str, float] = field(default_factory=dict)
+    metrics: tuple[Metric, ...] = ()
+    seed: int = 0
+    integrator: Integrator = "rk4"
+
+    def __post_init__(self) -> None:
+        plant = self.plant
+        for name in ("duration_s", "step_s"):
+            if not (math.isfinite(getattr(self, name)) and getattr(self, name) > 0):
+                raise ValueError(f"{name} = {getattr(self, name)}: give a positive number of seconds")
+        if self.duration_s / self.step_s > MOST_STEPS:
+            raise ValueError(f"duration_s / step_s is more than {MOST_STEPS}: take a longer step")
+        if self.integrator not in get_args(Integrator):
+            raise ValueError(f"integrator '{self.integrator}' is not known: it is one of "
+                             f"{', '.join(get_args(Integrator))}")
+        object.__setattr__(self, "parameters", plant.values(self.parameters))
+        outputs, inputs = [*map(str, plant.outputs)], [*map(str, plant.inputs)]
+        for key, kind, names in (("initial", "state", [*map(str, plant.states)]),
+                                 ("disturbances", "disturbance", [*map(str, plant.disturbances)]),
+                                 ("tracks", "output", outputs), ("noise", "output", outputs),
+                                 ("late_s", "output", outputs), ("lag_s", "input", inputs),
+                                 ("delay_s", "input", inputs)):
+            object.__setattr__(self, key, {str(name): value for name, value in getattr(self, key).items()})
+            self._require_names(key, kind, names)
+        for key in ("noise", "late_s", "lag_s", "delay_s", "initial"):
+            for name, value in getattr(self, key).items():
+                if not math.isfinite(value) or (key != "initial" and value < 0):
+                    raise ValueError(f"{key}.{name} = {value}: give a finite number"
+                                     f"{'' if key == 'initial' else ' that is not negative'}")
+        for name, value in self.delay_s.items():
+            self.steps_of(value, f"delay_s.{name}")
+        for name, channel in self.tracks.items():
+            if channel not in self.references:
+                raise ValueError(f"tracks.{name} = '{channel}' is no reference: state references.{channel}")
+        names = [metric.id for metric in self.metrics]
+        if len(set(names)) < len(names):
+            raise ValueError(f"two metrics are called '{max(names, key=names.count)}': rename one")
+        require_known({f"metric '{m.id}'": m.expression for m in self.metrics}, self.symbols, f"plant '{plant.id}'")
+
+    def _require_names(self, key: str, kind: str, names: list[str]) -> None:
+        for name in getattr(self, key):
+            if name not in names:
+                raise ValueError(f"{key}.{name}: plant '{self.plant.id}' has no {kind} of that name: name one of "
+                                 f"{', '.join(names) or 'none'}")
+
+    def steps_of(self, seconds: float, where: str) -> int:
+        """How many plant steps a time is; ValueError where it is no whole number of them."""
+        count = round(seconds / self.step_s)
+        if abs(seconds / self.step_s - count) > 1e-6:
+            raise ValueError(f"{where} = {seconds:g} s is no whole number of plant steps of {self.step_s:g} s: choose "
+                             "a multiple")
+        return count
+
+    @property
+    def channels(self) -> tuple[Reference, ...]:
+        """The references, in order."""
+        return tuple(Reference(name) for name in self.references)
+
+    @property
+    def signals(self) -> dict[str, AnySignal]:
+        """All signals by name: the plant's disturbances, then the references."""
+        zero = Constant(value=0.0)
+        return {**{str(d): self.disturbances.get(str(d), zero) for d in self.plant.disturbances}, **self.references}
+
+    @property
+    def signal_symbols(self) -> tuple[sp.Symbol, ...]:
+        """Four symbols a signal; of a disturbance only the first one can be used."""
+        hidden = [(d, *(sp.Dummy(f"{d}_rate", real=True) for _ in range(3))) for d in self.plant.disturbances]
+        return tuple(symbol for four in (*hidden, *(channel.symbols for channel in self.channels)) for symbol in four)
+
+    @property
+    def symbols(self) -> tuple[sp.Symbol, ...]:
+        """What metrics may use."""
+        plant = self.plant
+        return (*CLOCK[:1], *plant.states, *plant.inputs, *plant.disturbances, *plant.parameter_symbols,
+                *(symbol for channel in self.channels for symbol in channel.symbols))
+
+    @property
+    def every_metric(self) -> tuple[Metric, ...]:
+        """The stated metrics, and those that every run has: tracking errors, effort, and excess over state limits."""
+        plant, found = self.plant, list(self.metrics)
+        channel = {one.name: one.value for one in self.channels}
+        outputs = {str(symbol): (symbol, value) for symbol, value in plant.outputs.items()}
+        for name, reference in self.tracks.items():
+            symbol, value = outputs[name]
+            error, unit = value - channel[reference], plant.units.get(symbol, "")
+            found += [Metric(f"{name}_error_rms", "root mean square", error, unit),
+                      Metric(f"{name}_error_largest", "largest", sp.Abs(error), unit),
+                      Metric(f"{name}_error_final", "terminal", error, unit)]
+        found += [Metric(f"{symbol}_rms", "root mean square", symbol, plant.units.get(symbol, ""))
+                  for symbol in plant.inputs]
+        for symbol, (low, high) in plant.state_limits.items():
+            sides = [side for bound, side in ((low, low - symbol), (high, symbol - high)) if math.isfinite(bound)]
+            found.append(Metric(f"{symbol}_limit_excess", "largest", sp.Max(0, *sides), plant.units.get(symbol, "")))
+        stated = {metric.id for metric in self.metrics}
+        return tuple(metric for number, metric in enumerate(found)
+                     if number < len(self.metrics) or metric.id not in stated)
+
+    def varied(self, **changes: Any) -> Setting:
+        """The same setting with other fields."""
+        return replace(self, **changes)

@@ -1,0 +1,215 @@
+"""A plant of n states and m inputs, stated once as expressions: prover, kernel and casadi model are made from it."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+import sympy as sp
+from numpy.typing import NDArray
+
+from workbench.compile.casadi_tree import casadi_of
+from workbench.compile.vector_code import numeric_vector
+from workbench.systems.symbols import expression, interval, require_distinct, require_known, symbols_of
+
+Limits = tuple[float, float]
+
+
+@dataclass(frozen=True)
+class Parameter:
+    """A constant of a plant: its symbol, value and unit; known: the interval in which it is known to lie.
+
+    Raises ValueError for a value that is no finite number or lies outside the interval.
+    """
+
+    symbol: sp.Symbol
+    value: float
+    unit: str = ""
+    known: Limits | None = None
+
+    def __post_init__(self) -> None:
+        symbols_of([self.symbol], "parameter")
+        where = f"parameter '{self.symbol}'"
+        object.__setattr__(self, "value", checked_value(self.symbol, self.value, where))
+        if self.known is not None:
+            low, high = interval(self.known, f"{where}: known")
+            object.__setattr__(self, "known", (low, high))
+            if not low <= self.value <= high:
+                raise ValueError(f"{where} = {self.value:g} lies outside the known interval [{low:g}, {high:g}]: "
+                                 "correct one of them")
+
+
+def checked_value(symbol: sp.Symbol, value: Any, where: str) -> float:
+    """A finite number that agrees with what sympy knows of the symbol's sign; ValueError otherwise."""
+    if isinstance(value, bool | complex | str) or not isinstance(value, int | float | sp.Number | np.number):
+        raise ValueError(f"{where} = {value!r} is no real number: give one")
+    number = float(value)
+    if not math.isfinite(number):
+        raise ValueError(f"{where} = {number} is not finite: give a number")
+    if (symbol.is_positive and number <= 0) or (symbol.is_nonnegative and number < 0):
+        raise ValueError(f"{where} = {number:g}, but the symbol is declared "
+                         f"{'positive' if symbol.is_positive else 'nonnegative'}: correct one of them")
+    return number
+
+
+@dataclass(frozen=True)
+class Plant:
+    """x' = rates(t, x, u, d, p), y = outputs(x, p), with n states, m inputs and any number of disturbances.
+
+    rates: one expression a state, in their order; outputs: what can be measured, symbol to expression, the states
+    themselves where none is given; limits of inputs saturate them, limits of states are what MPC keeps and what a run
+    is measured against; domain: expressions that must stay positive, a run ends where one is not; units: of states,
+    inputs, outputs and disturbances. Raises ValueError, one line, for what fits not together.
+    """
+
+    id: str
+    states: Sequence[sp.Symbol]
+    rates: Sequence[Any]
+    inputs: Sequence[sp.Symbol] = ()
+    disturbances: Sequence[sp.Symbol] = ()
+    parameters: Sequence[Parameter] = ()
+    outputs: Mapping[sp.Symbol, Any] = field(default_factory=dict)
+    input_limits: Mapping[sp.Symbol, Limits] = field(default_factory=dict)
+    state_limits: Mapping[sp.Symbol, Limits] = field(default_factory=dict)
+    domain: Sequence[Any] = ()
+    units: Mapping[sp.Symbol, str] = field(default_factory=dict)
+    title: str = ""
+    source: str = ""
+
+    def __post_init__(self) -> None:
+        where = f"plant '{self.id}'"
+        put = object.__setattr__
+        for name in ("states", "inputs", "disturbances"):
+            put(self, name, symbols_of(getattr(self, name), f"{where}: {name}"))
+        put(self, "parameters", tuple(self.parameters))
+        if not self.states:
+            raise ValueError(f"{where} has no state: name at least one")
+        rates = tuple(self.rates)
+        if len(rates) != len(self.states):
+            raise ValueError(f"{where} has {len(self.states)} states and {len(rates)} rates: give one rate a state, in "
+                             "their order")
+        put(self, "rates", tuple(expression(rate, f"{where}: rate of '{state}'")
+                                 for state, rate in zip(self.states, rates, strict=True)))
+        symbols_of(self.outputs, f"{where}: outputs")
+        put(self, "outputs", {symbol: expression(value, f"{where}: output '{symbol}'")
+                              for symbol, value in (self.outputs or {s: s for s in self.states}).items()})
+        put(self, "domain", tuple(expression(value, f"{where}: domain") for value in self.domain))
+        own = {symbol for symbol, value in self.outputs.items() if symbol != value}
+        require_distinct({"a state": self.states, "an input": self.inputs, "a disturbance": self.disturbances,
+                          "a parameter": self.parameter_symbols, "an output": sorted(own, key=str)}, where)
+        known = (*self.states, *self.inputs, *self.disturbances, *self.parameter_symbols)
+        require_known({f"the rate of '{s}'": rate for s, rate in self.flow.items()}, known, where)
+        require_known({f"output '{s}'": value for s, value in self.outputs.items()},
+                      (*self.states, *self.parameter_symbols), where)
+        require_known({f"domain expression {e}": e for e in self.domain}, known, where)
+        put(self, "input_limits", self._limits(self.input_limits, self.inputs, "input"))
+        put(self, "state_limits", self._limits(self.state_limits, self.states, "state"))
+        for symbol in self.units:
+            if symbol not in (*known, *self.outputs):
+                raise ValueError(f"{where}: units name '{symbol}', which the plant does not have: leave it out")
+
+    def _limits(self, limits: Mapping[sp.Symbol, Limits], symbols: Iterable[sp.Symbol],
+                kind: str) -> dict[sp.Symbol, Limits]:
+        for symbol in limits:
+            if symbol not in symbols:
+                raise ValueError(f"plant '{self.id}': limits of '{symbol}', which is no {kind}: name one of "
+                                 f"{', '.join(map(str, symbols))}")
+        return {symbol: interval(pair, f"plant '{self.id}': limits of {kind} '{symbol}'")
+                for symbol, pair in limits.items()}
+
+    @property
+    def parameter_symbols(self) -> tuple[sp.Symbol, ...]:
+        """The parameters' symbols, in their order."""
+        return tuple(parameter.symbol for parameter in self.parameters)
+
+    @property
+    def flow(self) -> dict[sp.Expr, sp.Expr]:
+        """State to rate, as a goal of the prover takes it; time runs with rate one where the rates name it."""
+        return dict(zip(self.states, self.rates, strict=True))
+
+    def values(self, given: Mapping[str, Any] | None = None) -> dict[str, float]:
+        """Every parameter's value by its name, those in `given` instead of the plant's own.
+
+        Raises ValueError for a name that is no parameter, and a value that does not fit its symbol.
+        """
+        found = {str(parameter.symbol): parameter.value for parameter in self.parameters}
+        by_name = {str(symbol): symbol for symbol in self.parameter_symbols}
+        for name, value in (given or {}).items():
+            if str(name) not in by_name:
+                raise ValueError(f"'{name}' is no parameter of plant '{self.id}': name one of {', '.join(by_name)}")
+            found[str(name)] = checked_value(by_name[str(name)], value, f"parameter '{name}'")
+        return found
+
+    def rates_at(self, states: Sequence[float], inputs: Sequence[float] = (), *, disturbances: Sequence[float] = (),
+                 parameters: Mapping[str, Any] | None = None, t: float = 0.0) -> NDArray[np.float64]:
+        """x' at a point, an array of n numbers."""
+        return np.array(self._numeric(self.rates)(t, *states, *self._all(inputs, self.inputs),
+                                                  *self._all(disturbances, self.disturbances),
+                                                  *self.values(parameters).values()), dtype=float)
+
+    @staticmethod
+    def _all(values: Sequence[float], symbols: Sequence[sp.Symbol]) -> Sequence[float]:
+        return values if len(values) else [0.0] * len(symbols)
+
+    def _numeric(self, exprs: Sequence[sp.Expr]) -> Any:
+        return numeric_vector((*self.states, *self.inputs, *self.disturbances, *self.parameter_symbols), exprs)
+
+    def linearise(self, at: Mapping[str, float] | None = None, parameters: Mapping[str, Any] | None = None) -> Any:
+        """The linear plant about a point, states and inputs by their names (zero where none is given), at time zero.
+
+        A `control.StateSpace` with the exact derivatives; its inputs are the plant's. Raises ValueError for a name
+        that is no state and no input.
+        """
+        import control  # noqa: PLC0415 - takes half a second, which no other user of a plant pays
+
+        point = self._point(at)
+        values = [*point.values(), *([0.0] * len(self.disturbances)), *self.values(parameters).values()]
+        rows = sp.Matrix(self.rates), sp.Matrix(list(self.outputs.values()))
+        x, u = sp.Matrix(self.states), sp.Matrix(self.inputs)
+        parts = [row.jacobian(by) if len(by) else sp.zeros(len(row), 0) for row in rows for by in (x, u)]
+        A, B, C, D = (np.array(self._numeric(list(part))(0.0, *values), dtype=float).reshape(part.shape)
+                      for part in parts)
+        return control.ss(A, B, C, D, states=[*map(str, self.states)], inputs=[*map(str, self.inputs)],
+                          outputs=[*map(str, self.outputs)])
+
+    def _point(self, at: Mapping[str, float] | None) -> dict[str, float]:
+        point = {str(symbol): 0.0 for symbol in (*self.states, *self.inputs)}
+        for name, value in (at or {}).items():
+            if str(name) not in point:
+                raise ValueError(f"'{name}' is no state and no input of plant '{self.id}': name one of "
+                                 f"{', '.join(point)}")
+            point[str(name)] = float(value)
+        return point
+
+    def to_control(self, parameters: Mapping[str, Any] | None = None) -> Any:
+        """A `control.NonlinearIOSystem` with the plant's states, inputs and outputs; disturbances are inputs too."""
+        import control  # noqa: PLC0415 - as in `linearise`
+
+        rates, outputs = self._numeric(self.rates), self._numeric(list(self.outputs.values()))
+        values = [*self.values(parameters).values()]
+
+        def update(t: float, x: Sequence[float], u: Sequence[float], params: Any) -> NDArray[np.float64]:
+            return np.array(rates(t, *x, *u, *values), dtype=float)
+
+        def output(t: float, x: Sequence[float], u: Sequence[float], params: Any) -> NDArray[np.float64]:
+            return np.array(outputs(t, *x, *u, *values), dtype=float)
+
+        return control.NonlinearIOSystem(
+            update, output, name=self.id.replace(".", "_"), states=[*map(str, self.states)],
+            inputs=[*map(str, (*self.inputs, *self.disturbances))], outputs=[*map(str, self.outputs)])
+
+    def to_casadi(self, parameters: Mapping[str, Any] | None = None) -> Any:
+        """A `casadi.Function` (t, x, u, d) -> x' of the same expressions, parameters put in."""
+        import casadi as ca  # noqa: PLC0415 - as in `linearise`
+
+        t, x, u, d = (ca.SX.sym(name, size) for name, size in (
+            ("t", 1), ("x", len(self.states)), ("u", len(self.inputs)), ("d", len(self.disturbances))))
+        known = {**dict(zip(self.states, ca.vertsplit(x), strict=True)),
+                 **(dict(zip(self.inputs, ca.vertsplit(u), strict=True)) if self.inputs else {}),
+                 **(dict(zip(self.disturbances, ca.vertsplit(d), strict=True)) if self.disturbances else {}),
+                 **dict(zip(self.parameter_symbols, self.values(parameters).values(), strict=True))}
+        rates = casadi_of(self.rates, known, t)
+        return ca.Function("rates", [t, x, u, d], [ca.vertcat(*rates)], ["t", "x", "u", "d"], ["rates"])

@@ -1,0 +1,48 @@
+"""A train as files state it: mass, resistance and limits, checked for plausibility."""
+
+from __future__ import annotations
+
+from typing import Annotated, Self
+
+from pydantic import Field, Strict, model_validator
+
+from workbench.files.toml import Positive, SourcedRecord
+
+# A train that resists with more than 10 m/s^2 at standstill or at 1 m/s has its coefficients in another unit.
+DavisCoefficient = Annotated[float, Strict(), Field(ge=0, le=10, allow_inf_nan=False)]
+
+
+class Train(SourcedRecord):
+    """A single-particle train: mass, Davis coefficients per unit of mass, traction and brake limits.
+
+    Raises ValueError (through validation) for implausible values, which are mostly wrong units.
+    """
+
+    mass_kg: Annotated[float, Strict(), Field(gt=0, allow_inf_nan=False)]
+    davis_a_mps2: DavisCoefficient
+    davis_b_per_s: DavisCoefficient
+    davis_c_per_m: DavisCoefficient
+    max_traction_n: Positive
+    max_braking_n: Positive
+    max_power_w: Positive | None = None
+
+    @model_validator(mode="after")
+    def _plausible(self) -> Self:
+        if not 1e3 <= self.mass_kg <= 1e8:
+            raise ValueError(f"mass_kg = {self.mass_kg:g} is no train between 1e3 and 1e8 kg: "
+                             f"is it in tonnes?")
+        for name in ("max_traction_n", "max_braking_n"):
+            specific = getattr(self, name) / self.mass_kg
+            if not 0.01 <= specific <= 20:
+                raise ValueError(f"{name} gives {specific:g} m/s^2 for this mass, outside 0.01 to 20: "
+                                 f"is it in kN?")
+        if self.max_power_w is not None and not 0.1 <= self.max_power_w / self.mass_kg <= 1e3:
+            raise ValueError(f"max_power_w gives {self.max_power_w / self.mass_kg:g} W/kg for this mass, "
+                             f"outside 0.1 to 1000: is it in kW?")
+        return self
+
+    @property
+    def davis_newton(self) -> tuple[float, float, float]:
+        """Davis coefficients (a_0, b_0, c_0) of this train in N, N s/m, N s^2/m^2."""
+        return (self.davis_a_mps2 * self.mass_kg, self.davis_b_per_s * self.mass_kg,
+                self.davis_c_per_m * self.mass_kg)
