@@ -1,7 +1,7 @@
 """Sampling as an axis: a controller at several periods is as many, said by name and in every table."""
 
 import pytest
-from contests import COMMON, common
+from contests import COMMON, common, only
 from scenarios import YANG, short_scenario
 
 from workbench.contest.entrant import Entrant
@@ -79,7 +79,7 @@ def test_entrants_of_a_contest_too():
     data["entrants"]["liu2020"] = {key: entrant[key] for key in ("law", "parameters")} | {"periods_s": [0.005, 0.02]}
     data["tuning"].pop("found")
     contest = validate_record(data, Contest, COMMON).in_folder(COMMON.parent)
-    contest = contest.with_world(entered(contest, common().world))
+    contest = contest.with_world(entered(contest, only(common().world, "pid")))
     assert {"liu2020_5ms", "liu2020_20ms"} <= contest.world.controllers.keys()
     assert contest.tuning.ranges["liu2020_20ms"] == contest.tuning.ranges["liu2020_5ms"]
 

@@ -121,9 +121,8 @@ class MpcController:
             kept = () if kind.follows_curve else scenario.track.speed_limit
             late_s = 0.0
             if spec.predictor and scenario.actuator is not None:
-                if kind.tracker is _tube:
-                    raise InputError("", "predictor", f"'{spec.law}' promises nothing behind an actuator: leave "
-                                     "predictor out")
+                if kind.tracker in (_tube, _adaptive):  # whose promise, and learning, is of states as measured
+                    raise InputError("", "predictor", f"'{spec.law}' cannot be told of an actuator: leave it out")
                 self.problem, late_s = told(self.problem, scenario.actuator)
             self.ahead = preview(self.problem, curve, duration, line=line, limits=kept, late_s=late_s)
             now = preview(self.problem, curve, duration, line=line) if late_s else self.ahead
