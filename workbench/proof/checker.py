@@ -1266,8 +1266,8 @@ def check_folder(folder: Path) -> list[Row]:
             results.append((path, "?", "names no certificate"))
     for path in sorted(path for path in folder.rglob("*.json") if path.name != MANIFEST):
         results.append(check_file(path, stated.get(path.parent)))
+    circular = _circular({path for path, _, reason in results if reason is None})
     return [(path, verdict, reason or ("uses itself through its premises" if path in circular else None))
-            for circular in [_circular({path for path, _, reason in results if reason is None} - set(manifests.values()))]
             for path, verdict, reason in results]
 
 
