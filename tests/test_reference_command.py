@@ -85,6 +85,12 @@ def test_all_outputs_of_one_run(tmp_path: Path) -> None:
     assert "gap" in text and "proves" in text
     assert (tmp_path / "c.svg").read_text(encoding="utf-8").startswith("<?xml")
     assert check_bounds([str(tmp_path / "d.json")]) == 0
+    assert "for this line, train and times" in said(HILLS, TRAIN, "--time", 2600, "--check", tmp_path / "d.json")
+    for other in ((HILLS, TRAIN, "--time", 2590), (SHARED / "lines" / "metro.toml", TRAIN, "--time", 2600),
+                  (HILLS, TRAIN, "--time", 2600, "--to-speed", 5),
+                  (HILLS, SHARED / "trains" / "jiao2025.toml", "--time", 2600)):
+        with pytest.raises(WorkbenchError, match=r"digests\."):
+            said(*other, "--check", tmp_path / "d.json")
     proven = json.loads((tmp_path / "d.json").read_text(encoding="utf-8"))["lower_bound_J"]
     stated = json.loads((tmp_path / "a.json").read_text(encoding="utf-8"))["lower_bound_J"]
     auxiliaries = load_vehicle(TRAIN)[0].auxiliary_w * 2600

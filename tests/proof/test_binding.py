@@ -66,6 +66,43 @@ def forged_manifest(place: Path) -> None:
     save(place / "manifest.json", manifest)
 
 
+@pytest.fixture
+def resting(place):
+    """The same, of a claim that uses another one, as whoever writes into both files can make it."""
+    def uses(name: str, premises: object) -> None:
+        save(place / f"{name}.json", load(place / f"{name}.json") | {"premises": premises})
+        forged_manifest(place)
+
+    return uses
+
+
+def test_a_premise_is_named_with_the_goal_that_it_has(place, resting):
+    claims = load(place / "manifest.json")["claims"]
+    assert load(place / "2.json")["premises"] == {"1": claims["1"]["goal_digest"]}
+    resting("4", {"3": claims["3"]["goal_digest"], "5": None})
+    assert reasons(place) == {}
+
+
+@pytest.mark.parametrize("premises", [{"7": None}, {"2": "0" * 64}, {"2": None}, {"5": "0" * 64}, ["2"], "2", {"2": 1}])
+def test_a_premise_that_is_missing_or_another_is_refused(place, resting, premises):
+    resting("4", premises)
+    assert list(reasons(place)) == ["4.json"]
+
+
+def test_nothing_is_proved_by_itself_through_its_premises(place, resting):
+    claims = load(place / "manifest.json")["claims"]
+    resting("1", {"2": claims["2"]["goal_digest"]})
+    resting("4", {"1": claims["1"]["goal_digest"]})
+    assert reasons(place) == dict.fromkeys(("1.json", "2.json"), "uses itself through its premises")
+
+
+def test_premises_other_than_the_claims_own_are_refused_where_the_paper_is_at_hand(place, small, resting):
+    claims = load(place / "manifest.json")["claims"]
+    resting("1", {"5": claims["5"]["goal_digest"]})
+    code, said = checked(place, "--paper", small)
+    assert code == 1 and "uses the premises 5, the claim" in said
+
+
 def test_the_manifest_lists_every_claim(place):
     claims = load(place / "manifest.json")["claims"]
     assert {name: entry["verdict"] for name, entry in claims.items()} == {
@@ -114,6 +151,7 @@ def test_a_forged_manifest_does_not_pass_where_the_paper_is(place, small):
             "example": {"x": "0"}, "proofs": [{"rule": "combination", "terms": [
                 {"coefficient": "1", "factors": [{"square": "x"}]}]}]}
     save(place / "3.json", true)
+    save(place / "4.json", load(place / "4.json") | {"premises": {"3": goal_digest(true)}})
     forged_manifest(place)
     assert checked(place)[0] == 0  # alone, it is only said that nothing but the manifest was looked at
     code, said = checked(place, "--paper", small)
@@ -124,6 +162,8 @@ def test_a_claim_that_the_manifest_leaves_out_or_makes_up(place, small):
     manifest = load(place / "manifest.json")
     del manifest["claims"]["3"]
     (place / "3.json").unlink()
+    del manifest["claims"]["4"]  # which uses it
+    (place / "4.json").unlink()
     manifest["claims"]["7"] = {"verdict": "undecided", "goal_digest": None, "certificate": None}
     save(place / "manifest.json", manifest)
     assert reasons(place) == {}

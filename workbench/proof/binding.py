@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
 from workbench.errors import InputError, WorkbenchError
 from workbench.files.folders import papers_in as folders_in
+from workbench.files.text import read_text
 from workbench.proof.checker import MANIFEST, CertificateError, Manifest, Row, read_manifest
 from workbench.proof.claim import Claim
 from workbench.proof.claim_digest import stated_digest
@@ -66,11 +68,24 @@ def check_claims(place: Path, path: Path) -> tuple[list[Row], int]:
     with file.at_home():
         for name, claim in claims.items():
             entry = manifest.claims.get(name)
-            reason = _difference(claim, entry)
+            reason = _difference(claim, entry) or _other_premises(claim, place / f"{name}.json")
             if reason is not None:
                 rows.append((place / f"{name}.json", str(entry["verdict"]) if entry else "?", reason))
             bound += entry is not None and reason is None and entry["certificate"] is not None
     return rows, bound
+
+
+def _other_premises(claim: Claim, path: Path) -> str | None:
+    """What a certificate that proves the claim uses other than the claim states; None where they agree."""
+    if claim.recorded != "proved":
+        return None
+    own = [name for paper, _, name in (one.partition(":") for one in claim.premises) if paper == claim.paper]
+    try:
+        stated = json.loads(read_text(path, "JSON")).get("premises", {})
+    except (ValueError, AttributeError, RecursionError, WorkbenchError):
+        return None  # said where the certificate itself is checked
+    return None if sorted(stated) == sorted(own) else (
+        f"uses the premises {', '.join(sorted(stated)) or 'none'}, the claim {', '.join(sorted(own)) or 'none'}")
 
 
 def _difference(claim: Claim, entry: dict[str, Any] | None) -> str | None:

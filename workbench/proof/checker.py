@@ -1266,7 +1266,21 @@ def check_folder(folder: Path) -> list[Row]:
             results.append((path, "?", "names no certificate"))
     for path in sorted(path for path in folder.rglob("*.json") if path.name != MANIFEST):
         results.append(check_file(path, stated.get(path.parent)))
-    return results
+    circular = _circular({path for path, _, reason in results if reason is None})
+    return [(path, verdict, reason or ("uses itself through its premises" if path in circular else None))
+            for path, verdict, reason in results]
+
+
+def _circular(paths: set[Path]) -> set[Path]:
+    """The certificates, of those that hold, that are premises of themselves, directly or not."""
+    below = {path: {path.parent / f"{name}.json" for name in _json(_text(path)).get("premises", {})} & paths
+             for path in paths}
+    while leaves := {path for path, others in below.items() if not others}:  # what uses nothing is no part of a circle
+        below = {path: others - leaves for path, others in below.items() if path not in leaves}
+    above = {path: {other for other, others in below.items() if path in others} for path in below}
+    while roots := {path for path, others in above.items() if not others}:  # nor what nothing uses
+        above = {path: others - roots for path, others in above.items() if path not in roots}
+    return set(above)
 
 
 def check_file(path: Path, manifest: Manifest | None = None, digest: str | None = None) -> Row:
@@ -1302,6 +1316,11 @@ def _require_named(certificate: dict[str, Any], digest: str, name: str, manifest
         raise CertificateError(f"is of another goal or verdict than {MANIFEST} states for this claim")
     if entry["certificate"] != digest:
         raise CertificateError(f"{MANIFEST} names another content for it")
+    for premise, stated in certificate.get("premises", {}).items():
+        if premise not in manifest.claims:
+            raise CertificateError(f"uses {str(premise)[:80]}, which {MANIFEST} does not name")
+        if stated != manifest.claims[premise]["goal_digest"]:
+            raise CertificateError(f"uses {premise} as it does not stand in {MANIFEST}: another goal or verdict")
 
 
 class Manifest:

@@ -88,8 +88,28 @@ def write_certificates(decisions: Sequence[Decision], where: Places, whole_paper
     Raises InputError where nothing can be written.
     """
     for paper in dict.fromkeys(d.claim.paper for d in decisions):
-        rows = {d.claim.equation: (d.verdict, d.certificate) for d in decisions if d.claim.paper == paper}
+        own = [d for d in decisions if d.claim.paper == paper]
+        _, kept = _named(where.folder(paper), paper)
+        digests = {name: entry.get("goal_digest") for name, entry in kept.items()} | goal_digests(own)
+        rows = {d.claim.equation: (d.verdict, with_premises(d, digests)) for d in own}
         write_folder(where.folder(paper), where.root(paper), paper, rows, whole_papers)
+
+
+def goal_digests(decisions: Iterable[Decision]) -> dict[str, str | None]:
+    """By equation the digest of what each decision is for; None for one without a certificate."""
+    return {d.claim.equation: goal_digest(dict(d.certificate)) if d.certificate else None for d in decisions}
+
+
+def with_premises(decision: Decision, digests: Mapping[str, str | None]) -> Mapping[str, Any] | None:
+    """The certificate as it is written: where it proves, with what the claims of this paper that it uses state.
+
+    digests: as of `goal_digests`. A premise of another paper stands in the claim alone.
+    """
+    claim, certificate = decision.claim, decision.certificate
+    names = [name for paper, _, name in (one.partition(":") for one in claim.premises) if paper == claim.paper]
+    if certificate is None or decision.verdict != "proved" or not names:
+        return certificate
+    return {**certificate, "premises": {name: digests.get(name) for name in names}}
 
 
 def write_folder(folder: Path, within: Path, paper: str, rows: Mapping[str, tuple[Verdict, Mapping[str, Any] | None]],
