@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 from rich.markup import escape
@@ -71,11 +71,18 @@ def command(paths: Annotated[list[str] | None, typer.Argument(
         write_json(json, document)
     if not quiet:
         if single:
-            for card in map(claim_card, document["claims"]):
-                out_console.print(card)
+            _print_cards(proof, document)
         else:
             _print_all(proof, all_rows, failed, verbose)
     _end(proof)
+
+
+def _print_cards(proof: Proof, document: dict[str, Any]) -> None:
+    from workbench.cli.findings import print_counts
+
+    for card in map(claim_card, document["claims"]):
+        out_console.print(card)
+    print_counts(proof.decisions)
 
 
 def _print_all(proof: Proof, all_rows: bool, failed: bool, verbose: bool) -> None:

@@ -73,8 +73,9 @@ def counterexample_of(certificate: Mapping[str, Any]) -> Counterexample | None:
     left, operator, right = split_relation(failing)
     sides = [context.read(left), context.read(right)]
     deciding = symbols_of(context, sides[0]) | symbols_of(context, sides[1])
-    shown = {name: value_latex(Fraction(text)) for name, text in certificate["point"].items()}
-    rows = [{name: value_latex(Fraction(text)) for name, text in row.items()} for row in certificate.get("terms", [])]
+    shown = {name: value_latex(Fraction(text)) for name, text in sorted(certificate["point"].items())}
+    rows = [{name: value_latex(Fraction(text)) for name, text in sorted(row.items())}
+            for row in certificate.get("terms", [])]
     values, others = _grouped({name: value for name, value in shown.items() if name in deciding})
     in_sums = tuple(f"{_indexed(name, i)} = {value}" for i, row in enumerate(rows, 1) for name, value in row.items()
                     if name in deciding)
@@ -99,8 +100,8 @@ def _motion(certificate: Mapping[str, Any], context: Context, point: dict[str, R
     deciding = _symbols(context, left) | _symbols(context, right)
     along = [_of_time(substitute(context, substitute(context, context.read(side), functions), point),
                       goal["eventually"]) for side in (left, right)]
-    moving = {name: expression_latex(text) for name, text in certificate["functions"].items()}
-    fixed = {name: value_latex(Fraction(text)) for name, text in certificate["point"].items()}
+    moving = {name: expression_latex(text) for name, text in sorted(certificate["functions"].items())}
+    fixed = {name: value_latex(Fraction(text)) for name, text in sorted(certificate["point"].items())}
     named = {name: value for name, value in (moving | fixed).items() if name in deciding or name in moving}
     values, others = _grouped(named)
     return Counterexample(relation_latex(goal["show"][0]), SIGNS[operator], values, others, along[0], along[1],
