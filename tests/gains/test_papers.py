@@ -9,7 +9,7 @@ import sys
 from functools import cache
 
 import pytest
-from scenarios import TRAIN_PAPERS, PROOFS, ROOT
+from scenarios import PROOFS, ROOT, TRAIN_PAPERS
 
 from workbench.cli.loading import load
 from workbench.gains.certificate import write_certificates
