@@ -5,7 +5,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from scenarios import TRAIN_PAPERS, PROOFS, SHARED, YANG, variant_of
+from scenarios import PROOFS, SHARED, TRAIN_PAPERS, YANG, variant_of
 
 from proofs.chen2019.simulation import plans as chen2019_plans
 from proofs.chen2019.simulation.cars_trials import run_cars

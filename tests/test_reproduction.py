@@ -4,7 +4,7 @@ import tomllib
 
 import pytest
 from refusals import changed, refusal
-from scenarios import TRAIN_PAPERS, PROOFS
+from scenarios import PROOFS, TRAIN_PAPERS
 from test_cli import GAINS as GAIN_TEXT
 from test_cli import LINE, LINE_SOURCE, SHORT, short_toml
 

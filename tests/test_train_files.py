@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from scenarios import DRIVEN, LINES, TRAIN_PAPERS, PROOFS, SHARED, TRAINS, line_name
+from scenarios import DRIVEN, LINES, PROOFS, SHARED, TRAIN_PAPERS, TRAINS, line_name
 
 from proofs.liu2020.study.record import LiuStudy
 from proofs.liu2020.study.scenario import davis_newton

@@ -97,7 +97,8 @@ def test_it_believes_the_nominal_plant_whatever_the_truth():
 
 
 @pytest.mark.parametrize(("how", "words"), [
-    (PlantMpc(5, {"omega": 1.0}), "no reference is tracked"), (PlantMpc(5, {"theta": 1.0}, {"F": 1.0}), "no such input")])
+    (PlantMpc(5, {"omega": 1.0}), "no reference is tracked"),
+    (PlantMpc(5, {"theta": 1.0}, {"F": 1.0}), "no such input")])
 def test_names_that_the_plant_does_not_have_are_one_line(how, words):
     with pytest.raises(ValueError, match=words):
         how.check(Setting(PENDULUM, 1.0, references={"r": Constant(value=0.0)}, tracks={"theta": "r"}))
@@ -108,7 +109,7 @@ def test_a_plant_that_hides_a_state_is_refused():
     with pytest.raises(ValueError, match="'v' is not measured"):
         PlantMpc(5, {"x": 1.0}).check(Setting(hidden, 1.0, **AT_REST))
     for wrong in ({"horizon": 0}, {"solver": "newton"}, {"weights": {"x": -1.0}}):
-        with pytest.raises(ValueError, match="horizon|solver|weights"):
+        with pytest.raises(ValueError, match=r"horizon|solver|weights"):
             PlantMpc(**({"horizon": 5, "weights": {"x": 1.0}} | wrong))
 
 
@@ -116,7 +117,8 @@ def test_several_inputs_and_several_outputs():
     a, b, f, g = sp.symbols("a b f g", real=True)
     c = sp.Symbol("c", positive=True)
     plant = Plant("two", (a, b), (f - a, c * g + a), inputs=(f, g), parameters=(Parameter(c, 2.0),))
-    setting = Setting(plant, 4.0, step_s=0.01, references={"r": Constant(value=1.0), "w": Sine(amplitude=1.0, period_s=4.0)},
+    wanted = {"r": Constant(value=1.0), "w": Sine(amplitude=1.0, period_s=4.0)}
+    setting = Setting(plant, 4.0, step_s=0.01, references=wanted,
                       tracks={"a": "r", "b": "w"})
     found = run(setting, Entrant("mpc", 0.1, build=PlantMpc(15, {"a": 1.0, "b": 1.0}, {"f": 1e-4, "g": 1e-4}).build))
     assert abs(found.metrics["a_error_final"]) < 0.02 and abs(found.metrics["b_error_final"]) < 0.05

@@ -108,7 +108,8 @@ def test_linear_and_casadi_and_control_models_are_of_the_same_expressions():
 
 @pytest.mark.parametrize("expr", [
     sp.Piecewise((x**2, x < 0), (-v, (x > 1) & (v < 2)), (x * v, True)), sp.Max(x, 0, v) - sp.Min(x, 2 * v),
-    sp.sign(x) * sp.sqrt(sp.Abs(x)), sp.atan2(v, 2 + x**2) + sp.tanh(x) / (1 + sp.exp(-v)), sp.Abs(x) ** sp.Rational(3, 2),
+    sp.sign(x) * sp.sqrt(sp.Abs(x)), sp.atan2(v, 2 + x**2) + sp.tanh(x) / (1 + sp.exp(-v)),
+    sp.Abs(x) ** sp.Rational(3, 2),
     sp.pi * x + sp.Rational(1, 3), sp.cosh(x / 3) - sp.floor(v)])
 def test_casadi_has_the_same_values_as_sympy(expr):
     function = Plant("q", (x, v), (expr, 0)).to_casadi()
@@ -126,8 +127,9 @@ def test_what_casadi_does_not_have_is_said():
 @settings(max_examples=20, deadline=None)
 def test_rates_of_signals_are_their_derivatives(values):
     times = tuple(float(i) for i in range(len(values)))
-    signals = {"a": Sine(offset=1.0, amplitude=2.0, period_s=3.0, phase_rad=0.4), "b": Ramp(offset=1.0, slope_per_s=-2.0),
-               "c": Spline(times_s=times, values=tuple(values)), "d": Constant(value=3.0)}
+    signals = {"a": Sine(offset=1.0, amplitude=2.0, period_s=3.0, phase_rad=0.4),
+               "b": Ramp(offset=1.0, slope_per_s=-2.0), "d": Constant(value=3.0),
+               "c": Spline(times_s=times, values=tuple(values))}
     t, step = np.linspace(-1.0, len(values) + 1.0, 37) + 0.0123, 1e-5
     found, ahead, behind = (signals_at(signals, t + shift) for shift in (0.0, step, -step))
     for name in signals:
@@ -148,7 +150,7 @@ def test_a_spline_is_read_from_a_file_and_a_wrong_one_is_one_line(tmp_path):
             read_signal(Spline(file=file, column=column), tmp_path)
     for wrong in ({"times_s": (0.0, 0.0), "values": (1.0, 2.0)}, {"times_s": (0.0, 1.0), "values": (1.0,)},
                   {"file": "r.csv"}, {}):
-        with pytest.raises(ValueError, match="spline|times_s|column"):
+        with pytest.raises(ValueError, match=r"spline|times_s|column"):
             Spline(**wrong)
 
 

@@ -87,20 +87,20 @@ def decrease() -> Goal:
                 flow=loop_flow(sp.zeros(2, 1)), inputs=inputs)
 
 
+def with_torque() -> Goal:
+    """V's rate with disturbing torques."""
+    return Goal((equal(D(energy + estimates), -damping + (s_now.T * d)[0]),), (defined,),
+                flow=loop_flow(d), inputs=(*inputs, d_1, d_2))
+
+
 @paper.claim("disturbed", "Under a disturbing torque V may grow", "inequality", r"\dot V = -s^T K_D s + s^T d \le 0",
-             "refuted", origin="ours", premises=("decrease",), correction=lambda: with_torque(),
+             "refuted", origin="ours", premises=("decrease",), correction=with_torque,
              corrected_statement=r"\dot V = -s^T K_D s + s^T d",
              note="The paper claims nothing for this case. V's rate has no term in the errors of the estimates, so nothing "
                   "pulls them back: a disturbance may move them ever further.")
 def drift() -> Goal:
     """As a question: is V still decreasing?"""
     return Goal((at_most(-damping + (s_now.T * d)[0], 0),))
-
-
-def with_torque() -> Goal:
-    """V's rate with disturbing torques."""
-    return Goal((equal(D(energy + estimates), -damping + (s_now.T * d)[0]),), (defined,),
-                flow=loop_flow(d), inputs=(*inputs, d_1, d_2))
 
 
 paper.axiom("convergence", "The tracking errors vanish",

@@ -128,6 +128,7 @@ def run(setting: Setting, entrant: Entrant, nominal: Mapping[str, float] | None 
             _built(entrant, setting.varied(parameters=believed)))
         status, done, taken = loop.sampled(samples, own)
         fallbacks = int(getattr(own, "fallbacks", 0))
+    arrays.told[:] = states  # in the log's last row, as in all others, what the next command would be taken from
     return replace(_told(setting, entrant, found, arrays, status, done, taken), fallbacks=fallbacks)
 
 

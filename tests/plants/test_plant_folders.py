@@ -1,0 +1,149 @@
+"""A folder with a plant of one's own through every verb, and the same from Python."""
+
+import json
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+from test_cli import one_line, run
+
+import workbench as wb
+from workbench.errors import InputError, WorkbenchError
+from workbench.paper.loading import load
+from workbench.paper.new_paper import TEMPLATES, template_files, write_new_paper
+from workbench.paper.plants.sweep import sweep
+
+FILES = ["claims/section_2.py", "laws.py", "paper.py", "plant.py", "study.toml"]
+
+
+@pytest.fixture(scope="module")
+def mine(tmp_path_factory):
+    """A new folder, shortened to half a second a run."""
+    folder = write_new_paper("mine2026", tmp_path_factory.mktemp("new"), "plant")
+    study = folder / "study.toml"
+    text = study.read_text().replace("duration_s = 10.0", "duration_s = 0.5").replace("at_s = 5.0", "at_s = 0.25")
+    study.write_text(text.replace("runs = 30", "runs = 6").replace("horizon = 20", "horizon = 8"))
+    return folder
+
+
+def test_a_newcomer_reads_less_than_a_hundred_and_fifty_lines():
+    template = TEMPLATES["plant"]
+    assert [place.as_posix() for place in template_files(template)] == FILES
+    assert sum(len((template / name).read_text().splitlines()) for name in FILES) < 150
+
+
+def test_every_verb_takes_it(mine):
+    folder = mine.parent
+    proved = run("prove", "mine2026", "--json", "claims.json", "--jobs", 1, folder=folder)
+    assert proved.returncode == 0, proved.stderr
+    claims = json.loads((folder / "claims.json").read_text())["claims"]
+    assert {c["kind"] for c in claims} == {"identity", "inequality", "implication", "limit"}
+    assert {c["verdict"] for c in claims} == {"proved", "refuted"}
+    compared = run("compare", "mine2026", "--json", "compared.json", "--workers", 1, folder=folder)
+    assert compared.returncode == 0, compared.stderr
+    rows = {row["controller"]: row for row in json.loads((folder / "compared.json").read_text())["rows"]}
+    assert list(rows) == ["adaptive", "mpc"] and all(row["failed"] is None for row in rows.values())
+    assert all(row["x_error_rms"] < 0.3 and row["fallbacks"] == 0 for row in rows.values())
+    swept = run("sweep", "mine2026", "--runs", 2, "--out", "mc", "--workers", 1, folder=folder)
+    assert swept.returncode == 0, swept.stderr
+    assert len((folder / "mc" / "sweep.csv").read_text().splitlines()) == 1 + 2 * 2
+    tuned = run("tune", "mine2026", "--write", "--workers", 1, folder=folder)
+    assert tuned.returncode == 0 and "tuned: alpha" in tuned.stdout, tuned.stderr
+    report = run("report", "mine2026", "--out", "page", "--workers", 1, folder=folder)
+    assert report.returncode == 0, report.stderr
+    assert "adaptive (tuned)" in (folder / "page" / "report.html").read_text()
+    curves = sorted(path.name for path in (folder / "page" / "curves").glob("*.csv"))
+    assert curves == ["01-x.csv", "02-v.csv", "03-u.csv"]
+    assert "--resume: is for scenarios" in one_line(run("sweep", "mine2026", "--out", "mc", "--resume", folder=folder))
+
+
+def test_a_sweep_is_the_same_for_the_same_seed_and_draws_what_is_known(mine):
+    study = load(mine).study
+    one, same, other = (sweep(study, 2, seed, ["adaptive"], workers=1) for seed in (1, 1, 2))
+    assert one.csv == same.csv != other.csv
+    assert all(0.2 <= row["drawn_a"] <= 0.8 for row in one.rows)
+
+
+def test_the_folder_is_checked_and_a_wrong_derivative_is_found(mine, tmp_path):
+    assert wb.check_paper(mine).holds, wb.check_paper(mine)
+    wrong = write_new_paper("wrong2026", tmp_path, "plant")
+    laws = wrong / "laws.py"
+    # V of a law whose adaptation has the other sign than the one that runs.
+    text = laws.read_text().replace('lyapunov = Lyapunov("V", V, adaptive)', (
+        'from dataclasses import replace\n'
+        'lyapunov = Lyapunov("V", V, replace(adaptive, states=(LawState(a_hat, rate=gamma * s * v),)))'))
+    laws.write_text(text)
+    (wrong / "study.toml").write_text((mine / "study.toml").read_text())
+    found = wb.check_paper(wrong)
+    wrong_ones = [check.what for check in found.checks if not check.holds]
+    assert wrong_ones == ["V changes along the run of adaptive as derived"]
+
+
+@pytest.mark.parametrize(("old", "new", "words"), [
+    ('law = "adaptive"', 'law = "adaptve"', "controllers: law 'adaptve' is not known"),
+    ("alpha = 2.0", "alpa = 2.0", "no parameter of law"), ("k = 4.0", "k = -4.0", "declared positive"),
+    ('initial = { x = 0.3 }', 'initial = { y = 0.3 }', "initial.y"), ("horizon = 8", "horizon = 0", "horizon"),
+    ('kind = "sine"', 'kind = "sinus"', "reference.x_d"), ("period_s = 0.05\n", "period_s = 0.0505\n", "whole number"),
+    ('factors = ["a"]', 'factors = ["c"]', "uncertainty"), ("weights = { x", "weights = { v", "weights.v")])
+def test_a_mistake_in_the_file_is_one_line_that_names_it(mine, tmp_path, old, new, words):
+    folder = write_new_paper("mine2026", tmp_path, "plant")
+    text = (mine / "study.toml").read_text()
+    assert old in text
+    (folder / "study.toml").write_text(text.replace(old, new))
+    with pytest.raises(InputError, match=words) as caught:
+        sweep(load(folder).study, 1, workers=1)
+    assert str(caught.value).startswith(str(folder / "study.toml"))
+
+
+SCRIPT = """
+import sys
+import workbench as wb
+assert not {"sympy", "numpy", "casadi"} & set(sys.modules), "import workbench brings them all"
+import sympy as sp
+x, v, u = sp.symbols("x v u", real=True)
+k, d = sp.symbols("k d", positive=True)
+mass = wb.Plant("mass", (x, v), (v, u), inputs=(u,))
+r = wb.Reference("r")
+law = wb.Law("pd", {u: -k * (x - r.value) - d * v}, parameters=(k, d), references=(r,))
+run = wb.simulate(mass, law, period_s=0.01, duration_s=8, law_parameters={k: 4.0, d: 4.0},
+                  references={"r": wb.Step(after=1.0, at_s=1.0)}, tracks={"x": "r"})
+# (1 + 2 t) exp(-2 t) is left of a step, 7 s later.
+assert abs(run.metrics["x_error_final"]) < 1e-4 and run.failed is None
+assert run.to_pandas().index.name == "t_s" and len(run.plot().axes) == 3
+both = wb.compare(run.setting, [wb.entrant(law, 0.01, {k: 4, d: 4}),
+                                wb.entrant(wb.PlantMpc(20, {"x": 1.0}, {"u": 0.01}), 0.1)])
+assert [row["controller"] for row in both.rows] == ["pd", "mpc"] and both["mpc"].found.fallbacks == 0
+assert set(wb.prove(sys.argv[1]).verdicts.values()) == {"proved", "refuted"}
+assert [one.name for one in wb.compare(sys.argv[1])][:2] == ["adaptive", "mpc"]
+print("done")
+"""
+
+
+def test_a_plain_script_without_a_guard_works(mine, tmp_path):
+    script = tmp_path / "script.py"
+    script.write_text(SCRIPT)
+    found = subprocess.run([sys.executable, str(script), str(mine)], capture_output=True, text=True, check=False,
+                           timeout=300)
+    assert found.returncode == 0, found.stderr
+    assert found.stdout.endswith("done\n")
+
+
+def test_names_of_the_api_are_there_and_others_are_not():
+    assert all(getattr(wb, name) is not None for name in wb.__all__)
+    assert set(wb.__all__) <= set(dir(wb))
+    with pytest.raises(AttributeError, match="no attribute 'train'"):
+        _ = wb.train
+
+
+def test_without_pandas_it_is_said_what_to_install(monkeypatch):
+    from workbench.api.frames import data_frame
+
+    monkeypatch.setitem(sys.modules, "pandas", None)
+    with pytest.raises(WorkbenchError, match="pip install pandas"):
+        data_frame([{"a": 1}])
+
+
+def test_an_entrant_is_a_law_or_builds_one():
+    with pytest.raises(ValueError, match="no law and builds no controller"):
+        wb.entrant(Path(), 0.1)
