@@ -124,6 +124,7 @@ def test_entries_whose_runs_agree_are_one_row(contest: Contest, scenario: Scenar
     told = Told(small, scenario, matches, None)
     assert [[entry.name for entry in group] for group in told.alike] == [["pid"], ["pocrac", "mpc_linear"]]
     assert [row[0] for row in condition_table(told, "ten").rows] == ["pid", "pocrac = mpc_linear"]
+    assert told.best("ten", "position_rms") == ["pocrac = mpc_linear"]
     assert undecided(told.__class__(small.model_copy(update={"racing": Racing(
         first=16, step=8, metrics=("position_rms",))}), scenario, matches, None)) == []
 

@@ -51,7 +51,7 @@ def test_every_sampled_controller_says_what_it_is_and_what_it_knows(law_id):
     assert SAMPLED[law_id].title.strip()
     assert SAMPLED[law_id].information in (
         "full state, nominal model", "full state, nominal model, the line",
-        "full state, nominal model, bound of the disturbance")
+        "full state, nominal model, bound of the disturbance", "full state, nominal model at the start")
 
 
 def test_every_error_says_when_it_is_raised():

@@ -194,7 +194,7 @@ def _findings(told: Told) -> Iterator[str]:
     wins: dict[str, Counter[str]] = {metric: Counter() for metric in told.metrics}
     for condition in told.contest.conditions:
         for metric in told.metrics:
-            found = told.winners(condition, metric)
+            found = told.best(condition, metric)
             wins[metric].update(found if len(found) == 1 else ())
     count = len(told.contest.conditions)
     for metric in told.metrics:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -106,6 +106,11 @@ class Told:
         """
         return [self.entries[i].name for i in sorted(self.rankings[condition, metric].winners)]
 
+    def best(self, condition: str, metric: str) -> list[str]:
+        """`winners` as tables call them: entries whose runs agree are one."""
+        found = set(self.winners(condition, metric))
+        return [label(group) for group in self.alike if found & {entry.name for entry in group}]
+
     @cached_property
     def alike(self) -> tuple[tuple[Entry, ...], ...]:
         """The entries, those together whose runs agree within ALIKE in every metric of every draw and condition."""
@@ -120,6 +125,11 @@ class Told:
             else:
                 groups.append([entry])
         return tuple(map(tuple, groups))
+
+
+def label(group: Sequence[Entry]) -> str:
+    """What entries that are told as one are called."""
+    return " = ".join(entry.name for entry in group)
 
 
 def _agree(one: list[list[float | None]], other: list[list[float | None]]) -> bool:
@@ -140,17 +150,17 @@ def condition_table(told: Told, condition: str) -> ResultTable:
     """A row per entry: means with their intervals, failed runs."""
     stated = told.contest.conditions[condition]
     rows = []
-    best = {metric: told.winners(condition, metric) for metric in told.metrics}
+    best = {metric: told.best(condition, metric) for metric in told.metrics}
     columns = {metric: told.values(condition, metric) for metric in told.metrics}
     numbers = {entry: i for i, entry in enumerate(told.entries)}
     for group in told.alike:
         entry, i = group[0], numbers[group[0]]
         matches = of(told.matches, condition, entry.name)
         failed = sum(match.failed is not None for match in matches)
-        cells: list[Cell] = [" = ".join(one.name for one in group)]
+        cells: list[Cell] = [label(group)]
         for metric in told.metrics:
             value = columns[metric][i]
-            mark = " ●" if entry.name in best[metric] else "" if told.judged(entry, metric) else " (follows no curve)"
+            mark = " ●" if label(group) in best[metric] else "" if told.judged(entry, metric) else " (follows no curve)"
             cells.append(None if value is None else _interval(value, told.how, mark))
         rows.append((*cells, Phrase("{} of {}", (failed, len(matches)))))
     runs = told.runs(condition)
@@ -180,7 +190,7 @@ def winners_table(told: Told) -> ResultTable:
     for name, condition in told.contest.conditions.items():
         cells = []
         for metric in told.metrics:
-            found = told.winners(name, metric)
+            found = told.best(name, metric)
             cells.append("none arrives" if not found else found[0] if len(found) == 1 else
                          f"tie: {', '.join(found)}" if len(found) <= NAMED else f"tie of {len(found)}")
         rows.append((condition.title, *cells))

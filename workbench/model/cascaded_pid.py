@@ -47,7 +47,7 @@ def cascaded_pid(steps: tuple[tuple[float, float], ...] = ()) -> ControlLaw:
         title=f"cascaded PID with feed-forward{', told the line' if steps else ''}",
         source="textbook: cascaded loops, gain scheduling, anti-windup by back calculation (Åström and Hägglund, "
                "Advanced PID Control, 2006)",
-        information="full state, nominal model",
+        information="full state, nominal model, the line" if steps else "full state, nominal model",
         command=command,
         states=(LawState(speed_integral, rate=K_i * speed_error + (command - asked) / T_t),),
         parameters=(K_x, K_slow, K_fast, v_fast, K_i, T_t, davis_a, davis_b, davis_c, u_traction, u_brake,

@@ -17,7 +17,8 @@ neuron_count = sp.Symbol("n_h", integer=True, positive=True)
 
 MEASUREMENTS = (time, position, speed, desired_position, desired_speed, desired_acceleration, period)
 
-Information = Literal["full state, model unknown", "full state, nominal model", "position only, model unknown"]
+Information = Literal["full state, model unknown", "full state, nominal model", "full state, nominal model, the line",
+                      "position only, model unknown"]
 
 
 def over_neurons(summand: sp.Expr) -> sp.Expr:

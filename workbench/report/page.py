@@ -52,7 +52,7 @@ def build_page(content: ReportContent) -> str:
     sources = sourced_values(scenario)
     lines = [
         headline.proof_line(claims), headline.nominal_line(scenario, content.metrics, names),
-        headline.table_line(scenario, summaries, names),
+        headline.table_line(scenario, summaries, names, content.sweep),
         headline.variants_line(content.metrics, content.variants, names), headline.sources_line(sources),
     ]
     compared = tables.compared_table(scenario, summaries, names) if summaries else []
