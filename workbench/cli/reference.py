@@ -14,8 +14,8 @@ from workbench.errors import InputError
 NAME = "reference"
 
 
-def command(track: Annotated[Path | None, typer.Argument(help="Line: TOML of this project, or TTOBench JSON")] = None,
-            train: Annotated[Path | None, typer.Argument(help="Train: TOML of this project, or TTOBench JSON")] = None,
+def command(track: Annotated[Path | None, typer.Argument(help="Line: TOML of this project or TTOBench JSON")] = None,
+            train: Annotated[Path | None, typer.Argument(help="Train: TOML of this project or TTOBench JSON")] = None,
             time: Annotated[float | None, typer.Option(metavar="S", help="Trip time in s, with its stops.")] = None,
             timetable: Annotated[Path | None, typer.Option(
                 metavar="FILE", help="Windows on the way: TOML, or a journey of TTOBench; not with --time.")] = None,
@@ -38,6 +38,8 @@ def command(track: Annotated[Path | None, typer.Argument(help="Line: TOML of thi
             figure: Annotated[Path | None, typer.Option(metavar="FILE", help="Figure as SVG, PNG or PDF.")] = None,
             certificate: Annotated[Path | None, typer.Option(
                 metavar="FILE", help="Write the bound's certificate, and re-check it exactly.")] = None,
+            etcs: Annotated[bool, typer.Option(
+                "--etcs", help="Keep below the speeds that ETCS permits; needs the train's ETCS braking data.")] = False,
             fleet: Annotated[Path | None, typer.Option(
                 metavar="FILE", help="A day's trips (TOML) instead of TRACK and TRAIN; with --json, --csv.")] = None,
             workers: Workers = None,
@@ -57,6 +59,6 @@ def command(track: Annotated[Path | None, typer.Argument(help="Line: TOML of thi
     from workbench.report.reference_command import Request, reference_run
 
     done = reference_run(Request(track, train, time, stops, dwell, from_m, to_m, from_speed, to_speed, intervals,
-                               window, max_jerk, json, csv, every, figure, certificate, solver, timetable))
+                               window, max_jerk, json, csv, every, figure, certificate, solver, timetable, etcs))
     for line in done:
         out_console.print(line, soft_wrap=True, highlight=False, markup=False)

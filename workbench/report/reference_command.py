@@ -12,6 +12,7 @@ from typing import Literal
 
 from workbench.errors import InputError
 from workbench.files.outputs import check_outputs, is_stream
+from workbench.optimal.inputs.etcs_file import load_supervision
 from workbench.optimal.inputs.files import load_cars, load_line, load_vehicle
 
 Solver = Literal["auto", "socp", "nlp"]
@@ -41,6 +42,7 @@ class Request:
     certificate: Path | None
     solver: Solver = "auto"
     timetable: Path | None = None
+    etcs: bool = False
 
 
 def reference_run(asked: Request) -> Iterator[str]:
@@ -51,6 +53,7 @@ def reference_run(asked: Request) -> Iterator[str]:
     line, notes = load_line(asked.track)
     vehicle, more = load_vehicle(asked.train)
     train = load_cars(asked.train)
+    etcs = load_supervision(asked.train, asked.track) if asked.etcs else None
     if asked.figure and asked.figure.suffix.lower() not in FIGURES:
         raise InputError(asked.figure, "figure", f"end the name in one of {', '.join(FIGURES)}")
     for name, value in (("--dwell", asked.dwell_s), ("--from-speed", asked.start_mps), ("--to-speed", asked.end_mps)):
@@ -58,7 +61,7 @@ def reference_run(asked: Request) -> Iterator[str]:
             raise InputError("", name, f"{value:g} is not usable: give 0 or more")
     from workbench.report.reference_answer import answered  # noqa: PLC0415 - as said above
 
-    yield from answered(asked, line, vehicle, train, (*notes, *more))
+    yield from answered(asked, line, vehicle, train, (*notes, *more), etcs)
 
 
 def _check_outputs(asked: Request) -> None:
