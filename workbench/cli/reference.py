@@ -39,7 +39,7 @@ def command(track: Annotated[Path | None, typer.Argument(help="Line: TOML of thi
             certificate: Annotated[Path | None, typer.Option(
                 metavar="FILE", help="Write the bound's certificate, and re-check it exactly.")] = None,
             etcs: Annotated[bool, typer.Option(
-                "--etcs", help="Keep below the speeds that ETCS permits; needs the train's ETCS braking data.")] = False,
+                "--etcs", help="Keep below the speeds that ETCS permits; the train must state its braking.")] = False,
             fleet: Annotated[Path | None, typer.Option(
                 metavar="FILE", help="A day's trips (TOML) instead of TRACK and TRAIN; with --json, --csv.")] = None,
             workers: Workers = None,
@@ -56,7 +56,8 @@ def command(track: Annotated[Path | None, typer.Argument(help="Line: TOML of thi
         return
     if track is None or train is None:
         raise InputError("", "TRACK TRAIN", "are missing: name the files of a line and a train, or --fleet FILE")
-    from workbench.report.reference_command import Request, reference_run
+    from workbench.report.reference_command import reference_run
+    from workbench.report.reference_request import Request
 
     done = reference_run(Request(track, train, time, stops, dwell, from_m, to_m, from_speed, to_speed, intervals,
                                window, max_jerk, json, csv, every, figure, certificate, solver, timetable, etcs))

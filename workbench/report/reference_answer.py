@@ -26,7 +26,7 @@ from workbench.optimal.smooth import SmoothReference, smooth_reference
 from workbench.optimal.timetable import Timetable
 from workbench.optimal.vehicle import Vehicle
 from workbench.optimal.verify_smooth import SmoothCheck, check_smooth
-from workbench.report.reference_command import Request, certified_file, couplers_file, of_cars_file, table_file
+from workbench.report.reference_request import Request, certified_file, couplers_file, of_cars_file, table_file
 from workbench.report.timing_lines import timing_lines
 
 if TYPE_CHECKING:
