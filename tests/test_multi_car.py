@@ -22,7 +22,8 @@ from workbench.optimal.course import Course
 from workbench.optimal.inputs.files import load_cars, load_line, load_vehicle
 from workbench.optimal.inputs.line import course
 from workbench.optimal.reference import least_time
-from workbench.optimal.smooth import SmoothRun, smooth_reference
+from workbench.optimal.smooth import smooth_reference
+from workbench.optimal.smooth_run import SmoothRun
 from workbench.optimal.vehicle import ForceLimit
 
 TRAIN = SHARED / "trains" / "chen2019_cars.toml"

@@ -16,7 +16,8 @@ from workbench.optimal.course import Course
 from workbench.optimal.envelope import InfeasibleRunError
 from workbench.optimal.export import COLUMNS, samples, time_response, write_csv
 from workbench.optimal.profile import Profile
-from workbench.optimal.smooth import SmoothRun, smooth_reference, smoothed
+from workbench.optimal.smooth import smooth_reference, smoothed
+from workbench.optimal.smooth_run import SmoothRun
 from workbench.optimal.vehicle import ForceLimit, Vehicle
 
 TRAIN = Vehicle("test", 2e5, (3e3, 20.0, 8.0), ForceLimit(2e5, 2e6), ForceLimit(1.5e5, 2e6), 1e5,

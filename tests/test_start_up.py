@@ -1,4 +1,4 @@
-"""What commands import: a mistake in an input is said without any solver, and a run is found without what it needs not."""
+"""What commands import: a mistake is said without any solver, and a run is found without tools it has no use for."""
 
 import json
 import subprocess

@@ -14,8 +14,8 @@ from workbench.errors import InputError
 NAME = "reference"
 
 
-def command(track: Annotated[Path | None, typer.Argument(help="Line: TOML of this project, or TTOBench JSON")] = None,
-            train: Annotated[Path | None, typer.Argument(help="Train: TOML of this project, or TTOBench JSON")] = None,
+def command(track: Annotated[Path | None, typer.Argument(help="Line: TOML of this project or TTOBench JSON")] = None,
+            train: Annotated[Path | None, typer.Argument(help="Train: TOML of this project or TTOBench JSON")] = None,
             time: Annotated[float | None, typer.Option(metavar="S", help="Trip time in s, with its stops.")] = None,
             timetable: Annotated[Path | None, typer.Option(
                 metavar="FILE", help="Windows on the way: TOML, or a journey of TTOBench; not with --time.")] = None,
@@ -40,6 +40,8 @@ def command(track: Annotated[Path | None, typer.Argument(help="Line: TOML of thi
                 metavar="FILE", help="Write the bound's certificate, and re-check it exactly.")] = None,
             check: Annotated[Path | None, typer.Option(
                 metavar="FILE", help="Only re-check a bound's certificate against this line, train and times.")] = None,
+            etcs: Annotated[bool, typer.Option(
+                "--etcs", help="Keep below the speeds that ETCS permits; the train must state its braking.")] = False,
             fleet: Annotated[Path | None, typer.Option(
                 metavar="FILE", help="A day's trips (TOML) instead of TRACK and TRAIN; with --json, --csv.")] = None,
             workers: Workers = None,
@@ -56,9 +58,10 @@ def command(track: Annotated[Path | None, typer.Argument(help="Line: TOML of thi
         return
     if track is None or train is None:
         raise InputError("", "TRACK TRAIN", "are missing: name the files of a line and a train, or --fleet FILE")
-    from workbench.report.reference_command import Request, reference_run
+    from workbench.report.reference_command import reference_run
+    from workbench.report.reference_request import Request
 
     done = reference_run(Request(track, train, time, stops, dwell, from_m, to_m, from_speed, to_speed, intervals,
-                               window, max_jerk, json, csv, every, figure, certificate, solver, timetable, check))
+                               window, max_jerk, json, csv, every, figure, certificate, solver, timetable, check, etcs))
     for line in done:
         out_console.print(line, soft_wrap=True, highlight=False, markup=False)

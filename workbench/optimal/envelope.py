@@ -16,8 +16,9 @@ from workbench.optimal.profile import Profile, largest_force
 from workbench.optimal.vehicle import Vehicle
 from workbench.trains.resistance import davis_resistance
 
-# By this share more than a run's last speed is aimed at where full traction leads to it, for the steps' error.
-RUN_UP = 1e-5
+# By the least of these shares that serves more than half the square of a run's last speed is aimed at where full
+# traction leads to it: for the steps' error, and for what cells give up that keep their limits at every point.
+RUN_UPS = (1e-5, 1e-4, 1e-3, 4e-3, 1.6e-2, 6.4e-2)
 # Over these lengths b follows from one slope, whatever the train; and as many at most.
 PART_M, MOST_PARTS = 20.0, 100_000
 # Times a cell's acceleration is lowered until every point of the cell allows it, and what rounding may add to b.
@@ -146,11 +147,11 @@ def _pass(target: Array, start: float, step: Array, line: Array, drag: Array, us
 
 
 @njit(cache=True)
-def _run_up(target: Array, top: Array, end: float, step: Array, line: Array, drag: Array, numbers: Array,
+def _run_up(target: Array, top: Array, end: float, more: float, step: Array, line: Array, drag: Array, numbers: Array,
             limits: tuple[Array, Array], tables: tuple[Array, Array]) -> Array:
     """The target, raised at the end to what full traction needs in order to reach `end`; below top everywhere."""
     raised = target.copy()
-    b = end * (1.0 + RUN_UP)
+    b = end * (1.0 + more)
     for k in range(len(step) - 1, -1, -1):
         raised[k + 1] = min(max(raised[k + 1], b), top[k + 1])
         first = _slope(b, 1.0, line[k, 1], drag[k, 1], numbers, limits, tables)
@@ -179,12 +180,22 @@ def drivable(vehicle: Vehicle, course: Course, target: Array, start_mps: float =
     stands = np.isin(course.position_m, course.stops_m)
     top[stands] = 0.0
     stands[[0, -1]] = start_mps == 0, end_mps == 0
+    usable = course.usable_shares
+
+    def from_start(below: Array) -> tuple[Array, int]:
+        return _pass(below, start_mps**2 / 2, step, course.force_n, course.drag, usable[:, 0].copy(), stands, 1.0,
+                     numbers, limits, tables, is_strict)
+
     if end_mps > 0:
         most = np.where(stands, 0.0, _top(course))
-        top = _run_up(top, most, end_mps**2 / 2, step, course.force_n, course.drag, numbers, limits, tables)
-    usable = course.usable_shares
-    forward, stuck = _pass(top, start_mps**2 / 2, step, course.force_n, course.drag, usable[:, 0].copy(), stands, 1.0,
-                           numbers, limits, tables, is_strict)
+        for more in RUN_UPS:
+            raised = _run_up(top, most, end_mps**2 / 2, more, step, course.force_n, course.drag, numbers, limits,
+                             tables)
+            forward, stuck = from_start(raised)
+            if forward[-1] >= end_mps**2 / 2 * (1 - 1e-10):
+                break
+    else:
+        forward, stuck = from_start(top)
     if stuck >= 0:
         raise InfeasibleRunError(_stall(vehicle, course, stuck))
     found, stuck = _pass(forward[::-1].copy(), end_mps**2 / 2, step[::-1].copy(), course.force_n[::-1, ::-1].copy(),

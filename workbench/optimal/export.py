@@ -15,7 +15,8 @@ from workbench.files.writing import write_text
 from workbench.optimal.course import Array, Course
 from workbench.optimal.force_reserve import needed_force
 from workbench.optimal.reference import Reference
-from workbench.optimal.smooth import SmoothReference, SmoothRun
+from workbench.optimal.smooth import SmoothReference
+from workbench.optimal.smooth_run import SmoothRun
 from workbench.optimal.vehicle import Vehicle
 from workbench.optimal.verify_smooth import SmoothCheck
 

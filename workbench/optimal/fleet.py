@@ -31,8 +31,8 @@ class TripRow:
     length_m: float | None = None
     time_s: float | None = None
     least_time_s: float | None = None
-    energy_J: float | None = None  # noqa: N815 - the unit's own letter, as in every document
-    lower_bound_J: float | None = None  # noqa: N815 - as above
+    energy_J: float | None = None
+    lower_bound_J: float | None = None
     gap: float | None = None
     status: str = "refused"
     trouble: str | None = None

@@ -9,7 +9,7 @@ from numba import njit
 
 from workbench.optimal.course import Array, Course
 from workbench.optimal.envelope import compiled_resistance, device_limits
-from workbench.optimal.smooth import SmoothRun
+from workbench.optimal.smooth_run import SmoothRun
 from workbench.optimal.vehicle import Vehicle
 from workbench.optimal.verify import POSITION_GAIN, SPEED_GAIN, device_forces
 

@@ -7,7 +7,7 @@ from workbench.optimal.bound_document import digests, read_bound
 from workbench.optimal.course import Course
 from workbench.optimal.timetable import Timetable
 from workbench.optimal.vehicle import Vehicle
-from workbench.report.reference_command import Request
+from workbench.report.reference_request import Request
 
 KWH_J = 3.6e6
 

@@ -67,8 +67,8 @@ def fleet_run(asked: FleetRequest) -> Iterator[str]:
         yield _line(row.document())
     solved = [row for row in found if row.energy_J is not None]
     energy, bound = (sum(getattr(row, name) for row in solved) for name in ("energy_J", "lower_bound_J"))
-    yield (f"{fleet.name}: {len(solved)} of {len(found)} trips solved, {energy / KWH_J:.3f} kWh, any runs take at least "
-           f"{bound / KWH_J:.3f} kWh")
+    yield (f"{fleet.name}: {len(solved)} of {len(found)} trips solved, {energy / KWH_J:.3f} kWh, any runs take at "
+           f"least {bound / KWH_J:.3f} kWh")
     if asked.json:
         write_json(asked.json, document())
         yield f"result: {asked.json}"

@@ -16,6 +16,7 @@ from workbench.optimal.certified_export import certified_document, certified_row
 from workbench.optimal.course import Course
 from workbench.optimal.envelope import InfeasibleRunError
 from workbench.optimal.export import EXACT_DIGITS, reference_document, samples, smooth_gap, write_csv
+from workbench.optimal.inputs.etcs import Supervision, supervised
 from workbench.optimal.inputs.files import notes_together
 from workbench.optimal.inputs.journey import load_timetable
 from workbench.optimal.inputs.line import Line, course
@@ -26,7 +27,7 @@ from workbench.optimal.timetable import Timetable, as_timetable
 from workbench.optimal.vehicle import Vehicle
 from workbench.optimal.verify_smooth import SmoothCheck, check_smooth
 from workbench.report.bound_check import checked_bound
-from workbench.report.reference_command import Request, certified_file, couplers_file, of_cars_file, table_file
+from workbench.report.reference_request import Request, certified_file, couplers_file, of_cars_file, table_file
 from workbench.report.timing_lines import timing_lines
 
 if TYPE_CHECKING:
@@ -39,14 +40,16 @@ ROUNDING = 1e-9
 
 
 def answered(asked: Request, line: Line, vehicle: Vehicle, train: CarTrain | None,
-             notes: tuple[str, ...]) -> Iterator[str]:
+             notes: tuple[str, ...], etcs: Supervision | None = None) -> Iterator[str]:
     """Lines for the reader as they come; raises InputError and InfeasibleRunError before anything is written."""
     if asked.timetable:
-        yield from _timed_run(asked, line, vehicle, train, notes)
+        yield from _timed_run(asked, line, vehicle, train, notes, etcs)
         return
     to_m = line.length_m if asked.to_m is None else asked.to_m
     stops = line.stops_between(asked.from_m, to_m) if asked.serve_stops else ()
     run = course(line, vehicle, asked.from_m, to_m, stops)
+    if etcs:
+        run = supervised(run, vehicle, etcs, asked.end_mps)
     dwell = asked.dwell_s * len(stops)
     if asked.trip_time_s is None:
         least = least_time(vehicle, run, asked.start_mps, asked.end_mps).trip_time_s + dwell
@@ -80,7 +83,7 @@ def _cars(train: CarTrain | None, line: Line, run: Course, smooth: SmoothReferen
 
 
 def _timed_run(asked: Request, line: Line, vehicle: Vehicle, train: CarTrain | None,
-               notes: tuple[str, ...]) -> Iterator[str]:
+               notes: tuple[str, ...], etcs: Supervision | None) -> Iterator[str]:
     """The lines of a run by timetable, which says where it begins and ends and where it stops."""
     assert asked.timetable is not None
     for name, is_given in (("--time", asked.trip_time_s is not None), ("--stops", asked.serve_stops),
@@ -98,6 +101,8 @@ def _timed_run(asked: Request, line: Line, vehicle: Vehicle, train: CarTrain | N
     asked = replace(asked, start_mps=speeds[0], end_mps=speeds[1])
     timetable = journey.timetable
     run = timetable.on(course(line, vehicle, timetable.points[0].position_m, timetable.points[-1].position_m))
+    if etcs:
+        run = supervised(run, vehicle, etcs, speeds[1])
     if asked.check:
         yield checked_bound(asked, vehicle, run, timetable)
         return

@@ -37,7 +37,7 @@ from workbench.optimal.cars.share_forces import Rule, Shares, share_forces
 from workbench.optimal.course import Array, Course
 from workbench.optimal.force_reserve import needed_force
 from workbench.optimal.inputs.line import Line, course
-from workbench.optimal.smooth import SmoothRun
+from workbench.optimal.smooth_run import SmoothRun
 from workbench.trains import multi_particle as of_cars
 
 # Between two rows of the forces, and steps of the simulation in each: 5 ms, where couplers swing with up to 2 Hz.

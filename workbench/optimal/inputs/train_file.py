@@ -9,6 +9,7 @@ from pydantic import Field, Strict, model_validator
 
 from workbench.files.toml import NonNegative, Positive, Record
 from workbench.optimal.inputs.cars_file import CarsTable
+from workbench.optimal.inputs.etcs_table import EtcsTable
 from workbench.optimal.inputs.plausible import plausible
 from workbench.optimal.vehicle import ForceLimit, Vehicle
 from workbench.trains.train_record import Train
@@ -29,6 +30,7 @@ class TrainFile(Train):
     max_braking_n is what all brakes give at standstill, regenerative_force_n the part of it that is electric; the
     remainder returns nothing. max_power_w limits traction. traction_curve: the largest force between its points (a
     motor's, adhesion), constant beyond them, beside max_traction_n and max_power_w. cars: of a train of several cars.
+    etcs: how it brakes, for `--etcs`.
     """
 
     length_m: Positive | None = None
@@ -43,6 +45,7 @@ class TrainFile(Train):
     regenerative_efficiency: Efficiency = 0.0
     auxiliary_w: NonNegative = 0.0
     cars: CarsTable | None = None
+    etcs: EtcsTable | None = None
 
     @model_validator(mode="after")
     def _brakes_fit_together(self) -> Self:
