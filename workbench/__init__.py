@@ -16,18 +16,18 @@ if TYPE_CHECKING:
     from workbench.model.law import LawState, period, time
     from workbench.mpc.plant_tracking import PlantMpc
     from workbench.proof.paper import Paper
-    from workbench.simulate.plants.setting import Setting
     from workbench.systems.law import Reference
     from workbench.systems.law import StateLaw as Law
     from workbench.systems.lyapunov import Lyapunov, closed_loop
     from workbench.systems.metric import Metric
     from workbench.systems.plant import Parameter, Plant
+    from workbench.systems.setting import Setting
     from workbench.systems.signals import Constant, Ramp, Sine, Spline, Step
 
 _WHERE = {
     "api.functions": ("check_paper", "closed_loop", "compare", "entrant", "load", "prove", "simulate"),
     "api.results": ("Comparison", "Proved", "Run"), "model.law": ("LawState", "period", "time"),
-    "mpc.plant_tracking": ("PlantMpc",), "proof.paper": ("Paper",), "simulate.plants.setting": ("Setting",),
+    "mpc.plant_tracking": ("PlantMpc",), "proof.paper": ("Paper",), "systems.setting": ("Setting",),
     "systems.law": ("Reference", "StateLaw"), "systems.lyapunov": ("Lyapunov", "closed_loop"),
     "systems.metric": ("Metric",), "systems.plant": ("Parameter", "Plant"),
     "systems.signals": ("Constant", "Ramp", "Sine", "Spline", "Step"),

@@ -10,8 +10,8 @@ from shown_plants import CART, PENDULUM, u, v, x
 
 from workbench.mpc.plant_tracking import PlantMpc
 from workbench.simulate.plants.run import Entrant, run
-from workbench.simulate.plants.setting import Setting
 from workbench.systems.plant import Parameter, Plant
+from workbench.systems.setting import Setting
 from workbench.systems.signals import Constant, Sine
 
 AT_REST = {"references": {"r": Constant(value=0.0)}, "tracks": {"x": "r"}}

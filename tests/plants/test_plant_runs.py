@@ -13,10 +13,10 @@ from shown_plants import CART, COMPUTED_TORQUE, FREE, GAINS, PENDULUM, omega, th
 from workbench.errors import CompileError
 from workbench.model.law import LawState
 from workbench.simulate.plants.run import Entrant, run
-from workbench.simulate.plants.setting import Setting
 from workbench.systems.law import Reference, StateLaw
 from workbench.systems.metric import Metric
 from workbench.systems.plant import Parameter, Plant
+from workbench.systems.setting import Setting
 from workbench.systems.signals import Constant, Ramp, Sine, Spline, Step
 
 q = sp.Symbol("q", real=True)

@@ -24,9 +24,9 @@ from workbench.proof.prove import prove as decide
 from workbench.proof.selection import targets
 from workbench.simulate.plants.run import Entrant
 from workbench.simulate.plants.run import run as run_plant
-from workbench.simulate.plants.setting import Setting
 from workbench.systems.law import StateLaw
 from workbench.systems.plant import Plant
+from workbench.systems.setting import Setting
 
 Names = Mapping[sp.Symbol, Any] | Mapping[str, Any]
 

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from workbench.api.frames import data_frame
 from workbench.simulate.plants.run import PlantRun
-from workbench.simulate.plants.setting import Setting
+from workbench.systems.setting import Setting
 
 
 @dataclass(frozen=True)

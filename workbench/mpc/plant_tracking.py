@@ -18,8 +18,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from workbench.compile.casadi_tree import casadi_of
-from workbench.simulate.plants.arrays import limits_of
-from workbench.simulate.plants.setting import Setting
+from workbench.systems.setting import Setting, limits_of
 from workbench.systems.signals import signals_at
 
 Array = NDArray[np.float64]

@@ -15,10 +15,10 @@ from workbench.model.laws import named, names_near
 from workbench.mpc.plant_tracking import PlantMpc
 from workbench.paper.plants.record import LawEntry, MpcEntry, PlantStudy
 from workbench.simulate.plants.run import Entrant
-from workbench.simulate.plants.setting import Setting
 from workbench.systems.law import StateLaw
 from workbench.systems.metric import Metric
 from workbench.systems.plant import Plant
+from workbench.systems.setting import Setting
 from workbench.systems.signals import read_signal
 
 TUNED = " (tuned)"

@@ -9,7 +9,7 @@ from pydantic import Discriminator, Field, Strict, Tag, model_validator
 from workbench.files.toml import Count, Name, NonNegative, Number, Positive, SourcedRecord, Text
 from workbench.model.tuning import Searched, Seed
 from workbench.paper.study import Study
-from workbench.simulate.plants.setting import Integrator
+from workbench.systems.setting import Integrator
 from workbench.systems.signals import Signal
 
 MPC = "mpc.tracking"

@@ -14,8 +14,8 @@ from workbench.paper.results import Curve, Plot, ResultTable, StudyResult, thinn
 from workbench.paper.study import Progress, StudyKind
 from workbench.simulate.plants.run import PlantRun
 from workbench.simulate.plants.run import run as run_plant
-from workbench.simulate.plants.setting import Setting
 from workbench.simulate.process_pool import results_of
+from workbench.systems.setting import Setting
 
 
 def run(study: LocatedPlantStudy, workers: int, on_progress: Progress) -> StudyResult:

@@ -15,8 +15,8 @@ from workbench.compile.kernel import loop_module
 from workbench.compile.vector_code import into_array, runge_kutta_step, smallest
 from workbench.model.law import period, time
 from workbench.simulate.plants import plant_loop
-from workbench.simulate.plants.setting import Setting
 from workbench.systems.law import StateLaw
+from workbench.systems.setting import Setting
 from workbench.systems.signals import table_of
 
 Array = NDArray[np.float64]
@@ -122,10 +122,3 @@ def arrays_of(setting: Setting, found: Compiled, law_states: Array) -> Arrays:
 def log_step(setting: Setting) -> int:
     """Plant steps between two rows of the log, where none is stated: some thousand rows a run."""
     return max(1, round(setting.duration_s / setting.step_s) // 1000)
-
-
-def limits_of(setting: Setting) -> tuple[Array, Array]:
-    """The inputs' lower and upper limits, infinite where there is none."""
-    plant = setting.plant
-    pairs = [plant.input_limits.get(symbol, (-math.inf, math.inf)) for symbol in plant.inputs]
-    return np.array([low for low, _ in pairs], dtype=float), np.array([high for _, high in pairs], dtype=float)

@@ -13,11 +13,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from workbench.compile.vector_code import numeric_vector
-from workbench.simulate.plants.arrays import Arrays, Compiled, arrays_of, compiled, limits_of
+from workbench.simulate.plants.arrays import Arrays, Compiled, arrays_of, compiled
 from workbench.simulate.plants.plant_loop import DIVERGED, LAW_OUTSIDE, NO_COMMAND, OUTSIDE, RUNNING
-from workbench.simulate.plants.setting import Setting
 from workbench.simulate.plants.solver import advance_by_solver
 from workbench.systems.law import StateLaw
+from workbench.systems.setting import Setting, limits_of
 
 Array = NDArray[np.float64]
 

@@ -10,7 +10,7 @@ from scipy.integrate import solve_ivp
 
 from workbench.simulate.plants.arrays import Arrays
 from workbench.simulate.plants.plant_loop import DIVERGED, OUTSIDE, RUNNING
-from workbench.simulate.plants.setting import Setting
+from workbench.systems.setting import Setting
 
 NAMES = {"radau": "Radau", "bdf": "BDF", "lsoda": "LSODA"}
 RELATIVE, ABSOLUTE = 1e-8, 1e-10

@@ -7,7 +7,9 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from typing import Any, Literal, get_args
 
+import numpy as np
 import sympy as sp
+from numpy.typing import NDArray
 
 from workbench.systems.law import Reference
 from workbench.systems.metric import Metric
@@ -15,6 +17,7 @@ from workbench.systems.plant import Plant
 from workbench.systems.signals import AnySignal, Constant
 from workbench.systems.symbols import CLOCK, require_known
 
+Array = NDArray[np.float64]
 Integrator = Literal["rk4", "radau", "bdf", "lsoda"]
 MOST_STEPS = 100_000_000
 
@@ -143,3 +146,10 @@ class Setting:
     def varied(self, **changes: Any) -> Setting:
         """The same setting with other fields."""
         return replace(self, **changes)
+
+
+def limits_of(setting: Setting) -> tuple[Array, Array]:
+    """The inputs' lower and upper limits, infinite where there is none."""
+    plant = setting.plant
+    pairs = [plant.input_limits.get(symbol, (-math.inf, math.inf)) for symbol in plant.inputs]
+    return np.array([low for low, _ in pairs], dtype=float), np.array([high for _, high in pairs], dtype=float)
