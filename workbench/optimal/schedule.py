@@ -140,7 +140,7 @@ def _too_late(vehicle: Vehicle, timetable: Timetable, quickest: Profile, events:
     """In a line: which event is too late by what, from where on, and what binds there."""
     if timetable.trip_time_s is not None:
         return (f"{timetable.trip_time_s:g} s is too short: the least feasible trip time is "
-                f"{quickest.trip_time_s:.1f} s, {binding(vehicle, quickest) or 'by the course itself'}: allow more time")
+                f"{quickest.trip_time_s:.1f} s, {binding(vehicle, quickest)}: allow more time")
     chain = timetable.events
     since, event = (chain[k] for k in events)
     point, origin = timetable.points[event.point], timetable.points[since.point]
