@@ -15,6 +15,7 @@ from workbench.errors import InputError
 from workbench.files.json_input import read_json
 from workbench.files.json_output import write_json
 from workbench.files.outputs import check_outputs
+from workbench.files.regular import LARGEST_DATA, contents
 from workbench.files.toml import load_record
 from workbench.files.writing import write_text
 from workbench.optimal.inputs.fleet_file import FleetFile
@@ -89,7 +90,7 @@ def _digest(trip: Any) -> str:
     text = hashlib.sha256(f"{__version__} {trip.trip!r}".encode())
     for path in (trip.track, trip.train):
         try:
-            text.update(path.read_bytes() if path.is_file() else b"none")
+            text.update(contents(path, LARGEST_DATA))
         except OSError:
             text.update(b"unreadable")
     return text.hexdigest()
