@@ -25,7 +25,7 @@ from workbench.files.modules import module_in
 from workbench.paper.drivers import Drivers, entries, shortened, tune_with
 from workbench.paper.mpc_comparison import FOLLOWS_MPS, best_words
 from workbench.paper.pairs import compared_pairs, factors_of, pair_findings, pair_stage, pair_table, pairs_of
-from workbench.paper.parameter_search import Kept, binding, score, search
+from workbench.paper.parameter_search import Finished, binding, score, search
 from workbench.paper.results import ResultTable
 from workbench.paper.stages import run_stages
 from workbench.paper.study import StudyKind
@@ -106,14 +106,14 @@ def test_restarts_differ_the_best_counts_and_workers_change_nothing() -> None:
     short_of = of.model_copy(update={"tuning": budget})
     tune = tune_with(DRIVERS["jiao2025"])
     kept: dict[Any, Any] = {}
-    alone = tune(short_of, ["pd"], 1, lambda *_: None, Kept({}, kept.__setitem__))
+    alone = tune(short_of, ["pd"], 1, lambda *_: None, Finished({}, kept.__setitem__))
     assert alone == tune(short_of, ["pd"], 2, lambda *_: None)
     assert len(kept) == 3 and alone["pd"].cost == min(one.cost for one in kept.values())
     assert len({one.improvements for one in kept.values()}) > 1, "restarts are the same search"
     assert {one.stated for one in kept.values()} == {alone["pd"].stated}, "each begins with what is stated"
     seen: list[str] = []
     two = {task: kept[task] for task in [("pd", 0), ("pd", 2)]}
-    assert tune(short_of, ["pd"], 1, lambda *_: None, Kept(two, lambda task, _: seen.append(task))) == alone
+    assert tune(short_of, ["pd"], 1, lambda *_: None, Finished(two, lambda task, _: seen.append(task))) == alone
     assert seen == [("pd", 1)]
 
 

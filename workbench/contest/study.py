@@ -23,7 +23,7 @@ from workbench.contest.tune import tune_all
 from workbench.contest.tuning_table import convergence_plot, tuning_findings, tuning_table
 from workbench.errors import InputError
 from workbench.files.numbers import number
-from workbench.paper.parameter_search import Kept, Name, Tuned
+from workbench.paper.parameter_search import Finished, Name, Tuned
 from workbench.paper.results import Curve, Plot, StudyResult
 from workbench.paper.study import Progress, StudyKind
 from workbench.trains.scenario import Scenario, load_scenario, tunable
@@ -259,8 +259,8 @@ def _limits_of_the_curve(told: Told) -> Iterator[str]:
                "tracks it is too.")
 
 
-def _tuned(contest: Contest, names: list[str], workers: int, on_progress: Progress, kept: Kept) -> dict[Name, Tuned]:
-    return tune_all(contest, contest.world, names, workers, on_progress, kept)
+def _tuned(contest: Contest, names: list[str], workers: int, on_progress: Progress, finished: Finished) -> dict[Name, Tuned]:
+    return tune_all(contest, contest.world, names, workers, on_progress, finished)
 
 
 KIND = StudyKind(Contest, run, located, _tuned, run_kept, depends=world_digest)

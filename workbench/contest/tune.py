@@ -9,7 +9,7 @@ from workbench.contest.matches import match_values, run_match
 from workbench.contest.record import Contest, Objective, WithoutCurve
 from workbench.errors import InputError
 from workbench.model.tuning import at_the_rail
-from workbench.paper.parameter_search import NOTHING_KEPT, Kept, Name, Restart, Tuned, score, search, search_all
+from workbench.paper.parameter_search import NONE_YET, Finished, Name, Restart, Tuned, score, search, search_all
 from workbench.trains.scenario import Scenario, tunable, with_parameters
 
 # Draws of the search lie far from those of the contest, so that no controller is judged by what it was tuned on.
@@ -65,14 +65,14 @@ def _mean(runs: list[Metrics], goal: Objective | WithoutCurve, actuator: bool) -
 
 
 def tune_all(contest: Contest, scenario: Scenario, names: list[str], workers: int,
-             on_progress: Callable[[int, int, str], None], kept: Kept = NOTHING_KEPT) -> dict[Name, Tuned]:
+             on_progress: Callable[[int, int, str], None], finished: Finished = NONE_YET) -> dict[Name, Tuned]:
     """Several controllers in parallel processes, in the order of the names; of "per condition" each in each."""
     for name in names:
         goal_of(contest, scenario, name)
     searched: list[Name] = [*names]
     if contest.tuning.mode == "per condition":
         searched = [(condition, name) for condition in contest.conditions for name in names]
-    return search_all(_task, (contest, scenario), searched, contest.tuning.restarts, workers, on_progress, kept)
+    return search_all(_task, (contest, scenario), searched, contest.tuning.restarts, workers, on_progress, finished)
 
 
 def _task(shared: tuple[Contest, Scenario], name: Name, restart: int) -> Restart:

@@ -10,7 +10,7 @@ from typing import Any
 from workbench.errors import InputError
 from workbench.mpc.controller import KINDS
 from workbench.paper.mpc_comparison import MPC_KINDS
-from workbench.paper.parameter_search import NOTHING_KEPT, Kept, Name, Restart, Tuned, score, search, search_all
+from workbench.paper.parameter_search import NONE_YET, Finished, Name, Restart, Tuned, score, search, search_all
 from workbench.paper.study import Progress, Study, with_values
 from workbench.paper.tuning_record import Pairs, StudyTuning
 from workbench.simulate.closed_loop import NOMINAL, Factors
@@ -122,12 +122,12 @@ def checked(drivers: Drivers) -> Callable[[Any, Path], Any]:
     return check
 
 
-def tune_with(drivers: Drivers) -> Callable[[Study, list[str], int, Progress, Kept], dict[Name, Tuned]]:
+def tune_with(drivers: Drivers) -> Callable[[Study, list[str], int, Progress, Finished], dict[Name, Tuned]]:
     """What `StudyKind.tune` is for studies with these drivers: all names in parallel processes, in their order."""
 
-    def tune(study: Any, names: list[str], workers: int, on_progress: Progress, kept: Kept = NOTHING_KEPT
+    def tune(study: Any, names: list[str], workers: int, on_progress: Progress, finished: Finished = NONE_YET
              ) -> dict[Name, Tuned]:
-        return search_all(_restart, (drivers, study), names, study.tuning.restarts, workers, on_progress, kept)
+        return search_all(_restart, (drivers, study), names, study.tuning.restarts, workers, on_progress, finished)
 
     return tune
 

@@ -6,14 +6,14 @@ from collections.abc import Callable
 
 from workbench.errors import InputError
 from workbench.model.tuning import at_the_rail
-from workbench.paper.parameter_search import NOTHING_KEPT, Kept, Name, Restart, Tuned, score, search, search_all
+from workbench.paper.parameter_search import NONE_YET, Finished, Name, Restart, Tuned, score, search, search_all
 from workbench.simulate.closed_loop import simulate
 from workbench.simulate.metrics import measure
 from workbench.trains.scenario import Scenario, ScenarioTuning, tunable, with_parameters
 
 
 def tune_scenario(scenario: Scenario, names: list[str], workers: int, on_progress: Callable[[int, int, str], None],
-                  kept: Kept = NOTHING_KEPT) -> dict[Name, Tuned]:
+                  finished: Finished = NONE_YET) -> dict[Name, Tuned]:
     """The best parameters found for each of the controllers, in parallel processes, in the order of the names.
 
     Raises InputError for a name that is no controller, and for ranges of what it does not state.
@@ -26,7 +26,7 @@ def tune_scenario(scenario: Scenario, names: list[str], workers: int, on_progres
         for key in budget.ranges[name].keys() - tunable(scenario, name).keys():
             raise InputError("", f"tuning.ranges.{name}.{key}", "is no parameter that this controller states: remove "
                              "it")
-    return search_all(_restart, scenario, names, budget.restarts, workers, on_progress, kept)
+    return search_all(_restart, scenario, names, budget.restarts, workers, on_progress, finished)
 
 
 def _budget(scenario: Scenario) -> ScenarioTuning:

@@ -16,7 +16,7 @@ from workbench.trains.scenario import known_version
 
 if TYPE_CHECKING:
     from workbench.model.desired_curve import DesiredCurve
-    from workbench.paper.parameter_search import Kept, Tuned
+    from workbench.paper.parameter_search import Finished, Tuned
     from workbench.paper.parameter_search import Name as SearchedName
     from workbench.paper.tracked import Tracked
 
@@ -75,7 +75,7 @@ class StudyKind:
     record: type[Study]
     run: Callable[[Any, int, Progress], StudyResult]
     located: Callable[[Any, Path], Any] | None = None
-    tune: Callable[[Any, list[str], int, Progress, Kept], dict[SearchedName, Tuned]] | None = None
+    tune: Callable[[Any, list[str], int, Progress, Finished], dict[SearchedName, Tuned]] | None = None
     run_kept: Callable[[Any, int, Progress, Path, bool], StudyResult] | None = None
     track: Callable[[Any, DesiredCurve | None], Tracked] | None = None
     depends: Callable[[Any], str] | None = None

@@ -13,7 +13,7 @@ from workbench.files.text import read_text
 from workbench.files.writing import write_text
 from workbench.model.tuning import BY_CONDITION, FOUND_KEYS, Range, SearchResult
 from workbench.paper.loading import Loaded
-from workbench.paper.parameter_search import NOTHING_KEPT, Name, Tuned, binding, words_of
+from workbench.paper.parameter_search import NONE_YET, Name, Tuned, binding, words_of
 from workbench.paper.scenario_tuning import tune_scenario
 from workbench.paper.tuning_journal import kept_in, tuning_journal
 from workbench.simulate.process_pool import cores
@@ -52,7 +52,7 @@ def tune_run(loaded: Loaded, names: list[str], write: bool, workers: int | None,
         _before_found(path)
     try:
         if out is None:
-            found = tune(record, chosen, workers or cores(), on_progress, NOTHING_KEPT)
+            found = tune(record, chosen, workers or cores(), on_progress, NONE_YET)
         else:
             with tuning_journal(out, loaded, record, resume) as journal:
                 found = tune(record, chosen, workers or cores(), on_progress, kept_in(journal))

@@ -15,7 +15,7 @@ from workbench.files.modules import python_files
 from workbench.files.regular import contents
 from workbench.model.tuning import FOUND_KEYS
 from workbench.paper.loading import Loaded
-from workbench.paper.parameter_search import Kept, Restart, Task
+from workbench.paper.parameter_search import Finished, Restart, Task
 from workbench.simulate.journal import REMEDY, Journal, code_digest, laws_digest
 from workbench.trains.scenario import Scenario
 
@@ -44,7 +44,7 @@ def tuning_journal(folder: Path, loaded: Loaded, record: Any, resume: bool) -> J
                                            digest.hexdigest()[:20]}, resume)
 
 
-def kept_in(journal: Journal) -> Kept:
+def kept_in(journal: Journal) -> Finished:
     """The restarts that a journal held, and what adds others to it; InputError for a record that is none."""
     finished: dict[Task, Restart] = {}
     read: TypeAdapter[Restart] = TypeAdapter(Restart)
@@ -55,4 +55,4 @@ def kept_in(journal: Journal) -> Kept:
                 line["found"])
     except (ValidationError, KeyError, TypeError, ValueError, IndexError):
         raise InputError(journal.path, "", f"holds a record that is no restart of a search: {REMEDY}") from None
-    return Kept(finished, lambda task, found: journal.append({"task": task, "found": asdict(found)}))
+    return Finished(finished, lambda task, found: journal.append({"task": task, "found": asdict(found)}))

@@ -7,7 +7,7 @@ from collections.abc import Iterator, Sequence
 from workbench.errors import InputError
 from workbench.files.numbers import number
 from workbench.paper.cells import Column
-from workbench.paper.parameter_search import NOTHING_KEPT, Kept, Name, Restart, Tuned, score, search, search_all
+from workbench.paper.parameter_search import NONE_YET, Finished, Name, Restart, Tuned, score, search, search_all
 from workbench.paper.plants.problem import LocatedPlantStudy, located
 from workbench.paper.plants.record import PlantStudy
 from workbench.paper.results import Curve, Plot, ResultTable, StudyResult, thinned
@@ -89,7 +89,7 @@ def _findings(setting: Setting, runs: Sequence[PlantRun]) -> Iterator[str]:
 
 
 def tune(study: LocatedPlantStudy, names: list[str], workers: int, on_progress: Progress,
-         kept: Kept = NOTHING_KEPT) -> dict[Name, Tuned]:
+         finished: Finished = NONE_YET) -> dict[Name, Tuned]:
     """The best parameters found for each controller by one budget, optimiser and seed; InputError for wrong names."""
     budget = study.tuning
     assert budget is not None
@@ -101,7 +101,7 @@ def tune(study: LocatedPlantStudy, names: list[str], workers: int, on_progress: 
         for key in budget.ranges[name].keys() - study.tunable(name).keys():
             raise InputError(study.file, f"tuning.ranges.{name}.{key}", "is nothing that this controller states: name "
                              f"one of {', '.join(study.tunable(name))}")
-    return search_all(_restart, study, names, budget.restarts, workers, on_progress, kept)
+    return search_all(_restart, study, names, budget.restarts, workers, on_progress, finished)
 
 
 def _restart(study: LocatedPlantStudy, name: str, restart: int) -> Restart:
