@@ -259,7 +259,8 @@ def _limits_of_the_curve(told: Told) -> Iterator[str]:
                "tracks it is too.")
 
 
-def _tuned(contest: Contest, names: list[str], workers: int, on_progress: Progress, finished: Finished) -> dict[Name, Tuned]:
+def _tuned(contest: Contest, names: list[str], workers: int, on_progress: Progress,
+           finished: Finished) -> dict[Name, Tuned]:
     return tune_all(contest, contest.world, names, workers, on_progress, finished)
 
 
