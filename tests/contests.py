@@ -28,3 +28,8 @@ def few(contest: Contest, *conditions: str, seeds: int = 2, with_entrants: bool 
 
 def only(scenario: Scenario, *names: str) -> Scenario:
     return scenario.model_copy(update={"controllers": {name: scenario.controllers[name] for name in names}})
+
+
+def without_actuator(scenario: Scenario) -> Scenario:
+    """The same train with its force at once, as the references and their bounds have it."""
+    return scenario.model_copy(update={"actuator": None})

@@ -16,7 +16,7 @@ from workbench.errors import InputError
 from workbench.files.toml import read_toml
 from workbench.model import law as of
 from workbench.model.law import ControlLaw, LawState
-from workbench.simulate.actuator_loop import followed
+from workbench.simulate.actuator_loop import force_after_lag
 from workbench.simulate.closed_loop import run_law, setting_of, simulate
 from workbench.simulate.metrics import measure_run
 from workbench.trains.actuator import Actuator, Adhesion
@@ -93,7 +93,7 @@ def test_a_limited_rate_and_a_lag_are_a_ramp_until_the_lag_is_slower():
 @given(force=st.floats(-1, 1), wanted=st.floats(-1, 1), lag=st.floats(0.01, 2), rise=st.floats(0.1, 5),
        fall=st.floats(0.1, 5), dt=st.floats(0.01, 1))
 def test_the_mean_and_the_end_of_a_step_are_those_of_the_equation(force, wanted, lag, rise, fall, dt):
-    mean, end, _ = followed(force, wanted, dt, lag, rise, fall)
+    mean, end, _ = force_after_lag(force, wanted, dt, lag, rise, fall)
     found = solve_ivp(lambda _, y: [np.clip((wanted - y[0]) / lag, -fall, rise), y[0]], (0, dt), [force, 0.0],
                       rtol=1e-9, atol=1e-12, max_step=dt / 50)
     assert end == pytest.approx(found.y[0, -1], abs=1e-6)

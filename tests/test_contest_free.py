@@ -5,7 +5,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from contests import COMMON, few, only
+from contests import COMMON, few, only, without_actuator
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 from scenarios import LAWS
@@ -124,7 +124,7 @@ def hurried(scenario: Scenario) -> Scenario:
 
 def test_economic_mpc_saves_energy_stops_and_keeps_the_limits_without_following(
         contest: Contest, scenario: Scenario) -> None:
-    nominal = contest.conditions["nominal"]
+    nominal, scenario = contest.conditions["nominal"], without_actuator(scenario)
     free, tied = (match_values(run_match(scenario, name, nominal, 0, contest.seed), scenario)
                   for name in (FREE, "mpc_told"))
     best = best_run(scenario)

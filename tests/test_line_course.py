@@ -184,7 +184,7 @@ def test_rotating_mass_weighs_nothing_and_equal_neighbours_are_one():
     limits = ((0.0, 30.0), (200.0, 30.0), (900.0, 50.0))  # the train's own 40 m/s is less than the last
     found = course(line(grades=grades, limits=limits), TRAIN)
     assert found.position_m.tolist() == [0.0, 1050.0, 3000.0]
-    assert found.force_n.tolist() == [[5 * WEIGHT_KN] * 2] * 2
+    assert found.force_n == pytest.approx(np.full((2, 2), 5 * WEIGHT_KN), rel=1e-14)
     assert found.limit_mps.tolist() == [30.0, 40.0]
 
 

@@ -55,7 +55,7 @@ def test_a_contest_has_its_world():
 def test_what_is_no_such_file_is_one_line(tmp_path):
     folder = small_folder(tmp_path / "doe2030")
     text = (folder / "study.toml").read_text()
-    for kind, words in (('"tale"', "kind: 'tale' is not known: it is one of 'study', 'contest', or left out"),
+    for kind, words in (('"tale"', "kind: 'tale' is not known: it is one of 'study', 'plant', 'contest', or left out"),
                         ('"study"', "no study/__init__.py lies beside this file with a StudyKind in it"),
                         ("3", "kind: 3 is not known"), ("[]", "kind: [] is not known")):
         (folder / "study.toml").write_text(f"kind = {kind}\n{text}")

@@ -26,7 +26,7 @@ def made_up_run(**changes):
         "speed_error_max": 0.4, "position_error_square_sum": 4.0, "speed_error_square_sum": 16.0,
         "traction_work_j": 7.0, "braking_work_j": 3.0, "saturated_samples": 5.0, "commands": 40.0,
         "band_violations": 12.0, "command_max_mps2": 0.9, "command_min_mps2": -0.8, "speed_min_mps": -0.01,
-        "time_of_max_position_error_s": 2.5,
+        "time_of_max_position_error_s": 2.5, "rate_limited_steps": 8.0, "adhesion_limited_steps": 4.0,
     }
     values = {"controller": "pid", "title": "PID", "columns": LOG_COLUMNS, "log": log, "totals": totals,
               "final_position_m": 900.25, "end_s": 5.0, "failed": None, "period_s": 0.001,
@@ -37,11 +37,12 @@ def made_up_run(**changes):
 def test_each_metric_is_its_definition():
     row = measure(made_up_run(), short_scenario()).row()
     by_hand = {
-        "controller": "pid", "position_error_min": -0.3, "position_error_max": 0.1, "speed_error_min": -0.2,
-        "speed_error_max": 0.4, "position_rms": 0.1, "speed_rms": 0.2, "stopping_error": 0.25,
+        "controller": "pid", "period_s": 0.001, "position_error_min": -0.3, "position_error_max": 0.1,
+        "speed_error_min": -0.2, "speed_error_max": 0.4, "position_rms": 0.1, "speed_rms": 0.2, "stopping_error": 0.25,
         "energy_J": 7.0, "jerk_rms": 3.0, "jerk_p95": 5.0, "jerk_max": 7.0, "logged_jerk_rms": 2.0,
         "comfort_rms": 0.3, "command_variation": 2.0, "switchings": 4.0, "overspeed_max": 1.5,
-        "saturated_fraction": 0.125, "limit_violations": 12,
+        "saturated_fraction": 0.125, "rate_limited_fraction": 0.02, "adhesion_limited_fraction": 0.01,
+        "limit_violations": 12,
         "step_us_median": 3.0,
         "step_us_p99": np.percentile([1, 2, 3, 4, 2000], 99), "deadline_misses": 1, "failed": None,
         "command_max": 0.9, "command_min": -0.8, "speed_min": -0.01, "time_of_max_position_error": 2.5,

@@ -10,10 +10,11 @@ from workbench.contest.matches import world_of
 from workbench.contest.record import Condition, Contest
 from workbench.contest.sampling import period_of, with_periods
 from workbench.contest.study import located
-from workbench.contest.tune import objective
 from workbench.errors import InputError
 from workbench.files.toml import read_toml, validate_record
+from workbench.model.tuning import at_the_rail
 from workbench.mpc.controller import MpcController
+from workbench.paper.parameter_search import score
 from workbench.paper.results import ResultTable
 from workbench.report.tables import nominal_table
 from workbench.simulate.closed_loop import simulate
@@ -134,8 +135,9 @@ def test_a_delay_between_plant_steps_is_refused_of_a_condition():
 def test_behind_an_actuator_the_jerk_that_counts_is_that_of_every_step():
     values = {"position_rms": 0.0, "speed_rms": 0.0, "jerk_rms": 3.0, "logged_jerk_rms": 0.3}
     goal = common().tuning.objective
-    assert objective(values, goal) == pytest.approx(0.3 / goal.jerk_mps3)
-    assert objective(values, goal, actuator=True) == pytest.approx(3.0 / goal.jerk_mps3)
+    for actuator, jerk in ((False, 0.3), (True, 3.0)):
+        cost = score(values, at_the_rail(goal.units, actuator), goal.failed)
+        assert cost == pytest.approx(jerk / goal.jerk_mps3)
 
 
 def test_a_law_that_runs_by_itself_has_no_predictor():

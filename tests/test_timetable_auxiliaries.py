@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 from optimal_instances import courses, numbers, random_runs, vehicles
 from scipy.optimize import linprog
 from test_optimal_bound import own_energy
-from test_optimal_timetable import COURSE, END_M, FREE_S, MIDDLE_M, TIME_S, TRAIN, by, require_kept
+from test_optimal_timetable import COURSE, END_M, MIDDLE_M, TIME_S, TRAIN, by, free_s, require_kept
 
 from workbench.errors import WorkbenchError
 from workbench.optimal.bound import lower_bound
@@ -106,7 +106,7 @@ def test_bound_plan_and_proof_hold_auxiliaries_between_the_ends(solver):
 def test_a_time_of_its_own_for_both_ends_adds_what_auxiliaries_draw_in_it():
     """Where a run can be neither shorter nor longer, they are a constant, in the energy and in the bound."""
     ends = Timetable((TimingPoint(0.0, departure=Window(10.0, 10.0)),
-                      TimingPoint(MIDDLE_M, Window(latest_s=10.0 + FREE_S - 15)),
+                      TimingPoint(MIDDLE_M, Window(latest_s=10.0 + free_s() - 15)),
                       TimingPoint(END_M, arrival=Window(10.0 + TIME_S, 10.0 + TIME_S))))
     without, drawing = (find_timed_reference(vehicle, COURSE, ends) for vehicle in (TRAIN, DRAWING))
     constant = 2e5 * TIME_S
@@ -145,7 +145,7 @@ def test_a_stop_with_a_late_departure_costs_what_two_separate_runs_cost():
 
 
 def test_a_tampered_count_of_auxiliaries_is_refused():
-    found = find_timed_reference(DRAWING, COURSE, by(Window(latest_s=FREE_S - 20)), intervals=40)
+    found = find_timed_reference(DRAWING, COURSE, by(Window(latest_s=free_s() - 20)), intervals=40)
     made = bound_document(DRAWING, COURSE, found, 0.0, 0.0)
     for drawn, message in ((2e5 - 1, "price"), (0.0, "price"), (-1.0, "less than nothing")):
         other = copy.deepcopy(made)
@@ -157,7 +157,7 @@ def test_a_tampered_count_of_auxiliaries_is_refused():
 
 
 def test_a_train_without_auxiliaries_counts_none():
-    found = find_timed_reference(TRAIN, COURSE, by(Window(latest_s=FREE_S - 20)), intervals=40)
+    found = find_timed_reference(TRAIN, COURSE, by(Window(latest_s=free_s() - 20)), intervals=40)
     made = bound_document(TRAIN, COURSE, found, 0.0, 0.0)
     assert made.pop("auxiliary_w") == found.certificate.auxiliary_w == 0.0
     assert float(checked_bound(made)) == pytest.approx(made["lower_bound_J"], rel=1e-12)

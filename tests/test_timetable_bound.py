@@ -10,7 +10,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from optimal_instances import courses, numbers, random_runs, vehicles
 from test_optimal_bound import own_energy
-from test_optimal_timetable import COURSE, END_M, FREE_S, MIDDLE_M, TRAIN, by
+from test_optimal_timetable import COURSE, END_M, MIDDLE_M, TRAIN, by, free_s
 
 from workbench.optimal.bound import lower_bound
 from workbench.optimal.bound_checker import checked_bound
@@ -26,7 +26,7 @@ from workbench.optimal.timetable import TOUCH_S, Timetable, TimingPoint, Window
 @pytest.mark.parametrize("size", [0.0, 1e-3, 1e-2, 0.1])
 def test_certificates_near_the_best_one_prove_no_more_than_the_run_takes(shift_s, speeds, size):
     """There a bound is nearly sharp, so that a wrong term would show; with cells that cross the timing point too."""
-    at = FREE_S + shift_s
+    at = free_s() + shift_s
     timetable = by(Window(latest_s=at) if shift_s < 0 else Window(at), **speeds)
     found = find_timed_reference(TRAIN, COURSE, timetable)
     best, rng = found.certificate, np.random.default_rng(7)
@@ -106,7 +106,7 @@ DOCUMENT: dict = {}
 
 def document() -> dict:
     if not DOCUMENT:
-        timetable = by(Window(FREE_S - 30, FREE_S - 20), fastest_mps=20.0)
+        timetable = by(Window(free_s() - 30, free_s() - 20), fastest_mps=20.0)
         found = find_timed_reference(TRAIN, COURSE, timetable, intervals=30)
         DOCUMENT.update(bound_document(TRAIN, COURSE, found, 0.0, 0.0))
         assert DOCUMENT["lower_bound_J"] == pytest.approx(found.lower_bound_j, rel=1e-6)

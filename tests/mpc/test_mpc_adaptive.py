@@ -47,9 +47,10 @@ def test_a_forgetting_that_forgets_all_is_refused(forgetting):
 def test_a_train_of_a_fifth_more_mass_is_followed_better_than_by_the_nominal_model():
     """On the level, where mass and resistance alone are unknown; the estimate is within 5 per cent of the true mass."""
     world = common().world
-    spec = world.controllers["mpc_nonlinear"]
+    spec = world.controllers["mpc_nonlinear"].model_copy(update={"predictor": False})
     adaptive = spec.model_copy(update={"law": "mpc.adaptive", "parameters": spec.parameters | {"forgetting": 0.995}})
-    world = world.model_copy(update={"track": _levelled(world), "controllers": {"nominal": spec, "adaptive": adaptive}})
+    world = world.model_copy(update={"actuator": None, "track": _levelled(world),
+                                     "controllers": {"nominal": spec, "adaptive": adaptive}})
     heavy = setting_of(world, Factors(mass=1.2))
     nominal, learned = (measure(play(world, name, heavy).run, world) for name in ("nominal", "adaptive"))
     assert learned.failed is None

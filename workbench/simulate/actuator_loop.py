@@ -16,7 +16,7 @@ def driven(wanted, v, drive):
     return min(max(wanted, -drive[1]), drive[0], drive[2] / max(abs(v), 1e-3))
 
 
-def followed(force, wanted, dt, lag, rise, fall):
+def force_after_lag(force, wanted, dt, lag, rise, fall):
     """A force that follows `wanted` for a time dt: its mean, its last value, and whether its rate was at a limit.
 
     F' = (wanted - F) / lag, from -fall to rise: a ramp until the gap is what the lag closes at the limit's rate, then
@@ -52,8 +52,8 @@ def acting(n, dt, wanted, v, drive):
         wanted = before
     wanted = driven(wanted, v, drive)
     if drive[13] > 0.0:
-        _, drive[14], _ = followed(drive[14], wanted, dt, drive[3], drive[5], drive[6])
-    mean, last, limited = followed(drive[10], wanted, dt, drive[3], drive[5], drive[6])
+        _, drive[14], _ = force_after_lag(drive[14], wanted, dt, drive[3], drive[5], drive[6])
+    mean, last, limited = force_after_lag(drive[10], wanted, dt, drive[3], drive[5], drive[6])
     adhesion = drive[7] / (3.6 * abs(v) + drive[8]) + drive[9]
     highest = min(adhesion, drive[2] / max(abs(v), 1e-3))
     if limited:
@@ -73,7 +73,7 @@ def predicted(n, dt, p, v, drive):
     force = drive[14]
     for i in range(late):
         wanted = driven(drive[19 + (n + i) % late], v, drive)
-        mean, force, _ = followed(force, wanted, dt, drive[3], drive[5], drive[6])
+        mean, force, _ = force_after_lag(force, wanted, dt, drive[3], drive[5], drive[6])
         a = (mean - drive[16] - v * (drive[17] + v * drive[18])) / drive[15]
         middle = v + 0.5 * dt * a
         a = (mean - drive[16] - middle * (drive[17] + middle * drive[18])) / drive[15]

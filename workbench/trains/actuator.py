@@ -3,8 +3,8 @@
 In this order, at every plant step: the command reaches the drive `delay_s` late; the drive asks for no more than its
 traction, braking and power limits at the present speed; its force follows with a lag, no faster than its rates allow;
 the rail takes no more than the power limit and the adhesion of the driven wheels. What the rail does not take is gone,
-so that nothing winds up. The force within a step is integrated exactly (`kernel_loop.followed`); its mean drives the
-train over the step and does the work.
+so that nothing winds up. The force within a step is integrated exactly (`actuator_loop.force_after_lag`); its mean
+drives the train over the step and does the work.
 """
 
 from __future__ import annotations

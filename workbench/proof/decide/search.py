@@ -68,8 +68,10 @@ def _by_growth(goal: Goal, shown: Relation, given: Given, steps: int = MOST_STEP
         return None
     for symbol, start in _starts(margin, given):
         elsewhere = tuple(EMPTY if r.margin.has(symbol) else r for r in given)
-        place = Goal((EMPTY,), facts=goal.facts)
-        at_start = _grown(place, Relation(margin.xreplace({symbol: start}), ">" if shown.strict else ">=", sp.S.Zero),
+        place, begins = Goal((EMPTY,), facts=goal.facts), margin.xreplace({symbol: start})
+        if begins.has(sp.nan, sp.zoo, sp.oo, -sp.oo):  # it has no value where it would begin
+            continue
+        at_start = _grown(place, Relation(begins, ">" if shown.strict else ">=", sp.S.Zero),
                           elsewhere, steps)
         if at_start is None:
             continue
