@@ -233,7 +233,7 @@ def test_mistakes_in_a_contest_are_one_line(contest: Contest, tmp_path: Path) ->
             ("[tuning.ranges.pid]", "[tuning.ranges.nobody]", "is no controller of the scenario"),
             ("K_p = [0.075, 7.5]", "K_q = [0.075, 7.5]", "is no parameter of this controller"),
             ("K_p = [0.075, 7.5]", "K_p = [7.5, 0.075]", "is no range"),
-            ('condition = "ten"', 'condition = "calm"', "is no condition"),
+            ('condition = "direct"', 'condition = "calm"', "is no condition"),
             ("spread = 0.1", "spread = 1.5", "less than 1"),
             ("rho = 0.245", "rho = -0.245", "must be positive"),
             ("trials = 20.0", "trials = 2.5", "is no whole number"),

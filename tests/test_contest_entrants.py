@@ -112,11 +112,11 @@ def test_who_misses_the_end_of_the_line_is_not_ranked_and_all_of_it_is_told(
     result = KIND.run(small, 1, lambda *_: None)
     rows = {row["controller"]: row for row in result.rows}
     assert rows["jiao2025"]["stopping_error"] > ARRIVED_M
-    tables = {table.title: table for table in result.tables}
+    tables = {table.title.partition(";")[0]: table for table in result.tables}  # after it how often all sample
     assert "jiao2025" not in "".join(tables["Who wins where"].text[0])
     assert {row[0] for row in tables["Who does not take part"].rows} == set(contest.absent)
     energy = {row[0]: row for row in tables["Energy against the certified lower bound"].text}
-    assert energy["jiao2025"][2] == "—" and float(energy["mpc_offset_free"][2]) > 0
+    assert energy["jiao2025"][3] == "—" and float(energy["mpc_offset_free"][3]) > 0
     learned = tables["When learning overtakes MPC: position RMS"]
     assert [row[0] for row in learned.rows] == ["jiao2025", "chen2019"]
     for row in learned.text:
