@@ -94,7 +94,7 @@ def test_stops_on_the_way_take_their_time(tmp_path: Path) -> None:
     train = SHARED / "trains" / "jiao2025.toml"
     energies, time = [], 3 * least_time(line, train) + 100
     for option in ((), ("--stops", "--dwell", 20)):
-        said(line, train, "--time", time, "--json", tmp_path / "r.json", *option)
+        said(line, train, "--time", time, "--json", tmp_path / "r.json", "--intervals", 200, *option)
         energies.append(json.loads((tmp_path / "r.json").read_text(encoding="utf-8"))["energy_J"])
     assert energies[0] < energies[1]
 
