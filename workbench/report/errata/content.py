@@ -47,7 +47,7 @@ def _counts(decisions: Sequence[Decision]) -> str:
 
 def _fates(decisions: Sequence[Decision]) -> list[Block]:
     lines = tuple(worded(fate_sentence(d.claim.equation, d.fate.word, d.fate.why)) for d in decisions if d.fate)
-    return [Heading(2, "What becomes of the main statements"), Items(lines)] if lines else []
+    return [Heading(2, "What becomes of the headline statements"), Items(lines)] if lines else []
 
 
 def _corrections(found: Sequence[Finding]) -> list[Block]:
@@ -128,7 +128,7 @@ def _mended(decisions: Sequence[Decision]) -> list[Block]:
             blocks.append(Paragraph(f"{len(steps) - MOST_STEPS} more steps stand in the certificate."))
         blocks.append(Code(f"python {CHECKER} certificates/{d.claim.equation}.json --claim-digest "
                            f"{goal_digest(d.certificate)}"))
-    return [Heading(2, "The main statements, mended and proved"), *blocks] if blocks else []
+    return [Heading(2, "The headline statements, mended and proved"), *blocks] if blocks else []
 
 
 def _rechecking(decisions: Sequence[Decision]) -> list[Block]:
