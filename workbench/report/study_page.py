@@ -17,6 +17,7 @@ from workbench.report.study_figures import study_plot
 from workbench.report.table_view import caption, gains_view, table_views
 from workbench.report.template import PageFigure, page_figure, render
 
+
 @dataclass(frozen=True)
 class StudyContent:
     """All that a study's page shows; claims: the document of `workbench prove --json`, empty without a proof;
