@@ -53,7 +53,7 @@ def chart_of(plot: Plot) -> Chart:
 
 
 def chart_json(chart: Chart) -> str:
-    """All that a page draws the chart from, thinned to what can be seen and zoomed into; safe within a script element."""
+    """All that a page draws the chart from, thinned to what can be zoomed into; safe within a script element."""
     labels = list(dict.fromkeys([*chart.colours, *(c.label for p in chart.panels for c in p.curves
                                                    if not c.label.startswith(BENEATH))]))
     panels = [{"y": panel.y_label, "title": panel.title, "log": panel.log_y,
