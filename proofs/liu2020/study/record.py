@@ -11,7 +11,7 @@ from pydantic import Field, Strict, model_validator
 from workbench.files.toml import NonNegative, Number, Positive, Record, SourcedRecord, Text
 from workbench.model.desired_curve import RampTime
 from workbench.paper.mpc_comparison import MpcData
-from workbench.paper.study import Study, with_values
+from workbench.paper.study import Study, varied
 from workbench.paper.tuning_record import Pairs, StudyTuning
 
 from ..laws import LAWS
@@ -246,5 +246,4 @@ class LiuStudy(Study):
 
     def with_change(self, change: Change) -> Self:
         """The study with a change's values set; ValueError for an unknown key or an unfit value."""
-        bare = self.model_copy(update={"changes": ()})
-        return with_values(bare, change.set, f"changes: '{change.title}'")
+        return varied(self, change.set, f"changes: '{change.title}'")
