@@ -12,9 +12,9 @@ from workbench.paper.mpc_comparison import differing, known, run_mpc
 from workbench.simulate.closed_loop import NOMINAL, Factors
 
 from .. import plant
-from ..laws import LAWS
-from .record import FEEDBACK_GAINS, LiuStudy
-from .scenario import davis_newton, run_under, setting_of
+from ..laws import FEEDBACK_GAINS, LAWS
+from ..simulation.trip import davis_newton, run_under, setting_of
+from .record import LiuStudy
 
 # What is held against MPC: the laws with their signs corrected, by speed and by the position alone.
 LAW_NAMES = {"corrected": LAWS["liu2020.corrected"], "position_only": LAWS["liu2020.position_only"]}

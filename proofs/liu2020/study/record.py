@@ -14,10 +14,9 @@ from workbench.paper.mpc_comparison import MpcData
 from workbench.paper.study import Study, varied
 from workbench.paper.tuning_record import Pairs, StudyTuning
 
-from ..laws import LAWS
+from ..laws import FEEDBACK_GAINS, LAWS
 
 COLUMNS = 10
-FEEDBACK_GAINS = ("k_1", "k_2", "k_3", "k_4", "k_5")
 
 Column = Annotated[int, Strict(), Field(ge=1, le=COLUMNS)]
 Step = Annotated[float, Strict(), Field(ge=1e-5, le=1, allow_inf_nan=False)]

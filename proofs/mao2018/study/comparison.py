@@ -12,9 +12,9 @@ from workbench.paper.mpc_comparison import differing, known, run_mpc
 from workbench.simulate.closed_loop import NOMINAL, Factors, Run
 
 from ..plant import train
+from ..simulation.trip import law_of, run_under, setting_of, wrong_signs
 from .outcomes import Results
 from .record import MaoStudy
-from .scenario import law_of, run_under, setting_of, wrong_signs
 
 LAW = "law"
 RATES = ("r_1_per_s", "r_2_per_s")

@@ -13,14 +13,7 @@ from scipy.integrate import solve_ivp
 
 from proofs.liu2020 import plant as of_train
 from proofs.liu2020.laws import LAWS
-from proofs.liu2020.study import KIND
-from proofs.liu2020.study.comparison import drawn_runs, variants
-from proofs.liu2020.study.figures import all_plots
-from proofs.liu2020.study.findings import all_findings
-from proofs.liu2020.study.outcomes import Results
-from proofs.liu2020.study.record import LiuStudy, Section
-from proofs.liu2020.study.runs import DRAWN_LAWS, RunCase, RunResult, run_case, run_cases, title_of
-from proofs.liu2020.study.scenario import (
+from proofs.liu2020.simulation.trip import (
     centers,
     davis_at,
     davis_newton,
@@ -33,7 +26,14 @@ from proofs.liu2020.study.scenario import (
     section_force,
     setting_of,
 )
-from proofs.liu2020.study.steady import eigenvalues, implied, largest_step_s
+from proofs.liu2020.steady_run import eigenvalues, implied, largest_step_s
+from proofs.liu2020.study import KIND
+from proofs.liu2020.study.comparison import drawn_runs, variants
+from proofs.liu2020.study.figures import all_plots
+from proofs.liu2020.study.findings import all_findings
+from proofs.liu2020.study.outcomes import Results
+from proofs.liu2020.study.record import LiuStudy, Section
+from proofs.liu2020.study.runs import DRAWN_LAWS, RunCase, RunResult, run_case, run_cases, title_of
 from proofs.liu2020.study.tables import all_tables
 from workbench.cli.loading import load
 from workbench.compile.kernel import law_source
