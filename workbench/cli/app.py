@@ -34,7 +34,7 @@ INTERRUPTED = 130  # with which typer ends after Ctrl-C
 
 for verb in (prove, show, diff, check, new_paper, check_certificates, compare, sweep, tune, report, reference, gains,
              listing, examples, errata):
-    app.command(verb.NAME)(verb.command)
+    app.command(verb.NAME, context_settings=getattr(verb, "CONTEXT", None))(verb.command)
 
 
 @app.callback()
