@@ -47,12 +47,12 @@ def main() -> None:
     try:
         app()
     except WorkbenchError as trouble:
-        err_console.print(f"workbench: {trouble}", style="red", soft_wrap=True, markup=False, highlight=False)
+        err_console.print(f"workbench: {trouble}", style="red", soft_wrap=True, highlight=False)
         sys.exit(2)
     except OSError as trouble:  # of what no room expects to fail, such as a terminal that is gone
         where = f"{trouble.filename}: " if trouble.filename else ""
         err_console.print(f"workbench: {where}{trouble.strerror or trouble}: check path, permissions and free space",
-                          style="red", soft_wrap=True, markup=False, highlight=False)
+                          style="red", soft_wrap=True, highlight=False)
         sys.exit(2)
     except SystemExit as end:
         if end.code == INTERRUPTED:
