@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 
 from workbench.files.numbers import number
+from workbench.files.units import KWH_J
 from workbench.mpc.controller import KINDS
 from workbench.paper.cells import Cell, Column
 from workbench.paper.drivers import MPC_NAMES, Drivers, tuning_words
@@ -20,7 +21,7 @@ from workbench.simulate.metrics import measure_run
 
 STEP = Column("time a step", "µs", 1e-6)
 COLUMNS = (Column("position RMS", "m"), Column("speed RMS", "m/s"), Column("largest |position error|", "m"),
-           Column("stopping error", "m"), Column("energy", "kWh", 3.6e6), Column("jerk RMS", "m/s³"),
+           Column("stopping error", "m"), Column("energy", "kWh", KWH_J), Column("jerk RMS", "m/s³"),
            Column("saturated"), STEP)
 # Points of an error over time that is sent between processes, and of one that is drawn.
 SENT, DRAWN = 1500, 200

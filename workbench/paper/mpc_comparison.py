@@ -19,7 +19,6 @@ from workbench.trains.train_record import Train
 
 # Offset-free MPC has an observer, the linear one has none and costs the least.
 MPC_KINDS = ("mpc.linear", "mpc.offset_free")
-JOULE_PER_KWH = 3.6e6
 # Over plant steps, and over the rows of a log, which misses what happens between them.
 JERK = ("jerk_rms", "logged_jerk_rms")
 # Whose speed errs by more (RMS) does not follow: a train that stands still has no jerk.

@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 
 from workbench.files.numbers import number
+from workbench.files.units import KWH_J
 from workbench.mpc.multi_car import MultiCarMpc
 from workbench.paper.cells import Column
 from workbench.paper.comparison import STEP
@@ -32,7 +33,7 @@ COLUMNS = {
     "position_rms": Column("position RMS", "m"), "speed_rms": Column("speed RMS", "m/s"),
     "largest_position_error": Column("largest |position error|", "m"),
     "largest_speed_error": Column("largest |speed error|", "m/s"), "stopping_error": Column("stopping error", "m"),
-    "energy_J": Column("energy", "kWh", 3.6e6), "logged_jerk_rms": Column("jerk RMS of the log", "m/s³"),
+    "energy_J": Column("energy", "kWh", KWH_J), "logged_jerk_rms": Column("jerk RMS of the log", "m/s³"),
     "stretch_m": Column("coupler stretch", "m"), "at_limit": Column("at a limit"), "step_s": STEP}
 
 
