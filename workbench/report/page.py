@@ -71,7 +71,8 @@ def build_page(content: ReportContent) -> str:
         winners=winners(scenario, content.metrics, content.variants, content.sweep, names),
         nominal=tables.nominal_table(content.metrics),
         information=[tables.information(scenario, m.controller) for m in content.metrics],
-        compared=compared, runs_each=runs_each, single=tables.printed_values_table(scenario, content.metrics, names),
+        compared=compared, runs_each=runs_each, solved=tables.compiled_words(scenario, names),
+        single=tables.printed_values_table(scenario, content.metrics, names),
         variants=tables.variants_table(content.metrics, content.variants) if content.variants else [],
         failures=[(variant.title, m.controller, m.failed)
                   for variant, found in content.variants for m in found if m.failed is not None],

@@ -21,7 +21,7 @@ from workbench.report.template import PageFigure, page_figure, render
 @dataclass(frozen=True)
 class StudyContent:
     """All that a study's page shows; claims: the document of `workbench prove --json`, empty without a proof;
-    gains: what `workbench gains` finds."""
+    gains: what `workbench gains` finds; draws: on how many drawn trains, where they are fewer than stated."""
 
     study: Study
     result: StudyResult
@@ -29,6 +29,7 @@ class StudyContent:
     timings: Mapping[str, float] = field(default_factory=dict)
     commands: Sequence[str] = ()
     gains: StudyResult | None = None
+    draws: str = ""
 
 
 def build_study_page(content: StudyContent) -> str:
@@ -38,7 +39,8 @@ def build_study_page(content: StudyContent) -> str:
     lines = [headline.proof_line(claim_views(content.claims)), *result.findings, headline.sources_line(sources)]
     return render(
         "study.html.j2", content.claims, sources, subject=study, headline=[line for line in lines if line],
-        settings={"study": study.name}, commands=content.commands, timings=content.timings,
+        settings={"study": study.name} | ({"drawn trains": content.draws} if content.draws else {}),
+        commands=content.commands, timings=content.timings,
         tables=table_views(result.tables), gains=gains_view(content.gains),
         figures=_figures(result.plots),
         failures=result.failures, winners=None)
