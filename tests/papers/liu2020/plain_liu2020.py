@@ -2,7 +2,7 @@
 
 import math
 
-from proofs.liu2020.study.scenario import centers, scales
+from proofs.liu2020.simulation.trip import centers, scales
 
 G = 9.80665
 

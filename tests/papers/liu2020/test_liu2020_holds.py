@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
+from proofs.liu2020.steady_run import eigenvalues, implied, largest_step_s
 from proofs.liu2020.study.runs import RunCase, run_case
-from proofs.liu2020.study.steady import eigenvalues, implied, largest_step_s
 
 
 def outcome_of(study, column, law, disturbance="fast", leak=None):

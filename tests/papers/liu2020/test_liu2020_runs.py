@@ -9,7 +9,7 @@ from scipy.integrate import solve_ivp
 
 from proofs.liu2020 import plant as of_train
 from proofs.liu2020.laws import LAWS
-from proofs.liu2020.study.scenario import desired_curve, law_values, setting_of
+from proofs.liu2020.simulation.trip import desired_curve, law_values, setting_of
 from workbench.compile.kernel import law_source
 from workbench.model.law import speed
 from workbench.simulate.closed_loop import run_law

@@ -10,9 +10,7 @@ from plain_liu2020 import G
 from refusals import changed_copy, refusal
 
 from proofs.liu2020 import plant as of_train
-from proofs.liu2020.study import KIND
-from proofs.liu2020.study.record import LiuStudy
-from proofs.liu2020.study.scenario import (
+from proofs.liu2020.simulation.trip import (
     centers,
     davis_at,
     davis_newton,
@@ -22,6 +20,8 @@ from proofs.liu2020.study.scenario import (
     rates,
     section_force,
 )
+from proofs.liu2020.study import KIND
+from proofs.liu2020.study.record import LiuStudy
 from workbench.files.toml import read_toml, validate_record
 from workbench.report.sources import sourced_values
 

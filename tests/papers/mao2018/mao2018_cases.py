@@ -2,7 +2,7 @@
 
 from pathlib import Path
 
-from proofs.mao2018.study.scenario import wrong_signs
+from proofs.mao2018.simulation.trip import wrong_signs
 
 FILE = Path(__file__).parents[3] / "proofs" / "mao2018" / "study.toml"
 CASES = (1, 2, 3, 4, 5)

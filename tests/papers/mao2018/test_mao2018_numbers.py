@@ -9,8 +9,8 @@ from mao2018_cases import FILE
 from refusals import changed_copy, refusal
 
 from proofs.mao2018 import laws, plant
+from proofs.mao2018.simulation.trip import initial, parameters, setting_of
 from proofs.mao2018.study.record import MaoStudy
-from proofs.mao2018.study.scenario import initial, parameters, setting_of
 from workbench.files.toml import read_toml, validate_record
 from workbench.trains.train import single_particle
 

@@ -10,9 +10,9 @@ from mao2018_cases import FILE, all_wrong
 from scipy.integrate import solve_ivp
 
 from proofs.mao2018 import laws
+from proofs.mao2018.simulation.trip import initial, parameters
 from proofs.mao2018.study.record import MaoStudy
 from proofs.mao2018.study.runs import RunCase, simulate
-from proofs.mao2018.study.scenario import initial, parameters
 from workbench.files.toml import validate_record
 
 FASTER = 200

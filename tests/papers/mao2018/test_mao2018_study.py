@@ -8,10 +8,10 @@ import pytest
 from mao2018_cases import CASES
 
 from proofs.mao2018 import plant
-from proofs.mao2018.study import run
+from proofs.mao2018.simulation.trip import setting_of
+from proofs.mao2018.study import KIND
 from proofs.mao2018.study.comparison import DRIVERS, drive_case
 from proofs.mao2018.study.runs import RunCase, run_case, run_cases
-from proofs.mao2018.study.scenario import setting_of
 from workbench.paper.cells import numbers_in
 from workbench.paper.comparison import comparison_tasks
 from workbench.paper.mpc_comparison import MPC_KINDS, known, run_mpc
@@ -34,7 +34,7 @@ def short(study):
 def told(short):
     """The short study's result, and what was told of its progress."""
     steps = []
-    return run(short, 1, lambda *step: steps.append(step)), steps
+    return KIND.run(short, 1, lambda *step: steps.append(step)), steps
 
 
 def test_progress_counts_all_runs(short, told):
