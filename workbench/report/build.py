@@ -25,11 +25,13 @@ from workbench.paper.tuning_record import Pairs
 from workbench.proof.document import CERTIFICATES, Places, claims_document, write_certificates
 from workbench.proof.prove import prove
 from workbench.proof.selection import Target, targets
+from workbench.report.charts.chart import chart_of
+from workbench.report.charts.files import ANOTHER_OUT, CURVES, write_curves
 from workbench.report.finding import findings
 from workbench.report.finding_sentences import findings_document
 from workbench.report.gains import gains_document, gains_result
-from workbench.report.page import ReportContent, build_page
-from workbench.report.study_page import ANOTHER_OUT, CURVES, StudyContent, build_study_page, write_curves
+from workbench.report.page import ReportContent, build_page, scenario_charts
+from workbench.report.study_page import StudyContent, build_study_page
 from workbench.simulate.compare import Comparison, checked_variants, compare
 from workbench.simulate.process_pool import cores
 from workbench.simulate.sweep import SweepSummary, summarise, sweep
@@ -131,6 +133,7 @@ def build_report(asked: Asked, runs: int | None = None, seed: int | None = None,
         commands=(f"{asked.command} --runs {runs}",), gains=_gains(asked, on_progress, timings))
     page = out / "report.html"
     with _timed(timings, "page"):
+        write_curves(list(scenario_charts(content).values()), out)
         write_text(page, build_page(content), ANOTHER_OUT)
     return Report(page, claims, comparison, summarise(rows, scenario), timings)
 
@@ -144,7 +147,7 @@ def build_study_report(asked: Asked, on_progress: Progress = lambda what, done, 
     with _timed(timings, "runs"):
         result = run_study(_with_draws(asked), asked.workers, on_progress, out, asked.resume)
         write_json(out / "compare.json", study_document(study, result))
-    write_curves(result.plots, out)
+    write_curves(list(map(chart_of, result.plots)), out)
     found = _gains(asked, on_progress, timings)
     page = out / "report.html"
     with _timed(timings, "page"):

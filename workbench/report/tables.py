@@ -167,7 +167,8 @@ _Range = tuple[float | None, float | None]
 def _compare_ranges(printed: tuple[float, float] | None, obtained: _Range) -> tuple[str, str, str]:
     (low, low_obtained, low_off), (high, high_obtained, high_off) = (
         _compare(p, o, 1e3) for p, o in zip(printed or (None, None), obtained, strict=True))
-    return _pair(low, high), _pair(low_obtained, high_obtained), _pair(low_off, high_off)
+    off = NOTHING if NOTHING in (low_off, high_off) else f"{low_off}; {high_off}"
+    return _pair(low, high), _pair(low_obtained, high_obtained), off
 
 
 def _pair(low: str, high: str) -> str:
