@@ -21,15 +21,17 @@ NUMBERS = {"horizon": 25.0, "position_weight": 25.0, "speed_weight": 14.8, "comm
            "energy_price": 0.05, "time_price": 1.0, "regenerated": 0.0, "disturbance_mps2": 0.05,
            "forgetting": 0.995}
 VARIANTS = [law for law in SAMPLED if law.startswith("mpc.")]
+# The program of tracking.py, by casadi and compiled.
+TRACKING = ("mpc.tracking", "mpc.tracking_compiled")
 # Adaptive MPC is solved by mpc.nonlinear's own, of a train that changes from second to second.
 SOLVED_BY = [("mpc.tracking", solver) for solver in tracking.SOLVERS] + [
-    (law, "") for law in KINDS if law != "mpc.adaptive"]
+    (law, "") for law in ("mpc.tracking_compiled", *KINDS) if law != "mpc.adaptive"]
 # Less traction than the curve needs, and a power limit above 11 m/s; a band that is left, so that its price is paid.
 TIGHT = {"train__max_traction_n": 146e3, "train__max_power_w": 1.8e6, "simulation__position_band_m": 0.02}
 
 
 def wanted_by(law):
-    return tracking.PARAMETERS if law == "mpc.tracking" else (*COMMON, *KINDS[law].parameters)
+    return tracking.PARAMETERS if law in TRACKING else (*COMMON, *KINDS[law].parameters)
 
 
 def scenario_of(law, changes=None, **world):
@@ -70,7 +72,7 @@ def by_ipopt(law):
     scenario = scenario_of(law, **TIGHT)
     with pytest.MonkeyPatch.context() as patch:
         spec = scenario.controllers["mpc"]
-        ours = (tracking_by_ipopt(patch, scenario, spec, "mpc") if law == "mpc.tracking"
+        ours = (tracking_by_ipopt(patch, scenario, spec, "mpc") if law in TRACKING
                 else twin_of(SAMPLED[law](scenario, spec, "mpc")))
         found = driven(ours, scenario)
     assert ours.counters["qp_failed"] == 0
