@@ -111,7 +111,7 @@ def test_a_finding_opens_and_leads_to_its_claim_in_its_folded_section(view):
 def test_graph_shows_the_broken_path_and_leads_to_its_lines(view):
     first = view.locator(".graph").first
     assert first.locator("path.broken").count() == 2
-    assert [text.split(" ", 1)[1] for text in first.locator("text").all_inner_texts()] == ["(2)", "(3)", "Theorem 1"]
+    assert [text.split(" ", 1)[1] for text in first.locator("text").all_text_contents()] == ["(2)", "(3)", "Theorem 1"]
     view.locator("#graph details", has_text="in words").first.locator("summary").click()
     assert "(2), refuted: (3) rests on it." in view.inner_text("#graph")
     first.locator("a").nth(1).click()
