@@ -127,8 +127,8 @@ def test_plots_zoom_tell_values_and_have_their_table_and_file(view):
     span = "document.querySelector('#line .chart').layout.xaxis.range"
     before = view.evaluate(span)
     area = figure.locator(".nsewdrag").first
+    area.hover()
     box = area.bounding_box()
-    view.mouse.move(box["x"] + 0.5 * box["width"], box["y"] + 0.5 * box["height"])
     view.wait_for_selector("#line .hoverlayer text")
     view.mouse.down()
     view.mouse.move(box["x"] + 0.7 * box["width"], box["y"] + 0.52 * box["height"], steps=4)
