@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 import typer
 
@@ -27,13 +27,20 @@ def command(paper: PaperOrFile,
                 "--sensitivity", help="Instead: all values of [joint_sensitivity] drawn at once, and which decides.")
             ] = False,
             resume: Annotated[bool, typer.Option(help="Go on after an interruption.")] = False,
+            draws: Annotated[Literal["random", "sobol"], typer.Option(
+                help="By chance, or spread evenly by a scrambled Sobol' sequence (best with a power of two of runs)."
+            )] = "random",
+            until_width: Annotated[str | None, typer.Option(
+                metavar="METRIC=WIDTH", help="End before --runs once the 95 % interval of every controller's mean of "
+                "this column is so narrow.")] = None,
             workers: Workers = None) -> None:
     """Monte Carlo over the scenario's uncertainty: one row a run, the same bytes for the same seed."""
     from workbench.files.outputs import check_outputs
     from workbench.paper.loading import PLANT
-    from workbench.simulate.sweep import CSV_NAME, JOURNAL_NAME, summarise
-    from workbench.simulate.sweep import sweep as run_sweep
+    from workbench.simulate.stopping import UntilWidth
+    from workbench.simulate.sweep import CHUNKS, CSV_NAME, MANIFEST_NAME, Options, monte_carlo
 
+    until = UntilWidth.parse(until_width) if until_width is not None else None
     loaded = load(paper)
     if sensitivity:
         _joint(loaded, out, resume, workers)
@@ -42,14 +49,16 @@ def command(paper: PaperOrFile,
         _sweep_plant(loaded, out, runs, seed, controller, resume, workers)
         return
     scenario = loaded.scenario
-    check_outputs({}, folders={"--out": (out, (CSV_NAME, JOURNAL_NAME))})
-    seed = scenario.uncertainty.seed if seed is None else seed
-    runs = runs or 100
+    check_outputs({}, folders={"--out": (out, (CSV_NAME, MANIFEST_NAME, CHUNKS))})
+    asked = Options(runs or 100, seed, controller, out, resume, workers, draws, until)
     with progress() as show:
-        rows = run_sweep(scenario, loaded.path, runs, seed, controller, out=out, resume=resume, workers=workers,
-                         on_progress=lambda done, total, _: show("Monte Carlo", done, total))
-    out_console.print(summary_table(summarise(rows, scenario), runs))
-    out_console.print(f"rows: {out / 'sweep.csv'}")
+        found = monte_carlo(scenario, loaded.path, asked, lambda done, total: show("Monte Carlo", done, total))
+    summaries = found.write_csv(out / CSV_NAME)
+    out_console.print(summary_table(summaries, found.runs))
+    for name, mean in found.means.items():
+        out_console.print(f"{name}: mean {until_width} after {found.runs} runs: {mean.mean:g}, interval of {mean.width:g}",
+                          markup=False, highlight=False)
+    out_console.print(f"rows: {out / CSV_NAME}, and as Parquet in {out / CHUNKS}", markup=False, highlight=False)
 
 
 def _sweep_plant(loaded: Loaded, out: Path, runs: int | None, seed: int | None, controllers: list[str] | None,

@@ -17,7 +17,8 @@ from workbench.report.table_view import gains_view
 from workbench.report.template import PageFigure, render
 from workbench.simulate.closed_loop import Run
 from workbench.simulate.metrics import Metrics
-from workbench.simulate.sweep import SweepRow, summarise
+from workbench.simulate.sweep import summarise
+from workbench.simulate.sweep_rows import SweepRow
 from workbench.trains.scenario import Scenario, Variant
 
 
