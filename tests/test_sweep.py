@@ -235,7 +235,8 @@ def test_an_interruption_at_any_run_loses_none_of_the_others(whole, scenario_pat
         assert not (out / "sweep.csv").exists()
         assert rows_kept(out) == stop_at
         fresh = []
-        sweep_of(scenario_path, RUNS, SEED, out=out, resume=True, workers=1, on_progress=lambda *one: fresh.append(one))
+        sweep_of(scenario_path, RUNS, SEED, out=out, resume=True, workers=1,
+                 on_progress=lambda *one, fresh=fresh: fresh.append(one))
         assert len(fresh) == 9 - stop_at
         assert (out / "sweep.csv").read_bytes() == (whole[0] / "sweep.csv").read_bytes()
 

@@ -18,7 +18,7 @@ NAME = "sweep"
 
 
 def command(paper: PaperOrFile,
-            out: Annotated[Path, typer.Option(help="Folder for sweep.csv and its journal")],
+            out: Annotated[Path, typer.Option(help="Folder for sweep.csv, and the rows as Parquet")],
             runs: Annotated[int | None, typer.Option(
                 min=1, help="Runs per controller; default: 100, of a plant's study as it states.")] = None,
             seed: Annotated[int | None, typer.Option(min=0, help="Default: as the scenario states.")] = None,
@@ -38,7 +38,8 @@ def command(paper: PaperOrFile,
     from workbench.files.outputs import check_outputs
     from workbench.paper.loading import PLANT
     from workbench.simulate.stopping import UntilWidth
-    from workbench.simulate.sweep import CHUNKS, CSV_NAME, MANIFEST_NAME, Options, monte_carlo
+    from workbench.simulate.row_store import CHUNKS, MANIFEST_NAME
+    from workbench.simulate.sweep import CSV_NAME, Options, monte_carlo
 
     until = UntilWidth.parse(until_width) if until_width is not None else None
     loaded = load(paper)
@@ -56,9 +57,9 @@ def command(paper: PaperOrFile,
     summaries = found.write_csv(out / CSV_NAME)
     out_console.print(summary_table(summaries, found.runs))
     for name, mean in found.means.items():
-        out_console.print(f"{name}: mean {until_width} after {found.runs} runs: {mean.mean:g}, interval of {mean.width:g}",
-                          markup=False, highlight=False)
-    out_console.print(f"rows: {out / CSV_NAME}, and as Parquet in {out / CHUNKS}", markup=False, highlight=False)
+        out_console.print(f"{name}: mean of {until_width} after {found.runs} runs: {mean.mean:g}, an interval of "
+                          f"{mean.width:g}", markup=False, highlight=False)
+    out_console.print(f"rows: {out / CSV_NAME}", markup=False, highlight=False)
 
 
 def _sweep_plant(loaded: Loaded, out: Path, runs: int | None, seed: int | None, controllers: list[str] | None,

@@ -1,6 +1,7 @@
 """A lock on a folder: of two commands that would write the same results the second is turned away.
 
-It is the operating system's own lock of the folder, so that nothing lies in it, and a process that is killed leaves none.
+It is the operating system's own lock of the folder, so that nothing lies in it, and none is left by a process that is
+killed.
 """
 
 from __future__ import annotations

@@ -126,8 +126,8 @@ def write_whole(path: Path, data: str | bytes | Iterable[bytes]) -> None:
             before = path.lstat() if path.exists() else None
             if before is not None and stat.S_ISREG(before.st_mode):
                 aside.chmod(stat.S_IMODE(before.st_mode))
-            for piece in [data.encode()] if isinstance(data, str) else [data] if isinstance(data, bytes) else data:
-                _all(handle, piece)
+            for piece in (data,) if isinstance(data, str | bytes) else data:
+                _all(handle, piece.encode() if isinstance(piece, str) else piece)
         finally:
             os.close(handle)
         aside.replace(path)

@@ -1,7 +1,7 @@
 """Where tasks are run: in this process, in others of this machine, or wherever an executor of a cluster sends them.
 
-Every verb hands its tasks to `process_pool.run_tasks`. A command that names a cluster makes it the executor of all that it
-runs (`on`), as joblib's `parallel_config` does, so that nothing between the command and its tasks passes it on.
+Every verb hands its tasks to `process_pool.run_tasks`. A command that names a cluster makes it the executor of all that
+it runs (`on`), as joblib's `parallel_config` does, so that nothing between the command and its tasks passes it on.
 """
 
 from __future__ import annotations

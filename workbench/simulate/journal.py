@@ -81,7 +81,7 @@ def _checked(record: dict[str, Any]) -> bytes:
 
 def _record(line: bytes) -> dict[str, Any] | None:
     """The record of a line, None where it is not what was written."""
-    text, _, digest = line.rpartition(_CHECK)
+    text = line.rpartition(_CHECK)[0]
     found = _object(text + b"}") if text else None
     return found if found is not None and _checked(found) == line else None
 

@@ -22,7 +22,7 @@ from workbench.simulate.executor import current
 THREAD_LIMITS = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "NUMBA_NUM_THREADS",
                  "VECLIB_MAXIMUM_THREADS")
 
-# Processes that may die in the course of a job, and how long tasks that have begun may take to end after an interruption.
+# Processes that may die in the course of a job; how long tasks that have begun may take after an interruption.
 MOST_LOSSES, GRACE_S = 5, 5.0
 
 T = TypeVar("T")

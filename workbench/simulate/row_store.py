@@ -3,8 +3,8 @@
     sweep.manifest.jsonl    of which job, and for each chunk its number, its digest and the runs in it
     sweep/00000.parquet     rows of some runs; `select * from 'sweep/*.parquet'` in DuckDB reads them all
 
-A chunk is named in the manifest before it is written, aside and renamed, so that whatever is killed leaves no chunk that
-the manifest does not name. A chunk that is not what the manifest names is left out, with a note, and removed.
+A chunk is named in the manifest before it is written, aside and renamed, so that whatever is killed leaves no chunk
+that the manifest does not name. A chunk that is not what the manifest names is left out, with a note, and removed.
 """
 
 from __future__ import annotations

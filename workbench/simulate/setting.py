@@ -93,7 +93,8 @@ def setting_of(scenario: Scenario, factors: Factors = NOMINAL, nominal: Setting 
         line=ResistanceTable(table.position_m, table.specific_force * factors.line_resistance),
         terms=scenario.disturbance.rows(), failures=failure_rows(scenario.failures),
         changes=mode_rows(scenario.modes, train.mass_kg, of_davis),
-        speed_limits=nominal.speed_limits if nominal else SpeedLimits(*speed_limits(scenario.track)), actuator=scenario.actuator,
+        speed_limits=nominal.speed_limits if nominal else SpeedLimits(*speed_limits(scenario.track)),
+        actuator=scenario.actuator,
         sensing=(scenario.sensing or Instruments()).sensing(factors.odometer_scale),
         known=Known(train.mass_kg, train.davis_newton),
     )

@@ -21,7 +21,7 @@ from workbench.simulate.draws import Draws, factors_of
 from workbench.simulate.journal import code_digest, laws_digest
 from workbench.simulate.metrics import measure
 from workbench.simulate.process_pool import cores, run_tasks
-from workbench.simulate.row_store import CHUNKS, MANIFEST_NAME, REMEDY, ChunkStore, Part, RowStore
+from workbench.simulate.row_store import REMEDY, ChunkStore, Part, RowStore
 from workbench.simulate.setting import Setting, setting_of
 from workbench.simulate.stopping import Mean, UntilWidth, looks, metric_of
 from workbench.simulate.sweep_rows import (
