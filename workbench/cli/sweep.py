@@ -37,8 +37,8 @@ def command(paper: PaperOrFile,
     """Monte Carlo over the scenario's uncertainty: one row a run, the same bytes for the same seed."""
     from workbench.files.outputs import check_outputs
     from workbench.paper.loading import PLANT
-    from workbench.simulate.stopping import UntilWidth
     from workbench.simulate.row_store import CHUNKS, MANIFEST_NAME
+    from workbench.simulate.stopping import UntilWidth
     from workbench.simulate.sweep import CSV_NAME, Options, monte_carlo
 
     until = UntilWidth.parse(until_width) if until_width is not None else None
@@ -87,5 +87,5 @@ def _joint(loaded: Loaded, out: Path, resume: bool, workers: int | None) -> None
         found = sensitivity(loaded, out, resume, workers, lambda done, total: show("joint sweep", done, total))
     out_console.print(result_table(sensitivity_table(found)))
     for line in sensitivity_lines(found):
-        out_console.print(line, markup=False, highlight=False)
+        out_console.print(line, highlight=False)
     out_console.print(f"points: {out / CSV_NAME}")

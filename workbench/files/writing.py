@@ -118,7 +118,8 @@ def remove_old(path: Path) -> None:
 
 
 def write_whole(path: Path, data: str | bytes | Iterable[bytes]) -> None:
-    """Write a file, given whole or in pieces, aside and rename it, with the mode that the file had or a new one gets; raises OSError."""
+    """Write a file, given whole or in pieces, aside and rename it, with the mode that the file had or a new one gets;
+    raises OSError."""
     aside = path.parent / f".workbench-{secrets.token_hex(8)}.tmp"
     handle = os.open(aside, _NEW, 0o666)
     try:

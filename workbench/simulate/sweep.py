@@ -17,6 +17,7 @@ from workbench.errors import InputError
 from workbench.files.writing import write_pieces
 from workbench.model.desired_curve import CruiseSpeed
 from workbench.simulate.closed_loop import check_controllers, prepared, simulate
+from workbench.simulate.controllers import compiled
 from workbench.simulate.draws import Draws, factors_of
 from workbench.simulate.journal import code_digest, laws_digest
 from workbench.simulate.metrics import measure
@@ -138,7 +139,8 @@ def monte_carlo(scenario: Scenario, scenario_path: Path, asked: Options,
 
     With `out` rows are kept there as they are made (`row_store`), and `resume` continues after a kill, also with more
     runs or other controllers. on_progress(finished, total) is called as runs finish. Rows depend on scenario, seed and
-    draws alone. Workers are spawned: a script that calls this needs the usual `if __name__ == "__main__":`.
+    draws alone; a controller that has a compiled form runs in it. Workers are spawned: a script that calls this needs
+    the usual `if __name__ == "__main__":`.
     Raises InputError for unusable options or a folder of another sweep, WorkbenchError when workers die.
     """
     check_controllers(scenario, scenario_path)
@@ -154,7 +156,7 @@ def monte_carlo(scenario: Scenario, scenario_path: Path, asked: Options,
                          "mean says nothing of points that are spread evenly")
     settings = {"scenario": scenario.name, "seed": seed, "draws": asked.draws, "versions": _versions(),
                 "digest of values, line and code": inputs_digest(scenario)}
-    scenario = scenario.model_copy(update={"controllers": {n: scenario.controllers[n] for n in names}})
+    scenario = compiled(scenario.model_copy(update={"controllers": {n: scenario.controllers[n] for n in names}}))
     store = ChunkStore(asked.out, settings, asked.resume) if asked.out is not None else RowStore()
     means = {name: Mean() for name in names} if asked.until else {}
     with store:
