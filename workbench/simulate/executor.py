@@ -6,9 +6,11 @@ it runs (`on`), as joblib's `parallel_config` does, so that nothing between the 
 
 from __future__ import annotations
 
+import platform
 from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager
 from contextvars import ContextVar
+from importlib.metadata import PackageNotFoundError, version
 from typing import Any, Protocol, TypeVar
 
 T = TypeVar("T")
@@ -33,6 +35,22 @@ class Executor(Protocol):
         An exception of `function` is raised here. When anything interrupts, what has finished is recorded before the
         interruption goes on, and no task is left running. Raises WorkbenchError where tasks can no longer be run.
         """
+
+
+# Rows have the same bytes where these are the same.
+ALIKE = ("casadi", "numba", "numpy", "scipy", "sympy")
+
+
+def versions() -> dict[str, str]:
+    """What numbers depend on beside the code; an empty one where a package is not there."""
+    return {"python": platform.python_version(), **{name: _version(name) for name in ALIKE}}
+
+
+def _version(name: str) -> str:
+    try:
+        return version(name)
+    except PackageNotFoundError:
+        return ""
 
 
 _current: ContextVar[Executor | None] = ContextVar("executor", default=None)

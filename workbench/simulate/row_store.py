@@ -15,7 +15,6 @@ import time
 from bisect import bisect_right
 from collections import OrderedDict
 from collections.abc import Iterator, Sequence
-from itertools import groupby
 from operator import itemgetter
 from pathlib import Path
 from types import TracebackType
@@ -40,12 +39,12 @@ class Part(NamedTuple):
 
     controller: str
     first: int
-    count: int
+    runs: int
 
     @property
     def end(self) -> int:
         """The number of the run after the last."""
-        return self.first + self.count
+        return self.first + self.runs
 
 
 class RowStore:
@@ -87,7 +86,7 @@ class RowStore:
         parts.insert(bisect_right(parts, part.first, key=itemgetter(1)), part)
 
     def _overlaps(self, part: Part) -> bool:
-        return sum(gap.count for gap in self.missing(part.controller, part.end) if gap.end > part.first) < part.count
+        return sum(gap.runs for gap in self.missing(part.controller, part.end) if gap.end > part.first) < part.runs
 
     def __enter__(self) -> Self:
         return self
@@ -140,7 +139,7 @@ class ChunkStore(RowStore):
     def _write(self) -> None:
         if not self._rows:
             return
-        together = [_joined(list(parts)) for parts in _adjacent(sorted(self._rows))]
+        together = [(_joined(parts), parts) for parts in _adjacent(sorted(self._rows))]
         groups = [[row for part in parts for row in self._rows[part]] for _, parts in together]
         data, number = _parquet(groups), self._journal.lines
         self._journal.append({"chunk": number, "sha256": hashlib.sha256(data).hexdigest(),
@@ -161,7 +160,7 @@ class ChunkStore(RowStore):
             if number in whole or any(map(self._overlaps, parts)):
                 note(f"{self._journal.path}: names chunk {number} twice")
             elif self._digest(number) != record["sha256"]:
-                note(f"{self._path(number)} is not what was written: its {sum(p.count for p in parts)} runs are made "
+                note(f"{self._path(number)} is not what was written: its {sum(p.runs for p in parts)} runs are made "
                      "again")
             else:
                 whole.add(number)
@@ -203,23 +202,20 @@ class ChunkStore(RowStore):
         return self._folder / f"{number:05d}.parquet"
 
 
-def _adjacent(parts: list[Part]) -> Iterator[Iterator[Part]]:
+def _adjacent(parts: list[Part]) -> Iterator[list[Part]]:
     """Parts in order, those of one block that follow each other together: what is read at once is written so."""
-    begun, last = 0, None
-
-    def run(part: Part) -> int:
-        nonlocal begun, last
-        if last is None or (part.controller, part.first) != (last.controller, last.end) or part.first % BLOCK == 0:
-            begun += 1
-        last = part
-        return begun
-
-    for _, together in groupby(parts, key=run):
+    together: list[Part] = []
+    for part in parts:
+        if together and (part[:2] != (together[-1].controller, together[-1].end) or part.first % BLOCK == 0):
+            yield together
+            together = []
+        together.append(part)
+    if together:
         yield together
 
 
-def _joined(parts: list[Part]) -> tuple[Part, list[Part]]:
-    return Part(parts[0].controller, parts[0].first, sum(part.count for part in parts)), parts
+def _joined(parts: list[Part]) -> Part:
+    return Part(parts[0].controller, parts[0].first, sum(part.runs for part in parts))
 
 
 def _parquet(groups: Sequence[Sequence[Values]]) -> bytes:

@@ -4,11 +4,9 @@ from __future__ import annotations
 
 import hashlib
 import json
-import platform
 import time
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
-from importlib.metadata import version
 from itertools import chain
 from pathlib import Path
 from typing import Any
@@ -19,6 +17,7 @@ from workbench.model.desired_curve import CruiseSpeed
 from workbench.simulate.closed_loop import check_controllers, prepared, simulate
 from workbench.simulate.controllers import compiled
 from workbench.simulate.draws import Draws, factors_of
+from workbench.simulate.executor import current, versions
 from workbench.simulate.journal import code_digest, laws_digest
 from workbench.simulate.metrics import measure
 from workbench.simulate.process_pool import cores, run_tasks
@@ -40,9 +39,8 @@ from workbench.trains.scenario import Scenario
 from workbench.trains.track import CurveSection, GradeSection, Track
 
 CSV_NAME = "sweep.csv"
-# On which modules of the package, and on which packages, a row depends.
+# On which modules of the package a row depends.
 SIMULATING = ("files/*.py", "model/*.py", "trains/*.py", "compile/*.py", "mpc/*.py", "simulate/*.py")
-VERSIONS = ("casadi", "numba", "numpy", "scipy", "sympy")
 # A task takes about so long: less, and handing it out costs more than a share of it; more, and a kill costs more.
 TASK_S = 0.5
 
@@ -114,7 +112,7 @@ def run_part(shared: Shared, part: Part) -> tuple[Part, float, list[Values]]:
     if held is None or held[0] is not shared:
         held = _ready[part.controller] = shared, prepared(scenario, part.controller), setting_of(scenario)
     _, drive, nominal = held
-    drawn = factors_of(scenario, part.first, part.count, seed, draws)
+    drawn = factors_of(scenario, part.first, part.runs, seed, draws)
     rows = [row_values(run, factors, measure(drive(setting_of(scenario, factors, nominal)), scenario))
             for run, factors in enumerate(drawn, part.first)]
     return part, time.perf_counter() - begun, rows
@@ -154,7 +152,7 @@ def monte_carlo(scenario: Scenario, scenario_path: Path, asked: Options,
     if asked.until and asked.draws != "random":
         raise InputError(scenario_path, "until-width", f"needs draws by chance, not '{asked.draws}': the interval of a "
                          "mean says nothing of points that are spread evenly")
-    settings = {"scenario": scenario.name, "seed": seed, "draws": asked.draws, "versions": _versions(),
+    settings = {"scenario": scenario.name, "seed": seed, "draws": asked.draws, "versions": versions(),
                 "digest of values, line and code": inputs_digest(scenario)}
     scenario = compiled(scenario.model_copy(update={"controllers": {n: scenario.controllers[n] for n in names}}))
     store = ChunkStore(asked.out, settings, asked.resume) if asked.out is not None else RowStore()
@@ -177,7 +175,7 @@ def _run_missing(shared: Shared, names: Sequence[str], runs: int, asked: Options
                  on_progress: Progress) -> None:
     """Make the rows of the first runs that the store does not have."""
     gaps = {name: list(store.missing(name, runs)) for name in names}
-    left, total = sum(part.count for parts in gaps.values() for part in parts), asked.runs * len(names)
+    left, total = sum(part.runs for parts in gaps.values() for part in parts), asked.runs * len(names)
     done = runs * len(names) - left
     pace: dict[str, float] = {}  # seconds a run, as measured last
 
@@ -185,13 +183,14 @@ def _run_missing(shared: Shared, names: Sequence[str], runs: int, asked: Options
         nonlocal done
         part, seconds, rows = made
         store.add(part, rows)
-        pace[part.controller] = seconds / part.count
-        done += part.count
+        pace[part.controller] = seconds / part.runs
+        done += part.runs
         on_progress(done, total)
 
     if left:
         _compile_kernels(shared[0])
-        workers = min(asked.workers or cores(), left)
+        executor = current()
+        workers = min(executor.workers if executor else asked.workers or cores(), left)
         run_tasks(run_part, shared, _parts(gaps, pace, workers), workers, record)
 
 
@@ -202,12 +201,12 @@ def _parts(gaps: dict[str, list[Part]], pace: dict[str, float], workers: int) ->
     while now:
         name = min(now, key=lambda name: now[name].first)
         gap = now[name]
-        fair = -(-gap.count // workers)  # so that no process is left with much at the end
+        fair = -(-gap.runs // workers)  # so that no process is left with much at the end
         fitting = int(TASK_S / max(pace[name], 1e-9)) if name in pace else 1
-        count = max(1, min(fitting, fair, gap.count, BLOCK - gap.first % BLOCK))
+        count = max(1, min(fitting, fair, gap.runs, BLOCK - gap.first % BLOCK))
         yield Part(name, gap.first, count)
-        if count < gap.count:
-            now[name] = Part(name, gap.first + count, gap.count - count)
+        if count < gap.runs:
+            now[name] = Part(name, gap.first + count, gap.runs - count)
         elif (following := next(ahead[name], None)) is not None:
             now[name] = following
         else:
@@ -227,10 +226,6 @@ def inputs_digest(scenario: Scenario) -> str:
                                         "title", "citation"})
     text = json.dumps(data, sort_keys=True, default=str)
     return hashlib.sha256(code_digest(*SIMULATING) + laws_digest(scenario) + text.encode()).hexdigest()[:20]
-
-
-def _versions() -> dict[str, str]:
-    return {"python": platform.python_version(), **{name: version(name) for name in VERSIONS}}
 
 
 def _chosen(scenario: Scenario, path: Path, controllers: Sequence[str] | None) -> list[str]:

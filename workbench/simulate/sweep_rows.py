@@ -77,7 +77,7 @@ def row_values(run: int, factors: Factors, metrics: Metrics) -> Values:
             values["time_of_max_position_error"] = None
     values["counters"] = ";".join(f"{key}={count}" for key, count in sorted(metrics.counters.items()))
     return (run, metrics.controller, *vars(factors).values(),
-            *(values[f.name] for f in _METRICS))  # type: ignore[return-value,arg-type]
+            *(values[f.name] for f in _METRICS))
 
 
 def summarised(controller: str, rows: Sequence[SweepRow]) -> SweepSummary:
@@ -153,7 +153,7 @@ class Sums:
     def summary(self) -> SweepSummary:
         """The controller's row of the summary."""
         return SweepSummary(self.controller, self.runs, self.failed, *(self.extrema.get(key) for key in _EXTREMA),
-                            mean_abs_stopping_error=self.stop_sum / self.stops if self.stops else None)
+                            self.stop_sum / self.stops if self.stops else None)
 
 
 def numbers(rows: Iterable[Values], column: str) -> list[float]:
