@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Iterator
 from contextlib import contextmanager
 from difflib import get_close_matches
@@ -36,7 +37,18 @@ def _json_file(path: Path | None) -> Path | None:
 JsonFile = Annotated[Path | None, typer.Option(
     "--json", metavar="FILE", callback=_json_file, allow_dash=True,
     help="Also write the result as JSON; - is standard output, and all else goes to standard error.")]
-Workers = Annotated[int | None, typer.Option(min=1, help="Processes; default: one a core.")]
+
+
+def _workers(count: int | None) -> int | None:
+    """The number, where this machine could start so many; InputError otherwise."""
+    most = max(64, 4 * (os.cpu_count() or 1))
+    if count is not None and count > most:
+        raise InputError("", "--workers", f"{count} processes are more than {most}, the most that are started here: "
+                         "ask for fewer")
+    return count
+
+
+Workers = Annotated[int | None, typer.Option(min=1, callback=_workers, help="Processes; default: one a core.")]
 Dask = Annotated[str | None, typer.Option(
     "--dask", metavar="ADDRESS", help="Run on the Dask cluster whose scheduler is there; 'local' starts one here.")]
 PaperOrFile = Annotated[str, typer.Argument(

@@ -42,9 +42,10 @@ def run_tasks(function: Callable[[Any, T], R], shared: Any, tasks: Iterable[T], 
     With one worker, or one task, they run here; else on the executor that the command has named, or in processes of
     this machine. tasks: a sequence, or what makes them as they are needed. Raises as `Executor.run`.
     """
-    count = len(tasks) if isinstance(tasks, Sized) else workers
-    executor = current() or (LocalProcesses(min(workers, count)) if workers > 1 else None)
-    if executor is None or count <= 1:
+    if isinstance(tasks, Sized):
+        workers = min(workers, len(tasks))
+    executor = current() or (LocalProcesses(workers) if workers > 1 else None)
+    if executor is None or (isinstance(tasks, Sized) and len(tasks) <= 1):
         for task in tasks:
             record(function(shared, task))
     else:

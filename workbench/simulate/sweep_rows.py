@@ -152,8 +152,9 @@ class Sums:
 
     def summary(self) -> SweepSummary:
         """The controller's row of the summary."""
-        return SweepSummary(self.controller, self.runs, self.failed, *(self.extrema.get(key) for key in _EXTREMA),
-                            self.stop_sum / self.stops if self.stops else None)
+        return SweepSummary(controller=self.controller, runs=self.runs, failed=self.failed,
+                            mean_abs_stopping_error=self.stop_sum / self.stops if self.stops else None,
+                            **{key: self.extrema.get(key) for key in _EXTREMA})
 
 
 def numbers(rows: Iterable[Values], column: str) -> list[float]:
