@@ -116,10 +116,13 @@ class Cluster:
 
     def _upload(self) -> Any:
         """The workbench and all that this process has read, on every worker, those that come later too."""
+        from distributed.diagnostics.plugin import UploadFile  # noqa: PLC0415 - as above
+
         made = archive()
         if made.name != self._uploaded:
             with temporary_archive(made) as path:
-                self._client.upload_file(str(path))
+                # Of workers alone: a scheduler may live in this process, which has the workbench already.
+                self._client.register_plugin(UploadFile(str(path)), name=made.name)
             for address, found in self._client.run(versions).items():
                 if found != versions():
                     raise WorkbenchError(f"--dask: worker {address} has {found}, but this process {versions()}: the "
