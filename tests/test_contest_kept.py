@@ -1,6 +1,5 @@
 """Matches kept in a folder: an interrupted contest goes on with them, another contest does not."""
 
-import json
 from pathlib import Path
 
 import pytest
@@ -9,7 +8,7 @@ from scenarios import PROOFS
 from typer.testing import CliRunner
 
 from workbench.cli.app import app
-from workbench.contest.journal import JOURNAL_NAME
+from workbench.contest.journal import JOURNAL_NAME, matches_journal
 from workbench.contest.record import Contest
 from workbench.contest.study import run, run_kept
 from workbench.errors import InputError
@@ -84,7 +83,9 @@ def test_another_contest_does_not_go_on_with_them(contest: Contest, played: Path
 
 @pytest.mark.parametrize("record", [{}, {"condition": "ten"}, {"draw": "x"}])
 def test_a_record_that_is_no_match_is_refused(contest: Contest, played: Path, tmp_path: Path, record: dict) -> None:
-    (tmp_path / JOURNAL_NAME).write_text("\n".join([lines(played)[0], json.dumps(record)]) + "\n", encoding="utf-8")
+    (tmp_path / JOURNAL_NAME).write_text(lines(played)[0] + "\n", encoding="utf-8")
+    with matches_journal(tmp_path, contest, True) as journal:
+        journal.append(record | {"n": 1})
     with pytest.raises(InputError, match=r"no match of a contest.*without resume"):
         run_kept(contest, 1, ignore, tmp_path, True)
 

@@ -1,5 +1,6 @@
 """Sobol' indices of a function whose indices are known, through the same path as a file's, and of a short scenario."""
 
+import json
 import math
 from dataclasses import replace
 
@@ -15,6 +16,7 @@ from workbench.errors import InputError
 from workbench.model.sensitivity import Sensitivity
 from workbench.paper.sensitivity import CSV_NAME, JOURNAL_NAME, drawn, sensitivity, sensitivity_lines, sensitivity_table
 from workbench.paper.sobol import design, indices
+from workbench.simulate.journal import Journal
 
 ENDS = (-math.pi, math.pi)
 
@@ -64,8 +66,9 @@ def test_an_interrupted_sweep_goes_on_and_ends_as_one_that_was_not(tmp_path):
     assert found.values.tolist() == sensitivity(loaded, None, False, 1, evaluate=ishigami).values.tolist()
     with pytest.raises(InputError, match="values and code"):
         sensitivity(with_table(samples=32), tmp_path, True, 1, evaluate=ishigami)
-    journal = tmp_path / JOURNAL_NAME
-    journal.write_text(journal.read_text(encoding="utf-8") + '{"point": 1e9}\n', encoding="utf-8")
+    header = json.loads((tmp_path / JOURNAL_NAME).read_text(encoding="utf-8").splitlines()[0])
+    with Journal(tmp_path / JOURNAL_NAME, header, True) as journal:
+        journal.append({"point": 1e9})
     with pytest.raises(InputError, match="no point of this sweep"):
         sensitivity(loaded, tmp_path, True, 1, evaluate=ishigami)
 

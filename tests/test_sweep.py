@@ -1,19 +1,33 @@
 """Monte Carlo: paired draws, the same bytes however it was run, and nothing lost."""
 
 import csv
+import hashlib
 import json
 import math
 import operator
+import os
+import signal
+import subprocess
+import sys
 from dataclasses import fields
 from pathlib import Path
 
+import numpy as np
+import pandas
 import pytest
-from scenarios import LIGHT_TRAIN
+import scipy.stats
+from scenarios import LIGHT_TRAIN, ROOT
 
 from workbench.errors import InputError
+from workbench.simulate import row_store, stopping
+from workbench.simulate import sweep as sweep_module
 from workbench.simulate.closed_loop import Factors
+from workbench.simulate.draws import draw_factors, factors_of
 from workbench.simulate.process_pool import run_tasks
-from workbench.simulate.sweep import JOURNAL_NAME, SweepRow, draw_factors, summarise, sweep
+from workbench.simulate.row_store import MANIFEST_NAME
+from workbench.simulate.stopping import UntilWidth
+from workbench.simulate.sweep import MonteCarlo, Options, monte_carlo, summarise, sweep
+from workbench.simulate.sweep_rows import SweepRow
 from workbench.trains.scenario import load_scenario
 
 RUNS, SEED = 3, 7
@@ -168,52 +182,109 @@ def test_factors_are_drawn_for_named_ones_only_within_the_spread(scenario_path):
     assert draw_factors(scenario, 5, seed=8) != drawn[5]
 
 
+def chunks_written(folder: Path) -> list[dict]:
+    return [json.loads(line) for line in (folder / MANIFEST_NAME).read_text().splitlines()[1:]]
+
+
+def rows_kept(folder: Path) -> int:
+    """How many rows the manifest names."""
+    return sum(count for chunk in chunks_written(folder) for _, _, count in chunk["parts"])
+
+
+@pytest.fixture
+def every_run_is_a_chunk(monkeypatch):
+    monkeypatch.setattr(row_store, "CHUNK_S", 0.0)
+    monkeypatch.setattr(sweep_module, "TASK_S", 0.0)
+
+
 def test_two_workers_write_the_same_bytes(whole, scenario_path, tmp_path):
     out, _ = whole
     seen = []
-    sweep_of(scenario_path, RUNS, SEED, out=tmp_path, workers=2, on_progress=lambda *step: seen.append(step[:2]))
+    sweep_of(scenario_path, RUNS, SEED, out=tmp_path, workers=2, on_progress=lambda *step: seen.append(step))
     assert (tmp_path / "sweep.csv").read_bytes() == (out / "sweep.csv").read_bytes()
-    assert seen == [(i, 9) for i in range(1, 10)]
+    assert seen == sorted(seen) and seen[-1] == (9, 9)
 
 
-@pytest.mark.parametrize("lines", [0, 1, 2, 6])
-def test_resuming_a_cut_journal_gives_the_same_bytes(whole, scenario_path, tmp_path, lines):
-    out, _ = whole
-    text = (out / JOURNAL_NAME).read_text().splitlines(keepends=True)
-    (tmp_path / JOURNAL_NAME).write_text("".join(text[:lines]) + text[lines][:9])
-    fresh = []
-    sweep_of(scenario_path, RUNS, SEED, out=tmp_path, resume=True, workers=1,
-          on_progress=lambda *step: fresh.append(step))
-    assert (tmp_path / "sweep.csv").read_bytes() == (out / "sweep.csv").read_bytes()
-    assert len(fresh) == 9 - max(0, lines - 1)
-    assert len((tmp_path / JOURNAL_NAME).read_text().splitlines()) == 10
-
-
-def test_a_finished_journal_serves_fewer_and_more_runs(whole, scenario_path, tmp_path):
+def test_chunks_are_parquet_that_others_read_in_a_line(whole):
     out, rows = whole
-    (tmp_path / JOURNAL_NAME).write_bytes((out / JOURNAL_NAME).read_bytes())
+    table = pandas.read_parquet(out / "sweep").sort_values(["run", "controller"])
+    assert len(table) == len(rows) and set(table["controller"]) == {"pocrac", "narrow", "pid"}
+    stops = {(row.run, row.controller): row.stopping_error for row in rows}
+    for row in table.itertuples():
+        assert stops[row.run, row.controller] in (row.stopping_error, None)
+    record = chunks_written(out)[0]
+    assert record["sha256"] == hashlib.sha256((out / "sweep" / "00000.parquet").read_bytes()).hexdigest()
+
+
+def test_an_interruption_at_any_run_loses_none_of_the_others(whole, scenario_path, tmp_path, every_run_is_a_chunk):
+    for stop_at in (1, 4, 8):
+        def stop(done, total, stop_at=stop_at):
+            if done == stop_at:
+                raise KeyboardInterrupt
+
+        out = tmp_path / str(stop_at)
+        with pytest.raises(KeyboardInterrupt):
+            sweep_of(scenario_path, RUNS, SEED, out=out, workers=1, on_progress=stop)
+        assert not (out / "sweep.csv").exists()
+        assert rows_kept(out) == stop_at
+        fresh = []
+        sweep_of(scenario_path, RUNS, SEED, out=out, resume=True, workers=1,
+                 on_progress=lambda *one, fresh=fresh: fresh.append(one))
+        assert len(fresh) == 9 - stop_at
+        assert (out / "sweep.csv").read_bytes() == (whole[0] / "sweep.csv").read_bytes()
+
+
+DAMAGE = {
+    "a changed digit in a chunk": lambda out: changed(out / "sweep" / "00002.parquet", 90),
+    "half a chunk": lambda out: cut(out / "sweep" / "00001.parquet"),
+    "an empty chunk": lambda out: (out / "sweep" / "00000.parquet").write_bytes(b""),
+    "a chunk that is gone": lambda out: (out / "sweep" / "00003.parquet").unlink(),
+    "one chunk in the place of another": lambda out: (out / "sweep" / "00001.parquet").write_bytes(
+        (out / "sweep" / "00002.parquet").read_bytes()),
+    "a changed digit in the manifest": lambda out: changed(out / MANIFEST_NAME, -40),
+    "a record twice": lambda out: (out / MANIFEST_NAME).write_text(
+        (out / MANIFEST_NAME).read_text() + (out / MANIFEST_NAME).read_text().splitlines(keepends=True)[-1]),
+    "half a record": lambda out: cut(out / MANIFEST_NAME),
+    "a record of something else": lambda out: (out / MANIFEST_NAME).write_text(
+        (out / MANIFEST_NAME).read_text() + '{"run": NaN}\n[1]\nnot json\n'),
+}
+
+
+def changed(path: Path, place: int) -> None:
+    data = bytearray(path.read_bytes())
+    data[place] ^= 1
+    path.write_bytes(data)
+
+
+def cut(path: Path) -> None:
+    path.write_bytes(path.read_bytes()[: path.stat().st_size // 2])
+
+
+@pytest.mark.parametrize("damage", DAMAGE)
+def test_what_was_damaged_is_found_by_its_digest_and_made_again(whole, scenario_path, tmp_path, every_run_is_a_chunk,
+                                                                capsys, damage):
+    sweep_of(scenario_path, RUNS, SEED, out=tmp_path, workers=1)
+    (tmp_path / "sweep.csv").unlink()
+    assert len(chunks_written(tmp_path)) == 9
+    DAMAGE[damage](tmp_path)
+    sweep_of(scenario_path, RUNS, SEED, out=tmp_path, resume=True, workers=1)
+    assert (tmp_path / "sweep.csv").read_bytes() == (whole[0] / "sweep.csv").read_bytes()
+    assert len(pandas.read_parquet(tmp_path / "sweep")) == 9, "what readers of the folder see has no row twice"
+    assert damage == "half a record" or "note:" in capsys.readouterr().err
+
+
+def test_a_finished_sweep_serves_fewer_and_more_runs(whole, scenario_path, tmp_path):
+    _, rows = whole
+    sweep_of(scenario_path, RUNS, SEED, out=tmp_path, workers=1)
     assert sweep_of(scenario_path, 2, SEED, ["pid"], tmp_path, resume=True) == [
         row for row in rows if row.controller == "pid" and row.run < 2]
     more = sweep_of(scenario_path, RUNS + 1, SEED, ["pid"], tmp_path, resume=True, workers=1)
     assert [row.run for row in more] == [0, 1, 2, 3]
 
 
-def test_an_interruption_keeps_what_is_finished(whole, scenario_path, tmp_path):
-    def stop(finished, total, row):
-        if finished == 4:
-            raise KeyboardInterrupt
-
-    with pytest.raises(KeyboardInterrupt):
-        sweep_of(scenario_path, RUNS, SEED, out=tmp_path, workers=1, on_progress=stop)
-    assert not (tmp_path / "sweep.csv").exists()
-    assert len((tmp_path / JOURNAL_NAME).read_text().splitlines()) == 5
-    sweep_of(scenario_path, RUNS, SEED, out=tmp_path, resume=True, workers=1)
-    assert (tmp_path / "sweep.csv").read_bytes() == (whole[0] / "sweep.csv").read_bytes()
-
-
-def test_a_journal_of_something_else_is_refused_with_a_remedy(whole, scenario_path, tmp_path):
-    journal = tmp_path / JOURNAL_NAME
-    journal.write_bytes((whole[0] / JOURNAL_NAME).read_bytes())
+def test_a_sweep_of_something_else_is_refused_with_a_remedy(whole, scenario_path, tmp_path):
+    manifest = tmp_path / MANIFEST_NAME
+    manifest.write_bytes((whole[0] / MANIFEST_NAME).read_bytes())
     with pytest.raises(InputError, match=r"seed 7, not 8.*without resume"):
         sweep_of(scenario_path, RUNS, SEED + 1, out=tmp_path, resume=True)
     folder = tmp_path / "other"
@@ -223,17 +294,58 @@ def test_a_journal_of_something_else_is_refused_with_a_remedy(whole, scenario_pa
     line.write_text(line.read_text().replace("grade_permille = 2.0", "grade_permille = 3.0"))
     with pytest.raises(InputError, match=r"values, line and code.*without resume"):
         sweep_of(other, RUNS, SEED, out=tmp_path, resume=True)
-    for text in ("not json\n", '{"a": 1}\n', journal.read_text() + '{"run": "x"}\n', "[1]\n"):
-        journal.write_text(text)
+    for text in ("not json\n", '{"a": 1}\n', "[1]\n"):
+        manifest.write_text(text)
         with pytest.raises(InputError, match="without resume"):
             sweep_of(scenario_path, RUNS, SEED, out=tmp_path, resume=True)
 
 
-def test_starting_anew_keeps_the_old_journal_beside(whole, scenario_path, tmp_path):
-    journal = tmp_path / JOURNAL_NAME
-    journal.write_text("precious\n")
+def test_starting_anew_keeps_the_old_sweep_beside(whole, scenario_path, tmp_path):
     sweep_of(scenario_path, 1, SEED, ["pid"], tmp_path, workers=1)
-    assert journal.with_name(JOURNAL_NAME + ".before").read_text() == "precious\n"
+    before = {path: path.read_bytes() for path in (tmp_path / MANIFEST_NAME, tmp_path / "sweep" / "00000.parquet")}
+    sweep_of(scenario_path, 2, SEED, ["pid"], tmp_path, workers=1)
+    for path, data in before.items():
+        assert path.with_name(path.name + ".before").read_bytes() == data != path.read_bytes()
+
+
+def test_a_second_writer_is_turned_away_in_a_line(scenario_path, tmp_path):
+    script = ("import sys; from pathlib import Path; from workbench.files.folder_lock import FolderLock\n"
+              "FolderLock(Path(sys.argv[1])); print('held', flush=True); sys.stdin.read()")
+    with subprocess.Popen([sys.executable, "-c", script, str(tmp_path)], stdin=subprocess.PIPE, stdout=subprocess.PIPE,
+                          cwd=ROOT) as other:
+        assert other.stdout.readline() == b"held\n"
+        for resume in (True, False):
+            with pytest.raises(InputError, match="another command writes its results here"):
+                sweep_of(scenario_path, 1, SEED, ["pid"], tmp_path, resume=resume)
+        other.kill()
+    sweep_of(scenario_path, 1, SEED, ["pid"], tmp_path, workers=1)
+
+
+def test_draws_end_once_the_intervals_are_narrow_wherever_they_are_run(scenario_path, monkeypatch):
+    monkeypatch.setattr(stopping, "FIRST_LOOK", 4)
+    scenario = load_scenario(scenario_path)
+
+    def found(width: float, workers: int) -> MonteCarlo:
+        return monte_carlo(scenario, scenario_path, Options(64, SEED, ["pid"], workers=workers,
+                                                            until=UntilWidth("position_error_max", width)))
+
+    one, two = found(0.01, 1), found(0.01, 2)
+    assert 4 < one.runs == two.runs < 64
+    assert list(one.rows()) == list(two.rows())
+    values = [row.position_error_max for row in one.rows()]
+    interval = scipy.stats.t.interval(0.95, len(values) - 1, np.mean(values), scipy.stats.sem(values))
+    assert math.isclose(interval[1] - interval[0], one.means["pid"].width)
+    assert one.means["pid"].width <= 0.01
+    assert found(1e-9, 1).runs == 64
+
+
+def test_sobol_draws_are_the_same_in_parts_and_fill_the_range_evenly(scenario_path):
+    scenario = load_scenario(scenario_path)
+    every = list(factors_of(scenario, 0, 64, SEED, "sobol"))
+    assert every == [*factors_of(scenario, 0, 5, SEED, "sobol"), *factors_of(scenario, 5, 59, SEED, "sobol")]
+    places = sorted((f.mass - 0.9) / 0.2 for f in every)
+    assert all(i / 64 <= place < (i + 1) / 64 for i, place in enumerate(places)), "one in each 64th of the range"
+    assert all(f.davis_b == 1.0 for f in every)
 
 
 @pytest.mark.parametrize(("options", "key"), [
@@ -274,11 +386,6 @@ def test_summary_counts_failures_and_takes_extrema_over_the_rest(whole, scenario
     assert math.isclose(summaries["pid"].mean_abs_stopping_error, mean)
 
 
-def test_journal_lines_are_json_without_nan(whole):
-    for line in (whole[0] / JOURNAL_NAME).read_text().splitlines():
-        json.loads(line, parse_constant=pytest.fail)
-
-
 def test_what_workers_have_started_is_recorded_before_an_interruption_goes_on():
     recorded = []
 
@@ -296,3 +403,19 @@ def test_what_workers_have_started_is_recorded_before_an_interruption_goes_on():
 def test_an_exception_in_a_worker_is_raised_here():
     with pytest.raises(ZeroDivisionError):
         run_tasks(operator.truediv, 1.0, [1, 2, 0, 3], 2, print)
+
+
+def end_the_process(folder, task):
+    """Of each task the first process that has it is killed."""
+    mark = Path(folder) / str(task)
+    if task in (2, 5) and not mark.exists():
+        mark.touch()
+        os.kill(os.getpid(), signal.SIGKILL)
+    return task
+
+
+def test_tasks_of_a_process_that_dies_are_run_again(tmp_path, capsys):
+    recorded = []
+    run_tasks(end_the_process, str(tmp_path), range(8), 2, recorded.append)
+    assert sorted(recorded) == list(range(8))
+    assert "a worker process died" in capsys.readouterr().err

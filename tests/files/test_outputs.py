@@ -99,7 +99,7 @@ def paper(tmp_path, monkeypatch):
     (tmp_path / "times.toml").write_text("x = 1\n")
     (tmp_path / "a_file").write_text("x")
     (tmp_path / "full").mkdir()
-    for name in ("report.html", "sweep.csv", "matches.journal.jsonl", "sweep.journal.jsonl"):
+    for name in ("report.html", "sweep.csv", "matches.journal.jsonl", "sweep.manifest.jsonl"):
         os.link(tmp_path / "doe2026" / "study.toml", tmp_path / "full" / name)
     return tmp_path
 

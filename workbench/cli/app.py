@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import signal
 import sys
+import threading
 
 import typer
 
@@ -44,6 +46,8 @@ def options(version: Version = False) -> None:
 
 def main() -> None:
     """Run the command line; an error that is the caller's to mend is one line and exit code 2."""
+    if threading.current_thread() is threading.main_thread():
+        signal.signal(signal.SIGTERM, signal.default_int_handler)  # what is finished is kept, as after Ctrl-C
     try:
         app()
     except WorkbenchError as trouble:

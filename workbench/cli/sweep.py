@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 import typer
 
-from workbench.cli.options import PaperOrFile, Workers, load
+from workbench.cli.options import Dask, PaperOrFile, Workers, load, on_cluster
 from workbench.cli.terminal import out_console, progress, result_table, summary_table
 from workbench.errors import InputError
 
@@ -18,7 +18,7 @@ NAME = "sweep"
 
 
 def command(paper: PaperOrFile,
-            out: Annotated[Path, typer.Option(help="Folder for sweep.csv and its journal")],
+            out: Annotated[Path, typer.Option(help="Folder for sweep.csv, and the rows as Parquet")],
             runs: Annotated[int | None, typer.Option(
                 min=1, help="Runs per controller; default: 100, of a plant's study as it states.")] = None,
             seed: Annotated[int | None, typer.Option(min=0, help="Default: as the scenario states.")] = None,
@@ -27,29 +27,41 @@ def command(paper: PaperOrFile,
                 "--sensitivity", help="Instead: all values of [joint_sensitivity] drawn at once, and which decides.")
             ] = False,
             resume: Annotated[bool, typer.Option(help="Go on after an interruption.")] = False,
-            workers: Workers = None) -> None:
+            draws: Annotated[Literal["random", "sobol"], typer.Option(
+                help="By chance, or spread evenly by a scrambled Sobol' sequence (best with a power of two of runs)."
+            )] = "random",
+            until_width: Annotated[str | None, typer.Option(
+                metavar="METRIC=WIDTH", help="End before --runs once the 95 % interval of every controller's mean of "
+                "this column is so narrow.")] = None,
+            workers: Workers = None, dask: Dask = None) -> None:
     """Monte Carlo over the scenario's uncertainty: one row a run, the same bytes for the same seed."""
     from workbench.files.outputs import check_outputs
     from workbench.paper.loading import PLANT
-    from workbench.simulate.sweep import CSV_NAME, JOURNAL_NAME, summarise
-    from workbench.simulate.sweep import sweep as run_sweep
+    from workbench.simulate.row_store import CHUNKS, MANIFEST_NAME
+    from workbench.simulate.stopping import UntilWidth
+    from workbench.simulate.sweep import CSV_NAME, Options, monte_carlo
 
+    until = UntilWidth.parse(until_width) if until_width is not None else None
     loaded = load(paper)
     if sensitivity:
-        _joint(loaded, out, resume, workers)
+        with on_cluster(dask, workers):
+            _joint(loaded, out, resume, workers)
         return
     if loaded.kind is not None and loaded.data.get("kind") == PLANT:
-        _sweep_plant(loaded, out, runs, seed, controller, resume, workers)
+        with on_cluster(dask, workers):
+            _sweep_plant(loaded, out, runs, seed, controller, resume, workers)
         return
     scenario = loaded.scenario
-    check_outputs({}, folders={"--out": (out, (CSV_NAME, JOURNAL_NAME))})
-    seed = scenario.uncertainty.seed if seed is None else seed
-    runs = runs or 100
-    with progress() as show:
-        rows = run_sweep(scenario, loaded.path, runs, seed, controller, out=out, resume=resume, workers=workers,
-                         on_progress=lambda done, total, _: show("Monte Carlo", done, total))
-    out_console.print(summary_table(summarise(rows, scenario), runs))
-    out_console.print(f"rows: {out / 'sweep.csv'}")
+    check_outputs({}, folders={"--out": (out, (CSV_NAME, MANIFEST_NAME, CHUNKS))})
+    asked = Options(runs or 100, seed, controller, out, resume, workers, draws, until)
+    with progress() as show, on_cluster(dask, workers):
+        found = monte_carlo(scenario, loaded.path, asked, lambda done, total: show("Monte Carlo", done, total))
+    summaries = found.write_csv(out / CSV_NAME)
+    out_console.print(summary_table(summaries, found.runs))
+    for name, mean in found.means.items():
+        out_console.print(f"{name}: mean of {until_width} after {found.runs} runs: {mean.mean:g}, an interval of "
+                          f"{mean.width:g}", markup=False, highlight=False)
+    out_console.print(f"rows: {out / CSV_NAME}", markup=False, highlight=False)
 
 
 def _sweep_plant(loaded: Loaded, out: Path, runs: int | None, seed: int | None, controllers: list[str] | None,

@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+import threading
+import time
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -15,7 +18,6 @@ from rich.progress import (
     Progress,
     TextColumn,
     TimeElapsedColumn,
-    TimeRemainingColumn,
 )
 from rich.table import Table
 from rich.text import Text
@@ -29,26 +31,84 @@ if TYPE_CHECKING:
 # Names, paths and messages come from files: brackets and colons in them are what they are, no markup.
 out_console = Console(markup=False, emoji=False)
 err_console = Console(stderr=True, markup=False, emoji=False)
+LINE_EVERY_S = 30.0
 COLOURS = {"proved": "green", "refuted": "red", "violated": "red", "gap": "yellow", "assumed": "cyan",
            "undecided": "magenta"}
 
 
 @contextmanager
 def progress() -> Iterator[Any]:
-    """A progress bar per stage on standard error; a plain line per stage where that is no terminal."""
+    """A progress bar per stage on standard error; where that is no terminal a plain line per stage, and every
+    LINE_EVERY_S seconds one that says how far it is."""
     columns = (TextColumn("{task.description}", markup=False), BarColumn(), MofNCompleteColumn(), TimeElapsedColumn(),
-               TextColumn("left"), TimeRemainingColumn())
-    with Progress(*columns, console=err_console, disable=not err_console.is_terminal) as bar:
+               TextColumn("{task.fields[pace]}", markup=False))
+    terminal = err_console.is_terminal
+    stages: dict[str, Stage] = {}
+    ended = threading.Event()
+
+    def tell() -> None:
+        while not ended.wait(LINE_EVERY_S):
+            if stages:
+                _plain(next(reversed(stages.values())).line())
+
+    with Progress(*columns, console=err_console, disable=not terminal) as bar:
         tasks: dict[str, Any] = {}
 
         def show(what: str, done: int, total: int) -> None:
-            if what not in tasks:
-                tasks[what] = bar.add_task(what, total=total)
-            bar.update(tasks[what], completed=done, total=total)
-            if not err_console.is_terminal and done == total:
-                err_console.print(f"{what}: {done} done")
+            stage = stages.setdefault(what, Stage(what, done))
+            stage.at(done, total)
+            if terminal:
+                if what not in tasks:
+                    tasks[what] = bar.add_task(what, total=total, pace="")
+                bar.update(tasks[what], completed=done, total=total, pace=stage.pace())
+            elif done == total:
+                _plain(f"{what}: {done} done")
 
-        yield show
+        if not terminal:
+            threading.Thread(target=tell, daemon=True).start()
+        try:
+            yield show
+        finally:
+            ended.set()
+
+
+def _plain(line: str) -> None:
+    err_console.print(line, soft_wrap=True, markup=False, highlight=False)
+
+
+@dataclass
+class Stage:
+    """How far a stage of a command is, and how fast. first: what was done when it began, as by a run before it."""
+
+    what: str
+    first: int
+    done: int = 0
+    total: int = 0
+    begun_s: float = field(default_factory=time.monotonic)
+
+    def at(self, done: int, total: int) -> None:
+        """Keep how far it is now."""
+        self.done, self.total = done, total
+
+    def pace(self) -> str:
+        """Rate and time left, in words; empty where nothing can be said of them yet."""
+        seconds, made = time.monotonic() - self.begun_s, self.done - self.first
+        if made <= 0 or seconds <= 0:
+            return ""
+        rate = made / seconds
+        return f"{rate:.3g}/s, {_duration((self.total - self.done) / rate)} left"
+
+    def line(self) -> str:
+        """A line for a log."""
+        pace = self.pace()
+        return f"{self.what}: {self.done} of {self.total}{', ' if pace else ''}{pace}"
+
+
+def _duration(seconds: float) -> str:
+    """As people say it: 40 s, 12 min, 3.5 h."""
+    if seconds < 100:
+        return f"{seconds:.0f} s"
+    return f"{seconds / 60:.0f} min" if seconds < 6000 else f"{seconds / 3600:.1f} h"
 
 
 def answer_card(answer: dict[str, Any]) -> Table:

@@ -65,6 +65,9 @@ sys.meta_path.insert(0, _Finder)
 def package_of(folder: Path) -> str:
     """The name under which a folder is imported in every process that knows it."""
     resolved = folder.resolve()
+    for name, known in _folders.items():  # a copy on another machine has the name that it has on ours
+        if known == resolved:
+            return name
     digest = hashlib.sha256(str(resolved).encode()).hexdigest()[:10]
     name = f"{PREFIX}{re.sub(r'[^0-9A-Za-z_]', '_', resolved.name)}_{digest}"
     _folders[name] = resolved
@@ -133,10 +136,15 @@ def python_files(folder: Path) -> list[Path]:
 class KnownFolders:
     """What this process knows of folders; a process that unpickles it knows the same, and so can import from them."""
 
-    def __reduce__(self) -> tuple[Any, tuple[dict[str, str]]]:
-        return _know, ({name: str(folder) for name, folder in _folders.items()},)
+    def __reduce__(self) -> tuple[Any, tuple[dict[str, Path]]]:
+        return _know, (known_folders(),)
 
 
-def _know(folders: Mapping[str, str]) -> KnownFolders:
-    _folders.update({name: Path(folder) for name, folder in folders.items()})
+def _know(folders: Mapping[str, Path]) -> KnownFolders:
+    _folders.update({name: folder.resolve() for name, folder in folders.items()})
     return KnownFolders()
+
+
+def known_folders() -> dict[str, Path]:
+    """The folders that modules have been, or may be, imported from, by the names of their packages."""
+    return dict(_folders)

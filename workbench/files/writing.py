@@ -6,7 +6,7 @@ import errno
 import os
 import secrets
 import stat
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from contextlib import suppress
 from pathlib import Path, PurePath
 
@@ -16,6 +16,23 @@ from workbench.files.outputs import is_stream
 ANOTHER_PLACE = "name another place"
 
 _NEW = os.O_WRONLY | os.O_CREAT | os.O_EXCL | getattr(os, "O_CLOEXEC", 0) | getattr(os, "O_BINARY", 0)
+
+
+def write_pieces(path: Path, pieces: Iterable[bytes], remedy: str = ANOTHER_PLACE) -> None:
+    """`write_bytes` of what need not be in memory as a whole."""
+    def written() -> None:
+        path.parent.mkdir(parents=True, exist_ok=True)
+        write_whole(path, pieces)
+
+    _in_one_line(path, written, remedy)
+
+
+def set_aside(path: Path, remedy: str = ANOTHER_PLACE) -> None:
+    """Keep a file under its name with `.before` appended, in place of what stood there; InputError where that fails."""
+    def moved() -> None:
+        path.replace(path.with_name(path.name + ".before"))
+
+    _in_one_line(path, moved, remedy)
 
 
 def write_text(path: Path, text: str, remedy: str = ANOTHER_PLACE) -> None:
@@ -100,8 +117,9 @@ def remove_old(path: Path) -> None:
     _in_one_line(path, lambda: path.unlink(missing_ok=True), "check its permissions")
 
 
-def write_whole(path: Path, data: str | bytes) -> None:
-    """Write a file aside and rename it, with the mode that the file had or a new one gets; raises OSError."""
+def write_whole(path: Path, data: str | bytes | Iterable[bytes]) -> None:
+    """Write a file, given whole or in pieces, aside and rename it, with the mode that the file had or a new one gets;
+    raises OSError."""
     aside = path.parent / f".workbench-{secrets.token_hex(8)}.tmp"
     handle = os.open(aside, _NEW, 0o666)
     try:
@@ -109,7 +127,8 @@ def write_whole(path: Path, data: str | bytes) -> None:
             before = path.lstat() if path.exists() else None
             if before is not None and stat.S_ISREG(before.st_mode):
                 aside.chmod(stat.S_IMODE(before.st_mode))
-            _all(handle, data.encode() if isinstance(data, str) else data)
+            for piece in (data,) if isinstance(data, str | bytes) else data:
+                _all(handle, piece.encode() if isinstance(piece, str) else piece)
         finally:
             os.close(handle)
         aside.replace(path)

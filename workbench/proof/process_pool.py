@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import multiprocessing
-import signal
 from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import Future, ProcessPoolExecutor, as_completed
 from concurrent.futures.process import BrokenProcessPool
@@ -14,7 +13,7 @@ from typing import TYPE_CHECKING, Any, Protocol, TypeVar
 from workbench.errors import WorkbenchError
 from workbench.proof.cache import DecisionCache
 from workbench.proof.messages import Decided, Listing
-from workbench.simulate.process_pool import follow_parent, single_threaded
+from workbench.simulate.process_pool import follow_parent, interruption_held, single_threaded
 
 if TYPE_CHECKING:
     from workbench.proof.worker import Worker
@@ -84,12 +83,12 @@ class _Several:
     def listings(self, paths: Sequence[Path]) -> list[Listing]:
         # Workers without a file of their own import one that others list: they will need it to decide its claims.
         at_once = max(len(paths), min(self.jobs, WARM_AT_ONCE))
-        with _interruption_held():
+        with interruption_held():
             futures = [self.pool.submit(_listing, paths[i % len(paths)]) for i in range(at_once)]
         return _in_order(futures[: len(paths)], lambda done: None)
 
     def decided(self, tasks: Sequence[Task], on_progress: Callable[[int], None]) -> list[Decided]:
-        with _interruption_held():
+        with interruption_held():
             futures = [self.pool.submit(_decided, task) for task in tasks]
         return _in_order(futures, on_progress)
 
@@ -107,19 +106,6 @@ def _in_order(futures: list[Future[T]], on_progress: Callable[[int], None]) -> l
             break
         on_progress(done)
     return [future.result() for future in futures]
-
-
-@contextmanager
-def _interruption_held() -> Iterator[None]:
-    """Hold Ctrl-C back while processes are started, in them too: it is for this process to end them."""
-    if not hasattr(signal, "pthread_sigmask"):
-        yield
-        return
-    before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
-    try:
-        yield
-    finally:
-        signal.pthread_sigmask(signal.SIG_SETMASK, before)
 
 
 def _worker(cached: DecisionCache | None, limit: float | None) -> Worker:

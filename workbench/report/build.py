@@ -34,7 +34,8 @@ from workbench.report.page import ReportContent, build_page, scenario_charts
 from workbench.report.study_page import StudyContent, build_study_page
 from workbench.simulate.compare import Comparison, checked_variants, compare
 from workbench.simulate.process_pool import cores
-from workbench.simulate.sweep import SweepSummary, summarise, sweep
+from workbench.simulate.sweep import summarise, sweep
+from workbench.simulate.sweep_rows import SweepSummary
 
 MONTE_CARLO = "monte_carlo"
 # What a report writes in its folder, certificates and curves apart, which their manifests name.
@@ -126,7 +127,7 @@ def build_report(asked: Asked, runs: int | None = None, seed: int | None = None,
     seed = scenario.uncertainty.seed if seed is None else seed
     with _timed(timings, "Monte Carlo"):
         rows = sweep(scenario, loaded.path, runs, seed, out=out / MONTE_CARLO, resume=asked.resume, workers=workers,
-                     on_progress=lambda done, total, _: on_progress("Monte Carlo", done, total))
+                     on_progress=lambda done, total: on_progress("Monte Carlo", done, total))
     content = ReportContent(
         scenario=scenario, claims=claims, runs=comparison.runs, metrics=comparison.metrics, sweep=rows,
         sweep_seed=seed, variants=comparison.variants, timings=timings,

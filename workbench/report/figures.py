@@ -14,7 +14,7 @@ from matplotlib.ticker import MaxNLocator
 from workbench.files.numbers import fixed, length, number
 from workbench.report.svg import FAINT, INK, PALETTE, Array, drawing, svg, thin
 from workbench.simulate.closed_loop import Run
-from workbench.simulate.sweep import SweepRow
+from workbench.simulate.sweep_rows import SweepRow
 from workbench.trains.scenario import Scenario
 from workbench.trains.track import resistance_table
 

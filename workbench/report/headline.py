@@ -14,7 +14,7 @@ from workbench.report.claims import VERDICTS, ClaimView, counts
 from workbench.report.sources import SourcedValue
 from workbench.report.tables import largest_error
 from workbench.simulate.metrics import Metrics
-from workbench.simulate.sweep import SweepRow, SweepSummary
+from workbench.simulate.sweep_rows import SweepRow, SweepSummary
 from workbench.trains.scenario import Scenario, Variant
 
 PLURAL = {"gap": "gaps"}

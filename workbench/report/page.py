@@ -19,7 +19,8 @@ from workbench.report.template import PageFigure, page_figure, render
 from workbench.report.winners import winners
 from workbench.simulate.closed_loop import Run
 from workbench.simulate.metrics import Metrics
-from workbench.simulate.sweep import SweepRow, summarise
+from workbench.simulate.sweep import summarise
+from workbench.simulate.sweep_rows import SweepRow
 from workbench.trains.scenario import Scenario, Variant
 
 

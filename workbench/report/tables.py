@@ -11,7 +11,7 @@ from workbench.report.sources import stated
 from workbench.simulate.closed_loop import Run
 from workbench.simulate.controllers import COMPILED, SAMPLED, compiled_law
 from workbench.simulate.metrics import Metrics
-from workbench.simulate.sweep import WHOLE_RUN, SweepSummary
+from workbench.simulate.sweep_rows import WHOLE_RUN, SweepSummary
 from workbench.trains.scenario import Scenario, Variant
 
 

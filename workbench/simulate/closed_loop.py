@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import time
+from collections.abc import Callable
 from dataclasses import dataclass, field, replace
+from functools import cache, partial
 from types import ModuleType
 from typing import Any
 
@@ -89,6 +91,18 @@ def simulate(scenario: Scenario, name: str, factors: Factors = NOMINAL) -> Run:
     return simulate_in(scenario, name, setting_of(scenario, factors))
 
 
+def prepared(scenario: Scenario, name: str) -> Callable[[Setting], Run]:
+    """What runs a scenario's controller in one setting after another, as `simulate_in` does: its law is looked up,
+    checked and compiled once. Raises InputError as `simulate`."""
+    spec = controller_spec(scenario, name)
+    law = compiled_law(scenario, spec)
+    loop = kernel_module(single_particle(), law or held_command, kernel_loop, spec.estimates)
+    if law is None:
+        return partial(simulate_in, scenario, name, held=loop)
+    return partial(run_law, law, law_values(law, spec, name), period_s=spec.period_s, name=name,
+                   title=spec.title or law.title, module=loop, predictor=spec.predictor)
+
+
 def simulate_in(scenario: Scenario, name: str, setting: Setting, plant: Plant | None = None,
                 held: ModuleType | None = None) -> Run:
     """`simulate` in a setting, and with a plant, that may differ from the scenario's, which are what controllers know.
@@ -137,6 +151,12 @@ def run_law(law: ControlLaw, values: tuple[Array, Array, Array, Array], setting:
                 _why(status, reached * plan[2], arrays.state, law, law.id), {})
 
 
+@cache
+def _text(expression: Any) -> str:
+    """As sympy says it, which takes longer than a short run takes."""
+    return str(expression)
+
+
 def _fixed(setting: Setting) -> tuple[float, float]:
     return setting.position_band_m, setting.nominal_mass_kg
 
@@ -146,7 +166,7 @@ def _run(name: str, title: str, law: ControlLaw, arrays: _Arrays, plan: tuple[in
     _, per_sample, dt, log_every = plan
     _, reached, step_us = ended
     return Run(
-        controller=name, title=title, columns=(*LOG_COLUMNS, *(str(s.symbol) for s in law.scalar_states)),
+        controller=name, title=title, columns=(*LOG_COLUMNS, *(_text(s.symbol) for s in law.scalar_states)),
         log=arrays.log[: max(1, min(len(arrays.log), (reached - 1) // log_every + 1))],
         totals=dict(zip(ACCUMULATORS, arrays.acc.tolist(), strict=True)) | arrays.ride.totals() |
         drive_totals(arrays.drive),
@@ -221,7 +241,7 @@ def _why(status: int, at_s: float, state: Array, law: ControlLaw, law_id: str) -
     s, v = (f"{value:.3f}" if abs(value) < 1e6 else f"{value:.3e}" for value in state[:2])
     where = f"at t = {at_s:.3f} s, s = {s} m, v = {v} m/s"
     if status == LEFT_DOMAIN:
-        return f"{law_id} left its domain ({', '.join(f'{d} > 0' for d in law.domain)}) {where}"
+        return f"{law_id} left its domain ({', '.join(f'{_text(d)} > 0' for d in law.domain)}) {where}"
     if status == DIVERGED:
         return f"{law_id} diverged {where}"
     return None

@@ -13,6 +13,8 @@ from types import TracebackType
 from typing import Any, Self
 
 from workbench.errors import InputError
+from workbench.files.cache_folder import note
+from workbench.files.folder_lock import FolderLock
 from workbench.files.folders import is_paper, paper_named
 from workbench.files.modules import python_files
 from workbench.files.regular import LARGEST_JOURNAL, contents
@@ -21,6 +23,7 @@ from workbench.trains.scenario import Scenario
 
 FORMAT = "workbench journal 1"
 REMEDY = "start anew without resume, or name another output folder"
+_CHECK = b', "check": "'
 # How a journal begins.
 _START = json.dumps({"format": FORMAT})[:-1].encode()
 
@@ -61,23 +64,62 @@ def _is_ours(path: Path) -> bool:
     return _START.startswith(contents(path, LARGEST_JOURNAL)[:len(_START)])
 
 
+def _object(line: bytes) -> dict[str, Any] | None:
+    """A line's JSON object, None where it holds none."""
+    try:
+        found = json.loads(line)
+    except (ValueError, RecursionError):
+        return None
+    return found if isinstance(found, dict) else None
+
+
+def _checked(record: dict[str, Any]) -> bytes:
+    """A record as a line, at its end the digest of what stands before it."""
+    text = json.dumps(record, allow_nan=False).encode()[:-1]
+    return text + _CHECK + hashlib.sha256(text).hexdigest()[:16].encode() + b'"}'
+
+
+def _record(line: bytes) -> dict[str, Any] | None:
+    """The record of a line, None where it is not what was written."""
+    text = line.rpartition(_CHECK)[0]
+    found = _object(text + b"}") if text else None
+    return found if found is not None and _checked(found) == line else None
+
+
 class Journal:
     """The records of one job; the first line says which job, by `settings` (plain data, compared as a whole).
 
-    With `resume` the records already there are in `records`, and a half-written last line is dropped;
-    without it the journal starts empty and what stood there is kept beside it with `.before` appended.
-    Raises InputError when the file is no journal, belongs to other settings, or cannot be read or written.
+    With `resume` the records already there are in `records`, and a half-written last line is dropped; a record that
+    is not what was written is left out with a note. Without it the journal starts empty and what stood there is kept
+    beside it with `.before` appended. lines: how many records there are, those left out too. Its folder is locked.
+    Raises InputError when the file is no journal, belongs to other settings, or cannot be read or written, and where
+    another process writes in its folder.
     """
 
     def __init__(self, path: Path, settings: dict[str, Any], resume: bool) -> None:
         self.path = path
         self.records: list[dict[str, Any]] = []
+        self.lines = 0
         header = {"format": FORMAT} | settings
+        try:
+            path.parent.mkdir(parents=True, exist_ok=True)
+            self._lock = FolderLock(path.parent)
+        except OSError as trouble:
+            raise self._unusable(trouble) from None
+        except ValueError as trouble:  # a null character in the path
+            raise InputError(path, "", f"is no path ({trouble}): name another output folder") from None
+        try:
+            self._open(header, resume)
+        except BaseException:
+            self._lock.release()
+            raise
+
+    def _open(self, header: dict[str, Any], resume: bool) -> None:
+        path = self.path
         try:
             if resume:
                 self._require_ours(path)
             kept = self._read(header) if resume and path.exists() else 0
-            path.parent.mkdir(parents=True, exist_ok=True)
             if not resume:
                 self._set_aside()
             # Unbuffered: a record is one write, which an interruption cannot split.
@@ -85,21 +127,20 @@ class Journal:
             self._stream.seek(kept)
             self._stream.truncate()
             if not kept:
-                self._write(header)
+                self._write(json.dumps(header, allow_nan=False).encode())
         except OSError as trouble:
             raise self._unusable(trouble) from None
-        except ValueError as trouble:  # a null character in the path
-            raise InputError(path, "", f"is no path ({trouble}): name another output folder") from None
 
     def append(self, record: dict[str, Any]) -> None:
         """Add a record; it is on its way to the disk when this returns. InputError where the disk takes no more."""
         try:
-            self._write(record)
+            self._write(_checked(record))
         except OSError as trouble:
             raise self._unusable(trouble) from None
+        self.lines += 1
 
-    def _write(self, record: dict[str, Any]) -> None:
-        line, start = json.dumps(record, allow_nan=False).encode() + b"\n", self._stream.tell()
+    def _write(self, text: bytes) -> None:
+        line, start = text + b"\n", self._stream.tell()
         try:
             if self._stream.write(line) != len(line):
                 raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
@@ -135,28 +176,24 @@ class Journal:
         lines = text[:kept].splitlines()
         if not lines:
             return 0
-        found = self._line(lines[0], 1)
-        if found.get("format") != FORMAT:
+        found = _object(lines[0])
+        if found is None or found.get("format") != FORMAT:
             raise InputError(self.path, "", f"is not a journal of this program: {REMEDY}")
         for key, value in header.items():
             if found.get(key) != value:
                 raise InputError(self.path, "", f"belongs to another job ({key} {found.get(key)}, "
                                                 f"not {value}): {REMEDY}")
-        self.records = [self._line(line, number) for number, line in enumerate(lines[1:], start=2)]
+        self.lines = len(lines) - 1
+        self.records = [record for line in lines[1:] if (record := _record(line)) is not None]
+        damaged = self.lines - len(self.records)
+        if damaged:
+            note(f"{self.path}: {damaged} of {self.lines} records are not what was written: they are made again")
         return kept
-
-    def _line(self, line: bytes, number: int) -> dict[str, Any]:
-        try:
-            record = json.loads(line)
-        except ValueError:
-            record = None
-        if not isinstance(record, dict):
-            raise InputError(self.path, f"line {number}", f"is not a journal record: {REMEDY}")
-        return record
 
     def close(self) -> None:
         """Close the file; further records are refused by the operating system."""
         self._stream.close()
+        self._lock.release()
 
     def __enter__(self) -> Self:
         return self

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import asdict, dataclass
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -67,7 +67,7 @@ class Metrics:
     def row(self) -> dict[str, object]:
         """The row as plain data; numbers of a run that failed before its first sample are None."""
         return {key: None if isinstance(value, float) and not np.isfinite(value) else value
-                for key, value in asdict(self).items()}
+                for key, value in vars(self).items()}
 
 
 def measure(run: Run, scenario: Scenario) -> Metrics:

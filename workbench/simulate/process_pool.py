@@ -6,18 +6,24 @@ import multiprocessing
 import os
 import signal
 import threading
-from collections.abc import Callable, Hashable, Iterator, Sequence
+from collections.abc import Callable, Hashable, Iterable, Iterator, Sequence, Sized
 from concurrent.futures import FIRST_COMPLETED, Future, ProcessPoolExecutor, wait
 from concurrent.futures.process import BrokenProcessPool
 from contextlib import contextmanager
-from itertools import islice
+from dataclasses import dataclass
+from itertools import chain, islice
 from typing import Any, TypeVar
 
 from workbench.errors import WorkbenchError
+from workbench.files.cache_folder import note
 from workbench.files.modules import KnownFolders
+from workbench.simulate.executor import current
 
 THREAD_LIMITS = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "NUMBA_NUM_THREADS",
                  "VECLIB_MAXIMUM_THREADS")
+
+# Processes that may die in the course of a job; how long tasks that have begun may take after an interruption.
+MOST_LOSSES, GRACE_S = 5, 5.0
 
 T = TypeVar("T")
 K = TypeVar("K", bound=Hashable)
@@ -29,44 +35,81 @@ def cores() -> int:
     return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
 
 
-def run_tasks(function: Callable[[Any, T], R], shared: Any, tasks: Sequence[T], workers: int,
+def run_tasks(function: Callable[[Any, T], R], shared: Any, tasks: Iterable[T], workers: int,
               record: Callable[[R], None]) -> None:
     """Call record(function(shared, task)) for every task, in the order in which they finish.
 
-    With one worker the tasks run here, else in spawned processes that use one thread each. When anything
-    interrupts, the tasks already started are finished and recorded before the interruption goes on.
-    Raises WorkbenchError when a worker process dies; an exception of `function` is raised here.
+    With one worker, or one task, they run here; else on the executor that the command has named, or in processes of
+    this machine. tasks: a sequence, or what makes them as they are needed. Raises as `Executor.run`.
     """
-    if workers == 1 or len(tasks) <= 1:
+    if isinstance(tasks, Sized):
+        workers = min(workers, len(tasks))
+    executor = current() or (LocalProcesses(workers) if workers > 1 else None)
+    if executor is None or (isinstance(tasks, Sized) and len(tasks) <= 1):
         for task in tasks:
             record(function(shared, task))
-        return
-    context = multiprocessing.get_context("spawn")
-    waiting = iter(tasks)
-    unrecorded: set[Future[R]] = set()
-    with single_threaded(), ProcessPoolExecutor(workers, context, _start,
-                                                      (KnownFolders(), function, shared)) as pool:
-        def submit(count: int) -> None:
-            unrecorded.update(pool.submit(_work, task) for task in islice(waiting, count))
+    else:
+        executor.run(function, shared, tasks, record)
 
-        try:
-            # Few tasks are handed out at a time, so that an interruption waits for few.
-            submit(workers + 1)
-            while unrecorded:
-                finished, _ = wait(unrecorded, return_when=FIRST_COMPLETED)
-                submit(len(finished))
-                for future in finished:
-                    record(future.result())
-                    unrecorded.discard(future)
-        except BrokenProcessPool:
-            raise WorkbenchError("a worker process died (out of memory, or killed): run again with fewer "
-                                 "workers, and resume") from None
-        except BaseException:
-            pool.shutdown(wait=True, cancel_futures=True)
-            for future in unrecorded:
-                if not future.cancelled() and future.exception() is None:
-                    record(future.result())
-            raise
+
+@dataclass(frozen=True)
+class LocalProcesses:
+    """Spawned processes of this machine that use one thread each. Tasks of a process that dies are run again."""
+
+    workers: int
+
+    def run(self, function: Callable[[Any, T], R], shared: Any, tasks: Iterable[T],
+            record: Callable[[R], None]) -> None:
+        """As `Executor.run`; raises WorkbenchError when processes die again and again."""
+        waiting, unrecorded = iter(tasks), list[T]()
+        for _ in range(MOST_LOSSES):
+            again, unrecorded = unrecorded, []
+            try:
+                self._run(function, shared, chain(again, waiting), record, unrecorded)
+            except BrokenProcessPool:
+                note(f"a worker process died: its tasks and those of the others, {len(unrecorded)}, are run again")
+                continue
+            return
+        raise WorkbenchError("worker processes die again and again (out of memory, or killed): run again with fewer "
+                             "workers, and resume")
+
+    def _run(self, function: Callable[[Any, T], R], shared: Any, tasks: Iterator[T], record: Callable[[R], None],
+             unrecorded: list[T]) -> None:
+        """unrecorded: is left with the tasks that were handed out and not recorded, where processes die."""
+        context = multiprocessing.get_context("spawn")
+        others, running = set(multiprocessing.active_children()), dict[Future[R], T]()
+        with single_threaded(), ProcessPoolExecutor(self.workers, context, _start,
+                                                    (KnownFolders(), function, shared)) as pool:
+            def submit(count: int) -> None:
+                for task in islice(tasks, count):
+                    unrecorded.append(task)
+                    with interruption_held():
+                        running[pool.submit(_work, task)] = task
+
+            def taken(future: Future[R]) -> None:
+                result = future.result()
+                unrecorded.remove(running.pop(future))
+                record(result)
+
+            try:
+                # Few tasks are handed out at a time, so that an interruption waits for few.
+                submit(self.workers + 1)
+                while running:
+                    finished, _ = wait(running, return_when=FIRST_COMPLETED)
+                    submit(len(finished))
+                    for future in finished:
+                        taken(future)
+            except BrokenProcessPool:
+                raise
+            except BaseException:
+                pool.shutdown(wait=False, cancel_futures=True)
+                wait(running, timeout=GRACE_S)
+                for process in set(multiprocessing.active_children()) - others:
+                    process.terminate()
+                for future in list(running):
+                    if future.done() and not future.cancelled() and future.exception() is None:
+                        taken(future)
+                raise
 
 
 def results_of(function: Callable[[Any, K], R], shared: Any, tasks: Sequence[K], workers: int,
@@ -104,6 +147,19 @@ def single_threaded() -> Iterator[None]:
                 os.environ.pop(name, None)
             else:
                 os.environ[name] = value
+
+
+@contextmanager
+def interruption_held() -> Iterator[None]:
+    """Hold Ctrl-C back while processes are started, in them too: it is for this process to end them."""
+    if not hasattr(signal, "pthread_sigmask"):
+        yield
+        return
+    before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
+    try:
+        yield
+    finally:
+        signal.pthread_sigmask(signal.SIG_SETMASK, before)
 
 
 _job: list[Any] = []

@@ -52,7 +52,7 @@ class Ride:
 
     def totals(self) -> dict[str, float]:
         """What the run came to, by name."""
-        found = dict(zip(SUMS, self.values.tolist(), strict=False))
+        found = dict(zip(SUMS, self.values[:len(SUMS)].tolist(), strict=True))
         return {name: found[name] for name in SUMS if name.startswith(("jerk", "force_sw", "over", "weighted"))} | {
             "jerk_p95_mps3": self.percentile(0.95), "jerk_steps": max(0.0, found["steps"] - 1.0)}
 

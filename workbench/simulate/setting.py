@@ -74,10 +74,15 @@ class Setting:
         return (round(self.end_s / step), round(period_s / step), step, max(1, round(self.log_every_s / step)))
 
 
-def setting_of(scenario: Scenario, factors: Factors = NOMINAL) -> Setting:
-    """What a scenario states of its runs, for a train and line that differ from the nominal ones by `factors`."""
-    curve, train, simulation = scenario.desired_curve(), scenario.train, scenario.simulation
-    table, of_davis = resistance_table(scenario.track), (factors.davis_a, factors.davis_b, factors.davis_c)
+def setting_of(scenario: Scenario, factors: Factors = NOMINAL, nominal: Setting | None = None) -> Setting:
+    """What a scenario states of its runs, for a train and line that differ from the nominal ones by `factors`.
+
+    nominal: the scenario's own setting, from which the curve and the line are taken where many others are made.
+    """
+    curve, train, simulation = (nominal.curve if nominal else scenario.desired_curve()), scenario.train, \
+        scenario.simulation
+    table = nominal.line if nominal else resistance_table(scenario.track)
+    of_davis = (factors.davis_a, factors.davis_b, factors.davis_c)
     a, b, c = (value * factor for value, factor in zip(train.davis_newton, of_davis, strict=True))
     return Setting(
         curve=curve, mass_kg=train.mass_kg * factors.mass, nominal_mass_kg=train.mass_kg, davis_n=(a, b, c),
@@ -88,7 +93,8 @@ def setting_of(scenario: Scenario, factors: Factors = NOMINAL) -> Setting:
         line=ResistanceTable(table.position_m, table.specific_force * factors.line_resistance),
         terms=scenario.disturbance.rows(), failures=failure_rows(scenario.failures),
         changes=mode_rows(scenario.modes, train.mass_kg, of_davis),
-        speed_limits=SpeedLimits(*speed_limits(scenario.track)), actuator=scenario.actuator,
+        speed_limits=nominal.speed_limits if nominal else SpeedLimits(*speed_limits(scenario.track)),
+        actuator=scenario.actuator,
         sensing=(scenario.sensing or Instruments()).sensing(factors.odometer_scale),
         known=Known(train.mass_kg, train.davis_newton),
     )

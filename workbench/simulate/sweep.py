@@ -1,208 +1,223 @@
-"""Monte Carlo: the same drawn trains and lines under every controller, in parallel, resumable."""
+"""Monte Carlo: the same drawn trains and lines under every controller, wherever they are run, resumable."""
 
 from __future__ import annotations
 
-import csv
 import hashlib
-import io
 import json
-from collections.abc import Callable, Sequence
-from contextlib import nullcontext
-from dataclasses import asdict, dataclass, fields
+import time
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
+from itertools import chain
 from pathlib import Path
-
-import numpy as np
-from pydantic import TypeAdapter, ValidationError
+from typing import Any
 
 from workbench.errors import InputError
-from workbench.files.writing import write_text
+from workbench.files.writing import write_pieces
 from workbench.model.desired_curve import CruiseSpeed
-from workbench.simulate.closed_loop import Factors, check_controllers, simulate
+from workbench.simulate.closed_loop import check_controllers, prepared, simulate
 from workbench.simulate.controllers import compiled
-from workbench.simulate.journal import REMEDY, Journal, code_digest, laws_digest
-from workbench.simulate.metrics import Metrics, measure
+from workbench.simulate.draws import Draws, factors_of
+from workbench.simulate.executor import current, versions
+from workbench.simulate.journal import code_digest, laws_digest
+from workbench.simulate.metrics import measure
 from workbench.simulate.process_pool import cores, run_tasks
+from workbench.simulate.row_store import REMEDY, ChunkStore, Part, RowStore
+from workbench.simulate.setting import Setting, setting_of
+from workbench.simulate.stopping import Mean, UntilWidth, looks, metric_of
+from workbench.simulate.sweep_rows import (
+    BLOCK,
+    Sums,
+    SweepRow,
+    SweepSummary,
+    Values,
+    csv_pieces,
+    row_values,
+    summarised,
+    sweep_row,
+)
 from workbench.trains.scenario import Scenario
 from workbench.trains.track import CurveSection, GradeSection, Track
 
-CSV_NAME, JOURNAL_NAME = "sweep.csv", "sweep.journal.jsonl"
+CSV_NAME = "sweep.csv"
 # On which modules of the package a row depends.
 SIMULATING = ("files/*.py", "model/*.py", "trains/*.py", "compile/*.py", "mpc/*.py", "simulate/*.py")
-# Totals and means over a whole run: they say nothing when the run ended early.
-WHOLE_RUN = ("position_rms", "speed_rms", "stopping_error", "energy_J", "jerk_rms", "jerk_p95",
-             "jerk_max", "comfort_rms", "command_variation", "switchings", "overspeed_max",
-             "saturated_fraction", "limit_violations")
+# A task takes about so long: less, and handing it out costs more than a share of it; more, and a kill costs more.
+TASK_S = 0.5
 
-Pair = tuple[int, str]
-Progress = Callable[[int, int, "SweepRow"], None]
+Shared = tuple[Scenario, int, Draws]
+Progress = Callable[[int, int], None]
 
 
 @dataclass(frozen=True)
-class SweepRow:
-    """One run of one controller: the drawn factors and the metrics that do not depend on the machine's speed.
+class Options:
+    """How a Monte Carlo is run; None stands for the scenario's seed, all its controllers, no folder, a process a core.
 
-    SI units as in `Metrics`. A failed run keeps its extrema up to the failure; what only makes sense for a
-    whole run is None. counters: the controller's own counts, e.g. "qp=300;qp_failed=0".
+    until: draws end before `runs` where the intervals are narrow enough; resume: goes on with what `out` holds.
     """
 
-    run: int
-    controller: str
-    factors: Factors
-    position_error_min: float | None
-    position_error_max: float | None
-    speed_error_min: float | None
-    speed_error_max: float | None
-    position_rms: float | None
-    speed_rms: float | None
-    stopping_error: float | None
-    energy_J: float | None
-    jerk_rms: float | None
-    jerk_p95: float | None
-    jerk_max: float | None
-    comfort_rms: float | None
-    command_variation: float | None
-    switchings: float | None
-    overspeed_max: float | None
-    saturated_fraction: float | None
-    limit_violations: int | None
-    command_max: float | None
-    command_min: float | None
-    speed_min: float | None
-    time_of_max_position_error: float | None
-    counters: str
-    failed: str | None
-
-
-@dataclass(frozen=True)
-class SweepSummary:
-    """A controller over all runs: extrema and means over the runs that did not fail; None when all failed.
-
-    position errors and mean_abs_stopping_error in m, speed errors in m/s.
-    """
-
-    controller: str
     runs: int
-    failed: int
-    position_error_min: float | None
-    position_error_max: float | None
-    speed_error_min: float | None
-    speed_error_max: float | None
-    mean_abs_stopping_error: float | None
+    seed: int | None = None
+    controllers: Sequence[str] | None = None
+    out: Path | None = None
+    resume: bool = False
+    workers: int | None = None
+    draws: Draws = "random"
+    until: UntilWidth | None = None
 
 
-def draw_factors(scenario: Scenario, run_index: int, seed: int | None = None) -> Factors:
-    """The factors of one run, the same for every controller; the seed is the scenario's unless given.
+@dataclass(frozen=True)
+class MonteCarlo:
+    """A Monte Carlo that has been run. runs: of each controller; means: of the metric by which it ended, by controller.
 
-    Each factor is drawn whether or not the scenario names it, so that naming one more changes no other.
+    Its rows are read where they are kept, a block at a time.
     """
-    uncertainty = scenario.uncertainty
-    sequence = np.random.SeedSequence(uncertainty.seed if seed is None else seed, spawn_key=(run_index,))
-    drawn = np.random.default_rng(sequence).uniform(-1.0, 1.0, len(fields(Factors)))
-    spreads = dict.fromkeys(uncertainty.factors, uncertainty.spread) | {"odometer_scale": uncertainty.odometer_spread}
-    return Factors(**{
-        f.name: 1.0 + spreads[f.name] * float(x) if spreads.get(f.name) else 1.0
-        for f, x in zip(fields(Factors), drawn, strict=True)
-    })
+
+    names: tuple[str, ...]
+    runs: int
+    means: dict[str, Mean]
+    store: RowStore
+
+    def blocks(self) -> Iterator[list[list[Values]]]:
+        """Block by block the rows of each controller, in the order of the runs."""
+        for first in range(0, self.runs, BLOCK):
+            yield [self.store.rows(name, first, min(first + BLOCK, self.runs)) for name in self.names]
+
+    def rows(self) -> Iterator[SweepRow]:
+        """All rows, ordered by run, then controller."""
+        for block in self.blocks():
+            yield from (sweep_row(values) for values in chain.from_iterable(zip(*block, strict=True)))
+
+    def write_csv(self, path: Path) -> list[SweepSummary]:
+        """Write all rows and return what they come to, without having them all in memory."""
+        sums = [Sums(name) for name in self.names]
+
+        def added() -> Iterator[list[Values]]:
+            for block in self.blocks():
+                for one, rows in zip(sums, block, strict=True):
+                    one.add(rows)
+                yield list(chain.from_iterable(zip(*block, strict=True)))
+
+        write_pieces(path, csv_pieces(added()), REMEDY)
+        return [one.summary() for one in sums]
 
 
-def run_pair(shared: tuple[Scenario, int], pair: Pair) -> SweepRow:
-    """The row of one (run, controller) of a (scenario, seed)."""
-    (scenario, seed), (run, controller) = shared, pair
-    factors = draw_factors(scenario, run, seed)
-    return _row(run, factors, measure(simulate(scenario, controller, factors), scenario))
+_ready: dict[str, tuple[Shared, Callable[[Setting], Any], Setting]] = {}
 
 
-def _row(run: int, factors: Factors, metrics: Metrics) -> SweepRow:
-    values = metrics.row()
-    own = {f.name: values[f.name] for f in fields(SweepRow) if f.name in values}
-    if metrics.failed is not None:
-        own |= dict.fromkeys(WHOLE_RUN)
-        if own["position_error_max"] is None:  # it failed before its first sample
-            own["time_of_max_position_error"] = None
-    own["counters"] = ";".join(f"{key}={count}" for key, count in sorted(metrics.counters.items()))
-    return SweepRow(run=run, factors=factors, **own)  # type: ignore[arg-type]
+def run_part(shared: Shared, part: Part) -> tuple[Part, float, list[Values]]:
+    """The rows of some runs of a controller, and how many seconds they took."""
+    scenario, seed, draws = shared
+    begun = time.perf_counter()
+    held = _ready.get(part.controller)
+    if held is None or held[0] is not shared:
+        held = _ready[part.controller] = shared, prepared(scenario, part.controller), setting_of(scenario)
+    _, drive, nominal = held
+    drawn = factors_of(scenario, part.first, part.runs, seed, draws)
+    rows = [row_values(run, factors, measure(drive(setting_of(scenario, factors, nominal)), scenario))
+            for run, factors in enumerate(drawn, part.first)]
+    return part, time.perf_counter() - begun, rows
 
 
-def sweep(scenario: Scenario, scenario_path: Path, runs: int, seed: int, controllers: Sequence[str] | None = None,
-          out: Path | None = None, resume: bool = False, workers: int | None = None,
-          on_progress: Progress | None = None) -> list[SweepRow]:
-    """Run every (run, controller) pair in parallel processes; rows ordered by run, then controller.
+def sweep(scenario: Scenario, scenario_path: Path, runs: int, seed: int | None = None,
+          controllers: Sequence[str] | None = None, out: Path | None = None, resume: bool = False,
+          workers: int | None = None, on_progress: Progress = lambda done, total: None) -> list[SweepRow]:
+    """Every (run, controller) of a Monte Carlo, ordered by run, then controller; with `out`, sweep.csv too.
 
-    With `out` the folder receives `sweep.csv` at the end, and a journal as pairs finish, from which `resume`
-    continues after a kill, also with more runs or other controllers. on_progress(finished, total, row) is
-    called after each pair. Rows depend on scenario and seed alone; a controller that has a compiled form runs in it.
-    Workers are spawned: a script that calls this needs the usual `if __name__ == "__main__":`.
-    Raises InputError for unusable options or a journal of another sweep, WorkbenchError when a worker dies.
+    As `monte_carlo`, for as many runs as memory holds.
+    """
+    found = monte_carlo(scenario, scenario_path, Options(runs, seed, controllers, out, resume, workers), on_progress)
+    if out is not None:
+        found.write_csv(out / CSV_NAME)
+    return list(found.rows())
+
+
+def monte_carlo(scenario: Scenario, scenario_path: Path, asked: Options,
+                on_progress: Progress = lambda done, total: None) -> MonteCarlo:
+    """Run every controller on every drawn train in parallel processes, or on the executor that is named.
+
+    With `out` rows are kept there as they are made (`row_store`), and `resume` continues after a kill, also with more
+    runs or other controllers. on_progress(finished, total) is called as runs finish. Rows depend on scenario, seed and
+    draws alone; a controller that has a compiled form runs in it. Workers are spawned: a script that calls this needs
+    the usual `if __name__ == "__main__":`.
+    Raises InputError for unusable options or a folder of another sweep, WorkbenchError when workers die.
     """
     check_controllers(scenario, scenario_path)
-    names = _chosen(scenario, scenario_path, controllers)
-    for key, value, least in (("runs", runs, 1), ("seed", seed, 0), ("workers", workers, 1)):
+    names = _chosen(scenario, scenario_path, asked.controllers)
+    seed = scenario.uncertainty.seed if asked.seed is None else asked.seed
+    for key, value, least in (("runs", asked.runs, 1), ("seed", seed, 0), ("workers", asked.workers, 1)):
         if value is not None and value < least:
             raise InputError(scenario_path, key, f"{value} is too few: give at least {least}")
-    if resume and out is None:
+    if asked.resume and asked.out is None:
         raise InputError(scenario_path, "resume", "needs the folder of the sweep to go on with: name it")
-    settings = {"scenario": scenario.name, "seed": seed,
+    if asked.until and asked.draws != "random":
+        raise InputError(scenario_path, "until-width", f"needs draws by chance, not '{asked.draws}': the interval of a "
+                         "mean says nothing of points that are spread evenly")
+    settings = {"scenario": scenario.name, "seed": seed, "draws": asked.draws, "versions": versions(),
                 "digest of values, line and code": inputs_digest(scenario)}
     scenario = compiled(scenario.model_copy(update={"controllers": {n: scenario.controllers[n] for n in names}}))
-    pairs = [(run, name) for run in range(runs) for name in names]
-    journal = Journal(Path(out) / JOURNAL_NAME, settings, resume) if out is not None else None
-    with journal or nullcontext():
-        done = _journalled(journal) if journal else {}
-        todo = [pair for pair in pairs if pair not in done]
+    store = ChunkStore(asked.out, settings, asked.resume) if asked.out is not None else RowStore()
+    means = {name: Mean() for name in names} if asked.until else {}
+    with store:
+        reached = 0
+        for look in looks(asked.runs, asked.until):
+            _run_missing((scenario, seed, asked.draws), names, look, asked, store, on_progress)
+            for name, mean in means.items():
+                for first in range(reached, look, BLOCK):
+                    rows = store.rows(name, first, min(first + BLOCK, look))
+                    mean.add(metric_of(rows, asked.until) if asked.until else [])
+            reached = look
+            if asked.until and all(mean.width <= asked.until.width for mean in means.values()):
+                break
+    return MonteCarlo(tuple(names), reached, means, store)
 
-        def record(row: SweepRow) -> None:
-            if (row.run, row.controller) in done:
-                return
-            if journal:
-                journal.append(asdict(row))
-            done[row.run, row.controller] = row
-            if on_progress:
-                on_progress(len(done.keys() & set(pairs)), len(pairs), row)
 
-        if todo:
-            _compile_kernels(scenario)
-            run_tasks(run_pair, (scenario, seed), todo, workers or cores(), record)
-    rows = [done[pair] for pair in pairs]
-    if out is not None:
-        write_text(Path(out) / CSV_NAME, csv_text(rows), "name another --out")
-    return rows
+def _run_missing(shared: Shared, names: Sequence[str], runs: int, asked: Options, store: RowStore,
+                 on_progress: Progress) -> None:
+    """Make the rows of the first runs that the store does not have."""
+    gaps = {name: list(store.missing(name, runs)) for name in names}
+    left, total = sum(part.runs for parts in gaps.values() for part in parts), asked.runs * len(names)
+    done = runs * len(names) - left
+    pace: dict[str, float] = {}  # seconds a run, as measured last
+
+    def record(made: tuple[Part, float, list[Values]]) -> None:
+        nonlocal done
+        part, seconds, rows = made
+        store.add(part, rows)
+        pace[part.controller] = seconds / part.runs
+        done += part.runs
+        on_progress(done, total)
+
+    if left:
+        _compile_kernels(shared[0])
+        executor = current()
+        workers = min(executor.workers if executor else asked.workers or cores(), left)
+        run_tasks(run_part, shared, _parts(gaps, pace, workers), workers, record)
+
+
+def _parts(gaps: dict[str, list[Part]], pace: dict[str, float], workers: int) -> Iterator[Part]:
+    """The gaps in parts of about TASK_S, the earliest runs first; none reaches over the end of a block."""
+    ahead = {name: iter(parts) for name, parts in gaps.items()}
+    now = {name: part for name, parts in ahead.items() if (part := next(parts, None)) is not None}
+    while now:
+        name = min(now, key=lambda name: now[name].first)
+        gap = now[name]
+        fair = -(-gap.runs // workers)  # so that no process is left with much at the end
+        fitting = int(TASK_S / max(pace[name], 1e-9)) if name in pace else 1
+        count = max(1, min(fitting, fair, gap.runs, BLOCK - gap.first % BLOCK))
+        yield Part(name, gap.first, count)
+        if count < gap.runs:
+            now[name] = Part(name, gap.first + count, gap.runs - count)
+        elif (following := next(ahead[name], None)) is not None:
+            now[name] = following
+        else:
+            del now[name]
 
 
 def summarise(rows: Sequence[SweepRow], scenario: Scenario) -> list[SweepSummary]:
     """Each controller over all its runs, in the scenario's order; failed runs are counted and left out."""
     present = {row.controller for row in rows}
-    return [_summary(name, [row for row in rows if row.controller == name])
+    return [summarised(name, [row for row in rows if row.controller == name])
             for name in scenario.controllers if name in present]
-
-
-def _summary(name: str, rows: list[SweepRow]) -> SweepSummary:
-    whole = [row for row in rows if row.failed is None]
-
-    def over(key: str, fold: Callable[[list[float]], float]) -> float | None:
-        values = [value for row in whole if (value := getattr(row, key)) is not None]
-        return fold(values) if values else None
-
-    return SweepSummary(
-        controller=name, runs=len(rows), failed=len(rows) - len(whole),
-        position_error_min=over("position_error_min", min),
-        position_error_max=over("position_error_max", max),
-        speed_error_min=over("speed_error_min", min), speed_error_max=over("speed_error_max", max),
-        mean_abs_stopping_error=over("stopping_error", lambda values: float(np.mean(np.abs(values)))),
-    )
-
-
-def csv_text(rows: Sequence[SweepRow]) -> str:
-    """The rows as CSV; floats by repr, so that they read back as the same numbers; None is an empty cell."""
-    stream = io.StringIO()
-    writer = csv.writer(stream, lineterminator="\n")
-    factors = [f.name for f in fields(Factors)]
-    values = [f.name for f in fields(SweepRow) if f.name not in ("run", "controller", "factors")]
-    writer.writerow(["run", "controller", *(f"factor_{name}" for name in factors), *values])
-    for row in rows:
-        cells = [row.run, row.controller, *(getattr(row.factors, n) for n in factors),
-                 *(getattr(row, n) for n in values)]
-        writer.writerow(["" if c is None else repr(c) if isinstance(c, float) else c for c in cells])
-    return stream.getvalue()
 
 
 def inputs_digest(scenario: Scenario) -> str:
@@ -222,15 +237,6 @@ def _chosen(scenario: Scenario, path: Path, controllers: Sequence[str] | None) -
     if not names:
         raise InputError(path, "controllers", "none chosen: name at least one")
     return names
-
-
-def _journalled(journal: Journal) -> dict[Pair, SweepRow]:
-    read = TypeAdapter(SweepRow)
-    try:
-        rows = [read.validate_python(record) for record in journal.records]
-    except ValidationError:
-        raise InputError(journal.path, "", f"holds a record that is no row of a sweep: {REMEDY}") from None
-    return {(row.run, row.controller): row for row in rows}
 
 
 def _compile_kernels(scenario: Scenario) -> None:

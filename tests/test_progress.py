@@ -1,0 +1,45 @@
+"""What a long command says while it runs: how far, how fast, how long; every so often where there is no terminal."""
+
+import time
+
+import pytest
+from rich.console import Console
+
+from workbench.cli import terminal
+from workbench.cli.terminal import Stage, progress
+
+
+@pytest.fixture
+def lines(monkeypatch, capsys):
+    """What stands on standard error, which is no terminal."""
+    monkeypatch.setattr(terminal, "err_console", Console(stderr=True, force_terminal=False))
+
+    def read() -> list[str]:
+        return capsys.readouterr().err.splitlines()
+
+    return read
+
+
+def test_rate_and_time_left_are_those_of_what_was_done_since_it_began():
+    stage = Stage("runs", first=100, begun_s=time.monotonic() - 50)
+    stage.at(600, 10_600)
+    assert stage.line() == "runs: 600 of 10600, 10/s, 17 min left"
+    stage.at(100, 10_600)
+    assert stage.line() == "runs: 100 of 10600"
+
+
+def test_without_a_terminal_a_line_comes_now_and_then_and_one_at_the_end(lines, monkeypatch):
+    monkeypatch.setattr(terminal, "LINE_EVERY_S", 0.02)
+    with progress() as show:
+        show("[runs]", 1, 5)
+        time.sleep(0.3)
+        show("[runs]", 5, 5)
+    said = lines()
+    assert said[0].startswith("[runs]: 1 of 5") and "[runs]: 5 done" in said
+
+
+def test_a_short_command_says_when_a_stage_has_ended_and_no_more(lines):
+    with progress() as show:
+        for done in (1, 2):
+            show("runs", done, 2)
+    assert lines() == ["runs: 2 done"]
