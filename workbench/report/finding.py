@@ -27,9 +27,10 @@ class Finding:
 
     paper, equation, section, title: where; printed, should_read: LaTeX of the line and of the nearest true statement,
     which is proved (empty where none is known); mended_by: the equation of the claim that proves it as a line of its
-    own; counterexample: what breaks it; headlines: the theorems and headline statements that rest on it, lines: how
-    many other lines do; because: the lines that fail on the way to it; other_reading: LaTeX of how else it may be
-    read, other_holds: whether that is proved; digest: that of the goal in its certificate, None without one.
+    own, mended_under: the equations of what that proof uses and that is not shown; counterexample: what breaks it;
+    headlines: the theorems and headline statements that rest on it, lines: how many other lines do; because: the lines
+    that fail on the way to it; other_reading: LaTeX of how else it may be read, other_holds: whether that is proved;
+    digest: that of the goal in its certificate, None without one.
     """
 
     paper: str
@@ -41,6 +42,7 @@ class Finding:
     printed: str
     should_read: str
     mended_by: str | None
+    mended_under: tuple[str, ...]
     counterexample: Counterexample | None
     headlines: tuple[str, ...]
     lines: int
@@ -88,6 +90,7 @@ def _finding(d: Decision, by_id: dict[str, Decision], mended: Decision | None,
         d.claim.paper, d.claim.equation, d.claim.section, d.claim.title,
         _gravity(d, bool(resting), holds), d.verdict, d.claim.printed,
         d.correction or (mended.claim.printed if mended else ""), mended.claim.equation if mended else None,
+        tuple(name.partition(":")[2] for name in mended.proved_under) if mended and not d.correction else (),
         counterexample_of(d.certificate) if d.certificate else None, headlines, lines,
         tuple(name.partition(":")[2] for name in d.tainted_by), d.fate.word if d.fate else None,
         tuple(name.partition(":")[2] for name in d.fate.by) if d.fate else (),
