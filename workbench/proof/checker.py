@@ -1229,7 +1229,7 @@ def _check_composition(theorem: dict[str, Any], parts: dict[str, Any]) -> None:
     `certificates` holds them by the numbers of their claims, `cited` the claims without one and the hypotheses that
     they name, both by the digests of their goals. A link says that an assumption of one is a relation that a premise
     of it shows; `assumes` is what no link shows. In one file a name is one quantity. What is proved: what every
-    certificate assumes beyond its links, with what always holds, rates and initial values of each, implies what it shows.
+    certificate assumes beyond its links, with what always holds, rates and initial values, implies what it shows.
     """
     if parts.keys() != {"certificates", "cited", "links", "assumes"}:
         raise CertificateError("a composition has certificates, cited, links and assumes")

@@ -10,7 +10,8 @@ from workbench.proof.checker import goal_digest
 from workbench.proof.fate import is_headline
 from workbench.proof.premises import holds_in_other_reading
 from workbench.proof.verdict import FAILED, Decision, FateWord, Verdict
-from workbench.report.counterexample import Counterexample, counterexample_of
+from workbench.report.counterexample import Counterexample
+from workbench.report.counterexample_cache import cached_counterexample
 from workbench.report.places_in_paper import place_of
 
 # What a finding is, the gravest first: a headline statement that falls, that stands only with corrections, that stays
@@ -91,7 +92,7 @@ def _finding(d: Decision, by_id: dict[str, Decision], mended: Decision | None,
         _gravity(d, bool(resting), holds), d.verdict, d.claim.printed,
         d.correction or (mended.claim.printed if mended else ""), mended.claim.equation if mended else None,
         tuple(name.partition(":")[2] for name in mended.proved_under) if mended and not d.correction else (),
-        counterexample_of(d.certificate) if d.certificate else None, headlines, lines,
+        cached_counterexample(d.certificate) if d.certificate else None, headlines, lines,
         tuple(name.partition(":")[2] for name in d.tainted_by), d.fate.word if d.fate else None,
         tuple(name.partition(":")[2] for name in d.fate.by) if d.fate else (),
         d.other_reading or "", holds, d.claim.note, goal_digest(d.certificate) if d.certificate else None)
