@@ -155,6 +155,20 @@ def sums() -> Family:
             (at_most(-total(W[j]**2) + total(W[j]*S[j]), -total(W[j]**2) + f*total(S[j]**2)),))
 
 
+def sums_in_time() -> Family:
+    """Of inputs with an index, which may be anything, and of initial values that are sums: false at ones."""
+    driven = {"flow": {W[j]: -W[j] + S[j]}, "inputs": (S[j],)}
+    for factor in (R(0), R(1, 4), R(1, 2), R(9, 10)):
+        yield f"driven {factor}", lambda f=factor: Goal(
+            (at_most(D(total(W[j]**2)), f/2*total(S[j]**2)),), (equal(total(W[j]**2), total(S[j]**2)/4),), **driven)
+        yield f"started {factor}", lambda f=factor: Goal(
+            (at_most(V, f*total(W[j]**2)),), flow={V: -V}, initial={V: total(W[j]**2)})
+        yield f"started below {factor}", lambda f=factor: Goal(
+            (at_least(V, total(W[j]**2)),), flow={V: -V}, initial={V: f*total(W[j]**2)})
+    yield "decays though driven", lambda: Goal((at_most(D(total(W[j]**2)), 0),), **driven)
+    yield "rate of an input", lambda: Goal((equal(D(total(S[j]**2)), 0),), **driven)
+
+
 def saturations() -> Family:
     """Passed by, strict at the limit, or turned: false at x = 3, at the limits, or at a sign changed."""
     for bound in (1, 2, 5):
@@ -307,8 +321,8 @@ def numbers() -> Family:
         yield f"order {digits}", lambda d=digits: Goal((less(R(1, 7), R(int("142857142857"[:d]), 10**d)),))
 
 
-FAMILIES = (wrong_coefficients, wrong_signs, young, strictness, domains, roots, sums, saturations, sizes, wrong_facts,
-            wrong_lemmas, contradictory_assumptions, never_reached, later_instants, derivatives, eventually, numbers)
+FAMILIES = (wrong_coefficients, wrong_signs, young, strictness, domains, roots, sums, sums_in_time, saturations, sizes,
+            wrong_facts, wrong_lemmas, contradictory_assumptions, never_reached, later_instants, derivatives, eventually, numbers)
 
 
 def statements() -> Iterator[Statement]:

@@ -1005,8 +1005,8 @@ def read_goal(goal: dict[str, Any]) -> tuple[Context, Relations]:
     for name in (*goal.get("indexed", []), *goal.get("inputs", []), *goal.get("flow", {}), *goal.get("initial", {})):
         read_name(name)
     context = Context(goal.get("flow", {}), goal.get("indexed", []), goal.get("inputs", []))
-    if context.inputs & (context.indexed | context.flow.keys()):
-        raise CertificateError("an input has neither an index nor a rate")
+    if context.inputs & context.flow.keys():
+        raise CertificateError("an input has no rate")
     given = Relations(context, goal.get("assume", []))
     given.always = goal.get("always", [])
     for name, text in goal.get("initial", {}).items():
@@ -1053,7 +1053,7 @@ def _check_example(goal: dict[str, Any], context: Context, given: Relations, cer
         _check_reached(context, given, point, certificate)
         return
     for name, value in given.initial.items():
-        if not same(point[name], substitute(context, value, point)):
+        if not same(point[name], start_at(context, value, point, None)):
             raise CertificateError(f"the example is no instant of a motion: {name} is not where it starts, and no path "
                                    "leads there")
     for text in given.always if given.initial else ():
@@ -1063,6 +1063,11 @@ def _check_example(goal: dict[str, Any], context: Context, given: Relations, cer
         if bounds(context, substitute(context, value, point)) == (0, 0) and bounds(
                 context, substitute(context, context.derivative(value, context.flow), point))[1] < 0:
             raise CertificateError(f"the example's motion breaks at once what always holds: {text}")
+
+
+def start_at(context: Context, value: Ratio, point: dict[str, Ratio], terms: Terms | None) -> Ratio:
+    """An initial value at a point; without terms a sum has one."""
+    return at(context, value, point if terms is not None else point | {SUM: number(1)}, terms)
 
 
 def check_false(goal: dict[str, Any], certificate: dict[str, Any]) -> None:
@@ -1078,13 +1083,13 @@ def check_false(goal: dict[str, Any], certificate: dict[str, Any]) -> None:
     for text in (*goal.get("assume", []), *goal.get("always", [])):
         if not holds(context, text, point, terms):
             raise CertificateError(f"the point breaks the assumption {text}")
-    if terms is not None and given.initial:
-        raise CertificateError("of sums with several terms only one instant is known")
     if "path" in certificate:
+        if terms is not None:
+            raise CertificateError("a path leads to no point at which sums have several terms")
         _check_reached(context, given, point, certificate)
     else:
         for name, value in given.initial.items():  # a point alone can only be the first of all instants
-            if not same(point[name], substitute(context, value, point)):
+            if not same(point[name], start_at(context, value, point, terms)):
                 raise CertificateError(f"nothing says that the flow reaches the point: {name} is not where it starts")
     outcomes = [holds(context, text, point, terms) for text in goal["show"]]  # all of them: each must be defined
     if all(outcomes):
