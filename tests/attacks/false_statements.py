@@ -321,8 +321,10 @@ def numbers() -> Family:
         yield f"order {digits}", lambda d=digits: Goal((less(R(1, 7), R(int("142857142857"[:d]), 10**d)),))
 
 
-FAMILIES = (wrong_coefficients, wrong_signs, young, strictness, domains, roots, sums, sums_in_time, saturations, sizes,
-            wrong_facts, wrong_lemmas, contradictory_assumptions, never_reached, later_instants, derivatives, eventually, numbers)
+FAMILIES = (wrong_coefficients, wrong_signs, young, strictness, domains, roots, sums, sums_in_time, saturations,
+            sizes, wrong_facts, wrong_lemmas, contradictory_assumptions, never_reached, later_instants, derivatives,
+            eventually, numbers)
+
 
 
 def statements() -> Iterator[Statement]:
