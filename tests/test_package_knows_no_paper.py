@@ -11,11 +11,11 @@ PROOFS = Path(__file__).parents[1] / "proofs"
 
 
 def mentions(package: Path, names: list[str]) -> Iterator[str]:
-    """Every line of a text file below the package, and every path in it, that has one of the names in it."""
+    """Every line of a file below the package (a font too), and every path in it, that has one of the names in it."""
     for path in sorted(package.rglob("*")):
         if not path.is_file() or path.parent.name == "__pycache__":
             continue
-        lines = [str(path.relative_to(package)), *path.read_text(encoding="utf-8").splitlines()]
+        lines = [str(path.relative_to(package)), *path.read_text(encoding="utf-8", errors="replace").splitlines()]
         for number, line in enumerate(lines):
             yield from (f"{path}:{number}: {name}" for name in names if name.lower() in line.lower())
 
