@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 from workbench.contest.energy import best_run
-from workbench.contest.entrants import check_entrants, entered, follows_curve, learns
+from workbench.contest.entrants import check_entrants, check_names, entered, follows_curve, learns
 from workbench.contest.journal import contest_digest, matches_journal, matches_of, world_digest
 from workbench.contest.learning import learning_findings, learning_plot, learning_tables
 from workbench.contest.matches import METRICS, Match, all_matches, of, overspeed, run_match
@@ -41,6 +41,7 @@ def located(contest: Contest, path: Path) -> Contest:
             raise InputError(scenario_path, f"sensing.{key}", "is a contest's to say, which draws noise and holds "
                              "delays to all periods: state it in the conditions")
     check_entrants(contest, stated, path, scenario_path)
+    check_names(contest, stated, path)
     scenario = entered(contest, stated).in_folder(contest.folder)
     _delays_alike(contest, scenario, path)
     contest = contest.with_world(scenario)
