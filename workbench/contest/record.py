@@ -219,8 +219,8 @@ class Contest(Study):
         if not (isinstance(tuning, dict) and isinstance(periods, dict) and isinstance(tuning.get("ranges"), dict)):
             return data
         ranges = dict(tuning["ranges"])
-        for name in ranges.keys() & periods.keys():
-            for period in periods[name] if isinstance(periods[name], list | tuple) else ():
+        for name, own in periods.items():
+            for period in own if name in ranges and isinstance(own, list | tuple) else ():
                 if isinstance(period, int | float):
                     ranges.setdefault(period_name(name, period), ranges[name])
         return data | {"tuning": tuning | {"ranges": ranges}}
