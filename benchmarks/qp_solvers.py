@@ -8,14 +8,17 @@ over what a sample takes of it: new vectors, new dynamics, solution. A solver th
 from __future__ import annotations
 
 import importlib.util
+import time
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 import scipy.sparse as sparse
+import scipy.sparse.linalg
 
 from workbench.mpc.linear import LinearMpc
+from workbench.mpc.model import model
 from workbench.mpc.problem import Array, Problem
 
 # Residuals that every solver is asked for: a command is then right to better than EQUAL_MPS2.
@@ -115,7 +118,7 @@ class Stages:
         return Program(self.P, q, A, np.array(low), np.array(high), equations, 3)
 
 
-# (program) -> its solution, as quick as the solver can be brought to it.
+# (program) -> its solution.
 Solve = Callable[[Program], Array]
 
 
@@ -143,16 +146,12 @@ def _proxqp(first: Program) -> Solve:
     from proxsuite import proxqp  # noqa: PLC0415
 
     n = first.equations
-    solver = proxqp.sparse.QP(len(first.q), n, len(first.low) - n)
-    solver.settings.eps_abs, solver.settings.eps_rel = TOLERANCE, 0.0
-
-    def parts(program: Program) -> tuple[Any, ...]:
-        return (program.P, program.q, program.A[:n], program.low[:n], program.A[n:], program.low[n:], program.high[n:])
-
-    solver.init(*parts(first))
 
     def solve(program: Program) -> Array:
-        solver.update(*parts(program))
+        solver = proxqp.sparse.QP(len(first.q), n, len(first.low) - n)
+        solver.settings.eps_abs, solver.settings.eps_rel, solver.settings.max_iter = TOLERANCE, 0.0, 100_000
+        solver.init(program.P, program.q, program.A[:n], program.low[:n], program.A[n:], program.low[n:],
+                    program.high[n:])
         solver.solve()
         return np.asarray(solver.results.x)
 
@@ -216,6 +215,10 @@ def _clarabel(first: Program) -> Solve:
     return solve
 
 
+# What daqp alone took of each sample, s.
+condensed_s: list[float] = []
+
+
 def _daqp(first: Program) -> Solve:
     """The states eliminated, so that commands and slacks are left, and a dense Hessian that daqp factors."""
     import daqp  # noqa: PLC0415
@@ -227,7 +230,7 @@ def _daqp(first: Program) -> Solve:
         states = np.flatnonzero(_is_state(program))
         others = np.setdiff1d(np.arange(len(program.q)), states)
         # E_s x + E_o y = b, so that x = S y + c.
-        of_states = sparse.linalg.splu(A[:n][:, states].tocsc())
+        of_states = scipy.sparse.linalg.splu(A[:n][:, states].tocsc())
         S, c = -of_states.solve(A[:n][:, others].toarray()), of_states.solve(program.low[:n])
         P = program.P
         mixed = P[others][:, states]
@@ -240,8 +243,10 @@ def _daqp(first: Program) -> Solve:
         moved = rest[:, states] @ c
         bound_low = np.where(program.low[n:] > -UNBOUNDED, program.low[n:] - moved, -1e30)
         bound_high = np.where(program.high[n:] < UNBOUNDED, program.high[n:] - moved, 1e30)
+        before = time.thread_time()
         y, *_ = daqp.solve(np.ascontiguousarray(H), f, np.ascontiguousarray(G), bound_high, bound_low,
                            np.zeros(len(bound_low), dtype=np.int32))
+        condensed_s.append(time.thread_time() - before)
         z = np.zeros(len(program.q))
         z[others], z[states] = y, S @ np.asarray(y) + c
         return z
@@ -263,3 +268,48 @@ def missing() -> dict[str, str]:
     """Solver -> why it is left out, of those that are."""
     return {name: f"the package {module} is not installed" for name, module in MODULES.items()
             if importlib.util.find_spec(module) is None}
+
+
+def rows(problem: Problem, ahead: Array, start: Array, samples: int) -> list[dict[str, Any]]:
+    """One row a solver: median and p99 of a sample (us) along the linear tracker's own loop, and how far commands lie
+    apart from the tracker's (m/s^2); of one that is left out, why.
+    """
+    stages, tracker = Stages(problem, ahead), LinearMpc(problem, ahead)
+    step, x, states, commands = model(problem.actuator).casadi_step(), start, [], []
+    taken = np.zeros(samples)
+    for k in range(samples):
+        before = time.thread_time()
+        command = float(tracker.solve(k, x).plan[0])
+        taken[k] = time.thread_time() - before
+        states.append(x)
+        commands.append(command)
+        x = np.asarray(step(*x, command, 0.0, *problem.parameters)).ravel()
+    programs = [stages.at(k, x) for k, x in enumerate(states)]
+    found: list[dict[str, Any]] = [_row("this package's linear", taken, 0.0)]
+    lacking = missing()
+    for name, make in MADE.items():
+        if name in lacking:
+            found.append({"solver": name, "why": lacking[name]})
+            continue
+        solve, off = make(programs[0]), 0.0
+        condensed_s.clear()
+        for k, program in enumerate(programs):
+            before = time.thread_time()
+            z = solve(program)
+            taken[k] = time.thread_time() - before
+            off = max(off, abs(float(z[program.first]) + float(stages.along.u[k]) - commands[k]))
+        found.append(_row(name, np.array(condensed_s) if condensed_s else taken, off))
+    return found
+
+
+def _row(name: str, seconds: Array, off: float) -> dict[str, Any]:
+    return {"solver": name, "median_us": float(np.median(seconds)) * 1e6,
+            "p99_us": float(np.percentile(seconds, 99)) * 1e6, "command_off": off}
+
+
+def line(row: dict[str, Any]) -> str:
+    """As it is printed."""
+    if "why" in row:
+        return f"{row['solver']:26s} left out: {row['why']}"
+    words = "" if row["command_off"] < EQUAL_MPS2 else f"  not of equal accuracy: off by up to {row['command_off']:.1e}"
+    return f"{row['solver']:26s} {row['median_us']:9.1f} {row['p99_us']:9.1f}{words}"
