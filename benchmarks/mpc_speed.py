@@ -246,7 +246,8 @@ def main() -> None:
         problem, ahead = problem_of(horizon, load)
         programs[f"{load}, {horizon}"] = qp_solvers.rows(problem, ahead, np.array(START), STEPS)
         print(f"\n{load} run, horizon {horizon}: the linear program alone, microseconds a sample\n"
-              f"{'solver':26s} {'median':>9s} {'p99':>9s}", *map(qp_solvers.line, programs[f"{load}, {horizon}"]), sep="\n")
+              f"{'solver':26s} {'median':>9s} {'p99':>9s}")
+        print(*map(qp_solvers.line, programs[f"{load}, {horizon}"]), sep="\n")
     print("\ngrowth with the horizon, microseconds a step\n" + "horizon  nonlinear median / p99    linear median / p99")
     grown = growth()
     for row in grown:

@@ -1,21 +1,22 @@
-"""The program of linear MPC, as this package solves it, put to the QP solvers of the package index: equal accuracy.
+"""The program of linear MPC put to the QP solvers of the package index, at equal accuracy.
 
-Unknowns are steps from the desired run, in the order of the stages; each solver takes the program in the form it is made
-for (sparse, or condensed for daqp), keeps its matrices and warm start from sample to sample where it can, and is timed
-over what a sample takes of it: new vectors, new dynamics, solution. A solver that is not installed is told, and why.
+Unknowns are steps from the desired run, in the order of the stages; each solver takes the program in the form it is
+made for (sparse, or condensed for daqp, which is not counted), keeps its matrices from sample to sample where it can,
+and is timed over what a sample takes of it: new vectors, new dynamics, solution. One that is not installed is told, and
+why; one whose commands are not those of the others has no equal accuracy, which is told too.
 """
 
 from __future__ import annotations
 
 import importlib.util
 import time
-from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
-import scipy.sparse as sparse
-import scipy.sparse.linalg
+from scipy import sparse
+from scipy.sparse.linalg import splu
+from stage_program import UNBOUNDED, Program, Stages
 
 from workbench.mpc.linear import LinearMpc
 from workbench.mpc.model import model
@@ -26,96 +27,6 @@ TOLERANCE = 1e-8
 EQUAL_MPS2 = 1e-4
 MODULES = {"piqp": "piqp", "daqp": "daqp", "proxqp": "proxsuite", "osqp": "osqp", "qpalm": "qpalm",
            "clarabel": "clarabel"}
-UNBOUNDED = 1e30
-
-
-@dataclass(frozen=True)
-class Program:
-    """min z'Pz/2 + q'z subject to low <= A z <= high; the first rows are equations.
-
-    first: place of the first command among the unknowns.
-    """
-
-    P: Any
-    q: Array
-    A: Any
-    low: Array
-    high: Array
-    equations: int
-    first: int
-
-
-class Stages:
-    """The programs of a run: the fixed part once, by sample what changes; unknowns (x, u, slack) by stage, x_N last."""
-
-    def __init__(self, problem: Problem, ahead: Array) -> None:
-        tracker = LinearMpc(problem, ahead)
-        self.problem, self.ahead, self.along, self.N = problem, ahead, tracker.along, problem.horizon
-        self.rows = problem.rows(ahead)
-        self.price = np.array(problem.price)
-        self.width = 4 + len(self.rows)
-        self.size = self.N * self.width + 3
-        w, T = problem.weights, tracker.lqr.cost
-        self.terminal = 2.0 * np.asarray(T)
-        P = sparse.lil_matrix((self.size, self.size))
-        for k in range(self.N):
-            at = k * self.width
-            P[at, at], P[at + 1, at + 1] = 2 * w.position, 2 * w.speed
-            P[at + 2, at + 2], P[at + 3, at + 3] = 2 * (w.force + w.change), 2 * (w.command + w.change)
-            P[at + 2, at + 3] = P[at + 3, at + 2] = -2 * w.change
-            for n, i in enumerate(self.rows):
-                P[at + 4 + n, at + 4 + n] = 2 * self.price[i, 1]
-        P[-3:, -3:] = self.terminal
-        self.P = sparse.csc_matrix(P)
-        # Places that are filled in some sample are filled in all, so that solvers keep their factors' structure.
-        self._filled = np.any(self.along.jac != 0, axis=0).reshape(3, 4)
-        self._bent = np.any(self.along.g != 0, axis=0)
-
-    def at(self, sample: int, state: Array) -> Program:
-        """The program of a sample from a state."""
-        N, along, w, m = self.N, self.along, self.problem.weights, len(self.rows)
-        x, u, ahead = along.x[sample : sample + N + 1], along.u[sample : sample + N], self.ahead[sample : sample + N + 1]
-        low_u, high_u = self.problem.limits()[:2]
-        q = np.zeros(self.size)
-        entries: list[tuple[int, int, float]] = []
-        low, high = [*(state - x[0])], [*(state - x[0])]
-        entries += [(i, i, 1.0) for i in range(3)]
-        row = 3
-        for k in range(N):
-            at, after = k * self.width, (k + 1) * self.width
-            J = along.jac[sample + k].reshape(3, 4)
-            for i in range(3):
-                entries.append((row + i, after + i, 1.0))
-                entries += [(row + i, at + j, -J[i, j]) for j in range(4) if self._filled[i, j]]
-            low += along.gap[sample + k].tolist()
-            high += along.gap[sample + k].tolist()
-            row += 3
-            change = 2 * w.change * (u[k] - x[k, 2])
-            error = x[k] - ahead[k, :3]
-            q[at : at + 4] = (2 * w.position * error[0], 2 * w.speed * error[1], 2 * w.force * error[2] - change,
-                              2 * w.command * (u[k] - ahead[k, 3]) + change)
-            q[at + 4 : at + 4 + m] = self.price[self.rows, 0]
-        q[-3:] = self.terminal @ (x[N] - ahead[N, :3])
-        equations = row
-        for k in range(N):
-            at = k * self.width
-            entries.append((row, at + 3, 1.0))
-            low.append(low_u - u[k])
-            high.append(high_u - u[k])
-            row += 1
-            for n, i in enumerate(self.rows):
-                entries.append((row, at + 4 + n, 1.0))
-                low.append(0.0)
-                high.append(UNBOUNDED)
-                # The first state is measured: nothing that is done changes it, so that its rows cost what they cost.
-                entries += [(row + 1, at + j, along.g[sample + k, i, j]) for j in range(3) if self._bent[i, j]]
-                entries.append((row + 1, at + 4 + n, -1.0))
-                low.append(-UNBOUNDED)
-                high.append(-along.h[sample + k, i])
-                row += 2
-        i, j, values = zip(*entries, strict=True)
-        A = sparse.csc_matrix((values, (i, j)), shape=(row, self.size))
-        return Program(self.P, q, A, np.array(low), np.array(high), equations, 3)
 
 
 # (program) -> its solution.
@@ -125,17 +36,12 @@ Solve = Callable[[Program], Array]
 def _piqp(first: Program) -> Solve:
     import piqp  # noqa: PLC0415
 
-    n = first.equations
     solver = piqp.SparseSolver()
     solver.settings.eps_abs = solver.settings.eps_rel = TOLERANCE
-
-    def parts(program: Program) -> tuple[Any, ...]:
-        return (program.P, program.q, program.A[:n], program.low[:n], program.A[n:], program.low[n:], program.high[n:])
-
-    solver.setup(*parts(first))
+    solver.setup(*first.parts())
 
     def solve(program: Program) -> Array:
-        solver.update(*parts(program))
+        solver.update(*program.parts())
         solver.solve()
         return np.asarray(solver.result.x)
 
@@ -150,8 +56,7 @@ def _proxqp(first: Program) -> Solve:
     def solve(program: Program) -> Array:
         solver = proxqp.sparse.QP(len(first.q), n, len(first.low) - n)
         solver.settings.eps_abs, solver.settings.eps_rel, solver.settings.max_iter = TOLERANCE, 0.0, 100_000
-        solver.init(program.P, program.q, program.A[:n], program.low[:n], program.A[n:], program.low[n:],
-                    program.high[n:])
+        solver.init(*program.parts())
         solver.solve()
         return np.asarray(solver.results.x)
 
@@ -161,13 +66,11 @@ def _proxqp(first: Program) -> Solve:
 def _osqp(first: Program) -> Solve:
     import osqp  # noqa: PLC0415
 
-    solver, shape = osqp.OSQP(), (first.A.indices.copy(), first.A.indptr.copy())
-    options: Mapping[str, Any] = {"eps_abs": TOLERANCE, "eps_rel": TOLERANCE, "max_iter": 100_000, "verbose": False,
-                                  "polishing": True}
-    solver.setup(sparse.triu(first.P, format="csc"), first.q, first.A, first.low, first.high, **options)
+    solver = osqp.OSQP()
+    solver.setup(sparse.triu(first.P, format="csc"), first.q, first.A, first.low, first.high, eps_abs=TOLERANCE,
+                 eps_rel=TOLERANCE, max_iter=100_000, polishing=True, verbose=False)
 
     def solve(program: Program) -> Array:
-        assert np.array_equal(program.A.indices, shape[0]) and np.array_equal(program.A.indptr, shape[1])
         solver.update(q=program.q, l=program.low, u=program.high, Ax=program.A.data)
         return np.asarray(solver.solve().x)
 
@@ -230,7 +133,7 @@ def _daqp(first: Program) -> Solve:
         states = np.flatnonzero(_is_state(program))
         others = np.setdiff1d(np.arange(len(program.q)), states)
         # E_s x + E_o y = b, so that x = S y + c.
-        of_states = scipy.sparse.linalg.splu(A[:n][:, states].tocsc())
+        of_states = splu(A[:n][:, states].tocsc())
         S, c = -of_states.solve(A[:n][:, others].toarray()), of_states.solve(program.low[:n])
         P = program.P
         mixed = P[others][:, states]

@@ -123,8 +123,8 @@ class Tuning(Searched):
     mode: "condition" minimises the mean over the draws of one condition; "per condition" does so for each, with
     parameters of their own; "minimax" minimises the largest of these means. conditions: those of "minimax"; all without
     it. runs: of each search in all; without it EVALUATIONS evaluations, each as many runs as it needs.
-    evaluations_of: of those whose runs take long, how many instead. ranges: of initial values too. without_curve: the objective of who follows no curve, needed where there is one. found_in,
-    results_in: of "per condition", condition -> what was found.
+    evaluations_of: of those whose runs take long, how many instead. ranges: of initial values too. without_curve: the
+    objective of who follows no curve, needed where there is one. found_in, results_in: of "per condition", condition -> what was found.
     """
 
     runs: Annotated[int, Strict(), Field(ge=0)] = 0

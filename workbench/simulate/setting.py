@@ -77,7 +77,8 @@ class Setting:
 def setting_of(scenario: Scenario, factors: Factors = NOMINAL) -> Setting:
     """What a scenario states of its runs, for a train and line that differ from the nominal ones by `factors`."""
     curve, train, simulation = scenario.desired_curve(), scenario.train, scenario.simulation
-    table, of_davis = resistance_table(scenario.track, train.length_m), (factors.davis_a, factors.davis_b, factors.davis_c)
+    table = resistance_table(scenario.track, train.length_m)
+    of_davis = (factors.davis_a, factors.davis_b, factors.davis_c)
     a, b, c = (value * factor for value, factor in zip(train.davis_newton, of_davis, strict=True))
     return Setting(
         curve=curve, mass_kg=train.mass_kg * factors.mass, nominal_mass_kg=train.mass_kg, davis_n=(a, b, c),
