@@ -124,7 +124,8 @@ class Tuning(Searched):
     parameters of their own; "minimax" minimises the largest of these means. conditions: those of "minimax"; all without
     it. runs: of each search in all; without it EVALUATIONS evaluations, each as many runs as it needs.
     evaluations_of: of those whose runs take long, how many instead. ranges: of initial values too. without_curve: the
-    objective of who follows no curve, needed where there is one. found_in, results_in: of "per condition", condition -> what was found.
+    objective of who follows no curve, needed where there is one. found_in, results_in: of "per condition", condition ->
+    what was found.
     """
 
     runs: Annotated[int, Strict(), Field(ge=0)] = 0
