@@ -139,4 +139,4 @@ def test_a_trains_length_spreads_every_edge(cuts, length, data):
 
 def test_a_point_meets_the_table_as_it_is():
     table = ResistanceTable(np.array([0.0, 10.0]), np.array([0.1, 0.2]))
-    assert over_length(table, 0.0) is table
+    assert over_length(table, None) is table

@@ -10,6 +10,7 @@ from typing import Any
 
 import numpy as np
 
+from workbench.contest.by_period import period_findings, period_tables
 from workbench.contest.energy import best_run
 from workbench.contest.entrants import check_entrants, check_names, entered, follows_curve, learns
 from workbench.contest.journal import contest_digest, matches_journal, matches_of, world_digest
@@ -132,11 +133,13 @@ def _run(contest: Contest, workers: int, on_progress: Progress, played: Sequence
             first.setdefault(f"{match.entry}, {contest.conditions[match.condition].title}", match.failed)
     failures, words = tuple(first.items()), tuple(words_of(told))
     return StudyResult(rows=tuple(_rows(told)),
-                       tables=(*all_tables(told), *premises_table(told, words), *tuning_table(told),
+                       tables=(*all_tables(told), *period_tables(told), *premises_table(told, words),
+                               *tuning_table(told),
                                *front_tables(contest, fronts), *learning_tables(told)),
                        plots=(*_plots(told), *learning_plot(told), *convergence_plot(told),
                               *front_plots(contest, fronts)),
-                       findings=(*_findings(told), *premises_findings(told, words), *learning_findings(told)),
+                       findings=(*period_findings(told), *_findings(told), *premises_findings(told, words),
+                                 *learning_findings(told)),
                        failures=failures)
 
 

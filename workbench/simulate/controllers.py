@@ -66,7 +66,7 @@ def compiled_law(scenario: Scenario, spec: ControllerSpec) -> ControlLaw | None:
     """The law of a controller that is compiled whole; None for one that is called once a sample, and unknown ones."""
     if spec.law in TOLD_THE_LINE:
         line = resistance_table(scenario.track)
-        changes, length_m = np.diff(line.specific_force, prepend=0.0), scenario.train.length_m
+        changes, length_m = np.diff(line.specific_force, prepend=0.0), scenario.train.length_m or 0.0
         # What holds at the line's start holds behind it too.
         places = (line.position_m - length_m * (line.position_m == line.position_m[0])).tolist()
         return TOLD_THE_LINE[spec.law](tuple(zip(places, changes.tolist(), strict=True)), length_m)

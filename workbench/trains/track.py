@@ -137,7 +137,7 @@ class ResistanceTable:
         return self.specific_force[index]
 
 
-def resistance_table(track: Track, length_m: float = 0.0) -> ResistanceTable:
+def resistance_table(track: Track, length_m: float | None = None) -> ResistanceTable:
     """The additional resistance of `track` by section, from `additional_specific_resistance`.
 
     length_m: of a train with its front at a position, over which it is averaged, in pieces of at most PIECE_M.
@@ -167,9 +167,12 @@ def resistance_table(track: Track, length_m: float = 0.0) -> ResistanceTable:
     return over_length(ResistanceTable(starts, np.array(values, dtype=float)), length_m)
 
 
-def over_length(table: ResistanceTable, length_m: float) -> ResistanceTable:
-    """The mean of a table over the length behind a position; behind the line's start its first value holds."""
-    if length_m == 0:
+def over_length(table: ResistanceTable, length_m: float | None) -> ResistanceTable:
+    """The mean of a table over the length behind a position; behind the line's start its first value holds.
+
+    length_m: None for a point, which meets the table as it is.
+    """
+    if not length_m:
         return table
     edges, values = table.position_m, table.specific_force
     pieces = np.linspace(0.0, length_m, math.ceil(length_m / PIECE_M) + 1)
