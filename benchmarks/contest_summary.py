@@ -52,10 +52,10 @@ def played(folder: Path, contest: Contest) -> Told:
 
 def table(headings: list[str], rows: list[list[str]]) -> Iterator[str]:
     """As Markdown."""
-    yield f"| {' | '.join(headings)} |"
-    yield f"|{'---|' * len(headings)}"
-    for row in rows:
+    for number_of, row in enumerate((headings, *rows)):
         yield f"| {' | '.join(cell.replace('|', chr(92) + '|') for cell in row)} |"
+        if number_of == 0:
+            yield f"|{'---|' * len(headings)}"
     yield ""
 
 

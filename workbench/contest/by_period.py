@@ -53,12 +53,14 @@ def period_findings(told: Told) -> Iterator[str]:
         names = [entry.name for entry in own.entries]
         said = [f"{names[i]} {_interval(own, i, condition)}" for i in order if i in tied]
         others = [i for i in order if i not in tied]
-        behind = f"; told apart from them, the next is {names[others[0]]} {_interval(own, others[0], condition)}" \
-            if others else "; nobody is told apart from them"
+        behind = "; nobody is told apart from them"
+        if others:
+            behind = f"; told apart from them, the next is {names[others[0]]} {_interval(own, others[0], condition)}"
         learners = sum(learns(own.scenario, own.entries[i].controller) for i in means)
         words = f", {learners} of them learn from trip to trip" if learners else ""
-        yield (f"Commands every {1e3 * period:g} ms, {own.contest.conditions[condition].title}, {own.runs(condition)} "
-               f"draws, {COLUMNS[TRACKING].heading}, best of {len(means)} who arrive{words}: {', '.join(said)}{behind}.")
+        where = f"{own.contest.conditions[condition].title}, {own.runs(condition)} draws"
+        yield (f"Commands every {1e3 * period:g} ms, {where}, {COLUMNS[TRACKING].heading}, best of {len(means)} who "
+               f"arrive{words}: {', '.join(said)}{behind}.")
 
 
 def _interval(told: Told, i: int, condition: str) -> str:
