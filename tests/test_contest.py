@@ -266,12 +266,12 @@ def test_found_parameters_are_written_and_take_part(contest: Contest, scenario: 
     assert load(path).record.tuning.found.keys() == {"pid", "pocrac"}
     assert path.read_text(encoding="utf-8").count(BEGIN) == 1
     text = path.read_text(encoding="utf-8").replace("runs = 6", 'runs = 6\nmode = "per condition"')
-    text = text.replace('mode = "per', 'restarts = 1\nmode = "per')
+    text = text.replace("restarts = 3", "restarts = 1")
     path.write_text(text, encoding="utf-8")
     loaded = load(path)
     few_conditions = few(loaded.record, "ten", "nominal").with_world(loaded.record.world)
     each = tune_run(replace(loaded, record=few_conditions), ["pid"], True, 1, lambda *_: None)
     assert [line.partition(":")[0] for line in each] == ["pid in ten", "pid in nominal", "written"]
     last = load(path).record
-    assert last.tuning.found_in.keys() == {"ten", "nominal"} and last.tuning.results_in["ten"]["pid"].evaluations == 2
+    assert last.tuning.found_in.keys() == {"ten", "nominal"} and last.tuning.results_in["ten"]["pid"].evaluations == 3
     assert last.found_for("pid", "ten") == last.tuning.found_in["ten"]["pid"]
