@@ -1,6 +1,6 @@
 """How long a step of MPC takes, and how much that gains on do-mpc with the same model, horizon, limits and cost.
 
-    pip install do-mpc          # needed by this benchmark alone
+    pip install 'workbench[benchmark]'      # do-mpc and QP solvers, needed by this benchmark alone
     python benchmarks/mpc_speed.py [--json FILE]
 
 A train of three states with a lagging actuator, 0.5 s a sample, follows a run of 2 min that its power does not quite
@@ -29,6 +29,7 @@ os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 
 import casadi as ca
 import numpy as np
+import qp_solvers
 
 from workbench.model.desired_curve import start_cruise_stop
 from workbench.mpc.car_model import CarTrain, train_rates
@@ -240,6 +241,13 @@ def main() -> None:
                   f"{row['ratio']:9.1f} "
                   f"{row['cost']:12.4f} {row['cost_off']:+14.1e}")
             short += [f"{row['solver']}, {load}, horizon {horizon}: {words}" for words in shortcomings(row, peer)]
+    programs = {}
+    for load, horizon in product(LOADS, (20, 50)):
+        problem, ahead = problem_of(horizon, load)
+        programs[f"{load}, {horizon}"] = qp_solvers.rows(problem, ahead, np.array(START), STEPS)
+        print(f"\n{load} run, horizon {horizon}: the linear program alone, microseconds a sample\n"
+              f"{'solver':26s} {'median':>9s} {'p99':>9s}")
+        print(*map(qp_solvers.line, programs[f"{load}, {horizon}"]), sep="\n")
     print("\ngrowth with the horizon, microseconds a step\n" + "horizon  nonlinear median / p99    linear median / p99")
     grown = growth()
     for row in grown:
@@ -252,7 +260,7 @@ def main() -> None:
               f" {row['median_us_50']:15.1f} {row['p99_us_50']:9.1f}")
     print("\n" + ("; ".join(short) if short else "every stated ratio, cost and deadline is met"))
     if path:
-        numbers = {"version": 1, "solvers": table, "growth": grown, "cars": cars, "short": short}
+        numbers = {"version": 1, "solvers": table, "growth": grown, "cars": cars, "programs": programs, "short": short}
         path.write_text(json.dumps(numbers, indent=1), encoding="utf-8")
     raise SystemExit(1 if short else 0)
 

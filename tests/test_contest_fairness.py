@@ -6,7 +6,7 @@ from contests import COMMON
 
 from workbench.contest.matches import Match, all_matches, draws_of, entries, run_match, world_of
 from workbench.contest.premises import premises_findings, premises_table, words_of
-from workbench.contest.record import Contest
+from workbench.contest.record import Condition, Contest
 from workbench.contest.study import located
 from workbench.contest.tables import Told
 from workbench.errors import InputError
@@ -26,7 +26,7 @@ def test_a_delay_that_would_not_hit_all_alike_is_refused(contest: Contest, key: 
 
 def test_all_sample_alike_where_a_condition_says_so(contest: Contest) -> None:
     """Every contestant's command then changes at the stated period's multiples alone."""
-    stated, scenario = contest.conditions["sampled"], contest.world
+    stated, scenario = Condition(title="all at MPC's period", spread=0.1, period_s=0.1), contest.world
     world = world_of(scenario, stated)
     assert {spec.period_s for spec in world.controllers.values()} == {stated.period_s}
     assert len({spec.period_s for spec in world_of(scenario, contest.conditions["ten"]).controllers.values()}) > 1

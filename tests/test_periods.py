@@ -6,7 +6,7 @@ from scenarios import YANG, short_scenario
 
 from workbench.contest.entrant import Entrant
 from workbench.contest.entrants import entered, information
-from workbench.contest.matches import world_of
+from workbench.contest.matches import entries, world_of
 from workbench.contest.record import Condition, Contest
 from workbench.contest.sampling import period_of, with_periods
 from workbench.contest.study import located
@@ -134,10 +134,9 @@ def test_a_delay_between_plant_steps_is_refused_of_a_condition():
 
 def test_behind_an_actuator_the_jerk_that_counts_is_that_of_every_step():
     values = {"position_rms": 0.0, "speed_rms": 0.0, "jerk_rms": 3.0, "logged_jerk_rms": 0.3}
-    goal = common().tuning.objective
+    units = {"position_rms": 0.1, "logged_jerk_rms": 0.2}
     for actuator, jerk in ((False, 0.3), (True, 3.0)):
-        cost = score(values, at_the_rail(goal.units, actuator), goal.failed)
-        assert cost == pytest.approx(jerk / goal.jerk_mps3)
+        assert score(values, at_the_rail(units, actuator), 100.0) == pytest.approx(jerk / 0.2)
 
 
 def test_a_law_that_runs_by_itself_has_no_predictor():
@@ -156,3 +155,31 @@ def test_who_is_told_of_the_actuator_is_said_so():
     predicting = world.controllers["pid"].model_copy(update={"predictor": True})
     changed = world.model_copy(update={"controllers": {"pid": predicting}})
     assert information(changed, "pid").endswith("the nominal train over the actuator's delay")
+
+
+def test_a_contest_names_who_takes_part_at_other_periods_too():
+    contest = common()
+    copy, own = contest.world.controllers["pid_100ms"], contest.world.controllers["pid"]
+    assert (copy.period_s, own.period_s) == (0.1, 0.005) and copy.parameters == own.parameters
+    assert contest.tuning.ranges["pid_100ms"] == contest.tuning.ranges["pid"]
+    assert contest.evaluations("ten", "mpc_linear") < contest.evaluations("ten", "pid_100ms")
+
+
+def test_who_was_tuned_takes_part_as_stated_only_where_that_is_asked_for():
+    contest = common()
+    tuned = contest.model_copy(update={"as_stated": ("pocrac",), "tuning": contest.tuning.model_copy(
+        update={"found": {"pid": {"K_p": 1.0}, "pocrac": {"k": 1.0}}})})
+    world = only(contest.world, "pid", "pocrac", "mpc_linear")
+    assert [entry.name for entry in entries(tuned, world)] == ["pid+", "pocrac", "pocrac+", "mpc_linear"]
+    everyone = tuned.model_copy(update={"as_stated": None})
+    assert [entry.name for entry in entries(everyone, world)] == ["pid", "pid+", "pocrac", "pocrac+", "mpc_linear"]
+
+
+@pytest.mark.parametrize(("key", "value", "words"), [
+    ("periods_s", {"nobody": (0.1,)}, "'nobody' does not take part"),
+    ("periods_s", {"pid": (0.0033,)}, "0.0033 is not a whole number of plant steps"),
+    ("periods_s", {"pid": (0.1, 0.1)}, "'pid_100ms' takes part already"),
+    ("as_stated", ("nobody",), "'nobody' does not take part")])
+def test_names_and_periods_that_are_none_are_refused(key: str, value: object, words: str):
+    with pytest.raises(InputError, match=words):
+        located(common().model_copy(update={key: value}), COMMON)

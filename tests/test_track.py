@@ -16,7 +16,7 @@ from workbench.trains.line_resistance import (
     tunnel_n_per_kn,
 )
 from workbench.trains.scenario import load_scenario
-from workbench.trains.track import Track, resistance_table
+from workbench.trains.track import PIECE_M, ResistanceTable, Track, over_length, resistance_table
 
 # Table 1 of yang2021, typed from the paper a second time: start (m), end (m), value.
 TABLE_1_SLOPE = ((0, 3800, "2"), (3800, 9200, "-1.5"), (9200, 21400, "0"), (21400, 23900, "5"),
@@ -122,3 +122,21 @@ def test_table_equals_a_search_of_the_sections(grade_cuts, curve_cuts, data):
     searched = [9.80665e-3 * (next(g for a, b, g in grades if a <= x < b)
                               + 600 / next(r for a, b, r in curves if a <= x < b)) for x in positions]
     assert resistance_table(track).at(positions) == pytest.approx(np.array(searched), rel=1e-12, abs=1e-15)
+
+
+@given(st.lists(st.floats(1, 999), unique=True, max_size=6), st.floats(20, 400), st.data())
+def test_a_trains_length_spreads_every_edge(cuts, length, data):
+    edges = np.array([0.0, *sorted(cuts)])
+    table = ResistanceTable(edges, np.array([data.draw(st.floats(-0.3, 0.3)) for _ in edges]))
+    found = over_length(table, length)
+    fronts = np.linspace(0.0, 1500.0, 40)
+    # The mean by many points of the train, behind the line's start its first value.
+    under = fronts[:, None] - length * (np.arange(4000) + 0.5) / 4000
+    means = table.at(np.maximum(under, 0.0)).mean(axis=1)
+    steepest = np.abs(np.diff(table.specific_force)).sum() / length
+    assert np.abs(found.at(fronts) - means).max() <= steepest * PIECE_M + 1e-3 * np.ptp(table.specific_force) + 1e-12
+
+
+def test_a_point_meets_the_table_as_it_is():
+    table = ResistanceTable(np.array([0.0, 10.0]), np.array([0.1, 0.2]))
+    assert over_length(table, None) is table

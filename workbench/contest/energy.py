@@ -29,7 +29,8 @@ def best_run(scenario: Scenario) -> Reference | None:
     top = float(curve.at(curve.breaks_s)[1].max()) * FASTEST
     vehicle = Vehicle(scenario.name, train.mass_kg, train.davis_newton,
                       ForceLimit(train.max_traction_n, train.max_power_w or float("inf")), ForceLimit(0.0),
-                      train.max_braking_n, max_speed_mps=top)
+                      train.max_braking_n, max_speed_mps=top,
+                      length_m=train.length_m or 0.0)
     try:
         return find_reference(vehicle, _course(scenario, vehicle), curve.trip_time_s)
     except InfeasibleRunError:

@@ -14,6 +14,7 @@ from workbench.simulate.closed_loop import Setting, run_law, simulate_in
 from workbench.simulate.controllers import SAMPLED, TOLD_THE_LINE, compiled_law, held_command, known_laws
 from workbench.simulate.law_values import check_controllers, law_values
 from workbench.simulate.setting_loop import law_loop
+from workbench.trains.periods import period_name
 from workbench.trains.scenario import Scenario
 
 # What a predictor is told of an actuator, by whether it stands before MPC.
@@ -21,10 +22,13 @@ PREDICTS = {False: "the nominal train over the actuator's delay", True: "the act
 
 
 def entered(contest: Contest, scenario: Scenario) -> Scenario:
-    """The contest's scenario with the contest's own entrants among its controllers."""
+    """The contest's scenario with the contest's own entrants among its controllers, and who samples otherwise too."""
     entrants = {name: spec.model_copy(update={"law": _from(contest.folder, spec.law)})
                 for name, spec in contest.entrants.items()}
-    return scenario.model_copy(update={"controllers": scenario.controllers | entrants})
+    all_of = scenario.controllers | entrants
+    others = {period_name(name, period): all_of[name].model_copy(update={"period_s": period})
+              for name, periods in contest.periods_s.items() if name in all_of for period in periods}
+    return scenario.model_copy(update={"controllers": all_of | others})
 
 
 def _from(folder: Path, law: str) -> str:
@@ -67,6 +71,28 @@ def check_entrants(contest: Contest, scenario: Scenario, path: Path, scenario_pa
         check_controllers(scenario.model_copy(update={"controllers": ordinary}), path)
     except InputError as trouble:  # in a contest's file the table is called otherwise
         raise InputError(path, trouble.key.replace("controllers.", "entrants.", 1), trouble.problem) from None
+
+
+def check_names(contest: Contest, stated: Scenario, path: Path) -> None:
+    """Raise InputError where a table of the contest names nobody who takes part, or a period that is none."""
+    names = {**stated.controllers, **contest.entrants}
+    copies = [period_name(name, period) for name, periods in contest.periods_s.items() for period in periods]
+    everyone = (*names, *copies)
+    for key, given, known in (("periods_s", tuple(contest.periods_s), tuple(names)),
+                              ("as_stated", contest.as_stated or (), everyone),
+                              ("tuning.evaluations_of", tuple(contest.tuning.evaluations_of), everyone)):
+        for name in given:
+            if name not in known:
+                raise InputError(path, key, f"'{name}' does not take part: choose among {', '.join(known)}")
+    step = stated.simulation.plant_step_s
+    for name, periods in contest.periods_s.items():
+        for period in periods:
+            if round(period / step) < 1 or abs(period / step - round(period / step)) > 1e-6:
+                raise InputError(path, f"periods_s.{name}", f"{period:g} is not a whole number of plant steps of "
+                                 f"{step:g} s: choose a multiple")
+    for copy in copies:
+        if everyone.count(copy) > 1:
+            raise InputError(path, "periods_s", f"'{copy}' takes part already: leave its period out")
 
 
 def play(scenario: Scenario, name: str, setting: Setting) -> Played:

@@ -74,7 +74,11 @@ Task = tuple[str, int, Entry]
 def entries(contest: Contest, scenario: Scenario) -> tuple[Entry, ...]:
     """Every controller as stated, and again with the parameters that tuning found, where there are any."""
     return tuple(Entry(name, tuned) for name in scenario.controllers for tuned in (False, True)
-                 if not tuned or contest.is_tuned(name))
+                 if (contest.is_tuned(name) if tuned else _takes_part_as_stated(contest, name)))
+
+
+def _takes_part_as_stated(contest: Contest, name: str) -> bool:
+    return contest.as_stated is None or name in contest.as_stated or not contest.is_tuned(name)
 
 
 def draws_of(contest: Contest, condition: str) -> int:

@@ -46,7 +46,8 @@ def unknown_of(world: Scenario, condition: Condition) -> Unknown:
     """What a tube is not told of a condition's trains."""
     fastest = float(world.desired_curve().at(np.linspace(0.0, world.desired_curve().trip_time_s, 1001))[1].max()) + 1.0
     gust = sum((abs(row[2]) + abs(row[3])) * fastest ** row[6] for row in world.disturbance.rows())
-    return Unknown(resistance_table(world.track), condition.spread, float(gust), condition.failed_share,
+    line = resistance_table(world.track, world.train.length_m)
+    return Unknown(line, condition.spread, float(gust), condition.failed_share,
                    condition.failure_n / world.train.mass_kg if condition.failed_share else 0.0)
 
 

@@ -12,7 +12,7 @@ from workbench.model.sensing import SpeedFrom
 from workbench.model.tuning import Searched, SearchResult, Seed
 from workbench.paper.study import Study
 from workbench.trains.actuator import Actuator
-from workbench.trains.periods import at_periods, for_all_periods
+from workbench.trains.periods import at_periods, for_all_periods, period_name
 from workbench.trains.scenario import ControllerSpec, Interval, Scenario
 
 Spread = Annotated[float, Strict(), Field(ge=0, lt=1, allow_inf_nan=False)]
@@ -107,14 +107,14 @@ class WithoutCurve(SourcedRecord):
     stopping_m: Positive
     late_s: Positive
     overspeed_mps: Positive
-    jerk_mps3: Positive
+    ride_jerk_mps3: Positive
     failed: Positive
 
     @property
     def units(self) -> dict[str, float]:
         """Metric of a match -> its unit."""
         return {"energy_J": self.energy_j, "stopping_error": self.stopping_m, "late_s": self.late_s,
-                "overspeed_mps": self.overspeed_mps, "logged_jerk_rms": self.jerk_mps3}
+                "overspeed_mps": self.overspeed_mps, "jerk_rms": self.ride_jerk_mps3}
 
 
 class Tuning(Searched):
@@ -122,13 +122,15 @@ class Tuning(Searched):
 
     mode: "condition" minimises the mean over the draws of one condition; "per condition" does so for each, with
     parameters of their own; "minimax" minimises the largest of these means. conditions: those of "minimax"; all without
-    it. runs: of each search in all; without it EVALUATIONS evaluations, each as many runs as it needs. ranges: of
-    initial values too. without_curve: the objective of who follows no curve, needed where there is one. found_in,
-    results_in: of "per condition", condition -> what was found.
+    it. runs: of each search in all; without it EVALUATIONS evaluations, each as many runs as it needs.
+    evaluations_of: of those whose runs take long, how many instead. ranges: of initial values too. without_curve: the
+    objective of who follows no curve, needed where there is one. found_in, results_in: of "per condition", condition ->
+    what was found.
     """
 
     runs: Annotated[int, Strict(), Field(ge=0)] = 0
     restarts: Count = 3
+    evaluations_of: dict[Name, Count] = Field(default_factory=dict)
     condition: Name
     draws: Count
     mode: Literal["condition", "per condition", "minimax"] = "condition"
@@ -183,7 +185,9 @@ class Contest(Study):
     """A contest: its scenario's file (relative to this one), seeds, conditions and tuning.
 
     seeds: draws of every condition in which anything is drawn; with racing the most. entrants: who takes part beside
-    the scenario's controllers; absent: laws that do not, and why.
+    the scenario's controllers; absent: laws that do not, and why. periods_s: name of who takes part at other periods
+    too -> these, each a controller of its own, called by its period (`pid_20ms`) and tuned apart. as_stated: who takes
+    part with the stated parameters too, where others were found; all without it.
     """
 
     scenario: Text
@@ -196,6 +200,8 @@ class Contest(Study):
     tuning: Tuning
     entrants: dict[Name, ControllerSpec] = Field(default_factory=dict)
     absent: dict[Name, Text] = Field(default_factory=dict)
+    periods_s: dict[Name, tuple[Interval, ...]] = Field(default_factory=dict)
+    as_stated: tuple[Name, ...] | None = None
     racing: Racing | None = None
     pareto: Pareto | None = None
     _world: Scenario | None = PrivateAttr(default=None)
@@ -206,6 +212,19 @@ class Contest(Study):
         if not (isinstance(data, dict) and "entrants" in data):
             return data
         return data | {"entrants": at_periods(data["entrants"], "entrants")}
+
+    @model_validator(mode="before")
+    @classmethod
+    def _ranges_hold_at_other_periods(cls, data: Any) -> Any:
+        tuning, periods = (data.get(key) for key in ("tuning", "periods_s")) if isinstance(data, dict) else (None, None)
+        if not (isinstance(tuning, dict) and isinstance(periods, dict) and isinstance(tuning.get("ranges"), dict)):
+            return data
+        ranges = dict(tuning["ranges"])
+        for name, own in periods.items():
+            for period in own if name in ranges and isinstance(own, list | tuple) else ():
+                if isinstance(period, int | float):
+                    ranges.setdefault(period_name(name, period), ranges[name])
+        return data | {"tuning": tuning | {"ranges": ranges}}
 
     @property
     def world(self) -> Scenario:
@@ -244,8 +263,10 @@ class Contest(Study):
         """How many runs one evaluation of a search takes."""
         return sum(self.tuning.draws if self.conditions[each].random else 1 for each in self.tuned_in(name))
 
-    def evaluations(self, name: str) -> int:
+    def evaluations(self, name: str, controller: str = "") -> int:
         """How often a search may try parameters, in all its restarts; name: as for `tuned_in`."""
+        if controller in self.tuning.evaluations_of:
+            return self.tuning.evaluations_of[controller]
         return self.tuning.runs // self.runs_an_evaluation(name) if self.tuning.runs else EVALUATIONS
 
     def found_for(self, controller: str, condition: str) -> dict[str, float] | None:

@@ -10,8 +10,9 @@ from typing import Any
 
 import numpy as np
 
+from workbench.contest.by_period import period_findings, period_tables
 from workbench.contest.energy import best_run
-from workbench.contest.entrants import check_entrants, entered, follows_curve, learns
+from workbench.contest.entrants import check_entrants, check_names, entered, follows_curve, learns
 from workbench.contest.journal import contest_digest, matches_journal, matches_of, world_digest
 from workbench.contest.learning import learning_findings, learning_plot, learning_tables
 from workbench.contest.matches import METRICS, Match, all_matches, of, overspeed, run_match
@@ -42,6 +43,7 @@ def located(contest: Contest, path: Path) -> Contest:
             raise InputError(scenario_path, f"sensing.{key}", "is a contest's to say, which draws noise and holds "
                              "delays to all periods: state it in the conditions")
     check_entrants(contest, stated, path, scenario_path)
+    check_names(contest, stated, path)
     scenario = entered(contest, stated).in_folder(contest.folder)
     _delays_alike(contest, scenario, path)
     contest = contest.with_world(scenario)
@@ -131,11 +133,13 @@ def _run(contest: Contest, workers: int, on_progress: Progress, played: Sequence
             first.setdefault(f"{match.entry}, {contest.conditions[match.condition].title}", match.failed)
     failures, words = tuple(first.items()), tuple(words_of(told))
     return StudyResult(rows=tuple(_rows(told)),
-                       tables=(*all_tables(told), *premises_table(told, words), *tuning_table(told),
+                       tables=(*all_tables(told), *period_tables(told), *premises_table(told, words),
+                               *tuning_table(told),
                                *front_tables(contest, fronts), *learning_tables(told)),
                        plots=(*_plots(told), *learning_plot(told), *convergence_plot(told),
                               *front_plots(contest, fronts)),
-                       findings=(*_findings(told), *premises_findings(told, words), *learning_findings(told)),
+                       findings=(*period_findings(told), *_findings(told), *premises_findings(told, words),
+                                 *learning_findings(told)),
                        failures=failures)
 
 

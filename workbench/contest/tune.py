@@ -55,7 +55,7 @@ def tune_restart(contest: Contest, scenario: Scenario, name: str, condition: str
                          contest.conditions[each].acting(scenario) is not None)
                    for each in contest.tuned_in(condition))
 
-    evaluations = contest.evaluations(condition) // budget.restarts
+    evaluations = contest.evaluations(condition, name) // budget.restarts
     return search(cost, tunable(scenario, name), budget.ranges[name], evaluations, budget.seed, restart)
 
 

@@ -84,7 +84,7 @@ def tuning_findings(told: Told) -> Iterator[str]:
     contest, names = told.contest, [entry.name for entry in told.entries]
     condition = contest.tuning.condition
     for entry in told.entries:
-        if not entry.tuned:
+        if not entry.tuned or entry.controller not in names:
             continue
         metric, words = (("position_rms", "position RMS {} m → {} m") if follows_curve(told.scenario, entry.controller)
                          else ("energy_J", "energy {} kWh → {} kWh"))

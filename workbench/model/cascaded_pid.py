@@ -30,14 +30,21 @@ speed_error = asked_speed - speed
 gain = K_slow + (K_fast - K_slow) * sp.Min(desired_speed / v_fast, 1)
 
 
+def _share_beyond(at_m: float, length_m: float) -> sp.Expr:
+    """The share of a train that is beyond a place of the line, of the measured position of its front."""
+    way = position - sp.Float(at_m)
+    return sp.Min(sp.Max(way / sp.Float(length_m), 0), 1) if length_m else (1 + sp.sign(way)) / 2
+
+
 @lru_cache(maxsize=16)
-def cascaded_pid(steps: tuple[tuple[float, float], ...] = ()) -> ControlLaw:
-    """The law; steps: where the line's resistance changes (m) and by how much (N/kg), where the law is told of it.
+def cascaded_pid(steps: tuple[tuple[float, float], ...] = (), length_m: float = 0.0) -> ControlLaw:
+    """The law; steps: where the line's resistance changes (m) and by how much (N/kg), where the law is told of it;
+    length_m: of the train, over which it meets them.
 
     Fed forward are the planned acceleration, the Davis resistance at the planned speed and the line's resistance at the
     measured position. The integral is released by what the limits cut off (back calculation), at the rate 1/T_t.
     """
-    line = sum((sp.Float(change) * (1 + sp.sign(position - sp.Float(at))) / 2 for at, change in steps), sp.Integer(0))
+    line = sum((sp.Float(change) * _share_beyond(at, length_m) for at, change in steps), sp.Integer(0))
     resistance = davis_a + davis_b * desired_speed + davis_c * desired_speed**2
     asked = desired_acceleration + resistance + line + gain * speed_error + speed_integral
     highest = sp.Min(u_traction, power_w_per_kg / sp.Max(speed, SLOWEST_MPS))

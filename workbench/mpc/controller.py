@@ -117,7 +117,7 @@ class MpcController:
                 band_m=scenario.simulation.position_band_m if kind.follows_curve else math.inf, price=(price,) * 4,
                 terminal_speed_mps=float(curve.at(np.linspace(0, curve.trip_time_s, 100))[1].max()))
             duration = curve.trip_time_s + scenario.simulation.dwell_s
-            line = resistance_table(scenario.track) if kind.told_grades else None
+            line = resistance_table(scenario.track, train.length_m) if kind.told_grades else None
             kept = () if kind.follows_curve else scenario.track.speed_limit
             late_s = 0.0
             if spec.predictor and scenario.actuator is not None:

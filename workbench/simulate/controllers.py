@@ -58,7 +58,7 @@ def compiled(scenario: Scenario) -> Scenario:
 
 
 # Laws that are made for a line, of which they are told: of where its resistance changes (m) and by how much (N/kg).
-TOLD_THE_LINE: dict[str, Callable[[tuple[tuple[float, float], ...]], ControlLaw]] = {
+TOLD_THE_LINE: dict[str, Callable[[tuple[tuple[float, float], ...], float], ControlLaw]] = {
     "cascaded_pid.told": cascaded_pid,
 }
 
@@ -67,8 +67,10 @@ def compiled_law(scenario: Scenario, spec: ControllerSpec) -> ControlLaw | None:
     """The law of a controller that is compiled whole; None for one that is called once a sample, and unknown ones."""
     if spec.law in TOLD_THE_LINE:
         line = resistance_table(scenario.track)
-        changes = np.diff(line.specific_force, prepend=0.0)
-        return TOLD_THE_LINE[spec.law](tuple(zip(line.position_m.tolist(), changes.tolist(), strict=True)))
+        changes, length_m = np.diff(line.specific_force, prepend=0.0), scenario.train.length_m or 0.0
+        # What holds at the line's start holds behind it too.
+        places = (line.position_m - length_m * (line.position_m == line.position_m[0])).tolist()
+        return TOLD_THE_LINE[spec.law](tuple(zip(places, changes.tolist(), strict=True)), length_m)
     return None if spec.law in SAMPLED else law_named(spec.law, scenario.folder)
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import pairwise
@@ -13,6 +14,9 @@ from numpy.typing import NDArray
 from pydantic import Field, Strict, model_validator
 
 from workbench.files.toml import NonNegative, Positive, Record, SourcedRecord, Text, load_record
+
+# A mean over a train's length changes along the line; so long are the pieces in which it is held, m.
+PIECE_M = 0.5
 
 
 class Section(Record):
@@ -133,8 +137,11 @@ class ResistanceTable:
         return self.specific_force[index]
 
 
-def resistance_table(track: Track) -> ResistanceTable:
-    """The additional resistance of `track` by section, from `additional_specific_resistance`."""
+def resistance_table(track: Track, length_m: float | None = None) -> ResistanceTable:
+    """The additional resistance of `track` by section, from `additional_specific_resistance`.
+
+    length_m: of a train with its front at a position, over which it is averaged, in pieces of at most PIECE_M.
+    """
     import sympy as sp  # noqa: PLC0415 - lines are read by commands that need no expressions
 
     from workbench.trains.line_resistance import (  # noqa: PLC0415 - as above
@@ -157,7 +164,23 @@ def resistance_table(track: Track) -> ResistanceTable:
         )
         for x in starts
     ]
-    return ResistanceTable(starts, np.array(values, dtype=float))
+    return over_length(ResistanceTable(starts, np.array(values, dtype=float)), length_m)
+
+
+def over_length(table: ResistanceTable, length_m: float | None) -> ResistanceTable:
+    """The mean of a table over the length behind a position; behind the line's start its first value holds.
+
+    length_m: None for a point, which meets the table as it is.
+    """
+    if not length_m:
+        return table
+    edges, values = table.position_m, table.specific_force
+    pieces = np.linspace(0.0, length_m, math.ceil(length_m / PIECE_M) + 1)
+    starts = np.unique(np.concatenate([edges[:1], *(edge + pieces for edge in edges[1:])]))
+    middle = (starts + np.append(starts[1:], starts[-1] + PIECE_M)) / 2
+    # What every edge adds, by the share of the train that is beyond it.
+    shares = np.clip((middle[:, None] - edges[1:]) / length_m, 0.0, 1.0)
+    return ResistanceTable(starts, values[0] + shares @ np.diff(values))
 
 
 def speed_limits(track: Track) -> tuple[NDArray[np.float64], NDArray[np.float64]]:

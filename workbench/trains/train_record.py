@@ -15,6 +15,8 @@ DavisCoefficient = Annotated[float, Strict(), Field(ge=0, le=10, allow_inf_nan=F
 class Train(SourcedRecord):
     """A single-particle train: mass, Davis coefficients per unit of mass, traction and brake limits.
 
+    length_m: over which the line's resistance is averaged, behind the front, whose position is the train's; a train
+    without one is a point, to which every edge of a grade is a step of the force.
     Raises ValueError (through validation) for implausible values, which are mostly wrong units.
     """
 
@@ -25,6 +27,7 @@ class Train(SourcedRecord):
     max_traction_n: Positive
     max_braking_n: Positive
     max_power_w: Positive | None = None
+    length_m: Positive | None = None
 
     @model_validator(mode="after")
     def _plausible(self) -> Self:

@@ -33,7 +33,6 @@ class TrainFile(Train):
     etcs: how it brakes, for `--etcs`.
     """
 
-    length_m: Positive | None = None
     rotating_fraction: NonNegative = 0.0
     max_speed_mps: Positive | None = None
     max_acceleration_mps2: Positive | None = None

@@ -1,0 +1,133 @@
+"""What the common contest found, as a page of Markdown: of every condition that has been played to its end.
+
+    workbench report benchmarks/common.toml --out DIR          # plays, tunes nothing; --resume goes on
+    python benchmarks/contest_summary.py DIR docs/contest.md
+"""
+
+from __future__ import annotations
+
+import json
+import sys
+from collections.abc import Iterator
+from pathlib import Path
+
+from pydantic import TypeAdapter
+
+from workbench.cli.loading import load
+from workbench.contest.by_period import at_each_period, period_findings
+from workbench.contest.entrants import information
+from workbench.contest.journal import JOURNAL_NAME
+from workbench.contest.matches import Match, draws_of, entries
+from workbench.contest.pareto import JOURNAL_NAME as FRONTS_NAME
+from workbench.contest.pareto import Front, front_tables
+from workbench.contest.record import Contest
+from workbench.contest.tables import COLUMNS, Told
+from workbench.contest.tuning_table import tuning_table
+from workbench.files.numbers import number
+from workbench.paper.results import ResultTable
+from workbench.paper.statistics import mean_interval
+
+CONTEST = Path(__file__).with_name("common.toml")
+SHOWN = ("position_rms", "speed_rms", "stopping_error", "energy_J", "jerk_rms", "comfort_rms", "switchings_per_s")
+
+
+def records(path: Path) -> list[dict[str, object]]:
+    """The lines of a journal without its head; none where there is no journal."""
+    return [json.loads(line) for line in path.read_text(encoding="utf-8").splitlines()[1:]] if path.exists() else []
+
+
+def played(folder: Path, contest: Contest) -> Told:
+    """The contest of the conditions of which every match is there."""
+    read = TypeAdapter(Match)
+    matches = [read.validate_python(record) for record in records(folder / JOURNAL_NAME)]
+    count, names = {}, {entry.name for entry in entries(contest, contest.world)}
+    for match in matches:
+        count[match.condition] = count.get(match.condition, 0) + (match.entry in names)
+    done = [name for name in contest.conditions if count.get(name) == draws_of(contest, name) * len(names)]
+    whole = contest.model_copy(update={"conditions": {name: contest.conditions[name] for name in done}})
+    order = {name: i for i, name in enumerate(done)}
+    kept = sorted((match for match in matches if match.condition in order), key=lambda m: (order[m.condition], m.draw))
+    return Told(whole.with_world(contest.world), contest.world, tuple(kept), None)
+
+
+def table(headings: list[str], rows: list[list[str]]) -> Iterator[str]:
+    """As Markdown."""
+    for number_of, row in enumerate((headings, *rows)):
+        yield f"| {' | '.join(cell.replace('|', chr(92) + '|') for cell in row)} |"
+        if number_of == 0:
+            yield f"|{'---|' * len(headings)}"
+    yield ""
+
+
+def of_period(own: Told, condition: str) -> Iterator[str]:
+    """Who samples alike under a condition, best tracker first: means with intervals, ● those that may be best."""
+    names, rows = own.entries, []
+    values = {metric: own.values(condition, metric) for metric in SHOWN}
+    tracking = values["position_rms"]
+    means = [float("inf") if value is None else float(value.mean()) for value in tracking]
+    for i in sorted(range(len(names)), key=means.__getitem__):
+        failed = sum(m.failed is not None for m in own.matches if (m.condition, m.entry) == (condition, names[i].name))
+        cells = [names[i].name]
+        for metric in SHOWN:
+            value = values[metric][i]
+            if value is None:
+                cells.append("—")
+                continue
+            found, si = mean_interval(value, own.how), COLUMNS[metric].si
+            best = " ●" if names[i].name in own.winners(condition, metric) else ""
+            cells.append(f"{number(found.mean / si)} [{number(found.low / si)}, {number(found.high / si)}]{best}")
+        rows.append([*cells, f"{failed} of {own.runs(condition)}"])
+    yield from table(["controller", *(COLUMNS[metric].heading for metric in SHOWN), "failed"], rows)
+
+
+def page(told: Told, contest: Contest, fronts: list[Front]) -> Iterator[str]:
+    """Its lines."""
+    left = [stated.title for name, stated in contest.conditions.items() if name not in told.contest.conditions]
+    yield from (
+        "# The common contest, as it was played", "",
+        "Written by `benchmarks/contest_summary.py`; every number is from the runs. Behind the actuator of "
+        f"`benchmarks/common_run.toml` unless the condition says otherwise; {told.contest.seeds} draws where anything "
+        f"is drawn. + marks tuned parameters. Intervals are {100 * told.contest.confidence:g} % BCa; ● is the best and "
+        "all who are not told apart from it by Holm's correction over all metrics and conditions of those who sample "
+        "alike. Who learns shows its last trip.", "")
+    if left:
+        yield from (f"Stated in the contest's file and not played here: {', '.join(left)}.", "")
+    yield from ("## Headline", "", *(f"- {words}" for words in period_findings(told)), "")
+    groups = list(at_each_period(told))
+    yield from ("## The best tracker by condition", "")
+    rows = [[stated.title, *(", ".join(own.winners(name, "position_rms")) for _, own in groups)]
+            for name, stated in told.contest.conditions.items()]
+    yield from table(["condition", *(f"every {1e3 * period:g} ms" for period, _ in groups)], rows)
+    for period, own in groups:
+        base = told.contest.tuning.condition
+        yield from (f"## Commands every {1e3 * period:g} ms, {told.contest.conditions[base].title}", "")
+        yield from of_period(own, base)
+    yield from ("## What tuning found", "")
+    for found in tuning_table(told):
+        yield from shown(found)
+    for found in front_tables(contest, fronts):
+        yield from (f"## {found.title}", "", *shown(found))
+    yield from ("## What they are told", "")
+    yield from table(["controller", "is told"], [[name, information(told.scenario, name)]
+                                                 for name in told.scenario.controllers])
+
+
+def shown(found: ResultTable) -> Iterator[str]:
+    """A table of the report."""
+    yield from table(list(found.headings), [list(row) for row in found.text])
+    if found.note:
+        yield from (found.note, "")
+
+
+def main() -> None:
+    """Write the page."""
+    folder, out = map(Path, sys.argv[1:3])
+    contest = load(CONTEST).record
+    assert isinstance(contest, Contest)
+    read = TypeAdapter(tuple[Front, ...])
+    fronts = [front for record in records(folder / FRONTS_NAME) for front in read.validate_python(record["fronts"])]
+    out.write_text("\n".join(page(played(folder, contest), contest, fronts)).rstrip() + "\n", encoding="utf-8")
+
+
+if __name__ == "__main__":
+    main()

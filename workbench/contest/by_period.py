@@ -1,0 +1,70 @@
+"""Who wins among those who sample alike: a contest of several periods is as many contests, with the same runs."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import replace
+
+import numpy as np
+
+from workbench.contest.entrants import learns
+from workbench.contest.sampling import period_of
+from workbench.contest.tables import COLUMNS, Told, winners_table
+from workbench.files.numbers import number
+from workbench.paper.results import ResultTable
+from workbench.paper.statistics import mean_interval
+
+TRACKING = "position_rms"
+
+
+def at_each_period(told: Told) -> Iterator[tuple[float, Told]]:
+    """(s, the matches of those who command so often), the shortest first; nothing where all sample alike.
+
+    Entries are ranked among themselves, so that Holm's correction is over their own comparisons.
+    """
+    names: dict[float, list[str]] = {}
+    for name in told.scenario.controllers:
+        names.setdefault(period_of(told.scenario, name), []).append(name)
+    for period, group in sorted(names.items()) if len(names) > 1 else ():
+        scenario = told.scenario.model_copy(update={"controllers": {
+            name: told.scenario.controllers[name] for name in group}})
+        own = replace(told, scenario=scenario)
+        taking_part = {entry.name for entry in own.entries}
+        if len(taking_part) > 1:
+            yield period, replace(own, matches=tuple(match for match in told.matches if match.entry in taking_part))
+
+
+def period_tables(told: Told) -> Iterator[ResultTable]:
+    """Who wins where, a table for each period."""
+    for period, own in at_each_period(told):
+        yield replace(winners_table(own), title=f"Who wins where; commands every {1e3 * period:g} ms")
+
+
+def period_findings(told: Told) -> Iterator[str]:
+    """The best tracker of each period where tuning was, with its interval, and whom it is apart from."""
+    condition = told.contest.tuning.condition
+    for period, own in at_each_period(told):
+        ranked = own.ranked(condition, TRACKING)
+        means = {i: float(value.mean()) for i, value in enumerate(ranked) if value is not None}
+        if not means:
+            continue
+        order = sorted(means, key=means.__getitem__)
+        tied = set(own.rankings[condition, TRACKING].winners)
+        names = [entry.name for entry in own.entries]
+        said = [f"{names[i]} {_interval(own, i, condition)}" for i in order if i in tied]
+        others = [i for i in order if i not in tied]
+        behind = "; nobody is told apart from them"
+        if others:
+            behind = f"; told apart from them, the next is {names[others[0]]} {_interval(own, others[0], condition)}"
+        learners = sum(learns(own.scenario, own.entries[i].controller) for i in means)
+        words = f", {learners} of them learn from trip to trip" if learners else ""
+        where = f"{own.contest.conditions[condition].title}, {own.runs(condition)} draws"
+        yield (f"Commands every {1e3 * period:g} ms, {where}, {COLUMNS[TRACKING].heading}, best of {len(means)} who "
+               f"arrive{words}: {', '.join(said)}{behind}.")
+
+
+def _interval(told: Told, i: int, condition: str) -> str:
+    values = told.values(condition, TRACKING)[i]
+    assert values is not None
+    found = mean_interval(np.asarray(values), told.how)
+    return f"{number(found.mean)} [{number(found.low)}, {number(found.high)}]"
