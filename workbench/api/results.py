@@ -1,4 +1,4 @@
-"""What the functions of the API return: plain records with tables, figures, and frames of pandas."""
+"""What the functions of the API return: plain records with tables and figures, for a notebook and other libraries."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from workbench.api.frames import data_frame
+from workbench.api.frames import data_frame, dataset, html_table
 from workbench.simulate.plants.run import PlantRun
 from workbench.systems.setting import Setting
 
@@ -48,6 +48,15 @@ class Run:
         """The log as a DataFrame with the time in seconds as its index; WorkbenchError without pandas."""
         return data_frame(self.found.data, "t_s")
 
+    def to_xarray(self) -> Any:
+        """The log as an xarray Dataset over `t_s`, its metrics as attributes; WorkbenchError without xarray."""
+        units = {str(symbol): unit for symbol, unit in self.setting.plant.units.items()}
+        about = {"controller": self.name, **{name: value for name, value in self.metrics.items() if value is not None}}
+        return dataset(self.found.data, units, about)
+
+    def _repr_html_(self) -> str:
+        return html_table([{"controller": self.name, **self.metrics, "failed": self.failed}])
+
     def plot(self, *columns: str) -> Any:
         """A matplotlib Figure of the named columns, or of all states and inputs, over time."""
         return _figure(self.setting, [self.found], columns)
@@ -79,6 +88,9 @@ class Comparison:
         """The rows as a DataFrame; WorkbenchError without pandas."""
         return data_frame(self.rows, "controller")
 
+    def _repr_html_(self) -> str:
+        return html_table(self.rows)
+
     def plot(self, *columns: str) -> Any:
         """A matplotlib Figure of the named columns, or of all states and inputs, a line a controller."""
         return _figure(self.setting, [run.found for run in self.runs], columns)
@@ -108,6 +120,9 @@ class Proved:
     def to_pandas(self) -> Any:
         """The rows as a DataFrame; WorkbenchError without pandas."""
         return data_frame(self.rows, "id")
+
+    def _repr_html_(self) -> str:
+        return html_table([{key: row[key] for key in ("id", "verdict", "title")} for row in self.rows])
 
 
 def _figure(setting: Setting, runs: Sequence[PlantRun], columns: Sequence[str]) -> Any:
