@@ -48,7 +48,7 @@ def _from_source(name: str, directory: Path, source: Path) -> None:
         lines.append(f"{found.unnumbered} displayed formulas without a number are no rows")
     lines.append(f"to go on: fill in {found.folder / SYMBOLS}, then workbench prove {found.folder}")
     for line in lines:
-        out_console.print(line, soft_wrap=True, markup=False, highlight=False)
+        out_console.print(line, soft_wrap=True, highlight=False)
 
 
 def _with(verb: str, folder: Path) -> str:
