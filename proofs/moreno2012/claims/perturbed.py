@@ -13,9 +13,9 @@ from ..paper import OFF_ZERO, paper
 from .algorithm import V, flow, form, r, rho_1, rho_2, y
 
 delta = sp.Symbol("delta", positive=True)
-SIGNED = ("The form has the product zeta_1 zeta_2 with its sign, and a perturbation may have either: the bound holds where "
-          "both have one sign only. With |zeta_1| |zeta_2| in its place it holds everywhere, the same gains make it "
-          "positive, and the theorem stands.")
+SIGNED = ("The form is often written so, with the product zeta_1 zeta_2 and its sign; whether the paper prints it so is "
+          "open here. A perturbation may have either sign, so the bound holds where both components have one sign only. "
+          "With |zeta_1| |zeta_2| it holds everywhere, and the same gains make it positive.")
 ABSOLUTE = (r"\dot V \le -|x_1|^{-1/2} \bar\zeta^T \tilde Q \bar\zeta,\ \bar\zeta = (|\zeta_1|, |\zeta_2|)^T")
 
 
@@ -45,7 +45,7 @@ def bounded(which: int, right: sp.Expr) -> Goal:
     return Goal((at_most(D(V), -right / r),), bounds, flow=moving, inputs=(symbol,))
 
 
-def mended(which: int) -> Callable[[], Goal]:
+def in_absolute_values(which: int) -> Callable[[], Goal]:
     """The bound with absolute values."""
     return lambda: bounded(which, (absolute_1, absolute_2)[which - 1])
 
@@ -53,16 +53,16 @@ def mended(which: int) -> Callable[[], Goal]:
 @paper.claim("rho1", "V' with a perturbation that vanishes with x_1", "inequality",
              r"|\rho_1| \le \delta |x_1|^{1/2} \Rightarrow \dot V \le -|x_1|^{-1/2} \zeta^T \tilde Q \zeta,\ "
              r"\tilde Q = \frac{k_1}{2} \begin{pmatrix} 2 k_2 + k_1^2 - (\frac{4 k_2}{k_1} + k_1) \delta & -(k_1 + 2 \delta) \\ "
-             r"-(k_1 + 2 \delta) & 1 \end{pmatrix}", "refuted", scope=OFF_ZERO, premises=("decrease",),
-             correction=mended(1), corrected_statement=ABSOLUTE, note=SIGNED)
+             r"-(k_1 + 2 \delta) & 1 \end{pmatrix}", "refuted", scope=OFF_ZERO, premises=("decrease",), origin="ours",
+             correction=in_absolute_values(1), corrected_statement=ABSOLUTE, note=SIGNED)
 def first_perturbation() -> Goal:
-    """As it is commonly printed, with the form in zeta itself."""
+    """As a question: does the form in zeta itself bound it?"""
     return bounded(1, form(signed_1))
 
 
-@paper.claim("rho1.mended", "The same with absolute values", "inequality", ABSOLUTE, "proved", scope=OFF_ZERO,
-             origin="ours", mends="rho1", premises=("decrease",))
-def first_perturbation_mended() -> Goal:
+@paper.claim("rho1.absolute", "V' under the perturbation, by absolute values", "inequality", ABSOLUTE, "proved", scope=OFF_ZERO,
+             origin="implied", premises=("decrease",))
+def first_bound() -> Goal:
     """The form in |zeta_1| and |zeta_2|."""
     return bounded(1, absolute_1)
 
@@ -82,26 +82,26 @@ def first_gains() -> Goal:
 
 @paper.claim("theorem.rho1", "Stable under such a perturbation", "implication",
              r"k_1 > 2 \delta,\ k_2 > k_1 \frac{5 \delta k_1 + 4 \delta^2}{2 (k_1 - 2 \delta)} \Rightarrow \dot V < 0", "proved",
-             scope=OFF_ZERO, severity="result", premises=("rho1.mended", "gains.rho1"), rests_on=("rho1", "gains.rho1"))
+             scope=OFF_ZERO, severity="result", premises=("rho1.absolute", "gains.rho1"))
 def first_theorem() -> Goal:
     """The form that is positive is the one by which V' is bounded."""
-    known = (*paper.shown("rho1.mended"), *paper.shown("gains.rho1"))
+    known = (*paper.shown("rho1.absolute"), *paper.shown("gains.rho1"))
     return Goal((greater(-D(V), 0),), (*bounds_1, *gains_1, *known), flow=FLOW_1, inputs=(rho_1,))
 
 
 @paper.claim("rho2", "V' with a bounded perturbation of x_2", "inequality",
              r"|\rho_2| \le \delta \Rightarrow \dot V \le -|x_1|^{-1/2} \zeta^T \tilde Q \zeta,\ "
              r"\tilde Q = \frac{k_1}{2} \begin{pmatrix} 2 k_2 + k_1^2 - 2 \delta & -(k_1 + \frac{2 \delta}{k_1}) \\ "
-             r"-(k_1 + \frac{2 \delta}{k_1}) & 1 \end{pmatrix}", "refuted", scope=OFF_ZERO, premises=("decrease",),
-             correction=mended(2), corrected_statement=ABSOLUTE, note=SIGNED)
+             r"-(k_1 + \frac{2 \delta}{k_1}) & 1 \end{pmatrix}", "refuted", scope=OFF_ZERO, premises=("decrease",), origin="ours",
+             correction=in_absolute_values(2), corrected_statement=ABSOLUTE, note=SIGNED)
 def second_perturbation() -> Goal:
-    """As it is commonly printed, with the form in zeta itself."""
+    """As a question: does the form in zeta itself bound it?"""
     return bounded(2, form(signed_2))
 
 
-@paper.claim("rho2.mended", "The same with absolute values", "inequality", ABSOLUTE, "proved", scope=OFF_ZERO,
-             origin="ours", mends="rho2", premises=("decrease",))
-def second_perturbation_mended() -> Goal:
+@paper.claim("rho2.absolute", "V' under the perturbation, by absolute values", "inequality", ABSOLUTE, "proved", scope=OFF_ZERO,
+             origin="implied", premises=("decrease",))
+def second_bound() -> Goal:
     """The form in |zeta_1| and |zeta_2|."""
     return bounded(2, absolute_2)
 
@@ -116,10 +116,10 @@ def second_gains() -> Goal:
 
 @paper.claim("theorem.rho2", "Stable under a bounded perturbation", "implication",
              r"k_1 > 0,\ k_2 > 3 \delta + 2 \frac{\delta^2}{k_1^2} \Rightarrow \dot V < 0", "proved", scope=OFF_ZERO,
-             severity="result", premises=("rho2.mended", "gains.rho2"), rests_on=("rho2", "gains.rho2"))
+             severity="result", premises=("rho2.absolute", "gains.rho2"))
 def second_theorem() -> Goal:
     """The form that is positive is the one by which V' is bounded."""
-    known = (*paper.shown("rho2.mended"), *paper.shown("gains.rho2"))
+    known = (*paper.shown("rho2.absolute"), *paper.shown("gains.rho2"))
     return Goal((greater(-D(V), 0),), (*bounds_2, *gains_2, *known), flow=FLOW_2, inputs=(rho_2,))
 
 

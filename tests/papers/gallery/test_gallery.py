@@ -7,10 +7,8 @@ from scenarios import PAPERS, PROOFS, TRAIN_PAPERS
 
 from proofs.goodwin1980 import laws as goodwin
 from proofs.krstic1992 import laws as krstic
-from proofs.lavretsky2009 import laws as lavretsky
 from proofs.moreno2012.claims import perturbed
 from workbench.paper.loading import load
-from workbench.paper.plants.check import rates_along_runs
 from workbench.simulate.plants.run import run as run_plant
 
 GALLERY = [paper for paper in PAPERS if paper not in TRAIN_PAPERS]
@@ -72,8 +70,8 @@ def test_super_twisting_holds_the_sliding_variable_where_the_linear_law_lets_it_
     assert twisting < 1e-3 and linear > 1e-2
 
 
-def test_the_printed_bound_of_super_twisting_fails_where_the_components_differ_in_sign_only():
-    """V' against both bounds by numbers: the signed form fails on one side alone, the mended one nowhere."""
+def test_the_signed_bound_of_super_twisting_fails_where_the_components_differ_in_sign_only():
+    """V' by numbers against both: the signed form fails on one side alone, the one by absolute values nowhere."""
     r, y, rho = perturbed.r, perturbed.y, perturbed.rho_1
     symbols = (r, y, rho, perturbed.delta, perturbed.k_1, perturbed.k_2)
     rate = sum(sp.diff(perturbed.V, one) * value for one, value in perturbed.FLOW_1.items())
@@ -99,22 +97,9 @@ def test_the_error_stays_within_its_funnel_and_leaves_it_under_the_constant_gain
     assert outside["funnel"] < 1 < outside["constant"]
 
 
-def test_adaptation_beats_the_same_law_without_it(runs):
-    for paper, adaptive, without, output in (("lavretsky2009", "mrac", "linear", "x_1"),
-                                             ("goodwin1980", "projection", "frozen", "y")):
-        better, worse = runs(paper, adaptive), runs(paper, without)
-        assert better.failed is None
-        assert worse.failed is not None or (
-            better.metrics[f"{output}_error_rms"] < worse.metrics[f"{output}_error_rms"])
-
-
-def test_composite_adaptation_learns_the_coefficients_better_than_the_direct_one(runs):
-    off = {}
-    for name in ("mrac", "cmrac"):
-        found, setting = runs("lavretsky2009", name), study_of("lavretsky2009").setting
-        off[name] = sum((found.column(str(hat))[-1] - setting.parameters[str(true)]) ** 2
-                        for hat, true in zip(lavretsky.hats, lavretsky.thetas, strict=True))
-    assert off["cmrac"] < off["mrac"]
+def test_the_projection_algorithm_follows_better_than_its_first_estimates(runs):
+    better, worse = runs("goodwin1980", "projection"), runs("goodwin1980", "frozen")
+    assert better.failed is None and better.metrics["y_error_rms"] < 0.5 * worse.metrics["y_error_rms"]
 
 
 def test_the_projection_algorithm_never_moves_away_from_the_true_parameters():
@@ -128,10 +113,3 @@ def test_the_projection_algorithm_never_moves_away_from_the_true_parameters():
         before, hat = hat, np.array(update(true @ phi, *phi, *hat, 1.0, 0.01))
         assert np.linalg.norm(hat - true) <= np.linalg.norm(before - true) + 1e-12
     assert np.linalg.norm(hat - true) < 0.05
-
-
-@pytest.mark.parametrize("lyapunov", [krstic.lyapunov, lavretsky.lyapunov, lavretsky.lyapunov_composite],
-                         ids=["krstic1992", "lavretsky2009", "lavretsky2009 composite"])
-def test_V_falls_along_the_runs_as_derived(lyapunov):
-    found = [*rates_along_runs(study_of(lyapunov.law.id.partition(".")[0]), lyapunov)]
-    assert found and all(check.holds for check in found), found

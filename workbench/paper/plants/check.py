@@ -80,7 +80,7 @@ def _study(study: LocatedPlantStudy) -> Iterator[Check]:
             yield _commands(study, entrant, entrant.law)
     stated = [one for module in ("laws", "lyapunov") for one in held_in(study.folder, module, Lyapunov).values()]
     for lyapunov in {one.id: one for one in stated}.values():
-        yield from rates_along_runs(study, lyapunov)
+        yield from _rates(study, lyapunov)
 
 
 def _commands(study: LocatedPlantStudy, entrant: Entrant, law: StateLaw) -> Check:
@@ -108,7 +108,7 @@ def _commands(study: LocatedPlantStudy, entrant: Entrant, law: StateLaw) -> Chec
                  f"largest difference {worst:.2g} at {compared} points")
 
 
-def rates_along_runs(study: LocatedPlantStudy, lyapunov: Lyapunov) -> Iterator[Check]:
+def _rates(study: LocatedPlantStudy, lyapunov: Lyapunov) -> Iterator[Check]:
     """V along a run of its law, sampled at every plant step without noise, against V' derived from plant and law."""
     for name, entrant in study.entrants().items():
         if entrant.law is None or entrant.law.id != lyapunov.law.id:
