@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 __version__ = "0.1.0"
 
 if TYPE_CHECKING:
-    from workbench.api.functions import check_paper, compare, entrant, load, prove, simulate
+    from workbench.api.functions import check_paper, compare, entrant, gains, load, prove, reference, simulate
     from workbench.api.results import Comparison, Proved, Run
     from workbench.model.law import LawState, period, time
     from workbench.mpc.plant_tracking import PlantMpc
@@ -25,7 +25,8 @@ if TYPE_CHECKING:
     from workbench.systems.signals import Constant, Ramp, Sine, Spline, Step
 
 _WHERE = {
-    "api.functions": ("check_paper", "closed_loop", "compare", "entrant", "load", "prove", "simulate"),
+    "api.functions": ("check_paper", "closed_loop", "compare", "entrant", "gains", "load", "prove",
+                      "reference", "simulate"),
     "api.results": ("Comparison", "Proved", "Run"), "model.law": ("LawState", "period", "time"),
     "mpc.plant_tracking": ("PlantMpc",), "proof.paper": ("Paper",), "systems.setting": ("Setting",),
     "systems.law": ("Reference", "StateLaw"), "systems.lyapunov": ("Lyapunov", "closed_loop"),
@@ -37,7 +38,7 @@ _RENAMED = {"Law": "StateLaw"}
 
 __all__ = ["Comparison", "Constant", "Law", "LawState", "Lyapunov", "Metric", "Paper", "Parameter", "Plant",
            "PlantMpc", "Proved", "Ramp", "Reference", "Run", "Setting", "Sine", "Spline", "Step", "check_paper",
-           "closed_loop", "compare", "entrant", "load", "period", "prove", "simulate", "time"]
+           "closed_loop", "compare", "entrant", "gains", "load", "period", "prove", "reference", "simulate", "time"]
 
 
 def __getattr__(name: str) -> Any:

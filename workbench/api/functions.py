@@ -12,8 +12,14 @@ from typing import Any
 
 import sympy as sp
 
+from workbench.api.guests import guest_controller
 from workbench.api.results import Comparison, Proved, Run
 from workbench.errors import InputError
+from workbench.gains.result import GainReport
+from workbench.optimal.inputs.files import load_line, load_vehicle
+from workbench.optimal.inputs.line import course
+from workbench.optimal.reference import Reference, find_reference
+from workbench.paper.gain_effects import gains_of
 from workbench.paper.loading import Loaded
 from workbench.paper.loading import load as read
 from workbench.paper.plants.check import Checked
@@ -60,11 +66,18 @@ def simulate(plant: Plant, law: StateLaw | Any, *, period_s: float, duration_s: 
 
 def entrant(law: StateLaw | Any, period_s: float, parameters: Names | None = None, initial: Names | None = None,
             name: str = "") -> Entrant:
-    """A controller with its values for `compare`: a law, or what has `build(setting, period_s)`, as `PlantMpc`."""
+    """A controller with its values for `compare`: a law, what has `build(setting, period_s)`, as `PlantMpc`, or a
+    controller of another library: a `casadi.Function` (t, y, r) -> u, or a `control` system whose inputs are the
+    plant's outputs and the references' values, and whose outputs are the plant's inputs, by their names.
+    """
     if isinstance(law, StateLaw):
         return Entrant(name or law.id, period_s, law, _named(parameters), _named(initial))
+    guest = guest_controller(law)
+    if guest is not None:
+        return Entrant(name or guest.name, period_s, build=guest.build)
     if not callable(getattr(law, "build", None)):
-        raise ValueError(f"{law!r} is no law and builds no controller: give a StateLaw or a PlantMpc")
+        raise ValueError(f"{law!r} is no law and builds no controller: give a StateLaw, a PlantMpc, a casadi.Function "
+                         "or a control system")
     return Entrant(name or "mpc", period_s, build=law.build)
 
 
@@ -93,6 +106,23 @@ def _plant_study(loaded: Loaded) -> LocatedPlantStudy:
     if not isinstance(loaded.record, LocatedPlantStudy):
         raise InputError(loaded.path, "kind", "is not 'plant': trains are compared by `workbench compare`")
     return loaded.record
+
+
+def gains(path: str | Path | Loaded) -> GainReport:
+    """What a paper's stated gains meet, what is proved of them, and gains that are proved to do better.
+
+    Raises InputError for a folder that has no gains.py.
+    """
+    return gains_of(path if isinstance(path, Loaded) else load(path))
+
+
+def reference(track: str | Path, train: str | Path, *, time_s: float, intervals: int | None = None) -> Reference:
+    """The energy-optimal run of a train over a whole line in a time, with its proven bound.
+
+    track, train: TOML files, or JSON of TTOBench. Raises InputError, and InfeasibleRunError with the least time.
+    """
+    line, vehicle = load_line(Path(track))[0], load_vehicle(Path(train))[0]
+    return find_reference(vehicle, course(line, vehicle, 0.0, line.length_m, ()), time_s, intervals=intervals)
 
 
 def check_paper(folder: str | Path) -> Checked:

@@ -1,4 +1,4 @@
-"""What the functions of the API return: plain records with tables, figures, and frames of pandas."""
+"""What the functions of the API return: plain records with tables and figures, for a notebook and other libraries."""
 
 from __future__ import annotations
 
@@ -10,7 +10,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+<<<<<<< HEAD
 from workbench.api.frames import data_frame, write_mat
+=======
+from workbench.api.frames import data_frame, dataset, html_table
+>>>>>>> plants
 from workbench.simulate.plants.run import PlantRun
 from workbench.systems.setting import Setting
 
@@ -49,11 +53,22 @@ class Run:
         """The log as a DataFrame with the time in seconds as its index; WorkbenchError without pandas."""
         return data_frame(self.found.data, "t_s")
 
+<<<<<<< HEAD
     def to_mat(self, path: str | Path) -> None:
         """The log as a MAT file (version 5) that MATLAB and Simulink read: a column vector of doubles each, the time in
         seconds as `t_s`; signs that MATLAB has in no name become underscores. InputError where it cannot be written.
         """
         write_mat(self.found.data, Path(path))
+=======
+    def to_xarray(self) -> Any:
+        """The log as an xarray Dataset over `t_s`, its metrics as attributes; WorkbenchError without xarray."""
+        units = {str(symbol): unit for symbol, unit in self.setting.plant.units.items()}
+        about = {"controller": self.name, **{name: value for name, value in self.metrics.items() if value is not None}}
+        return dataset(self.found.data, units, about)
+
+    def _repr_html_(self) -> str:
+        return html_table([{"controller": self.name, **self.metrics, "failed": self.failed}])
+>>>>>>> plants
 
     def plot(self, *columns: str) -> Any:
         """A matplotlib Figure of the named columns, or of all states and inputs, over time."""
@@ -86,6 +101,9 @@ class Comparison:
         """The rows as a DataFrame; WorkbenchError without pandas."""
         return data_frame(self.rows, "controller")
 
+    def _repr_html_(self) -> str:
+        return html_table(self.rows)
+
     def plot(self, *columns: str) -> Any:
         """A matplotlib Figure of the named columns, or of all states and inputs, a line a controller."""
         return _figure(self.setting, [run.found for run in self.runs], columns)
@@ -115,6 +133,9 @@ class Proved:
     def to_pandas(self) -> Any:
         """The rows as a DataFrame; WorkbenchError without pandas."""
         return data_frame(self.rows, "id")
+
+    def _repr_html_(self) -> str:
+        return html_table([{key: row[key] for key in ("id", "verdict", "title")} for row in self.rows])
 
 
 def _figure(setting: Setting, runs: Sequence[PlantRun], columns: Sequence[str]) -> Any:

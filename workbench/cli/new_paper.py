@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from pathlib import Path
 from typing import Annotated
 
 import typer
 
 from workbench.cli.terminal import out_console
+from workbench.errors import InputError
 
 NAME = "new-paper"
 VERBS = ("prove", "compare", "sweep --out FOLDER", "report --out FOLDER")
@@ -16,13 +18,35 @@ VERBS = ("prove", "compare", "sweep --out FOLDER", "report --out FOLDER")
 def command(name: Annotated[str, typer.Argument(help="The paper's name, as in doe2026")],
             directory: Annotated[Path, typer.Option(help="Where its folder goes.")] = Path(),
             plant: Annotated[bool, typer.Option("--plant", help="About a plant of your own, not a train.")] = False,
-            ) -> None:
+            source: Annotated[Path | None, typer.Option(
+                "--from", help="LaTeX source of a paper: its numbered rows and letters as tables.")] = None) -> None:
     """Write a paper's folder to start from: each kind of claim, a law, and a study that runs it beside PID and MPC."""
     from workbench.paper.new_paper import write_new_paper
 
+    if source is not None:
+        if plant:
+            raise InputError("", "--plant", "goes without --from, which writes claims alone: leave one of them out")
+        _from_source(name, directory, source)
+        return
     folder = write_new_paper(name, directory, "plant" if plant else "train")
     files = ", ".join(path.relative_to(folder).as_posix() for path in sorted(folder.rglob("*.*")))
     lines = f"written: {folder} ({files})", *(f"to go on: workbench {_with(verb, folder)}" for verb in VERBS)
+    for line in lines:
+        out_console.print(line, soft_wrap=True, highlight=False)
+
+
+def _from_source(name: str, directory: Path, source: Path) -> None:
+    from workbench.paper.source.folder import SYMBOLS, write_from_source
+
+    found = write_from_source(name, directory, source)
+    counts = Counter(found.verdicts.values())
+    lines = [f"written: {found.folder}, {len(found.verdicts)} rows: "
+             + ", ".join(f"{count} {verdict}" for verdict, count in counts.items())]
+    lines += [f"{name}:{row}  {verdict}" for row, verdict in found.verdicts.items() if row not in found.missing]
+    lines += [f"{name}:{row}  not decided: {why}" for row, why in found.missing.items()]
+    if found.unnumbered:
+        lines.append(f"{found.unnumbered} displayed formulas without a number are no rows")
+    lines.append(f"to go on: fill in {found.folder / SYMBOLS}, then workbench prove {found.folder}")
     for line in lines:
         out_console.print(line, soft_wrap=True, highlight=False)
 

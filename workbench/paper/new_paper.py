@@ -32,6 +32,16 @@ def write_new_paper(name: str, directory: Path, about: str = "train") -> Path:
     Raises InputError for a name that cannot be a module's, where something of that name stands already, and for what
     cannot be written; then what was written before is removed again.
     """
+    folder = new_folder(name, directory)
+    template = TEMPLATES[about]
+    texts = {place: contents(template / place).decode() for place in template_files(template)}
+    write_tree(folder, {place: Template(text).substitute(name=name).encode() for place, text in texts.items()},
+               "name another --directory")
+    return folder
+
+
+def new_folder(name: str, directory: Path) -> Path:
+    """Where a new paper's folder goes, which is not made yet; InputError for a name or place that cannot be one's."""
     if not (name.isidentifier() and name.isascii()) or keyword.iskeyword(name) or len(name) > LONGEST_NAME:
         raise InputError("new-paper", name, f"is no name of a Python module: {ANOTHER}")
     if name.startswith("_") or name in sys.stdlib_module_names or name in ("sympy", "workbench"):
@@ -39,8 +49,4 @@ def write_new_paper(name: str, directory: Path, about: str = "train") -> Path:
     folder = directory / name
     if folder.exists() or folder.is_symlink():
         raise InputError(folder, "", "exists already: name another paper, or move it away first")
-    template = TEMPLATES[about]
-    texts = {place: contents(template / place).decode() for place in template_files(template)}
-    write_tree(folder, {place: Template(text).substitute(name=name).encode() for place, text in texts.items()},
-               "name another --directory")
     return folder

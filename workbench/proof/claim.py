@@ -222,8 +222,9 @@ class Claim(Stated):
 
     build: makes the goal; at: stated parameters at which a condition is evaluated; correction: builds the
     nearest true statement; repair: parameters at which a violated condition holds; axiom: a cited result that
-    is assumed. closed_loop: the goal assumes the printed plant, law and adaptation and nothing else, so that a motion
-    of it that breaks the statement refutes it. notation: what the letters of the printed line stand for.
+    is assumed; unstated: why a line has no goal yet. closed_loop: the goal assumes the printed plant, law and
+    adaptation and nothing else, so that a motion of it that breaks the statement refutes it. notation: what the
+    letters of the printed line stand for.
     """
 
     build: Callable[[], Goal] | None
@@ -232,12 +233,13 @@ class Claim(Stated):
     corrected_statement: str | None = None
     repair: dict[sp.Expr, Fraction] | None = None
     axiom: str | None = None
+    unstated: str | None = None
     closed_loop: bool = False
     notation: Mapping[str, sp.Expr] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
         super().__post_init__()
-        if (self.build is None) == (self.axiom is None):
+        if sum(part is not None for part in (self.build, self.axiom, self.unstated)) != 1:
             raise ClaimError(f"claim {self.id}: give either a goal or the axiom it is assumed as")
         for symbol, value in (*(self.at or {}).items(), *(self.repair or {}).items()):
             if not isinstance(symbol, sp.Expr) or not isinstance(value, Rational):

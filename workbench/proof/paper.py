@@ -79,6 +79,13 @@ class Paper:
             axiom=source, premises=self._ids(equation, hypotheses, "hypotheses"), origin=origin, severity=severity,
             match=match, reading=reading, note=note))
 
+    def unstated(self, equation: str, title: str, printed: str, why: str, *, rests_on: tuple[str, ...] = (),
+                 severity: Severity = "step") -> None:
+        """State a line that has no goal yet, and why; it stays undecided."""
+        self.claims.append(Claim(
+            id=self._id(equation), title=title, kind="implication", printed=printed, recorded="undecided", build=None,
+            unstated=why, rests_on=self._ids(equation, rests_on, "rests_on"), severity=severity))
+
     def _ids(self, equation: str, named: tuple[str, ...] | str, what: str) -> tuple[str, ...]:
         if isinstance(named, str):
             raise ClaimError(f"claim {self._id(equation)}: {what} are a tuple of numbers: write ('{named}',)")

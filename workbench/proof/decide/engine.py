@@ -33,7 +33,8 @@ def decide(claim: Claim) -> Decision:
     """The verdict on one claim, with its certificate; tainting is added by `decide_all`."""
     started = time.perf_counter()
     if claim.build is None:
-        return Decision(claim, "assumed", claim.axiom or "", None, time.perf_counter() - started)
+        verdict: Verdict = "undecided" if claim.axiom is None else "assumed"
+        return Decision(claim, verdict, claim.axiom or claim.unstated or "", None, time.perf_counter() - started)
     goal = built(claim, claim.build)
     decision = _decide_statement(claim, goal) if claim.at is None else _decide_condition(claim, goal)
     return with_match(claim, replace(decision, seconds=time.perf_counter() - started))

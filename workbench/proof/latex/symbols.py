@@ -69,7 +69,11 @@ def _of_paper(path: Path) -> Symbols:
 
 
 def _of_file(path: Path) -> Symbols:
-    record = load_record(path, SymbolsFile)
+    return symbols_in(load_record(path, SymbolsFile), path)
+
+
+def symbols_in(record: SymbolsFile, path: Path) -> Symbols:
+    """The letters of a record; path: the file that messages name."""
     notation: dict[str, sp.Expr] = {}
     letters: dict[str, str] = {}
     for typed, kind in record.symbols.items():

@@ -1,0 +1,83 @@
+"""Controllers of other libraries drive a plant as the same law stated here does, and results become their tables."""
+
+import sys
+
+import casadi as ca
+import control
+import numpy as np
+import pytest
+import sympy as sp
+
+import workbench as wb
+from workbench.api.frames import dataset, html_table
+from workbench.errors import WorkbenchError
+
+x, v, u = sp.symbols("x v u", real=True)
+r = wb.Reference("r")
+MASS = wb.Plant("mass", (x, v), (v, u), inputs=(u,), units={x: "m"})
+PD = wb.Law("pd", {u: -4 * (x - r.value) - 3 * v}, references=(r,))
+SETTING = wb.Setting(MASS, 0.5, 0.01, references={"r": wb.Sine(amplitude=1, period_s=2)}, tracks={"x": "r"})
+
+
+def casadi_pd():
+    t, y, desired = ca.SX.sym("t"), ca.SX.sym("y", 2), ca.SX.sym("r")
+    return ca.Function("casadi_pd", [t, y, desired], [-4 * (y[0] - desired) - 3 * y[1]])
+
+
+def control_pd():
+    return control.ss([], [], [], [[4, -4, -3]], True, inputs=["r", "x", "v"], outputs=["u"], name="control_pd")
+
+
+@pytest.fixture(scope="module")
+def compared():
+    return wb.compare(SETTING, [wb.entrant(one, 0.01) for one in (PD, casadi_pd(), control_pd())])
+
+
+def test_guests_run_as_the_law_does(compared):
+    assert [run.name for run in compared] == ["pd", "casadi_pd", "control_pd"]
+    for guest in ("casadi_pd", "control_pd"):
+        assert compared[guest]["x"] == pytest.approx(compared["pd"]["x"], abs=1e-12)
+
+
+def test_a_state_of_a_guest_moves_once_a_sample():
+    """An integrator in discrete time: after k samples of one its output is k times its step."""
+    matrices = [[1]], [[0.5, 0]], [[1]], [[0, 0]]
+    counter = control.ss(*matrices, 0.01, inputs=["r", "x"], outputs=["u"], name="counter")
+    setting = SETTING.varied(references={"r": wb.Constant(value=1.0)})
+    made = wb.entrant(counter, 0.01).build(setting, 0.01)
+    assert [float(made.command(0.0, np.zeros(2))[0]) for _ in range(4)] == [0.0, 0.5, 1.0, 1.5]
+
+
+@pytest.mark.parametrize(("guest", "words"), [
+    (lambda: ca.Function("f", [ca.SX.sym("t")], [ca.SX(1)]), "must take time, 2 outputs and 1 references"),
+    (lambda: control.ss([], [], [], [[1]], True, inputs=["z"], outputs=["u"], name="s"), "'z' is no output"),
+    (lambda: control.ss([], [], [], [[1]], True, inputs=["x"], outputs=["w"], name="s"), "must be the plant's inputs"),
+    (lambda: control.ss([], [], [], [[1]], 0.1, inputs=["x"], outputs=["u"], name="s"), "sample it anew")])
+def test_a_guest_that_does_not_fit_is_refused_in_one_line(guest, words):
+    with pytest.raises(ValueError, match=words):
+        wb.compare(SETTING, [wb.entrant(guest(), 0.01)])
+
+
+def test_results_show_themselves_in_a_notebook(compared):
+    shown = compared._repr_html_()
+    assert shown.count("<tr>") == 1 + 3 and "casadi_pd" in shown
+    assert compared["pd"]._repr_html_().count("<tr>") == 2
+    assert html_table([{"a": "<b>", "c": None}]).endswith("<tr><td>&lt;b&gt;</td><td></td></tr></tbody></table>")
+
+
+def test_a_run_is_a_dataset_with_units(compared, monkeypatch):
+    class Recorded:
+        def __init__(self, variables, coordinates, about):
+            self.variables, self.coordinates, self.about = variables, coordinates, about
+
+    monkeypatch.setitem(sys.modules, "xarray", type(sys)("xarray"))
+    sys.modules["xarray"].Dataset = Recorded
+    found = compared["pd"].to_xarray()
+    assert found.variables["x"][2] == {"units": "m"} and found.coordinates["t_s"][2] == {"units": "s"}
+    assert found.about["controller"] == "pd" and "t_s" not in found.variables
+
+
+def test_without_xarray_it_is_said_what_to_install(monkeypatch):
+    monkeypatch.setitem(sys.modules, "xarray", None)
+    with pytest.raises(WorkbenchError, match="pip install xarray"):
+        dataset({"t_s": np.zeros(1)}, {}, {})

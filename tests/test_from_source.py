@@ -1,0 +1,132 @@
+"""A paper's LaTeX source as rows: numbers as LaTeX prints them, letters, references, what is decided and what waits."""
+
+import shutil
+from pathlib import Path
+
+import pytest
+from test_cli import one_line, run
+
+from workbench.paper.source.document import read_source
+from workbench.paper.source.folder import write_from_source
+from workbench.paper.source.macros import SourceError, expanded
+from workbench.proof.latex.rows import ROWS, SYMBOLS, LettersFile, RowsFile, load_record
+from workbench.proof.prove import prove
+from workbench.proof.selection import targets
+
+SOURCES = Path(__file__).parent / "sources"
+
+
+@pytest.fixture(scope="module")
+def written(tmp_path_factory):
+    return write_from_source("doe2029", tmp_path_factory.mktemp("from"), SOURCES / "backstepping.tex")
+
+
+def rows_of(folder):
+    return {row.id: row for row in load_record(folder / ROWS, RowsFile).rows}
+
+
+def verdicts_of(folder):
+    return {one.claim.equation: one.verdict for one in prove(targets([str(folder)]), 1).decisions}
+
+
+def test_every_numbered_piece_is_a_row_with_latex_s_number_in_the_paper_s_order(written):
+    assert [*rows_of(written.folder)] == [
+        "1.1a", "1.1b", "assumption1", "1.2", "2.1", "2.2", "2.3", "A1", "2.4", "2.5.case1", "2.5.case2", "2.6",
+        "theorem1", "lemma2", "remark"]
+    assert written.unnumbered == 1
+    titles = [row.title for row in rows_of(written.folder).values() if row.role == "words"]
+    assert titles == ["Assumption 1: bounded disturbance", "Theorem 1", "Lemma 2", "Remark"]
+
+
+def test_macros_are_put_in_and_layout_is_taken_out(written):
+    rows = rows_of(written.folder)
+    assert rows["1.1b"].printed == r"\dot{\hat\theta} = \gamma x^2"
+    assert rows["2.2"].printed == r"V = \tfrac{1}{2} x^2 + \tfrac{1}{2}\frac{(\theta - \hat\theta)^2}{\gamma}"
+    assert rows["2.3"].printed == r"\dot V = \theta x^2 + x u - (\theta - \hat\theta) x^2 = -k x^2"
+    assert rows["2.5.case2"].line == r"|x| = -x \text{if} x < 0"
+
+
+def test_references_become_what_a_row_rests_on(written):
+    rows = rows_of(written.folder)
+    assert rows["2.3"].rests_on == ("1.1a", "1.1b", "2.1")
+    assert rows["theorem1"].rests_on == ("1.1a", "1.1b", "2.1", "2.3", "lemma2")
+    assert rows["lemma2"].rests_on == ("2.2",)
+
+
+def test_roles_and_letters_come_from_the_text_and_what_is_not_said_is_left_empty(written):
+    rows = rows_of(written.folder)
+    assert {row.id for row in rows.values() if row.role == "definition"} == {"2.1", "2.2"}
+    assert {row.id for row in rows.values() if row.role == "dynamics"} == {"1.1a", "1.1b"}
+    letters = load_record(written.folder / SYMBOLS, LettersFile).letters
+    found = {letter: (entry.kind, entry.role) for letter, entry in letters.items()}
+    assert found == {"x": ("real", "state"), r"\hat{\theta}": ("real", "state"), r"\theta": ("real", "constant"),
+                     "k": ("positive", "constant"), r"\gamma": ("positive", "constant"), "d": ("real", "input"),
+                     "D": ("positive", "constant"), "z": ("", "")}
+
+
+def test_what_has_its_letters_is_decided_at_once_and_the_rest_says_what_is_missing(written):
+    assert {row: verdict for row, verdict in written.verdicts.items() if verdict != "undecided"} == {
+        "1.1a": "assumed", "1.1b": "assumed", "1.2": "assumed", "2.1": "assumed", "2.2": "assumed", "2.3": "proved",
+        "A1": "proved", "2.4": "refuted", "2.5.case1": "proved", "2.5.case2": "proved"}
+    assert "z is: fill in kind" in written.missing["2.6"]
+    assert "words" in written.missing["theorem1"]
+    assert {row.id: row.recorded for row in rows_of(written.folder).values() if row.role == "claim"} == {
+        row: written.verdicts[row] for row in ("2.3", "A1", "2.4", "2.5.case1", "2.5.case2", "2.6")}
+
+
+def test_a_letter_filled_in_lets_its_row_be_decided_and_an_assumption_counts_where_it_is_named(written, tmp_path):
+    folder = tmp_path / "doe2029"
+    shutil.copytree(written.folder, folder)
+    table = (folder / SYMBOLS).read_text()
+    assert "'z'" in table
+    lines = [line.replace("kind = ''", "kind = 'real'") if line.startswith("'z'") else
+             line.replace("'real'", "'nonnegative'") if line.startswith("'x'") else line for line in table.splitlines()]
+    (folder / SYMBOLS).write_text("\n".join(lines) + "\n")
+    text = (folder / ROWS).read_text()
+    (folder / ROWS).write_text(text.replace(r"printed = 'x d \le x D'", "printed = 'x d \\le x D'\nrests_on = ['1.2']"))
+    found = verdicts_of(folder)
+    assert found["2.6"] == "proved" and found["2.4"] == "proved"
+
+
+def test_a_letter_that_may_move_is_no_constant_of_a_rate(written, tmp_path):
+    """Nobody says whether theta moves: V's rate may then not be taken as if it stood still."""
+    folder = tmp_path / "doe2029"
+    shutil.copytree(written.folder, folder)
+    table = (folder / SYMBOLS).read_text()
+    lines = [line.replace("'constant'", "''") if line.startswith(r"'\theta'") else line for line in table.splitlines()]
+    (folder / SYMBOLS).write_text("\n".join(lines) + "\n")
+    assert verdicts_of(folder)["2.3"] == "undecided"
+
+
+def test_a_second_paper_with_other_layouts(tmp_path):
+    found = write_from_source("roe2029", tmp_path, SOURCES / "twisting.tex")
+    assert dict(found.verdicts) == {"1": "assumed", "2": "assumed", "3": "proved", "4": "proved",
+                                    "theorem1": "undecided", "5": "refuted"}
+    assert rows_of(found.folder)["theorem1"].rests_on == ("3", "4")
+
+
+def test_the_command_says_what_was_found(tmp_path):
+    shutil.copy(SOURCES / "twisting.tex", tmp_path)
+    answer = run("new-paper", "roe2029", "--from", "twisting.tex", folder=tmp_path)
+    assert answer.returncode == 0, answer.stderr
+    assert "roe2029:4  proved" in answer.stdout and "roe2029:theorem1  not decided: " in answer.stdout
+    assert "exists already" in one_line(run("new-paper", "roe2029", "--from", "twisting.tex", folder=tmp_path))
+    (tmp_path / "empty.tex").write_text("nothing")
+    assert "no numbered equation" in one_line(run("new-paper", "poe2029", "--from", "empty.tex", folder=tmp_path))
+    assert not (tmp_path / "poe2029").exists()
+
+
+@pytest.mark.parametrize(("text", "plain"), [
+    (r"\newcommand{\al}{\alpha}\al x", r"\alpha x"), (r"\newcommand\f[2][a]{#1+#2}\f{b} \f[c]{d}", "a+b c+d"),
+    (r"\def\g#1{\hat{#1}}\g x", r"\hat{x}"), (r"\newcommand{\a}{\b}\newcommand{\b}{1}\a", "1"),
+    (r"\providecommand{\a}{2}\a \% % gone", r"2 \% % gone")])
+def test_macros(text, plain):
+    assert expanded(text) == plain
+
+
+@pytest.mark.parametrize(("text", "words"), [
+    (r"\newcommand{\a}{\a}\a", "stands for itself"), (r"\newcommand{\a}{b", "not closed"),
+    (r"\begin{equation} x = 1", "no end")])
+def test_a_source_that_cannot_be_read_is_one_line(text, words):
+    with pytest.raises(SourceError, match=words):
+        read_source(text)

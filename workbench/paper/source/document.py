@@ -1,0 +1,294 @@
+"""The body of a paper's LaTeX source as rows, in order and with the numbers that LaTeX would print."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+
+from workbench.paper.source.macros import SourceError, expanded, group, optional, without_comments
+
+DISPLAYS = ("equation", "align", "gather", "multline", "eqnarray", "flalign", "alignat")
+SKIPPED = ("verbatim", "lstlisting", "comment", "thebibliography", "tikzpicture")
+# Environments that styles define without \newtheorem in the source.
+USUAL = {"theorem": "Theorem", "lemma": "Lemma", "assumption": "Assumption", "remark": "Remark",
+         "definition": "Definition", "proposition": "Proposition", "corollary": "Corollary", "property": "Property"}
+_MARK = re.compile(r"\\(begin|end|section|appendix|eqref|[cC]ref|autoref|ref|label|setcounter)(?![A-Za-z])\*?")
+_LABEL = re.compile(r"\\label\s*\{([^{}]*)\}")
+_TAG = re.compile(r"\\tag\*?\s*\{([^{}]*)\}")
+_UNNUMBERED = re.compile(r"\\(?:nonumber|notag)(?![A-Za-z])")
+_NEWTHEOREM = re.compile(r"\\newtheorem(\*?)\s*\{([^{}]*)\}\s*(?:\[([^\]]*)\])?\s*\{([^{}]*)\}\s*(?:\[([^\]]*)\])?")
+_WITHIN = re.compile(r"\\numberwithin\s*\{equation\}\s*\{section\}")
+_REFERENCE = re.compile(r"\\(?:eqref|[cC]ref|autoref|ref)\s*\{([^{}]*)\}")
+_SPLIT = re.compile(r"\\\\(?:\s*\[[^\]]*\])?")
+_INNER = re.compile(r"\\begin\s*\{(\w+)\*?\}.*?\\end\s*\{\1\*?\}", re.DOTALL)
+_NESTED = re.compile(r"\\(begin|end)\s*\{[^{}]*\}|[{}]|\\.", re.DOTALL)
+
+
+@dataclass
+class Row:
+    """A numbered piece of a paper: its id, what it is ("Equation", "Lemma", ...), number, LaTeX as printed, label.
+
+    within: the id of the theorem or assumption in whose text an equation stands; referred: labels that its text, or
+    the text before it, refers to; proved_by: those that its proof does.
+    """
+
+    id: str
+    what: str
+    number: str
+    printed: str
+    labels: tuple[str, ...] = ()
+    title: str = ""
+    within: str = ""
+    referred: list[str] = field(default_factory=list)
+    rests_on: tuple[str, ...] = ()
+
+
+@dataclass
+class Source:
+    """What was found: rows in order, the running text for what it says of letters, and how many displayed formulas
+    have no number."""
+
+    rows: list[Row]
+    text: str
+    unnumbered: int
+
+
+def read_source(text: str) -> Source:
+    """The rows of a LaTeX source; raises SourceError in one line for what is not closed or has no rows."""
+    plain = expanded(without_comments(text))
+    begin = plain.find(r"\begin{document}")
+    preamble, body = (plain[:begin], plain[begin + 16:]) if begin >= 0 else (plain, plain)
+    end = body.find(r"\end{document}")
+    reader = _Reader(preamble, body if end < 0 else body[:end])
+    reader.read()
+    _resolve(reader)
+    if not reader.rows:
+        raise SourceError("the source has no numbered equation, assumption, theorem or remark: give the paper's own "
+                          "file, with what it inputs put in")
+    return Source(reader.rows, reader.body, reader.unnumbered)
+
+
+class _Reader:
+    """Walks through the source once, counting as LaTeX does."""
+
+    def __init__(self, preamble: str, body: str) -> None:
+        self.body, self.unnumbered = body, 0
+        self.rows: list[Row] = []
+        self.by_section = _WITHIN.search(preamble) is not None
+        self.names: dict[str, tuple[str, str, bool]] = {}  # environment -> name, counter, within sections
+        for star, name, shared, title, within in _NEWTHEOREM.findall(preamble):
+            self.names[name] = (title, "" if star else shared or name, within == "section")
+        for name, title in USUAL.items():
+            self.names.setdefault(name, (title, name, False))
+        self.counts: dict[str, int] = {}
+        self.section, self.part = 0, 0
+        self.parent = ""
+        self.pending: list[str] = []
+        self.group_labels: dict[str, list[str]] = {}
+        self.waiting: list[tuple[str, int]] = []  # labels of subequations, and from which row on they hold
+
+    def read(self) -> None:
+        """All rows, those within theorems after the theorem."""
+        self._walk(0, len(self.body), "")
+
+    def _walk(self, at: int, end: int, within: str) -> None:
+        while (found := _MARK.search(self.body, at, end)) is not None:
+            at = found.end()
+            word = found[1]
+            if word == "section" and not found.group().endswith("*"):
+                self.section += 1
+                if self.by_section:
+                    self.counts["equation"] = 0
+                self.counts.update({counter: 0 for _, counter, inside in self.names.values() if inside and counter})
+            elif word in ("ref", "eqref", "cref", "Cref", "autoref"):
+                labels, at = group(self.body, at)
+                self.pending += [label.strip() for label in labels.split(",")]
+            elif word == "setcounter":
+                counter, at = group(self.body, at)
+                value, at = group(self.body, at)
+                if value.strip().isdigit():
+                    self.counts[counter.strip()] = int(value)
+            elif word == "label" and self.waiting and self.waiting[-1][0] == "":
+                name, at = group(self.body, at)
+                self.waiting[-1] = (name.strip(), self.waiting[-1][1])
+            elif word in ("begin", "end"):
+                name, at = group(self.body, at)
+                at = self._environment(word, name.strip(), at, end, within)
+
+    def _environment(self, word: str, name: str, at: int, end: int, within: str) -> int:
+        if name == "subequations":
+            self._subequations(word)
+            return at
+        if word == "end":
+            return at
+        close = self._close(name, at, end)
+        if name in SKIPPED:
+            return close
+        base = name.removesuffix("*")
+        if base in DISPLAYS:
+            inside = self.body[group(self.body, at)[1] if base == "alignat" else at:close]
+            if base != name:
+                self.unnumbered += 1
+            else:
+                self._equations(base, inside, within)
+            return close
+        if base in self.names:
+            self._theorem(base, name != base, at, close)
+        elif name == "proof":
+            self._proof(at, close)
+        return close if base in self.names or name == "proof" else at
+
+    def _close(self, name: str, at: int, end: int) -> int:
+        r"""Where the environment that has just begun ends, at its \\end."""
+        depth = 1
+        for found in re.compile(rf"\\(begin|end)\s*\{{{re.escape(name)}\}}").finditer(self.body, at, end):
+            depth += 1 if found[1] == "begin" else -1
+            if depth == 0:
+                return found.start()
+        line = self.body.count("\n", 0, at) + 1
+        raise SourceError(rf"\begin{{{name}}} in line {line} of the document's body has no end")
+
+    def _subequations(self, word: str) -> None:
+        if word == "begin":
+            self.parent, self.part = self._counted("equation", self.by_section), 0
+            self.waiting.append(("", len(self.rows)))
+            return
+        label, first = self.waiting.pop() if self.waiting else ("", 0)
+        if label:
+            self.group_labels[label] = [row.id for row in self.rows[first:]]
+        self.parent = ""
+
+    def _counted(self, counter: str, by_section: bool) -> str:
+        self.counts[counter] = self.counts.get(counter, 0) + 1
+        return f"{self.section}.{self.counts[counter]}" if by_section else str(self.counts[counter])
+
+    def _equation_number(self) -> str:
+        if self.parent:
+            self.part += 1
+            return self.parent + chr(ord("a") + self.part - 1)
+        return self._counted("equation", self.by_section)
+
+    def _equations(self, name: str, text: str, within: str) -> None:
+        lines = [text] if name in ("equation", "multline") else _lines(text)
+        carried = ""
+        before = len(self.rows)
+        for line in lines:
+            if not line.strip():
+                continue
+            printed = _joined(carried, _clean(line))
+            tag = _TAG.search(line)
+            if tag is None and _UNNUMBERED.search(line):
+                carried = printed
+                continue
+            carried = ""
+            number = tag[1].strip() if tag else self._equation_number()
+            self._add(Row(_id(number), "Equation", number, printed, tuple(_LABEL.findall(line)), within=within,
+                          referred=self.pending + _references(line)))
+            self.pending = []
+        if carried and len(self.rows) > before:
+            self.rows[-1].printed = _joined(self.rows[-1].printed, carried)
+        elif carried:
+            self.unnumbered += 1
+
+    def _theorem(self, base: str, starred: bool, at: int, close: int) -> None:
+        what, counter, by_section = self.names[base]
+        title, begin = optional(self.body, at)
+        number = self._counted(counter, by_section) if counter and not starred else ""
+        text = self.body[begin:close]
+        row = Row(_id(f"{what.lower()}{number}"), what, number, " ".join(_LABEL.sub("", text).split()),
+                  tuple(_LABEL.findall(_without_displays(text))), title or "", referred=_references(text))
+        self._add(row)
+        self.pending = []
+        self._walk(begin, close, row.id)
+        self.pending = []
+
+    def _proof(self, at: int, close: int) -> None:
+        named, begin = optional(self.body, at)
+        of = _references(named or "")
+        owner = next((row for row in self.rows if set(row.labels) & set(of)), None) or next(
+            (row for row in reversed(self.rows) if row.what not in ("Equation", "Remark", "Assumption")), None)
+        if owner is not None:
+            owner.referred += _references(self.body[begin:close])
+        self.pending = []
+        self._walk(begin, close, "")
+        self.pending = []
+
+    def _add(self, row: Row) -> None:
+        taken = {one.id for one in self.rows}
+        number, base = 2, row.id
+        while row.id in taken:
+            row.id, number = f"{base}-{number}", number + 1
+        self.rows.append(row)
+
+
+def _resolve(reader: _Reader) -> None:
+    """Labels become ids; a row rests on earlier rows, a theorem on what its proof names as well, never in a circle."""
+    ids = {label: [row.id] for row in reader.rows for label in row.labels} | reader.group_labels
+    chains: dict[str, set[str]] = {}
+
+    def reaches(start: str, goal: str) -> bool:
+        seen, left = set(), [start]
+        while left:
+            one = left.pop()
+            if one == goal:
+                return True
+            if one not in seen:
+                seen.add(one)
+                left += chains.get(one, ())
+        return False
+
+    for row in reader.rows:
+        found: list[str] = []
+        for one in (one for label in row.referred for one in ids.get(label, ())):
+            if one not in found and not reaches(one, row.id):
+                found.append(one)
+        row.rests_on = tuple(found)
+        chains[row.id] = set(found)
+
+
+def _lines(text: str) -> Iterator[str]:
+    r"""The lines that \\\\ parts, but not those within braces or an inner environment."""
+    depth = start = at = 0
+    while at < len(text):
+        split = _SPLIT.match(text, at)
+        if split and depth == 0:
+            yield text[start:at]
+            start = at = split.end()
+            continue
+        found = _NESTED.match(text, at)
+        if found is None:
+            at += 1
+            continue
+        depth += 1 if found.group() == "{" or found[1] == "begin" else -1 if found.group() == "}" or found[1] else 0
+        at = found.end()
+    yield text[start:]
+
+
+def _clean(line: str) -> str:
+    """A line without what numbers and aligns it; what stands in an inner environment stays as it is."""
+    for pattern in (_LABEL, _TAG, _UNNUMBERED):
+        line = pattern.sub("", line)
+    inner = [found.span() for found in _INNER.finditer(line)]
+    kept = "".join(sign for at, sign in enumerate(line)
+                   if sign != "&" or line[at - 1:at] == "\\" or any(start <= at < end for start, end in inner))
+    return " ".join(kept.split()).rstrip(" .,;")
+
+
+def _joined(first: str, second: str) -> str:
+    return f"{first} {second}".strip()
+
+
+def _references(text: str) -> list[str]:
+    return [label.strip() for labels in _REFERENCE.findall(text) for label in labels.split(",")]
+
+
+def _without_displays(text: str) -> str:
+    names = "|".join((*DISPLAYS, "subequations"))
+    return re.sub(rf"\\begin\s*\{{({names})\*?\}}.*?\\end\s*\{{\1\*?\}}", "", text, flags=re.DOTALL)
+
+
+def _id(text: str) -> str:
+    """A number as the name of a claim."""
+    found = re.sub(r"[^A-Za-z0-9.+-]+", "-", text.replace("'", "prime")).strip("-.+") or "row"
+    return found[:60]

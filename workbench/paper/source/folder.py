@@ -1,0 +1,176 @@
+"""A paper's folder made from its LaTeX source: rows and letters as tables, decided as far as they are filled in."""
+
+from __future__ import annotations
+
+import json
+import re
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path, PurePath
+
+from workbench.errors import InputError
+from workbench.files.text import read_text
+from workbench.files.writing import write_text, write_tree
+from workbench.paper.new_paper import new_folder
+from workbench.paper.source.document import Row, Source, read_source
+from workbench.paper.source.letters import table_of
+from workbench.paper.source.macros import SourceError
+from workbench.proof.latex.error import LatexError
+from workbench.proof.latex.read import read_line
+from workbench.proof.latex.rows import ROWS, SYMBOLS, LetterEntry, Role, RowEntry, moving_sides, sides_of
+from workbench.proof.latex.statement import parted
+from workbench.proof.prove import prove
+from workbench.proof.selection import targets
+
+REMEDY = "name another --directory"
+_CASES = re.compile(r"(?P<before>.*?)(?:\\left)?\s*(?:\\\{|\\lbrace)?\s*\\begin\s*\{cases\}"
+                    r"(?P<lines>.*?)\\end\s*\{cases\}(?:\s*\\right\s*\.)?\s*", re.DOTALL)
+_WORDS = re.compile(r"\\(?:text|mbox|textrm)\s*\{\s*(?:if|for|when|otherwise|,)*\s*\}|\\quad|\\qquad", re.IGNORECASE)
+PAPER = '''"""{name}: rows of the paper's source; symbols.toml says what its letters are, rows.toml what each row is.
+
+Citation of the paper: author, title, journal, year.
+"""
+
+from workbench.proof.paper import Paper
+
+paper = Paper("{name}", " ".join((__doc__ or "").split("\\n\\n")[1].split()))
+'''
+CLAIMS = '''"""Every row of rows.toml as a claim: decided where symbols.toml says what its letters are."""
+
+from pathlib import Path
+
+from workbench.proof.latex.rows import state_rows
+
+from ..paper import paper
+
+state_rows(paper, Path(__file__).parents[1])
+'''
+
+
+@dataclass(frozen=True)
+class FromSource:
+    """What was written: the folder, the verdict of each row, why rows are not decided, formulas without number."""
+
+    folder: Path
+    verdicts: Mapping[str, str]
+    missing: Mapping[str, str]
+    unnumbered: int
+
+
+def write_from_source(name: str, directory: Path, source: Path) -> FromSource:
+    """Write the folder <name> with a row for every numbered piece of a LaTeX source, and decide what can be.
+
+    Raises InputError for a source that cannot be read or has no rows, and as `write_new_paper` does.
+    """
+    folder = new_folder(name, directory)
+    try:
+        found = read_source(read_text(source, "LaTeX"))
+    except SourceError as trouble:
+        raise InputError(source, "", str(trouble)) from None
+    rows = [entry for row in found.rows for entry in entries(row, found)]
+    rows = _with_roles(rows, found)
+    letters = table_of(rows, found.text)
+    write_tree(folder, {
+        PurePath("paper.py"): PAPER.format(name=name).encode(), PurePath("claims/rows.py"): CLAIMS.encode(),
+        PurePath(ROWS): rows_text(rows).encode(), PurePath(SYMBOLS): letters_text(letters).encode()}, REMEDY)
+    decided = prove(targets([str(folder)]), 1)
+    verdicts = {decision.claim.equation: decision.verdict for decision in decided.decisions}
+    recorded = [row.model_copy(update={"recorded": verdicts.get(row.id, "undecided")}) if row.role == "claim" else row
+                for row in rows]
+    write_text(folder / ROWS, rows_text(recorded), REMEDY)
+    return FromSource(folder, verdicts, {d.claim.equation: d.method for d in decided.decisions
+                                         if d.verdict == "undecided"}, found.unnumbered)
+
+
+def entries(row: Row, source: Source) -> list[RowEntry]:
+    """A row as it stands in the table; a formula of cases is one row for each case, under its condition."""
+    title = f"{row.what} {row.number}".strip() + (f": {row.title}" if row.title else "")
+    assumed = {one.id for one in source.rows if one.what == "Assumption"}
+    whole = RowEntry(id=row.id, title=title, role="claim", printed=row.printed or row.what, rests_on=row.rests_on,
+                     severity="result" if row.what in ("Theorem", "Corollary", "Proposition") else "step")
+    if row.what != "Equation":
+        inside = tuple(one.id for one in source.rows if one.within == row.id)
+        rests = tuple(dict.fromkeys((*row.rests_on, *(one for one in inside if row.id not in _of(source, one)))))
+        return [whole.model_copy(update={"role": "words", "rests_on": rests})]
+    if row.within in assumed:
+        return [whole.model_copy(update={"role": "assumption"})]
+    cases = _cases(row.printed)
+    return [whole] if not cases else [
+        whole.model_copy(update={"id": f"{row.id}.case{number}", "title": f"{title}, case {number}", "line": line})
+        for number, line in enumerate(cases, 1)]
+
+
+def _of(source: Source, id_: str) -> tuple[str, ...]:
+    return next(row.rests_on for row in source.rows if row.id == id_)
+
+
+def _cases(printed: str) -> list[str]:
+    """Each case as a line with its condition; none where the formula has no column of conditions."""
+    found = _CASES.fullmatch(printed)
+    lines = [line for line in found["lines"].split(r"\\") if line.strip()] if found else []
+    if not found or any(line.count("&") != 1 for line in lines):
+        return []
+    parts = [tuple(_WORDS.sub(" ", part).strip(" ,.;") for part in line.split("&")) for line in lines]
+    if not all(value and condition for value, condition in parts):
+        return []
+    return [" ".join(rf"{found['before']} {value} \text{{if}} {condition}".split()) for value, condition in parts]
+
+
+def _with_roles(rows: list[RowEntry], source: Source) -> list[RowEntry]:
+    """The first line that gives a letter a value defines it, the first that gives it a rate moves it."""
+    defined: set[str] = set()
+    moved: set[str] = set()
+    found = []
+    states = {letter for row in rows if row.role == "claim" for letter, _ in moving_sides(row.line or row.printed)
+              if not any(letter == one for other in rows for one, _ in sides_of(other.line or other.printed))}
+    for row in rows:
+        role: Role = row.role
+        line = row.line or row.printed
+        if role == "claim" and row.line is None:
+            values, rates = dict(sides_of(line)), dict(moving_sides(line))
+            chains = _chains(line)
+            if values and len(values) == chains and not set(values) & (defined | states):
+                role = "definition"
+                defined |= set(values)
+            elif rates and len(rates) == chains and set(rates) <= states - moved:
+                role = "dynamics"
+                moved |= set(rates)
+        found.append(row.model_copy(update={"role": role}))
+    return found
+
+
+def _chains(line: str) -> int:
+    try:
+        return len(parted(read_line(line))[0])
+    except LatexError:
+        return 0
+
+
+def rows_text(rows: list[RowEntry]) -> str:
+    """The table of rows as TOML."""
+    parts = ["# Every numbered piece of the paper, in its order. role: claim is decided; definition, dynamics and\n"
+             "# assumption are taken as they are; words wait for a goal of yours. `line` is what is read instead of\n"
+             "# `printed`. `recorded` is the verdict on record.\n"]
+    for row in rows:
+        values = row.model_dump(exclude_none=True)
+        parts.append("[[rows]]\n" + "".join(f"{key} = {_toml(value)}\n" for key, value in values.items()
+                                            if value not in ((), "step") and not (
+                                                key == "recorded" and row.role != "claim")))
+    return "\n".join(parts)
+
+
+def letters_text(letters: Mapping[str, LetterEntry]) -> str:
+    """The table of letters as TOML."""
+    width = max((len(_toml(letter)) for letter in letters), default=0)
+    lines = [f"{_toml(letter):{width}} = {{ kind = {_toml(entry.kind)}, role = {_toml(entry.role)} }}"
+             for letter, entry in letters.items()]
+    return ("# What the paper's letters are. kind: real, positive, nonnegative or vector; role: constant, state or\n"
+            "# input (may vary in time). Fill in what is empty; letters that a row defines are not listed.\n[letters]\n"
+            + "".join(f"{line}\n" for line in lines))
+
+
+def _toml(value: object) -> str:
+    if isinstance(value, (tuple, list)):
+        return f"[{', '.join(map(_toml, value))}]"
+    text = str(value)
+    return json.dumps(text) if "'" in text or any(ord(sign) < 32 for sign in text) else f"'{text}'"

@@ -1,0 +1,84 @@
+"""What a paper's own text says of its letters, by formulas within the text and words such as "positive constants"."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+
+from workbench.proof.latex.error import LatexError
+from workbench.proof.latex.read import read_line
+from workbench.proof.latex.rows import (
+    LetterEntry,
+    RowEntry,
+    letter_latex,
+    letters_of_text,
+    moving_sides,
+    sides_of,
+    text_of,
+)
+from workbench.proof.latex.tree import Letter, Node, Number
+
+_INLINE = re.compile(r"(?<!\\)\$(?!\$)(.+?)(?<!\\)\$|\\\((.+?)\\\)", re.DOTALL)
+_LIST = r"((?:\$[^$]+\$(?:\s*,\s*(?:and\s+)?|\s+and\s+)?)+)"
+_CONSTANTS = re.compile(r"\b(?:constants?|gains?|parameters?)\b[^.$]{0,30}" + _LIST, re.IGNORECASE)
+_POSITIVE = re.compile(r"\b(?<!non)(?<!non-)positive\s+(?:\w+\s+){0,3}" + _LIST, re.IGNORECASE)
+_INPUTS = re.compile(r"\b(?:disturbances?|inputs?|references?)\b[^.$]{0,30}" + _LIST, re.IGNORECASE)
+_SIGNS = {">": "positive", ">=": "nonnegative"}
+
+
+def table_of(rows: list[RowEntry], text: str) -> dict[str, LetterEntry]:
+    """Every letter of the rows that can be read, with what the text says of it; empty entries are for the author.
+
+    Letters that a row defines have no entry: their definition says what they are.
+    """
+    found: dict[str, None] = {}
+    for row in rows:
+        if row.role != "words":
+            found |= dict.fromkeys(sorted(letters_of_text(text_of(row))))
+    defined = {letter for row in rows if row.role == "definition" for letter, _ in sides_of(text_of(row))}
+    states = {letter for row in rows if row.role == "dynamics" for letter, _ in moving_sides(text_of(row))}
+    kinds = dict(_kinds(text))
+    kinds = dict.fromkeys(_named(_POSITIVE, text), "positive") | kinds
+    constants, inputs = set(_named(_CONSTANTS, text)), set(_named(_INPUTS, text))
+    entries = {}
+    for letter in found:
+        if letter in defined:
+            continue
+        role = ("state" if letter in states else "input" if letter in inputs and letter not in constants
+                else "constant" if letter in constants else "")
+        entries[letter] = LetterEntry.model_validate({"kind": kinds.get(letter, ""), "role": role})
+    return entries
+
+
+def _named(pattern: re.Pattern[str], text: str) -> Iterator[str]:
+    """The letters in the list of formulas that some words stand before."""
+    for found in pattern.finditer(text):
+        for inline in _INLINE.finditer(found[1]):
+            yield from letters_of_text(inline[1] or inline[2])
+
+
+def _kinds(text: str) -> Iterator[tuple[str, str]]:
+    r"""Letters whose sign a formula in the text says, as `k, c > 0`, or that they are real, as `x \in \mathbb{R}`."""
+    for inline in _INLINE.finditer(text):
+        try:
+            line = read_line((inline[1] or inline[2]).strip(" .,;"))
+        except LatexError:
+            continue
+        waiting: list[Node] = []
+        for chain in line.chains:
+            waiting.append(chain.sides[0])
+            if not chain.signs:
+                continue
+            kind = _kind(chain.signs, chain.sides[1:])
+            for side in waiting:
+                if kind and isinstance(side, Letter):
+                    yield letter_latex(side), kind
+            waiting = []
+
+
+def _kind(signs: tuple[str, ...], rest: tuple[Node, ...]) -> str:
+    if len(signs) != 1:
+        return ""
+    if signs[0] in _SIGNS and isinstance(rest[0], Number) and rest[0].value == 0:
+        return _SIGNS[signs[0]]
+    return "real" if signs[0] == "in" and isinstance(rest[0], Letter) and rest[0].name == r"\mathbb{R}" else ""

@@ -1,0 +1,140 @@
+"""An author's own commands put in, so that what follows reads plain LaTeX."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass
+
+MOST_EXPANSIONS = 100_000
+LONGEST_SOURCE = 10_000_000
+
+_COMMENT = re.compile(r"(?<!\\)((?:\\\\)*)%.*")
+_DEFINED = re.compile(r"\\(?:(?:re)?new|provide)command\*?|\\DeclareMathOperator\*?|\\def(?![A-Za-z])")
+_COMMAND = re.compile(r"\\(?:[A-Za-z@]+|.)", re.DOTALL)
+_COUNT = re.compile(r"\s*\[(\d)\]")
+_PARAMETER = re.compile(r"#(\d)")
+
+
+class SourceError(ValueError):
+    """LaTeX that cannot be read, in one line."""
+
+
+@dataclass(frozen=True)
+class Macro:
+    """A command of the author's: how many arguments it takes, the first one's default, and what it stands for."""
+
+    count: int
+    default: str | None
+    body: str
+
+
+def without_comments(text: str) -> str:
+    """The source without what stands behind a percent sign."""
+    return _COMMENT.sub(r"\1", text)
+
+
+def expanded(text: str) -> str:
+    r"""The source with \\newcommand, \\def and \\DeclareMathOperator taken out and what they define put in.
+
+    Raises SourceError for a definition without braces, and for commands that never end.
+    """
+    macros: dict[str, Macro] = {}
+    plain: list[str] = []
+    at = 0
+    for found in _DEFINED.finditer(text):
+        if found.start() < at:  # within a definition
+            continue
+        plain.append(text[at:found.start()])
+        name, macro, at = _definition(text, found)
+        if name not in macros or "provide" not in found.group():
+            macros[name] = macro
+    plain.append(text[at:])
+    return _put("".join(plain), macros)
+
+
+def group(text: str, at: int) -> tuple[str, int]:
+    """What stands in the braces that open at a place, or the single piece there, and where it ends."""
+    while at < len(text) and text[at].isspace():
+        at += 1
+    if at >= len(text):
+        raise SourceError("an argument is missing at the end of the source")
+    if text[at] != "{":
+        piece = _COMMAND.match(text, at)
+        return (piece.group(), piece.end()) if piece else (text[at], at + 1)
+    depth, end = 0, at
+    while end < len(text):
+        if text[end] == "\\":
+            end += 2
+            continue
+        depth += {"{": 1, "}": -1}.get(text[end], 0)
+        end += 1
+        if depth == 0:
+            return text[at + 1:end - 1], end
+    raise SourceError(f"line {text.count(chr(10), 0, at) + 1}: a brace '{{' is not closed")
+
+
+def optional(text: str, at: int) -> tuple[str | None, int]:
+    """What stands in square brackets at a place, None where there are none, and where it ends."""
+    found = re.compile(r"\s*\[").match(text, at)
+    if found is None:
+        return None, at
+    depth, end = 0, found.end()
+    while end < len(text) and (depth or text[end] != "]"):
+        depth += {"{": 1, "}": -1}.get(text[end], 0)
+        end += 1
+    return text[found.end():end], end + 1
+
+
+def _definition(text: str, found: re.Match[str]) -> tuple[str, Macro, int]:
+    name, at = group(text, found.end())
+    if found.group().startswith("\\def"):
+        body_at = text.find("{", at)
+        count = len(_PARAMETER.findall(text[at:body_at]))
+        body, end = group(text, max(at, body_at))
+        return name.strip(), Macro(count, None, body), end
+    if "Operator" in found.group():
+        body, end = group(text, at)
+        return name.strip(), Macro(0, None, rf"\operatorname{{{body}}}"), end
+    counted = _COUNT.match(text, at)
+    count, at = (int(counted[1]), counted.end()) if counted else (0, at)
+    default, at = optional(text, at) if count else (None, at)
+    body, end = group(text, at)
+    return name.strip(), Macro(count, default, body), end
+
+
+def _put(text: str, macros: dict[str, Macro]) -> str:
+    """Every command of the author's replaced, what stands in its place read again."""
+    out: list[str] = []
+    at = expansions = 0
+    while found := _COMMAND.search(text, at):
+        out.append(text[at:found.start()])
+        macro = macros.get(found.group())
+        if macro is None:
+            out.append(found.group())
+            at = found.end()
+            continue
+        expansions += 1
+        if expansions > MOST_EXPANSIONS or len(text) > LONGEST_SOURCE:
+            raise SourceError(f"the command {found.group()} stands for itself, or for too much: define it otherwise")
+        body, end = _applied(text, found.end(), macro)
+        rest = text[end:]
+        # A command's name ends where no letter follows: \al x, with \al for \alpha, is not \alphax.
+        apart = " " if re.search(r"\\[A-Za-z]+$", body) and rest[:1].isalpha() else ""
+        text, at = body + apart + rest, 0
+    return "".join((*out, text[at:]))
+
+
+def _applied(text: str, at: int, macro: Macro) -> tuple[str, int]:
+    values: list[str] = []
+    if macro.default is not None:
+        first, at = optional(text, at)
+        values.append(macro.default if first is None else first)
+    while len(values) < macro.count:
+        value, at = group(text, at)
+        values.append(value)
+
+    def value_of(found: re.Match[str]) -> str:
+        number = int(found[1])
+        return values[number - 1] if 0 < number <= len(values) else found.group()
+
+    return _PARAMETER.sub(value_of, macro.body), at
