@@ -10,6 +10,7 @@ from pathlib import Path
 
 from workbench.cli.loading import load
 from workbench.files.folders import papers_in
+from workbench.files.units import KWH_J
 from workbench.model.curve_table import read_rows
 from workbench.optimal.curve_request import requested_curve
 from workbench.optimal.export import write_csv
@@ -17,7 +18,6 @@ from workbench.paper.tracked import Tracked
 from workbench.paper.tracking import track
 
 PROOFS = Path(__file__).resolve().parent.parent / "proofs"
-KWH_J = 3.6e6
 
 
 def line(found: Tracked, which: str) -> str:

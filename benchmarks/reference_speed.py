@@ -24,6 +24,7 @@ import casadi as ca
 import numpy as np
 
 from workbench.errors import WorkbenchError
+from workbench.files.units import KWH_J
 from workbench.optimal.course import Array, Course
 from workbench.optimal.grid import graded_grid
 from workbench.optimal.inputs.files import load_line, load_vehicle
@@ -37,7 +38,6 @@ from workbench.optimal.vehicle import ForceLimit, Vehicle
 SHARED = Path(__file__).parent.parent.parent / "shared" / "ttobench"
 TIME_S, ENDS = 1541.0, (1.0, 1.0)
 GPOPS_KWH = 440.1414723
-KWH_J = 3.6e6
 INTERVALS = (100, 300, 500, 1000, 3000, 10_000)
 REPEATS = 3
 

@@ -16,12 +16,12 @@ from pathlib import Path
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 
 from workbench.errors import WorkbenchError
+from workbench.files.units import KWH_J
 from workbench.optimal.inputs.files import load_line, load_vehicle
 from workbench.optimal.inputs.line import course
 from workbench.optimal.reference import find_reference, least_time
 
 SHARED = Path(__file__).parent.parent.parent / "shared" / "ttobench"
-KWH_J = 3.6e6
 
 
 def main() -> None:

@@ -127,6 +127,7 @@ def test_the_command_says_its_verdict_by_its_exit_code(symbols, tmp_path):
     document = json.loads((tmp_path / "answer.json").read_text())
     assert document["verdict"] == "proved" and document["goal"]["show"] == [r"\lambda^{2} \ge 0"]
     check(document["certificate"])
+    assert asked_for(r"-\lambda^2 \le 0").returncode == 0
     refuted = asked_for(r"\lambda^2 > 0")
     assert refuted.returncode == 1 and "λ = 0" in refuted.stdout
     refused = asked_for(r"\mu > 0")

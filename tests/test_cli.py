@@ -181,3 +181,8 @@ def test_a_tampered_certificate_is_named(tmp_path):
     path.write_text(path.read_text().replace("proved", "refuted"))
     result = run("check-certificates", "certificates", folder=tmp_path)
     assert result.returncode == 1 and path.name in result.stderr
+
+
+@pytest.mark.parametrize("verb", ["prove", "show", "compare", "gains"])
+def test_an_empty_name_is_not_the_folder_one_is_in(verb, tmp_path):
+    assert "'.' for" in one_line(run(verb, "", folder=tmp_path))

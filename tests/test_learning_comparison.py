@@ -16,7 +16,7 @@ from workbench.paper.statistics import ahead_from
 
 COLUMNS = {"speed_rms": Column("speed RMS", "m/s"), "jerk_rms": Column("jerk RMS", "m/s³"), "step_s": STEP}
 DRIVERS = Drivers({"learner": "the learner", "mpc_linear": "linear MPC"}, lambda study: {"here": "the line"},
-                  lambda study, name: {}, lambda study, name, values: study, lambda *_: {})
+                  lambda study, name: {}, lambda *_: {})
 STUDY = SimpleNamespace(
     trials=SimpleNamespace(count=3),
     tuning=SimpleNamespace(set={}, runs=1, objective=SimpleNamespace(units={"speed_rms": 0.1})))

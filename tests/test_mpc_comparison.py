@@ -1,9 +1,11 @@
 """Laws and MPC side by side: which runs there are, and what table, sentences and figure say of them."""
 
 from types import SimpleNamespace
+from typing import Any
 
 import numpy as np
 import pytest
+from pydantic import BaseModel
 
 from workbench.model.desired_curve import start_cruise_stop
 from workbench.paper.comparison import (
@@ -18,6 +20,7 @@ from workbench.paper.comparison import (
     comparison_table,
     comparison_tasks,
 )
+from workbench.paper.dotted import value_at, with_value_at
 from workbench.paper.drivers import MPC_NAMES, Drivers
 from workbench.paper.mpc_comparison import MPC_KINDS, MpcData, counters_words, known, run_mpc
 from workbench.paper.stages import run_stages
@@ -40,24 +43,28 @@ def drive(study, name, place, factors):
     return row(study.errors[name] * (2 if place == "hill" else 1), counters={"qp": 3})
 
 
-def given(study, name, values):
-    return SimpleNamespace(**vars(study) | {"errors": study.errors | {name: values["error"]}})
+class Errors(BaseModel):
+    """A study of which nothing is stated but the errors that its controllers make."""
+
+    mpc: Any = DATA
+    tuning: Any = None
+    errors: dict[str, float]
 
 
 def variants(study, name):
-    return {"": study} if name in MPC_NAMES else {", low": study, ", high": given(study, name, {"error": 0.3})}
+    return {"": study} if name in MPC_NAMES else {", low": study, ", high": with_value_at(study, f"errors.{name}", 0.3)}
 
 
 DRIVERS = Drivers({"law": "the law", "mpc_linear": "linear MPC"},
                   lambda study: {"flat": "run flat", "hill": "run hill"},
-                  lambda study, name: {"error": study.errors[name]}, given, drive, variants)
+                  lambda study, name: {"error": f"errors.{name}"}, drive, variants)
 
 
 @pytest.fixture
 def study():
     tuning = SimpleNamespace(found={"law": {"error": 0.05}}, runs=10, objective=SimpleNamespace(
         units={"position_rms": 0.1, "logged_jerk_rms": 0.3}))
-    return SimpleNamespace(mpc=DATA, tuning=tuning, errors={"law": 0.2, "mpc_linear": 0.1})
+    return Errors(tuning=tuning, errors={"law": 0.2, "mpc_linear": 0.1})
 
 
 def compared(study):
@@ -124,3 +131,16 @@ def test_mpc_follows_a_curve_within_the_limits_that_it_knows(kind):
     run = run_mpc(of, kind, setting)
     assert run.failed is None and np.abs(run.column("s_m") - run.column("s_desired_m")).max() < 0.1
     assert np.abs(run.column("u_mps2")).max() <= 1.0 + 1e-9 and run.counters["qp_failed"] == 0
+
+
+def test_a_value_is_read_and_replaced_where_its_key_says():
+    class Gains(BaseModel):
+        k: tuple[float, ...]
+
+    class Own(BaseModel):
+        gains: dict[str, Gains]
+
+    of = Own(gains={"first": Gains(k=(1.0, 2.0, 3.0)), "second": Gains(k=(4.0,))})
+    other = with_value_at(of, "gains.first.k.1", 9.0)
+    assert value_at(of, "gains.first.k.1") == 2.0 and value_at(other, "gains.first.k.1") == 9.0
+    assert other.gains["first"].k == (1.0, 9.0, 3.0) and other.gains["second"] is of.gains["second"]

@@ -8,12 +8,14 @@ import sys
 import numpy as np
 import pytest
 from refusals import refusal
+from scenarios import PROOFS
 from test_report import read
 
 from workbench.cli import app as cli
 from workbench.cli.loading import load
 from workbench.paper.results import Curve, Plot, ResultTable, StudyResult
 from workbench.paper.stages import Stage, run_stages
+from workbench.report import build as building
 from workbench.report.build import Asked, build_study_report, run_study, study_document
 from workbench.report.sources import sourced_values
 from workbench.report.study_figures import study_plot
@@ -203,6 +205,15 @@ def test_progress_comes_through(tiny):
     steps = []
     run_study(load(tiny), 3, lambda *step: steps.append(step))
     assert steps == [("runs", 1, 1)]
+
+
+@pytest.mark.parametrize(("full", "drawn"), [(False, 20), (True, 100)])
+def test_a_report_draws_few_trains_unless_it_is_to_be_full(tmp_path, full, drawn):
+    asked = Asked.of(load(PROOFS / "mao2018"), [], tmp_path / "out", full=full)
+    assert (asked.draws(100), asked.draws(7)) == (drawn, 7) and asked.command.endswith(" --full") == full
+    assert building._with_draws(asked).study.pairs.draws == drawn
+    assert building._draws_words(asked) == ("" if full else "the first 20 of 100; all with --full")
+    assert asked.loaded.study.pairs.draws == 100, "the page shows what is stated"
 
 
 def _square(offset, task):

@@ -11,8 +11,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scenarios import DRIVEN, LINES, PROOFS, SHARED, TRAIN_PAPERS, TRAINS, line_name
 
+from proofs.liu2020.simulation.trip import davis_newton
 from proofs.liu2020.study.record import LiuStudy
-from proofs.liu2020.study.scenario import davis_newton
 from workbench.cli.loading import load
 from workbench.errors import InputError
 from workbench.files.toml import load_record

@@ -22,13 +22,13 @@ from workbench.contest.record import Contest
 from workbench.errors import InputError
 from workbench.files.folders import held_in
 from workbench.files.modules import module_in
-from workbench.paper.drivers import Drivers, entries, shortened, tune_with
+from workbench.paper.drivers import Drivers, entries, tune_with
 from workbench.paper.mpc_comparison import FOLLOWS_MPS, best_words
 from workbench.paper.pairs import compared_pairs, factors_of, pair_findings, pair_stage, pair_table, pairs_of
 from workbench.paper.parameter_search import Finished, binding, score, search
 from workbench.paper.results import ResultTable
 from workbench.paper.stages import run_stages
-from workbench.paper.study import StudyKind
+from workbench.paper.study import StudyKind, varied
 from workbench.paper.tune import BEGIN, tune_run
 from workbench.simulate.closed_loop import NOMINAL, Factors
 
@@ -50,7 +50,7 @@ def study(name: str) -> Any:
 
 
 def short(name: str) -> Any:
-    return shortened(study(name), SHORT[name], "test")
+    return varied(study(name), SHORT[name], "test")
 
 
 def place_of(name: str) -> str:
@@ -154,7 +154,7 @@ def test_law_and_mpc_have_one_budget_ranges_around_what_is_stated_and_something_
 @pytest.mark.parametrize("name", STUDIES)
 def test_what_was_found_is_no_worse_than_what_is_stated_in_the_tunings_own_runs(name: str) -> None:
     drivers, tuning = DRIVERS[name], study(name).tuning
-    of, goal = shortened(study(name), tuning.set, "tuning.set"), tuning.objective
+    of, goal = varied(study(name), tuning.set, "tuning.set"), tuning.objective
     for controller in drivers.titles:
         costs = [0.0, 0.0]
         for state, driven in enumerate((of, drivers.tuned(of, controller))):

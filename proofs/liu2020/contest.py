@@ -10,7 +10,7 @@ from workbench.simulate.setting_loop import law_loop
 from workbench.trains.scenario import ControllerSpec, Scenario
 
 from .laws import LAWS
-from .study.scenario import centers_along
+from .simulation.trip import centers_along
 
 OBSERVED = ("k_1", "k_2", "k_3", "k_4", "k_5")
 LEARNED = ("Gamma_f", "alpha_1", "Gamma_v", "alpha_2", "kappa_1", "kappa_2", "leak_rate_per_s", "width", "tau")

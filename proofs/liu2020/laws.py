@@ -34,6 +34,7 @@ def indexed(name: str) -> sp.Indexed:
 s_hat, v_hat, delta_hat, theta_hat = sp.symbols("s_hat v_hat delta_hat theta_hat", real=True)
 s_d, sdot_d, sddot_d = sp.symbols("s_d sdot_d sddot_d", real=True)
 k_1, k_2, k_3, k_4, k_5 = sp.symbols("k_1:6", positive=True)
+FEEDBACK_GAINS = tuple(map(str, (k_1, k_2, k_3, k_4, k_5)))
 kappa_1, kappa_2, alpha_1, alpha_2, beta_1, beta_2 = sp.symbols(
     "kappa_1 kappa_2 alpha_1 alpha_2 beta_1 beta_2", positive=True)
 sigma_f, sigma_v = sp.symbols("sigma_f sigma_v", positive=True)

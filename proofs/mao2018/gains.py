@@ -31,8 +31,8 @@ from . import leakage, plant
 from .laws import KINDS, failure_law
 from .leakage import leak
 from .leakage_proof import leakage_certificates
+from .simulation.trip import initial, parameters, setting_of
 from .study.record import MaoStudy
-from .study.scenario import initial, parameters, setting_of
 
 Values = dict[sp.Expr, sp.Expr]
 BALL_M = Fraction(1, 10)  # wanted root mean square of z_1

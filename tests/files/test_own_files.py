@@ -12,11 +12,12 @@ from refusals import refusal
 
 from workbench.errors import ClaimError
 from workbench.gains.certificate import write_certificates as write_gains
-from workbench.paper.results import Curve, Plot
+from workbench.paper.results import Curve
 from workbench.proof.checker import check_folder
 from workbench.proof.document import Places, check_places, write_certificates, write_folder
 from workbench.proof.verdict import Decision, Stated, is_equation, is_paper_name
-from workbench.report.study_page import write_curves
+from workbench.report.charts.chart import Chart, Panel
+from workbench.report.charts.files import write_curves
 
 MINE = '{"mine": 1}\n'
 
@@ -196,16 +197,17 @@ def test_what_has_not_changed_is_not_written_again(tmp_path):
     assert before == {path: path.stat().st_ino for path in tmp_path.rglob("*.json")}
 
 
-def plot(title: str) -> Plot:
-    return Plot(title, "a test", "t in s", "x in m", (Curve("one", np.array([0.0, 1.0]), np.array([0.5, 2.0])),))
+def chart(title: str) -> Chart:
+    curve = Curve("one", np.array([0.0, 1.0]), np.array([0.5, 2.0]))
+    return Chart(title, "t in s", (Panel("x in m", (curve,)),))
 
 
 def test_curves_of_an_earlier_report_go_and_others_stay(tmp_path):
-    write_curves([plot("First: a/b"), plot("../Second")], tmp_path)
+    write_curves([chart("First: a/b"), chart("../Second")], tmp_path)
     assert set(tree(tmp_path)) == {"curves/01-first-a-b.csv", "curves/02-second.csv", "curves/manifest.json"}
     (tmp_path / "curves" / "03-mine.csv").write_text("t,x\n1,2\n")
-    write_curves([plot("First: a/b")], tmp_path)
+    write_curves([chart("First: a/b")], tmp_path)
     assert set(tree(tmp_path)) == {"curves/01-first-a-b.csv", "curves/03-mine.csv", "curves/manifest.json"}
     (tmp_path / "curves" / "02-other.csv").write_text("t,x\n1,2\n")
-    assert "is not a file that the workbench wrote" in refusal(write_curves, [plot("First"), plot("Other")], tmp_path)
+    assert "is not a file that the workbench wrote" in refusal(write_curves, [chart("First"), chart("Other")], tmp_path)
     assert (tmp_path / "curves" / "02-other.csv").read_text() == "t,x\n1,2\n"

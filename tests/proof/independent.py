@@ -62,7 +62,7 @@ class Evaluated:
     @cached_property
     def exact(self):
         """The differences of all relations as mpmath computes them, to the digits in force."""
-        return sp.lambdify(self.symbols, [e for e, _ in (*self.given, *self.shown)], modules="mpmath")
+        return sp.lambdify(self.symbols, [e for e, _ in (*self.given, *self.shown)], modules="mpmath", cse=True)
 
     def _plain(self, expr):
         def written_out(term, limits):
@@ -131,10 +131,14 @@ class Evaluated:
         while None in verdicts:
             with mpmath.workdps(digits):
                 values = self.exact(*(mpmath.mpf(v.numerator) / v.denominator for v in numbers))
-            with mpmath.workdps(digits + 60):  # what is only rounding, however large, is another number here
-                again = self.exact(*(mpmath.mpf(v.numerator) / v.denominator for v in numbers))
                 zero = mpmath.mpf(10) ** (-digits // 2)
+            again = None
+            with mpmath.workdps(digits + 60):  # what is only rounding, however large, is another number here
                 for place, ((_, operator), value) in enumerate(zip(given, values, strict=True)):
+                    if verdicts[place] is not None:
+                        continue
+                    if again is None and abs(value) >= zero:
+                        again = self.exact(*(mpmath.mpf(v.numerator) / v.denominator for v in numbers))
                     settled = abs(value) >= zero and abs(value - again[place]) <= abs(value) / 1000
                     if settled or (value == 0 and digits > ENOUGH_DIGITS):
                         verdicts[place] = self._holds(operator, value, 0)

@@ -66,7 +66,8 @@ def test_the_parts_of_a_line_are_what_tex_makes_of_them():
 @pytest.mark.parametrize(("text", "place"), [
     ("x +", 3), (r"x \le \le y", 7), ("a/bc", 3), ("2 3", 3), (r"\frac{1}", 8), ("x}", 2), (r"\unknown x", 1),
     (r"\text x", 6), ("x^", 2), ("(x", 2), ("x)", 2), ("|x", 2), (r"|x\|", 3), ("x_1_2", 4), (r"\sqrt[3]{x}", 1),
-    ("é = 1", 1), ("x # y", 3), ("(a + b)_1", 8), ("x = {}", 6), (r"\frac{}{2}", 7), ("*", 1),
+    ("é = 1", 1), ("2^3^2", 5), ("x^a_1^b", 7), ("1,000 = 1000", 1), ("x < 12,500", 5),
+    ("x # y", 3), ("(a + b)_1", 8), ("x = {}", 6), (r"\frac{}{2}", 7), ("*", 1),
     (r"\Gamma_{\varthetai}", 9), (r"\begin{cases} a & b\end{cases}", 17), ("a & b", 3), (r"\begin{matrix}", 1),
     (r"\end{cases}", 1),
 ])

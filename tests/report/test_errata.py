@@ -14,7 +14,7 @@ from small_decisions import paper
 from workbench.proof import checker
 from workbench.proof.checker import goal_digest
 from workbench.report.errata import pdf
-from workbench.report.errata.blocks import Code, Formula, Heading, Items, Paragraph
+from workbench.report.errata.blocks import Code, Formula, Heading, Item, Items, Paragraph
 from workbench.report.errata.content import errata
 from workbench.report.errata.latex import latex_document
 from workbench.report.errata.markdown import markdown
@@ -76,7 +76,7 @@ def test_every_rule_of_the_checker_is_told(proof):
 
 def test_nobodys_text_becomes_markup():
     blocks = [Heading(1, "<b>a & b"), Paragraph("50% of #1 {x} $a < b$ \\cmd", "<i>"), Formula(r"a \& b", "x_y"),
-              Items(("one_two", "three"), (0, 2)), Code("a <b> & c")]
+              Items((Item("one_two"), Item("three", 2))), Code("a <b> & c")]
     page = html_document(blocks, "<title>")
     reader = HTMLParser()
     reader.feed(page)

@@ -34,7 +34,7 @@ INTERRUPTED = 130  # with which typer ends after Ctrl-C
 
 for verb in (prove, show, diff, check, new_paper, check_certificates, compare, sweep, tune, report, reference, gains,
              listing, examples, errata):
-    app.command(verb.NAME)(verb.command)
+    app.command(verb.NAME, context_settings=getattr(verb, "CONTEXT", None))(verb.command)
 
 
 @app.callback()
@@ -47,12 +47,12 @@ def main() -> None:
     try:
         app()
     except WorkbenchError as trouble:
-        err_console.print(f"workbench: {trouble}", style="red", soft_wrap=True, markup=False, highlight=False)
+        err_console.print(f"workbench: {trouble}", style="red", soft_wrap=True, highlight=False)
         sys.exit(2)
     except OSError as trouble:  # of what no room expects to fail, such as a terminal that is gone
         where = f"{trouble.filename}: " if trouble.filename else ""
         err_console.print(f"workbench: {where}{trouble.strerror or trouble}: check path, permissions and free space",
-                          style="red", soft_wrap=True, markup=False, highlight=False)
+                          style="red", soft_wrap=True, highlight=False)
         sys.exit(2)
     except SystemExit as end:
         if end.code == INTERRUPTED:

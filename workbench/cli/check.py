@@ -11,6 +11,7 @@ from workbench.cli.options import JsonFile
 from workbench.cli.terminal import answer_card, out_console
 
 NAME = "check"
+CONTEXT = {"ignore_unknown_options": True}  # a line may begin with a minus
 
 
 def command(line: Annotated[str, typer.Argument(metavar="LATEX", help="The line, as in '\\dot V \\le 0'")],

@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
 from workbench.cli.terminal import err_console, out_console
 from workbench.errors import InputError, WorkbenchError
-from workbench.proof.checker import Row, check_file, check_folder
+
+if TYPE_CHECKING:
+    from workbench.proof.checker import Row
 
 NAME = "check-certificates"
 
@@ -22,6 +24,8 @@ def command(folder: Annotated[Path, typer.Argument(help="Folder with certificate
                 help="For one file: the goal digest of the claim that it must be of.")] = None) -> None:
     """Re-check certificates with checker.py, and hold them against their manifest and, where it is at hand, the paper
     whose claims they are of; exit 0 when all hold, 1 when one does not."""
+    from workbench.proof.checker import check_file
+
     if folder.is_file():
         rows, bound = [check_file(folder, None, claim_digest)], "the digest given" if claim_digest else None
     elif claim_digest is not None:
@@ -33,7 +37,7 @@ def command(folder: Annotated[Path, typer.Argument(help="Folder with certificate
     wrong = {path for path, _, reason in rows if reason is not None}
     for path, verdict, reason in rows:
         if reason is not None:
-            err_console.print(f"[red]{path}: {verdict}: INVALID: {reason}[/red]", soft_wrap=True)
+            err_console.print(f"{path}: {verdict}: INVALID: {reason}", style="red", soft_wrap=True)
     files = {path for path, _, _ in rows}
     out_console.print(f"{len(files) - len(wrong)} of {len(files)} certificates hold; held against "
                       f"{bound or 'no claim'}", soft_wrap=True)
@@ -44,6 +48,7 @@ def command(folder: Annotated[Path, typer.Argument(help="Folder with certificate
 def _folder(folder: Path, named: list[Path]) -> tuple[list[Row], str]:
     """The rows of a folder, and what its certificates were held against."""
     from workbench.proof.binding import check_claims, papers_at_hand
+    from workbench.proof.checker import check_folder
 
     rows = check_folder(folder)
     bound = 0

@@ -27,7 +27,7 @@ def command(before: Annotated[Path, typer.Argument(metavar="A.json", help="The e
     if json:
         write_json(json, changes_document(found))
     for change in found:
-        out_console.print(change.sentence(), soft_wrap=True, highlight=False, markup=False)
+        out_console.print(change.sentence(), soft_wrap=True, highlight=False)
     out_console.print(f"{len(found)} of {len(old | new)} claims changed", highlight=False)
     if found:
         raise typer.Exit(1)

@@ -33,6 +33,6 @@ def command(paper: Annotated[str, typer.Argument(metavar="PAPER", help="A paper'
         citation = next(p.citation for p in collect_papers([place]) if p.name == name)
         written, missing = write_errata([d for d in proof.decisions if d.claim.paper == name], citation, folder)
         for path in written:
-            out_console.print(str(path), soft_wrap=True, highlight=False, markup=False)
+            out_console.print(str(path), soft_wrap=True, highlight=False)
         if missing:
-            err_console.print(missing, soft_wrap=True, highlight=False, markup=False)
+            err_console.print(missing, soft_wrap=True, highlight=False)

@@ -17,4 +17,4 @@ def command(directory: Annotated[Path, typer.Argument(help="A new or empty folde
     from workbench.paper.examples import write_examples
 
     for line in write_examples(directory):
-        out_console.print(line, soft_wrap=True, highlight=False, markup=False)
+        out_console.print(line, soft_wrap=True, highlight=False)

@@ -24,7 +24,7 @@ def command(name: Annotated[str, typer.Argument(help="The paper's name, as in do
     files = ", ".join(path.relative_to(folder).as_posix() for path in sorted(folder.rglob("*.*")))
     lines = f"written: {folder} ({files})", *(f"to go on: workbench {_with(verb, folder)}" for verb in VERBS)
     for line in lines:
-        out_console.print(line, soft_wrap=True, markup=False, highlight=False)
+        out_console.print(line, soft_wrap=True, highlight=False)
 
 
 def _with(verb: str, folder: Path) -> str:

@@ -42,6 +42,8 @@ Version = Annotated[bool, typer.Option("--version", callback=_version, is_eager=
 
 def path_of(argument: str) -> Path:
     """The file or folder that an argument names, or the folder of the paper whose name it is."""
+    if not argument:
+        raise InputError("", "PAPER", "is an empty name: name a paper's folder, or '.' for the folder you are in")
     path = Path(argument)
     try:
         if path.exists() or path.suffix or "/" in argument:

@@ -6,7 +6,6 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
-from rich.markup import escape
 
 from workbench.cli.options import JsonFile, Workers
 from workbench.cli.terminal import claim_card, err_console, out_console, progress
@@ -99,10 +98,10 @@ def _end(proof: Proof) -> None:
     """What differs from the record, and what could not be decided; the exit code says so too."""
     differing = [d for d in proof.decisions if d.verdict != d.claim.recorded]
     for d in differing:
-        err_console.print(f"[red]{d.claim.id}: decided {d.verdict}, but recorded {d.claim.recorded}[/red]",
+        err_console.print(f"{d.claim.id}: decided {d.verdict}, but recorded {d.claim.recorded}", style="red",
                           soft_wrap=True)
     for trouble in proof.misstated.values():
-        err_console.print(f"[red]misstated: {escape(trouble)}[/red]", soft_wrap=True)
+        err_console.print(f"misstated: {trouble}", style="red", soft_wrap=True)
     if proof.misstated:
         raise typer.Exit(2)
     if differing:

@@ -54,7 +54,7 @@ def command(track: Annotated[Path | None, typer.Argument(help="Line: TOML of thi
         from workbench.report.fleet_command import FleetRequest, fleet_run
 
         for line in fleet_run(FleetRequest(fleet, json, csv, workers, resume)):
-            out_console.print(line, soft_wrap=True, highlight=False, markup=False)
+            out_console.print(line, soft_wrap=True, highlight=False)
         return
     if track is None or train is None:
         raise InputError("", "TRACK TRAIN", "are missing: name the files of a line and a train, or --fleet FILE")
@@ -64,4 +64,4 @@ def command(track: Annotated[Path | None, typer.Argument(help="Line: TOML of thi
     done = reference_run(Request(track, train, time, stops, dwell, from_m, to_m, from_speed, to_speed, intervals,
                                window, max_jerk, json, csv, every, figure, certificate, solver, timetable, check, etcs))
     for line in done:
-        out_console.print(line, soft_wrap=True, highlight=False, markup=False)
+        out_console.print(line, soft_wrap=True, highlight=False)

@@ -30,7 +30,9 @@ def command(paper: PaperOrFile,
                 help="Papers whose claims are on the page; default: the paper's own")] = None,
             out: Annotated[Path, typer.Option(help="Folder of the report")] = Path("out"),
             runs: Annotated[int | None, typer.Option(
-                min=1, help="Monte Carlo runs; default: as the scenario states")] = None,
+                min=1, help="Monte Carlo runs; default: as the scenario states, 20 at the most")] = None,
+            full: Annotated[bool, typer.Option(
+                "--full", help="On all drawn trains that the file states, not on the first 20 alone.")] = False,
             seed: Annotated[int | None, typer.Option(min=0)] = None,
             gains: Annotated[bool, typer.Option(
                 help="Also what is proved of the paper's gains, and better ones.")] = True,
@@ -41,7 +43,7 @@ def command(paper: PaperOrFile,
     from workbench.report.build import Asked, build_report, build_study_report
 
     loaded = load(paper)
-    asked = Asked.of(loaded, proofs or [], out, gains, resume, workers)
+    asked = Asked.of(loaded, proofs or [], out, gains, resume, workers, full)
     if loaded.kind is not None:
         for option, given in (("--runs", runs), ("--seed", seed)):
             if given is not None:

@@ -77,5 +77,5 @@ def _joint(loaded: Loaded, out: Path, resume: bool, workers: int | None) -> None
         found = sensitivity(loaded, out, resume, workers, lambda done, total: show("joint sweep", done, total))
     out_console.print(result_table(sensitivity_table(found)))
     for line in sensitivity_lines(found):
-        out_console.print(line, markup=False, highlight=False)
+        out_console.print(line, highlight=False)
     out_console.print(f"points: {out / CSV_NAME}")

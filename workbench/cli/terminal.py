@@ -9,8 +9,14 @@ from typing import TYPE_CHECKING, Any
 
 from rich.box import SIMPLE_HEAD
 from rich.console import Console, Group
-from rich.markup import escape
-from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn
+from rich.progress import (
+    BarColumn,
+    MofNCompleteColumn,
+    Progress,
+    TextColumn,
+    TimeElapsedColumn,
+    TimeRemainingColumn,
+)
 from rich.table import Table
 from rich.text import Text
 
@@ -20,8 +26,9 @@ if TYPE_CHECKING:
     from workbench.paper.contents import Contents
     from workbench.paper.results import ResultTable, StudyResult
 
-out_console = Console()
-err_console = Console(stderr=True)
+# Names, paths and messages come from files: brackets and colons in them are what they are, no markup.
+out_console = Console(markup=False, emoji=False)
+err_console = Console(stderr=True, markup=False, emoji=False)
 COLOURS = {"proved": "green", "refuted": "red", "violated": "red", "gap": "yellow", "assumed": "cyan",
            "undecided": "magenta"}
 
@@ -29,7 +36,8 @@ COLOURS = {"proved": "green", "refuted": "red", "violated": "red", "gap": "yello
 @contextmanager
 def progress() -> Iterator[Any]:
     """A progress bar per stage on standard error; a plain line per stage where that is no terminal."""
-    columns = (TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn(), TimeElapsedColumn())
+    columns = (TextColumn("{task.description}", markup=False), BarColumn(), MofNCompleteColumn(), TimeElapsedColumn(),
+               TextColumn("left"), TimeRemainingColumn())
     with Progress(*columns, console=err_console, disable=not err_console.is_terminal) as bar:
         tasks: dict[str, Any] = {}
 
@@ -103,17 +111,18 @@ def _fate(row: dict[str, Any]) -> str | None:
     return f"{row['fate']}: {row['fate_why']}" if row["fate"] else None
 
 
-def verdict_lines(document: dict[str, Any]) -> list[str]:
+def verdict_lines(document: dict[str, Any]) -> list[Text]:
     """How many lines of the papers have which verdict, how many questions of ours, and the fate of each headline."""
-    found = []
-    for which, what in (("paper", "line{} of the paper{}"), ("ours", "question{} of ours")):
+    found: list[Text] = []
+    for which, what in (("paper", "{} line{} of the paper{}"), ("ours", "{} question{} of ours")):
         counts = document["totals"][which]
         every = sum(counts.values())
         papers = len({c["paper"] for c in document["claims"]})
         if every:
-            found.append(f"{every} {what.format('' if every == 1 else 's', '' if papers == 1 else 's')}: " + ", ".join(
-                f"[{COLOURS[v]}]{counts[v]} {v}[/{COLOURS[v]}]" for v in VERDICTS if counts[v]))
-    found += [escape(f"{c['id']} {_fate(c)}") for c in document["claims"] if c["fate"]]
+            by_verdict = Text(", ").join(Text(f"{counts[v]} {v}", COLOURS[v]) for v in VERDICTS if counts[v])
+            found.append(Text.assemble(what.format(every, "" if every == 1 else "s", "" if papers == 1 else "s"), ": ",
+                                       by_verdict))
+    found += [Text(f"{c['id']} {_fate(c)}") for c in document["claims"] if c["fate"]]
     return found
 
 
@@ -124,7 +133,7 @@ def metrics_table(rows: Sequence[dict[str, Any]], title: str) -> Table:
              "step\n(µs)")
     for r in rows:
         table.add_row(
-            r["controller"] + (" [red]failed[/red]" if r["failed"] else ""), _number(r["period_s"], 1e3),
+            Text(r["controller"]).append(" failed" if r["failed"] else "", "red"), _number(r["period_s"], 1e3),
             _range(r["position_error_min"], r["position_error_max"]),
             _range(r["speed_error_min"], r["speed_error_max"]), _number(r["stopping_error"], 1e3),
             _number(r["energy_J"], 1e-6, 5), _number(r["step_us_median"]))
@@ -144,12 +153,11 @@ def summary_table(summaries: Sequence[Any], runs: int) -> Table:
 
 def result_table(found: ResultTable) -> Table:
     """A study's table as it is, its source beside its title."""
-    table = Table(title=escape(f"{found.title} ({found.source})"), title_justify="left", box=SIMPLE_HEAD,
-                  pad_edge=False)
+    table = Table(title=f"{found.title} ({found.source})", title_justify="left", box=SIMPLE_HEAD, pad_edge=False)
     for heading in found.headings:
-        table.add_column(escape(heading), overflow="fold")
+        table.add_column(heading, overflow="fold")
     for row in found.text:
-        table.add_row(*map(escape, row))
+        table.add_row(*row)
     return table
 
 
@@ -158,9 +166,9 @@ def print_study(result: StudyResult) -> None:
     for table in result.tables:
         out_console.print(result_table(table))
     for finding in result.findings:
-        out_console.print(f"• {finding}", markup=False, highlight=False)
+        out_console.print(f"• {finding}", highlight=False)
     for run, why in result.failures:
-        err_console.print(f"{run}: {why}", style="red", soft_wrap=True, markup=False, highlight=False)
+        err_console.print(f"{run}: {why}", style="red", soft_wrap=True, highlight=False)
 
 
 def print_failures(rows: Sequence[dict[str, Any]]) -> None:
@@ -182,7 +190,7 @@ def _number(value: float | None, scale: float = 1.0, digits: int = 3) -> str:
 
 def _range(low: float | None, high: float | None, scale: float = 1e3) -> str:
     """A range in thousandths of the SI unit, as the tables show errors."""
-    return "–" if low is None or high is None else rf"\[{_number(low, scale)}, {_number(high, scale)}]"
+    return "–" if low is None or high is None else f"[{_number(low, scale)}, {_number(high, scale)}]"
 
 
 def papers_table(papers: Sequence[Contents]) -> Table:

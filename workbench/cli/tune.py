@@ -33,4 +33,4 @@ def command(paper: PaperOrFile,
         lines = list(tune_run(loaded, controller or [], write, workers,
                               lambda done, total, _: show("tuning", done, total), runs, out, resume))
     for line in lines:
-        out_console.print(line, soft_wrap=True, highlight=False, markup=False)
+        out_console.print(line, soft_wrap=True, highlight=False)

@@ -23,6 +23,7 @@ from workbench.contest.tune import tune_all
 from workbench.contest.tuning_table import convergence_plot, tuning_findings, tuning_table
 from workbench.errors import InputError
 from workbench.files.numbers import number
+from workbench.files.units import KWH_J
 from workbench.paper.parameter_search import Finished, Name, Tuned
 from workbench.paper.results import Curve, Plot, StudyResult
 from workbench.paper.study import Progress, StudyKind
@@ -217,8 +218,8 @@ def _findings(told: Told) -> Iterator[str]:
         if energies:
             name, least = min(energies, key=lambda pair: pair[1])
             yield (f"The least energy of any run of the nominal train in the same time is "
-                   f"{number(told.lower_bound_j / 3.6e6)} kWh; the least of the contestants, {name}, takes "
-                   f"{number(least / 3.6e6)} kWh, {number(100 * (least / told.lower_bound_j - 1))} % more.")
+                   f"{number(told.lower_bound_j / KWH_J)} kWh; the least of the contestants, {name}, takes "
+                   f"{number(least / KWH_J)} kWh, {number(100 * (least / told.lower_bound_j - 1))} % more.")
     yield from _without_curve(told)
     yield from _limits_of_the_curve(told)
     yield from tuning_findings(told)

@@ -15,6 +15,7 @@ from workbench.contest.matches import METRICS, OF_CURVE, Entry, Match, entries, 
 from workbench.contest.record import Contest
 from workbench.contest.sampling import with_periods
 from workbench.files.numbers import number
+from workbench.files.units import KWH_J
 from workbench.paper.cells import Cell, Column, Phrase, Quantity
 from workbench.paper.comparison import STEP
 from workbench.paper.results import ResultTable
@@ -24,7 +25,7 @@ from workbench.trains.scenario import Scenario
 # Metrics of a match, SI.
 COLUMNS = {"position_rms": Column("position RMS", "m"), "speed_rms": Column("speed RMS", "m/s"),
            "largest_position_error": Column("largest |position error|", "m"),
-           "stopping_error": Column("|stopping error|", "m"), "energy_J": Column("energy", "kWh", 3.6e6),
+           "stopping_error": Column("|stopping error|", "m"), "energy_J": Column("energy", "kWh", KWH_J),
            "jerk_rms": Column("jerk RMS", "m/s³"), "jerk_p95": Column("jerk, 95th percentile", "m/s³"),
            "jerk_max": Column("largest jerk", "m/s³"), "comfort_rms": Column("comfort, ISO 2631 RMS", "m/s²"),
            "command_variation": Column("command variation", "m/s³"), "saturated_fraction": Column("saturated"),

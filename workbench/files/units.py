@@ -25,6 +25,9 @@ FRACTION: Units = {"-": Fraction(1), "%": Fraction(1, 100)}
 GRADE_PERMILLE: Units = {"permil": Fraction(1), "‰": Fraction(1), "%": Fraction(10), "-": Fraction(1000)}
 AREA: Units = {"m^2": Fraction(1)}
 
+# Energies are shown in kWh.
+KWH_J = 3.6e6
+
 
 def _per_speed(power: int) -> Units:
     """Forces per speed or per squared speed, in every spelling: kN/(km/h)^2, N/(m/s), N s/m."""

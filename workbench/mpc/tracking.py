@@ -78,8 +78,16 @@ class TrackingMpc:
         drift, slope = self._drift.map(steps)(self._grid[1].reshape(1, -1))
         self._feedforward = self._grid[2] - np.asarray(drift).ravel()
         self._slope = np.asarray(slope).ravel()
-        self._gain, terminal = _lqr(values, self._T, where)
-        self._solver = self._build(values, terminal, solver)
+        brake, traction = self._limits
+        highest = np.full(steps, traction)
+        if self._train.max_power_w:
+            at_speed = self._train.max_power_w / np.maximum(self._grid[1], 1e-3)
+            highest = np.minimum(highest, at_speed / self._train.mass_kg)
+        self._highest = highest
+        # The limits of w, what the command adds to the feedforward.
+        self._low, self._high = -brake - self._feedforward, highest - self._feedforward
+        self._gain, self._terminal = _lqr(values, self._T, where)
+        self._solver = self._build(values, self._terminal, solver)
         self.counters = {"qp": 0, "qp_failed": 0, "shifted_plan": 0, "lqr": 0, "band_slack_used": 0,
                          "bad_measurement": 0}
         self._plan = np.zeros(self.horizon + 1)
@@ -132,28 +140,19 @@ class TrackingMpc:
         good = (math.isfinite(time_s) and abs(position_m) < FARTHEST_M and abs(speed_mps) < FASTEST_MPS)
         k = round(time_s / self._T) if math.isfinite(time_s) else self._sample + 1
         k = self._sample = min(max(k, 0), self._last_sample)
-        N = self.horizon
-        feedforward, slope = self._feedforward[k : k + N], self._slope[k : k + N]
-        brake, traction = self._limits
-        highest = np.full(N, traction)
-        if self._train.max_power_w:
-            at_speed = self._train.max_power_w / np.maximum(self._grid[1][k : k + N], 1e-3)
-            highest = np.minimum(highest, at_speed / self._train.mass_kg)
-        low, high = -brake - feedforward, highest - feedforward
+        feedforward, brake, highest = float(self._feedforward[k]), self._limits[0], float(self._highest[k])
         if not good:
             self.counters["bad_measurement"] += 1
             # Nothing was measured, so the observer has nothing to compare its last prediction with.
             self._predicted_speed_error = None
-            w = self._shifted_plan() or 0.0
-            return float(np.clip(feedforward[0] + w, -brake, highest[0]))
-        error = np.array([position_m - self._grid[0][k], speed_mps - self._grid[1][k]])
+            return _clipped(feedforward + (self._shifted_plan() or 0.0), -brake, highest)
+        error = (float(position_m - self._grid[0][k]), float(speed_mps - self._grid[1][k]))
         if self._predicted_speed_error is not None:
             self._disturbance += self._observer_gain * (error[1] - self._predicted_speed_error) / self._T
-        w = float(np.clip(self._solve(error, slope, low, high), low[0], high[0]))
-        predicted = self._step((error[0], error[1]), w, self._disturbance, slope[0])
-        self._predicted_speed_error = float(predicted[1])
+        w = _clipped(self._solve(k, error), float(self._low[k]), float(self._high[k]))
+        self._predicted_speed_error = float(self._step(error, w, self._disturbance, float(self._slope[k]))[1])
         # Once more, because the sum of feedforward and its bound may pass the limit by a rounding error.
-        return float(np.clip(feedforward[0] + w, -brake, highest[0]))
+        return _clipped(feedforward + w, -brake, highest)
 
     def _guess(self) -> Any:
         """The last plan one sample later, its last command held, without slack."""
@@ -167,12 +166,15 @@ class TrackingMpc:
         self._plan = self._guess()
         return float(self._plan[0])
 
-    def _solve(self, error: Any, slope: Any, low: Any, high: Any) -> float:
+    def _solve(self, k: int, error: tuple[float, float]) -> float:
+        """What is added to the feedforward at sample k: the first of a plan, which is kept."""
         self.counters["qp"] += 1
+        ahead = slice(k, k + self.horizon)
         try:
             answer = self._solver(
-                x0=self._guess(), p=np.concatenate([error, [self._disturbance], slope]),
-                lbx=np.append(low, 0.0), ubx=np.append(high, np.inf), lbg=self._lower_g, ubg=self._upper_g,
+                x0=self._guess(), p=np.concatenate([error, [self._disturbance], self._slope[ahead]]),
+                lbx=np.append(self._low[ahead], 0.0), ubx=np.append(self._high[ahead], np.inf), lbg=self._lower_g,
+                ubg=self._upper_g,
             )
             plan = np.asarray(answer["x"]).ravel()
             solved = bool(self._solver.stats()["success"]) and bool(np.all(np.isfinite(plan)))
@@ -188,6 +190,10 @@ class TrackingMpc:
             return shifted
         self.counters["lqr"] += 1
         return float(-self._gain @ error - self._disturbance)
+
+
+def _clipped(value: float, low: float, high: float) -> float:
+    return min(max(value, low), high)
 
 
 def _lqr(values: dict[str, float], period_s: float, where: str) -> tuple[Any, Any]:

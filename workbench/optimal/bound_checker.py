@@ -32,6 +32,7 @@ MOST_HALVINGS = 60
 # In bytes: no certificate comes near it.
 LARGEST = 64 * 2**20
 DEEPEST, HUGE, FASTEST = 6, 1e18, 200
+TEXTS = ("digests", "kind")
 # Of positions in m, and of sums as a share: what rounding may do.
 NEAR, ROUNDED, DRAG_NEAR = Fraction(1, 10**6), Fraction(1, 10**12), Fraction(1, 10**9)
 
@@ -103,14 +104,19 @@ def checked_bound(certificate: dict[str, Any]) -> Fraction:
     return total
 
 
-def _require_plain_numbers(part: Any, depth: int = 0) -> None:
-    """Raises ValueError for numbers that no train, line or timetable has, and for what is nested deeper than a
-    certificate is."""
+def _require_plain_numbers(part: Any, name: str = "", depth: int = 0) -> None:
+    """Raises ValueError for numbers that no train, line or timetable has, also as texts, which may be as large as
+    they like to a fraction, and for what is nested deeper than a certificate is."""
     if depth > DEEPEST:
         raise ValueError("is nested too deeply")
-    if isinstance(part, dict | list):
-        for inner in part.values() if isinstance(part, dict) else part:
-            _require_plain_numbers(inner, depth + 1)
+    if isinstance(part, dict):
+        for key, inner in part.items():
+            _require_plain_numbers(inner, name if name in TEXTS else key, depth + 1)
+    elif isinstance(part, list):
+        for inner in part:
+            _require_plain_numbers(inner, name, depth + 1)
+    elif isinstance(part, str) and name not in TEXTS:
+        raise ValueError(f"{name[:80]!r} holds a text where a number belongs")
     elif isinstance(part, int | float) and not -HUGE < part < HUGE:
         raise ValueError(f"holds a number that is not between -{HUGE:g} and {HUGE:g}")
 

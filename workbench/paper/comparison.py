@@ -2,25 +2,26 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 
 from workbench.files.numbers import number
+from workbench.files.units import KWH_J
 from workbench.mpc.controller import KINDS
 from workbench.paper.cells import Cell, Column
 from workbench.paper.drivers import MPC_NAMES, Drivers, tuning_words
 from workbench.paper.mpc_comparison import best_words, counters_words
-from workbench.paper.results import Array, Curve, Plot, ResultTable
+from workbench.paper.results import Array, Curve, Plot, ResultTable, Shown
 from workbench.paper.stages import Stage
 from workbench.simulate.closed_loop import NOMINAL, Run
 from workbench.simulate.metrics import measure_run
 
 STEP = Column("time a step", "µs", 1e-6)
 COLUMNS = (Column("position RMS", "m"), Column("speed RMS", "m/s"), Column("largest |position error|", "m"),
-           Column("stopping error", "m"), Column("energy", "kWh", 3.6e6), Column("jerk RMS", "m/s³"),
+           Column("stopping error", "m"), Column("energy", "kWh", KWH_J), Column("jerk RMS", "m/s³"),
            Column("saturated"), STEP)
 # Points of an error over time that is sent between processes, and of one that is drawn.
 SENT, DRAWN = 1500, 200
@@ -64,6 +65,38 @@ def error_curve(run: Run) -> tuple[Array, Array]:
     whole = len(error) if np.isfinite(error).all() else int(np.argmin(np.isfinite(error)))
     keep = slice(None, whole, max(1, len(time) // SENT))
     return time[keep], error[keep]
+
+
+def _as_run(results: Any, runs: Sequence[ComparedRun]) -> list[ComparedRun]:
+    return list(runs)
+
+
+@dataclass(frozen=True)
+class TripComparison:
+    """How the laws of a paper that drive a trip once are held against MPC, all driven alike by `drivers`.
+
+    heading: what a place is; note(study, runs): of the table; drawn(study, runs): which of them a figure shows, and
+    where they drive, in words; told: see `comparison_table`; with_own(results, runs): the runs, and what the study
+    itself has run beside them.
+    """
+
+    drivers: Drivers
+    heading: str
+    note: Callable[[Any, Sequence[ComparedRun]], str]
+    drawn: Callable[[Any, Sequence[ComparedRun]], tuple[list[ComparedRun], str]]
+    told: Mapping[str, str] | None = None
+    with_own: Callable[[Any, Sequence[ComparedRun]], list[ComparedRun]] = _as_run
+
+    def stage(self, study: Any) -> Stage:
+        """The runs of `comparison_tasks`."""
+        return comparison_stage(self.drivers, study)
+
+    def shown(self, results: Any, found: Mapping[Task, Mapping[str, Any]]) -> Shown:
+        """Table, figure and findings; nothing without MPC."""
+        study, drivers = results.study, self.drivers
+        runs = self.with_own(results, compared_runs(drivers, found))
+        return Shown(comparison_table(drivers, study, runs, self.heading, self.note(study, runs), self.told),
+                     comparison_plot(*self.drawn(study, runs)), comparison_findings(drivers, study, runs))
 
 
 def comparison_tasks(drivers: Drivers, study: Any) -> list[Task]:

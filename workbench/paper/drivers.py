@@ -2,24 +2,23 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 from workbench.errors import InputError
 from workbench.mpc.controller import KINDS
+from workbench.paper.dotted import value_at, with_value_at
 from workbench.paper.mpc_comparison import MPC_KINDS
 from workbench.paper.parameter_search import NONE_YET, Finished, Name, Restart, Tuned, score, search, search_all
-from workbench.paper.study import Progress, Study, with_values
+from workbench.paper.study import Progress, Study, varied
 from workbench.paper.tuning_record import Pairs, StudyTuning
 from workbench.simulate.closed_loop import NOMINAL, Factors
 
 # By which names files know the kinds of MPC.
 MPC_NAMES = {kind.replace(".", "_"): kind for kind in MPC_KINDS}
 WEIGHTS = ("position_weight", "speed_weight", "command_weight", "change_weight")
-# What a study changes by itself: of no use where one of its values is changed for tuning.
-_CHANGES = ("changes", "sensitivity", "variants")
 
 
 def _as_the_file_says(study: Any, name: str) -> Mapping[str, Any]:
@@ -31,30 +30,35 @@ class Drivers:
     """How the controllers of a paper's study are driven one by one.
 
     titles: controller -> its name in tables, MPC's begin with `mpc`; places(study): what a study runs in, place ->
-    words; stated: parameters of a law that can be tuned; given: the study with others; drive(study, name, place,
-    factors): one run of the train whose mass and resistance differ by the factors from what controllers know, as a row
-    with the keys of a comparison and, of laws that learn, `trials`: an error of every trial, by the metric's name.
+    words; keys(study, name): the numbers of a law that can be tuned, where each stands in the study as `value_at` reads
+    it; what is no number there is none; drive(study, name, place, factors): one run of the train whose mass and
+    resistance differ by the factors from what controllers know, as a row with the keys of a comparison and, of laws
+    that learn, `trials`: an error of every trial, by the metric's name.
     variants(study, name): which studies drive a controller as stated, by the words that follow its title there.
     first_trial: the number of a learning law's first trial.
     """
 
     titles: Mapping[str, str]
     places: Callable[[Any], Mapping[str, str]]
-    stated: Callable[[Any, str], dict[str, float]]
-    given: Callable[[Any, str, Mapping[str, float]], Any]
+    keys: Callable[[Any, str], Mapping[str, str]]
     drive: Callable[[Any, str, str, Factors], dict[str, Any]]
     variants: Callable[[Any, str], Mapping[str, Any]] = _as_the_file_says
     first_trial: int = 1
 
     def parameters(self, study: Any, name: str) -> dict[str, float]:
         """What can be tuned of a controller, with its stated values."""
-        return self.stated(study, name) if name not in MPC_NAMES else mpc_stated(study, name)
+        stated = {name: value_at(study, key) for name, key in self._keys(study, name).items()}
+        return {name: float(value) for name, value in stated.items() if not isinstance(value, str)}
 
     def with_parameters(self, study: Any, name: str, values: Mapping[str, float]) -> Any:
         """The study with other parameters of one controller."""
-        if name in MPC_NAMES:
-            return study.model_copy(update={"mpc": study.mpc.model_copy(update=dict(values))})
-        return self.given(study, name, values)
+        keys = self._keys(study, name)
+        for parameter, value in values.items():
+            study = with_value_at(study, keys[parameter], value)
+        return study
+
+    def _keys(self, study: Any, name: str) -> Mapping[str, str]:
+        return mpc_keys(name) if name in MPC_NAMES else self.keys(study, name)
 
     def tuned(self, study: Any, name: str) -> Any:
         """The study with what was found for a controller; InputError where nothing was."""
@@ -63,10 +67,15 @@ class Drivers:
         return self.with_parameters(study, name, study.tuning.found[name])
 
 
-def mpc_stated(study: Any, name: str) -> dict[str, float]:
-    """The parameters of an MPC that can be tuned."""
+def mpc_keys(name: str) -> dict[str, str]:
+    """The numbers of an MPC that can be tuned, where each stands in a study."""
     keys = (*WEIGHTS, "observer_gain") if "observer_gain" in KINDS[MPC_NAMES[name]].parameters else WEIGHTS
-    return {key: float(getattr(study.mpc, key)) for key in keys}
+    return keys_in("mpc", keys)
+
+
+def keys_in(table: str, names: Iterable[str]) -> dict[str, str]:
+    """Numbers that stand in one table of a study by their own names."""
+    return {name: f"{table}.{name}" for name in names}
 
 
 def entries(study: Any, drivers: Drivers) -> tuple[tuple[str, bool], ...]:
@@ -75,12 +84,6 @@ def entries(study: Any, drivers: Drivers) -> tuple[tuple[str, bool], ...]:
         return ()
     return tuple((name, tuned) for name in drivers.titles for tuned in (False, True)
                  if not tuned or name in study.tuning.found)
-
-
-def shortened(study: Any, changes: Mapping[str, Any], where: str) -> Any:
-    """The study with other values, without the changes of its own; ValueError naming `where` for what does not fit."""
-    bare = study.model_copy(update={key: () for key in _CHANGES if hasattr(study, key)})
-    return with_values(bare, changes, where) if changes else bare
 
 
 def tuning_words(tuning: StudyTuning) -> str:
@@ -106,7 +109,7 @@ def checked(drivers: Drivers) -> Callable[[Any, Path], Any]:
                     raise InputError(path, f"{table}.places", f"'{place}' is none of the study's: choose among "
                                      f"{', '.join(drivers.places(study))}")
             try:
-                shortened(study, part.set, f"{table}.set")
+                varied(study, part.set, f"{table}.set")
             except ValueError as trouble:
                 raise InputError(path, "", str(trouble)) from None
         for name, ranges in (study.tuning.ranges if study.tuning else {}).items():
@@ -134,7 +137,7 @@ def tune_with(drivers: Drivers) -> Callable[[Study, list[str], int, Progress, Fi
 
 def _restart(shared: tuple[Drivers, Any], name: str, restart: int) -> Restart:
     (drivers, study), budget = shared, shared[1].tuning
-    short, goal = shortened(study, budget.set, "tuning.set"), budget.objective
+    short, goal = varied(study, budget.set, "tuning.set"), budget.objective
 
     def cost(values: dict[str, float]) -> float:
         changed = drivers.with_parameters(short, name, values)

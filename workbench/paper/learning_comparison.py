@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -13,7 +13,7 @@ from workbench.paper.comparison import STEP
 from workbench.paper.drivers import Drivers, entries, tuning_words
 from workbench.paper.mpc_comparison import JERK, best_words
 from workbench.paper.pairs import METRIC_NAMES, STATES
-from workbench.paper.results import Array, Curve, Plot, ResultTable
+from workbench.paper.results import Array, Curve, Plot, ResultTable, Shown
 from workbench.paper.stages import Stage
 from workbench.paper.statistics import ahead_from
 from workbench.simulate.closed_loop import NOMINAL
@@ -45,29 +45,47 @@ def row_cells(row: Mapping[str, Any], columns: Mapping[str, Column]) -> tuple[Ce
     return ("fails", *(row.get(key) if column is STEP else None for key, column in list(columns.items())[1:]))
 
 
+def _none(study: Any) -> Sequence[Task]:
+    return ()
+
+
+def _no_rows(results: Any) -> Rows:
+    return {}
+
+
 @dataclass(frozen=True)
 class LearningComparison:
     """How the learning laws of a paper are held against MPC, all driven alike by `drivers`.
 
     A row of `drivers.drive` has SI numbers by the keys of `columns`, and, of a law that learns, `trials`: metric ->
     its value in every trial. metrics: those of the errors by which a learner is ahead or not; place_word: what a place
-    is, `reading`, empty where there is only one.
+    is, `reading`, empty where there is only one. own_rows(results): rows that the study's own runs give, of
+    own_tasks(study), which are not run again.
     """
 
     drivers: Drivers
     columns: Mapping[str, Column]
     metrics: tuple[str, ...]
     place_word: str = ""
+    own_tasks: Callable[[Any], Sequence[Task]] = _none
+    own_rows: Callable[[Any], Rows] = _no_rows
 
     def tasks(self, study: Any) -> list[Task]:
         """Every controller, as stated and as tuned, in the places of the tuning; none without MPC or tuning."""
         places = study.tuning.places if study.tuning else ()
         return [(place, *entry) for place in places for entry in entries(study, self.drivers)]
 
-    def stage(self, study: Any, done: Sequence[Task] = ()) -> Stage:
-        """The runs of `tasks` but those that another stage does."""
+    def stage(self, study: Any) -> Stage:
+        """The runs of `tasks` but those of `own_tasks`."""
+        done = self.own_tasks(study)
         left = [task for task in self.tasks(study) if task not in done]
         return Stage(_drive, (self.drivers, study), left, lambda task, _: "stated and tuned")
+
+    def shown(self, results: Any, found: Rows) -> Shown:
+        """Table, figures and findings; nothing without rows."""
+        study, own = results.study, self.own_rows(results)
+        rows = {task: found[task] if task in found else own[task] for task in self.tasks(study)}
+        return Shown(self.tables(study, rows), self.plots(study, rows), self.findings(study, rows))
 
     def title(self, name: str, tuned: bool) -> str:
         """A controller as tables have it."""

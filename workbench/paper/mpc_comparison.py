@@ -12,14 +12,13 @@ from workbench.files.numbers import number
 from workbench.files.toml import NonNegative, Positive, SourcedRecord
 from workbench.model.desired_curve import DesiredCurve
 from workbench.mpc.controller import KINDS, MpcController
-from workbench.simulate.closed_loop import Run, Setting, simulate_in
+from workbench.simulate.closed_loop import Factors, Run, Setting, simulate_in
 from workbench.trains.scenario import ControllerSpec, Interval, Scenario, Simulation
 from workbench.trains.train import Plant
 from workbench.trains.train_record import Train
 
 # Offset-free MPC has an observer, the linear one has none and costs the least.
 MPC_KINDS = ("mpc.linear", "mpc.offset_free")
-JOULE_PER_KWH = 3.6e6
 # Over plant steps, and over the rows of a log, which misses what happens between them.
 JERK = ("jerk_rms", "logged_jerk_rms")
 # Whose speed errs by more (RMS) does not follow: a train that stands still has no jerk.
@@ -80,6 +79,15 @@ def known(data: MpcData, curve: DesiredCurve, mass_kg: float, davis_n: tuple[flo
 def controller(of: Scenario, kind: str) -> MpcController:
     """An MPC of a kind, for a study whose loop is its own."""
     return MpcController(of, of.controllers[kind], kind)
+
+
+def differing(setting: Setting, factors: Factors) -> Setting:
+    """The setting of a train whose mass and resistance, in every mode, differ by factors."""
+    of_davis = (factors.davis_a, factors.davis_b, factors.davis_c)
+    a, b, c = (value * factor for value, factor in zip(setting.davis_n, of_davis, strict=True))
+    changes = setting.changes.copy()
+    changes[:, 1:4] *= of_davis
+    return replace(setting, mass_kg=setting.mass_kg * factors.mass, davis_n=(a, b, c), changes=changes)
 
 
 def run_mpc(of: Scenario, kind: str, setting: Setting, plant: Plant | None = None) -> Run:

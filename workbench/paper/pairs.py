@@ -9,11 +9,12 @@ from typing import Any
 import numpy as np
 
 from workbench.paper.cells import Cell, Column, Phrase
-from workbench.paper.drivers import Drivers, entries, shortened
+from workbench.paper.drivers import Drivers, entries
 from workbench.paper.mpc_comparison import FOLLOWS_MPS, JERK
 from workbench.paper.results import ResultTable
 from workbench.paper.stages import Stage
 from workbench.paper.statistics import Bootstrap, Interval, holm, mean_interval, overtakes
+from workbench.paper.study import varied
 from workbench.paper.tuning_record import Pairs
 from workbench.simulate.closed_loop import Factors
 
@@ -84,7 +85,7 @@ def pair_tasks(drivers: Drivers, study: Any) -> list[Task]:
 def pair_stage(drivers: Drivers, study: Any) -> Stage:
     """The runs of `pair_tasks` as a stage of the study; no task where the file states no pairs."""
     tasks = pair_tasks(drivers, study)
-    shared = (drivers, shortened(study, study.pairs.set, "pairs.set")) if tasks else None
+    shared = (drivers, varied(study, study.pairs.set, "pairs.set")) if tasks else None
     return Stage(_drive, shared, tasks, lambda task, _: f"drawn train {task[0] + 1}")
 
 

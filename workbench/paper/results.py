@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import Any
 
@@ -102,6 +103,15 @@ class ResultTable:
         """The rows for programs: numbers in the units of their columns."""
         return tuple(tuple(cell_value(cell, column) for cell, column in zip(row, self.columns, strict=True))
                      for row in self.rows)
+
+
+@dataclass(frozen=True)
+class Shown:
+    """What a part of a study shows, in the order of the page."""
+
+    tables: Iterable[ResultTable] = ()
+    plots: Iterable[Plot] = ()
+    findings: Iterable[str] = ()
 
 
 @dataclass(frozen=True)

@@ -38,6 +38,8 @@ class Study(FileRecord):
 
 
 S = TypeVar("S", bound=Study)
+# What a study changes by itself.
+_CHANGES = ("changes", "sensitivity", "variants")
 
 
 def with_values(study: S, values: Mapping[str, Any], where: str) -> S:
@@ -57,6 +59,12 @@ def with_values(study: S, values: Mapping[str, Any], where: str) -> S:
         first = trouble.errors()[0]
         what = first["msg"].removeprefix("Value error, ")
         raise ValueError(f"{where}: {'.'.join(map(str, first['loc']))}: {what}: correct it") from None
+
+
+def varied(study: S, values: Mapping[str, Any], where: str) -> S:
+    """`with_values` for one run, without the changes that a study makes by itself: of no use where one is made."""
+    bare = study.model_copy(update={key: () for key in _CHANGES if hasattr(study, key)})
+    return with_values(bare, values, where) if values else bare
 
 
 @dataclass(frozen=True)

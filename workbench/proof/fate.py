@@ -44,7 +44,8 @@ def _fate(decision: Decision, by_id: dict[str, Decision], mended: Decision | Non
     if decision.verdict == "proved" and not failed_premises:
         failing = tuple(line for line in decision.tainted_by if not holds_in_other_reading(by_id[line], by_id))
         open_glyphs = tuple(line for line in decision.tainted_by if line not in failing)
-        readings = f"; {_numbers(open_glyphs)} on the way holds in its other reading" if open_glyphs else ""
+        holds = "holds in its other reading" if len(open_glyphs) == 1 else "hold in their other readings"
+        readings = f"; {_numbers(open_glyphs)} on the way {holds}" if open_glyphs else ""
         if not failing:
             return Fate("stands", f"proved, and no line that the paper uses to get there fails{readings}", open_glyphs)
         return Fate("stands with corrections", f"proved as a whole, though the paper's way there fails at "

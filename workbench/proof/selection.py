@@ -50,6 +50,8 @@ def states_claims(folder: Path) -> bool:
 
 def _target(argument: str) -> Target:
     name, separator, pattern = argument.partition("::")
+    if not name:
+        raise InputError("", argument, "names no paper: name a paper's folder, a proof file, or '.' for where you are")
     path = Path(name)
     if path.name == PAPER_FILE and is_paper(path.parent):
         path = path.parent

@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 from workbench.errors import InputError
+from workbench.files.units import KWH_J
 from workbench.optimal.bound_document import digests, read_bound
 from workbench.optimal.course import Course
 from workbench.optimal.timetable import Timetable
 from workbench.optimal.vehicle import Vehicle
 from workbench.report.reference_request import Request
-
-KWH_J = 3.6e6
 
 
 def checked_bound(asked: Request, vehicle: Vehicle, run: Course, timetable: Timetable) -> str:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import time
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
@@ -21,14 +21,17 @@ from workbench.paper.gain_search import gain_search_of
 from workbench.paper.loading import Loaded
 from workbench.paper.results import StudyResult
 from workbench.paper.study import Study
+from workbench.paper.tuning_record import Pairs
 from workbench.proof.document import CERTIFICATES, Places, claims_document, write_certificates
 from workbench.proof.prove import prove
 from workbench.proof.selection import Target, targets
+from workbench.report.charts.chart import chart_of
+from workbench.report.charts.files import ANOTHER_OUT, CURVES, write_curves
 from workbench.report.finding import findings
 from workbench.report.finding_sentences import findings_document
 from workbench.report.gains import gains_document, gains_result
-from workbench.report.page import ReportContent, build_page
-from workbench.report.study_page import ANOTHER_OUT, CURVES, StudyContent, build_study_page, write_curves
+from workbench.report.page import ReportContent, build_page, scenario_charts
+from workbench.report.study_page import StudyContent, build_study_page
 from workbench.simulate.compare import Comparison, checked_variants, compare
 from workbench.simulate.process_pool import cores
 from workbench.simulate.sweep import SweepSummary, summarise, sweep
@@ -37,13 +40,18 @@ MONTE_CARLO = "monte_carlo"
 # What a report writes in its folder, certificates and curves apart, which their manifests name.
 FILES = ("report.html", "claims.json", "compare.json", "gains.json", f"{MONTE_CARLO}/sweep.csv",
          f"{MONTE_CARLO}/sweep.journal.jsonl", "matches.journal.jsonl", "pareto.journal.jsonl")
+# So many drawn trains a report takes at the most, unless it is to be full.
+QUICK_DRAWS = 20
 # (what is being done, done, total); total 0 while it is not known
 Progress = Callable[[str, int, int], None]
 
 
 @dataclass(frozen=True)
 class Asked:
-    """A report that is asked for, with everything it needs checked; gains: what was found of the paper's gains."""
+    """A report that is asked for, with everything it needs checked; gains: what was found of the paper's gains.
+
+    full: on all drawn trains that the file states, else on the first QUICK_DRAWS of them.
+    """
 
     loaded: Loaded
     proofs: tuple[Target, ...]
@@ -52,10 +60,11 @@ class Asked:
     resume: bool
     workers: int | None
     command: str
+    full: bool = True
 
     @classmethod
     def of(cls, loaded: Loaded, proofs: Sequence[str], out: Path, with_gains: bool = False, resume: bool = False,
-           workers: int | None = None) -> Asked:
+           workers: int | None = None, full: bool = True) -> Asked:
         """Check before anything runs: claims and gains can be had, variants fit, the folder can be written.
 
         proofs: papers whose claims are on the page; without any the paper's own. Raises InputError.
@@ -67,7 +76,12 @@ class Asked:
         make_folder(out, out, ANOTHER_OUT)
         gains = gains_of(loaded) if with_gains and gain_search_of(loaded) is not None else None
         named = [str(loaded.path), *proofs]
-        return cls(loaded, asked, out, gains, resume, workers, f"workbench report {' '.join(named)} --out {out}")
+        command = f"workbench report {' '.join(named)} --out {out}{' --full' if full else ''}"
+        return cls(loaded, asked, out, gains, resume, workers, command, full)
+
+    def draws(self, stated: int) -> int:
+        """How many trains are drawn where the file states so many."""
+        return stated if self.full else min(stated, QUICK_DRAWS)
 
 
 def _own(loaded: Loaded) -> list[Target]:
@@ -108,7 +122,7 @@ def build_report(asked: Asked, runs: int | None = None, seed: int | None = None,
         comparison = compare(loaded.path, loaded.data, scenario, workers=workers,
                              on_progress=lambda done, total, _: on_progress("runs and variants", done, total))
         write_json(out / "compare.json", comparison_document(comparison))
-    runs = scenario.uncertainty.runs if runs is None else runs
+    runs = asked.draws(scenario.uncertainty.runs) if runs is None else runs
     seed = scenario.uncertainty.seed if seed is None else seed
     with _timed(timings, "Monte Carlo"):
         rows = sweep(scenario, loaded.path, runs, seed, out=out / MONTE_CARLO, resume=asked.resume, workers=workers,
@@ -119,6 +133,7 @@ def build_report(asked: Asked, runs: int | None = None, seed: int | None = None,
         commands=(f"{asked.command} --runs {runs}",), gains=_gains(asked, on_progress, timings))
     page = out / "report.html"
     with _timed(timings, "page"):
+        write_curves(list(scenario_charts(content).values()), out)
         write_text(page, build_page(content), ANOTHER_OUT)
     return Report(page, claims, comparison, summarise(rows, scenario), timings)
 
@@ -126,19 +141,38 @@ def build_report(asked: Asked, runs: int | None = None, seed: int | None = None,
 def build_study_report(asked: Asked, on_progress: Progress = lambda what, done, total: None) -> StudyReport:
     """Decide the claims, run the study, and write report.html, claims.json, compare.json, the certificates and
     the curves of every figure; with `resume` the runs that `run_study` has kept there are not run again."""
-    loaded, study, out = asked.loaded, asked.loaded.study, asked.out
+    study, out = asked.loaded.study, asked.out
     timings: dict[str, float] = {}
     claims = _decide(asked, on_progress, timings)
     with _timed(timings, "runs"):
-        result = run_study(loaded, asked.workers, on_progress, out, asked.resume)
+        result = run_study(_with_draws(asked), asked.workers, on_progress, out, asked.resume)
         write_json(out / "compare.json", study_document(study, result))
-    write_curves(result.plots, out)
+    write_curves(list(map(chart_of, result.plots)), out)
     found = _gains(asked, on_progress, timings)
     page = out / "report.html"
     with _timed(timings, "page"):
-        text = build_study_page(StudyContent(study, result, claims, timings, (asked.command,), found))
+        text = build_study_page(StudyContent(study, result, claims, timings, (asked.command,), found,
+                                             _draws_words(asked)))
         write_text(page, text, ANOTHER_OUT)
     return StudyReport(page, claims, study, result, timings)
+
+
+def _with_draws(asked: Asked) -> Loaded:
+    """What is run: the file's study on as many drawn trains as are asked for."""
+    study = asked.loaded.study
+    pairs = getattr(study, "pairs", None)
+    if not isinstance(pairs, Pairs):
+        return asked.loaded
+    fewer = pairs.model_copy(update={"draws": asked.draws(pairs.draws)})
+    return replace(asked.loaded, record=study.model_copy(update={"pairs": fewer}))
+
+
+def _draws_words(asked: Asked) -> str:
+    """On how many drawn trains the pairs of a page are, where they are not all that the file states."""
+    pairs = getattr(asked.loaded.study, "pairs", None)
+    if not isinstance(pairs, Pairs) or asked.draws(pairs.draws) == pairs.draws:
+        return ""
+    return f"the first {asked.draws(pairs.draws)} of {pairs.draws}; all with --full"
 
 
 def check_resumable(loaded: Loaded, out: Path | None, resume: bool) -> None:

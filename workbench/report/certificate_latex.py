@@ -15,7 +15,7 @@ Written = tuple[str, int]
 SIGNS = {"==": "=", "<=": r"\le", ">=": r"\ge", "!=": r"\ne", "<": "<", ">": ">"}
 ZERO, ONE = ast.Constant(0), ast.Constant(1)
 LONGEST_FRACTION = 6  # digits above or below a fraction bar, beyond which a reader is given a decimal
-_WORD = re.compile(r"(?<=[{,])[A-Za-z]{2,}(?=[},])(?<!mathrm)")  # an index of several letters
+_WORD = re.compile(r"(?<=[{,])(?<!\\mathrm\{)[A-Za-z]{2,}(?=[},])")  # an index of several letters
 LOGARITHM = "log_"  # a positive letter with an index is stated by its logarithm: e^log_m is m
 
 

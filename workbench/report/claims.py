@@ -62,6 +62,7 @@ class ClaimView:
     note: Markup
     tainted_by: tuple[ClaimRef, ...]
     premises: tuple[ClaimRef, ...]
+    rests_on: tuple[ClaimRef, ...]
     counterexample: tuple[Markup, ...]
     facts: tuple[tuple[str, Markup], ...]
     open: bool
@@ -112,7 +113,7 @@ def _view(entry: Mapping[str, Any], known: set[str]) -> ClaimView:
     if isinstance(seconds, int | float):
         shown.append(("Decided in", escape(f"{seconds:.2g} s")))
     refs = {key: tuple(ClaimRef(name, anchor(name) if name in known else None)
-                       for name in map(_text, _list(entry.get(key)))) for key in ("tainted_by", "premises")}
+                       for name in map(_text, _list(entry.get(key)))) for key in ("tainted_by", "premises", "rests_on")}
     trust = _text(entry.get("trust"))
     return ClaimView(
         id=_text(entry.get("id")), anchor=anchor(_text(entry.get("id"))), title=in_words(_text(entry.get("title"))),
@@ -124,7 +125,7 @@ def _view(entry: Mapping[str, Any], known: set[str]) -> ClaimView:
         correction_label=CORRECTIONS.get(verdict, "Correction"),
         verdict=verdict, sign=VERDICTS.get(verdict, "?"), recorded=recorded if recorded != verdict else "",
         method=_text(entry.get("method")), trust=TRUST.get(trust, trust), note=in_words(_text(entry.get("note"))),
-        tainted_by=refs["tainted_by"], premises=refs["premises"],
+        tainted_by=refs["tainted_by"], premises=refs["premises"], rests_on=refs["rests_on"],
         counterexample=_lines(entry.get("counterexample")),
         facts=tuple((label, text) for label, text in shown if text), open=verdict in NOT_AS_PRINTED,
         ours=origin == "ours", fate=_text(entry.get("fate")),

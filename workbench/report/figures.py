@@ -20,6 +20,13 @@ from workbench.trains.track import resistance_table
 
 START_S = 30.0
 MOST_POINTS = 40
+N_PER_KG = 9.80665e-3  # N for a kg, where a resistance is 1 N/kN
+# What is shown of the drawn runs: its label, its column in a paper's table, the metrics of which the larger counts.
+SPREAD: tuple[tuple[str, str, tuple[str, ...]], ...] = (
+    ("max |position error| (m)", "position_error_m", ("position_error_min", "position_error_max")),
+    ("max |speed error| (m/s)", "speed_error_mps", ("speed_error_min", "speed_error_max")),
+    ("|stopping error| (m)", "stopping_accuracy_m", ("stopping_error",)),
+)
 
 Quantity = Literal["position", "speed", "command"]
 
@@ -36,9 +43,8 @@ def line_profile(scenario: Scenario) -> str:
         figure = Figure(figsize=(9, 4.2), layout="constrained")
         above, below = figure.subplots(2, 1, sharex=True, height_ratios=(3, 2))
         total = resistance_table(track)
-        weight = 9.80665e-3  # N per kg at 1 N/kN
         edges = np.append(total.position_m, track.length_m) / 1e3
-        above.stairs(total.specific_force / weight, edges, fill=True, color=FAINT, alpha=0.35, baseline=0.0,
+        above.stairs(total.specific_force / N_PER_KG, edges, fill=True, color=FAINT, alpha=0.35, baseline=0.0,
                      label="total")
         grades = np.array([s.grade_permille for s in track.grade])
         above.stairs(grades, np.array([0.0, *(s.end_m for s in track.grade)]) / 1e3, baseline=None,
@@ -89,7 +95,7 @@ def errors(scenario: Scenario, runs: Sequence[Run], quantity: Quantity) -> str:
         grid = figure.subplots(len(runs), 2, width_ratios=(2.2, 1), squeeze=False)
         tint = colours(scenario)
         for (whole, start), run in zip(grid, runs, strict=True):
-            time, value, unit = _series(run, quantity)
+            time, value, unit = series_of(run, quantity)
             first = time <= START_S
             for axes, part in ((whole, slice(None)), (start, first)):
                 axes.axhline(0, color=INK, linewidth=0.6)
@@ -99,18 +105,19 @@ def errors(scenario: Scenario, runs: Sequence[Run], quantity: Quantity) -> str:
                 axes.tick_params(labelbottom=run is runs[-1])
             whole.set(ylabel=unit)
             start.set_xlim(0, START_S)
-            whole.set_title(f"{run.title}: {_remark(run, quantity)}")
+            whole.set_title(f"{run.title}: {remark(run, quantity)}")
             if quantity == "position":
                 _draw_bounds(whole, start, scenario, run, unit)
         grid[0, 1].set_title(f"first {START_S:g} s")
         for axes in grid[-1]:
             axes.set_xlabel("time (s)")
         what = {"position": "Position error", "speed": "Speed error", "command": "Command"}[quantity]
-        said = "; ".join(f"{run.title}: {_remark(run, quantity)}" for run in runs)
+        said = "; ".join(f"{run.title}: {remark(run, quantity)}" for run in runs)
         return svg(figure, f"{what} against time, one row a controller. {said}")
 
 
-def _series(run: Run, quantity: Quantity) -> tuple[Array, Array, str]:
+def series_of(run: Run, quantity: Quantity) -> tuple[Array, Array, str]:
+    """Time in s, the quantity, and its unit, the one that suits its size."""
     time = run.column("t_s")
     if quantity == "command":
         return time, run.column("u_mps2"), "m/s²"
@@ -121,7 +128,8 @@ def _series(run: Run, quantity: Quantity) -> tuple[Array, Array, str]:
     return (time, value * 1e3, f"m{unit}") if largest < 1 else (time, value, unit)
 
 
-def _remark(run: Run, quantity: Quantity) -> str:
+def remark(run: Run, quantity: Quantity) -> str:
+    """What a run's largest error or commands are, or when it failed."""
     total = run.totals
     if run.failed is not None:
         return f"failed at {fixed(run.end_s, 1)} s"
@@ -156,19 +164,12 @@ def spread(scenario: Scenario, rows: Sequence[SweepRow], titles: dict[str, str])
     names = [name for name in scenario.controllers if any(row.controller == name for row in rows)]
     printed = {row.controller: row for row in scenario.printed_table.rows} if scenario.printed_table else {}
     tint = colours(scenario)
-    panels: tuple[tuple[str, str, tuple[str, ...]], ...] = (
-        ("max |position error| (m)", "position_error_m", ("position_error_min", "position_error_max")),
-        ("max |speed error| (m/s)", "speed_error_mps", ("speed_error_min", "speed_error_max")),
-        ("|stopping error| (m)", "stopping_accuracy_m", ("stopping_error",)),
-    )
     with drawing("spread"):
         figure = Figure(figsize=(9, 1.1 + 0.5 * len(names)), layout="constrained")
         grid = figure.subplots(1, 3, sharey=True)
-        for axes, (label, printed_key, keys) in zip(grid, panels, strict=True):
+        for axes, (label, printed_key, keys) in zip(grid, SPREAD, strict=True):
             for place, name in enumerate(names):
-                whole = [row for row in rows if row.controller == name and row.failed is None]
-                values = np.sort([max(abs(getattr(row, key) or 0.0) for key in keys) for row in whole])
-                _draw_strip(axes, place, np.maximum(values, 1e-9), tint[name])
+                _draw_strip(axes, place, np.maximum(spread_values(rows, name, keys), 1e-9), tint[name])
                 if name in printed:
                     value = np.abs(getattr(printed[name], printed_key)).max()
                     axes.plot(value, place, "D", markersize=6, markerfacecolor="none", markeredgecolor=INK,
@@ -189,6 +190,12 @@ def spread(scenario: Scenario, rows: Sequence[SweepRow], titles: dict[str, str])
         figure.legend(handles=signs, loc="outside upper left", ncols=3)
         return svg(figure, "Spread of the largest position error, the largest speed error and the stopping "
                            "error over the Monte Carlo runs; the numbers stand in the tables")
+
+
+def spread_values(rows: Sequence[SweepRow], controller: str, keys: Sequence[str]) -> Array:
+    """Of every run of a controller that did not fail the larger magnitude of the metrics `keys`, sorted."""
+    whole = [row for row in rows if row.controller == controller and row.failed is None]
+    return np.sort([max(abs(getattr(row, key) or 0.0) for key in keys) for row in whole])
 
 
 def _draw_strip(axes: Axes, place: int, values: Array, colour: str) -> None:

@@ -17,10 +17,9 @@ from workbench.files.json_output import write_json
 from workbench.files.outputs import check_outputs
 from workbench.files.regular import LARGEST_DATA, contents
 from workbench.files.toml import load_record
+from workbench.files.units import KWH_J
 from workbench.files.writing import write_text
 from workbench.optimal.inputs.fleet_file import FleetFile
-
-KWH_J = 3.6e6
 
 
 @dataclass(frozen=True)

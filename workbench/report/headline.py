@@ -117,7 +117,8 @@ def variants_line(nominal: Sequence[Metrics], variants: Sequence[tuple[Variant, 
     base = {m.controller: error for m in nominal if (error := largest_error(m)) is not None}
     if not variants:
         return None
-    line = Markup("<strong>Sensitivity.</strong> {} changes of assumed data.").format(len(variants))
+    line = Markup("<strong>Sensitivity.</strong> {} of assumed data.").format(
+        f"{len(variants)} changes" if len(variants) > 1 else "One change")
     broken = [(variant.title, failed) for variant, metrics in variants
               if (failed := [names.get(m.controller, m.controller) for m in metrics
                              if m.failed is not None and m.controller in base])]

@@ -6,15 +6,17 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
-from markupsafe import Markup
-
 from workbench.files.numbers import length
 from workbench.paper.results import StudyResult
 from workbench.report import figures, headline, tables
+from workbench.report.charts.chart import Chart
+from workbench.report.charts.files import csv_files
+from workbench.report.charts.scenario import errors_chart, line_chart, spread_chart, tracking_chart
 from workbench.report.claims import claim_views
 from workbench.report.sources import sourced_values
 from workbench.report.table_view import gains_view
-from workbench.report.template import PageFigure, render
+from workbench.report.template import PageFigure, page_figure, render
+from workbench.report.winners import winners
 from workbench.simulate.closed_loop import Run
 from workbench.simulate.metrics import Metrics
 from workbench.simulate.sweep import SweepRow, summarise
@@ -50,6 +52,7 @@ def build_page(content: ReportContent) -> str:
     summaries = summarise(content.sweep, scenario)
     claims = claim_views(content.claims)
     sources = sourced_values(scenario)
+    shown = _figures(content, names)
     lines = [
         headline.proof_line(claims), headline.nominal_line(scenario, content.metrics, names),
         headline.table_line(scenario, summaries, names, content.sweep),
@@ -64,44 +67,64 @@ def build_page(content: ReportContent) -> str:
         | ({"Monte Carlo runs a controller": runs_each, "seed": seed} if compared else {}),
         commands=content.commands, timings=content.timings, gains=gains_view(content.gains),
         content=content, scenario=scenario, names=names,
-        figures=_figures(content, names), spread=_spread(content, names),
+        figures=[figure for anchor, figure in shown.items() if anchor != "spread"], spread=shown.get("spread"),
+        winners=winners(scenario, content.metrics, content.variants, content.sweep, names),
         nominal=tables.nominal_table(content.metrics),
         information=[tables.information(scenario, m.controller) for m in content.metrics],
-        compared=compared, runs_each=runs_each, single=tables.printed_values_table(scenario, content.metrics, names),
+        compared=compared, runs_each=runs_each, solved=tables.compiled_words(scenario, names),
+        single=tables.printed_values_table(scenario, content.metrics, names),
         variants=tables.variants_table(content.metrics, content.variants) if content.variants else [],
         failures=[(variant.title, m.controller, m.failed)
                   for variant, found in content.variants for m in found if m.failed is not None],
     )
 
 
-def _figures(content: ReportContent, names: Mapping[str, str]) -> list[PageFigure]:
+def scenario_charts(content: ReportContent) -> dict[str, Chart]:
+    """The charts of the page by the anchors of their figures, in their order."""
     scenario, runs = content.scenario, content.runs
-    whole = next((run for run in runs if run.failed is None), None)
-    shown = [PageFigure("line", Markup(figures.line_profile(scenario)),
-                     f"The line ({scenario.track.name}) and the desired speed over it. Grade in ‰ and "
-                     f"resistance in N/kN have the same number.")]
+    names = tables.titles(scenario, runs)
+    shown = {"line": line_chart(scenario)}
+    whole = _whole(content)
     if whole:
-        shown.append(PageFigure("tracking", Markup(figures.tracking(whole)),
-                             f"Speed and position under {names[whole.controller]}, over the desired ones."))
+        shown["tracking"] = tracking_chart(whole)
+    if runs:
+        shown |= {"position-errors": errors_chart(runs, "position"), "speed-errors": errors_chart(runs, "speed"),
+                  "commands": errors_chart(runs, "command")}
+    if content.sweep:
+        shown["spread"] = spread_chart(content.sweep, names)
+    return shown
+
+
+def _figures(content: ReportContent, names: Mapping[str, str]) -> dict[str, PageFigure]:
+    """The figures of the page by their anchors: drawn, said, and as charts with their files."""
+    scenario, runs = content.scenario, content.runs
+    drawn = {"line": (figures.line_profile(scenario),
+                      f"The line ({scenario.track.name}) and the desired speed over it. Grade in ‰ and "
+                      f"resistance in N/kN have the same number.")}
+    whole = _whole(content)
+    if whole:
+        drawn["tracking"] = (figures.tracking(whole),
+                             f"Speed and position under {names[whole.controller]}, over the desired ones.")
     if runs:
         bounds = sorted({run_k for run in runs
                          if (run_k := scenario.controllers[run.controller].parameters.get("k")) is not None})
         barrier = f" and the barrier k = {' or '.join(map(length, bounds))} (dotted)" if bounds else ""
         band = f"The band of ±{length(scenario.simulation.position_band_m)} (dashed){barrier}"
         own = "Each panel has its own scale; measured minus desired."
-        shown += [
-            PageFigure("position-errors", Markup(figures.errors(scenario, runs, "position")),
-                    f"Position errors. {own} {band} stand where they lie within the scale."),
-            PageFigure("speed-errors", Markup(figures.errors(scenario, runs, "speed")), f"Speed errors. {own}"),
-            PageFigure("commands", Markup(figures.errors(scenario, runs, "command")),
-                    "Command u = F/m as the controller gives it, before the limits of the train."),
-        ]
-    return shown
+        drawn["position-errors"] = (figures.errors(scenario, runs, "position"),
+                                    f"Position errors. {own} {band} stand in print where they lie within the scale.")
+        drawn["speed-errors"] = (figures.errors(scenario, runs, "speed"), f"Speed errors. {own}")
+        drawn["commands"] = (figures.errors(scenario, runs, "command"),
+                             "Command u = F/m as the controller gives it, before the limits of the train.")
+    if content.sweep:
+        drawn["spread"] = (figures.spread(scenario, content.sweep, dict(names)),
+                           "The runs with their own drawn train and line, the same ones for every controller: how many "
+                           "of them stay at or below a value. In print each dot is a run.")
+    charts = scenario_charts(content)
+    files = dict(zip(charts, csv_files(list(charts.values())), strict=True))
+    return {anchor: page_figure(anchor, svg, text, charts[anchor], files[anchor])
+            for anchor, (svg, text) in drawn.items()}
 
 
-def _spread(content: ReportContent, names: Mapping[str, str]) -> PageFigure | None:
-    if not content.sweep:
-        return None
-    return PageFigure("spread", Markup(figures.spread(content.scenario, content.sweep, dict(names))),
-                   "Each dot is a run with its own drawn train and line, the same ones for every controller. "
-                   "Logarithmic axes.")
+def _whole(content: ReportContent) -> Run | None:
+    return next((run for run in content.runs if run.failed is None), None)

@@ -10,6 +10,7 @@ import numpy as np
 
 from workbench.errors import InputError
 from workbench.files.json_output import write_json
+from workbench.files.units import KWH_J
 from workbench.optimal.bound_document import write_certificate
 from workbench.optimal.certified_export import COLUMNS as CERTIFIED_COLUMNS
 from workbench.optimal.certified_export import certified_document, certified_rows
@@ -34,7 +35,6 @@ if TYPE_CHECKING:
     from workbench.optimal.cars.car_train import CarTrain
     from workbench.optimal.cars.multi_car import CarsRun
 
-KWH_J = 3.6e6
 # Share of a limit by which sums of rounding may seem to pass it.
 ROUNDING = 1e-9
 

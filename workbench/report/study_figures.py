@@ -6,12 +6,10 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from workbench.paper.results import Plot
+from workbench.report.charts.chart import BENEATH, FEW
 from workbench.report.svg import FAINT, PALETTE, drawing, svg, thin
 
-UNDERNEATH = ("desired", "printed")
 LINES = ("-", "--", ":", "-.")
-# So few points are samples rather than a course: they are marked.
-FEW = 60
 # A legend line of the figure's width holds about so many letters.
 LETTERS = 120
 
@@ -27,7 +25,7 @@ def study_plot(plot: Plot, name: str) -> str:
         drawn = 0
         for curve in plot.curves:
             x, y = thin(curve.x, curve.y)
-            if curve.label.startswith(UNDERNEATH):
+            if curve.label.startswith(BENEATH):
                 axes.plot(x, y, color=FAINT, linewidth=4.5, label=curve.label, solid_capstyle="butt", zorder=1)
                 continue
             axes.plot(x, y, LINES[drawn // len(PALETTE) % len(LINES)], color=PALETTE[drawn % len(PALETTE)],

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from workbench.files.numbers import NOTHING, fixed, grouped, number
 from workbench.report.sources import stated
 from workbench.simulate.closed_loop import Run
-from workbench.simulate.controllers import SAMPLED, compiled_law
+from workbench.simulate.controllers import COMPILED, SAMPLED, compiled_law
 from workbench.simulate.metrics import Metrics
 from workbench.simulate.sweep import WHOLE_RUN, SweepSummary
 from workbench.trains.scenario import Scenario, Variant
@@ -167,7 +167,8 @@ _Range = tuple[float | None, float | None]
 def _compare_ranges(printed: tuple[float, float] | None, obtained: _Range) -> tuple[str, str, str]:
     (low, low_obtained, low_off), (high, high_obtained, high_off) = (
         _compare(p, o, 1e3) for p, o in zip(printed or (None, None), obtained, strict=True))
-    return _pair(low, high), _pair(low_obtained, high_obtained), _pair(low_off, high_off)
+    off = NOTHING if NOTHING in (low_off, high_off) else f"{low_off}; {high_off}"
+    return _pair(low, high), _pair(low_obtained, high_obtained), off
 
 
 def _pair(low: str, high: str) -> str:
@@ -203,6 +204,12 @@ def largest_error(metrics: Metrics) -> float | None:
     if metrics.failed is not None:
         return None
     return max(abs(metrics.position_error_min), abs(metrics.position_error_max))
+
+
+def compiled_words(scenario: Scenario, names: Mapping[str, str]) -> str:
+    """Which controllers are run in their compiled form where there are many runs; empty without one."""
+    those = [names.get(name, name) for name, spec in scenario.controllers.items() if spec.law in COMPILED]
+    return f" {', '.join(those)}: solved by compiled code here, by casadi in the runs as stated." if those else ""
 
 
 def variants_table(nominal: Sequence[Metrics],

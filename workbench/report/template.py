@@ -9,6 +9,7 @@ from collections import Counter
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from importlib.metadata import PackageNotFoundError, version
+from importlib.resources import files
 from pathlib import Path
 from typing import Any
 
@@ -17,79 +18,31 @@ from markupsafe import Markup
 
 from workbench.files.numbers import number
 from workbench.files.regular import contents
-from workbench.report.claims import ClaimView, by_section, claim_views, counts, fated
+from workbench.report.charts.chart import Chart, chart_json
+from workbench.report.charts.files import CURVES
+from workbench.report.claims import ClaimView, by_section, claim_views, counts, fated, in_words
 from workbench.report.findings_view import finding_groups
+from workbench.report.graph.view import graph_views
 from workbench.report.sources import SourcedValue, stated
+from workbench.report.svg import PALETTE
 
 PACKAGES = ("workbench", "numpy", "scipy", "sympy", "numba", "casadi", "matplotlib")
 
-# Shows the filter, which is of no use without scripts, and opens what folds before printing.
-SCRIPT = """
-const filter = document.getElementById("filter");
-const claims = [...document.querySelectorAll("tbody[data-verdict]")];
-const folds = [...document.querySelectorAll("details.paper-section")];
-const START = "#show?";
-function chosen() {
-  return [...filter.querySelectorAll("select, input")].filter(field => field.value);
-}
-function show(keep) {
-  const fields = chosen();
-  let count = 0;
-  for (const claim of claims) {
-    claim.hidden = fields.some(field => field.name === "q"
-      ? !claim.textContent.toLowerCase().includes(field.value.toLowerCase())
-      : claim.dataset[field.name] !== field.value);
-    count += claim.hidden ? 0 : 1;
-  }
-  for (const fold of folds) {
-    const left = fold.querySelector("tbody[data-verdict]:not([hidden])");
-    fold.hidden = !left;
-    if (fields.length && left) fold.open = true;
-  }
-  document.getElementById("shown").textContent = count + " of " + claims.length + " claims";
-  if (keep && fields.length)
-    history.replaceState(null, "", START + new URLSearchParams(fields.map(field => [field.name, field.value])));
-  else if (keep && location.hash.startsWith(START)) history.replaceState(null, "", "#proof");
-}
-function follow() {
-  if (location.hash.startsWith(START)) {
-    const asked = new URLSearchParams(location.hash.slice(START.length));
-    for (const field of filter.querySelectorAll("select, input")) field.value = asked.get(field.name) || "";
-    show(false);
-    document.getElementById("proof").scrollIntoView();
-    return;
-  }
-  const name = location.hash.slice(1);
-  const claim = document.getElementById(decodeURIComponent(name)) || document.getElementById(name);
-  if (!claim) return;
-  if (claim.closest("tbody[hidden]")) {  // a link to a claim that is filtered away shows all again
-    for (const field of filter.querySelectorAll("select, input")) field.value = "";
-    show(false);
-  }
-  const fold = claim.closest("details.paper-section");
-  if (fold && !fold.open) { fold.open = true; claim.scrollIntoView(); }
-}
-if (filter) {
-  filter.hidden = false;
-  filter.addEventListener("input", () => show(true));
-  document.getElementById("unfold").addEventListener("click", () => { for (const fold of folds) fold.open = true; });
-  addEventListener("hashchange", follow);
-  show(false);
-  follow();
-}
-addEventListener("beforeprint", () => {
-  for (const fold of document.querySelectorAll("details")) fold.open = true;
-});
-"""
-
-
 @dataclass(frozen=True)
 class PageFigure:
-    """A figure to stand in a page: its anchor, its SVG element, its caption."""
+    """A figure to stand in a page: its anchor, its SVG element, its caption; its chart as JSON and the CSV file behind
+    it, by its path from the page."""
 
     anchor: str
     svg: Markup
     caption: str
+    chart: Markup
+    csv: str
+
+
+def page_figure(anchor: str, svg: str, caption: str, chart: Chart, file: str) -> PageFigure:
+    """A figure with its chart, of which `file` is the name of its CSV file."""
+    return PageFigure(anchor, Markup(svg), caption, Markup(chart_json(chart)), f"{CURVES}/{file}")
 
 
 def render(template: str, document: Mapping[str, Any], sources: Sequence[SourcedValue], **values: Any) -> str:
@@ -100,16 +53,36 @@ def render(template: str, document: Mapping[str, Any], sources: Sequence[Sourced
     """
     folder = Path(__file__).parent
     claims = claim_views(document)
+    scripts = _scripts(folder, bool(values.get("figures")))
     environment = Environment(loader=FileSystemLoader(folder), autoescape=True, undefined=StrictUndefined,
                               trim_blocks=True, lstrip_blocks=True)
-    environment.filters |= {"number": number, "stated": stated, "breakable": _breakable}
+    environment.filters |= {"number": number, "stated": stated, "breakable": _breakable, "in_words": in_words}
     return environment.get_template(template).render(
         claims=claims, counts=counts(claims), findings=finding_groups(document), sections=by_section(claims),
-        fated=fated(claims),
+        fated=fated(claims), graphs=graph_views(claims),
         choices=[(name, label, found) for name, label in CHOICES if len(found := _values(claims, name)) > 1],
         sources={kind: [s for s in sources if s.kind == kind] for kind in ("assumed", "paper", "convention")},
-        versions=_versions(), style=Markup(contents(folder / "page.css").decode()), script=Markup(SCRIPT),
-        script_hash=_hash(SCRIPT), **values)
+        versions=_versions(), style=Markup(_style(folder)), scripts=[Markup(script) for script in scripts],
+        script_hashes=" ".join(f"'{_hash(script)}'" for script in scripts), **values)
+
+
+def _style(folder: Path) -> str:
+    """The page's style, with the colours of its curves and the font of its formulas, of which dots over letters need a
+    table that few systems' fonts have."""
+    font = base64.b64encode(contents(folder / "fonts" / "math.woff2")).decode()
+    series = " ".join(f"--series-{i}: {colour};" for i, colour in enumerate(PALETTE))
+    return (f'@font-face {{ font-family: "Page Math"; src: url(data:font/woff2;base64,{font}) format("woff2"); }}\n'
+            f":root {{ {series} }}\n{contents(folder / 'page.css').decode()}")
+
+
+def _scripts(folder: Path, charts: bool) -> list[str]:
+    """The page's scripts; Plotly, of some megabytes, only where it has something to draw."""
+    own = contents(folder / "page.js").decode()
+    if not charts:
+        return [own]
+    library = (files("plotly") / "package_data" / "plotly.min.js").read_text(encoding="utf-8")
+    # An HTML parser ends a script at these letters, whatever they mean to the script.
+    return [own, library.replace("</script", "<\\/script"), contents(folder / "charts" / "charts.js").decode()]
 
 
 CHOICES = (("verdict", "Verdict"), ("severity", "Severity"), ("origin", "Origin"), ("section", "Section"))

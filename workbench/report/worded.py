@@ -15,22 +15,47 @@ _LETTER = re.compile(r"(?<![\w.$\\{])([A-Za-z]+(?:_[A-Za-z0-9]+)+)(\^\d)?(?![\w]
 _STEM = re.compile(r"([A-Za-z]+?)(?:d?dot|hat|tilde|bar)?\d*")
 _SIGNS = (("==", "="), ("<=", "≤"), (">=", "≥"), ("!=", "≠"), ("->", "→"))
 _POWER = re.compile(r"(?<![\w$\\{])([A-Za-z])\^(\d)(?!\w)")
+_SHORT = {"eps": "varepsilon"}
+_WORDS = ("Re", "Im", "ell", "wp", "partial")  # words, before they are letters
+_NAMES = "|".join(sorted((name for name in GREEK if name not in _WORDS), key=len, reverse=True))
+# A Greek letter or a single one with its accent in words, such as W-tilde, where no claim's number goes on with it.
+_ACCENTED = re.compile(rf"(?<![\w.$\\{{-])({_NAMES}|eps|[A-Za-z])-(hat|tilde|bar|dot)(?!\w|\.\w)")
+_GREEK = re.compile(rf"(?<![\w.$\\{{])({_NAMES}|eps)(\*|\^\d)?(?!\w|\.\w)")
+_STARRED = re.compile(r"(?<![\w$\\{*])([A-Za-z])\*(?![\w*])")
+_DERIVED = re.compile(r"(?<![\w$\\{'])([A-Z])'(?!\w)")
+_RAISED = re.compile(r"\^(?:\{(-?\w+)\}|\((-?\w+(?:[-+]\w+)?)\)|(-?\d+|T\b|[-+](?!\w)))")
 
 
 def worded(text: str) -> str:
     """A note or title with its letters, such as z_1 or rho_hat, as formulas between dollar signs."""
     for typed, sign in _SIGNS:
         text = text.replace(typed, sign)
-    text = _LETTER.sub(_as_formula, text)
-    return _POWER.sub(r"$\1^\2$", text)
+    text = _outside(text, _LETTER, _as_formula)
+    text = _outside(text, _POWER, lambda found: rf"${found[1]}^{found[2]}$")
+    text = _outside(text, _ACCENTED, lambda found: rf"$\{found[2]}{{{_greek(found[1])}}}$")
+    text = _outside(text, _GREEK, lambda found: f"${_greek(found[1])}{(found[2] or '').replace('*', '^*')}$")
+    text = _outside(text, _STARRED, lambda found: f"${found[1]}^*$")
+    text = _outside(text, _DERIVED, lambda found: f"${found[1]}'$")
+    return _outside(text, _RAISED, lambda found: f"${{}}^{{{found[1] or found[2] or found[3]}}}$")
+
+
+def _outside(text: str, pattern: re.Pattern[str], formula: Callable[[re.Match[str]], str]) -> str:
+    """The text with what the pattern finds in its words as formulas; those that are there stay."""
+    pieces = re.split(r"(\$[^$]*\$)", text)
+    return "".join(piece if i % 2 else pattern.sub(formula, piece) for i, piece in enumerate(pieces))
+
+
+def _greek(name: str) -> str:
+    return name if len(name) == 1 else rf"\{_SHORT.get(name, name)}"
 
 
 def _as_formula(found: re.Match[str]) -> str:
     stem = _STEM.fullmatch(found[1].partition("_")[0])
-    letter = stem[1] if stem else ""
+    short = stem[1] if stem else ""
+    letter = _SHORT.get(short, short)
     if len(letter) != 1 and letter not in GREEK:
         return found[0]
-    return f"${name_latex(found[1])}{found[2] or ''}$"
+    return f"${name_latex(letter + found[1][len(short):])}{found[2] or ''}$"
 
 
 def math(latex: str) -> str:

@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from workbench.simulate.closed_loop import Run, check_controllers, simulate
+from workbench.simulate.controllers import compiled
 from workbench.simulate.metrics import Metrics, measure
 from workbench.simulate.process_pool import cores, run_tasks
 from workbench.trains.scenario import Scenario, Variant, changed_scenario
@@ -30,11 +31,12 @@ def compare(path: Path, data: Mapping[str, Any], scenario: Scenario, with_varian
             workers: int | None = None, on_progress: Progress | None = None) -> Comparison:
     """Simulate all controllers of a scenario in parallel processes; path, data: its file, and the table in it.
 
-    on_progress(finished, total, what) is called after each run. A run that fails is a row that says so.
+    on_progress(finished, total, what) is called after each run. A run that fails is a row that says so. Variants are
+    driven by the compiled form of a controller that has one.
     Raises InputError or WorkbenchError for a scenario or variant that cannot be used.
     """
     variants = scenario.all_variants if with_variants else ()
-    scenarios = [scenario, *checked_variants(path, data, scenario, with_variants)]
+    scenarios = [scenario, *map(compiled, checked_variants(path, data, scenario, with_variants))]
     cases = [(0, name) for name in scenario.controllers]
     cases += [(i, name) for i, variant in enumerate(variants, start=1)
               for name in scenario.controllers if name in (variant.controllers or scenario.controllers)]

@@ -13,6 +13,7 @@ from workbench.model.law import ControlLaw
 from workbench.model.laws import law_named, laws_near
 from workbench.mpc.controller import KINDS
 from workbench.mpc.tracking import TrackingMpc
+from workbench.mpc.tracking_compiled import CompiledTrackingMpc
 from workbench.trains.scenario import ControllerSpec, Scenario
 from workbench.trains.track import resistance_table
 
@@ -39,8 +40,20 @@ class SampledController(Protocol):
 
 SAMPLED: dict[str, Callable[[Scenario, ControllerSpec, str], SampledController]] = {
     "mpc.tracking": TrackingMpc,
+    "mpc.tracking_compiled": CompiledTrackingMpc,
     **KINDS,
 }
+
+# Controllers that are one program solved in two ways: by the plain one, and by the compiled one for many runs.
+COMPILED = {"mpc.tracking": "mpc.tracking_compiled"}
+
+
+def compiled(scenario: Scenario) -> Scenario:
+    """The scenario with the compiled form of every controller that has one: the same commands within a solver's
+    tolerance, in a small part of the time."""
+    return scenario.model_copy(update={"controllers": {
+        name: spec.model_copy(update={"law": COMPILED.get(spec.law, spec.law)})
+        for name, spec in scenario.controllers.items()}})
 
 
 # Laws that are made for a line, of which they are told: of where its resistance changes (m) and by how much (N/kg).

@@ -18,6 +18,7 @@ from workbench.errors import InputError
 from workbench.files.writing import write_text
 from workbench.model.desired_curve import CruiseSpeed
 from workbench.simulate.closed_loop import Factors, check_controllers, simulate
+from workbench.simulate.controllers import compiled
 from workbench.simulate.journal import REMEDY, Journal, code_digest, laws_digest
 from workbench.simulate.metrics import Metrics, measure
 from workbench.simulate.process_pool import cores, run_tasks
@@ -129,8 +130,8 @@ def sweep(scenario: Scenario, scenario_path: Path, runs: int, seed: int, control
 
     With `out` the folder receives `sweep.csv` at the end, and a journal as pairs finish, from which `resume`
     continues after a kill, also with more runs or other controllers. on_progress(finished, total, row) is
-    called after each pair. Rows depend on scenario and seed alone. Workers are spawned: a script that calls
-    this needs the usual `if __name__ == "__main__":`.
+    called after each pair. Rows depend on scenario and seed alone; a controller that has a compiled form runs in it.
+    Workers are spawned: a script that calls this needs the usual `if __name__ == "__main__":`.
     Raises InputError for unusable options or a journal of another sweep, WorkbenchError when a worker dies.
     """
     check_controllers(scenario, scenario_path)
@@ -142,7 +143,7 @@ def sweep(scenario: Scenario, scenario_path: Path, runs: int, seed: int, control
         raise InputError(scenario_path, "resume", "needs the folder of the sweep to go on with: name it")
     settings = {"scenario": scenario.name, "seed": seed,
                 "digest of values, line and code": inputs_digest(scenario)}
-    scenario = scenario.model_copy(update={"controllers": {n: scenario.controllers[n] for n in names}})
+    scenario = compiled(scenario.model_copy(update={"controllers": {n: scenario.controllers[n] for n in names}}))
     pairs = [(run, name) for run in range(runs) for name in names]
     journal = Journal(Path(out) / JOURNAL_NAME, settings, resume) if out is not None else None
     with journal or nullcontext():

@@ -2,13 +2,11 @@
 
 from __future__ import annotations
 
-from workbench.paper.drivers import checked, tune_with
-from workbench.paper.pairs import compared_pairs, pair_findings, pair_stage, pair_table
-from workbench.paper.results import StudyResult
-from workbench.paper.stages import Stage, run_stages
-from workbench.paper.study import Progress, StudyKind
+from workbench.paper.reproduction import Reproduction
+from workbench.paper.results import Shown
+from workbench.paper.stages import Stage
 
-from .comparison import COMPARISON, DRIVERS, mpc_findings, mpc_tables, stated_tasks, with_stated
+from .comparison import COMPARISON, mpc_findings, mpc_tables
 from .findings import all_findings
 from .plots import all_plots
 from .record import ChenStudy
@@ -16,23 +14,21 @@ from .runs import STATED, Results, changed, measure, run_number, run_row, title,
 from .tables import all_tables
 
 
-def run(study: ChenStudy, workers: int, on_progress: Progress) -> StudyResult:
-    """All runs of the study in `workers` processes; a run that ends early is told and stops no other."""
-    runs, measured, tuned, drawn = run_stages((
-        Stage(run_number, study, range(STATED, len(study.changes)), lambda task, _: title(study, task),
-              lambda task: changed(study, task).samples),
-        Stage(measure, study, ("cost",), lambda task, _: "cost of a sample"),
-        COMPARISON.stage(study, stated_tasks(study)), pair_stage(DRIVERS, study)), workers, on_progress)
-    results, pairs = Results(study, runs, measured["cost"]), compared_pairs(DRIVERS, study, drawn)
-    rows = with_stated(results, tuned)
-    return StudyResult(
-        rows=tuple(run_row(study, i, one) for i, one in runs.items()),
-        tables=(*all_tables(results), *mpc_tables(results), *COMPARISON.tables(study, rows),
-                *pair_table(study, DRIVERS, pairs)),
-        plots=(*all_plots(results), *COMPARISON.plots(study, rows)),
-        findings=(*all_findings(results), *mpc_findings(results), *COMPARISON.findings(study, rows),
-                  *pair_findings(study, DRIVERS, pairs)),
-        failures=tuple((title(study, i), one.failed) for i, one in runs.items() if one.failed is not None))
+def stages(study: ChenStudy) -> tuple[Stage, ...]:
+    """The stated run and its changes, and the cost of a sample."""
+    return (Stage(run_number, study, range(STATED, len(study.changes)), lambda task, _: title(study, task),
+                  lambda task: changed(study, task).samples),
+            Stage(measure, study, ("cost",), lambda task, _: "cost of a sample"))
 
 
-KIND = StudyKind(ChenStudy, run, checked(DRIVERS), tune_with(DRIVERS), track=track)
+def shown(results: Results) -> Shown:
+    """The paper's own, and MPC's trip beside it."""
+    return Shown((*all_tables(results), *mpc_tables(results)), all_plots(results),
+                 (*all_findings(results), *mpc_findings(results)))
+
+
+KIND = Reproduction(
+    ChenStudy, stages, lambda study, runs, measured: Results(study, runs, measured["cost"]),
+    lambda results: (run_row(results.study, *run) for run in results.runs.items()), shown,
+    lambda results: ((title(results.study, i), one.failed) for i, one in results.runs.items() if one.failed is not None),
+    COMPARISON, track).kind

@@ -9,10 +9,11 @@ from typing import Any
 import numpy as np
 
 from workbench.files.numbers import number
+from workbench.files.units import KWH_J
 from workbench.mpc.multi_car import MultiCarMpc
 from workbench.paper.cells import Column
 from workbench.paper.comparison import STEP
-from workbench.paper.drivers import Drivers
+from workbench.paper.drivers import Drivers, keys_in
 from workbench.paper.learning_comparison import LearningComparison, Task, row_cells
 from workbench.paper.mpc_comparison import counters_words
 from workbench.paper.results import ResultTable
@@ -32,7 +33,7 @@ COLUMNS = {
     "position_rms": Column("position RMS", "m"), "speed_rms": Column("speed RMS", "m/s"),
     "largest_position_error": Column("largest |position error|", "m"),
     "largest_speed_error": Column("largest |speed error|", "m/s"), "stopping_error": Column("stopping error", "m"),
-    "energy_J": Column("energy", "kWh", 3.6e6), "logged_jerk_rms": Column("jerk RMS of the log", "m/s³"),
+    "energy_J": Column("energy", "kWh", KWH_J), "logged_jerk_rms": Column("jerk RMS of the log", "m/s³"),
     "stretch_m": Column("coupler stretch", "m"), "at_limit": Column("at a limit"), "step_s": STEP}
 
 
@@ -41,19 +42,10 @@ def places(study: ChenStudy) -> dict[str, str]:
     return {PLACE: "the train"}
 
 
-def stated(study: ChenStudy, name: str) -> dict[str, float]:
+def keys(study: ChenStudy, name: str) -> dict[str, str]:
     """The law's gains and learning gains, or the weights of MPC of several cars."""
-    if name == LAW:
-        return {str(key): float(getattr(study.gains, str(key))) for key in (*laws.gains, *laws.learning_gains)}
-    return {key: float(getattr(study.mpc, key)) for key in WEIGHTS}
-
-
-def given(study: ChenStudy, name: str, values: Mapping[str, float]) -> ChenStudy:
-    """The study with other gains or weights."""
-    if name == LAW:
-        return study.model_copy(update={"gains": study.gains.model_copy(update=dict(values))})
-    assert study.mpc is not None
-    return study.model_copy(update={"mpc": study.mpc.model_copy(update=dict(values))})
+    gains = map(str, (*laws.gains, *laws.learning_gains))
+    return keys_in("gains", gains) if name == LAW else keys_in("mpc", WEIGHTS)
 
 
 def drive(study: ChenStudy, name: str, place: str, factors: Factors = NOMINAL) -> dict[str, Any]:
@@ -85,22 +77,22 @@ def law_row(study: ChenStudy, run: CarsRun) -> dict[str, Any]:
         "trials": {f"{name}_rms": run.rms(name, whole) for name in ("position", "speed")}}
 
 
-DRIVERS = Drivers({LAW: "the law", MPC: MultiCarMpc.title}, places, stated, given, drive)
-COMPARISON = LearningComparison(DRIVERS, COLUMNS, ("position_rms", "speed_rms"))
-
-
 def stated_tasks(study: ChenStudy) -> list[Task]:
     """What the comparison need not run again: the law as stated where its last trial is logged, and MPC's trip."""
     logged = study.trials.count in study.trials.shown
     return [*([(PLACE, LAW, False)] if logged else []), *([(PLACE, MPC, False)] if study.mpc else [])]
 
 
-def with_stated(results: Results, rows: Mapping[Task, Mapping[str, Any]]) -> dict[Task, Mapping[str, Any]]:
-    """The comparison's rows, those of `stated_tasks` from the runs that there are, in the order of its tasks."""
+def stated_rows(results: Results) -> dict[Task, Mapping[str, Any]]:
+    """The rows of `stated_tasks`."""
     study, trip = results.study, results.measured.trip
-    every = dict(rows) | {(PLACE, LAW, False): law_row(study, results.stated)} | (
-        {(PLACE, MPC, False): mpc_row(study, trip)} if trip else {})
-    return {task: rows.get(task, every[task]) for task in COMPARISON.tasks(study)}
+    law: dict[Task, Mapping[str, Any]] = {(PLACE, LAW, False): law_row(study, results.stated)}
+    return law | ({(PLACE, MPC, False): mpc_row(study, trip)} if trip else {})
+
+
+DRIVERS = Drivers({LAW: "the law", MPC: MultiCarMpc.title}, places, keys, drive)
+COMPARISON = LearningComparison(DRIVERS, COLUMNS, ("position_rms", "speed_rms"), own_tasks=stated_tasks,
+                                own_rows=stated_rows)
 
 
 def mpc_tables(results: Results) -> Iterator[ResultTable]:

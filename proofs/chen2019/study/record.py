@@ -10,7 +10,7 @@ from workbench.errors import WorkbenchError
 from workbench.files.toml import Positive, Record, SourcedRecord, Text
 from workbench.model.desired_curve import DesiredCurve, start_cruise_stop
 from workbench.paper.mpc_comparison import MpcData
-from workbench.paper.study import Study, with_values
+from workbench.paper.study import Study, varied
 from workbench.paper.tuning_record import Pairs, StudyTuning
 
 Mass = Annotated[float, Strict(), Field(ge=1e3, le=2e5, allow_inf_nan=False)]
@@ -201,4 +201,4 @@ class ChenStudy(Study):
 
 def with_change(study: ChenStudy, change: Change) -> ChenStudy:
     """The study with a change's values set; ValueError naming the change for what does not fit."""
-    return with_values(study.model_copy(update={"changes": ()}), change.set, f"changes: '{change.title}'")
+    return varied(study, change.set, f"changes: '{change.title}'")

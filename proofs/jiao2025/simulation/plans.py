@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from workbench.compile.kernel import numeric
-from workbench.paper.study import with_values
+from workbench.paper.study import varied
 from workbench.simulate.closed_loop import Factors
 
 from .. import laws, plant
@@ -41,7 +41,7 @@ class Case:
 
 def changed(study: JiaoStudy, change: Change) -> JiaoStudy:
     """The study with a change's values set; ValueError naming the change for what does not fit."""
-    return with_values(study.model_copy(update={"variants": ()}), change.set, f"variants: '{change.title}'")
+    return varied(study, change.set, f"variants: '{change.title}'")
 
 
 def plan(study: JiaoStudy, case: Case) -> TrialPlan:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator
 from dataclasses import replace
 from typing import Any
 
@@ -11,7 +11,7 @@ import numpy as np
 from workbench.mpc.controller import KINDS
 from workbench.paper.cells import Column, Phrase
 from workbench.paper.comparison import STEP
-from workbench.paper.drivers import MPC_NAMES, Drivers
+from workbench.paper.drivers import MPC_NAMES, Drivers, keys_in
 from workbench.paper.learning_comparison import LearningComparison, jerk_rms
 from workbench.paper.mpc_comparison import MPC_KINDS, counters_words
 from workbench.paper.results import ResultTable
@@ -33,16 +33,9 @@ COLUMNS = {"speed_rms": Column("speed RMS", "m/s"), "largest_mps": Column("large
            "jerk_rms": Column("jerk RMS", "m/s³"), "step_s": STEP}
 
 
-def stated(study: JiaoStudy, name: str) -> dict[str, float]:
-    """Learning parameters of a law, and what it starts from; an estimate that is a word is no number to tune."""
-    keys = (*map(str, TRIAL_LAWS[LAW_NAMES[name]].parameters), *STARTS)
-    values = {key: getattr(study.learning, key) for key in keys}
-    return {key: float(value) for key, value in values.items() if not isinstance(value, str)}
-
-
-def given(study: JiaoStudy, name: str, values: Mapping[str, float]) -> JiaoStudy:
-    """The study with other learning parameters; the laws share what they start from."""
-    return study.model_copy(update={"learning": study.learning.model_copy(update=dict(values))})
+def keys(study: JiaoStudy, name: str) -> dict[str, str]:
+    """Learning parameters of a law, and what it starts from, which the laws share."""
+    return keys_in("learning", (*map(str, TRIAL_LAWS[LAW_NAMES[name]].parameters), *STARTS))
 
 
 def drive(study: JiaoStudy, name: str, place: str, factors: Factors = NOMINAL) -> dict[str, Any]:
@@ -68,7 +61,7 @@ def places(study: JiaoStudy) -> dict[str, str]:
     return {name: reading.title for name, reading in study.readings.items()}
 
 
-DRIVERS = Drivers(TITLES, places, stated, given, drive, first_trial=0)
+DRIVERS = Drivers(TITLES, places, keys, drive, first_trial=0)
 COMPARISON = LearningComparison(DRIVERS, COLUMNS, ("speed_rms",), "reading")
 
 
@@ -94,18 +87,18 @@ def _overtaken(rival: float, trial: int | None, ended: bool) -> Phrase:
     return Phrase("{}: {}" if trial is None else "{}: trial {}", (rival, trial))
 
 
-def _rivals(results: Results, trips: Sequence[MpcTrip], reading: str) -> list[MpcTrip]:
+def _rivals(results: Results, reading: str) -> list[MpcTrip]:
     trip = _of_trip(results.study, reading)
-    return [one for one in trips if _of_trip(results.study, one.reading) == trip]
+    return [one for one in results.trips if _of_trip(results.study, one.reading) == trip]
 
 
-def mpc_table(results: Results, trips: Sequence[MpcTrip]) -> Iterator[ResultTable]:
+def mpc_table(results: Results) -> Iterator[ResultTable]:
     """A row per reading and law: what is learned, MPC's error, and the trial that is ahead of it."""
-    if not trips or results.study.mpc is None:
+    if not results.trips or results.study.mpc is None:
         return
     rows = []
     for name, reading in results.study.readings.items():
-        rivals = _rivals(results, trips, name)
+        rivals = _rivals(results, name)
         for law in PRINTED_LAWS:
             run = results.run(name, law)
             listed, ended = ", ".join("{}" for _ in rivals), run.failed is None
@@ -122,17 +115,18 @@ def mpc_table(results: Results, trips: Sequence[MpcTrip]) -> Iterator[ResultTabl
          Column("a sample of the law", "µs", 1e-6)), tuple(rows),
         f"In m²/s². No: not within {results.study.trials.count} trials. MPC drives the same train once, at T_s, "
         f"{results.study.mpc.horizon} samples ahead: {KINDS[MPC_KINDS[0]].information}; the laws: speeds of earlier "
-        f"trials, model unknown. Neither has limits. MPC counted {counters_words([one.counters for one in trips])}.")
+        "trials, model unknown. Neither has limits. MPC counted "
+        f"{counters_words([one.counters for one in results.trips])}.")
 
 
-def mpc_findings(results: Results, trips: Sequence[MpcTrip]) -> Iterator[str]:
+def mpc_findings(results: Results) -> Iterator[str]:
     """How often and when each law overtakes each kind of MPC."""
-    for law in PRINTED_LAWS if trips else ():
+    for law in PRINTED_LAWS if results.trips else ():
         finish = [name for name in results.study.readings if results.run(name, law).failed is None]
         words = []
         for kind in MPC_KINDS:
             when = [_ahead_from(results.run(name, law), trip) for name in finish
-                    for trip in _rivals(results, trips, name) if trip.kind == kind]
+                    for trip in _rivals(results, name) if trip.kind == kind]
             ahead = sorted(trial for trial in when if trial is not None)
             words.append(f"{KINDS[kind].title} in {len(ahead)}" + (
                 f" (at trials {', '.join(map(str, ahead))})" if ahead else ""))

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 import numpy as np
@@ -15,6 +15,7 @@ from workbench.paper.tracked import Tracked
 
 from .. import laws
 from ..laws import TRIAL_LAWS
+from ..simulation.mpc_trip import MpcTrip
 from ..simulation.plans import Case, plan
 from ..simulation.trials import TrialRun, run_trials
 from .record import Change, JiaoStudy, Shown
@@ -68,10 +69,16 @@ def name_of(study: JiaoStudy, case: Case) -> str:
 
 @dataclass(frozen=True)
 class Results:
-    """The study and its runs."""
+    """The study and its runs; of_mpc: (reading, kind) -> trip."""
 
     study: JiaoStudy
     runs: Mapping[Case, TrialRun]
+    of_mpc: Mapping[tuple[str, str], MpcTrip] = field(default_factory=dict)
+
+    @property
+    def trips(self) -> tuple[MpcTrip, ...]:
+        """MPC's, one for each trip that differs."""
+        return tuple(self.of_mpc.values())
 
     def run(self, reading: str, law: str, **other: Any) -> TrialRun:
         """The run of a law in a reading; other: what of its case is not as stated."""

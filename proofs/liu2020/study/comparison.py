@@ -2,25 +2,25 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from dataclasses import replace
+from collections.abc import Sequence
 from typing import Any
 
 from workbench.mpc.controller import KINDS
-from workbench.paper.comparison import ComparedRun, compared_row
-from workbench.paper.drivers import MPC_NAMES, Drivers
-from workbench.paper.mpc_comparison import known, run_mpc
+from workbench.paper.comparison import ComparedRun, TripComparison, compared_row, comparison_note
+from workbench.paper.drivers import MPC_NAMES, Drivers, keys_in
+from workbench.paper.mpc_comparison import differing, known, run_mpc
 from workbench.simulate.closed_loop import NOMINAL, Factors
 
 from .. import plant
-from ..laws import LAWS
-from .record import FEEDBACK_GAINS, LiuStudy
-from .scenario import davis_newton, run_under, setting_of
+from ..laws import FEEDBACK_GAINS, LAWS
+from ..simulation.trip import davis_newton, run_under, setting_of
+from .record import LiuStudy
 
 # What is held against MPC: the laws with their signs corrected, by speed and by the position alone.
 LAW_NAMES = {"corrected": LAWS["liu2020.corrected"], "position_only": LAWS["liu2020.position_only"]}
 TOLD = {name: law.information for name, law in LAW_NAMES.items()}
 ADAPTATION = ("gamma_f_per_s2", "alpha_1_per_s2", "gamma_v_n_per_m", "alpha_2_n_per_m", "kappa_1_mps", "kappa_2_mps")
+FILTER = ("speed_filter_s",)
 
 
 def places(study: LiuStudy) -> dict[str, str]:
@@ -28,23 +28,10 @@ def places(study: LiuStudy) -> dict[str, str]:
     return {name: push.title for name, push in study.disturbances.items()}
 
 
-def stated(study: LiuStudy, name: str) -> dict[str, float]:
+def keys(study: LiuStudy, name: str) -> dict[str, str]:
     """The gains of Table 4's column, the adaptation's, and the filter of a law that differences positions."""
-    values = {key: float(getattr(study.gains, key)[study.table_4_column - 1]) for key in FEEDBACK_GAINS}
-    values |= {key: float(getattr(study.adaptation, key)) for key in ADAPTATION}
-    return values | ({"speed_filter_s": study.sampling.speed_filter_s} if name == "position_only" else {})
-
-
-def given(study: LiuStudy, name: str, values: Mapping[str, float]) -> LiuStudy:
-    """The study with other gains in Table 4's column, adaptation or filter."""
-    place = study.table_4_column - 1
-    gains = {key: (*row[:place], values[key], *row[place + 1 :]) for key in FEEDBACK_GAINS if key in values
-             for row in (getattr(study.gains, key),)}
-    adaptation = {key: value for key, value in values.items() if key in ADAPTATION}
-    sampling = {key: value for key, value in values.items() if key == "speed_filter_s"}
-    return study.model_copy(update={"gains": study.gains.model_copy(update=gains),
-                                    "adaptation": study.adaptation.model_copy(update=adaptation),
-                                    "sampling": study.sampling.model_copy(update=sampling)})
+    gains = {key: f"gains.{key}.{study.table_4_column - 1}" for key in FEEDBACK_GAINS}
+    return gains | keys_in("adaptation", ADAPTATION) | keys_in("sampling", FILTER if name == "position_only" else ())
 
 
 def drive(study: LiuStudy, name: str, place: str, factors: Factors = NOMINAL) -> dict[str, Any]:
@@ -53,10 +40,7 @@ def drive(study: LiuStudy, name: str, place: str, factors: Factors = NOMINAL) ->
     MPC knows mass and general resistance, chi among them, and neither slopes nor disturbances; factors: by which the
     train's mass and general resistance differ from what controllers know.
     """
-    setting = setting_of(study, place)
-    a, b, c = (value * factor for value, factor in zip(
-        setting.davis_n, (factors.davis_a, factors.davis_b, factors.davis_c), strict=True))
-    setting = replace(setting, mass_kg=setting.mass_kg * factors.mass, davis_n=(a, b, c))
+    setting = differing(setting_of(study, place), factors)
     if name in LAW_NAMES:
         run = run_under(LAW_NAMES[name], study, study.table_4_column, setting)
     else:
@@ -80,10 +64,20 @@ def value_words(column: int) -> str:
 
 
 DRIVERS = Drivers({name: law.title for name, law in LAW_NAMES.items()} | {
-    name: KINDS[kind].title for name, kind in MPC_NAMES.items()}, places, stated, given, drive, variants)
+    name: KINDS[kind].title for name, kind in MPC_NAMES.items()}, places, keys, drive, variants)
 
 
-def drawn_runs(study: LiuStudy, runs: Sequence[ComparedRun]) -> list[ComparedRun]:
+def drawn_runs(study: LiuStudy, runs: Sequence[ComparedRun]) -> tuple[list[ComparedRun], str]:
     """Those under Table 3's disturbance, of the laws as stated with the gains of Table 4's column alone."""
-    return [run for run in runs if run.task.place == study.runs.table_3_disturbance
-            and run.task.variant in ("", value_words(study.table_4_column))]
+    chosen = [run for run in runs if run.task.place == study.runs.table_3_disturbance
+              and run.task.variant in ("", value_words(study.table_4_column))]
+    return chosen, study.disturbances[study.runs.table_3_disturbance].title
+
+
+def note(study: LiuStudy, runs: Sequence[ComparedRun]) -> str:
+    """For the table of the comparison."""
+    return comparison_note(study, runs, study.sampling.period_s,
+                           shorter="The tuning's line is shorter than this one, see the file.")
+
+
+COMPARISON = TripComparison(DRIVERS, "disturbance", note, drawn_runs, TOLD)

@@ -9,9 +9,9 @@ import numpy as np
 from workbench.paper.results import Curve, Plot
 
 from ..laws import LAWS
+from ..simulation.trip import desired_curve, line_table
 from .outcomes import QUANTITIES, RMS, Results
 from .runs import ALL_COLUMNS, BY_RATE, CORRECTED, PRINTED, RunResult
-from .scenario import desired_curve, line_table
 
 TIME = "time (s)"
 CASE_1, CASE_2 = (1, 2, 3, 4, 5), (5, 6, 7, 8, 9)

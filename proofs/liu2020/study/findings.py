@@ -10,11 +10,11 @@ import numpy as np
 from workbench.files.numbers import number
 
 from ..laws import LAWS
+from ..simulation.trip import desired_curve
+from ..steady_run import eigenvalues, largest_step_s
 from .outcomes import ENERGY, QUANTITIES, RMS, Results
 from .record import COLUMNS, Change
 from .runs import BY_RATE, CORRECTED, FEEDBACK, SIGN_LAWS, RunResult
-from .scenario import desired_curve
-from .steady import eigenvalues, largest_step_s
 
 CASE_1 = (1, 2, 3, 4, 5)
 HIGH_GAIN = (4, 5, 6, 7, 8, 9)  # where the observer is fast against the reference

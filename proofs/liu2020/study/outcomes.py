@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 from workbench.paper.cells import Column
 
+from ..steady_run import Implied, implied
 from .record import LiuStudy, Printed
 from .runs import (
     ALL_COLUMNS,
@@ -17,7 +18,6 @@ from .runs import (
     table_3_case,
     table_4_case,
 )
-from .steady import Implied, implied
 
 RMS = ("s_tilde_m", "v_tilde_mps", "position_m", "speed_mps")
 ENERGY = "energy_both_J"

@@ -11,13 +11,12 @@ from pydantic import Field, Strict, model_validator
 from workbench.files.toml import NonNegative, Number, Positive, Record, SourcedRecord, Text
 from workbench.model.desired_curve import RampTime
 from workbench.paper.mpc_comparison import MpcData
-from workbench.paper.study import Study, with_values
+from workbench.paper.study import Study, varied
 from workbench.paper.tuning_record import Pairs, StudyTuning
 
-from ..laws import LAWS
+from ..laws import FEEDBACK_GAINS, LAWS
 
 COLUMNS = 10
-FEEDBACK_GAINS = ("k_1", "k_2", "k_3", "k_4", "k_5")
 
 Column = Annotated[int, Strict(), Field(ge=1, le=COLUMNS)]
 Step = Annotated[float, Strict(), Field(ge=1e-5, le=1, allow_inf_nan=False)]
@@ -246,5 +245,4 @@ class LiuStudy(Study):
 
     def with_change(self, change: Change) -> Self:
         """The study with a change's values set; ValueError for an unknown key or an unfit value."""
-        bare = self.model_copy(update={"changes": ()})
-        return with_values(bare, change.set, f"changes: '{change.title}'")
+        return varied(self, change.set, f"changes: '{change.title}'")

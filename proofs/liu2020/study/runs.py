@@ -13,8 +13,8 @@ from workbench.paper.tracked import Tracked, of_run
 from workbench.simulate.closed_loop import Array, Run
 
 from ..laws import LAWS
+from ..simulation.trip import run_under, setting_of
 from .record import COLUMNS, LiuStudy
-from .scenario import run_under, setting_of
 
 ALL_COLUMNS = tuple(range(1, COLUMNS + 1))
 CORRECTED, BY_RATE, PRINTED, FEEDBACK = (

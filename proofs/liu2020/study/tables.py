@@ -10,9 +10,9 @@ from workbench.paper.results import ResultTable
 from workbench.paper.study_tables import printed_cells, printed_columns, sensitivity_table
 
 from ..laws import LAWS
+from ..steady_run import DAMPED, eigenvalues, largest_step_s
 from .outcomes import ENERGY, QUANTITIES, RMS, Results
 from .runs import ALL_COLUMNS, BY_RATE, CORRECTED, SIGN_LAWS, TABLE_4_LAWS, TABLE_LAWS, RunResult
-from .steady import DAMPED, eigenvalues, largest_step_s
 
 RMS_NOTE = "RMS values; a dash: the run failed."
 ENERGY_UNIT = 1e11

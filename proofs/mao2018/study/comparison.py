@@ -2,20 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from dataclasses import replace
+from collections.abc import Sequence
 from typing import Any
 
 from workbench.mpc.controller import KINDS
-from workbench.paper.comparison import ComparedRun, Task, compared_row, comparison_note
-from workbench.paper.drivers import MPC_NAMES, Drivers
-from workbench.paper.mpc_comparison import known, run_mpc
+from workbench.paper.comparison import ComparedRun, Task, TripComparison, compared_row, comparison_note
+from workbench.paper.drivers import MPC_NAMES, Drivers, keys_in
+from workbench.paper.mpc_comparison import differing, known, run_mpc
 from workbench.simulate.closed_loop import NOMINAL, Factors, Run
 
 from ..plant import train
+from ..simulation.trip import law_of, run_under, setting_of, wrong_signs
 from .outcomes import Results
 from .record import MaoStudy
-from .scenario import law_of, run_under, setting_of, wrong_signs
 
 LAW = "law"
 RATES = ("r_1_per_s", "r_2_per_s")
@@ -27,18 +26,9 @@ def places(study: MaoStudy) -> dict[str, str]:
     return {str(number): f"case {number}, {case.title}" for number, case in enumerate(study.cases, start=1)}
 
 
-def stated(study: MaoStudy, name: str) -> dict[str, float]:
+def keys(study: MaoStudy, name: str) -> dict[str, str]:
     """What the laws of all cases share in the first tuning."""
-    tuning = next(iter(study.tunings.values()))
-    return {key: float(getattr(tuning, key)) for key in RATES} | {key: float(getattr(study.law, key)) for key in GAINS}
-
-
-def given(study: MaoStudy, name: str, values: Mapping[str, float]) -> MaoStudy:
-    """The study with other gains in its first tuning."""
-    first, tuning = next(iter(study.tunings.items()))
-    rates, gains = ({key: value for key, value in values.items() if key in keys} for keys in (RATES, GAINS))
-    return study.model_copy(update={"tunings": study.tunings | {first: tuning.model_copy(update=rates)},
-                                    "law": study.law.model_copy(update=gains)})
+    return keys_in(f"tunings.{next(iter(study.tunings))}", RATES) | keys_in("law", GAINS)
 
 
 def drive_case(study: MaoStudy, name: str, number: int, factors: Factors = NOMINAL) -> Run:
@@ -49,9 +39,7 @@ def drive_case(study: MaoStudy, name: str, number: int, factors: Factors = NOMIN
     """
     case, tuning = study.cases[number - 1], next(iter(study.tunings.values()))
     nominal = setting_of(study, case, tuning)
-    changes = nominal.changes.copy()
-    changes[:, 1:4] *= (factors.davis_a, factors.davis_b, factors.davis_c)
-    setting = replace(nominal, mass_kg=nominal.mass_kg * factors.mass, changes=changes)
+    setting = differing(nominal, factors)
     if name == LAW:
         return run_under(law_of(case, wrong_signs(case)), study, case, tuning, setting)
     assert study.mpc is not None
@@ -71,7 +59,7 @@ def variants(study: MaoStudy, name: str) -> dict[str, MaoStudy]:
 
 
 DRIVERS = Drivers({LAW: "signs corrected"} | {name: KINDS[kind].title for name, kind in MPC_NAMES.items()},
-                  places, stated, given, drive, variants)
+                  places, keys, drive, variants)
 
 
 def with_own_runs(results: Results, others: Sequence[ComparedRun]) -> list[ComparedRun]:
@@ -95,3 +83,12 @@ def note(study: MaoStudy, runs: Sequence[ComparedRun]) -> str:
         f"MPC: {KINDS['mpc.offset_free'].information}, that of mode (i) with all motors healthy; the laws: full state, "
         "parameters unknown, times of the modes and frequencies of the failure known.",
         "The tuning's runs are shorter than these and of some of the cases, see the file.")
+
+
+def drawn_runs(study: MaoStudy, runs: Sequence[ComparedRun]) -> tuple[list[ComparedRun], str]:
+    """Those in the first case of the tuning."""
+    case = study.tuning.places[0] if study.tuning else ""
+    return [run for run in runs if run.task.place == case], f"case {case}"
+
+
+COMPARISON = TripComparison(DRIVERS, "case", note, drawn_runs, with_own=with_own_runs)

@@ -11,9 +11,9 @@ from workbench.paper.cells import cell_text
 from workbench.paper.results import Curve, Plot
 from workbench.simulate.kernel_loop import term
 
+from ..simulation.trip import failures_of
 from .outcomes import Results, ended
 from .runs import START_S, RunResult
-from .scenario import failures_of
 
 # The figures that show how runs settle begin here, and end where an error passes LOST_MM.
 START_OVER_S, LOST_MM = 20.0, 100.0

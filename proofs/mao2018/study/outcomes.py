@@ -7,9 +7,9 @@ from dataclasses import dataclass
 
 from workbench.paper.cells import FORCES, Cell, Phrase, Quantity, Scaled, cell_text
 
+from ..simulation.trip import Signs, wrong_signs
 from .record import MaoStudy
 from .runs import RunCase, RunResult
-from .scenario import Signs, wrong_signs
 
 
 @dataclass(frozen=True)

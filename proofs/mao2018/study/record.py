@@ -12,7 +12,7 @@ from workbench.files.toml import Count, Name, NonNegative, Number, Positive, Rec
 from workbench.model.desired_curve import SpeedLevels
 from workbench.model.events import Term
 from workbench.paper.mpc_comparison import MpcData
-from workbench.paper.study import Study, with_values
+from workbench.paper.study import Study, varied
 from workbench.paper.tuning_record import Pairs, StudyTuning
 from workbench.trains.scenario import Interval
 
@@ -238,4 +238,4 @@ class MaoStudy(Study):
 
     def changed(self, values: Mapping[str, Any], where: str = "set") -> Self:
         """The study with other values by dotted key, without its sensitivity; ValueError for one that does not fit."""
-        return with_values(self.model_copy(update={"sensitivity": ()}), values, where)
+        return varied(self, values, where)

@@ -16,8 +16,8 @@ from workbench.simulate.closed_loop import Run
 from workbench.simulate.metrics import measure_run
 
 from .. import laws
+from ..simulation.trip import KILONEWTON, TONNE, Signs, law_of, run_under, setting_of, wrong_signs
 from .record import CaseData, MaoStudy, Tuning
-from .scenario import KILONEWTON, TONNE, Signs, law_of, run_under, setting_of, wrong_signs
 
 # What is drawn in full, s.
 START_S = 5.0

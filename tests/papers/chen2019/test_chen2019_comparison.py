@@ -13,8 +13,8 @@ from proofs.chen2019.simulation.plans import car_data, plan
 from proofs.chen2019.study.comparison import COMPARISON, DRIVERS
 from workbench.cli.loading import load
 from workbench.paper.cells import Phrase
-from workbench.paper.drivers import shortened
 from workbench.paper.stages import run_stages
+from workbench.paper.study import varied
 from workbench.simulate.closed_loop import NOMINAL, Factors
 
 FOLDER = Path(__file__).parents[3] / "proofs" / "chen2019"
@@ -30,7 +30,7 @@ def study():
 
 @pytest.fixture(scope="module")
 def short(study):
-    return shortened(study, SHORT, "test")
+    return varied(study, SHORT, "test")
 
 
 def test_held_cars_are_chen2019s_equations(study):

@@ -22,7 +22,7 @@ from proofs.chen2019.simulation.formulas import (
     needed_force,
 )
 from proofs.chen2019.simulation.plans import plan
-from proofs.chen2019.study import run
+from proofs.chen2019.study import KIND
 from proofs.chen2019.study.record import ChenStudy
 from proofs.chen2019.study.runs import STATED, grows_from, outcome, run_number, title
 from workbench.cli import app as cli
@@ -285,7 +285,7 @@ def test_memory_grows_as_the_number_of_cars(study):
 
 @pytest.fixture(scope="module")
 def result(short):
-    return run(changed_count(short, 3), 1, lambda done, total, what: None)
+    return KIND.run(changed_count(short, 3), 1, lambda done, total, what: None)
 
 
 def changed_count(short, count):
@@ -312,7 +312,7 @@ def test_a_stated_run_that_ends_in_its_first_trip_is_reported_and_stops_nothing(
                    trials__shown=(1, 2))
     lost = lost.model_copy(update={"changes": tuple(c for c in short.changes if c.set == {"gains.c_3": 0.01}),
                                    "pairs": None})
-    found = run(lost, 1, lambda done, total, what: None)
+    found = KIND.run(lost, 1, lambda done, total, what: None)
     assert found.rows[0]["failed"] is not None
     assert found.rows[0]["trials"] == 0
     assert found.rows[1]["failed"] is None

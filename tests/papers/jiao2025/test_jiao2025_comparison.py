@@ -10,9 +10,9 @@ from proofs.jiao2025.simulation.plans import Case, plan, plan_on
 from proofs.jiao2025.simulation.trials import run_trials
 from proofs.jiao2025.study.comparison import COMPARISON, DRIVERS, mpc_tasks
 from workbench.cli.loading import load
-from workbench.paper.drivers import shortened
 from workbench.paper.mpc_comparison import MPC_KINDS
 from workbench.paper.stages import run_stages
+from workbench.paper.study import varied
 from workbench.report.study_figures import study_plot
 from workbench.simulate.closed_loop import NOMINAL, Factors
 
@@ -27,7 +27,7 @@ def study():
 
 @pytest.fixture(scope="module")
 def short(study):
-    return shortened(study, SHORT, "test")
+    return varied(study, SHORT, "test")
 
 
 def test_every_trip_that_differs_is_driven_once(study):

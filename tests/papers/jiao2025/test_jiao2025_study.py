@@ -15,7 +15,7 @@ from proofs.jiao2025 import stated_values
 from proofs.jiao2025.laws import TRIAL_LAWS
 from proofs.jiao2025.simulation.plans import Case, changed, plan
 from proofs.jiao2025.simulation.trials import run_trials
-from proofs.jiao2025.study import run
+from proofs.jiao2025.study import KIND
 from proofs.jiao2025.study.record import JiaoStudy
 from proofs.jiao2025.study.runs import Results, cases, concerns, name_of, outcome
 from workbench.cli.loading import load
@@ -47,7 +47,7 @@ def small(study):
 
 @pytest.fixture(scope="module")
 def result(small):
-    return run(small, 1, lambda done, total, what: None)
+    return KIND.run(small, 1, lambda done, total, what: None)
 
 
 @pytest.fixture(scope="module")

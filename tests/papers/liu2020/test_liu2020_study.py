@@ -13,14 +13,7 @@ from scipy.integrate import solve_ivp
 
 from proofs.liu2020 import plant as of_train
 from proofs.liu2020.laws import LAWS
-from proofs.liu2020.study import KIND, run
-from proofs.liu2020.study.comparison import drawn_runs, variants
-from proofs.liu2020.study.figures import all_plots
-from proofs.liu2020.study.findings import all_findings
-from proofs.liu2020.study.outcomes import Results
-from proofs.liu2020.study.record import LiuStudy, Section
-from proofs.liu2020.study.runs import DRAWN_LAWS, RunCase, RunResult, run_case, run_cases, title_of
-from proofs.liu2020.study.scenario import (
+from proofs.liu2020.simulation.trip import (
     centers,
     davis_at,
     davis_newton,
@@ -33,7 +26,14 @@ from proofs.liu2020.study.scenario import (
     section_force,
     setting_of,
 )
-from proofs.liu2020.study.steady import eigenvalues, implied, largest_step_s
+from proofs.liu2020.steady_run import eigenvalues, implied, largest_step_s
+from proofs.liu2020.study import KIND
+from proofs.liu2020.study.comparison import drawn_runs, variants
+from proofs.liu2020.study.figures import all_plots
+from proofs.liu2020.study.findings import all_findings
+from proofs.liu2020.study.outcomes import Results
+from proofs.liu2020.study.record import LiuStudy, Section
+from proofs.liu2020.study.runs import DRAWN_LAWS, RunCase, RunResult, run_case, run_cases, title_of
 from proofs.liu2020.study.tables import all_tables
 from workbench.cli.loading import load
 from workbench.compile.kernel import law_source
@@ -397,7 +397,7 @@ def small(short):
 @pytest.fixture(scope="module")
 def result(small):
     steps = []
-    found = run(small, 1, lambda done, total, what: steps.append((done, total, what)))
+    found = KIND.run(small, 1, lambda done, total, what: steps.append((done, total, what)))
     assert [done for done, _, _ in steps] == list(range(1, len(steps) + 1)) and steps[-1][0] == steps[-1][1]
     return found
 
@@ -441,7 +441,7 @@ def test_laws_stand_beside_mpc_with_two_columns_of_gains_and_tuned(small, result
     assert {of.table_4_column for of in variants(small, "corrected").values()} == {9, 10}
     runs = [ComparedRun(Task(place, name, variant), name, {}) for place in small.disturbances
             for name in ("corrected", "mpc_linear") for variant in variants(small, name)]
-    assert [run.task for run in drawn_runs(small, runs)] == [Task("fast", "corrected", ", Value 10"),
+    assert [run.task for run in drawn_runs(small, runs)[0]] == [Task("fast", "corrected", ", Value 10"),
                                                              Task("fast", "mpc_linear")]
 
 

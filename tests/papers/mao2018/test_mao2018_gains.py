@@ -13,7 +13,7 @@ from proofs.mao2018 import gains as mao2018
 from proofs.mao2018.laws import KINDS, LAWS, failure_law
 from proofs.mao2018.leakage import leak, leaky
 from proofs.mao2018.plant import train
-from proofs.mao2018.study.scenario import initial, parameters, setting_of
+from proofs.mao2018.simulation.trip import initial, parameters, setting_of
 from workbench.gains.search import search
 from workbench.gains.stated import Stated
 from workbench.paper.loading import load

@@ -15,11 +15,11 @@ from refusals import changed_copy, refusal
 from scipy.integrate import solve_ivp
 
 from proofs.mao2018 import laws, plant
-from proofs.mao2018.study import run
+from proofs.mao2018.simulation.trip import initial, parameters, setting_of, wrong_signs
+from proofs.mao2018.study import KIND
 from proofs.mao2018.study.comparison import DRIVERS, drive_case
 from proofs.mao2018.study.record import MaoStudy
 from proofs.mao2018.study.runs import RunCase, run_case, run_cases, simulate
-from proofs.mao2018.study.scenario import initial, parameters, setting_of, wrong_signs
 from workbench.cli.loading import load
 from workbench.files.toml import read_toml, validate_record
 from workbench.paper.cells import numbers_in
@@ -292,7 +292,7 @@ def short(study):
 def told(short):
     """The short study's result, and what was told of its progress."""
     steps = []
-    return run(short, 1, lambda *step: steps.append(step)), steps
+    return KIND.run(short, 1, lambda *step: steps.append(step)), steps
 
 
 def test_progress_counts_all_runs(short, told):

@@ -150,6 +150,9 @@ class _Builder(Transformer[Token, Line]):
 
     def factor(self, parts: list[Any]) -> Node:
         node: Node = parts[0]
+        raised = [token for token, exponent in parts[1:] if exponent is not None]
+        if len(raised) > 1:  # TeX refuses it too
+            raise LatexError("two exponents stand side by side: put braces around what is raised", raised[1].start_pos)
         for token, exponent in parts[1:]:
             node = _scripted(node, token, exponent)
         return node

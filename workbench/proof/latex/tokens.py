@@ -134,8 +134,18 @@ class _Words:
         if out and out[-1].type == "NUMBER":
             raise LatexError(f"the numbers {out[-1].value} and {text} stand side by side: write a sign between them",
                              self.pieces[start].position)
+        if self._thousands(start, at, end):
+            raise LatexError(f"{text} and a comma before three digits: write one number without the comma, or two with "
+                             "a space after it", self.pieces[start].position)
         out.append(_token("NUMBER", text, self.pieces[start]))
         return at
+
+    def _thousands(self, start: int, at: int, end: int) -> bool:
+        """Whether a comma and three digits, no more, stand right behind a number."""
+        digits = [piece.kind == "digit" and self._adjacent(start, at + 1 + i)
+                  for i, piece in enumerate(self.pieces[at + 1:min(at + 5, end)])]
+        return at < end and self.pieces[at].text == "," and self._adjacent(start, at) and digits in (
+            [True] * 3, [True] * 3 + [False])
 
     def _adjacent(self, start: int, at: int) -> bool:
         return self.pieces[at].position - self.pieces[start].position == at - start

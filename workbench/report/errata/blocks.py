@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 
@@ -30,12 +31,18 @@ class Formula:
 
 
 @dataclass(frozen=True)
-class Items:
-    """A list; depths: how deep each item lies, from 0; numbered: whether they count."""
+class Item:
+    """A line of a list; depth: how many lines it lies inside of."""
 
-    texts: tuple[str, ...]
-    depths: tuple[int, ...] = ()
-    numbered: bool = False
+    text: str
+    depth: int = 0
+
+
+@dataclass(frozen=True)
+class Items:
+    """A list, each line below the last one that is less deep."""
+
+    items: tuple[Item, ...]
 
 
 @dataclass(frozen=True)
@@ -46,3 +53,33 @@ class Code:
 
 
 Block = Heading | Paragraph | Formula | Items | Code
+
+
+@dataclass(frozen=True)
+class Medium:
+    """How a format writes each kind of block: a function of the block's fields, in their order."""
+
+    heading: Callable[[int, str], str]
+    paragraph: Callable[[str, str], str]
+    formula: Callable[[str, str], str]
+    items: Callable[[Sequence[Item]], str]
+    code: Callable[[str], str]
+
+
+def written(blocks: Sequence[Block], medium: Medium) -> list[str]:
+    """The blocks, each as the format writes it."""
+    return [_written(block, medium) for block in blocks]
+
+
+def _written(block: Block, medium: Medium) -> str:
+    match block:
+        case Heading(level, text):
+            return medium.heading(level, text)
+        case Paragraph(text, label):
+            return medium.paragraph(text, label)
+        case Formula(latex, label):
+            return medium.formula(latex, label)
+        case Items(items):
+            return medium.items(items)
+        case Code(text):
+            return medium.code(text)

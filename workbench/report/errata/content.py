@@ -8,7 +8,7 @@ from collections.abc import Sequence
 from workbench.proof.checker import goal_digest
 from workbench.proof.verdict import VERDICTS, Decision
 from workbench.report.counterexample import Counterexample
-from workbench.report.errata.blocks import Block, Code, Formula, Heading, Items, Paragraph
+from workbench.report.errata.blocks import Block, Code, Formula, Heading, Item, Items, Paragraph
 from workbench.report.errata.proof_steps import proof_steps
 from workbench.report.finding import GRAVITIES, Finding, findings
 from workbench.report.finding_sentences import (
@@ -39,15 +39,23 @@ def errata(decisions: Sequence[Decision], citation: str) -> list[Block]:
 
 def _counts(decisions: Sequence[Decision]) -> str:
     counts = Counter(d.verdict for d in decisions if d.claim.origin != "ours")
-    words = listed([f"{counts[v]} {v}" for v in VERDICTS if counts[v]])
+    words = listed([f"{counts[v]} {_verb(v, counts[v])}" for v in VERDICTS if counts[v]])
     return (f"Of {counts.total()} lines, {words}. Proved: true for all values of its domain. Refuted: false as "
             "printed. Violated: a printed condition that the printed numbers break. Gap: it does not follow from what "
             "the paper uses to get there. Assumed: a cited result, taken as given.")
 
 
+def _verb(verdict: str, count: int) -> str:
+    """A verdict behind the number of its lines, as words of a sentence."""
+    verb = "is" if count == 1 else "are"
+    what = "a gap" if count == 1 else "gaps"
+    return f"{verb} {what}" if verdict == "gap" else f"{verb} {verdict}"
+
+
 def _fates(decisions: Sequence[Decision]) -> list[Block]:
-    lines = tuple(worded(fate_sentence(d.claim.equation, d.fate.word, d.fate.why)) for d in decisions if d.fate)
-    return [Heading(2, "What becomes of the main statements"), Items(lines)] if lines else []
+    lines = tuple(Item(worded(fate_sentence(d.claim.equation, d.fate.word, d.fate.why)))
+                  for d in decisions if d.fate)
+    return [Heading(2, "What becomes of the headline statements"), Items(lines)] if lines else []
 
 
 def _corrections(found: Sequence[Finding]) -> list[Block]:
@@ -97,7 +105,7 @@ def _worked(point: Counterexample) -> list[Block]:
 
 def _readings(found: Sequence[Finding]) -> list[Block]:
     of_it = [f for f in found if f.gravity == "reading"]
-    lines = tuple(f"{f.place}: {math(f.printed)}. {verdict_sentence(f)} {reading_sentence(f)}" for f in of_it)
+    lines = tuple(Item(f"{f.place}: {math(f.printed)}. {verdict_sentence(f)} {reading_sentence(f)}") for f in of_it)
     if not lines:
         return []
     intro = ("The text of the paper was extracted by a machine, which may lose a sign, a power or an index. These "
@@ -117,18 +125,19 @@ def _mended(decisions: Sequence[Decision]) -> list[Block]:
         blocks.append(Formula(d.claim.printed, "Statement"))
         if d.claim.note:
             blocks.append(Paragraph(worded(d.claim.note), "Note"))
-        used = [f"({name.partition(':')[2]}), {by_id[name].verdict}" for name in d.claim.premises if name in by_id]
+        used = [f"{place_of(name.partition(':')[2])} ({by_id[name].verdict})" for name in d.claim.premises
+                if name in by_id]
         if used:
             blocks.append(Paragraph(f"{listed(used)}.", "It uses"))
         if d.goal:
             blocks.append(Formula(d.goal, "Decided as"))
         steps = proof_steps(d.certificate)
-        blocks.append(Items(tuple(s.text for s in steps[:MOST_STEPS]), tuple(s.depth for s in steps[:MOST_STEPS])))
+        blocks.append(Items(tuple(steps[:MOST_STEPS])))
         if len(steps) > MOST_STEPS:
             blocks.append(Paragraph(f"{len(steps) - MOST_STEPS} more steps stand in the certificate."))
         blocks.append(Code(f"python {CHECKER} certificates/{d.claim.equation}.json --claim-digest "
                            f"{goal_digest(d.certificate)}"))
-    return [Heading(2, "The main statements, mended and proved"), *blocks] if blocks else []
+    return [Heading(2, "The headline statements, mended and proved"), *blocks] if blocks else []
 
 
 def _rechecking(decisions: Sequence[Decision]) -> list[Block]:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Sequence
 
-from workbench.report.errata.blocks import Block, Code, Formula, Heading, Items, Paragraph
+from workbench.report.errata.blocks import Block, Item, Medium, written
 from workbench.report.worded import show
 
 HEAD = r"""\documentclass[a4paper,11pt]{article}
@@ -25,33 +25,23 @@ LEVELS = {1: "section*", 2: "subsection*", 3: "subsubsection*"}
 
 def latex_document(blocks: Sequence[Block]) -> str:
     """The document as LaTeX."""
-    return HEAD + "\n\n".join(_block(block) for block in blocks) + "\n\n\\end{document}\n"
+    return HEAD + "\n\n".join(written(blocks, LATEX)) + "\n\n\\end{document}\n"
 
 
-def _block(block: Block) -> str:
-    match block:
-        case Heading(level, text):
-            return rf"\{LEVELS[level]}{{{_text(text)}}}"
-        case Paragraph(text, label):
-            return (rf"\textbf{{{_words(label)}.}} " if label else "") + _text(text)
-        case Formula(latex, label):
-            return (rf"\textbf{{{_words(label)}:}} " if label else "") + _formula(latex)
-        case Items(texts, depths):
-            return _items(texts, depths or (0,) * len(texts))
-        case Code(text):
-            return "{\\footnotesize\\begin{verbatim}\n" + text.replace(" --claim-digest", " \\\n  --claim-digest") + \
-                "\n\\end{verbatim}}"
-
-
-def _items(texts: Sequence[str], depths: Sequence[int]) -> str:
+def _items(items: Sequence[Item]) -> str:
     """A list as paragraphs that stand in by their depth: LaTeX nests its own lists four deep only."""
-    return "\n\n".join(rf"\hangindent={depth + 1}em\hspace*{{{depth}em}}\textbullet\ {_text(text)}"
-                       for text, depth in zip(texts, depths, strict=True))
+    return "\n\n".join(rf"\hangindent={item.depth + 1}em\hspace*{{{item.depth}em}}\textbullet\ {_text(item.text)}"
+                       for item in items)
 
 
-def _formula(latex: str) -> str:
+def _code(text: str) -> str:
+    return "{\\footnotesize\\begin{verbatim}\n" + text.replace(" --claim-digest", " \\\n  --claim-digest") + \
+        "\n\\end{verbatim}}"
+
+
+def _formula(latex: str, label: str) -> str:
     """Inline and in display style, so that long lines break between operators."""
-    return rf"$\displaystyle {latex}$"
+    return (rf"\textbf{{{_words(label)}:}} " if label else "") + rf"$\displaystyle {latex}$"
 
 
 def _text(text: str) -> str:
@@ -60,3 +50,9 @@ def _text(text: str) -> str:
 
 def _words(text: str) -> str:
     return re.sub("|".join(map(re.escape, SPECIAL)), lambda found: SPECIAL[found[0]], text)
+
+
+LATEX = Medium(
+    heading=lambda level, text: rf"\{LEVELS[level]}{{{_text(text)}}}",
+    paragraph=lambda text, label: (rf"\textbf{{{_words(label)}.}} " if label else "") + _text(text),
+    formula=_formula, items=_items, code=_code)

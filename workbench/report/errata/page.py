@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 from markupsafe import Markup, escape
 
-from workbench.report.errata.blocks import Block, Code, Formula, Heading, Items, Paragraph
+from workbench.report.errata.blocks import Block, Item, Medium, written
 from workbench.report.formulas import formula
 from workbench.report.worded import show
 
@@ -21,7 +21,7 @@ POLICY = "default-src 'none'; style-src 'unsafe-inline'; base-uri 'none'; form-a
 
 def html_document(blocks: Sequence[Block], title: str) -> str:
     """The document as one page of HTML."""
-    body = Markup("\n").join(_block(block) for block in blocks)
+    body = Markup("\n").join(written(blocks, HTML))
     return str(Markup(
         '<!doctype html>\n<html lang="en">\n<head>\n<meta charset="utf-8">\n'
         '<meta name="viewport" content="width=device-width, initial-scale=1">\n'
@@ -29,33 +29,32 @@ def html_document(blocks: Sequence[Block], title: str) -> str:
         "<body>\n<main>\n{}\n</main>\n</body>\n</html>\n").format(Markup(POLICY), title, Markup(STYLE), body))
 
 
-def _block(block: Block) -> Markup:
-    match block:
-        case Heading(level, text):
-            return Markup("<h{0}>{1}</h{0}>").format(level, _text(text))
-        case Paragraph(text, label):
-            bold = Markup("<strong>{}.</strong> ").format(label) if label else Markup("")
-            return Markup("<p>{}{}</p>").format(bold, _text(text))
-        case Formula(latex, label):
-            above = Markup('<span class="label">{}</span>').format(label) if label else Markup("")
-            return Markup('<div class="formula">{}{}</div>').format(above, formula(latex))
-        case Items(texts, depths):
-            return _items(texts, depths or (0,) * len(texts))
-        case Code(text):
-            return Markup("<pre>{}</pre>").format(text)
+def _paragraph(text: str, label: str) -> Markup:
+    bold = Markup("<strong>{}.</strong> ").format(label) if label else Markup("")
+    return Markup("<p>{}{}</p>").format(bold, _text(text))
 
 
-def _items(texts: Sequence[str], depths: Sequence[int]) -> Markup:
+def _formula(latex: str, label: str) -> Markup:
+    above = Markup('<span class="label">{}</span>').format(label) if label else Markup("")
+    return Markup('<div class="formula">{}{}</div>').format(above, formula(latex))
+
+
+def _items(items: Sequence[Item]) -> Markup:
     """Nested lists, one `ul` a depth."""
     found, at = Markup(""), -1
-    for text, depth in zip(texts, depths, strict=True):
-        while at < depth:
+    for item in items:
+        while at < item.depth:
             found, at = found + Markup("<ul>"), at + 1
-        while at > depth:
+        while at > item.depth:
             found, at = found + Markup("</ul>"), at - 1
-        found += Markup("<li>{}</li>").format(_text(text))
+        found += Markup("<li>{}</li>").format(_text(item.text))
     return found + Markup("</ul>") * (at + 1)
 
 
 def _text(text: str) -> Markup:
     return Markup(show(text, formula, lambda words: str(escape(words))))
+
+
+HTML = Medium(
+    heading=lambda level, text: Markup("<h{0}>{1}</h{0}>").format(level, _text(text)), paragraph=_paragraph,
+    formula=_formula, items=_items, code=lambda text: Markup("<pre>{}</pre>").format(text))

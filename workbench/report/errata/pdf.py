@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from importlib import import_module
 
-from workbench.report.errata.blocks import Block, Code, Formula, Heading, Items, Paragraph
+from workbench.report.errata.blocks import Block, Medium, written
+from workbench.report.errata.markdown import nested
 from workbench.report.errata.typst_formulas import quoted, typst_formula
 from workbench.report.worded import show
 
@@ -29,24 +30,21 @@ def pdf_of(blocks: Sequence[Block]) -> bytes | None:
 
 def typst_source(blocks: Sequence[Block]) -> str:
     """The document in the language of Typst."""
-    return HEAD + "\n\n".join(_block(block) for block in blocks) + "\n"
+    return HEAD + "\n\n".join(written(blocks, TYPST)) + "\n"
 
 
-def _block(block: Block) -> str:
-    match block:
-        case Heading(level, text):
-            return f"#heading(level: {level})[{_text(text)}]"
-        case Paragraph(text, label):
-            return (f"#strong({quoted(label + '.')}) " if label else "") + _text(text)
-        case Formula(latex, label):
-            above = f"#block(below: 0.55em)[#text(8.5pt, gray.darken(40%), {quoted(label)})]\n" if label else ""
-            return f"#block(inset: (left: 1em), above: 0.9em)[{above}{typst_formula(latex, display=True)}]"
-        case Items(texts, depths):
-            levels = depths or (0,) * len(texts)
-            return "\n".join(f"{'  ' * depth}- {_text(text)}" for text, depth in zip(texts, levels, strict=True))
-        case Code(text):
-            return f"#raw({quoted(text)}, block: true)"
+def _formula(latex: str, label: str) -> str:
+    above = f"#block(below: 0.55em)[#text(8.5pt, gray.darken(40%), {quoted(label)})]\n" if label else ""
+    return f"#block(inset: (left: 1em), above: 0.9em)[{above}{typst_formula(latex, display=True)}]"
 
 
 def _text(text: str) -> str:
     return show(text, typst_formula, lambda words: f"#{quoted(words)};" if words.strip() else "#\" \";")
+
+
+TYPST = Medium(
+    heading=lambda level, text: f"#heading(level: {level})[{_text(text)}]",
+    paragraph=lambda text, label: (f"#strong({quoted(label + '.')}) " if label else "") + _text(text),
+    formula=_formula,
+    items=lambda items: nested(items, _text),
+    code=lambda text: f"#raw({quoted(text)}, block: true)")

@@ -10,6 +10,7 @@ from typing import Any
 
 from workbench.proof.checker import split_relation
 from workbench.report.certificate_latex import expression_latex, relation_latex, value_latex
+from workbench.report.errata.blocks import Item
 
 FACTS = {"log_tangent": r"$\ln x \le x - 1$", "exp_tangent": r"$e^x \ge 1 + x$", "exp_positive": r"$e^x > 0$",
          "enclosure": "a number, enclosed by fractions", "abs_square": r"$\left|x\right|^2 = x^2$",
@@ -20,14 +21,6 @@ LONGEST = 700  # characters of a formula beyond which it is called by what it is
 
 
 @dataclass(frozen=True)
-class Step:
-    """A line of a proof, with formulas between dollar signs; depth: how many steps it lies inside of."""
-
-    text: str
-    depth: int
-
-
-@dataclass(frozen=True)
 class _Known:
     """What may be used: its margin (>= 0, > 0 or = 0) in the certificate language, and why it holds."""
 
@@ -35,26 +28,26 @@ class _Known:
     reason: str
 
 
-def proof_steps(certificate: Mapping[str, Any]) -> list[Step]:
+def proof_steps(certificate: Mapping[str, Any]) -> list[Item]:
     """The steps of a certificate of verdict `proved`, or of a correction in one: every relation shown, in turn."""
     goal = certificate["goal"]
     given = [_known(text) for text in goal.get("assume", [])]
     found = []
     for text, proof in zip(goal["show"], certificate["proofs"], strict=True):
-        found.append(Step(f"To show: ${_shown(relation_latex(text))}$.", 0))
+        found.append(Item(f"To show: ${_shown(relation_latex(text))}$.", 0))
         found += _steps(_margin(text), given, proof, 1, goal)
     return found
 
 
 def _steps(value: str, given: Sequence[_Known], proof: Mapping[str, Any], depth: int,
-           goal: Mapping[str, Any]) -> Iterator[Step]:
+           goal: Mapping[str, Any]) -> Iterator[Item]:
     rule = proof["rule"]
     if rule == "identity":
-        yield Step("Both sides are the same: their difference is zero, multiplied out.", depth)
+        yield Item("Both sides are the same: their difference is zero, multiplied out.", depth)
     elif rule == "cut":
-        yield Step(f"First, ${_shown(relation_latex(proof['lemma']))}$:", depth)
+        yield Item(f"First, ${_shown(relation_latex(proof['lemma']))}$:", depth)
         yield from _steps(_margin(proof["lemma"]), given, proof["proof"], depth + 1, goal)
-        yield Step("With it:", depth)
+        yield Item("With it:", depth)
         yield from _steps(value, [*given, _known(proof["lemma"], "shown above")], proof["then"], depth + 1, goal)
     elif rule == "cases":
         yield from _cases(value, given, proof, depth, goal)
@@ -65,25 +58,25 @@ def _steps(value: str, given: Sequence[_Known], proof: Mapping[str, Any], depth:
 
 
 def _cases(value: str, given: Sequence[_Known], proof: Mapping[str, Any], depth: int,
-           goal: Mapping[str, Any]) -> Iterator[Step]:
+           goal: Mapping[str, Any]) -> Iterator[Item]:
     of = expression_latex(proof["of"])
     for name, sign in CASES.items():
         if name in proof:
-            yield Step(f"Where ${of} {sign}$:", depth)
+            yield Item(f"Where ${of} {sign}$:", depth)
             turned = name in ("nonpositive", "negative")
             margin = f"-({proof['of']})" if turned else proof["of"]
             yield from _steps(value, [*given, _Known(margin, f"the case ${of} {sign}$")], proof[name], depth + 1, goal)
 
 
 def _nonincreasing(value: str, given: Sequence[_Known], proof: Mapping[str, Any], depth: int,
-                   goal: Mapping[str, Any]) -> Iterator[Step]:
+                   goal: Mapping[str, Any]) -> Iterator[Item]:
     function = expression_latex(proof["function"])
-    yield Step(f"Along the motion $F = {_shown(function)}$ does not grow, for $-\\dot F \\ge 0$:", depth)
+    yield Item(f"Along the motion $F = {_shown(function)}$ does not grow, because $-\\dot F \\ge 0$:", depth)
     along = [*given, *(_known(text, "at all times") for text in goal.get("always", []))]
     yield from _steps(f"-D({proof['function']})", along, proof["decrease"], depth + 1, goal)
     start = _at_start(proof["function"], goal.get("initial", {}))
     drop = _Known(f"({start}) - ({proof['function']})", "$F$ is at most what it was at time zero")
-    yield Step("So it is at most what it was at time zero. With that:", depth)
+    yield Item("So it is at most what it was at time zero. With that:", depth)
     yield from _steps(value, [*given, drop], proof["then"], depth + 1, goal)
 
 
@@ -92,17 +85,17 @@ def _at_start(text: str, initial: Mapping[str, str]) -> str:
     return re.sub(r"[A-Za-z_]\w*", lambda found: f"({initial[found[0]]})" if found[0] in initial else found[0], text)
 
 
-def _combination(value: str, given: Sequence[_Known], proof: Mapping[str, Any], depth: int) -> Iterator[Step]:
+def _combination(value: str, given: Sequence[_Known], proof: Mapping[str, Any], depth: int) -> Iterator[Item]:
     terms = proof["terms"]
     contradiction = proof["rule"] == "contradiction"
     scale = "".join(_factor(item, given)[0] for item in proof.get("multiplier", []))
     what = "What is assumed cannot hold together, for zero" if contradiction else (
         f"${_shown(expression_latex(value))}$" + (f", times ${scale}$, which is positive," if scale else ""))
     if not terms:
-        yield Step(f"{what} is zero, multiplied out.", depth)
+        yield Item(f"{what} is zero, multiplied out.", depth)
         return
     plural = "the sum of these terms, none of them negative" if len(terms) > 1 else "this term, which is not negative"
-    yield Step(f"{what} is {plural}:", depth)
+    yield Item(f"{what} is {plural}:", depth)
     for term in terms:
         factors = [_factor(item, given) for item in term["factors"]]
         coefficient = Fraction(term["coefficient"])
@@ -110,7 +103,7 @@ def _combination(value: str, given: Sequence[_Known], proof: Mapping[str, Any], 
         shown = "-" if shown == "-1" and factors else shown
         formula = shown + " ".join(text for text, _ in factors)
         reasons = list(dict.fromkeys(reason for _, reason in factors if reason))
-        yield Step(f"${_shown(formula)}$" + (f" ({'; '.join(reasons)})" if reasons else ""), depth + 1)
+        yield Item(f"${_shown(formula)}$" + (f" ({'; '.join(reasons)})" if reasons else ""), depth + 1)
 
 
 def _factor(item: Mapping[str, Any], given: Sequence[_Known]) -> tuple[str, str]:

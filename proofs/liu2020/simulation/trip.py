@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
+from typing import TYPE_CHECKING
 
 import numpy as np
 import sympy as sp
@@ -16,7 +17,10 @@ from workbench.trains.resistance import STANDARD_GRAVITY_MPS2
 from workbench.trains.track import ResistanceTable
 
 from .. import plant as of_train
-from .record import FEEDBACK_GAINS, Line, LiuStudy, Section, Train
+from ..laws import FEEDBACK_GAINS
+
+if TYPE_CHECKING:
+    from ..study.record import Line, LiuStudy, Section, Train
 
 KMH_PER_MPS = 3.6
 SLOPE_UNITS = {"percent": 1e-2, "permille": 1e-3}

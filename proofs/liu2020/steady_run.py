@@ -6,14 +6,18 @@ All from the expressions of (12), (13) and (31) without networks and robust term
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
 import sympy as sp
 from numpy.typing import NDArray
 
-from .. import laws as paper
-from ..plant import M, chi, s, v
-from .record import FEEDBACK_GAINS, LiuStudy
+from . import laws as paper
+from .laws import FEEDBACK_GAINS
+from .plant import M, chi, s, v
+
+if TYPE_CHECKING:
+    from .study.record import LiuStudy
 
 DAMPED: dict[str, sp.Expr] = {"v_tilde": paper.v_error, "s_tilde'": paper.s_error_rate}
 

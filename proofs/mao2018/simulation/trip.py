@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import sympy as sp
@@ -13,7 +13,9 @@ from workbench.model.law import ControlLaw
 from workbench.simulate.closed_loop import Array, Run, Setting, run_law
 
 from .. import active_mode, laws, plant
-from .record import CaseData, MaoStudy, ModeData, Tuning
+
+if TYPE_CHECKING:
+    from ..study.record import CaseData, MaoStudy, ModeData, Tuning
 
 Signs = tuple[laws.Sign, ...]
 Values = tuple[Array, Array, Array, Array]

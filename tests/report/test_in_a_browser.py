@@ -1,0 +1,169 @@
+"""The page as a reader has it, in headless Chromium: nothing asked for, nothing complained of, everything reached."""
+
+import shutil
+from importlib.resources import files
+
+import pytest
+from test_sweep import write_scenario
+
+from workbench.report.charts.files import write_curves
+from workbench.report.page import ReportContent, build_page, scenario_charts
+from workbench.trains.scenario import load_scenario
+
+CHROMIUM = shutil.which("chromium")
+playwright = pytest.importorskip("playwright.sync_api")
+pytestmark = pytest.mark.skipif(CHROMIUM is None, reason="no Chromium to look with: apt install chromium")
+WIDTHS = (1400, 800, 390)
+PATIENCE_MS = 240_000  # a busy machine may take long; nothing waits longer than it must
+
+
+def claim(equation, verdict, rests_on=(), tainted_by=(), **more):
+    return {"id": f"p:{equation}", "paper": "p", "equation": equation, "section": "2", "kind": "identity",
+            "statement": r"\dot{V} = \ddot{z}", "verdict": verdict, "origin": "printed", "severity": "step",
+            "rests_on": [f"p:{name}" for name in rests_on], "tainted_by": [f"p:{name}" for name in tainted_by], **more}
+
+
+CLAIMS = {
+    "version": 1,
+    "claims": [
+        claim("1", "proved"), claim("2", "refuted", ["1"], counterexample={"z_1": "-1/2"}, correction="a = b"),
+        claim("3", "proved", ["2"], ["2"], section="3"),
+        claim("theorem1", "gap", ["3"], ["2"], section="3", severity="result", fate="open", fate_why="it is open"),
+    ],
+    "findings": [{"paper": "p", "equation": "2", "gravity": "step", "heading": "Lines that fail",
+                  "place": "Equation (2)", "verdict": "refuted", "printed": "a = c", "should_read": "a = b",
+                  "sentences": ["Equation (2) is false as printed.", "Theorem 1 rests on it."], "digest": "0" * 64}],
+}
+
+
+@pytest.fixture(scope="module")
+def address(tmp_path_factory):
+    folder = tmp_path_factory.mktemp("page")
+    content = ReportContent(scenario=load_scenario(write_scenario(folder)), claims=CLAIMS)
+    (folder / "report.html").write_text(build_page(content), encoding="utf-8")
+    write_curves(list(scenario_charts(content).values()), folder)
+    return (folder / "report.html").as_uri()
+
+
+@pytest.fixture(scope="module")
+def browser():
+    with playwright.sync_playwright() as running:
+        opened = running.chromium.launch(executable_path=CHROMIUM, args=["--no-sandbox"], timeout=PATIENCE_MS)
+        yield opened
+        opened.close()
+
+
+@pytest.fixture(scope="module")
+def complaints():
+    return []
+
+
+@pytest.fixture(scope="module")
+def view(browser, address, complaints):
+    """One page for all tests; `complaints` collects what its console and its network say."""
+    page = browser.new_page()
+    page.set_default_timeout(PATIENCE_MS)
+    page.on("console", lambda message: complaints.append(message.text))
+    page.on("pageerror", lambda error: complaints.append(str(error)))
+    page.on("request", lambda request: None if request.url.startswith((address, "data:"))
+            else complaints.append(request.url))
+    page.goto(address, wait_until="domcontentloaded")
+    yield page
+    page.close()
+
+
+def shown_claims(page):
+    return page.eval_on_selector_all("tbody[data-verdict]:not([hidden])", "found => found.map(e => e.dataset.verdict)")
+
+
+def test_filters_show_what_is_chosen_and_live_in_the_address(view, address):
+    view.select_option("select[name=verdict]", "proved")
+    assert shown_claims(view) == ["proved", "proved"]
+    view.select_option("select[name=section]", "3")
+    assert shown_claims(view) == ["proved"]
+    assert view.url == address + "#show?verdict=proved&section=3"
+    assert view.inner_text("#shown") == "1 of 4 claims"
+    kept = view.url
+    view.goto(address + "#proof")
+    view.reload(wait_until="domcontentloaded")
+    assert len(shown_claims(view)) == 4
+    view.goto(kept)
+    assert shown_claims(view) == ["proved"]
+
+
+def test_search_finds_text_and_a_link_shows_what_was_filtered_away(view):
+    view.evaluate("location.hash = '#show?q=p:1'")
+    view.wait_for_function("document.getElementById('shown').textContent === '1 of 4 claims'")
+    view.evaluate("location.hash = '#claim-p:theorem1'")
+    view.wait_for_function("document.getElementById('shown').textContent === '4 of 4 claims'")
+    assert view.is_visible("[id='claim-p:theorem1']")
+
+
+def test_a_finding_opens_and_leads_to_its_claim_in_its_folded_section(view):
+    assert not view.is_visible(".finding .correction")
+    view.click(".finding summary")
+    assert view.is_visible(".finding .correction")
+    view.eval_on_selector_all("details.paper-section", "found => found.forEach(fold => { fold.open = false; })")
+    view.click(".finding a[href='#claim-p:2']")
+    assert view.is_visible("[id='claim-p:2']")
+
+
+def test_graph_shows_the_broken_path_and_leads_to_its_lines(view):
+    first = view.locator(".graph").first
+    assert first.locator("path.broken").count() == 2
+    assert [text.split(" ", 1)[1] for text in first.locator("text").all_inner_texts()] == ["(2)", "(3)", "Theorem 1"]
+    view.locator("#graph details", has_text="in words").first.locator("summary").click()
+    assert "(2), refuted: (3) rests on it." in view.inner_text("#graph")
+    first.locator("a").nth(1).click()
+    assert view.url.endswith("#claim-p:3")
+    assert view.is_visible("[id='claim-p:3']")
+
+
+def test_plots_zoom_tell_values_and_have_their_table_and_file(view):
+    figure = view.locator("#line")
+    figure.scroll_into_view_if_needed()
+    view.wait_for_selector("#line .chart .nsewdrag")
+    assert not figure.locator(".plot svg").is_visible()
+    span = "document.querySelector('#line .chart').layout.xaxis.range"
+    before = view.evaluate(span)
+    area = figure.locator(".nsewdrag").first
+    box = area.bounding_box()
+    view.mouse.move(box["x"] + 0.5 * box["width"], box["y"] + 0.5 * box["height"])
+    view.wait_for_selector("#line .hoverlayer text")
+    view.mouse.down()
+    view.mouse.move(box["x"] + 0.7 * box["width"], box["y"] + 0.52 * box["height"], steps=4)
+    view.mouse.up()
+    view.wait_for_function(f"{span}[1] - {span}[0] < {0.5 * (before[1] - before[0])}")
+    figure.locator("summary").click()
+    assert figure.locator("tbody tr").count() > 20
+    assert (figure.locator("thead").inner_text()).split("\t")[-1].strip() == "value"
+    file = figure.locator("a").get_attribute("href")
+    assert file == "curves/01-the-line-and-the-desired-speed.csv"
+
+
+def test_in_print_the_drawn_figures_stand(view):
+    view.emulate_media(media="print")
+    assert view.locator("#line .plot svg").is_visible()
+    assert not view.locator("#line .chart").is_visible()
+    view.emulate_media(media="screen")
+
+
+@pytest.mark.parametrize("width", WIDTHS)
+@pytest.mark.parametrize("scheme", ["light", "dark"])
+def test_nothing_is_cut_and_axe_finds_nothing(view, complaints, width, scheme):
+    if scheme == "dark" and width != WIDTHS[0]:
+        pytest.skip("colours do not depend on the width")
+    view.set_viewport_size({"width": width, "height": 900})
+    view.emulate_media(color_scheme=scheme)
+    view.eval_on_selector_all("details", "found => found.forEach(fold => { fold.open = true; })")
+    for figure in view.locator("figure").all():
+        figure.scroll_into_view_if_needed()
+    view.wait_for_function("document.querySelectorAll('figure.drawn .nsewdrag').length > 1")
+    assert view.evaluate("document.documentElement.scrollWidth") <= width
+    view.evaluate(AXE)
+    found = view.evaluate("axe.run(document, {resultTypes: ['violations']})")
+    assert [(entry["id"], [node["target"] for node in entry["nodes"]][:3]) for entry in found["violations"]] == []
+    assert complaints == []
+
+
+AXE = (files("axe_playwright_python") / "axe.min.js").read_text(encoding="utf-8")

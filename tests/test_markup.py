@@ -1,0 +1,40 @@
+"""Names, paths and messages are shown as they are: brackets and colons in them are no markup of the terminal's."""
+
+import json
+
+import pytest
+from command_line import run
+
+from workbench.cli.terminal import err_console, metrics_table, out_console, print_failures, print_study, progress
+from workbench.paper.results import ResultTable, StudyResult
+
+HOSTILE = ["o[/red]x", "[bold]x[/bold]", "[/]", ":smile:", "\\[x]", "[link=file:///x]y"]
+ROW = dict.fromkeys(("period_s", "position_error_min", "position_error_max", "speed_error_min", "speed_error_max",
+                     "stopping_error", "energy_J", "step_us_median"), 0.001)
+
+
+@pytest.mark.parametrize("name", HOSTILE)
+def test_a_hostile_name_is_shown_letter_by_letter(name, monkeypatch):
+    monkeypatch.setattr(out_console, "_width", 200)
+    monkeypatch.setattr(err_console, "_width", 200)
+    with out_console.capture() as shown:
+        out_console.print(metrics_table([{**ROW, "controller": name, "failed": name}], name))
+    assert shown.get().count(name) == 2
+    table = ResultTable(name, name, (name, "value"), ((name, 1.0),))
+    with out_console.capture() as shown, err_console.capture() as failed:
+        print_study(StudyResult((), (table,), (), (name,), ((name, name),)))
+        print_failures([{"controller": name, "failed": name}])
+    assert shown.get().count(name) == 5 and failed.get().count(name) == 4
+    with err_console.capture() as shown, progress() as show:
+        show(name, 1, 1)
+    assert shown.get() == f"{name}: 1 done\n"
+
+
+@pytest.mark.parametrize("name", ["o[/red]x", ":smile:"])
+def test_a_certificate_in_a_hostile_folder_is_named_in_a_line(name, tmp_path):
+    folder = tmp_path / name.replace("/", "∕")
+    folder.mkdir()
+    (folder / "a.json").write_text(json.dumps({"verdict": name}))
+    ended = run("check-certificates", folder)
+    assert ended.returncode == 1
+    assert f"{folder / 'a.json'}: {name}: INVALID: " in ended.stderr

@@ -1,0 +1,108 @@
+// Draws each figure's chart as it comes near the screen, in the page's colours, and its table when that is opened.
+// Without scripts and in print the drawn figures stand.
+const SERIES = 6, DASHES = ["solid", "dash", "dot", "dashdot"], ROWS = 60;
+const narrow = matchMedia("(max-width: 46rem)"), dark = matchMedia("(prefers-color-scheme: dark)");
+const charts = new Map([...document.querySelectorAll("figure.charted")].map(
+  figure => [figure, JSON.parse(figure.querySelector("script").textContent)]));
+const hue = name => getComputedStyle(document.documentElement).getPropertyValue(name).trim();
+
+function traces(chart) {
+  const named = new Set();
+  return chart.panels.flatMap((panel, at) => panel.curves.map(curve => {
+    const beneath = curve.series === undefined, first = curve.label && !named.has(curve.label);
+    named.add(curve.label);
+    return {
+      x: curve.x, y: curve.y, name: curve.label, legendgroup: curve.label, yaxis: at ? "y" + (at + 1) : "y",
+      showlegend: Boolean(first) && !panel.title, mode: curve.marked ? "lines+markers" : "lines",
+      line: { color: beneath ? hue("--faint") : hue("--series-" + curve.series % SERIES), width: beneath ? 5 : 1.6,
+              dash: beneath ? "solid" : DASHES[Math.floor(curve.series / SERIES) % DASHES.length] },
+      marker: { size: 6 }, hovertemplate: "%{y:.4g}",
+    };
+  }));
+}
+
+function layout(chart) {
+  const ink = hue("--ink"), line = hue("--line"), panels = chart.panels.length;
+  const one = panels > 1 ? (panels > 3 ? 105 : 170) : 330;
+  const axis = { gridcolor: line, zerolinecolor: hue("--faint"), linecolor: line, exponentformat: "power" };
+  const titled = chart.panels.some(panel => panel.title);
+  const found = {
+    height: one * panels + 120, margin: { l: narrow.matches ? 48 : 66, r: 12, t: 34, b: 48 },
+    paper_bgcolor: hue("--paper"), plot_bgcolor: hue("--paper"), font: { color: ink, size: 12, family: "inherit" },
+    hoverlabel: { bgcolor: hue("--panel"), bordercolor: line, font: { color: ink }, namelength: narrow.matches ? 14 : 40 },
+    hovermode: chart.panels.some(panel => panel.curves.length > 10) ? "closest" : "x unified",
+    dragmode: matchMedia("(pointer: coarse)").matches ? false : "zoom", modebar: { orientation: "h" },
+    legend: { orientation: "h", y: 1, yanchor: "bottom", x: 0, font: { size: 11 } },
+    xaxis: { ...axis, title: { text: chart.x }, type: chart.log ? "log" : "linear",
+             anchor: panels > 1 ? "y" + panels : "y" },
+    annotations: chart.panels.filter(panel => panel.title).map(panel => ({
+      text: panel.title, xref: "paper", x: 0, xanchor: "left", yref: "paper", yanchor: "bottom", showarrow: false,
+      y: 1 - chart.panels.indexOf(panel) / panels - (titled ? 0.22 / panels : 0), font: { size: 11 } })),
+  };
+  chart.panels.forEach((panel, at) => {
+    const top = 1 - at / panels, gap = panels > 1 ? (titled ? 0.24 : 0.12) / panels : 0;
+    found[at ? "yaxis" + (at + 1) : "yaxis"] = {
+      ...axis, title: { text: panel.y, font: { size: 11 }, standoff: 6 }, type: panel.log ? "log" : "linear",
+      domain: [top - 1 / panels + (titled ? 0.02 / panels : gap), titled ? top - gap : top], 
+      nticks: panels > 1 ? 4 : 8, ...(panel.log ? { minor: { showgrid: false, ticks: "" }, dtick: 1 } : {}) };
+  });
+  return found;
+}
+
+function draw(figure) {
+  const box = figure.querySelector(".chart");
+  box.hidden = false;
+  figure.classList.add("drawn");
+  Plotly.react(box, traces(charts.get(figure)), layout(charts.get(figure)), {
+    responsive: true, displaylogo: false,
+    modeBarButtonsToRemove: ["toImage", "select2d", "lasso2d", "autoScale2d", "zoomIn2d", "zoomOut2d"] });
+}
+
+function cell(row, kind, text) {
+  const made = document.createElement(kind);
+  made.textContent = text;
+  if (kind === "th") made.scope = "col";
+  row.append(made);
+}
+
+function table(figure, fold) {
+  if (fold.querySelector("table")) return;
+  const chart = charts.get(figure), several = chart.panels.length > 1, made = document.createElement("table");
+  made.className = "numbers";
+  const head = made.createTHead().insertRow();
+  const y = several ? "value" : chart.panels[0].y;
+  for (const text of ["curve", ...(several ? ["quantity"] : []), chart.x, y || "value"]) cell(head, "th", text);
+  const body = made.createTBody();
+  let points = 0, shown = 0;
+  for (const panel of chart.panels) for (const curve of panel.curves) {
+    points += curve.points;
+    const step = Math.max(1, Math.ceil(curve.x.length / ROWS));
+    for (let at = 0; at < curve.x.length; at += step) {
+      const row = body.insertRow();
+      for (const text of [curve.label || chart.title, ...(several ? [panel.y] : []), curve.x[at], curve.y[at]])
+        cell(row, "td", text);
+      shown += 1;
+    }
+  }
+  made.createCaption().textContent = shown === points ? points + " points" :
+    shown + " of " + points + " points, evenly drawn; the CSV file has more";
+  const box = document.createElement("div");
+  box.className = "scroll";
+  box.tabIndex = 0;
+  box.setAttribute("role", "region");
+  box.setAttribute("aria-label", "Table of " + chart.title);
+  box.append(made);
+  fold.append(box);
+}
+
+const near = new IntersectionObserver(entries => {
+  for (const entry of entries) if (entry.isIntersecting) { near.unobserve(entry.target); draw(entry.target); }
+}, { rootMargin: "400px" });
+for (const figure of charts.keys()) {
+  near.observe(figure);
+  const fold = figure.querySelector("details.points");
+  fold.hidden = false;
+  fold.addEventListener("toggle", () => { if (fold.open) table(figure, fold); });
+}
+for (const change of [narrow, dark])
+  change.addEventListener("change", () => document.querySelectorAll("figure.drawn").forEach(draw));
