@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from dataclasses import dataclass
 
-from .syntax import Letters, NotExported, call, names_in, operation, text_of
+from .syntax import Letters, NotExportedError, call, names_in, operation, text_of
 
 
 @dataclass(frozen=True)
@@ -23,9 +23,9 @@ class Differentiation:
     rates: dict[str, ast.expr]
     letters: Letters
 
-    def of(self, node: ast.expr) -> Rate:
-        """The derivative; NotExported where the library has no lemma. The Coq term speaks of hypotheses `rate_x`, and
-        has a hole for every side condition."""
+    def of(self, node: ast.expr) -> Rate:  # noqa: PLR0911 - a case a kind
+        """The derivative; NotExportedError where the library has no lemma. The Coq term speaks of hypotheses `rate_x`,
+        and has a hole for every side condition."""
         if not names_in(node) & self.rates.keys():
             return Rate(None, f"(D_const {self._now(node)} {self.letters.instant})")
         match node:
@@ -54,7 +54,7 @@ class Differentiation:
                 below = self.of(inner)
                 slope = operation(ast.Constant(1), ast.Sub(), operation(node, ast.Pow(), ast.Constant(2)))
                 return Rate(operation(slope, ast.Mult(), _value(below)), self._lemma("D_tanh", [inner], [below]))
-        raise NotExported(f"the derivative of {ast.unparse(node)[:60]}")
+        raise NotExportedError(f"the derivative of {ast.unparse(node)[:60]}")
 
     def _operation(self, left: ast.expr, op: ast.operator, right: ast.expr) -> Rate:
         a, b = self.of(left), self.of(right)
@@ -75,7 +75,7 @@ class Differentiation:
                                  operation(left, ast.Mult(), _value(b)))
                 return Rate(operation(over, op, operation(right, ast.Mult(), right)),
                             self._lemma("D_divide", [left, right], [a, b], "_"))
-        raise NotExported("the derivative of an unknown operation")
+        raise NotExportedError("the derivative of an unknown operation")
 
     def _power(self, base: ast.expr, exponent: ast.expr) -> Rate:
         match exponent:
@@ -88,7 +88,7 @@ class Differentiation:
                 return Rate(value, proof)
             case ast.UnaryOp(op=ast.USub(), operand=ast.Constant() as positive):
                 return self._operation(ast.Constant(1), ast.Div(), operation(base, ast.Pow(), positive))
-        raise NotExported(f"the derivative of a power {ast.unparse(exponent)}")
+        raise NotExportedError(f"the derivative of a power {ast.unparse(exponent)}")
 
     def _now(self, node: ast.expr) -> str:
         return text_of(node, self.letters)

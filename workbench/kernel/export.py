@@ -1,4 +1,4 @@
-"""Certificates as Coq files: one a certificate, the library beside them, and an index of what was exported and what not."""
+"""Certificates as Coq files: one a certificate, the library beside them, an index of what was exported and what not."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from ..files.own_files import sha256
 from ..files.text import read_text
 from ..proof.checker import CertificateError, check
 from . import points, proved, theorem
-from .syntax import NotExported
+from .syntax import NotExportedError
 
 LIBRARY = ("Workbench.v", "WorkbenchFlow.v")
 INDEX = "index.json"
@@ -50,23 +50,30 @@ def export(certificate: dict[str, Any], digest: str = "") -> Exported:
     What it rests on besides its proof or point, a correction or a repair, is exported with it or not at all.
     """
     check(certificate)
-    stated = {"claim": certificate, **{name: certificate[name] for name in ("correction", "repair") if name in certificate}}
-    motion = any(part["goal"].get(key) for part in stated.values() for key in ("initial", "always", "eventually"))
+    of_time = ("initial", "always", "eventually")
+    motion = any(part["goal"].get(key) for part in _parts(certificate).values() for key in of_time)
     text, reason = None, None
     try:
-        text = _document(certificate, stated)
-    except NotExported as trouble:
+        text = document(certificate)
+    except NotExportedError as trouble:
         reason = str(trouble)
     except CertificateError as trouble:
         reason = f"the export asks what the checker refuses: {trouble}"
-    return Exported(str(certificate["claim"]), certificate["verdict"], str(certificate.get("goal_digest", "")), digest, motion,
-                    text, reason)
+    return Exported(str(certificate["claim"]), certificate["verdict"], str(certificate.get("goal_digest", "")), digest,
+                    motion, text, reason)
 
 
-def _document(certificate: dict[str, Any], stated: dict[str, dict[str, Any]]) -> str:
+def _parts(certificate: dict[str, Any]) -> dict[str, dict[str, Any]]:
+    """What a certificate establishes, by its theorem's name: the claim, and a correction or repair where it has one."""
+    others = {name: certificate[name] for name in ("correction", "repair") if name in certificate}
+    return {"claim": certificate, **others}
+
+
+def document(certificate: dict[str, Any]) -> str:
+    """The Coq file of a certificate, which need not hold: then Coq refuses it. NotExportedError where it has none."""
     libraries: set[str] = set()
     theorems = []
-    for name, part in stated.items():
+    for name, part in _parts(certificate).items():
         goal = theorem.read(part["goal"])
         if name == "claim" and certificate["verdict"] != "proved":
             statement, script = points.statement_of(goal), points.proof_at_point(goal, certificate)

@@ -6,14 +6,14 @@ import ast
 from collections.abc import Callable
 from typing import Any
 
-from ..proof.checker import SUM, Ratio, Sign, atoms_of, parse, partial_operations, same
+from ..proof.checker import SUM, Ratio, Sign, atoms_of, parse, partial_operations, same, symbols_of
 from ..proof.checker import substitute as substitute_ratio
-from ..proof.checker import symbols_of
 from .derivative import Differentiation
 from .normal import Normal
-from .script import Script, conjunction
-from .syntax import NotExported, operation, replaced, text_of
+from .script import Script
+from .syntax import NotExportedError, operation, replaced, text_of
 from .theorem import condition_text
+from .writing import conjunction
 
 Prover = Callable[[Script, Ratio, str, dict[str, Any]], None]
 
@@ -21,7 +21,7 @@ Prover = Callable[[Script, Ratio, str, dict[str, Any]], None]
 def nonincreasing(script: Script, proof: dict[str, Any], prove: Prover) -> tuple[Sign, str]:
     """Shows that a function of the flow is at most what it was at time zero; the relation and its hypothesis."""
     if script.normal.letters.instant != "t" or script.normal.letters.indexed:
-        raise NotExported("a motion of indexed states")
+        raise NotExportedError("a motion of indexed states")
     script.libraries.add("WorkbenchFlow")
     context = script.context
     function = parse(proof["function"])
@@ -75,7 +75,7 @@ def _along(script: Script, proof: dict[str, Any], function: ast.expr, slope: ast
     falls = -context.derivative(value, context.flow)
     equation, found_value = script.evaluate(ast.UnaryOp(ast.USub(), slope))
     if not same(found_value, falls):
-        raise NotExported("a derivative reads differently here and in the checker")
+        raise NotExportedError("a derivative reads differently here and in the checker")
     script.prepare_all(falls)
     name = script.fresh("M")
     script.say(f"assert ({name} : {script.normal.value(falls)} >= 0).")
@@ -100,7 +100,7 @@ def _drop(script: Script, function: ast.expr, value: Ratio, along: str, bound: s
         name = script.show("W", text, "tauto.")
         equation, ratio = script.evaluate(begun)
         if SUM in atoms_of(ratio):
-            raise NotExported("a sum below a fraction bar")
+            raise NotExportedError("a sum below a fraction bar")
         script.remember(ratio.num, script.show(
             "N", f"{script.normal.poly(ratio.num)} <> 0",
             f"intro none_. apply (ne_or_pos {text_of(begun, script.normal.letters)}); "
@@ -109,7 +109,7 @@ def _drop(script: Script, function: ast.expr, value: Ratio, along: str, bound: s
     drop = substitute_ratio(context, value, given.initial) + -value
     equation, found = script.evaluate(operation(at_start, ast.Sub(), function))
     if not same(found, drop):
-        raise NotExported("what drops reads differently here and in the checker")
+        raise NotExportedError("what drops reads differently here and in the checker")
     script.prepare_all(drop)
     start = "".join(f"rewrite ?start_{name} in begun_. " for name in starts)
     name = script.show("M", f"{script.normal.value(drop)} >= 0",

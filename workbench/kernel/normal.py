@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 
 from ..proof.checker import SUM, Context, Monomial, Poly, Ratio, atoms_of, constant, number, symbol, symbols_of
-from .syntax import Letters, NotExported
+from .syntax import Letters, NotExportedError
 
 
 def number_text(value: Fraction) -> str:
@@ -41,7 +41,7 @@ class Normal:
         if atom in self.context.functions:
             return f"({self.name(atom)} i)" if self.indexed(symbol(atom)) else self.name(atom)
         if atom == SUM:
-            raise NotExported("a sum where the rule knows none")
+            raise NotExportedError("a sum where the rule knows none")
         return self.letters.symbol(atom)
 
     def power(self, atom: str, power: int) -> str:
@@ -59,7 +59,8 @@ class Normal:
 
     def ratio(self, value: Ratio) -> str:
         """A rational function without sums."""
-        return self.poly(value.num) if value.den == constant(1) else f"({self.poly(value.num)} / {self.poly(value.den)})"
+        over = self.poly(value.num)
+        return over if value.den == constant(1) else f"({over} / {self.poly(value.den)})"
 
     def split(self, value: Ratio) -> tuple[Ratio, Ratio | None]:
         """What stands outside of the sum over the index, and its term, None where there is no sum."""
@@ -68,7 +69,7 @@ class Normal:
         inside = {tuple(f for f in m if f[0] != SUM): c for m, c in value.num.items() if (SUM, 1) in m}
         outside = Ratio({m: c for m, c in value.num.items() if (SUM, 1) not in m}, value.den)
         if self.indexed(outside):
-            raise NotExported("a sum that is not told apart from what stands beside it")
+            raise NotExportedError("a sum that is not told apart from what stands beside it")
         return outside, Ratio(inside, value.den)
 
     def value(self, value: Ratio) -> str:

@@ -6,9 +6,10 @@ from typing import Any
 
 from ..proof.checker import margin, read_goal, split_relation
 from .rules import prove, stated
-from .script import MARGINS, Script, conjunction
+from .script import MARGINS, Script
 from .syntax import split_margin
 from .theorem import Goal
+from .writing import conjunction
 
 
 def proof_of(goal: Goal, certificate: dict[str, Any]) -> Script:

@@ -1,4 +1,4 @@
-"""Expressions of the certificate language as Coq text, letter by letter, and their derivatives by the rules of school."""
+"""Expressions of the certificate language as Coq text, letter by letter, and what is made of them."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ EXTREMES = {"Max": "Rmax", "Min": "Rmin"}
 NAMED = "@"  # before the name of a value that the Coq file names itself
 
 
-class NotExported(Exception):
+class NotExportedError(Exception):
     """A certificate, or a rule in it, that has no Coq text; says which and why."""
 
 
@@ -60,10 +60,10 @@ def exponent_of(node: ast.expr) -> int:
             return value
         case ast.UnaryOp(op=ast.USub(), operand=ast.Constant(value=int(value))):
             return -value
-    raise NotExported(f"the exponent {ast.unparse(node)} is no number")
+    raise NotExportedError(f"the exponent {ast.unparse(node)} is no number")
 
 
-def text_of(node: ast.AST, letters: Letters) -> str:
+def text_of(node: ast.AST, letters: Letters) -> str:  # noqa: PLR0911 - a case a kind
     """An expression as Coq text, every operation in brackets of its own."""
 
     def text(part: ast.AST) -> str:
@@ -93,7 +93,7 @@ def text_of(node: ast.AST, letters: Letters) -> str:
             return found
         case ast.Call(func=ast.Name(id=name), args=[inner]) if name in FUNCTIONS:
             return f"({FUNCTIONS[name]} {text(inner)})"
-    raise NotExported(f"{ast.unparse(node)[:80]} has no Coq text")  # type: ignore[arg-type]
+    raise NotExportedError(f"{ast.unparse(node)[:80]} has no Coq text")  # type: ignore[arg-type]
 
 
 def relation_text(relation: str, letters: Letters) -> str:

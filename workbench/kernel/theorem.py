@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from ..proof.checker import calls, has_relation, parse, partial_operations, split_relation
-from .syntax import Letters, NotExported, called, names_in, relation_text, text_of
+from .syntax import Letters, NotExportedError, called, names_in, relation_text, text_of
 
 
 @dataclass(frozen=True)
@@ -52,7 +52,8 @@ class Goal:
         if self.kind == "rate":
             for name, rate in self.rates.items():
                 each, at = ("forall i : nat, ", " i") if name in letters.indexed else ("", "")
-                found.append((f"rate_{name}", f"({each}is_derive (v_{name}{at}) t {text_of(rate, letters)})"))
+                moving = f"(v_{name} i)" if at else f"v_{name}"
+                found.append((f"rate_{name}", f"({each}is_derive {moving} t {text_of(rate, letters)})"))
         if self.kind == "motion":
             found.append(("t_later", "0 <= t"))
             soon = letters.at("s")
@@ -128,9 +129,9 @@ def texts_of(stated: dict[str, Any]) -> list[str]:
 
 
 def read(stated: dict[str, Any]) -> Goal:
-    """A goal with its letters; NotExported where it has no Coq text."""
+    """A goal with its letters; NotExportedError where it has no Coq text."""
     if stated.get("eventually"):
-        raise NotExported("a statement of some later time")
+        raise NotExportedError("a statement of some later time")
     flow = stated.get("flow", {})
     if stated.get("always") or stated.get("initial"):
         kind = "motion"
@@ -141,7 +142,7 @@ def read(stated: dict[str, Any]) -> Goal:
         moving |= set(stated.get("inputs", []))
     indexed = set(stated.get("indexed", []))
     if kind == "motion" and indexed & moving:
-        raise NotExported("a motion of indexed states")
+        raise NotExportedError("a motion of indexed states")
     letters = Letters(frozenset(moving), frozenset(indexed))
     used: set[str] = set(stated.get("initial", {}))
     texts = texts_of(stated) if kind != "static" else [*stated.get("assume", []), *stated["show"]]
