@@ -133,9 +133,9 @@ class _Here:
             for name in names.split():
                 if kind == "R -> R":
                     at = text_of(self.values[name[2:]], letters)
-                    rate = text_of(self.closed(goal.rates[name[2:]]), letters)
+                    slope = text_of(self.closed(goal.rates[name[2:]]), letters)
                     script.libraries.add("WorkbenchFlow")
-                    script.say(f"destruct (motion 0 {at} {rate}) as [{name} [{name}_at {name}_rate]]. exists {name}.")
+                    script.say(f"destruct (motion 0 {at} {slope}) as [{name} [{name}_at {name}_rate]]. exists {name}.")
                 elif name == "t":
                     script.say("exists 0.")
                 elif kind == "nat":
@@ -149,9 +149,9 @@ class _Here:
                     script.say(f"exists {text_of(self.values[name[2:]], letters)}.")
         parts: list[str] = []
         for name, rate in goal.rates.items():
-            at = "".join(f"rewrite ?v_{each}_at. " for each in goal.rates)
+            back = "".join(f"rewrite ?v_{each}_at. " for each in goal.rates)
             parts.append(script.show("R", f"is_derive v_{name} 0 {text_of(self.partly(rate), self.letters)}",
-                                     f"{at}exact v_{name}_rate."))
+                                     f"{back}exact v_{name}_rate."))
             script.say(f"pose proof {parts[-1]} as rate_{name}.")
         for text in goal.stated.get("assume", []):
             parts += [*self.conditions(text), self.relation(text)]

@@ -93,7 +93,7 @@ def text_of(node: ast.AST, letters: Letters) -> str:  # noqa: PLR0911 - a case a
             return found
         case ast.Call(func=ast.Name(id=name), args=[inner]) if name in FUNCTIONS:
             return f"({FUNCTIONS[name]} {text(inner)})"
-    raise NotExportedError(f"{ast.unparse(node)[:80]} has no Coq text")  # type: ignore[arg-type]
+    raise NotExportedError(f"{ast.unparse(node)[:80]} has no Coq text")
 
 
 def relation_text(relation: str, letters: Letters) -> str:
@@ -107,10 +107,11 @@ def replaced(node: ast.expr, new: Callable[[ast.expr], ast.expr | None]) -> ast.
 
     class Replacing(ast.NodeTransformer):
         def visit(self, part: ast.AST) -> ast.AST:
-            found = new(part) if isinstance(part, ast.expr) else None
-            return found if found is not None else self.generic_visit(part)
+            other = new(part) if isinstance(part, ast.expr) else None
+            return other if other is not None else self.generic_visit(part)
 
-    found: ast.expr = Replacing().visit(copy.deepcopy(node))
+    found = Replacing().visit(copy.deepcopy(node))
+    assert isinstance(found, ast.expr)
     return found
 
 
