@@ -65,7 +65,8 @@ def export(certificate: dict[str, Any], digest: str = "") -> Exported:
 
 def _parts(certificate: dict[str, Any]) -> dict[str, dict[str, Any]]:
     """What a certificate establishes, by its theorem's name: the claim, and a correction or repair where it has one."""
-    others = {name: certificate[name] for name in ("correction", "repair") if name in certificate}
+    others: dict[str, dict[str, Any]] = {
+        name: certificate[name] for name in ("correction", "repair") if name in certificate}
     return {"claim": certificate, **others}
 
 
