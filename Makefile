@@ -1,11 +1,11 @@
-# make install | demo | test | lint | prove | clean        PYTHON=python3.12 chooses the interpreter
+# make install | demo | test | lint | prove | kernel | clean        PYTHON=python3.12 chooses the interpreter
 PYTHON ?= python3
 VENV := .venv
 BIN := $(VENV)/bin
 STAMP := $(VENV)/.installed
 TOOLS := $(VENV)/.installed-tools
 
-.PHONY: install demo test lint prove clean
+.PHONY: install demo test lint prove kernel clean
 
 install: $(TOOLS)
 
@@ -36,6 +36,14 @@ lint: install
 
 prove: $(STAMP)
 	@$(BIN)/workbench prove proofs
+
+# Every certificate of the examples before Coq's kernel. Coq is not installed by this: without it, what is missing is said.
+kernel:
+	@command -v coqc >/dev/null || { echo "coqc is missing: on Debian or Ubuntu: apt install coq libcoq-interval libcoq-coquelicot" >&2; exit 1; }
+	@test -x $(BIN)/workbench || { echo "the workbench is missing: run make install" >&2; exit 1; }
+	@set -e; for paper in proofs/*/; do \
+		$(BIN)/workbench export-coq $$paper --out out/kernel/$$(basename $$paper); \
+		$(BIN)/workbench check-coq out/kernel/$$(basename $$paper); done
 
 clean:
 	rm -rf $(VENV) out .cache .hypothesis .mypy_cache .pytest_cache .ruff_cache build *.egg-info

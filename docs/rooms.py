@@ -21,6 +21,7 @@ ORDER = (
     ("report",),
     ("contest",),
     ("paper",),
+    ("kernel",),
     ("gains", "proof", "simulate", "mpc", "optimal"),
     ("systems",),
     ("compile",),

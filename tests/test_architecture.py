@@ -20,6 +20,7 @@ ORDER = (
     ("report",),
     ("contest",),
     ("paper",),
+    ("kernel",),
     ("simulate", "mpc", "optimal", "gains", "proof"),
     ("systems",),
     ("compile",),

@@ -1,8 +1,4 @@
-<<<<<<< HEAD
-"""Results as tables of other libraries, where these are installed, and as MAT files."""
-=======
-"""Results as tables of other libraries, where these are installed, and as tables of a notebook."""
->>>>>>> plants
+"""Results as tables of other libraries, where these are installed, as MAT files, and as tables of a notebook."""
 
 from __future__ import annotations
 
@@ -27,7 +23,6 @@ def data_frame(rows: Sequence[Mapping[str, Any]] | Mapping[str, Any], index: str
     return frame.set_index(index) if index else frame
 
 
-<<<<<<< HEAD
 def write_mat(columns: Mapping[str, ArrayLike], path: Path) -> None:
     """Columns as variables of a MAT file; two names that MATLAB cannot tell apart are a WorkbenchError."""
     from scipy.io import savemat  # noqa: PLC0415 - costs a start of the package nothing
@@ -38,7 +33,8 @@ def write_mat(columns: Mapping[str, ArrayLike], path: Path) -> None:
     text = io.BytesIO()
     savemat(text, {names[name]: column for name, column in columns.items()}, long_field_names=True, oned_as="column")
     write_bytes(path, text.getvalue())
-=======
+
+
 def dataset(columns: Mapping[str, Any], units: Mapping[str, str], about: Mapping[str, Any]) -> Any:
     """An xarray Dataset of columns over time, each with its unit; WorkbenchError where xarray is not installed.
 
@@ -68,4 +64,3 @@ def _installed(library: str, user: str) -> Any:
         return import_module(library)
     except ImportError:
         raise WorkbenchError(f"{user} needs {library}, which is not installed: pip install {library}") from None
->>>>>>> plants

@@ -10,11 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-<<<<<<< HEAD
-from workbench.api.frames import data_frame, write_mat
-=======
-from workbench.api.frames import data_frame, dataset, html_table
->>>>>>> plants
+from workbench.api.frames import data_frame, dataset, html_table, write_mat
 from workbench.simulate.plants.run import PlantRun
 from workbench.systems.setting import Setting
 
@@ -53,13 +49,12 @@ class Run:
         """The log as a DataFrame with the time in seconds as its index; WorkbenchError without pandas."""
         return data_frame(self.found.data, "t_s")
 
-<<<<<<< HEAD
     def to_mat(self, path: str | Path) -> None:
         """The log as a MAT file (version 5) that MATLAB and Simulink read: a column vector of doubles each, the time in
         seconds as `t_s`; signs that MATLAB has in no name become underscores. InputError where it cannot be written.
         """
         write_mat(self.found.data, Path(path))
-=======
+
     def to_xarray(self) -> Any:
         """The log as an xarray Dataset over `t_s`, its metrics as attributes; WorkbenchError without xarray."""
         units = {str(symbol): unit for symbol, unit in self.setting.plant.units.items()}
@@ -68,7 +63,6 @@ class Run:
 
     def _repr_html_(self) -> str:
         return html_table([{"controller": self.name, **self.metrics, "failed": self.failed}])
->>>>>>> plants
 
     def plot(self, *columns: str) -> Any:
         """A matplotlib Figure of the named columns, or of all states and inputs, over time."""

@@ -11,10 +11,12 @@ import typer
 from workbench.cli import (
     check,
     check_certificates,
+    check_coq,
     compare,
     diff,
     errata,
     examples,
+    export_coq,
     gains,
     listing,
     new_paper,
@@ -35,7 +37,7 @@ app = typer.Typer(no_args_is_help=True, add_completion=True, pretty_exceptions_e
 INTERRUPTED = 130  # with which typer ends after Ctrl-C
 
 for verb in (prove, show, diff, check, new_paper, check_certificates, compare, sweep, tune, report, reference, gains,
-             listing, examples, errata):
+             listing, examples, errata, export_coq, check_coq):
     app.command(verb.NAME, context_settings=getattr(verb, "CONTEXT", None))(verb.command)
 
 

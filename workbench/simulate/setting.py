@@ -74,7 +74,6 @@ class Setting:
         return (round(self.end_s / step), round(period_s / step), step, max(1, round(self.log_every_s / step)))
 
 
-<<<<<<< HEAD
 def setting_of(scenario: Scenario, factors: Factors = NOMINAL, nominal: Setting | None = None) -> Setting:
     """What a scenario states of its runs, for a train and line that differ from the nominal ones by `factors`.
 
@@ -82,13 +81,7 @@ def setting_of(scenario: Scenario, factors: Factors = NOMINAL, nominal: Setting 
     """
     curve, train, simulation = (nominal.curve if nominal else scenario.desired_curve()), scenario.train, \
         scenario.simulation
-    table = nominal.line if nominal else resistance_table(scenario.track)
-=======
-def setting_of(scenario: Scenario, factors: Factors = NOMINAL) -> Setting:
-    """What a scenario states of its runs, for a train and line that differ from the nominal ones by `factors`."""
-    curve, train, simulation = scenario.desired_curve(), scenario.train, scenario.simulation
-    table = resistance_table(scenario.track, train.length_m)
->>>>>>> contest
+    table = nominal.line if nominal else resistance_table(scenario.track, train.length_m)
     of_davis = (factors.davis_a, factors.davis_b, factors.davis_c)
     a, b, c = (value * factor for value, factor in zip(train.davis_newton, of_davis, strict=True))
     return Setting(

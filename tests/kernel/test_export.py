@@ -1,0 +1,118 @@
+"""What Coq is asked is the goal, and Coq's kernel refuses what is not so."""
+
+from __future__ import annotations
+
+import copy
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from workbench.kernel.coqc import _coqc, axioms_in, check_folder, missing
+from workbench.kernel.export import LIBRARY, document, export, files_of
+from workbench.kernel.syntax import NotExportedError
+from workbench.kernel.theorem import read
+from workbench.proof.checker import goal_digest
+
+with_coq = pytest.mark.skipif(missing() is not None, reason=missing() or "")
+
+PRODUCT = {"version": 2, "claim": "mine:1", "verdict": "proved", "example": {"k": "1", "x": "1"},
+           "goal": {"assume": ["k > 0", "x >= 1"], "show": ["x*k >= k", "x/k >= 1/k"]},
+           "proofs": [{"rule": "combination", "terms": [{"coefficient": "1", "factors": [first, {"assume": 1}]}]}
+                      for first in ({"assume": 0}, {"inverse": 0})]}
+SUMS = {"version": 2, "claim": "mine:2", "verdict": "proved", "example": {"a": "1"},
+        "goal": {"assume": ["a > 0"], "indexed": ["w"], "show": ["a*Sum(w**2) >= 0", "Sum(a*w) == a*Sum(w)"]},
+        "proofs": [{"rule": "combination", "terms": [{"coefficient": "1", "factors": [
+            {"assume": 0}, {"sum_of_squares": "w"}]}]}, {"rule": "identity"}]}
+POINT = {"version": 2, "claim": "mine:3", "verdict": "refuted", "point": {"z": "1/2"},
+         "goal": {"assume": ["z > 0"], "show": ["z**2 >= 1"]}}
+
+
+def digested(certificate: dict[str, Any]) -> dict[str, Any]:
+    """The certificate with the digest of its goal."""
+    return {**certificate, "goal_digest": goal_digest(certificate)}
+
+
+def test_statement_is_the_goal_with_every_denominator_asked_for() -> None:
+    """Each relation stands in it, in the goal's order; a division asks that its denominator is not zero."""
+    assert read(PRODUCT["goal"]).statement().split() == (
+        "forall (v_k v_x : R), (v_k > 0 -> (v_x >= 1 -> (v_x * v_k) >= v_k) /\\ (v_k <> 0) /\\ "
+        "((v_x / v_k) >= (1 / v_k))))").replace("(v_x >= 1 -> (v_x * v_k) >= v_k)",
+                                                "(v_x >= 1 -> ((v_x * v_k) >= v_k)").split()
+
+
+def test_statement_of_a_rate_speaks_of_motions_with_that_rate() -> None:
+    """D is Coquelicot's derivative of a function of time whose rate is the flow's, and there must be one."""
+    said = read({"flow": {"x": "-k*x"}, "show": ["D(x**2) <= 0"]}).statement()
+    assert "(v_x : R -> R)" in said and "(is_derive v_x t ((- v_k) * (v_x t))) ->" in said
+    assert "(ex_derive (fun s => ((v_x s) ^ 2)) t) /\\ ((Derive (fun s => ((v_x s) ^ 2)) t) <= 0)" in said
+
+
+def test_names_of_coqs_own_are_no_symbols() -> None:
+    """A symbol called exp, R or forall is another one than Coq's."""
+    said = read({"show": ["R + exp(forall1) >= in_"]}).statement()
+    assert "(v_R + (exp v_forall1)) >= v_in_" in said
+
+
+def test_comment_ends_where_it_should() -> None:
+    """No text of a certificate leaves its comment."""
+    said = document({**PRODUCT, "claim": "mine:1 *) Axiom a : False. (*"})
+    assert "Axiom" in said.splitlines()[0] and said.splitlines()[0].count("*)") == 0
+
+
+def test_what_has_no_coq_text_is_listed_with_its_reason() -> None:
+    """Nothing is left out in silence."""
+    certificate = digested({"version": 2, "claim": "mine:4", "verdict": "proved", "example": {"x": "2"},
+                            "goal": {"assume": ["x >= 1"], "show": ["x**2 >= 1"]},
+                            "proofs": [{"rule": "monotone", "variable": "x", "from": "1", "derivative": {
+                                "rule": "combination", "terms": [{"coefficient": "2", "factors": [{"assume": 1}]},
+                                                                 {"coefficient": "2", "factors": []}]},
+                                "at_start": {"rule": "identity"}}]})
+    found = export(certificate)
+    assert found.text is None and found.reason == "the rule monotone"
+    assert '"not_exported": "the rule monotone"' in files_of([found])["index.json"]
+
+
+@pytest.fixture(scope="module")
+def exports(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A folder of three exports with the library, compiled."""
+    folder = tmp_path_factory.mktemp("exports")
+    for name, text in files_of([export(digested(one)) for one in (PRODUCT, SUMS, POINT)]).items():
+        (folder / name).write_text(text)
+    return folder
+
+
+@with_coq
+def test_kernel_accepts_a_proof_a_sum_and_a_point(exports: Path) -> None:
+    """And the axioms are those of the reals."""
+    assert [(row.outcome, row.reason) for row in check_folder(exports, 1, 120)] == [("accepted", "")] * 3
+    changed = next(path for path in exports.glob("mine_3*.v"))
+    changed.write_text(changed.read_text() + " ")
+    assert [row.outcome for row in check_folder(exports, 1, 120)].count("refused") == 1
+
+
+@with_coq
+@pytest.mark.parametrize(("certificate", "old", "new"), [
+    (PRODUCT, "x*k >= k", "x*k >= 2*k"), (PRODUCT, "k > 0", "k < 0"), (PRODUCT, "x >= 1", "x >= 0"),
+    (SUMS, "Sum(a*w) == a*Sum(w)", "Sum(a*w) == Sum(w)"), (POINT, "z**2 >= 1", "z**2 <= 1"),
+])
+def test_kernel_refuses_a_goal_that_is_not_so(exports: Path, certificate: dict[str, Any], old: str, new: str) -> None:
+    """A changed goal has no Coq text, or one that coqc refuses: the checker is not asked."""
+    mutant = copy.deepcopy(certificate)
+    for key in ("assume", "show"):
+        mutant["goal"][key] = [new if text == old else text for text in mutant["goal"][key]]
+    assert mutant["goal"] != certificate["goal"]
+    try:
+        text = document(mutant)
+    except NotExportedError:
+        return
+    for name in LIBRARY:
+        assert (exports / name).is_file()
+    (exports / "Mutant.v").write_text(text)
+    assert _coqc(exports, "Mutant.v", 120)[1]
+
+
+def test_axioms_are_read_from_what_coq_prints() -> None:
+    """A proof by an axiom of one's own would be seen."""
+    said = "Axioms:\nClassicalDedekindReals.sig_forall_dec\n  : forall P\nmine : False\n"
+    assert axioms_in(said) == ["mine"] or axioms_in(said) == ["ClassicalDedekindReals.sig_forall_dec", "mine"]

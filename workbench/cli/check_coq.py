@@ -1,0 +1,43 @@
+"""`workbench check-coq`: what Coq's kernel says of exported certificates."""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from workbench.cli.options import JsonFile, Workers
+from workbench.cli.terminal import err_console, out_console, progress
+
+NAME = "check-coq"
+
+
+def command(folder: Annotated[Path, typer.Argument(metavar="DIR", help="What export-coq wrote.")],
+            workers: Workers = None, json: JsonFile = None,
+            seconds: Annotated[float, typer.Option(min=1, help="What coqc may take for one file.")] = 120) -> None:
+    """Run coqc on every file that export-coq wrote; exit 0 when the kernel accepts all of them, 1 when it refuses one.
+
+    What was not exported is listed with its reason and refuses nothing."""
+    from workbench.files.json_output import write_json
+    from workbench.files.outputs import check_outputs
+    from workbench.kernel.coqc import check_folder, cpu_seconds
+
+    check_outputs({"--json": json})
+    with progress() as show:
+        rows = list(check_folder(folder, workers or os.cpu_count() or 1, seconds,
+                                 lambda done, total: show("coqc", done, total)))
+    count = {name: sum(row.outcome == name for row in rows) for name in ("accepted", "refused", "not exported")}
+    for row in rows:
+        if row.outcome != "accepted":
+            err_console.print(f"{row.claim}: {row.outcome}: {row.reason}", soft_wrap=True, markup=False)
+    out_console.print(f"{count['accepted']} of {len(rows)} certificates accepted by Coq's kernel, {count['refused']} "
+                      f"refused, {count['not exported']} not exported; coqc took {cpu_seconds():.0f} s of processor "
+                      "time", soft_wrap=True)
+    if json is not None:
+        write_json(json, {"version": 1, "seconds": round(cpu_seconds(), 1), "certificates": [
+            {"claim": row.claim, "outcome": row.outcome, "reason": row.reason, "goal_digest": row.goal_digest,
+             "certificate": row.certificate} for row in rows]})
+    if count["refused"]:
+        raise typer.Exit(1)

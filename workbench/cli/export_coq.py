@@ -1,0 +1,42 @@
+"""`workbench export-coq`: a paper's certificates as files for Coq."""
+
+from __future__ import annotations
+
+from collections import Counter
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from workbench.cli.options import path_of
+from workbench.cli.terminal import out_console
+
+NAME = "export-coq"
+
+
+def command(paper: Annotated[str, typer.Argument(metavar="PAPER", help="A paper's folder, its name, or a folder of "
+                                                                       "certificates.")],
+            out: Annotated[Path, typer.Option(metavar="DIR", help="Where the Coq files go.")]) -> None:
+    """Write one Coq file a certificate, its statement made from the goal and its proof from the certificate's steps,
+    with the library that they share; say what has no Coq text, and why."""
+    from workbench.errors import WorkbenchError
+    from workbench.files.outputs import check_outputs
+    from workbench.files.writing import write_text
+    from workbench.kernel.export import INDEX, export_folder, files_of
+
+    place = path_of(paper)
+    folder = place / "certificates" if (place / "certificates").is_dir() else place
+    exported = list(export_folder(folder))
+    if not exported:
+        raise WorkbenchError(f"{folder}: holds no certificate (*.json): run 'workbench prove --write' first")
+    files = files_of(exported)
+    check_outputs({}, folders={"--out": (out, list(files))})
+    for name, text in files.items():
+        if name != INDEX:
+            write_text(out / name, text)
+    write_text(out / INDEX, files[INDEX])
+    reasons = Counter(one.reason for one in exported if one.text is None)
+    count = len(exported) - reasons.total()
+    out_console.print(f"{count} of {len(exported)} certificates exported to {out}", soft_wrap=True)
+    for reason, count in reasons.most_common():
+        out_console.print(f"  {count} not exported: {reason}", soft_wrap=True, markup=False)

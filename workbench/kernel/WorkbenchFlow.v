@@ -1,0 +1,110 @@
+(* Derivatives along a flow, for the exported certificates that speak of rates and motions. *)
+Require Import Reals Lra Lia.
+From Coquelicot Require Import Coquelicot.
+Require Import Workbench.
+Open Scope R_scope.
+
+Lemma D_const : forall c t : R, is_derive (fun _ => c) t 0.
+Proof. intros. apply (is_derive_const c t). Qed.
+
+Lemma D_plus : forall (f g : R -> R) (t a b : R),
+  is_derive f t a -> is_derive g t b -> is_derive (fun s => f s + g s) t (a + b).
+Proof. intros. apply (is_derive_plus f g t a b); assumption. Qed.
+
+Lemma D_minus : forall (f g : R -> R) (t a b : R),
+  is_derive f t a -> is_derive g t b -> is_derive (fun s => f s - g s) t (a - b).
+Proof. intros. apply (is_derive_minus f g t a b); assumption. Qed.
+
+Lemma D_opp : forall (f : R -> R) (t a : R), is_derive f t a -> is_derive (fun s => - f s) t (- a).
+Proof. intros. apply (is_derive_opp f t a); assumption. Qed.
+
+Lemma D_mult : forall (f g : R -> R) (t a b : R),
+  is_derive f t a -> is_derive g t b -> is_derive (fun s => f s * g s) t (a * g t + f t * b).
+Proof. intros. apply (is_derive_mult f g t a b); try assumption. intros; unfold mult; simpl; ring. Qed.
+
+Lemma D_same : forall (f : R -> R) (t a b : R), is_derive f t a -> a = b -> is_derive f t b.
+Proof. intros. subst. assumption. Qed.
+
+Lemma D_scale : forall (f : R -> R) (c t a : R), is_derive f t a -> is_derive (fun s => c * f s) t (c * a).
+Proof. intros. apply (D_same _ t (0 * f t + c * a)); [|ring]. apply D_mult; [apply D_const|assumption]. Qed.
+
+Lemma D_divide : forall (f g : R -> R) (t a b : R), is_derive f t a -> is_derive g t b -> g t <> 0 ->
+  is_derive (fun s => f s / g s) t ((a * g t - f t * b) / (g t * g t)).
+Proof.
+  intros f g t a b F G N. apply (D_same _ t ((a * g t - f t * b) / (g t) ^ 2)).
+  - apply (is_derive_div f g t a b); assumption.
+  - field. assumption.
+Qed.
+
+Lemma D_divide_const : forall (f : R -> R) (c t a : R), is_derive f t a -> is_derive (fun s => f s / c) t (a / c).
+Proof.
+  intros. unfold Rdiv. apply (D_same _ t (a * / c + f t * 0)); [|ring].
+  apply (D_mult f (fun _ => / c)); [assumption|apply D_const].
+Qed.
+
+Lemma D_power : forall (m : nat) (k : R) (f : R -> R) (t a : R), k = INR (S m) -> is_derive f t a ->
+  is_derive (fun s => f s ^ S m) t (k * f t ^ m * a).
+Proof.
+  intros m k f t a -> F. apply (D_same _ t (INR (S m) * a * f t ^ pred (S m))).
+  - apply (is_derive_pow f (S m) t a). assumption.
+  - simpl pred. ring.
+Qed.
+
+Lemma D_id : forall t : R, is_derive (fun s : R => s) t 1.
+Proof. intros. apply (is_derive_id t). Qed.
+
+Lemma D_exp : forall (f : R -> R) (t a : R), is_derive f t a -> is_derive (fun s => exp (f s)) t (exp (f t) * a).
+Proof.
+  intros. apply (D_same _ t (a * exp (f t))); [|ring].
+  apply (is_derive_comp exp f t (exp (f t)) a); [apply is_derive_exp|assumption].
+Qed.
+
+Lemma D_ln : forall (f : R -> R) (t a : R), is_derive f t a -> 0 < f t -> is_derive (fun s => ln (f s)) t (a / f t).
+Proof.
+  intros. apply (is_derive_comp ln f t (/ f t) a); [apply is_derive_ln; assumption|assumption].
+Qed.
+
+Lemma D_tanh : forall (f : R -> R) (t a : R), is_derive f t a ->
+  is_derive (fun s => tanh (f s)) t ((1 - tanh (f t) ^ 2) * a).
+Proof.
+  intros f t a F. apply (D_same _ t (a * (1 - tanh (f t) ^ 2))); [|ring].
+  apply (is_derive_comp tanh f t (1 - tanh (f t) ^ 2) a); [|assumption].
+  set (x := f t). pose proof (exp_pos (2 * x)) as P.
+  apply (is_derive_ext (fun y => (exp (2 * y) - 1) / (exp (2 * y) + 1))); [intro; symmetry; apply tanh_exp|].
+  assert (Q : is_derive (fun y => exp (2 * y)) x (exp (2 * x) * (2 * 1))).
+  { apply (D_exp (fun y => 2 * y)). apply (D_scale (fun y => y)). apply D_id. }
+  eapply D_same.
+  - apply (D_divide (fun y => exp (2 * y) - 1) (fun y => exp (2 * y) + 1)).
+    + apply (D_minus (fun y => exp (2 * y)) (fun _ => 1)); [exact Q|apply D_const].
+    + apply (D_plus (fun y => exp (2 * y)) (fun _ => 1)); [exact Q|apply D_const].
+    + lra.
+  - rewrite tanh_exp. field. lra.
+Qed.
+
+Lemma D_bigsum : forall n (f : nat -> R -> R) (t : R) (d : nat -> R), (forall i, is_derive (f i) t (d i)) ->
+  is_derive (fun s => bigsum n (fun i => f i s)) t (bigsum n d).
+Proof.
+  intros n f t d H. induction n as [|n IH]; simpl; [apply D_const|].
+  apply (D_plus (fun s => bigsum n (fun i => f i s)) (f n)); [exact IH|apply H].
+Qed.
+
+(* a motion through a point with a rate *)
+Lemma motion : forall t q r : R, { x : R -> R | x t = q /\ is_derive x t r }.
+Proof.
+  intros t q r. exists (fun s => q + r * (s - t)). split; [ring|].
+  apply (D_same _ t (0 + r * (1 - 0))); [|ring]. apply (D_plus (fun _ => q) (fun s => r * (s - t))); [apply D_const|].
+  apply (D_scale (fun s => s - t)). apply (D_minus (fun s => s) (fun _ => t)); [apply D_id|apply D_const].
+Qed.
+
+(* rule nonincreasing: a function whose derivative is never positive after time zero is at most what it was *)
+Lemma nonincreasing : forall (f d : R -> R) (t : R), 0 <= t ->
+  (forall s, 0 <= s -> continuity_pt f s) -> (forall s, 0 < s -> is_derive f s (d s)) ->
+  (forall s, 0 < s -> d s <= 0) -> f t <= f 0.
+Proof.
+  intros f d t T C D N. destruct (Req_dec t 0) as [->|Z]; [lra|].
+  destruct (MVT_gen f 0 t (fun s => Rmin (d s) 0)) as [c [_ E]].
+  - intros x [A _]. rewrite Rmin_left in A by lra. rewrite Rmin_left by (apply N; lra). apply D. lra.
+  - intros x [A _]. rewrite Rmin_left in A by lra. apply C. lra.
+  - pose proof (Rmin_r (d c) 0) as B. assert (Rmin (d c) 0 * (t - 0) <= 0 * (t - 0)); [|lra].
+    apply Rmult_le_compat_r; lra.
+Qed.

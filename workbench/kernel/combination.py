@@ -1,0 +1,126 @@
+"""The rule combination: a value is, but for a positive multiplier, a sum of products whose factors have known signs."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from ..proof.checker import SUM, Ratio, atoms_of, number, read_rational
+from .factors import factor_of
+from .normal import number_text
+from .script import Script
+from .syntax import NotExportedError
+
+
+def combination(script: Script, value: Ratio, operator: str, proof: dict[str, Any]) -> None:
+    """The proof that a value has the sign that its sum of products has."""
+    scale, scale_value, positive = "1", number(1), "Rlt_0_1"
+    for item in proof.get("multiplier", []):
+        factor = factor_of(script, item)
+        if factor.sign != ">" or SUM in atoms_of(factor.value):
+            raise NotExportedError("a multiplier with a sum")
+        positive = f"(Rmult_lt_0_compat _ _ {positive} {factor.proof})"
+        scale, scale_value = f"({scale} * {factor.text})", scale_value * factor.value
+    terms = [_product(script, term) for term in proof["terms"]]
+    total = terms[0][0] if terms else "0"
+    for text, _, _, _ in terms[1:]:
+        total = f"({total} + {text})"
+    if operator == "==":
+        sign = "eq_refl" if not terms else terms[0][2]
+        for _, _, zero, _ in terms[1:]:
+            sign = f"(zero_plus _ _ {sign} {zero})"
+        lemma = "combination_eq"
+    else:
+        sign, strict = _sum_of_signs(terms)
+        if operator == ">" and not strict:
+            raise NotExportedError("a combination without a strictly positive term")
+        if operator == ">=" and strict:
+            sign = f"(pos_ge _ {sign})"
+        lemma = "combination_gt" if operator == ">" else "combination_ge"
+    outside, inside = script.normal.split(value)
+    script.prepare_all(value)
+    whole = script.normal.value(value)
+    summed = any(sums is not None for _, _, _, (_, sums, _) in terms)
+    if inside is None and not summed:
+        adds_up = script.show("Q", f"{scale} * {whole} = {total}", "same.")
+    else:
+        adds_up = _adds_up_with_sums(script, scale, outside, inside, whole, total, terms)
+    script.say(f"exact ({lemma} {scale} {whole} {total} {positive} {sign} {adds_up}).")
+
+
+# Text, sign, proof, and what stands outside of the sum, the sum's term, the equation that says so.
+Term = tuple[str, str, str, tuple[str, "str | None", str]]
+
+
+def _sum_of_signs(terms: list[Term]) -> tuple[str, bool]:
+    """The Coq term that a sum of terms is positive or not negative, and which of them."""
+    if not terms:
+        return "(Rle_refl 0)", False
+    found, strict = terms[0][2], terms[0][1] == ">"
+    if terms[0][1] == "==":
+        found = f"(eq_nonneg _ {found})"
+    lemmas = {(True, True): "Rplus_lt_0_compat", (True, False): "Rplus_lt_le_0_compat",
+              (False, True): "Rplus_le_lt_0_compat", (False, False): "Rplus_le_le_0_compat"}
+    for _, sign, proof, _ in terms[1:]:
+        one = f"(eq_nonneg _ {proof})" if sign == "==" else proof
+        found = f"({lemmas[strict, sign == '>']} _ _ {found} {one})"
+        strict = strict or sign == ">"
+    return found, strict
+
+
+def _product(script: Script, term: dict[str, Any]) -> Term:
+    coefficient = read_rational(term["coefficient"])
+    factors = [factor_of(script, item) for item in term["factors"]]
+    sums = [factor for factor in factors if SUM in atoms_of(factor.value)]
+    if len(sums) > 1:
+        raise NotExportedError("a product of sums")
+    factors = [factor for factor in factors if factor not in sums] + sums
+    text = number_text(coefficient)
+    if any(factor.sign == "==" for factor in factors):
+        sign, proof = "==", ""
+        for factor in factors:
+            if factor.sign == "==":
+                proof = f"(zero_last {text} _ {factor.proof})"
+            elif proof:
+                proof = f"(zero_first _ {factor.text} {proof})"
+            text = f"({text} * {factor.text})"
+    else:
+        strict = coefficient > 0 and all(factor.sign == ">" for factor in factors)
+        sign = ">" if strict else ">="
+        proof = f"(ltac:(lra) : 0 {'<' if strict else '<='} {text})"
+        for factor in factors:
+            one = factor.proof if strict or factor.sign != ">" else f"(pos_ge _ {factor.proof})"
+            proof = f"({'Rmult_lt_0_compat' if strict else 'Rmult_le_pos'} _ _ {proof} {one})"
+            text = f"({text} * {factor.text})"
+    if not sums:
+        return text, sign, proof, (text, None, f"(no_split n {text})")
+    before = number_text(coefficient)
+    for factor in factors[:-1]:
+        before = f"({before} * {factor.text})"
+    outside, inside = script.normal.split(sums[0].value)
+    assert inside is not None
+    here, each = script.normal.ratio(outside), script.normal.ratio(inside)
+    return text, sign, proof, (f"({before} * {here})", f"({before} * {each})",
+                               f"(scale_split n {before} {here} (fun i => {each}))")
+
+
+def _adds_up_with_sums(script: Script, scale: str, outside: Ratio, inside: Ratio | None, whole: str, total: str,
+                       terms: list[Term]) -> str:
+    """scale * value = total where sums over the index stand in them."""
+    beyond, each, equation = "0", "0", "(no_split n 0)"
+    for number_, (_, _, _, (apart, summed, one)) in enumerate(terms):
+        term = summed or "0"
+        if number_:
+            equation = f"(add_split n _ {beyond} (fun i => {each}) _ {apart} (fun i => {term}) {equation} {one})"
+            beyond, each = f"({beyond} + {apart})", f"({each} + {term})"
+        else:
+            equation, beyond, each = one, apart, term
+    split = script.show("Q", f"{total} = {beyond} + bigsum n (fun i => {each})", f"exact {equation}.")
+    here, inner = script.normal.ratio(outside), script.normal.ratio(inside) if inside is not None else "0"
+    _, intros = script.every(True)
+    # a value without a sum is one with a sum of zeros
+    start = f"transitivity ({scale} * ({here} + bigsum n (fun i => 0))); [f_equal; apply no_split|]. "
+    return script.show(
+        "Q", f"{scale} * {whole} = {total}",
+        f"{start if inside is None else ''}refine (eq_trans (combined_sum n {scale} {here} (fun i => {inner}) {beyond} "
+        f"(fun i => {each}) _ _) (eq_sym {split})). {{ same. }} "
+        f"{intros}intros _. cbv beta. same.")

@@ -1,0 +1,122 @@
+"""Coq's compiler on a folder of exports: which files its kernel accepts, and on which axioms they rest."""
+
+from __future__ import annotations
+
+import re
+import resource
+import shutil
+import subprocess
+from collections.abc import Callable, Iterator
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from ..errors import InputError
+from ..files.json_input import read_json
+from ..files.own_files import sha256
+from ..files.text import read_text
+from .export import HERE, INDEX, LIBRARY
+
+# The axioms of Coq's classical reals, and the machine integers and floats that interval arithmetic computes with.
+OF_THE_REALS = ("ClassicalDedekindReals.", "FunctionalExtensionality.", "Classical_Prop.classic")
+OF_THE_MACHINE = ("PrimInt63.", "Uint63.", "PrimFloat.", "FloatAxioms.", "Uint63Axioms.", "Sint63.")
+AXIOM = re.compile(r"^([A-Za-z_][A-Za-z0-9_.']*)\s*:", re.M)
+REMEDY = "on Debian or Ubuntu: apt install coq libcoq-interval libcoq-coquelicot"
+
+
+@dataclass(frozen=True)
+class Checked:
+    """One certificate: 'accepted', 'refused' (with what coqc says) or 'not exported' (with the reason)."""
+
+    claim: str
+    outcome: str
+    reason: str = ""
+    goal_digest: str = ""
+    certificate: str = ""
+    motion: bool = False
+
+
+def missing() -> str | None:
+    """What is not installed, with the remedy; None where coqc and its libraries are there."""
+    found = shutil.which("coqc")
+    if found is None:
+        return f"coqc is missing: {REMEDY}"
+    where = subprocess.run([found, "-where"], capture_output=True, text=True, check=False).stdout.strip()
+    absent = [name for name in ("Coquelicot", "Interval") if not (Path(where) / "user-contrib" / name).is_dir()]
+    return f"Coq's library {' and '.join(absent)} is missing: {REMEDY}" if absent else None
+
+
+def check_folder(folder: Path, workers: int, seconds: float,
+                 on_progress: Callable[[int, int], None] = lambda done, total: None) -> Iterator[Checked]:
+    """Every certificate of a folder that `export-coq` wrote, as coqc finds it; InputError where Coq is missing, the
+    library is not this package's, or the folder is none of exports. A file may take `seconds`."""
+    if (trouble := missing()) is not None:
+        raise InputError("", "", trouble)
+    index = read_index(folder)
+    for name in LIBRARY:
+        if read_text(folder / name, "library") != read_text(HERE / name, "library"):
+            raise InputError(str(folder / name), "", "is not this package's library: run 'workbench export-coq' again")
+        if trouble := _coqc(folder, name, seconds)[1]:
+            raise InputError(str(folder / name), "", f"coqc refuses the library: {trouble}")
+    rows = index["certificates"]
+    done = 0
+    with ThreadPoolExecutor(workers) as pool:
+        for checked in pool.map(lambda row: _check(folder, row, seconds), rows):
+            done += 1
+            on_progress(done, len(rows))
+            yield checked
+
+
+def read_index(folder: Path) -> dict[str, Any]:
+    """The index of a folder of exports; InputError where it is none."""
+    index = read_json(folder / INDEX)
+    if index.get("version") != 1 or not isinstance(index.get("certificates"), list):
+        raise InputError(str(folder / INDEX), "", "is no index of exports: run 'workbench export-coq' first")
+    return index
+
+
+def cpu_seconds() -> float:
+    """The time that coqc has taken so far in all, user and system."""
+    spent = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return spent.ru_utime + spent.ru_stime
+
+
+def _check(folder: Path, row: dict[str, Any], seconds: float) -> Checked:
+    known = {"claim": row["claim"], "goal_digest": row["goal_digest"], "certificate": row["certificate"],
+             "motion": row["motion"]}
+    if "not_exported" in row:
+        return Checked(outcome="not exported", reason=row["not_exported"], **known)
+    name = row["file"]
+    if Path(name).name != name or sha256(read_text(folder / name, "Coq file")) != row["sha256"]:
+        return Checked(outcome="refused", reason="the file is not the one that was exported", **known)
+    said, trouble = _coqc(folder, name, seconds)
+    if not trouble:
+        strange = [axiom for axiom in axioms_in(said) if not axiom.startswith(OF_THE_REALS + OF_THE_MACHINE)]
+        trouble = f"rests on {', '.join(strange)}" if strange else ""
+        theorems = read_text(folder / name, "Coq file").count("\nPrint Assumptions ")
+        if not theorems or said.count("Axioms:") + said.count("Closed under the global context") != theorems:
+            trouble = trouble or "says not what it rests on"
+    return Checked(outcome="refused" if trouble else "accepted", reason=trouble, **known)
+
+
+def axioms_in(said: str) -> list[str]:
+    """The axioms that `Print Assumptions` names."""
+    found: list[str] = []
+    for block in said.split("Axioms:")[1:]:
+        found += AXIOM.findall(block)
+    return found
+
+
+def _coqc(folder: Path, name: str, seconds: float) -> tuple[str, str]:
+    """What coqc says of a file, and its trouble, empty where it accepts."""
+    command = ["coqc", "-q", "-R", ".", "", name]
+    try:
+        run = subprocess.run(command, cwd=folder, capture_output=True, text=True, timeout=seconds, check=False)
+    except subprocess.TimeoutExpired:
+        return "", f"takes more than {seconds:g} s"
+    if run.returncode == 0:
+        return run.stdout, ""
+    lines = run.stderr.partition("Error:")[2].split("\n")
+    said = " ".join(line.strip() for line in lines if line.strip())[:300]
+    return run.stdout, said or f"coqc ends with {run.returncode}"

@@ -1,0 +1,42 @@
+"""A proved goal as a Coq theorem with its proof."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from ..proof.checker import margin, read_goal, split_relation
+from .rules import prove, stated
+from .script import MARGINS, Script
+from .syntax import split_margin
+from .theorem import Goal
+from .writing import conjunction
+
+
+def proof_of(goal: Goal, certificate: dict[str, Any]) -> Script:
+    """The script that proves what `goal.statement()` says, step by step as the certificate does."""
+    context, given = read_goal(goal.stated)
+    script = Script(context, goal)
+    script.given = given.with_margins([])
+    binders = goal.binders()
+    names = [name for part in binders.strip("()").split(") (") for name in part.partition(" : ")[0].split()]
+    names += [name for name, _ in goal.hypotheses()]
+    if names:
+        script.say(f"intros {' '.join(names)}.")
+    for number, text in enumerate(goal.stated.get("assume", [])):
+        script.defined(text)
+        conditions = [script.facts.conditions[condition] for condition in goal.conditions(text)]
+        script.say(f"refine {conjunction([*conditions, f'(fun assumed_{number} => _)'])}.")
+        script.assumption(text, f"assumed_{number}")
+    shown: list[str] = []
+    for text, proof in zip(goal.stated["show"], certificate["proofs"], strict=True):
+        script.defined(text)
+        equation, _ = script.evaluate(split_margin(text))
+        value, operator = margin(context, text)
+        name = script.fresh("M")
+        script.say(f"assert ({name} : {stated(script, value, operator)}).")
+        with script.subproof():
+            prove(script, value, operator, proof)
+        shown += [script.facts.conditions[condition] for condition in goal.conditions(text)]
+        shown.append(f"({MARGINS[split_relation(text)[1]]}_of _ _ _ {equation} {name})")
+    script.say(f"exact {conjunction(shown)}.")
+    return script
