@@ -28,7 +28,7 @@ demo: $(STAMP)
 	@$(BIN)/workbench report proofs/yang2021 --out out/ --runs 5
 
 test: install
-	@$(BIN)/python -m pytest -n 2 --dist worksteal
+	@$(BIN)/python -m pytest -n 2
 
 lint: install
 	@$(BIN)/ruff check

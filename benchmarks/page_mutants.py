@@ -125,7 +125,7 @@ def _changed_number(folder: Path, text: str, place: re.Match[str], before: dict[
         line = text.count("\n", 0, place.start()) + 1
         try:
             read = _fingerprints(copy) != before
-            noticed = bool(check_claims(copy / CERTIFICATES, copy)[0])
+            noticed = read and bool(check_claims(copy / CERTIFICATES, copy)[0])
         except Exception:  # the paper itself refuses the number
             return NumberMutant(folder.name, line, number, after, True, True)
     return NumberMutant(folder.name, line, number, after, read, noticed)

@@ -35,6 +35,19 @@ def run(*arguments: object, folder: Path = ROOT) -> Ended:
     return Ended(code, out.getvalue(), err.getvalue())
 
 
+def said(*arguments: object) -> str:
+    """What `workbench reference` prints; its error is raised as the command line's own main would catch it."""
+    from typer.testing import CliRunner
+
+    from workbench.cli.app import app
+
+    result = CliRunner().invoke(app, ["reference", *map(str, arguments)])
+    if result.exception is not None and not isinstance(result.exception, SystemExit):
+        raise result.exception
+    assert result.exit_code == 0, result.output
+    return result.output
+
+
 def run_apart(*arguments: object, folder: Path = ROOT) -> "subprocess.CompletedProcess[str]":
     return subprocess.run([sys.executable, "-m", "workbench", *map(str, arguments)], cwd=folder,
                           capture_output=True, text=True, check=False, timeout=300)

@@ -9,11 +9,17 @@ import one_thread  # noqa: F401 - before anything imports numpy
 import papers_import  # noqa: F401 - tests import from proofs
 import pytest
 from hypothesis import settings
+from shared_work import scheduler_of_files
 
 os.environ.setdefault("WORKBENCH_CACHE", str(Path(__file__).parent.parent / ".cache"))
 # The same examples in every run, so that more of them find nothing that these have not found.
 settings.register_profile("fixed", derandomize=True, deadline=None, max_examples=50)
 settings.load_profile("fixed")
+
+
+@pytest.hookimpl(optionalhook=True)  # where xdist is not installed there is one process
+def pytest_xdist_make_scheduler(config, log):
+    return scheduler_of_files(config, log)
 
 
 def pytest_collection_finish():

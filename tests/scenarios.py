@@ -64,6 +64,16 @@ SHORT_LINE = {
 SHORT_REFERENCE = {
     "kind": "cruise_speed", "cruise_mps": 15.0, "acceleration_mps2": 0.4, "braking_mps2": 0.5, "ramp_s": 6.0,
 }
+# A light train, as the text of a scenario on the line beside it.
+LIGHT_TRAIN = """\
+track = "line.toml"
+[train]
+mass_kg = 200000.0
+davis_a_mps2 = 0.02
+davis_b_per_s = 1e-4
+davis_c_per_m = 1e-5
+max_traction_n = 200000.0
+"""
 
 
 def _sourced(values: dict) -> dict:

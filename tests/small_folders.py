@@ -25,6 +25,13 @@ def claim_{name}() -> Goal:
     return Goal((at_least(SHARE * K_p**2 + {name}, 0),))
 '''
 PAPER = '"""A paper."""\nfrom workbench.proof.paper import Paper\n\npaper = Paper("doe2030", "nobody, nowhere")\n'
+OBJECTIVE = """
+[tuning.objective]
+position_m = 0.1
+speed_mps = 0.1
+jerk_mps3 = 0.3
+failed = 100.0
+"""
 CONTROLLER = """
 [controllers.own]
 law = "{law}"

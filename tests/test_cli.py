@@ -5,7 +5,7 @@ import re
 
 import pytest
 from command_line import one_line, run, run_apart
-from scenarios import ROOT
+from scenarios import LIGHT_TRAIN, ROOT
 
 ROW_KEYS = {"controller", "position_error_min", "position_error_max", "speed_error_min", "speed_error_max",
             "position_rms", "speed_rms", "stopping_error", "energy_J", "jerk_rms", "saturated_fraction",
@@ -18,13 +18,7 @@ name = "short"
 title = "A short run"
 paper = "none"
 citation = "none"
-track = "line.toml"
-[train]
-mass_kg = 200000.0
-davis_a_mps2 = 0.02
-davis_b_per_s = 1e-4
-davis_c_per_m = 1e-5
-max_traction_n = 200000.0
+""" + LIGHT_TRAIN + """\
 max_braking_n = 200000.0
 [reference]
 kind = "cruise_speed"

@@ -5,10 +5,9 @@ import json
 from pathlib import Path
 
 import pytest
+from command_line import said
 from scenarios import SHARED
-from typer.testing import CliRunner
 
-from workbench.cli.app import app
 from workbench.errors import WorkbenchError
 
 FLEET = f"""
@@ -29,15 +28,6 @@ def fleet(tmp_path: Path) -> Path:
     path = tmp_path / "fleet.toml"
     path.write_text(FLEET, encoding="utf-8")
     return path
-
-
-def said(*arguments: object) -> str:
-    """What the command prints; its error is raised as the command line's own main would catch it."""
-    result = CliRunner().invoke(app, ["reference", *map(str, arguments)])
-    if result.exception is not None and not isinstance(result.exception, SystemExit):
-        raise result.exception
-    assert result.exit_code == 0, result.output
-    return result.output
 
 
 def test_a_days_trips_are_one_table_of_the_same_bytes_for_any_number_of_workers(fleet, tmp_path, monkeypatch):

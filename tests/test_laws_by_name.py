@@ -111,6 +111,7 @@ def test_a_law_of_a_file_is_looked_up_from_the_file_that_names_it(law, tmp_path)
     ("bad-name.py::mine", "cannot be imported: name the file with letters, digits and underscores"),
     ("broken.py::mine", "broken.py: cannot be imported: line 2: NameError"),
     ("doe2030.nothing", "controllers.own.law: unknown 'doe2030.nothing': choose one of pid"),
+    ("mpc.linaer", "did you mean 'mpc.linear'"),
     ("nobody2020.pd", "unknown 'nobody2020.pd': choose one of pid, "),
     ("", "law"),
 ])

@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from scenarios import ROOT
-from small_folders import small_folder, small_scenario, with_claims
+from small_folders import OBJECTIVE, small_folder, small_scenario, with_claims
 from test_curve_table import rows_of, written
 
 from workbench.trains.scenario import load_scenario
@@ -82,13 +82,7 @@ def paper(tmp_path: Path) -> Path:
     return folder
 
 
-SEARCHED = """
-[tuning.objective]
-position_m = 0.1
-speed_mps = 0.1
-jerk_mps3 = 0.3
-failed = 100.0
-
+SEARCHED = OBJECTIVE + """
 [tuning.ranges.own]
 K_p = [0.5, 2.0]
 K_d = [0.5, 4.0]

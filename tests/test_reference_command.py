@@ -7,10 +7,9 @@ from typing import Any
 
 import numpy as np
 import pytest
+from command_line import said
 from scenarios import DRIVEN, SHARED, YANG, line_name
-from typer.testing import CliRunner
 
-from workbench.cli.app import app
 from workbench.errors import WorkbenchError
 from workbench.optimal.bound_checker import main as check_bounds
 from workbench.optimal.inputs.files import load_vehicle
@@ -18,15 +17,6 @@ from workbench.optimal.vehicle import Vehicle
 
 HILLS, TRAIN = SHARED / "lines" / "hills.toml", SHARED / "trains" / "yang2021.toml"
 KEYS = {"version", "energy_J", "lower_bound_J", "gap", "trip_time_s", "solver", "solve_s", "status"}
-
-
-def said(*arguments: object) -> str:
-    """What the command prints; its error is raised as the command line's own main would catch it."""
-    result = CliRunner().invoke(app, ["reference", *map(str, arguments)])
-    if result.exception is not None and not isinstance(result.exception, SystemExit):
-        raise result.exception
-    assert result.exit_code == 0, result.output
-    return result.output
 
 
 def least_time(line: Path, train: Path) -> float:
@@ -104,7 +94,7 @@ def test_stops_on_the_way_take_their_time(tmp_path: Path) -> None:
     train = SHARED / "trains" / "jiao2025.toml"
     energies, time = [], 3 * least_time(line, train) + 100
     for option in ((), ("--stops", "--dwell", 20)):
-        said(line, train, "--time", time, "--json", tmp_path / "r.json", *option)
+        said(line, train, "--time", time, "--json", tmp_path / "r.json", "--intervals", 200, *option)
         energies.append(json.loads((tmp_path / "r.json").read_text(encoding="utf-8"))["energy_J"])
     assert energies[0] < energies[1]
 

@@ -16,7 +16,7 @@ import numpy as np
 import pandas
 import pytest
 import scipy.stats
-from scenarios import ROOT
+from scenarios import LIGHT_TRAIN, ROOT
 
 from workbench.errors import InputError
 from workbench.simulate import row_store, stopping
@@ -66,14 +66,7 @@ name = "tiny"
 title = "A <tiny> scenario"
 paper = "yang2021"
 citation = "Nobody & Sons"
-track = "line.toml"
-[train]
-mass_kg = 200000.0
-davis_a_mps2 = 0.02
-davis_b_per_s = 1e-4
-davis_c_per_m = 1e-5
-max_traction_n = 200000.0
-max_braking_n = 240000.0
+{LIGHT_TRAIN}max_braking_n = 240000.0
 [train.source]
 mass_kg = "assumed: <b>heavy</b>"
 davis_a_mps2 = "paper, section 6"

@@ -14,6 +14,7 @@ import venv
 from pathlib import Path
 
 import pytest
+from small_folders import OBJECTIVE
 
 ROOT = Path(__file__).resolve().parent.parent
 SHORT_M = 4600.0
@@ -87,13 +88,7 @@ factors = ["mass"]
 [tuning]
 runs = 3
 seed = 1
-
-[tuning.objective]
-position_m = 0.1
-speed_mps = 0.1
-jerk_mps3 = 0.3
-failed = 100.0
-
+''' + OBJECTIVE + '''
 [tuning.ranges.spring]
 k_p = [0.1, 10.0]
 k_d = [0.2, 20.0]

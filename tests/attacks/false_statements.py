@@ -155,6 +155,20 @@ def sums() -> Family:
             (at_most(-total(W[j]**2) + total(W[j]*S[j]), -total(W[j]**2) + f*total(S[j]**2)),))
 
 
+def sums_in_time() -> Family:
+    """Of inputs with an index, which may be anything, and of initial values that are sums: false at ones."""
+    driven = {"flow": {W[j]: -W[j] + S[j]}, "inputs": (S[j],)}
+    for factor in (R(0), R(1, 4), R(1, 2), R(9, 10)):
+        yield f"driven {factor}", lambda f=factor: Goal(
+            (at_most(D(total(W[j]**2)), f/2*total(S[j]**2)),), (equal(total(W[j]**2), total(S[j]**2)/4),), **driven)
+        yield f"started {factor}", lambda f=factor: Goal(
+            (at_most(V, f*total(W[j]**2)),), flow={V: -V}, initial={V: total(W[j]**2)})
+        yield f"started below {factor}", lambda f=factor: Goal(
+            (at_least(V, total(W[j]**2)),), flow={V: -V}, initial={V: f*total(W[j]**2)})
+    yield "decays though driven", lambda: Goal((at_most(D(total(W[j]**2)), 0),), **driven)
+    yield "rate of an input", lambda: Goal((equal(D(total(S[j]**2)), 0),), **driven)
+
+
 def saturations() -> Family:
     """Passed by, strict at the limit, or turned: false at x = 3, at the limits, or at a sign changed."""
     for bound in (1, 2, 5):
@@ -218,7 +232,7 @@ def wrong_lemmas() -> Family:
 
 def contradictory_assumptions() -> Family:
     """What is assumed never holds: nothing is proved from nothing."""
-    for number in range(1, 4):
+    for number in range(1, 3):
         yield f"square below zero {number}", lambda s=number: Goal((at_most(1, 0),), (less(x**2, -s),))
         yield f"two values {number}", lambda s=number: Goal((equal(x, y),), (equal(x, s), equal(x, -s)))
         yield f"empty interval {number}", lambda s=number: Goal((at_least(y, 0),), (greater(x, s), less(x, s)))
@@ -298,6 +312,8 @@ def eventually() -> Family:
 
 def numbers() -> Family:
     """Plain numbers: a digit, a power or a rounded constant that is wrong."""
+    for base, power in product((2, 3, 5, 11, 13), (3, 20)):
+        yield f"power of {base} {power}", lambda b=base, e=power: Goal((equal(sp.Integer(b)**e * x, (b**e + 1) * x),))
     for digits in range(1, 13):
         exact = sp.Integer(7)**digits
         yield f"power of seven {digits}", lambda e=exact, d=digits: Goal((equal(x + e, x + e + 10**(d - 1)),))
@@ -305,8 +321,10 @@ def numbers() -> Family:
         yield f"order {digits}", lambda d=digits: Goal((less(R(1, 7), R(int("142857142857"[:d]), 10**d)),))
 
 
-FAMILIES = (wrong_coefficients, wrong_signs, young, strictness, domains, roots, sums, saturations, sizes, wrong_facts,
-            wrong_lemmas, contradictory_assumptions, never_reached, later_instants, derivatives, eventually, numbers)
+FAMILIES = (wrong_coefficients, wrong_signs, young, strictness, domains, roots, sums, sums_in_time, saturations,
+            sizes, wrong_facts, wrong_lemmas, contradictory_assumptions, never_reached, later_instants, derivatives,
+            eventually, numbers)
+
 
 
 def statements() -> Iterator[Statement]:

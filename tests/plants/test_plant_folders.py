@@ -112,6 +112,10 @@ run = wb.simulate(mass, law, period_s=0.01, duration_s=8, law_parameters={k: 4.0
 # (1 + 2 t) exp(-2 t) is left of a step, 7 s later.
 assert abs(run.metrics["x_error_final"]) < 1e-4 and run.failed is None
 assert run.to_pandas().index.name == "t_s" and len(run.plot().axes) == 3
+run.to_mat(sys.argv[2])
+from scipy.io import loadmat
+kept = loadmat(sys.argv[2])
+assert all((kept[name][:, 0] == run[name]).all() for name in run.columns) and kept["t_s"].shape[1] == 1
 both = wb.compare(run.setting, [wb.entrant(law, 0.01, {k: 4, d: 4}),
                                 wb.entrant(wb.PlantMpc(20, {"x": 1.0}, {"u": 0.01}), 0.1)])
 assert [row["controller"] for row in both.rows] == ["pd", "mpc"] and both["mpc"].found.fallbacks == 0
@@ -124,8 +128,8 @@ print("done")
 def test_a_plain_script_without_a_guard_works(mine, tmp_path):
     script = tmp_path / "script.py"
     script.write_text(SCRIPT)
-    found = subprocess.run([sys.executable, str(script), str(mine)], capture_output=True, text=True, check=False,
-                           timeout=300)
+    found = subprocess.run([sys.executable, str(script), str(mine), str(tmp_path / "run.mat")], capture_output=True,
+                           text=True, check=False, timeout=300)
     assert found.returncode == 0, found.stderr
     assert found.stdout.endswith("done\n")
 
@@ -143,6 +147,14 @@ def test_without_pandas_it_is_said_what_to_install(monkeypatch):
     monkeypatch.setitem(sys.modules, "pandas", None)
     with pytest.raises(WorkbenchError, match="pip install pandas"):
         data_frame([{"a": 1}])
+
+
+def test_columns_that_matlab_cannot_tell_apart_are_refused(tmp_path):
+    from workbench.api.frames import write_mat
+
+    with pytest.raises(WorkbenchError, match="one name in MATLAB"):
+        write_mat({"a.b": [1.0], "a_b": [2.0]}, tmp_path / "x.mat")
+    assert not list(tmp_path.iterdir())
 
 
 def test_an_entrant_is_a_law_or_builds_one():

@@ -26,6 +26,9 @@ class TooLargeError(Exception):
     """The expression has a value that would take long to compute."""
 
 
+FAILURES = UndefinedError, TooLargeError
+
+
 def _divided(a, b):
     if abs(b) < ZERO:
         raise UndefinedError

@@ -111,7 +111,7 @@ def test_a_finding_opens_and_leads_to_its_claim_in_its_folded_section(view):
 def test_graph_shows_the_broken_path_and_leads_to_its_lines(view):
     first = view.locator(".graph").first
     assert first.locator("path.broken").count() == 2
-    assert [text.split(" ", 1)[1] for text in first.locator("text").all_inner_texts()] == ["(2)", "(3)", "Theorem 1"]
+    assert [text.split(" ", 1)[1] for text in first.locator("text").all_text_contents()] == ["(2)", "(3)", "Theorem 1"]
     view.locator("#graph details", has_text="in words").first.locator("summary").click()
     assert "(2), refuted: (3) rests on it." in view.inner_text("#graph")
     first.locator("a").nth(1).click()
@@ -127,8 +127,8 @@ def test_plots_zoom_tell_values_and_have_their_table_and_file(view):
     span = "document.querySelector('#line .chart').layout.xaxis.range"
     before = view.evaluate(span)
     area = figure.locator(".nsewdrag").first
+    area.hover()
     box = area.bounding_box()
-    view.mouse.move(box["x"] + 0.5 * box["width"], box["y"] + 0.5 * box["height"])
     view.wait_for_selector("#line .hoverlayer text")
     view.mouse.down()
     view.mouse.move(box["x"] + 0.7 * box["width"], box["y"] + 0.52 * box["height"], steps=4)

@@ -4,12 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from workbench.api.frames import data_frame
+from workbench.api.frames import data_frame, write_mat
 from workbench.simulate.plants.run import PlantRun
 from workbench.systems.setting import Setting
 
@@ -47,6 +48,12 @@ class Run:
     def to_pandas(self) -> Any:
         """The log as a DataFrame with the time in seconds as its index; WorkbenchError without pandas."""
         return data_frame(self.found.data, "t_s")
+
+    def to_mat(self, path: str | Path) -> None:
+        """The log as a MAT file (version 5) that MATLAB and Simulink read: a column vector of doubles each, the time in
+        seconds as `t_s`; signs that MATLAB has in no name become underscores. InputError where it cannot be written.
+        """
+        write_mat(self.found.data, Path(path))
 
     def plot(self, *columns: str) -> Any:
         """A matplotlib Figure of the named columns, or of all states and inputs, over time."""

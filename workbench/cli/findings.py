@@ -8,8 +8,8 @@ from collections.abc import Sequence
 from rich.padding import Padding
 from rich.text import Text
 
-from workbench.cli.terminal import COLOURS, out_console
-from workbench.proof.verdict import VERDICTS, Decision, FateWord
+from workbench.cli.terminal import COLOURS, count_words, out_console, verdict_colour
+from workbench.proof.verdict import VERDICTS, Decision, FateWord, verdict_words
 from workbench.report.finding import Finding, Gravity, findings
 from workbench.report.finding_sentences import (
     HEADINGS,
@@ -77,18 +77,20 @@ def print_rows(decisions: Sequence[Decision]) -> None:
     """Every row in a line: its id, its verdict, what it is, and what shows it."""
     for d in decisions:
         shown = d.computed or d.method
-        _paragraph(Text.assemble(f"{d.claim.id}  ", (d.verdict, COLOURS[d.verdict]), f"  {d.claim.title}",
-                                 (f"  ({shown})", "dim")), 0)
+        verdict = verdict_words(d.verdict, d.proved_under), verdict_colour(d.verdict, d.proved_under)
+        _paragraph(Text.assemble(f"{d.claim.id}  ", verdict, f"  {d.claim.title}", (f"  ({shown})", "dim")), 0)
 
 
 def print_counts(decisions: Sequence[Decision]) -> None:
     """How many lines of the papers have which verdict, and how many questions of ours."""
     for ours, what in ((False, "line{} of the paper{}"), (True, "question{} of ours")):
-        counts = Counter(d.verdict for d in decisions if (d.claim.origin == "ours") == ours)
+        of_them = [d for d in decisions if (d.claim.origin == "ours") == ours]
+        counts, under = Counter(d.verdict for d in of_them), sum(bool(d.proved_under) for d in of_them)
         papers, total = len({d.claim.paper for d in decisions}), counts.total()
         if total:
             line = Text(f"{total} {what.format('' if total == 1 else 's', '' if papers == 1 else 's')}: ")
-            line.append_text(Text(", ").join(Text(f"{counts[v]} {v}", COLOURS[v]) for v in VERDICTS if counts[v]))
+            line.append_text(Text(", ").join(Text(count_words(v, counts[v], under), COLOURS[v])
+                                             for v in VERDICTS if counts[v]))
             _paragraph(line, 0)
 
 

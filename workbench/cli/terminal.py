@@ -22,7 +22,7 @@ from rich.progress import (
 from rich.table import Table
 from rich.text import Text
 
-from workbench.proof.verdict import VERDICTS
+from workbench.proof.verdict import VERDICTS, verdict_words
 
 if TYPE_CHECKING:
     from workbench.paper.contents import Contents
@@ -142,7 +142,7 @@ def claim_card(row: dict[str, Any]) -> Table:
     recorded = "" if row["recorded"] == row["verdict"] else f", but recorded {row['recorded']}"
     known = {
         "claim": f"{row['id']}: {row['title']}", "statement": plain_formula(row["statement"]),
-        "verdict": row["verdict"] + recorded,
+        "verdict": verdict_words(row["verdict"], row["proved_under"]) + recorded,
         "shown by": row["method"], "value": row["computed"],
         "counterexample": ", ".join(plain_formula(assignment_latex(*pair))
                                     for pair in (row["counterexample"] or {}).items()),
@@ -158,9 +158,15 @@ def claim_card(row: dict[str, Any]) -> Table:
     }
     for what, text in known.items():
         if text:
-            table.add_row(what, Text(text, COLOURS[row["verdict"]] if what == "verdict" else ""))
+            table.add_row(what, Text(text, verdict_colour(row["verdict"], row["proved_under"])
+                                     if what == "verdict" else ""))
     table.add_row()
     return table
+
+
+def verdict_colour(verdict: str, proved_under: Sequence[str]) -> str:
+    """The colour of a verdict: what is proved from claims that are not shown has that of a gap."""
+    return COLOURS["gap" if proved_under else verdict]
 
 
 ORIGIN_WORDS = {"printed": "a printed line", "implied": "a step taken without words", "ours": "a question of ours"}
@@ -175,15 +181,22 @@ def verdict_lines(document: dict[str, Any]) -> list[Text]:
     """How many lines of the papers have which verdict, how many questions of ours, and the fate of each headline."""
     found: list[Text] = []
     for which, what in (("paper", "{} line{} of the paper{}"), ("ours", "{} question{} of ours")):
-        counts = document["totals"][which]
+        counts, under = document["totals"][which], document["proved_under"][which]
         every = sum(counts.values())
         papers = len({c["paper"] for c in document["claims"]})
         if every:
-            by_verdict = Text(", ").join(Text(f"{counts[v]} {v}", COLOURS[v]) for v in VERDICTS if counts[v])
+            by_verdict = Text(", ").join(Text(count_words(v, counts[v], under), COLOURS[v]) for v in VERDICTS
+                                         if counts[v])
             found.append(Text.assemble(what.format(every, "" if every == 1 else "s", "" if papers == 1 else "s"), ": ",
                                        by_verdict))
     found += [Text(f"{c['id']} {_fate(c)}") for c in document["claims"] if c["fate"]]
     return found
+
+
+def count_words(verdict: str, count: int, under: int) -> str:
+    """How many claims have a verdict, and of the proved ones how many only under claims that are not shown."""
+    only = f" ({under} under lines that are not shown)" if under and verdict == "proved" else ""
+    return f"{count} {verdict}{only}"
 
 
 def metrics_table(rows: Sequence[dict[str, Any]], title: str) -> Table:

@@ -3,20 +3,21 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
 from workbench.errors import InputError, WorkbenchError
 from workbench.files.folders import papers_in as folders_in
 from workbench.files.text import read_text
-from workbench.proof.checker import MANIFEST, CertificateError, Manifest, Row, read_manifest
+from workbench.proof.checker import MANIFEST, THEOREMS, CertificateError, Manifest, Row, read_manifest
 from workbench.proof.claim import Claim
 from workbench.proof.claim_digest import stated_digest
 from workbench.proof.document import CERTIFICATES
 from workbench.proof.loading import ProofFile
 from workbench.proof.paper import Paper, papers_in
 from workbench.proof.selection import files_of, states_claims, targets
+from workbench.proof.whole_theorem import recorded_theorems
 
 
 def papers_at_hand(folder: Path, named: Sequence[Path] = ()) -> dict[Path, Path]:
@@ -72,7 +73,30 @@ def check_claims(place: Path, path: Path) -> tuple[list[Row], int]:
             if reason is not None:
                 rows.append((place / f"{name}.json", str(entry["verdict"]) if entry else "?", reason))
             bound += entry is not None and reason is None and entry["certificate"] is not None
-    return rows, bound
+    found, count = _whole_theorems(place / THEOREMS, claims)
+    return rows + found, bound + count
+
+
+def _whole_theorems(place: Path, claims: Mapping[str, Claim]) -> tuple[list[Row], int]:
+    """A row for every theorem of a paper, by its claims, that stands on record and has no certificate as a whole, for
+    every one that does not, and for what cites other hypotheses than its claim; and how many are as they should be."""
+    own = {claim.id for claim in claims.values()}
+    if any(name not in own for claim in claims.values() for name in (*claim.premises, *claim.chain)):
+        return [], 0  # what another paper shows is not at hand here
+    stated = {place / f"{name.partition(':')[2]}.json" for name in recorded_theorems(claims.values())}
+    written = {path for path in place.glob("*.json") if path.name != MANIFEST}
+    missing = "the theorem stands, and its certificate as a whole is missing: run 'workbench prove --write' again"
+    rows: list[Row] = [(path, "?", missing) for path in sorted(stated - written)]
+    rows += [(path, "proved", "no headline statement stands by it") for path in sorted(written - stated)]
+    for path in sorted(stated & written):
+        try:
+            cited = json.loads(read_text(path, "JSON"))["composition"]["cited"]
+        except (ValueError, KeyError, TypeError, RecursionError, WorkbenchError):
+            continue  # said where the certificate itself is checked
+        rows += [(path, "proved", f"cites {other} with other hypotheses than the paper")
+                 for other, hypotheses in cited.items() if other not in claims
+                 or set(hypotheses) != {one.partition(":")[2] for one in claims[other].premises}]
+    return rows, len((stated & written) - {path for path, *_ in rows})
 
 
 def _other_premises(claim: Claim, path: Path) -> str | None:

@@ -24,7 +24,7 @@ from workbench.proof.engine_digest import engine_digest
 from workbench.proof.verdict import Decision, Stated
 
 ENGINES_KEPT, FILES_KEPT = 4, 200
-FROM_THE_OTHERS = {"tainted_by", "fate", "other_reading"}  # said anew each time
+FROM_THE_OTHERS = {"tainted_by", "proved_under", "fate", "other_reading"}  # said anew each time
 
 T = TypeVar("T")
 

@@ -1005,8 +1005,8 @@ def read_goal(goal: dict[str, Any]) -> tuple[Context, Relations]:
     for name in (*goal.get("indexed", []), *goal.get("inputs", []), *goal.get("flow", {}), *goal.get("initial", {})):
         read_name(name)
     context = Context(goal.get("flow", {}), goal.get("indexed", []), goal.get("inputs", []))
-    if context.inputs & (context.indexed | context.flow.keys()):
-        raise CertificateError("an input has neither an index nor a rate")
+    if context.inputs & context.flow.keys():
+        raise CertificateError("an input has no rate")
     given = Relations(context, goal.get("assume", []))
     given.always = goal.get("always", [])
     for name, text in goal.get("initial", {}).items():
@@ -1053,7 +1053,7 @@ def _check_example(goal: dict[str, Any], context: Context, given: Relations, cer
         _check_reached(context, given, point, certificate)
         return
     for name, value in given.initial.items():
-        if not same(point[name], substitute(context, value, point)):
+        if not same(point[name], start_at(context, value, point, None)):
             raise CertificateError(f"the example is no instant of a motion: {name} is not where it starts, and no path "
                                    "leads there")
     for text in given.always if given.initial else ():
@@ -1063,6 +1063,11 @@ def _check_example(goal: dict[str, Any], context: Context, given: Relations, cer
         if bounds(context, substitute(context, value, point)) == (0, 0) and bounds(
                 context, substitute(context, context.derivative(value, context.flow), point))[1] < 0:
             raise CertificateError(f"the example's motion breaks at once what always holds: {text}")
+
+
+def start_at(context: Context, value: Ratio, point: dict[str, Ratio], terms: Terms | None) -> Ratio:
+    """An initial value at a point; without terms a sum has one."""
+    return at(context, value, point if terms is not None else point | {SUM: number(1)}, terms)
 
 
 def check_false(goal: dict[str, Any], certificate: dict[str, Any]) -> None:
@@ -1078,13 +1083,13 @@ def check_false(goal: dict[str, Any], certificate: dict[str, Any]) -> None:
     for text in (*goal.get("assume", []), *goal.get("always", [])):
         if not holds(context, text, point, terms):
             raise CertificateError(f"the point breaks the assumption {text}")
-    if terms is not None and given.initial:
-        raise CertificateError("of sums with several terms only one instant is known")
     if "path" in certificate:
+        if terms is not None:
+            raise CertificateError("a path leads to no point at which sums have several terms")
         _check_reached(context, given, point, certificate)
     else:
         for name, value in given.initial.items():  # a point alone can only be the first of all instants
-            if not same(point[name], substitute(context, value, point)):
+            if not same(point[name], start_at(context, value, point, terms)):
                 raise CertificateError(f"nothing says that the flow reaches the point: {name} is not where it starts")
     outcomes = [holds(context, text, point, terms) for text in goal["show"]]  # all of them: each must be defined
     if all(outcomes):
@@ -1191,7 +1196,17 @@ UNDECIDED = ("assumed", "undecided")  # verdicts without a certificate
 
 
 def check(certificate: dict[str, Any]) -> None:
-    """Raise CertificateError, with the reason, unless the certificate establishes its verdict."""
+    """Raise CertificateError, with the reason, unless the certificate establishes its verdict, and so do all that it is
+    composed of."""
+    _check_alone(certificate)
+    if "composition" in certificate:
+        try:
+            _check_composition(certificate, certificate["composition"])
+        except (KeyError, TypeError, ValueError, IndexError, AttributeError, RecursionError) as trouble:
+            raise CertificateError(f"malformed: {type(trouble).__name__} {str(trouble)[:200]}") from None
+
+
+def _check_alone(certificate: dict[str, Any]) -> None:
     Work.spent, Work.depth, Work.counts = 0, 0, True
     try:
         verdict, goal = certificate["verdict"], certificate["goal"]
@@ -1208,6 +1223,63 @@ def check(certificate: dict[str, Any]) -> None:
         raise CertificateError(f"malformed: {type(trouble).__name__} {str(trouble)[:200]}") from None
     finally:
         Work.counts = False
+
+
+# --- a whole theorem ---------------------------------------------------------------------------------------
+
+
+def _check_composition(theorem: dict[str, Any], parts: dict[str, Any]) -> None:
+    """The certificates of all that a proof uses, and which of their assumptions they show for each other.
+
+    `certificates` holds them by the numbers of their claims, `cited` the claims without one and the hypotheses that
+    they name, both by the digests of their goals. A link says that an assumption of one is a relation that a premise
+    of it shows; `assumes` is what no link shows. In one file a name is one quantity. What is proved: what every
+    certificate assumes beyond its links, with what always holds, rates and initial values, implies what it shows.
+    """
+    if parts.keys() != {"certificates", "cited", "links", "assumes"}:
+        raise CertificateError("a composition has certificates, cited, links and assumes")
+    paper, _, top = theorem["claim"].partition(":")
+    whole = {**parts["certificates"], top: theorem}
+    if top in parts["certificates"] or theorem["verdict"] != "proved":
+        raise CertificateError("a whole theorem is proved, and is no part of itself")
+    for name, part in parts["certificates"].items():
+        if part.get("claim") != f"{paper}:{name}" or part["verdict"] != "proved" or "composition" in part:
+            raise CertificateError(f"{name[:80]} is no proof of the claim of that number")
+        _check_alone(part)
+    uses = {name: part.get("premises", {}) for name, part in whole.items()} | parts["cited"]
+    if whole.keys() & parts["cited"].keys():
+        raise CertificateError("a claim is cited and proved")
+    for name, premises in uses.items():
+        for premise, digest in premises.items():
+            if premise not in uses or digest != (_require_digest(whole[premise]) if premise in whole else None):
+                raise CertificateError(f"{name[:80]} uses {premise[:80]}, which is not there, or of another goal")
+    _require_tree(top, uses)
+    open_ones = {name: list(range(len(part["goal"].get("assume", [])))) for name, part in whole.items()}
+    for link in parts["links"]:
+        name, place, premise = link["of"], link["assume"], link["by"]
+        one, other = whole[name]["goal"], whole[premise]["goal"]
+        text = one["assume"][place]
+        names = {node.id for node in nodes(text) if isinstance(node, ast.Name)}
+        if premise not in uses[name] or place not in open_ones[name] or text != other["show"][link["show"]] or calls(
+                text, "D") or names & {*one.get("indexed", [])} != names & {*other.get("indexed", [])}:
+            raise CertificateError(f"{name}: what it assumes is not shown by {premise}: {text[:80]}")
+        open_ones[name].remove(place)
+    if parts["assumes"] != {name: [whole[name]["goal"]["assume"][i] for i in open_ones[name]] for name in whole}:
+        raise CertificateError("what it assumes is not what its links leave open")
+
+
+def _require_tree(top: str, uses: dict[str, dict[str, Any]]) -> None:
+    """CertificateError unless all is used by what stands at the top, directly or not, and nothing by itself."""
+    free = {name for name, premises in uses.items() if not premises}
+    while more := {name for name, premises in uses.items() if name not in free and premises.keys() <= free}:
+        free |= more
+    reached, waiting = {top}, [top]
+    while waiting:
+        new = uses[waiting.pop()].keys() - reached
+        reached |= new
+        waiting += new
+    if free != uses.keys() or reached != uses.keys():
+        raise CertificateError("it uses itself through its premises, or holds what it does not use")
 
 
 # --- which claim a certificate is for ----------------------------------------------------------------------
@@ -1238,7 +1310,7 @@ def _require_digest(certificate: dict[str, Any]) -> str:
     return str(certificate["goal_digest"])
 
 
-MANIFEST = "manifest.json"
+MANIFEST, THEOREMS = "manifest.json", "theorems"
 LARGEST = 64 * 2**20
 Row = tuple[Path, str, "str | None"]
 
@@ -1266,9 +1338,31 @@ def check_folder(folder: Path) -> list[Row]:
             results.append((path, "?", "names no certificate"))
     for path in sorted(path for path in folder.rglob("*.json") if path.name != MANIFEST):
         results.append(check_file(path, stated.get(path.parent)))
+    for place, theorems in stated.items():
+        if place.name == THEOREMS and place.parent in stated:
+            results += _other_parts(place, theorems, stated[place.parent])
     circular = _circular({path for path, _, reason in results if reason is None})
     return [(path, verdict, reason or ("uses itself through its premises" if path in circular else None))
             for path, verdict, reason in results]
+
+
+def _other_parts(place: Path, theorems: Manifest, paper: Manifest) -> list[Row]:
+    """A row for every whole theorem that is composed of others than the certificates of its paper."""
+    rows: list[Row] = []
+    for name, entry in theorems.claims.items():
+        path = place / f"{name}.json"
+        try:
+            parts = _json(_text(path))["composition"]
+            found = {part: certificate["goal_digest"] for part, certificate in parts["certificates"].items()}
+            found |= {name: entry["goal_digest"]} | dict.fromkeys(parts["cited"])
+            if theorems.paper == paper.paper and all(
+                    (paper.claims[part]["verdict"], paper.claims[part]["goal_digest"]) == (
+                        "proved" if digest else "assumed", digest) for part, digest in found.items()):
+                continue
+        except (CertificateError, ValueError, KeyError, TypeError, AttributeError, RecursionError, OSError):
+            pass  # what it lacks
+        rows.append((path, "proved", f"is not composed of the claims that the {MANIFEST} of its paper names"))
+    return rows
 
 
 def _circular(paths: set[Path]) -> set[Path]:
@@ -1316,7 +1410,7 @@ def _require_named(certificate: dict[str, Any], digest: str, name: str, manifest
         raise CertificateError(f"is of another goal or verdict than {MANIFEST} states for this claim")
     if entry["certificate"] != digest:
         raise CertificateError(f"{MANIFEST} names another content for it")
-    for premise, stated in certificate.get("premises", {}).items():
+    for premise, stated in certificate.get("premises", {}).items() if "composition" not in certificate else ():
         if premise not in manifest.claims:
             raise CertificateError(f"uses {str(premise)[:80]}, which {MANIFEST} does not name")
         if stated != manifest.claims[premise]["goal_digest"]:

@@ -100,7 +100,7 @@ class Goal:
     facts: tuple[sp.Expr, ...] = ()
     lemmas: tuple[Relation, ...] = ()
     model: dict[sp.Expr, sp.Expr] = field(default_factory=dict)
-    inputs: tuple[sp.Symbol, ...] = ()
+    inputs: tuple[sp.Symbol | sp.Indexed, ...] = ()
     named: tuple[sp.Expr, ...] = ()
 
     def __post_init__(self) -> None:
@@ -136,7 +136,8 @@ class Goal:
             if not all(isinstance(s, sp.Expr) for s in exact):
                 raise ClaimError(f"the part '{part}' of a goal names no symbols: write {{x: rate}}, no text")
             object.__setattr__(self, part, exact)
-        if not isinstance(self.inputs, tuple) or not all(isinstance(s, sp.Symbol) for s in self.inputs):
+        if not isinstance(self.inputs, tuple) or not all(
+                isinstance(s, (sp.Symbol, sp.Indexed)) for s in self.inputs):
             raise ClaimError("the part 'inputs' of a goal is no tuple of symbols: write inputs=(u, d)")
         if both := [s for s in self.inputs if s in self.flow]:
             raise ClaimError(f"{both[0]} has a rate and is an input as well: give one of the two")

@@ -13,8 +13,9 @@ from workbench.errors import InputError
 from workbench.files.outputs import check_outputs
 from workbench.files.own_files import MANIFEST, read_manifest, replace_files, sha256
 from workbench.files.writing import require_inside
-from workbench.proof.checker import goal_digest
+from workbench.proof.checker import THEOREMS, goal_digest
 from workbench.proof.verdict import FATES, VERDICTS, Decision, Stated, Verdict, is_equation, is_paper_name
+from workbench.proof.whole_theorem import composed, whole_theorems
 
 if TYPE_CHECKING:
     from workbench.proof.prove import Proof
@@ -74,14 +75,19 @@ def check_places(papers: Iterable[Path], chosen: Path | None, others: Mapping[st
                 raise InputError(other or "", option, f"lies among the certificates in {folder}: name another place")
 
 
+def bound(certificate: Mapping[str, Any]) -> dict[str, Any]:
+    """A certificate with the digest of its claim's goal."""
+    return {**certificate, "version": 2, "goal_digest": goal_digest(dict(certificate))}
+
+
 def certificate_text(certificate: Mapping[str, Any]) -> str:
-    """A certificate with the digest of its claim's goal, as readable text with fixed bytes."""
-    bound = {**certificate, "version": 2, "goal_digest": goal_digest(dict(certificate))}
-    return json.dumps(bound, indent=1, sort_keys=True, ensure_ascii=False) + "\n"
+    """The same as readable text with fixed bytes."""
+    return json.dumps(bound(certificate), indent=1, sort_keys=True, ensure_ascii=False) + "\n"
 
 
 def write_certificates(decisions: Sequence[Decision], where: Places, whole_papers: bool = True) -> None:
-    """Write every certificate into the folder of its paper, with a manifest of all claims that were decided.
+    """Write every certificate into the folder of its paper, with a manifest of all claims that were decided; of whole
+    papers also the certificates of whole theorems, into a folder in it.
 
     What the manifest of an earlier call names is dropped where it is no longer made: of these claims, and where the
     decisions are of whole papers, of claims that these no longer state. No other file is ever deleted.
@@ -93,6 +99,12 @@ def write_certificates(decisions: Sequence[Decision], where: Places, whole_paper
         digests = {name: entry.get("goal_digest") for name, entry in kept.items()} | goal_digests(own)
         rows = {d.claim.equation: (d.verdict, with_premises(d, digests)) for d in own}
         write_folder(where.folder(paper), where.root(paper), paper, rows, whole_papers)
+        if whole_papers and (theorems := whole_theorems(own)):
+            claims = {d.claim.id: d.claim for d in decisions}
+            written = {name: bound(found) for name, (_, found) in rows.items() if found}
+            composed_rows: dict[str, tuple[Verdict, Mapping[str, Any]]] = {
+                claims[name].equation: ("proved", composed(name, claims, written)) for name in theorems}
+            write_folder(where.folder(paper) / THEOREMS, where.root(paper), paper, composed_rows, True)
 
 
 def goal_digests(decisions: Iterable[Decision]) -> dict[str, str | None]:
@@ -174,7 +186,8 @@ def claims_document(decisions: Sequence[Decision], where: Places) -> dict[str, A
     """The document of `workbench prove --json`; other programs read it.
 
     `summary` counts all verdicts, `totals` those of the paper's lines (printed and implied) and of our own questions
-    apart, `fates` what becomes of the headline statements.
+    apart, `proved_under` how many of the proved ones are so only under claims that are not shown, `fates` what becomes
+    of the headline statements.
     """
     rows = []
     for d in decisions:
@@ -184,7 +197,8 @@ def claims_document(decisions: Sequence[Decision], where: Places) -> dict[str, A
             "statement": claim.printed, "verdict": d.verdict, "method": d.method, "scope": claim.scope,
             "certificate": str(where.path(claim)) if d.certificate else None,
             "counterexample": d.counterexample, "correction": d.correction,
-            "premises": list(claim.premises), "tainted_by": list(d.tainted_by), "trust": d.trust,
+            "premises": list(claim.premises), "tainted_by": list(d.tainted_by),
+            "proved_under": list(d.proved_under), "trust": d.trust,
             "seconds": round(d.seconds, 3), "title": claim.title, "note": claim.note,
             "recorded": claim.recorded, "computed": d.computed, "origin": claim.origin, "match": d.matched,
             "goal": d.goal,
@@ -196,9 +210,15 @@ def claims_document(decisions: Sequence[Decision], where: Places) -> dict[str, A
             "fate_why": d.fate.why if d.fate else None, "fate_by": list(d.fate.by) if d.fate else [],
         })
     return {"version": 2, "claims": rows, "summary": _counts(decisions),
+            "proved_under": {"paper": _under([d for d in decisions if d.claim.origin != "ours"]),
+                             "ours": _under([d for d in decisions if d.claim.origin == "ours"])},
             "totals": {"paper": _counts([d for d in decisions if d.claim.origin != "ours"]),
                        "ours": _counts([d for d in decisions if d.claim.origin == "ours"])},
             "fates": {word: sum(d.fate is not None and d.fate.word == word for d in decisions) for word in FATES}}
+
+
+def _under(decisions: Sequence[Decision]) -> int:
+    return sum(bool(d.proved_under) for d in decisions)
 
 
 def _counts(decisions: Sequence[Decision]) -> dict[str, int]:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 
-from workbench.proof.premises import failed_below, holds_in_other_reading, with_taint
+from workbench.proof.premises import holds_in_other_reading, proved_under, with_taint
 from workbench.proof.verdict import Decision, Fate
 
 
@@ -15,33 +15,34 @@ def is_headline(decision: Decision) -> bool:
 
 
 def judged(decisions: Sequence[Decision]) -> list[Decision]:
-    """The decisions, each with what it has from the others: the failed claims in the paper's chain to it, its fate,
-    and its other reading. All that they rest on, in the paper and in our proof, is among them."""
+    """The decisions, each with what it has from the others: the failed claims in the paper's chain to it, what its
+    proof uses that is not shown, its fate, and its other reading. All that they rest on, in the paper and in our proof,
+    is among them."""
     tainted = with_taint(decisions)
-    fate = fates(tainted)
+    fate, under = fates(tainted), proved_under(decisions)
     printed = {d.claim.id: d.claim.printed for d in decisions}
-    return [replace(d, fate=fate.get(d.claim.id), other_reading=printed.get(d.claim.glyph or "")) for d in tainted]
+    return [replace(d, proved_under=under.get(d.claim.id, ()), fate=fate.get(d.claim.id),
+                    other_reading=printed.get(d.claim.glyph or "")) for d in tainted]
 
 
 def fates(decisions: Sequence[Decision]) -> dict[str, Fate]:
     """The fate of every headline claim by id; what they rest on and their mended forms are among the decisions."""
-    by_proof = failed_below(decisions, lambda claim: claim.premises)
+    under = proved_under(decisions)
     by_id = {d.claim.id: d for d in decisions}
-    mended = {d.claim.mends: d for d in decisions if d.claim.mends is not None and d.verdict == "proved"
-              and not by_proof[d.claim.id]}
-    return {d.claim.id: _fate(d, by_id, mended.get(d.claim.id), by_proof[d.claim.id])
+    mended = {d.claim.mends: d for d in decisions if d.claim.mends is not None and under.get(d.claim.id) == ()}
+    return {d.claim.id: _fate(d, by_id, mended.get(d.claim.id), under.get(d.claim.id, ()))
             for d in decisions if is_headline(d)}
 
 
 def _fate(decision: Decision, by_id: dict[str, Decision], mended: Decision | None,
-          failed_premises: tuple[str, ...]) -> Fate:
+          unshown: tuple[str, ...]) -> Fate:
     instead = f"; its mended form {_number(mended.claim.id)} is proved" if mended else ""
     if decision.verdict == "refuted":
         if holds_in_other_reading(decision, by_id):
             other = str(decision.claim.glyph)
             return Fate("open", f"depends on the reading: {_number(other)} holds", (other,))
         return Fate("falls", f"refuted by {_how(decision)}{instead}", (mended.claim.id,) if mended else ())
-    if decision.verdict == "proved" and not failed_premises:
+    if decision.verdict == "proved" and not unshown:
         failing = tuple(line for line in decision.tainted_by if not holds_in_other_reading(by_id[line], by_id))
         open_glyphs = tuple(line for line in decision.tainted_by if line not in failing)
         holds = "holds in its other reading" if len(open_glyphs) == 1 else "hold in their other readings"
@@ -51,13 +52,13 @@ def _fate(decision: Decision, by_id: dict[str, Decision], mended: Decision | Non
         return Fate("stands with corrections", f"proved as a whole, though the paper's way there fails at "
                     f"{_numbers(failing)}{readings}", failing)
     if mended is not None:
-        return Fate("stands with corrections", f"{_shortfall(decision, failed_premises)}{instead}", (mended.claim.id,))
-    return Fate("open", _shortfall(decision, failed_premises), failed_premises)
+        return Fate("stands with corrections", f"{_shortfall(decision, unshown)}{instead}", (mended.claim.id,))
+    return Fate("open", _shortfall(decision, unshown), unshown)
 
 
-def _shortfall(decision: Decision, failed_premises: tuple[str, ...]) -> str:
+def _shortfall(decision: Decision, unshown: tuple[str, ...]) -> str:
     if decision.verdict == "proved":
-        return f"proved only from lines that fail: {_numbers(failed_premises)}"
+        return f"proved only under lines that are not shown: {_numbers(unshown)}"
     return {"gap": "does not follow from its premises", "violated": "its conditions fail at the printed numbers",
             "assumed": "taken from the literature", "undecided": "not decided"}[decision.verdict]
 

@@ -77,18 +77,24 @@ def with_taint(decisions: Sequence[Decision]) -> list[Decision]:
 
     Every claim that one rests on must be among the decisions, and none may rest on itself.
     """
-    failed = failed_below(decisions, lambda claim: claim.chain)
-    return [replace(d, tainted_by=failed[d.claim.id]) for d in decisions]
-
-
-def failed_below(decisions: Sequence[Decision], links: Links) -> dict[str, tuple[str, ...]]:
-    """By id the failed claims that a claim reaches over its links, in the order of the decisions."""
     by_id = {d.claim.id: d for d in decisions}
     found: dict[str, set[str]] = {}
-    for name in _sorter([d.claim for d in decisions], links).static_order():
-        ids = links(by_id[name].claim)
+    for name in _sorter([d.claim for d in decisions], lambda claim: claim.chain).static_order():
+        ids = by_id[name].claim.chain
         found[name] = {i for i in ids if counts_as_failure(by_id[i])}.union(*(found[i] for i in ids))
-    return {name: tuple(other for other in by_id if other in found[name]) for name in by_id}
+    return [replace(d, tainted_by=tuple(other for other in by_id if other in found[d.claim.id])) for d in decisions]
+
+
+def proved_under(decisions: Sequence[Decision]) -> dict[str, tuple[str, ...]]:
+    """By the id of each claim that is proved the claims that its proof uses and that are not shown themselves, in the
+    order of the decisions: it is true where these are. What such a claim in turn uses says no more."""
+    by_id = {d.claim.id: d for d in decisions}
+    found: dict[str, set[str]] = {}
+    for name in _sorter([d.claim for d in decisions], lambda claim: claim.premises).static_order():
+        known = by_id[name].verdict in ("proved", "assumed")
+        found[name] = set().union(*(found[i] for i in by_id[name].claim.premises)) if known else {name}
+    return {name: tuple(other for other in by_id if other in found[name]) for name, d in by_id.items()
+            if d.verdict == "proved"}
 
 
 def _sorter(claims: Sequence[Stated], links: Links) -> TopologicalSorter[str]:

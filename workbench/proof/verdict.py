@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any, Literal
 
@@ -23,6 +24,12 @@ SEVERITIES: tuple[Severity, ...] = ("result", "step", "data", "cosmetic")
 KINDS: tuple[Kind, ...] = ("identity", "inequality", "condition", "implication", "limit")
 VERDICTS: tuple[Verdict, ...] = ("proved", "refuted", "violated", "gap", "assumed", "undecided")
 FAILED: tuple[Verdict, ...] = ("refuted", "violated", "gap")
+
+
+def verdict_words(verdict: str, proved_under: Sequence[str]) -> str:
+    """A verdict as it is shown; what is proved from claims that are not shown themselves names them, by their ids."""
+    names = "), (".join(name.partition(":")[2] for name in proved_under)
+    return f"{verdict} under ({names})" if names else verdict
 
 
 # Names of papers and numbers of claims become names of folders and files.
@@ -138,7 +145,8 @@ class Decision:
     """A claim decided: the verdict, the certificate that shows it, and how it was found.
 
     goal: LaTeX made of what was decided; match: `parsed` where a machine found the printed line in the goal.
-    tainted_by, fate and other_reading (the printed line of the claim that decides it) come from the other claims.
+    tainted_by (failed claims in the paper's chain), proved_under (claims that a proof uses and that are not shown),
+    fate and other_reading (the printed line of the claim that decides it) come from the other claims.
     """
 
     claim: Stated
@@ -153,6 +161,7 @@ class Decision:
     match: Match | None = None
     goal: str | None = None
     tainted_by: tuple[str, ...] = ()
+    proved_under: tuple[str, ...] = ()
     fate: Fate | None = None
     other_reading: str | None = None
 

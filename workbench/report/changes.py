@@ -11,8 +11,8 @@ from workbench.errors import InputError
 from workbench.files.json_input import read_json
 
 # What is told of a claim, in this order; the rest (seconds, method, certificate's path) may differ from run to run.
-FIELDS = ("statement", "verdict", "fate", "goal_digest", "correction", "counterexample", "tainted_by", "origin",
-          "severity", "trust", "recorded")
+FIELDS = ("statement", "verdict", "fate", "goal_digest", "correction", "counterexample", "tainted_by",
+          "proved_under", "origin", "severity", "trust", "recorded")
 Claims = dict[str, Mapping[str, Any]]
 
 

@@ -61,6 +61,7 @@ class ClaimView:
     trust: str
     note: Markup
     tainted_by: tuple[ClaimRef, ...]
+    proved_under: tuple[ClaimRef, ...]
     premises: tuple[ClaimRef, ...]
     rests_on: tuple[ClaimRef, ...]
     counterexample: tuple[Markup, ...]
@@ -113,7 +114,8 @@ def _view(entry: Mapping[str, Any], known: set[str]) -> ClaimView:
     if isinstance(seconds, int | float):
         shown.append(("Decided in", escape(f"{seconds:.2g} s")))
     refs = {key: tuple(ClaimRef(name, anchor(name) if name in known else None)
-                       for name in map(_text, _list(entry.get(key)))) for key in ("tainted_by", "premises", "rests_on")}
+                       for name in map(_text, _list(entry.get(key))))
+            for key in ("tainted_by", "proved_under", "premises", "rests_on")}
     trust = _text(entry.get("trust"))
     return ClaimView(
         id=_text(entry.get("id")), anchor=anchor(_text(entry.get("id"))), title=in_words(_text(entry.get("title"))),
@@ -125,7 +127,8 @@ def _view(entry: Mapping[str, Any], known: set[str]) -> ClaimView:
         correction_label=CORRECTIONS.get(verdict, "Correction"),
         verdict=verdict, sign=VERDICTS.get(verdict, "?"), recorded=recorded if recorded != verdict else "",
         method=_text(entry.get("method")), trust=TRUST.get(trust, trust), note=in_words(_text(entry.get("note"))),
-        tainted_by=refs["tainted_by"], premises=refs["premises"], rests_on=refs["rests_on"],
+        tainted_by=refs["tainted_by"], proved_under=refs["proved_under"], premises=refs["premises"],
+        rests_on=refs["rests_on"],
         counterexample=_lines(entry.get("counterexample")),
         facts=tuple((label, text) for label, text in shown if text), open=verdict in NOT_AS_PRINTED,
         ours=origin == "ours", fate=_text(entry.get("fate")),

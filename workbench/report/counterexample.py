@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import ast
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
@@ -15,8 +16,8 @@ from workbench.proof.checker import (
     Terms,
     at,
     bounds,
+    calls,
     holds,
-    read_goal,
     read_point,
     read_terms,
     split_relation,
@@ -62,7 +63,7 @@ def counterexample_of(certificate: Mapping[str, Any]) -> Counterexample | None:
     if certificate.get("verdict") == "proved" or "point" not in certificate:
         return None
     goal = certificate["goal"]
-    context, _ = read_goal(goal)
+    context = Context(goal.get("flow", {}), goal.get("indexed", []), goal.get("inputs", []))
     point = read_point(certificate["point"])
     if "functions" in certificate:
         return _motion(certificate, context, point)
@@ -71,8 +72,7 @@ def counterexample_of(certificate: Mapping[str, Any]) -> Counterexample | None:
     if len(goal["show"]) > 1:
         failing = next((text for text in goal["show"] if not _holds(context, text, point, terms)), failing)
     left, operator, right = split_relation(failing)
-    sides = [context.read(left), context.read(right)]
-    deciding = symbols_of(context, sides[0]) | symbols_of(context, sides[1])
+    deciding = _symbols(context, left) | _symbols(context, right)
     shown = {name: value_latex(Fraction(text)) for name, text in sorted(certificate["point"].items())}
     rows = [{name: value_latex(Fraction(text)) for name, text in sorted(row.items())}
             for row in certificate.get("terms", [])]
@@ -82,7 +82,7 @@ def counterexample_of(certificate: Mapping[str, Any]) -> Counterexample | None:
     every = tuple((name_latex(name), value) for name, value in shown.items()) + tuple(
         (_indexed(name, i), value) for i, row in enumerate(rows, 1) for name, value in row.items())
     return Counterexample(relation_latex(failing), SIGNS[operator], values + in_sums, others,
-                          *_values(context, sides, point, terms), every, False,
+                          *_values(context, (left, right), point, terms), every, False,
                           _put_in(left, right, certificate["point"]))
 
 
@@ -109,6 +109,7 @@ def _motion(certificate: Mapping[str, Any], context: Context, point: dict[str, R
 
 
 def _symbols(context: Context, text: str) -> set[str]:
+    """The symbols on which the value of an expression depends."""
     return symbols_of(context, context.read(text))
 
 
@@ -119,11 +120,30 @@ def _holds(context: Context, text: str, point: dict[str, Ratio], terms: Terms | 
         return True
 
 
-def _values(context: Context, sides: Sequence[Ratio], point: dict[str, Ratio],
+class _AtPoint(Context):
+    """Reads expressions without rates and sums as the numbers that they are at a point: nothing is multiplied out."""
+
+    def __init__(self, point: Mapping[str, Ratio]) -> None:
+        super().__init__({}, [])
+        self.point = point
+
+    def node(self, node: ast.expr) -> Ratio:
+        """The value of a syntax tree at the point."""
+        return self.point.get(node.id) or super().node(node) if isinstance(node, ast.Name) else super().node(node)
+
+
+def _enclosed(context: Context, side: str, point: dict[str, Ratio], terms: Terms | None) -> tuple[Fraction, Fraction]:
+    if calls(side, "D") or calls(side, "Sum"):
+        return bounds(context, at(context, context.read(side), point, terms))
+    numbers = _AtPoint(point)
+    return bounds(numbers, numbers.read(side))
+
+
+def _values(context: Context, sides: Sequence[str], point: dict[str, Ratio],
             terms: Terms | None) -> tuple[str | None, str | None]:
     """Both sides at the point: exact where they are rational and short, else rounded so far that they differ."""
     try:
-        found = [bounds(context, at(context, side, point, terms)) for side in sides]
+        found = [_enclosed(context, side, point, terms) for side in sides]
     except CertificateError:
         return None, None
     numbers = [(low + high) / 2 for low, high in found]

@@ -10,7 +10,8 @@ from workbench.proof.checker import goal_digest
 from workbench.proof.fate import is_headline
 from workbench.proof.premises import holds_in_other_reading
 from workbench.proof.verdict import FAILED, Decision, FateWord, Verdict
-from workbench.report.counterexample import Counterexample, counterexample_of
+from workbench.report.counterexample import Counterexample
+from workbench.report.counterexample_cache import cached_counterexample
 from workbench.report.places_in_paper import place_of
 
 # What a finding is, the gravest first: a headline statement that falls, that stands only with corrections, that stays
@@ -27,9 +28,10 @@ class Finding:
 
     paper, equation, section, title: where; printed, should_read: LaTeX of the line and of the nearest true statement,
     which is proved (empty where none is known); mended_by: the equation of the claim that proves it as a line of its
-    own; counterexample: what breaks it; headlines: the theorems and headline statements that rest on it, lines: how
-    many other lines do; because: the lines that fail on the way to it; other_reading: LaTeX of how else it may be
-    read, other_holds: whether that is proved; digest: that of the goal in its certificate, None without one.
+    own, mended_under: the equations of what that proof uses and that is not shown; counterexample: what breaks it;
+    headlines: the theorems and headline statements that rest on it, lines: how many other lines do; because: the lines
+    that fail on the way to it; other_reading: LaTeX of how else it may be read, other_holds: whether that is proved;
+    digest: that of the goal in its certificate, None without one.
     """
 
     paper: str
@@ -41,6 +43,7 @@ class Finding:
     printed: str
     should_read: str
     mended_by: str | None
+    mended_under: tuple[str, ...]
     counterexample: Counterexample | None
     headlines: tuple[str, ...]
     lines: int
@@ -88,7 +91,8 @@ def _finding(d: Decision, by_id: dict[str, Decision], mended: Decision | None,
         d.claim.paper, d.claim.equation, d.claim.section, d.claim.title,
         _gravity(d, bool(resting), holds), d.verdict, d.claim.printed,
         d.correction or (mended.claim.printed if mended else ""), mended.claim.equation if mended else None,
-        counterexample_of(d.certificate) if d.certificate else None, headlines, lines,
+        tuple(name.partition(":")[2] for name in mended.proved_under) if mended and not d.correction else (),
+        cached_counterexample(d.certificate) if d.certificate else None, headlines, lines,
         tuple(name.partition(":")[2] for name in d.tainted_by), d.fate.word if d.fate else None,
         tuple(name.partition(":")[2] for name in d.fate.by) if d.fate else (),
         d.other_reading or "", holds, d.claim.note, goal_digest(d.certificate) if d.certificate else None)

@@ -31,7 +31,7 @@ def verdict_sentence(found: Finding) -> str:
             return f"{name} holds{below}."
         return f"{name} {_words(found)}{where}."
     if found.verdict == "proved":
-        return f"{name} is shown only from lines that fail, {listed(places_of(found.fate_by))}."
+        return f"{name} is shown only from lines that are not shown, {listed(places_of(found.fate_by))}."
     return f"{name} {_words(found)}{where}."
 
 
@@ -67,7 +67,9 @@ def correction_sentence(found: Finding) -> str:
     what = {"violated": "It holds with", "gap": "What does follow:"}.get(found.verdict, "It should read")
     if found.mended_by is not None and found.fate is not None:
         what = "Mended, it is proved:"
-    return f"{what} {math(found.should_read)}."
+    under = [place_of(equation) for equation in found.mended_under]
+    where = f", where {listed(under)} {'holds' if len(under) == 1 else 'hold'}" if under else ""
+    return f"{what} {math(found.should_read)}{where}."
 
 
 def consequence_sentence(found: Finding) -> str:

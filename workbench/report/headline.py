@@ -33,6 +33,9 @@ def proof_line(claims: Sequence[ClaimView]) -> Markup | None:
     tainted = sum(claim.verdict == "proved" and bool(claim.tainted_by) for claim in paper)
     if tainted:
         line += Markup(" {} of the proved rest on a line that fails.").format(tainted)
+    under = sum(bool(claim.proved_under) for claim in paper)
+    if under:
+        line += Markup(" {} of the proved hold only under lines that are not shown.").format(under)
     own = [claim for claim in claims if claim.ours]
     if own:
         line += f" {len(own)} questions of ours: {_verdicts(own)}."

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from difflib import get_close_matches
 from typing import Protocol
 
 import numpy as np
@@ -71,13 +72,22 @@ def compiled_law(scenario: Scenario, spec: ControllerSpec) -> ControlLaw | None:
     return None if spec.law in SAMPLED else law_named(spec.law, scenario.folder)
 
 
+def nearest_law(scenario: Scenario, asked: str) -> str | None:
+    """The law whose name is nearly the one that is asked for."""
+    return next(iter(get_close_matches(asked, _names(scenario), n=1)), None)
+
+
+def _names(scenario: Scenario) -> list[str]:
+    return [*laws_near(scenario.folder), *TOLD_THE_LINE, *SAMPLED]
+
+
 def known_laws(scenario: Scenario) -> str:
     """All laws that a scenario may name, those of a paper or family with its name once: `mpc.linear | nonlinear`.
 
     Of a family of many the first ones stand for all.
     """
     families: dict[str, list[str]] = {}
-    for law in (*laws_near(scenario.folder), *TOLD_THE_LINE, *SAMPLED):
+    for law in _names(scenario):
         family, dot, own = law.partition(".")
         families.setdefault(family + dot, []).append(own)
     return ", ".join(family + " | ".join(members if len(members) <= MOST_NAMED else [*members[:3], "..."])

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from workbench.errors import InputError
 from workbench.model.law import ControlLaw
-from workbench.simulate.controllers import SAMPLED, compiled_law, known_laws
+from workbench.simulate.controllers import SAMPLED, compiled_law, known_laws, nearest_law
 from workbench.trains.scenario import ControllerSpec, NeuronGrid, Scenario
 
 Array = NDArray[np.float64]
@@ -68,8 +68,9 @@ def controller_spec(scenario: Scenario, name: str) -> ControllerSpec:
         raise InputError("", "controllers", f"there is no '{name}': choose one of {choice}")
     spec = scenario.controllers[name]
     if spec.law not in SAMPLED and compiled_law(scenario, spec) is None:
+        near = nearest_law(scenario, spec.law)
         raise InputError("", f"controllers.{name}.law", f"unknown '{spec.law}': choose one of {known_laws(scenario)}, "
-                         "or name a law of your own as FILE.py::name")
+                         f"or name a law of your own as FILE.py::name{f'; did you mean {near!r}?' if near else ''}")
     return spec
 
 

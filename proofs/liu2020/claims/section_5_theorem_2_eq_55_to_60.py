@@ -85,6 +85,7 @@ def v2_rate_bound() -> Goal:
              r"(\theta - \theta_0)^2", "proved", origin="ours", mends="55.first",
              premises=("53.mended", "54.theta.mended", "54.weights.mended", "54.estimate.mended"), rests_on=(),
              scope=EVERY_NETWORK, where=ERRORS,
+             reading="As the rate of V_2 - V_1, from which the letters of V_1 cancel.",
              note="For plus before h_v e_v in (32), minus before the leakage of (32) and (35), and a constant theta that "
                   "bounds |eps_v - (M/chi) d|.")
 def v2_rate_bound_mended() -> Goal:

@@ -37,10 +37,10 @@ mu_tracking = positive(mu_2_stated - mu_1_stated)
 
 
 @paper.claim("theorem2.decay", "V_2 - V_1 decays with the signs turned", "inequality",
-             r"\dot V_2 - \dot V_1 \le -\rho(V_2 - V_1) + \mu_2 - \mu_1", "proved", origin="ours", rests_on=(),
+             r"\dot V_{21} \le -\rho V_{21} + \mu_{21}", "proved", origin="ours", rests_on=(),
              premises=("55.mended", "56.weights.mended", "56.rates"), scope=EVERY_NETWORK,
-             where={r"\rho": rho, r"\mu_2": mu_tracking, r"\mu_1": 0 * rho},
-             note="For all ten columns of Table 2; plus before h_v e_v in (32), minus before the leakage of (32) and (35), "
+             where={r"\rho": rho, "V_{21}": V_tracking, r"\mu_{21}": mu_tracking},
+             note="V_21 is V_2 - V_1 and mu_21 is mu_2 - mu_1. For all ten columns of Table 2; plus before h_v e_v in (32), minus before the leakage of (32) and (35), "
                   "a constant theta that bounds |eps_v - (M/chi) d|, lambda_max in place of lambda_min.")
 def mended_decay() -> Goal:
     """From 55.mended."""

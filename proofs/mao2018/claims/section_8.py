@@ -35,7 +35,7 @@ def never_stops() -> Goal:
 
 
 @paper.claim("VIII.ramp", "The indicator of the slope is continuous at 800 s and 804 s", "identity",
-             r"0.25(t - 800)|_{800} = 0,\ 0.25(t - 800)|_{804} = 1", "proved", premises=("6",), rests_on=(), origin="ours",
+             r"0.25(t - 800)|_{800} = 0,\ 0.25(t - 800)|_{804} = 1", "proved", origin="ours",
              note="Up to 800 s the slope's indicator is zero, and after 804 s it must be 1, which the paper leaves "
                   "unsaid. At 1400 s it falls to zero in a step.")
 def ramp_continuous() -> Goal:

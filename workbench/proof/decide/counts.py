@@ -8,7 +8,7 @@ from itertools import islice
 
 import sympy as sp
 
-from workbench.proof.claim import Goal, Relation, name_of
+from workbench.proof.claim import Goal, Relation, equal, name_of
 from workbench.proof.decide.proposals import Point, proposals
 from workbench.proof.derive import expand_derivatives
 
@@ -21,7 +21,7 @@ def counted_points(goal: Goal, seed: int) -> Iterator[tuple[Point, list[Point]]]
     Raises ClaimError where written-out sums leave the language of goals.
     """
     indexed = sorted({s for s in goal.symbols() if isinstance(s, sp.Indexed)}, key=name_of)
-    if goal.initial or not any(side.has(sp.Sum) for r in goal.relations() for side in (r.left, r.right)):
+    if not any(side.has(sp.Sum) for r in goal.relations() for side in (r.left, r.right)):
         return
     for count in COUNTS:
         own = {(s, i): sp.Symbol(f"term_{i}_of_{name_of(s)}", real=True) for s in indexed for i in range(count)}
@@ -33,7 +33,7 @@ def counted_points(goal: Goal, seed: int) -> Iterator[tuple[Point, list[Point]]]
 
 
 def _written_out(goal: Goal, terms: list[dict[sp.Expr, sp.Expr]]) -> Goal:
-    """The goal at one instant, its sums added up over so many terms."""
+    """The goal at one instant, with initial values at time zero, its sums added up over so many terms."""
     def put(expr: sp.Expr) -> sp.Expr:
         carried = expand_derivatives(expr, goal.flow)
         return carried.replace(sp.Sum, lambda term, *_: sp.Add(*(term.xreplace(here) for here in terms)))
@@ -42,4 +42,5 @@ def _written_out(goal: Goal, terms: list[dict[sp.Expr, sp.Expr]]) -> Goal:
         return tuple(Relation(put(r.left), r.operator, put(r.right)) for r in relations)
 
     plain = tuple(s for s in goal.symbols() if isinstance(s, sp.Symbol))
-    return Goal(each(goal.show), (*each(goal.assume), *each(goal.always)), named=plain)
+    return Goal(each(goal.show), (*each(goal.assume), *each(goal.always), *(
+        equal(s, put(value)) for s, value in goal.initial.items())), named=plain)

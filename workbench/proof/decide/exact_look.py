@@ -16,6 +16,7 @@ from workbench.proof.checker import (
     number,
     read_goal,
     same,
+    start_at,
     substitute,
 )
 
@@ -36,7 +37,7 @@ class Exact:
         """Whether all assumptions hold, at time zero where initial values are named."""
         values = {name: number(value) for name, value in point.items()}
         try:
-            if not all(same(values[name], substitute(self.context, v, values)) for name, v in self.initial.items()):
+            if not all(same(values[name], start_at(self.context, v, values, None)) for name, v in self.initial.items()):
                 return False
             return all(relation.holds(point) for relation in self.given)
         except CertificateError:

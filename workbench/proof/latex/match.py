@@ -9,7 +9,7 @@ from itertools import pairwise
 import sympy as sp
 
 from workbench.errors import ClaimError
-from workbench.proof.claim import Claim, Goal, Operator, Relation, equal
+from workbench.proof.claim import Claim, D, Goal, Operator, Relation, equal
 from workbench.proof.latex.compare import Comparison
 from workbench.proof.latex.convert import Converter
 from workbench.proof.latex.error import LatexError
@@ -68,6 +68,10 @@ def limits_of(goal: Goal) -> sp.Tuple | None:
 def _compared(claimed: tuple[Related, ...], conditions: tuple[Related, ...], goal: Goal) -> Match:
     if goal.eventually is not None:
         return Match(False, "the goal holds from some time on, which the line does not say")
+    at_rest = _at_rest([side for r in goal.relations() for side in (r.left, r.right)], goal)
+    if resting := _at_rest([side for related in claimed for side in related.sides], goal) - at_rest:
+        return Match(False, f"the goal gives no rate of {', '.join(sorted(map(str, resting)))}, which the line's "
+                            "derivatives need: state one, 0 for a constant")
     comparison = Comparison(goal.flow)
     lines = [_Sides(related, comparison) for related in claimed]
     used: set[int] = set()
@@ -85,6 +89,19 @@ def _compared(claimed: tuple[Related, ...], conditions: tuple[Related, ...], goa
         if isinstance(taken, str):
             return Match(False, taken)
     return Match(True, "equal side by side")
+
+
+def _at_rest(sides: list[sp.Expr], goal: Goal) -> set[sp.Symbol]:
+    """What derivatives in these sides hold constant because the goal gives no rate of it; parameters, whose sign is
+    known, and the entries of vectors are left out."""
+    found: set[sp.Symbol] = set()
+    for side in sides:
+        for part in side.atoms(D):
+            inside = {s for i in part.atoms(sp.Indexed) for s in i.free_symbols}
+            limits = [limit for total in part.atoms(sp.Sum) for limit in total.limits]
+            inside |= {s for limit in limits for e in limit for s in e.free_symbols}
+            found |= part.atoms(sp.Symbol) - inside
+    return {s for s in found if not s.is_nonnegative} - goal.flow.keys() - set(goal.inputs)
 
 
 class _Sides:

@@ -6,7 +6,7 @@ from collections import Counter
 from collections.abc import Sequence
 
 from workbench.proof.checker import goal_digest
-from workbench.proof.verdict import VERDICTS, Decision
+from workbench.proof.verdict import VERDICTS, Decision, verdict_words
 from workbench.report.counterexample import Counterexample
 from workbench.report.errata.blocks import Block, Code, Formula, Heading, Item, Items, Paragraph
 from workbench.report.errata.proof_steps import proof_steps
@@ -40,7 +40,9 @@ def errata(decisions: Sequence[Decision], citation: str) -> list[Block]:
 def _counts(decisions: Sequence[Decision]) -> str:
     counts = Counter(d.verdict for d in decisions if d.claim.origin != "ours")
     words = listed([f"{counts[v]} {_verb(v, counts[v])}" for v in VERDICTS if counts[v]])
-    return (f"Of {counts.total()} lines, {words}. Proved: true for all values of its domain. Refuted: false as "
+    under = sum(bool(d.proved_under) for d in decisions if d.claim.origin != "ours")
+    only = f", {under} of them only where lines hold that are not shown" if under else ""
+    return (f"Of {counts.total()} lines, {words}. Proved: true for all values of its domain{only}. Refuted: false as "
             "printed. Violated: a printed condition that the printed numbers break. Gap: it does not follow from what "
             "the paper uses to get there. Assumed: a cited result, taken as given.")
 
@@ -125,10 +127,13 @@ def _mended(decisions: Sequence[Decision]) -> list[Block]:
         blocks.append(Formula(d.claim.printed, "Statement"))
         if d.claim.note:
             blocks.append(Paragraph(worded(d.claim.note), "Note"))
-        used = [f"{place_of(name.partition(':')[2])} ({by_id[name].verdict})" for name in d.claim.premises
-                if name in by_id]
+        used = [f"{place_of(name.partition(':')[2])} ({verdict_words(by_id[name].verdict, by_id[name].proved_under)})"
+                for name in d.claim.premises if name in by_id]
         if used:
             blocks.append(Paragraph(f"{listed(used)}.", "It uses"))
+        if d.proved_under:
+            under = listed([place_of(name.partition(":")[2]) for name in d.proved_under])
+            blocks.append(Paragraph(f"{under}: what rests on them is proved only where they hold.", "Not shown"))
         if d.goal:
             blocks.append(Formula(d.goal, "Decided as"))
         steps = proof_steps(d.certificate)
