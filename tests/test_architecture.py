@@ -40,9 +40,8 @@ LONGER = {"workbench.proof.checker": 1400, "workbench.optimal.bound_checker": 42
 # Loading a file of Python as a module: the generated kernels, a paper's folder, and the single file of claims that a
 # user names.
 MAY_LOAD_MODULES = {"workbench.compile.code_cache", "workbench.files.modules", "workbench.proof.loading"}
-# numba's compiled code, of this user's own and held against a digest before it is believed; and what a process sends to
-# its workers, which its scheduler pickles too: never a file.
-MAY_UNPICKLE = {"workbench.compile.code_cache", "workbench.files.upload"}
+# numba's compiled code, of this user's own and held against a digest before it is believed.
+MAY_UNPICKLE = {"workbench.compile.code_cache"}
 FORBIDDEN_CALLS = {"eval", "exec", "compile", "__import__", "parse_expr"}
 FORBIDDEN_MODULES = {"pickle", "cPickle", "marshal", "shelve", "dill", "cloudpickle", "joblib"}
 

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 import typer
 
-from workbench.cli.options import Dask, PaperOrFile, Workers, load, on_cluster
+from workbench.cli.options import PaperOrFile, Workers, load
 from workbench.cli.terminal import out_console, progress, result_table, summary_table
 from workbench.errors import InputError
 
@@ -33,7 +33,7 @@ def command(paper: PaperOrFile,
             until_width: Annotated[str | None, typer.Option(
                 metavar="METRIC=WIDTH", help="End before --runs once the 95 % interval of every controller's mean of "
                 "this column is so narrow.")] = None,
-            workers: Workers = None, dask: Dask = None) -> None:
+            workers: Workers = None) -> None:
     """Monte Carlo over the scenario's uncertainty: one row a run, the same bytes for the same seed."""
     from workbench.files.outputs import check_outputs
     from workbench.paper.loading import PLANT
@@ -44,17 +44,15 @@ def command(paper: PaperOrFile,
     until = UntilWidth.parse(until_width) if until_width is not None else None
     loaded = load(paper)
     if sensitivity:
-        with on_cluster(dask, workers):
-            _joint(loaded, out, resume, workers)
+        _joint(loaded, out, resume, workers)
         return
     if loaded.kind is not None and loaded.data.get("kind") == PLANT:
-        with on_cluster(dask, workers):
-            _sweep_plant(loaded, out, runs, seed, controller, resume, workers)
+        _sweep_plant(loaded, out, runs, seed, controller, resume, workers)
         return
     scenario = loaded.scenario
     check_outputs({}, folders={"--out": (out, (CSV_NAME, MANIFEST_NAME, CHUNKS))})
     asked = Options(runs or 100, seed, controller, out, resume, workers, draws, until)
-    with progress() as show, on_cluster(dask, workers):
+    with progress() as show:
         found = monte_carlo(scenario, loaded.path, asked, lambda done, total: show("Monte Carlo", done, total))
     summaries = found.write_csv(out / CSV_NAME)
     out_console.print(summary_table(summaries, found.runs))

@@ -17,7 +17,6 @@ from typing import Any, TypeVar
 from workbench.errors import WorkbenchError
 from workbench.files.cache_folder import note
 from workbench.files.modules import KnownFolders
-from workbench.simulate.executor import current
 
 THREAD_LIMITS = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "NUMBA_NUM_THREADS",
                  "VECLIB_MAXIMUM_THREADS")
@@ -39,17 +38,16 @@ def run_tasks(function: Callable[[Any, T], R], shared: Any, tasks: Iterable[T], 
               record: Callable[[R], None]) -> None:
     """Call record(function(shared, task)) for every task, in the order in which they finish.
 
-    With one worker, or one task, they run here; else on the executor that the command has named, or in processes of
-    this machine. tasks: a sequence, or what makes them as they are needed. Raises as `Executor.run`.
+    With one worker, or one task, they run here, else in processes of this machine. tasks: a sequence, or what makes
+    them as they are needed. Raises as `LocalProcesses.run`.
     """
     if isinstance(tasks, Sized):
         workers = min(workers, len(tasks))
-    executor = current() or (LocalProcesses(workers) if workers > 1 else None)
-    if executor is None or (isinstance(tasks, Sized) and len(tasks) <= 1):
+    if workers <= 1:
         for task in tasks:
             record(function(shared, task))
     else:
-        executor.run(function, shared, tasks, record)
+        LocalProcesses(workers).run(function, shared, tasks, record)
 
 
 @dataclass(frozen=True)
@@ -60,7 +58,11 @@ class LocalProcesses:
 
     def run(self, function: Callable[[Any, T], R], shared: Any, tasks: Iterable[T],
             record: Callable[[R], None]) -> None:
-        """As `Executor.run`; raises WorkbenchError when processes die again and again."""
+        """Call record(function(shared, task)) in this process for every task, in the order in which they finish.
+
+        An exception of `function` is raised here. When anything interrupts, what has finished is recorded before the
+        interruption goes on. Raises WorkbenchError when processes die again and again.
+        """
         waiting, unrecorded = iter(tasks), list[T]()
         for _ in range(MOST_LOSSES):
             again, unrecorded = unrecorded, []

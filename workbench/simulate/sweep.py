@@ -17,7 +17,6 @@ from workbench.model.desired_curve import CruiseSpeed
 from workbench.simulate.closed_loop import check_controllers, prepared, simulate
 from workbench.simulate.controllers import compiled
 from workbench.simulate.draws import Draws, factors_of
-from workbench.simulate.executor import current, versions
 from workbench.simulate.journal import code_digest, laws_digest
 from workbench.simulate.metrics import measure
 from workbench.simulate.process_pool import cores, run_tasks
@@ -35,6 +34,7 @@ from workbench.simulate.sweep_rows import (
     summarised,
     sweep_row,
 )
+from workbench.simulate.versions import versions
 from workbench.trains.scenario import Scenario
 from workbench.trains.track import CurveSection, GradeSection, Track
 
@@ -133,7 +133,7 @@ def sweep(scenario: Scenario, scenario_path: Path, runs: int, seed: int | None =
 
 def monte_carlo(scenario: Scenario, scenario_path: Path, asked: Options,
                 on_progress: Progress = lambda done, total: None) -> MonteCarlo:
-    """Run every controller on every drawn train in parallel processes, or on the executor that is named.
+    """Run every controller on every drawn train in parallel processes.
 
     With `out` rows are kept there as they are made (`row_store`), and `resume` continues after a kill, also with more
     runs or other controllers. on_progress(finished, total) is called as runs finish. Rows depend on scenario, seed and
@@ -189,8 +189,7 @@ def _run_missing(shared: Shared, names: Sequence[str], runs: int, asked: Options
 
     if left:
         _compile_kernels(shared[0])
-        executor = current()
-        workers = min(executor.workers if executor else asked.workers or cores(), left)
+        workers = min(asked.workers or cores(), left)
         run_tasks(run_part, shared, _parts(gaps, pace, workers), workers, record)
 
 
