@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from typing import Any
 
-from ..proof.checker import SUM, Ratio, atoms_of, number, read_rational
-from .factors import factor_of
-from .normal import number_text
-from .script import Script
-from .syntax import NotExportedError
+from workbench.kernel.factors import factor_of
+from workbench.kernel.normal import number_text
+from workbench.kernel.script import Script
+from workbench.kernel.syntax import NotExportedError
+from workbench.proof.checker import SUM, Ratio, atoms_of, number, read_rational
 
 
 def combination(script: Script, value: Ratio, operator: str, proof: dict[str, Any]) -> None:

@@ -12,11 +12,11 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from ..errors import InputError
-from ..files.json_input import read_json
-from ..files.own_files import sha256
-from ..files.text import read_text
-from .export import HERE, INDEX, LIBRARY
+from workbench.errors import InputError
+from workbench.files.json_input import read_json
+from workbench.files.own_files import sha256
+from workbench.files.text import read_text
+from workbench.kernel.export import HERE, INDEX, LIBRARY
 
 # The axioms of Coq's classical reals, and the machine integers and floats that interval arithmetic computes with.
 OF_THE_REALS = ("ClassicalDedekindReals.", "FunctionalExtensionality.", "Classical_Prop.classic")

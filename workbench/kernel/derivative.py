@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from dataclasses import dataclass
 
-from .syntax import Letters, NotExportedError, call, names_in, operation, text_of
+from workbench.kernel.syntax import Letters, NotExportedError, call, names_in, operation, text_of
 
 
 @dataclass(frozen=True)

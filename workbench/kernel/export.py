@@ -9,11 +9,11 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from ..files.own_files import sha256
-from ..files.text import read_text
-from ..proof.checker import CertificateError, check
-from . import points, proved, theorem
-from .syntax import NotExportedError
+from workbench.files.own_files import sha256
+from workbench.files.text import read_text
+from workbench.kernel import points, proved, theorem
+from workbench.kernel.syntax import NotExportedError
+from workbench.proof.checker import CertificateError, check
 
 LIBRARY = ("Workbench.v", "WorkbenchFlow.v")
 INDEX = "index.json"

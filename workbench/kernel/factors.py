@@ -5,9 +5,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Any
 
-from ..proof.checker import SUM, Ratio, atoms_of, constant, number, symbol
-from .script import Script
-from .syntax import NotExportedError
+from workbench.kernel.script import Script
+from workbench.kernel.syntax import NotExportedError
+from workbench.proof.checker import SUM, Ratio, atoms_of, constant, number, symbol
 
 
 @dataclass(frozen=True)

@@ -5,11 +5,11 @@ from __future__ import annotations
 import ast
 from fractions import Fraction
 
-from ..proof.checker import SUM, Ratio, atoms_of, constant, same, symbol
-from .normal import is_number, number_text
-from .signs import Signs
-from .syntax import NotExportedError, text_of
-from .writing import joined_tactics
+from workbench.kernel.normal import is_number, number_text
+from workbench.kernel.signs import Signs
+from workbench.kernel.syntax import NotExportedError, text_of
+from workbench.kernel.writing import joined_tactics
+from workbench.proof.checker import SUM, Ratio, atoms_of, constant, same, symbol
 
 
 class Functions(Signs):

@@ -6,14 +6,14 @@ import ast
 from collections.abc import Callable
 from typing import Any
 
-from ..proof.checker import SUM, Ratio, Sign, atoms_of, parse, partial_operations, same, symbols_of
-from ..proof.checker import substitute as substitute_ratio
-from .derivative import Differentiation
-from .normal import Normal
-from .script import Script
-from .syntax import NotExportedError, operation, replaced, text_of
-from .theorem import condition_text
-from .writing import conjunction
+from workbench.kernel.derivative import Differentiation
+from workbench.kernel.normal import Normal
+from workbench.kernel.script import Script
+from workbench.kernel.syntax import NotExportedError, operation, replaced, text_of
+from workbench.kernel.theorem import condition_text
+from workbench.kernel.writing import conjunction
+from workbench.proof.checker import SUM, Ratio, Sign, atoms_of, parse, partial_operations, same, symbols_of
+from workbench.proof.checker import substitute as substitute_ratio
 
 Prover = Callable[[Script, Ratio, str, dict[str, Any]], None]
 

@@ -5,8 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from fractions import Fraction
 
-from ..proof.checker import SUM, Context, Monomial, Poly, Ratio, atoms_of, constant, number, symbol, symbols_of
-from .syntax import Letters, NotExportedError
+from workbench.kernel.syntax import Letters, NotExportedError
+from workbench.proof.checker import SUM, Context, Monomial, Poly, Ratio, atoms_of, constant, number, symbol, symbols_of
 
 
 def number_text(value: Fraction) -> str:

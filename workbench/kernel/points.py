@@ -7,14 +7,24 @@ import ast
 from fractions import Fraction
 from typing import Any
 
-from ..proof.checker import bounds, margin, parse, read_goal, split_relation
-from . import theorem
-from .derivative import Differentiation
-from .normal import is_number
-from .script import MARGINS, Script
-from .syntax import RELATIONS, NotExportedError, call, called, operation, relation_text, replaced, split_margin, text_of
-from .theorem import Goal
-from .writing import conjunction
+from workbench.kernel import theorem
+from workbench.kernel.derivative import Differentiation
+from workbench.kernel.normal import is_number
+from workbench.kernel.script import MARGINS, Script
+from workbench.kernel.syntax import (
+    RELATIONS,
+    NotExportedError,
+    call,
+    called,
+    operation,
+    relation_text,
+    replaced,
+    split_margin,
+    text_of,
+)
+from workbench.kernel.theorem import Goal
+from workbench.kernel.writing import conjunction
+from workbench.proof.checker import bounds, margin, parse, read_goal, split_relation
 
 
 def statement_of(goal: Goal) -> str:

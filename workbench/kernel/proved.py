@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from typing import Any
 
-from ..proof.checker import margin, read_goal, split_relation
-from .rules import prove, stated
-from .script import MARGINS, Script
-from .syntax import split_margin
-from .theorem import Goal
-from .writing import conjunction
+from workbench.kernel.rules import prove, stated
+from workbench.kernel.script import MARGINS, Script
+from workbench.kernel.syntax import split_margin
+from workbench.kernel.theorem import Goal
+from workbench.kernel.writing import conjunction
+from workbench.proof.checker import margin, read_goal, split_relation
 
 
 def proof_of(goal: Goal, certificate: dict[str, Any]) -> Script:

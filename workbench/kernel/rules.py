@@ -4,7 +4,13 @@ from __future__ import annotations
 
 from typing import Any
 
-from ..proof.checker import (
+from workbench.kernel.combination import combination
+from workbench.kernel.motion import nonincreasing
+from workbench.kernel.normal import is_number
+from workbench.kernel.script import Script
+from workbench.kernel.syntax import NotExportedError
+from workbench.kernel.writing import joined_tactics
+from workbench.proof.checker import (
     CASES,
     Ratio,
     margin,
@@ -13,12 +19,6 @@ from ..proof.checker import (
     substitute,
     symbol,
 )
-from .combination import combination
-from .motion import nonincreasing
-from .normal import is_number
-from .script import Script
-from .syntax import NotExportedError
-from .writing import joined_tactics
 
 COQ = {">": ">", ">=": ">=", "==": "=", "!=": "<>"}
 

@@ -4,11 +4,21 @@ from __future__ import annotations
 
 import ast
 
-from ..proof.checker import SUM, Ratio, atoms_of, constant, margin, same, split_relation
-from .derivative import Differentiation
-from .functions import Functions
-from .normal import joined
-from .syntax import NAMED, RELATIONS, NotExportedError, called, names_in, plain, replaced, split_margin, text_of
+from workbench.kernel.derivative import Differentiation
+from workbench.kernel.functions import Functions
+from workbench.kernel.normal import joined
+from workbench.kernel.syntax import (
+    NAMED,
+    RELATIONS,
+    NotExportedError,
+    called,
+    names_in,
+    plain,
+    replaced,
+    split_margin,
+    text_of,
+)
+from workbench.proof.checker import SUM, Ratio, atoms_of, constant, margin, same, split_relation
 
 MARGINS = {"<=": "le", "<": "lt", ">=": "ge", ">": "gt", "==": "eq", "!=": "ne"}  # names of lemmas
 

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from fractions import Fraction
 
-from ..proof.checker import SUM, Poly, Ratio, atoms_of, constant, divide_exactly, same, symbol
-from .normal import number_text
-from .syntax import NotExportedError
-from .writing import Writing
+from workbench.kernel.normal import number_text
+from workbench.kernel.syntax import NotExportedError
+from workbench.kernel.writing import Writing
+from workbench.proof.checker import SUM, Poly, Ratio, atoms_of, constant, divide_exactly, same, symbol
 
 
 class Signs(Writing):

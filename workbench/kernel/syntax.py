@@ -7,7 +7,7 @@ import copy
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 
-from ..proof.checker import parse, split_relation
+from workbench.proof.checker import parse, split_relation
 
 FUNCTIONS = {"log": "ln", "exp": "exp", "tanh": "tanh", "abs": "Rabs", "sign": "sgn", "sqrt": "sqrt"}
 RELATIONS = {"<=": "<=", ">=": ">=", "==": "=", "!=": "<>", "<": "<", ">": ">"}

@@ -7,8 +7,8 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import Any
 
-from ..proof.checker import calls, has_relation, parse, partial_operations, split_relation
-from .syntax import Letters, NotExportedError, called, names_in, relation_text, text_of
+from workbench.kernel.syntax import Letters, NotExportedError, called, names_in, relation_text, text_of
+from workbench.proof.checker import calls, has_relation, parse, partial_operations, split_relation
 
 
 @dataclass(frozen=True)

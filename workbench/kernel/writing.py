@@ -7,9 +7,9 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, field
 
-from ..proof.checker import Context, Poly, Ratio, Relations, Sign
-from .normal import Normal
-from .theorem import Goal
+from workbench.kernel.normal import Normal
+from workbench.kernel.theorem import Goal
+from workbench.proof.checker import Context, Poly, Ratio, Relations, Sign
 
 
 @dataclass
