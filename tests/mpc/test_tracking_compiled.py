@@ -10,8 +10,9 @@ from workbench.mpc.tracking_compiled import CompiledTrackingMpc
 from workbench.simulate import compare as comparing
 from workbench.simulate.closed_loop import Factors, simulate
 from workbench.simulate.controllers import compiled
+from workbench.simulate.draws import draw_factors
 from workbench.simulate.metrics import measure
-from workbench.simulate.sweep import draw_factors, sweep
+from workbench.simulate.sweep import sweep
 
 LOOPS = {
     "nothing binds": ({}, Factors()),

@@ -34,8 +34,10 @@ from workbench.paper.cells import numbers_in
 from workbench.paper.learning_comparison import rises
 from workbench.paper.study import with_values
 from workbench.report.build import study_document
+from workbench.report.charts.chart import chart_of
+from workbench.report.charts.files import write_curves
 from workbench.report.sources import sourced_values
-from workbench.report.study_page import StudyContent, build_study_page, write_curves
+from workbench.report.study_page import StudyContent, build_study_page
 from workbench.trains import multi_particle as of_train
 
 FOLDER = Path(__file__).parents[3] / "proofs" / "chen2019"
@@ -373,7 +375,7 @@ def test_the_page_shows_every_figure_and_the_tables_hold_numbers(tmp_path, short
     page = build_study_page(StudyContent(short, result, {}, {"runs": 1.0}, ("workbench compare",), None))
     assert page.count("<figure") >= len(result.plots)
     assert "http://" not in page.replace("http://www.w3.org", "")
-    write_curves(result.plots, tmp_path)
+    write_curves(list(map(chart_of, result.plots)), tmp_path)
     assert len(list((tmp_path / "curves").glob("*.csv"))) == len(result.plots)
     words_alone = {table.title for table in result.tables
                    if not any(True for row in table.rows for cell in row for _ in numbers_in(cell))}
