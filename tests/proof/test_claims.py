@@ -101,7 +101,7 @@ def test_the_manifest_names_all_claims_and_what_stands_beside_it(paper, decision
 
 def test_document_has_the_stable_keys(decisions):
     document = claims_document(list(decisions.values()), PLACES)
-    assert set(document) == {"version", "claims", "summary", "totals", "fates"}
+    assert set(document) == {"version", "claims", "summary", "totals", "fates", "proved_under"}
     assert document["version"] == 2
     assert all(set(row) == KEYS for row in document["claims"])
     assert sum(document["summary"].values()) == len(CLAIMS)
