@@ -181,5 +181,7 @@ def test_who_was_tuned_takes_part_as_stated_only_where_that_is_asked_for():
     ("periods_s", {"pid": (0.1, 0.1)}, "'pid_100ms' takes part already"),
     ("as_stated", ("nobody",), "'nobody' does not take part")])
 def test_names_and_periods_that_are_none_are_refused(key: str, value: object, words: str):
+    contest = common()
+    tuning = contest.tuning.model_copy(update={"evaluations_of": {}})  # which names those at other periods too
     with pytest.raises(InputError, match=words):
-        located(common().model_copy(update={key: value}), COMMON)
+        located(contest.model_copy(update={"tuning": tuning, key: value}), COMMON)
