@@ -21,7 +21,7 @@ def common() -> Contest:
 def few(contest: Contest, *conditions: str, seeds: int = 2, with_entrants: bool = False) -> Contest:
     """Few draws of these conditions, nothing tuned, the contest's own entrants only where they are wanted."""
     tuning = contest.tuning.model_copy(update={"found": {}, "condition": "ten"})
-    changes = {"seeds": seeds, "tuning": tuning, "resamples": 100,
+    changes = {"seeds": seeds, "tuning": tuning, "resamples": 100, "pareto": None,
                "conditions": {name: contest.conditions[name] for name in conditions}}
     return contest.model_copy(update=changes if with_entrants else changes | {"entrants": {}, "absent": {}})
 

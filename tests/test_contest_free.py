@@ -208,7 +208,7 @@ def test_it_is_tuned_for_what_it_is_for(contest: Contest, scenario: Scenario) ->
     goal = contest.tuning.without_curve
     assert isinstance(goal, WithoutCurve)
     values = {"energy_J": goal.energy_j, "stopping_error": goal.stopping_m, "late_s": goal.late_s,
-              "overspeed_mps": goal.overspeed_mps, "logged_jerk_rms": goal.jerk_mps3, "position_rms": 1e9}
+              "overspeed_mps": goal.overspeed_mps, "jerk_rms": goal.ride_jerk_mps3, "position_rms": 1e9}
     assert score(values, goal.units, goal.failed) == pytest.approx(5.0)
     assert score(dict.fromkeys(values), goal.units, goal.failed) == 5 * goal.failed
     without = contest.tuning.model_copy(update={"without_curve": None})

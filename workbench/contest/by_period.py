@@ -43,6 +43,8 @@ def period_tables(told: Told) -> Iterator[ResultTable]:
 def period_findings(told: Told) -> Iterator[str]:
     """The best tracker of each period where tuning was, with its interval, and whom it is apart from."""
     condition = told.contest.tuning.condition
+    if not told.runs(condition):  # not among those that are played
+        return
     for period, own in at_each_period(told):
         ranked = own.ranked(condition, TRACKING)
         means = {i: float(value.mean()) for i, value in enumerate(ranked) if value is not None}

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import re
 import resource
-import shutil
 import subprocess
 from collections.abc import Callable, Iterator
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from pathlib import Path
+from shutil import which
 from typing import Any
 
 from workbench.errors import InputError
@@ -39,7 +39,7 @@ class Checked:
 
 def missing() -> str | None:
     """What is not installed, with the remedy; None where coqc and its libraries are there."""
-    found = shutil.which("coqc")
+    found = which("coqc")
     if found is None:
         return f"coqc is missing: {REMEDY}"
     where = subprocess.run([found, "-where"], capture_output=True, text=True, check=False).stdout.strip()

@@ -80,7 +80,7 @@ def _scripts(folder: Path, charts: bool) -> list[str]:
     own = contents(folder / "page.js").decode()
     if not charts:
         return [own]
-    library = (files("plotly") / "package_data" / "plotly.min.js").read_text(encoding="utf-8")
+    library = contents(Path(str(files("plotly") / "package_data" / "plotly.min.js"))).decode()
     # An HTML parser ends a script at these letters, whatever they mean to the script.
     return [own, library.replace("</script", "<\\/script"), contents(folder / "charts" / "charts.js").decode()]
 
