@@ -78,11 +78,13 @@ class Outcome:
 
 
 def plan(paths: list[Path], count: int, seed: int) -> list[Task]:
-    """`count` mutants, drawn in turn from every claim and, within a claim, from every kind of change."""
+    """`count` mutants, drawn in turn from every paper, every claim and, within a claim, from every kind of change."""
     rng = random.Random(seed)
-    claims = [claim for paper in collect_papers(paths) for claim in paper.claims if claim.build is not None]
-    rng.shuffle(claims)
-    waiting = [_Pile(claim, rng) for claim in claims[:count]]
+    papers = [[claim for claim in paper.claims if claim.build is not None] for paper in collect_papers(paths)]
+    for claims in papers:
+        rng.shuffle(claims)
+    in_turn = [claim for nth in zip_longest(*papers) for claim in nth if claim is not None]
+    waiting = [_Pile(claim, rng) for claim in in_turn[:count]]
     tasks: list[Task] = []
     while len(tasks) < count and waiting:
         for pile in tuple(waiting):

@@ -54,7 +54,7 @@ function draw(figure) {
   box.hidden = false;
   figure.classList.add("drawn");
   Plotly.react(box, traces(charts.get(figure)), layout(charts.get(figure)), {
-    responsive: true, displaylogo: false,
+    responsive: true, displaylogo: false, showTips: false, showSendToCloud: false, plotlyServerURL: "",
     modeBarButtonsToRemove: ["toImage", "select2d", "lasso2d", "autoScale2d", "zoomIn2d", "zoomOut2d"] });
 }
 
