@@ -19,7 +19,10 @@ from workbench.trains.scenario import Scenario
 
 @pytest.fixture
 def small(contest: Contest) -> Contest:
-    return few(contest, "ten").model_copy(update={"pareto": Pareto(condition="ten", weights=12, evaluations=10)})
+    of = few(contest, "ten")
+    ranges = {**of.tuning.ranges, "pid": {"K_p": (0.075, 7.5), "K_i": (0.0125, 1.25), "K_d": (0.15, 15.0)}}
+    return of.model_copy(update={"pareto": Pareto(condition="ten", weights=12, evaluations=10),
+                                 "tuning": of.tuning.model_copy(update={"ranges": ranges})})
 
 
 @pytest.fixture
