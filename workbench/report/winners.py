@@ -48,8 +48,11 @@ class Winners:
 def winners(scenario: Scenario, metrics: Sequence[Metrics], variants: Sequence[tuple[Variant, Sequence[Metrics]]],
             sweep: Sequence[SweepRow], names: Mapping[str, str]) -> Winners | None:
     """Of the nominal run, of the drawn runs and of the changes of assumed values; None with fewer than two controllers
-    that end the nominal run."""
-    nominal = _errors(metrics)
+    that end the nominal run.
+
+    A change that not all controllers drove, such as one of a single law's gains, says nothing of who wins.
+    """
+    nominal, everyone = _errors(metrics), {m.controller for m in metrics}
     if len(nominal) < 2:
         return None
     rows = [Winner("nominal run", *_said([nominal], names, nominal))]
@@ -60,10 +63,11 @@ def winners(scenario: Scenario, metrics: Sequence[Metrics], variants: Sequence[t
                                                                 abs(row.position_error_max))
     if drawn:
         rows.append(Winner(f"{len(drawn)} drawn trains and lines", *_said(list(drawn.values()), names)))
-    changed = [found for _, of_it in variants if (found := _errors(of_it))]
+    changed = [found for _, of_it in variants
+               if {m.controller for m in of_it} >= everyone and (found := _errors(of_it))]
     if changed:
         count = f"{len(changed)} changes" if len(changed) > 1 else "1 change"
-        rows.append(Winner(f"{count} of an assumed value", *_said(changed, names)))
+        rows.append(Winner(f"{count} of an assumed value, driven by all", *_said(changed, names)))
     won = {name for found in [nominal, *drawn.values(), *changed] for name in _best(found)}
     least = min((m.energy_J for m in metrics if m.failed is None), default=0.0)
     prices = tuple(Price(names[m.controller], information(scenario, m.controller),
@@ -92,8 +96,9 @@ def _said(runs: Sequence[Mapping[str, float]], names: Mapping[str, str],
         return (f"{listed([names[name] for name in best])}, {length(min(alone.values()))}",
                 ", ".join(f"{names[name]} {length(error)}" for error, name in others) or NOTHING)
     wins = Counter(name for errors in runs for name in _best(errors))
-    (first, most), *rest = wins.most_common()
-    return (f"{names[first]}, in {most} of {len(runs)}",
+    most = max(wins.values())
+    rest = [(name, n) for name, n in wins.most_common() if n < most]
+    return (f"{listed([names[name] for name, n in wins.items() if n == most])}, in {most} of {len(runs)}",
             ", ".join(f"{names[name]} in {n}" for name, n in rest) or "nobody else in any")
 
 
