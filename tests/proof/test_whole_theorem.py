@@ -240,3 +240,15 @@ def test_it_is_of_the_certificates_beside_it(written, tmp_path):
     rewrite(folder / "theorems",
             lambda whole: whole["composition"]["certificates"]["3"].update(goal_digest="0" * 64))
     assert any(reason for path, _, reason in check_folder(folder) if path.parent.name == "theorems")
+
+
+def test_no_composition_stands_for_the_premises_of_a_paper_s_certificate(written, tmp_path):
+    """Outside of its folder it could bring premises of its own instead of those that the manifest names."""
+    folder = Path(shutil.copytree(written[0] / "certificates", tmp_path / "certificates"))
+    whole = (folder / "theorems" / "theorem1.json").read_bytes()
+    (folder / "theorem1.json").write_bytes(whole)
+    manifest = json.loads((folder / "manifest.json").read_text())
+    manifest["claims"]["theorem1"]["certificate"] = hashlib.sha256(whole).hexdigest()
+    (folder / "manifest.json").write_text(json.dumps(manifest))
+    reasons = {path: reason for path, _, reason in check_folder(folder)}
+    assert "lies in the folder theorems" in str(reasons[folder / "theorem1.json"])

@@ -1388,7 +1388,7 @@ def check_file(path: Path, manifest: Manifest | None = None, digest: str | None 
             raise CertificateError("is no certificate")
         verdict = str(certificate.get("verdict"))[:20]
         if manifest is not None:
-            _require_named(certificate, hashlib.sha256(text.encode()).hexdigest(), path.stem, manifest)
+            _require_named(certificate, hashlib.sha256(text.encode()).hexdigest(), path, manifest)
         elif digest is not None and _require_digest(certificate) != digest:
             raise CertificateError("is of another goal than the one whose digest is given")
         check(certificate)
@@ -1399,8 +1399,11 @@ def check_file(path: Path, manifest: Manifest | None = None, digest: str | None 
     return path, verdict, None
 
 
-def _require_named(certificate: dict[str, Any], digest: str, name: str, manifest: Manifest) -> None:
-    """CertificateError unless a certificate is the one that the manifest states under this name."""
+def _require_named(certificate: dict[str, Any], digest: str, path: Path, manifest: Manifest) -> None:
+    """CertificateError unless a certificate is the one that the manifest states under its file's name."""
+    name, whole = path.stem, "composition" in certificate
+    if whole != (path.parent.name == THEOREMS):  # elsewhere a composition's own parts would stand for the manifest's
+        raise CertificateError(f"a whole theorem's certificate, and no other, lies in the folder {THEOREMS}")
     entry = manifest.claims.get(name)
     if entry is None or entry["certificate"] is None:
         raise CertificateError(f"{MANIFEST} names no such certificate")
@@ -1410,7 +1413,7 @@ def _require_named(certificate: dict[str, Any], digest: str, name: str, manifest
         raise CertificateError(f"is of another goal or verdict than {MANIFEST} states for this claim")
     if entry["certificate"] != digest:
         raise CertificateError(f"{MANIFEST} names another content for it")
-    for premise, stated in certificate.get("premises", {}).items() if "composition" not in certificate else ():
+    for premise, stated in certificate.get("premises", {}).items() if not whole else ():
         if premise not in manifest.claims:
             raise CertificateError(f"uses {str(premise)[:80]}, which {MANIFEST} does not name")
         if stated != manifest.claims[premise]["goal_digest"]:
