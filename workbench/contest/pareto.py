@@ -202,7 +202,7 @@ def all_fronts(contest: Contest, scenario: Scenario, workers: int, on_progress: 
     journal = Journal(folder / JOURNAL_NAME, {"fronts of": contest.name, "digest of values, line and code": digest},
                       resume) if folder else None
     try:
-        found |= _kept(journal) if journal else {}
+        found |= _finished_fronts(journal) if journal else {}
 
         def record(done: int, name: str, fronts: tuple[Front, ...]) -> None:
             if journal:
@@ -220,7 +220,7 @@ def _task(shared: tuple[Contest, Scenario], name: str) -> tuple[Front, ...]:
     return fronts_of(*shared, name)
 
 
-def _kept(journal: Journal) -> dict[str, tuple[Front, ...]]:
+def _finished_fronts(journal: Journal) -> dict[str, tuple[Front, ...]]:
     read: TypeAdapter[Any] = TypeAdapter(tuple[Front, ...])
     try:
         return {line["controller"]: read.validate_python(line["fronts"]) for line in journal.records}

@@ -26,10 +26,10 @@ def half_form(first: sp.Expr, beside: sp.Expr) -> tuple[sp.Matrix, sp.Expr]:
 
 
 # |rho_1| <= delta |x_1|^(1/2) in the rate of x_1; |rho_2| <= delta in that of x_2.
-first_1, beside_1 = 2 * k_2 + k_1**2 - (4 * k_2 / k_1 + k_1) * delta, k_1 + 2 * delta
-first_2, beside_2 = 2 * k_2 + k_1**2 - 2 * delta, k_1 + 2 * delta / k_1
-signed_1, absolute_1 = half_form(first_1, beside_1)
-signed_2, absolute_2 = half_form(first_2, beside_2)
+first_1, off_diagonal_1 = 2 * k_2 + k_1**2 - (4 * k_2 / k_1 + k_1) * delta, k_1 + 2 * delta
+first_2, off_diagonal_2 = 2 * k_2 + k_1**2 - 2 * delta, k_1 + 2 * delta / k_1
+signed_1, absolute_1 = half_form(first_1, off_diagonal_1)
+signed_2, absolute_2 = half_form(first_2, off_diagonal_2)
 FLOW_1, FLOW_2 = flow(rho_1, sp.S.Zero), flow(sp.S.Zero, rho_2)
 bounds_1 = (at_most(rho_1, delta * r), at_least(rho_1, -delta * r))
 bounds_2 = (at_most(rho_2, delta), at_least(rho_2, -delta))
@@ -77,7 +77,7 @@ def definite(right: sp.Expr, gains: tuple[Relation, ...], minor: sp.Expr) -> Goa
              "proved", scope=OFF_ZERO, reading="In absolute values, of which the signed form is a case.")
 def first_gains() -> Goal:
     """By the determinant, which is positive under the second condition."""
-    return definite(absolute_1, gains_1, first_1 - beside_1**2)
+    return definite(absolute_1, gains_1, first_1 - off_diagonal_1**2)
 
 
 @paper.claim("theorem.rho1", "Stable under such a perturbation", "implication",
@@ -111,7 +111,7 @@ def second_bound() -> Goal:
              scope=OFF_ZERO, reading="In absolute values, of which the signed form is a case.")
 def second_gains() -> Goal:
     """By the determinant."""
-    return definite(absolute_2, gains_2, first_2 - beside_2**2)
+    return definite(absolute_2, gains_2, first_2 - off_diagonal_2**2)
 
 
 @paper.claim("theorem.rho2", "Stable under a bounded perturbation", "implication",

@@ -13,7 +13,7 @@ from workbench.report.graph.layout import HEIGHT, Layout, Point, layout
 from workbench.report.graph.premise_graph import PremiseGraph, premise_graphs
 from workbench.report.places_in_paper import place_of
 
-LETTER, BESIDE = 7.1, 26.0  # pixels: an average letter, what stands beside the letters of a box
+LETTER, PADDING = 7.1, 26.0  # pixels: an average letter, the room around the letters of a box
 
 
 @dataclass(frozen=True)
@@ -60,7 +60,7 @@ def _label(line: ClaimView) -> str:
 
 def _svg(graph: PremiseGraph) -> Markup:
     labels = [_label(line) for line in graph.lines]
-    widths = [LETTER * len(label) + BESIDE for label in labels]
+    widths = [LETTER * len(label) + PADDING for label in labels]
     placed = layout(widths, graph.edges)
     what = "All lines below the headline statements" if graph.whole else "The lines on broken paths"
     parts = [Markup('<svg class="premises" role="group" aria-label="{}, as a graph: an edge runs from a line to what '
