@@ -26,7 +26,8 @@ LIMIT = 60.0  # seconds of processor time for one claim
 
 @dataclass(frozen=True)
 class Proof:
-    """The claims that were asked for, decided; `now` are the ids of all that were not found in the cache.
+    """The claims that were asked for, decided; `now` are the ids of all that were not found in the cache, `certified`
+    those of them that a certificate showed which lies with its paper, checked again.
 
     papers: by the name of each paper its folder or proof file; misstated: by id why a claim that was asked for could
     not be decided, in one line; it is not among the decisions.
@@ -36,12 +37,15 @@ class Proof:
     now: frozenset[str]
     papers: Mapping[str, Path]
     misstated: Mapping[str, str] = field(default_factory=dict)
+    certified: frozenset[str] = frozenset()
 
 
 def prove(found: Sequence[Target], jobs: int | None = None, use_cache: bool = True,
           on_progress: Progress = lambda done, total: None, limit: float | None = LIMIT) -> Proof:
     """Decide the claims that the targets ask for, and those that they rest on; on_progress(decided, to decide).
 
+    use_cache: what has not changed comes from the cache, and what a certificate in the paper's folder shows, which is
+    checked like one just found, is not searched for; without it every claim is decided by search.
     The result is the same for every number of jobs, the seconds apart. A claim that takes more than `limit` seconds of
     processor time stays undecided. Raises InputError, naming the file, for a proof file that cannot be read and for
     claims that do not fit together; a claim that states nothing is told of, and the others are decided.
@@ -77,7 +81,8 @@ def prove(found: Sequence[Target], jobs: int | None = None, use_cache: bool = Tr
     return Proof([d for d in every_judged if d.claim.id in asked and d.claim.id not in misstated],
                  frozenset(claim_id for claim_id, result in decided.items()
                            if result.now and claim_id not in misstated),
-                 {claim.paper: file for file in files for claim in stated[file]}, misstated)
+                 {claim.paper: file for file in files for claim in stated[file]}, misstated,
+                 frozenset(claim_id for claim_id, result in decided.items() if result.certified))
 
 
 def _well_formed(files: Sequence[Path], stated: dict[Path, tuple[Stated, ...]],
