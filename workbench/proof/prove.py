@@ -13,6 +13,7 @@ from workbench.errors import InputError
 from workbench.proof.cache import DecisionCache, FileEntry, decision_cache
 from workbench.proof.dependencies import digest
 from workbench.proof.fate import judged
+from workbench.proof.kernel_record import read_record, with_kernel
 from workbench.proof.messages import Decided, Listing
 from workbench.proof.premises import below, premises_problem
 from workbench.proof.process_pool import worker_pool
@@ -53,6 +54,7 @@ def prove(found: Sequence[Target], jobs: int | None = None, use_cache: bool = Tr
     started_ns = time.time_ns()
     cached = decision_cache() if use_cache else None
     files = files_of(found)
+    records = {file: read_record(file) for file in files}
     digests = cache(digest)  # many proof files read the same modules
     entries = {file: entry for file in files if cached and (entry := cached.file(file, digests))}
     missing = [file for file in files if file not in entries]
@@ -77,11 +79,13 @@ def prove(found: Sequence[Target], jobs: int | None = None, use_cache: bool = Tr
     every |= {claim_id: result.decision for claim_id, result in decided.items()}
     misstated = {claim_id: result.misstated for claim_id, result in decided.items()
                  if result.misstated is not None and claim_id in asked}
-    every_judged = judged([every[claim_id] for claim_id in claims if claim_id in wanted])
+    paper_files = {claim.paper: file for file in files for claim in stated[file]}
+    every_judged = with_kernel(judged([every[claim_id] for claim_id in claims if claim_id in wanted]),
+                               {paper: records[file] for paper, file in paper_files.items()})
     return Proof([d for d in every_judged if d.claim.id in asked and d.claim.id not in misstated],
                  frozenset(claim_id for claim_id, result in decided.items()
                            if result.now and claim_id not in misstated),
-                 {claim.paper: file for file in files for claim in stated[file]}, misstated,
+                 paper_files, misstated,
                  frozenset(claim_id for claim_id, result in decided.items() if result.certified))
 
 
