@@ -1,4 +1,4 @@
-"""How Sphinx builds the pages of `make docs`. Notebooks are executed, formulas are MathML, no page asks another host."""
+"""How Sphinx builds the pages: notebooks are executed, formulas are MathML, no page asks another host (`make docs`)."""
 
 from __future__ import annotations
 
@@ -26,10 +26,13 @@ if hasattr(os, "sched_setaffinity"):
 os.environ.setdefault("COLUMNS", "88")  # as wide as a page shows without scrolling
 os.environ["TTY_COMPATIBLE"] = "0"  # no colours and no progress bars in outputs, which a kernel would force
 
-import generated_pages  # noqa: E402
+import generated_pages
+import shell_cells
 
-import workbench  # noqa: E402
-from workbench.report.formulas import formula  # noqa: E402
+import workbench
+from workbench.report.formulas import formula
+
+os.environ["IPYTHONDIR"] = shell_cells.ipython_folder()
 
 project = "workbench"
 author = "The authors of workbench"
@@ -48,9 +51,11 @@ nb_execution_timeout = 300
 nb_merge_streams = True
 nb_output_stderr = "remove"  # progress; an error ends the build
 
+smartquotes = False  # `--all` is typed with two dashes
 default_role = "literal"  # docstrings write `name`
 autodoc_typehints = "signature"
 autodoc_member_order = "bysource"
+autodoc_default_options = {"exclude-members": "model_config"}
 python_maximum_signature_line_length = 88
 nitpicky = True
 # Of other libraries, whose pages are not asked for while these are built; and what is no part of the API.
@@ -58,7 +63,7 @@ nitpick_ignore_regex = [(r"py:.*", r"(?!workbench\b).*"), (r"py:class", r"workbe
 
 html_theme = "furo"
 html_title = "workbench"
-html_static_path = ["_static"]
+html_static_path = ["_static", "../workbench/report/fonts"]
 html_css_files = ["pages.css"]
 html_copy_source = False
 html_show_copyright = False

@@ -35,12 +35,12 @@ def commands() -> str:
     """The reference of every command, as typer writes it."""
     told = subprocess.run([sys.executable, "-m", "typer", "workbench.cli.app", "utils", "docs", "--name", "workbench",
                            "--title", "Commands"], capture_output=True, text=True, check=True, cwd=ROOT)
-    text = html.unescape(told.stdout)
+    text = html.unescape(told.stdout).replace("`workbench ", "`")
     first, _, rest = text.partition("\n## ")
     # In the list at the top typer cuts each sentence short: the headings below say it whole.
     head = first.split("**Commands**")[0].replace("$ [OPTIONS]", "$ workbench [OPTIONS]")
     names = "".join(f"- [`{name}`](#{name})\n" for name in re.findall(r"^## `?([\w-]+)", "## " + rest, re.MULTILINE))
-    return f"{head}**Commands**:\n\n{names}\n## {rest}".replace("`workbench ", "`")
+    return f"{head}**Commands**:\n\n{names}\n## {rest}"
 
 
 def gallery() -> str:
@@ -81,7 +81,8 @@ def files(use: str) -> str:
         for name, part in document.get("$defs", {}).items():
             if "properties" in part:
                 parts.append(f"### {name} ({one.name})\n\n{_table(part)}")
-    return "\n".join(parts)
+    text = "\n".join(parts)
+    return text.replace(" or null |", " |") if use == "reads" else text  # what a file leaves out; TOML has no null
 
 
 def _table(part: dict[str, Any]) -> str:
@@ -101,23 +102,27 @@ def _words(text: str) -> str:
 
 def _kind(value: dict[str, Any]) -> str:
     """What a value is, in words."""
-    if "$ref" in value:
-        return value["$ref"].rpartition("/")[2]
-    if "const" in value:
-        return f"`{json.dumps(value['const'])}`"
-    if "enum" in value:
-        return ", ".join(f"`{json.dumps(each)}`" for each in value["enum"])
     several = value.get("anyOf") or value.get("oneOf")
     if several:
         return " or ".join(dict.fromkeys(_kind(each) for each in several))
-    if value.get("type") == "array":
+    fixed = [value["const"]] if "const" in value else value.get("enum")
+    if fixed:
+        return ", ".join(f"`{json.dumps(each)}`" for each in fixed)
+    if "$ref" in value:
+        return str(value["$ref"].rpartition("/")[2])
+    return _plain_kind(value)
+
+
+def _plain_kind(value: dict[str, Any]) -> str:
+    """What a value of one type is, and what it holds."""
+    kind = value.get("type", "anything")
+    if kind == "array":
         items = value.get("prefixItems") or ([value["items"]] if value.get("items") else [])
         return "list of " + ", ".join(_kind(each) for each in items) if items else "list"
-    if value.get("type") == "object":
+    if kind == "object":
         inside = value.get("additionalProperties") or next(iter(value.get("patternProperties", {}).values()), None)
         return f"table of {_kind(inside)}" if isinstance(inside, dict) else "table"
-    return {"string": "text", "integer": "whole number", "boolean": "true or false"}.get(
-        value.get("type", "anything"), value.get("type", "anything"))
+    return {"string": "text", "integer": "whole number", "boolean": "true or false"}.get(kind, kind)
 
 
 def _limits(value: dict[str, Any]) -> str:
