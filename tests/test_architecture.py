@@ -148,8 +148,10 @@ def executions(module: str) -> list[str]:
     offences = []
     for call in (node for node in nodes(module) if isinstance(node, ast.Call)):
         name = _name(call)
-        # re.compile is meant for text and typst.compile for documents; every other attribute called `compile` is not.
-        of_re = isinstance(call.func, ast.Attribute) and getattr(call.func.value, "id", "") in ("re", "typst")
+        # re.compile is meant for text and typst.compile for documents, and what is given no text compiles none; every
+        # other attribute called `compile` is not.
+        of_re = isinstance(call.func, ast.Attribute) and (
+            getattr(call.func.value, "id", "") in ("re", "typst") or not (call.args or call.keywords))
         strict = any(k.arg == "strict" and getattr(k.value, "value", None) is True for k in call.keywords)
         if (name in FORBIDDEN_CALLS and not of_re) or (name in ("sympify", "S") and not strict) or (
                 name == "exec_module" and module not in MAY_LOAD_MODULES):
