@@ -1,11 +1,12 @@
-# make install | demo | test | lint | prove | kernel | clean        PYTHON=python3.12 chooses the interpreter
+# make install | demo | test | lint | docs | prove | kernel | clean        PYTHON=python3.12 chooses the interpreter
 PYTHON ?= python3
 VENV := .venv
 BIN := $(VENV)/bin
 STAMP := $(VENV)/.installed
 TOOLS := $(VENV)/.installed-tools
+PAGES := $(VENV)/.installed-docs
 
-.PHONY: install demo test lint prove kernel clean
+.PHONY: install demo test lint docs prove kernel clean
 
 install: $(TOOLS)
 
@@ -34,6 +35,14 @@ lint: install
 	@$(BIN)/ruff check
 	@$(BIN)/mypy
 
+$(PAGES): $(STAMP)
+	@$(BIN)/python -m pip install -qq --disable-pip-version-check -c constraints.txt -e ".[docs]"
+	@touch $@
+
+# Every notebook is run and every warning is an error; out/docs/index.html is where to begin.
+docs: $(PAGES)
+	@$(BIN)/python -m sphinx -q -E -W -n --keep-going -b html -d out/doctrees docs out/docs
+
 prove: $(STAMP)
 	@$(BIN)/workbench prove proofs
 
@@ -43,7 +52,7 @@ kernel:
 	@test -x $(BIN)/workbench || { echo "the workbench is missing: run make install" >&2; exit 1; }
 	@set -e; for paper in proofs/*/; do \
 		$(BIN)/workbench export-coq $$paper --out out/kernel/$$(basename $$paper); \
-		$(BIN)/workbench check-coq out/kernel/$$(basename $$paper); done
+		$(BIN)/workbench check-coq out/kernel/$$(basename $$paper) --record $$paper; done
 
 clean:
 	rm -rf $(VENV) out .cache .hypothesis .mypy_cache .pytest_cache .ruff_cache build *.egg-info

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
@@ -12,6 +12,7 @@ from workbench.cli.terminal import claim_card, err_console, out_console, progres
 from workbench.errors import InputError
 
 if TYPE_CHECKING:
+    from workbench.proof.document_format import ClaimsDocument
     from workbench.proof.prove import Proof
 
 NAME = "prove"
@@ -35,7 +36,9 @@ def command(paths: Annotated[list[str] | None, typer.Argument(
                 "--verbose", "-v", help="Each finding with its printed line and note.")] = False,
             workers: Workers = None,
             jobs: Annotated[int | None, typer.Option("--jobs", min=1, hidden=True)] = None,
-            cache: Annotated[bool, typer.Option(help="Take what has not changed from the cache.")] = True,
+            cache: Annotated[bool, typer.Option(
+                help="Take what has not changed from the cache, and do not search for what the certificates in the "
+                     "paper's folder show, each checked again; --no-cache searches all anew.")] = True,
             limit: Annotated[float, typer.Option(
                 min=0.1, help="Seconds of processor time for one claim; what takes longer stays undecided.")] = 60.0,
             ) -> None:
@@ -76,7 +79,7 @@ def command(paths: Annotated[list[str] | None, typer.Argument(
     _end(proof)
 
 
-def _print_cards(proof: Proof, document: dict[str, Any]) -> None:
+def _print_cards(proof: Proof, document: ClaimsDocument) -> None:
     from workbench.cli.findings import print_counts
 
     for card in map(claim_card, document["claims"]):
@@ -91,7 +94,9 @@ def _print_all(proof: Proof, all_rows: bool, failed: bool, verbose: bool) -> Non
         print_rows(proof.decisions)
     print_findings(proof.decisions, failed, verbose)
     print_counts(proof.decisions)
-    out_console.print(f"{len(proof.now)} decided now, {len(proof.decisions) - len(proof.now)} from the cache")
+    by_certificate = f" ({len(proof.certified)} by the certificates at hand, checked again)" if proof.certified else ""
+    out_console.print(f"{len(proof.now)} decided now{by_certificate}, "
+                      f"{len(proof.decisions) - len(proof.now)} from the cache")
 
 
 def _end(proof: Proof) -> None:
