@@ -14,8 +14,8 @@ import numpy as np
 import pandas
 import pytest
 import scipy.stats
-from dying_tasks import end_the_process
 from scenarios import LIGHT_TRAIN, ROOT
+from worker_tasks import end_the_process
 
 from workbench.errors import InputError
 from workbench.simulate import row_store, stopping
