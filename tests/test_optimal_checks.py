@@ -192,7 +192,7 @@ def test_the_least_feasible_time_is_feasible_and_what_is_less_is_not():
         find_reference(TRAIN, line(), 100.0)
     least = caught.value.least_time_s
     assert least is not None
-    found = find_reference(TRAIN, line(), least * (1 + 1e-6))
+    found = find_reference(TRAIN, line(), least * (1 + 1e-6), intervals=200)
     assert found.profile.trip_time_s <= least * (1 + 1e-6)
     with pytest.raises(InfeasibleRunError):
         find_reference(TRAIN, line(), least * 0.999)
