@@ -12,7 +12,7 @@ import sympy as sp
 
 from workbench.errors import ClaimError
 from workbench.proof.building import built
-from workbench.proof.checker import CertificateError, check
+from workbench.proof.checker import CertificateError, check, roots_of
 from workbench.proof.claim import Claim, Decision, Goal, Relation, Verdict, latex, name_of
 from workbench.proof.decide.nearest import smallest_margin
 from workbench.proof.decide.refute import examples, find_counterexample, shown_point, value_at
@@ -57,7 +57,7 @@ def _decide_statement(claim: Claim, goal: Goal) -> Decision:
         return Decision(claim, "proved", method, "exact", 0.0, {"claim": claim.id, **certificate})
     certificate_or_none = certificate_or_none or find_counterexample(goal, verdict)
     if certificate_or_none is None:
-        return Decision(claim, "undecided", _nearest(goal, proof), None, 0.0)
+        return Decision(claim, "undecided", not_shown(goal, proof), None, 0.0)
     certificate = {"claim": claim.id, **certificate_or_none}
     point = shown_point(certificate)
     correction = None
@@ -70,7 +70,8 @@ def _decide_statement(claim: Claim, goal: Goal) -> Decision:
         correction = claim.corrected_statement or nearest.show[0].latex()
         check(certificate)
     return Decision(claim, verdict, "counterexample", "exact", 0.0, certificate, point, correction,
-                    None if goal.eventually else value_at(goal, certificate["point"], certificate.get("terms")))
+                    None if goal.eventually else value_at(
+                        goal, certificate["point"], certificate.get("terms"), roots_of(certificate)))
 
 
 def _decide_condition(claim: Claim, goal: Goal) -> Decision:
@@ -133,7 +134,7 @@ def attempted_proof(goal: Goal) -> tuple[Certificate, str] | str:
         return "a claim of some later time is proved by naming that time"
     record, missing = goal_text(goal), ""
     for functions in (True, False):  # what sympy makes of Max, Min and abs the checker may have to be shown
-        found = _proofs(goal.evaluated(functions))
+        found = proofs_of(goal.evaluated(functions))
         if isinstance(found, str):
             return missing or found
         missing = "no instant was found at which all assumptions hold: they may contradict each other"
@@ -151,7 +152,7 @@ def attempted_proof(goal: Goal) -> tuple[Certificate, str] | str:
     return missing
 
 
-def _proofs(goal: Goal) -> tuple[list[dict[str, Any]], str] | str:
+def proofs_of(goal: Goal) -> tuple[list[dict[str, Any]], str] | str:
     """A proof of each relation that the goal shows, not yet checked, and how they were found; or what was not shown."""
     proofs, methods = [], []
     for place, shown in enumerate(goal.show):
@@ -164,8 +165,8 @@ def _proofs(goal: Goal) -> tuple[list[dict[str, Any]], str] | str:
     return proofs, ", ".join(dict.fromkeys(methods))
 
 
-def _nearest(goal: Goal, missing: str) -> str:
-    """What came nearest to a decision."""
+def not_shown(goal: Goal, missing: str) -> str:
+    """Why a goal is undecided: what is missing, and what came nearest to a decision."""
     if missing.startswith("a proof") or goal.eventually is not None:
         return missing
     return f"{missing}; {smallest_margin(goal)}"
