@@ -43,7 +43,7 @@ kernel:
 	@test -x $(BIN)/workbench || { echo "the workbench is missing: run make install" >&2; exit 1; }
 	@set -e; for paper in proofs/*/; do \
 		$(BIN)/workbench export-coq $$paper --out out/kernel/$$(basename $$paper); \
-		$(BIN)/workbench check-coq out/kernel/$$(basename $$paper); done
+		$(BIN)/workbench check-coq out/kernel/$$(basename $$paper) --record $$paper; done
 
 clean:
 	rm -rf $(VENV) out .cache .hypothesis .mypy_cache .pytest_cache .ruff_cache build *.egg-info

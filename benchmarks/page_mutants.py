@@ -22,11 +22,11 @@ from collections.abc import Iterator
 from dataclasses import asdict, dataclass
 from pathlib import Path
 
+from workbench.files.folders import CERTIFICATES
 from workbench.files.folders import papers_in as folders_in
 from workbench.proof.binding import check_claims
 from workbench.proof.building import built
 from workbench.proof.claim import Claim, Goal
-from workbench.proof.document import CERTIFICATES
 from workbench.proof.fingerprint import fingerprint
 from workbench.proof.latex.match import match, match_claim
 from workbench.proof.loading import ProofFile

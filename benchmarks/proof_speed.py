@@ -1,4 +1,5 @@
-"""How long `workbench prove` takes: cold with one worker and with one a core, and when the cache knows the claims.
+"""How long `workbench prove` takes: searched anew, cold with the certificates at hand, and when the cache knows the
+claims; exit 1 where the search finds other certificates than those that lie with the papers.
 
     python benchmarks/proof_speed.py [PATH ...]        default: proofs
 
@@ -18,15 +19,16 @@ import tempfile
 import time
 from pathlib import Path
 
+from workbench.files.folders import CERTIFICATES, is_paper, papers_in
 from workbench.simulate.process_pool import cores
 
 REPEATS_WARM = 5
 
 
-def seconds(paths: list[str], jobs: int, folder: Path) -> float:
+def seconds(paths: list[str], jobs: int, folder: Path, *options: str) -> float:
     """Seconds of one `workbench prove`, whatever the verdicts; its cache and its output stay in the folder."""
     command = [sys.executable, "-m", "workbench", "prove", *paths, "--workers", str(jobs),
-               "--certificates", str(folder / "certificates"), "--json", str(folder / "claims.json")]
+               "--certificates", str(folder / "certificates"), "--json", str(folder / "claims.json"), *options]
     before = time.perf_counter()
     done = subprocess.run(command, env=os.environ | {"WORKBENCH_CACHE": str(folder / "cache")}, capture_output=True,
                           text=True, check=False)
@@ -36,24 +38,39 @@ def seconds(paths: list[str], jobs: int, folder: Path) -> float:
     return taken
 
 
-def main() -> None:
-    """Print one line a case, each with its ratio to the first."""
+def differing(paths: list[str], folder: Path) -> list[str]:
+    """The certificates of papers' folders that are other than those found now, as <paper>/<file>."""
+    found = []
+    for paper in (paper for path in map(Path, paths) for paper in ([path] if is_paper(path) else papers_in(path))):
+        pairs = [{path.relative_to(place).as_posix(): path.read_bytes() for path in place.rglob("*.json")}
+                 for place in (paper / CERTIFICATES, folder / CERTIFICATES / paper.name)]
+        found += [f"{paper.name}/{name}" for name in sorted({*pairs[0], *pairs[1]})
+                  if pairs[0].get(name) != pairs[1].get(name)]
+    return found
+
+
+def main() -> int:
+    """Print one line a case, each with its ratio to the first; 1 where committed certificates are other ones."""
     paths, many = sys.argv[1:] or ["proofs"], cores()
     times: dict[str, float] = {}
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
         for jobs in sorted({1, many}):
-            shutil.rmtree(folder / "cache", ignore_errors=True)
-            times[f"cold, {jobs} worker{'s' if jobs > 1 else ''}"] = seconds(paths, jobs, folder)
+            times[f"searched anew, {jobs} worker{'s' if jobs > 1 else ''}"] = seconds(
+                paths, jobs, folder, "--no-cache")
+        others = differing(paths, folder)
+        times[f"cold, {many} workers"] = seconds(paths, many, folder)
         claims = len(json.loads((folder / "claims.json").read_text(encoding="utf-8"))["claims"])
         shutil.rmtree(folder / "cache" / "decided-claims" / "files")
         times[f"goals made again, {many} workers"] = seconds(paths, many, folder)
         times["nothing changed"] = statistics.median(seconds(paths, many, folder) for _ in range(REPEATS_WARM))
-    cold = next(iter(times.values()))
+    slowest = next(iter(times.values()))
     print(f"{claims} claims                     seconds      ratio")
     for what, taken in times.items():
-        print(f"{what:30s} {taken:9.2f} {cold / taken:9.1f}x")
+        print(f"{what:30s} {taken:9.2f} {slowest / taken:9.1f}x")
+    print(f"committed certificates that a search finds otherwise: {', '.join(others) or 'none'}")
+    return int(bool(others))
 
 
 if __name__ == "__main__":
-    main()
+    sys.exit(main())

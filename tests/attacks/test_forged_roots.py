@@ -32,7 +32,8 @@ GENUINE = {
     "two roots": refuted(["x**2 == 2", "y**2 == 3"], "x + y <= 3", {"x": "1", "y": "1"},
                          {"of": "x", "from": "7/5", "to": "71/50", "equality": "x**2 == 2"},
                          {"of": "y", "from": "17/10", "to": "9/5", "equality": "y**2 == 3"}),
-    "an example that is a root": contradiction(["x**2 == 2", "x > 0"], "x != 0", {"x": "1"}, ("1", [1]), ("-1", [2])) | {
+    "an example that is a root": contradiction(["x**2 == 2", "x > 0"], "x != 0", {"x": "1"}, ("1", [1]),
+                                               ("-1", [2])) | {
         "roots": [{"of": "x", "from": "1", "to": "2", "equality": "x**2 == 2"}]},
     "weakly": contradiction(["x > 0", "y >= 1"], "x*y >= x", {"x": "1", "y": "1"}, ("1", [2]), ("1", [0, 1])),
     "strictly": contradiction(["x > 0", "y > 1"], "x*y > x", {"x": "1", "y": "2"}, ("1", [2]), ("1", [0, 1])),
@@ -54,7 +55,8 @@ FORGED = {
                                            {"of": "y", "from": "-1", "to": "1", "equality": "y**2/y == 0"}),
     "a jump": refuted(["sign(y) == 1/2"], "y >= 9", {"y": "1"},
                       {"of": "y", "from": "-1", "to": "1", "equality": "sign(y) == 1/2"}),
-    "an inequality": refuted(["y >= 1"], "y >= 9", {"y": "1"}, {"of": "y", "from": "0", "to": "2", "equality": "y >= 1"}),
+    "an inequality": refuted(["y >= 1"], "y >= 9", {"y": "1"},
+                             {"of": "y", "from": "0", "to": "2", "equality": "y >= 1"}),
     "what is not assumed": on_circle(ROOT, {"of": "x", "from": "0", "to": "9", "equality": "x == 1"}),
     "of no symbol": on_circle(ROOT | {"of": "z"}),
     "one equality for two roots": on_circle(ROOT, ROOT | {"of": "x"}),

@@ -8,7 +8,7 @@ from typing import Annotated
 
 import typer
 
-from workbench.cli.options import JsonFile, Workers
+from workbench.cli.options import JsonFile, Workers, path_of
 from workbench.cli.terminal import err_console, out_console, progress
 
 NAME = "check-coq"
@@ -16,15 +16,22 @@ NAME = "check-coq"
 
 def command(folder: Annotated[Path, typer.Argument(metavar="DIR", help="What export-coq wrote.")],
             workers: Workers = None, json: JsonFile = None,
+            record: Annotated[str | None, typer.Option(
+                metavar="PAPER", help="Also note in this paper's folder which of its certificates the kernel has "
+                                      "accepted (kernel.json): their verdicts then say so.")] = None,
             seconds: Annotated[float, typer.Option(min=1, help="What coqc may take for one file.")] = 120) -> None:
     """Run coqc on every file that export-coq wrote; exit 0 when the kernel accepts all of them, 1 when it refuses one.
 
     What was not exported is listed with its reason and refuses nothing."""
     from workbench.files.json_output import write_json
     from workbench.files.outputs import check_outputs
-    from workbench.kernel.coqc import check_folder, cpu_seconds
+    from workbench.kernel.coqc import check_folder, cpu_seconds, version
+    from workbench.kernel.record import accepted_goals, exported_texts
+    from workbench.proof.kernel_record import record_path, write_record
 
-    check_outputs({"--json": json})
+    paper = None if record is None else path_of(record)
+    texts = {} if paper is None else exported_texts(paper)
+    check_outputs({"--json": json, "--record": None if paper is None else record_path(paper)})
     with progress() as show:
         rows = list(check_folder(folder, workers or os.cpu_count() or 1, seconds,
                                  lambda done, total: show("coqc", done, total)))
@@ -39,5 +46,9 @@ def command(folder: Annotated[Path, typer.Argument(metavar="DIR", help="What exp
         write_json(json, {"version": 1, "seconds": round(cpu_seconds(), 1), "certificates": [
             {"claim": row.claim, "outcome": row.outcome, "reason": row.reason, "goal_digest": row.goal_digest,
              "certificate": row.certificate} for row in rows]})
+    if paper is not None:
+        accepted = accepted_goals(rows, texts)
+        write_record(paper, version(), accepted)
+        out_console.print(f"{len(accepted)} noted in {record_path(paper)}", soft_wrap=True, markup=False)
     if count["refused"]:
         raise typer.Exit(1)

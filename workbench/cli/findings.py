@@ -91,6 +91,8 @@ def print_counts(decisions: Sequence[Decision]) -> None:
             line = Text(f"{total} {what.format('' if total == 1 else 's', '' if papers == 1 else 's')}: ")
             line.append_text(Text(", ").join(Text(count_words(v, counts[v], under), COLOURS[v])
                                              for v in VERDICTS if counts[v]))
+            if by_kernel := sum(d.trust == "kernel" for d in of_them):
+                line.append(f"; {by_kernel} of them accepted by Coq's kernel too")
             _paragraph(line, 0)
 
 

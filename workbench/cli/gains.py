@@ -21,11 +21,12 @@ def command(paper: PaperOrFile, json: JsonFile = None,
             runs: Annotated[bool, typer.Option(help="Simulate the found gains beside the stated ones.")] = True,
             workers: Workers = None) -> None:
     """Which conditions the stated gains meet, what can be proved of them, and gains that are proved to do better."""
+    from workbench.files.folders import CERTIFICATES
     from workbench.files.json_output import write_json
     from workbench.files.outputs import check_outputs
     from workbench.gains.certificate import write_certificates
     from workbench.paper.gain_effects import effects, gains_of
-    from workbench.proof.document import CERTIFICATES, check_places
+    from workbench.proof.document import check_places
     from workbench.report.gains import gains_document, gains_result
 
     loaded = load(paper)

@@ -35,7 +35,9 @@ def command(paths: Annotated[list[str] | None, typer.Argument(
                 "--verbose", "-v", help="Each finding with its printed line and note.")] = False,
             workers: Workers = None,
             jobs: Annotated[int | None, typer.Option("--jobs", min=1, hidden=True)] = None,
-            cache: Annotated[bool, typer.Option(help="Take what has not changed from the cache.")] = True,
+            cache: Annotated[bool, typer.Option(
+                help="Take what has not changed from the cache, and do not search for what the certificates in the "
+                     "paper's folder show, each checked again; --no-cache searches all anew.")] = True,
             limit: Annotated[float, typer.Option(
                 min=0.1, help="Seconds of processor time for one claim; what takes longer stays undecided.")] = 60.0,
             ) -> None:
@@ -91,7 +93,9 @@ def _print_all(proof: Proof, all_rows: bool, failed: bool, verbose: bool) -> Non
         print_rows(proof.decisions)
     print_findings(proof.decisions, failed, verbose)
     print_counts(proof.decisions)
-    out_console.print(f"{len(proof.now)} decided now, {len(proof.decisions) - len(proof.now)} from the cache")
+    by_certificate = f" ({len(proof.certified)} by the certificates at hand, checked again)" if proof.certified else ""
+    out_console.print(f"{len(proof.now)} decided now{by_certificate}, "
+                      f"{len(proof.decisions) - len(proof.now)} from the cache")
 
 
 def _end(proof: Proof) -> None:

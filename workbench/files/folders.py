@@ -9,6 +9,7 @@ from typing import Any, TypeVar
 from workbench.files.modules import has_module, module_in
 
 PAPER_FILE, CLAIMS_FOLDER, STUDY_FILE, PAPERS_FOLDER = "paper.py", "claims", "study.toml", "proofs"
+CERTIFICATES = "certificates"
 
 T = TypeVar("T")
 
@@ -25,6 +26,11 @@ def is_paper(folder: Path) -> bool:
     """Whether a folder is a paper's: it has a paper.py, claims, or a study."""
     return is_folder(folder) and ((folder / PAPER_FILE).is_file() or (folder / STUDY_FILE).is_file()
                                 or any((folder / CLAIMS_FOLDER).glob("*.py")))
+
+
+def certificates_folder(path: Path, paper: str) -> Path:
+    """Where the certificates of a paper's folder or proof file are written unless another place is asked for."""
+    return path / CERTIFICATES if path.is_dir() else path.parent / CERTIFICATES / paper
 
 
 def papers_in(folder: Path) -> list[Path]:

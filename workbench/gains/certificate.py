@@ -56,7 +56,7 @@ def goal_certificate(claim: str, goal: Goal) -> Certificate:
     proof = prove_goal(goal)
     if proof is None:
         raise SolverError(f"{claim}: could not be proved: state it in smaller steps")
-    return {"claim": claim, **proof[0]}
+    return {"claim": claim, **proof}
 
 
 def checked(certificate: Certificate) -> Certificate:

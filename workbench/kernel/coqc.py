@@ -35,6 +35,12 @@ class Checked:
     goal_digest: str = ""
     certificate: str = ""
     motion: bool = False
+    text: str = ""  # the sha256 of its Coq file
+
+
+def version() -> str:
+    """The version of coqc."""
+    return subprocess.run(["coqc", "--print-version"], capture_output=True, text=True, check=True).stdout.split()[0]
 
 
 def missing() -> str | None:
@@ -87,7 +93,7 @@ def _check(folder: Path, row: dict[str, Any], seconds: float) -> Checked:
              "motion": row["motion"]}
     if "not_exported" in row:
         return Checked(outcome="not exported", reason=row["not_exported"], **known)
-    name = row["file"]
+    name, known["text"] = row["file"], row["sha256"]
     if Path(name).name != name or sha256(read_text(folder / name, "Coq file")) != row["sha256"]:
         return Checked(outcome="refused", reason="the file is not the one that was exported", **known)
     said, trouble = _coqc(folder, name, seconds)

@@ -8,12 +8,12 @@ from pathlib import Path
 from typing import Any
 
 from workbench.errors import InputError, WorkbenchError
+from workbench.files.folders import CERTIFICATES
 from workbench.files.folders import papers_in as folders_in
 from workbench.files.text import read_text
 from workbench.proof.checker import MANIFEST, THEOREMS, CertificateError, Manifest, Row, read_manifest
 from workbench.proof.claim import Claim
 from workbench.proof.claim_digest import stated_digest
-from workbench.proof.document import CERTIFICATES
 from workbench.proof.loading import ProofFile
 from workbench.proof.paper import Paper, papers_in
 from workbench.proof.selection import files_of, states_claims, targets

@@ -235,6 +235,7 @@ class Context:
         self.functions: dict[str, tuple[str, Ratio]] = {}
         self.indexed, self.rates, self.inputs = set(indexed), flow, set(inputs or [])
         self.flow: dict[str, Ratio] = {}
+        self.values: dict[str, Ratio] = {}
         if any(calls(rate, "D") for rate in flow.values()):
             raise CertificateError("a rate is given by a derivative")
         for name, rate in flow.items():
@@ -242,8 +243,10 @@ class Context:
 
     def read(self, text: str) -> Ratio:
         """The value of an expression in which indexed symbols stand only inside Sum(...)."""
-        self._require_bound(parse(text), text)
-        return self.node(parse(text))
+        if text not in self.values:  # a later reading has the same atoms: those made first are found first
+            self._require_bound(tree := parse(text), text)
+            self.values[text] = self.node(tree)
+        return self.values[text]
 
     def term(self, text: str) -> Ratio:
         """The value of an expression of one index, as it stands inside Sum(...)."""
@@ -1354,7 +1357,7 @@ def _other_parts(place: Path, theorems: Manifest, paper: Manifest) -> list[Row]:
     for name, entry in theorems.claims.items():
         path = place / f"{name}.json"
         try:
-            parts = _json(_text(path))["composition"]
+            parts = exact_json(_text(path))["composition"]
             found = {part: certificate["goal_digest"] for part, certificate in parts["certificates"].items()}
             found |= {name: entry["goal_digest"]} | dict.fromkeys(parts["cited"])
             if theorems.paper == paper.paper and all(
@@ -1369,7 +1372,7 @@ def _other_parts(place: Path, theorems: Manifest, paper: Manifest) -> list[Row]:
 
 def _circular(paths: set[Path]) -> set[Path]:
     """The certificates, of those that hold, that are premises of themselves, directly or not."""
-    below = {path: {path.parent / f"{name}.json" for name in _json(_text(path)).get("premises", {})} & paths
+    below = {path: {path.parent / f"{name}.json" for name in exact_json(_text(path)).get("premises", {})} & paths
              for path in paths}
     while leaves := {path for path, others in below.items() if not others}:  # what uses nothing is no part of a circle
         below = {path: others - leaves for path, others in below.items() if path not in leaves}
@@ -1385,7 +1388,7 @@ def check_file(path: Path, manifest: Manifest | None = None, digest: str | None 
     verdict = "?"
     try:
         text = _text(path)
-        certificate = _json(text)
+        certificate = exact_json(text)
         if not isinstance(certificate, dict):
             raise CertificateError("is no certificate")
         verdict = str(certificate.get("verdict"))[:20]
@@ -1432,7 +1435,7 @@ class Manifest:
 def read_manifest(path: Path) -> Manifest:
     """A manifest read and found whole; CertificateError where it is not."""
     try:
-        found = _json(_text(path))
+        found = exact_json(_text(path))
         if found["version"] != 2:
             raise CertificateError(f"version {str(found['version'])[:20]} binds no certificate to its claim's goal: "
                                    "run 'workbench prove' (of gains 'workbench gains') again")
@@ -1451,7 +1454,7 @@ def read_manifest(path: Path) -> Manifest:
     return Manifest(paper, claims)
 
 
-def _json(text: str) -> Any:
+def exact_json(text: str) -> Any:
     """JSON in which no key stands twice and every number is finite and whole."""
     return json.loads(text, object_pairs_hook=_unique, parse_constant=_no_number, parse_float=_no_number)
 
@@ -1478,14 +1481,11 @@ def _unique(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
     return dict(pairs)
 
 
-USAGE = "usage: checker.py FOLDER | checker.py FILE --claim-digest SHA256\n"
-
-
 def main() -> int:
     """Check what the command line names; 0 when all certificates hold, 1 when not, 2 when there is none."""
     place, *option = sys.argv[1:] or ["."]
     if option and not (len(option) == 2 and option[0] == "--claim-digest" and Path(place).is_file()):
-        sys.stderr.write(USAGE)
+        sys.stderr.write("usage: checker.py FOLDER | checker.py FILE --claim-digest SHA256\n")
         return 2
     path = Path(place)
     results = [check_file(path, None, option[1] if option else None)] if path.is_file() else check_folder(path)

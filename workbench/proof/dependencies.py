@@ -58,11 +58,16 @@ def reads(sources: Iterable[str], others: tuple[str, ...], cache_folder: Path | 
 
     Modules whose name starts with one of `others` belong to other proof files.
     """
-    modules = {module.__file__ for name, module in list(sys.modules.items())
-               if getattr(module, "__file__", None) and not name.startswith(("__", *others))}
-    paths = {*sources, *_data, *map(str, inputs_read()), *(str(Path(str(file)).absolute()) for file in modules)}
+    modules = {file for name, module in list(sys.modules.items())
+               if (file := getattr(module, "__file__", None)) and not name.startswith(("__", *others))}
+    paths = {*sources, *_data, *map(str, inputs_read()), *map(_absolute, modules)}
     kept = f"{cache_folder}{os.sep}"
     return frozenset(path for path in paths if _is_own(path) and not path.startswith(kept))
+
+
+@cache
+def _absolute(file: str) -> str:
+    return str(Path(file).absolute())
 
 
 @cache

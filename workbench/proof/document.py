@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from workbench.errors import InputError
+from workbench.files.folders import CERTIFICATES, certificates_folder
 from workbench.files.outputs import check_outputs
 from workbench.files.own_files import MANIFEST, read_manifest, replace_files, sha256
 from workbench.files.writing import require_inside
@@ -20,7 +21,6 @@ from workbench.proof.whole_theorem import composed, whole_theorems
 if TYPE_CHECKING:
     from workbench.proof.prove import Proof
 
-CERTIFICATES = "certificates"
 ANOTHER_FOLDER = "name another folder by --certificates"
 
 
@@ -52,8 +52,7 @@ def places(proof: Proof, chosen: Path | None) -> Places:
     """Below the folder that is chosen, else in the papers' own folders, of a single proof file beside it."""
     if chosen is not None:
         return Places(chosen)
-    own = {paper: path / CERTIFICATES if path.is_dir() else path.parent / CERTIFICATES / paper
-           for paper, path in proof.papers.items()}
+    own = {paper: certificates_folder(path, paper) for paper, path in proof.papers.items()}
     return Places(Path(CERTIFICATES), own,
                   {paper: path if path.is_dir() else path.parent for paper, path in proof.papers.items()})
 

@@ -21,7 +21,8 @@ class Decided:
     """A claim decided, whether that was done now or found in the cache, and what its file has read until then.
 
     misstated: why there is nothing to decide, as one line that names the file; the decision is then `undecided`.
-    lasting: whether it would be decided in the same way again.
+    lasting: whether it would be decided in the same way again; certified: whether a certificate that lies with the
+    paper showed it.
     """
 
     decision: Decision
@@ -29,3 +30,4 @@ class Decided:
     reads: frozenset[str]
     misstated: str | None = None
     lasting: bool = True
+    certified: bool = False

@@ -13,6 +13,7 @@ from workbench.errors import InputError
 from workbench.proof.cache import DecisionCache, FileEntry, decision_cache
 from workbench.proof.dependencies import digest
 from workbench.proof.fate import judged
+from workbench.proof.kernel_record import read_record, with_kernel
 from workbench.proof.messages import Decided, Listing
 from workbench.proof.premises import below, premises_problem
 from workbench.proof.process_pool import worker_pool
@@ -26,7 +27,8 @@ LIMIT = 60.0  # seconds of processor time for one claim
 
 @dataclass(frozen=True)
 class Proof:
-    """The claims that were asked for, decided; `now` are the ids of all that were not found in the cache.
+    """The claims that were asked for, decided; `now` are the ids of all that were not found in the cache, `certified`
+    those of them that a certificate showed which lies with its paper, checked again.
 
     papers: by the name of each paper its folder or proof file; misstated: by id why a claim that was asked for could
     not be decided, in one line; it is not among the decisions.
@@ -36,12 +38,15 @@ class Proof:
     now: frozenset[str]
     papers: Mapping[str, Path]
     misstated: Mapping[str, str] = field(default_factory=dict)
+    certified: frozenset[str] = frozenset()
 
 
 def prove(found: Sequence[Target], jobs: int | None = None, use_cache: bool = True,
           on_progress: Progress = lambda done, total: None, limit: float | None = LIMIT) -> Proof:
     """Decide the claims that the targets ask for, and those that they rest on; on_progress(decided, to decide).
 
+    use_cache: what has not changed comes from the cache, and what a certificate in the paper's folder shows, which is
+    checked like one just found, is not searched for; without it every claim is decided by search.
     The result is the same for every number of jobs, the seconds apart. A claim that takes more than `limit` seconds of
     processor time stays undecided. Raises InputError, naming the file, for a proof file that cannot be read and for
     claims that do not fit together; a claim that states nothing is told of, and the others are decided.
@@ -49,6 +54,7 @@ def prove(found: Sequence[Target], jobs: int | None = None, use_cache: bool = Tr
     started_ns = time.time_ns()
     cached = decision_cache() if use_cache else None
     files = files_of(found)
+    records = {file: read_record(file) for file in files}
     digests = cache(digest)  # many proof files read the same modules
     entries = {file: entry for file in files if cached and (entry := cached.file(file, digests))}
     missing = [file for file in files if file not in entries]
@@ -73,11 +79,14 @@ def prove(found: Sequence[Target], jobs: int | None = None, use_cache: bool = Tr
     every |= {claim_id: result.decision for claim_id, result in decided.items()}
     misstated = {claim_id: result.misstated for claim_id, result in decided.items()
                  if result.misstated is not None and claim_id in asked}
-    every_judged = judged([every[claim_id] for claim_id in claims if claim_id in wanted])
+    paper_files = {claim.paper: file for file in files for claim in stated[file]}
+    every_judged = with_kernel(judged([every[claim_id] for claim_id in claims if claim_id in wanted]),
+                               {paper: records[file] for paper, file in paper_files.items()})
     return Proof([d for d in every_judged if d.claim.id in asked and d.claim.id not in misstated],
                  frozenset(claim_id for claim_id, result in decided.items()
                            if result.now and claim_id not in misstated),
-                 {claim.paper: file for file in files for claim in stated[file]}, misstated)
+                 paper_files, misstated,
+                 frozenset(claim_id for claim_id, result in decided.items() if result.certified))
 
 
 def _well_formed(files: Sequence[Path], stated: dict[Path, tuple[Stated, ...]],

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import fields, replace
 from functools import cache
 from pathlib import Path
+from typing import Any, Literal
 
 from workbench.errors import InputError, WorkbenchError
 from workbench.proof.cache import DecisionCache, decision_cache
@@ -17,8 +18,12 @@ from workbench.proof.fingerprint import fingerprint
 from workbench.proof.loading import ProofFile
 from workbench.proof.messages import Decided, Listing
 from workbench.proof.paper import papers_in
+from workbench.proof.recorded_certificate import decided_by, recorded_certificate
 from workbench.proof.time_limit import OutOfTime, at_most_seconds
 from workbench.proof.verdict import Decision, Stated
+
+How = Literal["cache", "certificate", "search"]
+Certificate = dict[str, Any]
 
 
 class Worker:
@@ -42,9 +47,10 @@ class Worker:
         Raises InputError when the file cannot be imported.
         """
         claim = next(c for paper in papers_in(self._file(path)) for c in paper.claims if c.id == claim_id)
+        recorded = recorded_certificate(path, claim) if self.cached else None
         try:
             with self._file(path).at_home(), at_most_seconds(self.limit):
-                decision, now = self._decision(claim)
+                decision, how = self._decision(claim, recorded)
         except OutOfTime:
             late = f"not decided within {self.limit:g} seconds: allow more with --limit, or state it in smaller steps"
             return self._without_verdict(path, claim, late, None)
@@ -56,28 +62,32 @@ class Worker:
             fails = InputError(path, "", f"claim {claim_id}: the deciders fail on it ({what}): "
                                          "state it in another form, in smaller steps if it is long")
             return self._without_verdict(path, claim, "misstated", str(fails))
-        return Decided(replace(decision, claim=_stated(claim)), now, self._reads(path))
+        return Decided(replace(decision, claim=_stated(claim)), how != "cache", self._reads(path),
+                       certified=how == "certificate")
 
     def _without_verdict(self, path: Path, claim: Claim, method: str, misstated: str | None) -> Decided:
         return Decided(Decision(_stated(claim), "undecided", method, None, 0.0), True, self._reads(path), misstated,
                        lasting=False)
 
-    def _decision(self, claim: Claim) -> tuple[Decision, bool]:
+    def _decision(self, claim: Claim, recorded: Certificate | None) -> tuple[Decision, How]:
         # Each goal is made once, although the fingerprint needs it too.
         claim = replace(claim, build=cache(claim.build) if claim.build else None,
                         correction=cache(claim.correction) if claim.correction else None)
         key = fingerprint(claim) if self.cached and claim.build else None
         if self.cached is None or key is None:
-            return decide(claim), True
+            return decide(claim), "search"
         found = self.cached.claim(key)
         if found is not None and _holds(found, claim):
-            return with_match(claim, found), False
-        decision = decide(claim)
+            return with_match(claim, found), "cache"
+        shown = None if recorded is None else decided_by(claim, recorded)
+        decision = shown or decide(claim)
         self.cached.keep_claim(key, replace(decision, claim=_stated(claim)))
-        return decision, True
+        return decision, "search" if shown is None else "certificate"
 
     def _file(self, path: Path) -> ProofFile:
-        return self.files.setdefault(path, ProofFile(path))
+        if path not in self.files:
+            self.files[path] = ProofFile(path)
+        return self.files[path]
 
     def _reads(self, path: Path) -> frozenset[str]:
         return self._file(path).reads(self.cached.folder) if self.cached else frozenset()

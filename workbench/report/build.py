@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import Any
 
 from workbench.errors import InputError
-from workbench.files.folders import is_paper
+from workbench.files.folders import CERTIFICATES, is_paper
 from workbench.files.json_output import write_json
 from workbench.files.outputs import check_outputs
 from workbench.files.own_files import read_manifest
@@ -22,7 +22,7 @@ from workbench.paper.loading import Loaded
 from workbench.paper.results import StudyResult
 from workbench.paper.study import Study
 from workbench.paper.tuning_record import Pairs
-from workbench.proof.document import CERTIFICATES, Places, claims_document, write_certificates
+from workbench.proof.document import Places, claims_document, write_certificates
 from workbench.proof.prove import prove
 from workbench.proof.selection import Target, targets
 from workbench.report.charts.chart import chart_of

@@ -19,7 +19,7 @@ from workbench.report.worded import show, worded
 VERDICTS = {"refuted": "✗", "violated": "!", "gap": "⋯", "undecided": "?", "assumed": "≔", "proved": "✓"}
 NOT_AS_PRINTED = ("refuted", "violated", "gap")
 TRUST = {"exact": "certificate re-checked exactly", "oracle": "a solver's word",
-         "kernel": "re-checked by Coq"}
+         "kernel": "certificate re-checked exactly, and accepted by Coq's kernel"}
 CORRECTIONS = {"refuted": "True instead", "violated": "Repaired", "gap": "What does follow"}
 FACTS = (("Stated", "stated"), ("Computed", "computed"), ("Read as", "reading"), ("Other reading", "glyph_claim"),
          ("Mends", "mends"), ("Scope", "scope"), ("Certificate", "certificate"))

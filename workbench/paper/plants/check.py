@@ -11,13 +11,12 @@ import sympy as sp
 from numpy.typing import NDArray
 
 from workbench.compile.vector_code import numeric_vector
-from workbench.files.folders import STUDY_FILE, held_in
+from workbench.files.folders import CERTIFICATES, STUDY_FILE, held_in
 from workbench.model.law import period
 from workbench.paper.loading import load
 from workbench.paper.plants.problem import LocatedPlantStudy
 from workbench.proof.binding import check_claims, papers_at_hand
 from workbench.proof.checker import check_folder
-from workbench.proof.document import CERTIFICATES
 from workbench.simulate.plants.arrays import compiled
 from workbench.simulate.plants.run import Entrant, PlantRun
 from workbench.simulate.plants.run import run as run_plant

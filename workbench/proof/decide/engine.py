@@ -14,6 +14,7 @@ from workbench.errors import ClaimError
 from workbench.proof.building import built
 from workbench.proof.checker import CertificateError, check, roots_of
 from workbench.proof.claim import Claim, Decision, Goal, Relation, Verdict, latex, name_of
+from workbench.proof.decide.method import method_of
 from workbench.proof.decide.nearest import smallest_margin
 from workbench.proof.decide.refute import examples, find_counterexample, shown_point, value_at
 from workbench.proof.decide.search import prove_relation
@@ -49,38 +50,29 @@ def with_match(claim: Claim, decision: Decision) -> Decision:
 
 
 def _decide_statement(claim: Claim, goal: Goal) -> Decision:
-    verdict: Verdict = "gap" if claim.kind in ("implication", "limit") and not claim.closed_loop else "refuted"
+    verdict = verdict_of_failure(claim)
     certificate_or_none = find_counterexample(goal, verdict, quick=True)  # a search of a proof would be in vain
     proof = attempted_proof(goal) if certificate_or_none is None else ""
     if not isinstance(proof, str):
-        certificate, method = proof
-        return Decision(claim, "proved", method, "exact", 0.0, {"claim": claim.id, **certificate})
+        return shown_by(claim, goal, {"claim": claim.id, **proof})
     certificate_or_none = certificate_or_none or find_counterexample(goal, verdict)
     if certificate_or_none is None:
         return Decision(claim, "undecided", not_shown(goal, proof), None, 0.0)
     certificate = {"claim": claim.id, **certificate_or_none}
-    point = shown_point(certificate)
-    correction = None
     if claim.correction is not None:
-        nearest = built(claim, claim.correction, "correction")
-        repaired = prove_goal(nearest)
+        repaired = prove_goal(built(claim, claim.correction, "correction"))
         if repaired is None:
             raise ClaimError(f"claim {claim.id}: its correction could not be proved: state a true one")
-        certificate["correction"] = {k: v for k, v in repaired[0].items() if k not in ("version", "verdict")}
-        correction = claim.corrected_statement or nearest.show[0].latex()
+        certificate["correction"] = {k: v for k, v in repaired.items() if k not in ("version", "verdict")}
         check(certificate)
-    return Decision(claim, verdict, "counterexample", "exact", 0.0, certificate, point, correction,
-                    None if goal.eventually else value_at(
-                        goal, certificate["point"], certificate.get("terms"), roots_of(certificate)))
+    return shown_by(claim, goal, certificate)
 
 
 def _decide_condition(claim: Claim, goal: Goal) -> Decision:
     """A condition at stated parameters: the values decide, exactly."""
-    stated = {name_of(s): str(v) for s, v in (claim.at or {}).items()}
-    record = goal_text(goal)
+    falsified: Certificate = {"claim": claim.id, "version": 1, "verdict": "violated", "goal": goal_text(goal),
+                              "point": _stated_values(claim)}
     try:
-        falsified: Certificate = {"claim": claim.id, "version": 1, "verdict": "violated", "goal": record,
-                                  "point": stated}
         check(falsified)
     except CertificateError as trouble:
         if "the goal holds" not in str(trouble):
@@ -88,18 +80,54 @@ def _decide_condition(claim: Claim, goal: Goal) -> Decision:
         proof = attempted_proof(pinned(goal, claim.at or {}))
         if isinstance(proof, str):
             return Decision(claim, "undecided", f"holds at the stated values, but {proof}", None, 0.0)
-        return Decision(claim, "proved", f"exact evaluation at the stated values; {proof[1]}", "exact", 0.0,
-                        {"claim": claim.id, **proof[0]}, computed=value_at(goal, stated))
-    correction = None
+        return shown_by(claim, goal, {"claim": claim.id, **proof})
     if claim.repair is not None:
         repaired = prove_goal(pinned(goal, claim.repair))
         if repaired is None:
             raise ClaimError(f"claim {claim.id}: its repair could not be proved: give values that meet it")
-        falsified["repair"] = {k: v for k, v in repaired[0].items() if k not in ("version", "verdict")}
-        correction = ",\\ ".join(f"{latex(s)} = {_fraction(v)}" for s, v in claim.repair.items())
+        falsified["repair"] = {k: v for k, v in repaired.items() if k not in ("version", "verdict")}
         check(falsified)
-    return Decision(claim, "violated", "exact evaluation at the stated values", "exact", 0.0, falsified, stated,
-                    correction, value_at(goal, stated))
+    return shown_by(claim, goal, falsified)
+
+
+def verdict_of_failure(claim: Claim) -> Verdict:
+    """What a claim is called that does not hold."""
+    if claim.at is not None:
+        return "violated"
+    return "gap" if claim.kind in ("implication", "limit") and not claim.closed_loop else "refuted"
+
+
+def shown_by(claim: Claim, goal: Goal, certificate: Certificate) -> Decision:
+    """The decision on a claim that a certificate of it shows, which the checker has accepted."""
+    verdict: Verdict = certificate["verdict"]
+    at_values = "exact evaluation at the stated values"
+    if verdict == "proved":
+        method = method_of(certificate["proofs"])
+        if claim.at is None:
+            return Decision(claim, verdict, method, "exact", 0.0, certificate)
+        return Decision(claim, verdict, f"{at_values}; {method}", "exact", 0.0, certificate,
+                        computed=value_at(goal, _stated_values(claim)))
+    point, correction = _in_order(shown_point(certificate), goal), None
+    if claim.at is None and claim.correction is not None:
+        nearest = built(claim, claim.correction, "correction")
+        correction = claim.corrected_statement or nearest.show[0].latex()
+    if claim.at is not None and claim.repair is not None:
+        correction = ",\\ ".join(f"{latex(s)} = {_fraction(v)}" for s, v in claim.repair.items())
+    computed = None if goal.eventually else value_at(
+        goal, certificate["point"], certificate.get("terms"), roots_of(certificate))
+    return Decision(claim, verdict, "counterexample" if claim.at is None else at_values, "exact", 0.0, certificate,
+                    point, correction, computed)
+
+
+def _in_order(point: dict[str, str], goal: Goal) -> dict[str, str]:
+    """Values as they are shown: first of what moves, as the goal states it, the others by name."""
+    moving = [name_of(s) for s in goal.flow]
+    rest = sorted(point.keys() - set(moving))
+    return {name: point[name] for name in (*moving, *rest) if name in point}
+
+
+def _stated_values(claim: Claim) -> dict[str, str]:
+    return {name_of(s): str(v) for s, v in (claim.at or {}).items()}
 
 
 def pinned(goal: Goal, values: dict[Any, Fraction]) -> Goal:
@@ -122,14 +150,14 @@ def pinned(goal: Goal, values: dict[Any, Fraction]) -> Goal:
                    lemmas=put(goal.lemmas), facts=tuple(f.xreplace(exact) for f in goal.facts), inputs=())
 
 
-def prove_goal(goal: Goal) -> tuple[Certificate, str] | None:
-    """A checked certificate of verdict `proved` and the method that found it, or None."""
+def prove_goal(goal: Goal) -> Certificate | None:
+    """A checked certificate of verdict `proved`, or None."""
     found = attempted_proof(goal)
     return None if isinstance(found, str) else found
 
 
-def attempted_proof(goal: Goal) -> tuple[Certificate, str] | str:
-    """A checked certificate and the method that found it, or what was not shown."""
+def attempted_proof(goal: Goal) -> Certificate | str:
+    """A checked certificate of verdict `proved`, or what was not shown."""
     if goal.eventually is not None:
         return "a claim of some later time is proved by naming that time"
     record, missing = goal_text(goal), ""
@@ -140,7 +168,7 @@ def attempted_proof(goal: Goal) -> tuple[Certificate, str] | str:
         missing = "no instant was found at which all assumptions hold: they may contradict each other"
         for example in examples(goal):
             certificate: Certificate = {"version": 1, "verdict": "proved", "goal": record, **example,
-                                        "proofs": found[0]}
+                                        "proofs": found}
             try:
                 check(certificate)
             except CertificateError as trouble:
@@ -148,21 +176,20 @@ def attempted_proof(goal: Goal) -> tuple[Certificate, str] | str:
                 if "example" not in str(trouble):
                     break
             else:
-                return certificate, found[1]
+                return certificate
     return missing
 
 
-def proofs_of(goal: Goal) -> tuple[list[dict[str, Any]], str] | str:
-    """A proof of each relation that the goal shows, not yet checked, and how they were found; or what was not shown."""
-    proofs, methods = [], []
+def proofs_of(goal: Goal) -> list[dict[str, Any]] | str:
+    """A proof of each relation that the goal shows, not yet checked; or what was not shown."""
+    proofs = []
     for place, shown in enumerate(goal.show):
         found = prove_relation(goal, shown)
         if found is None:
             of = f" (relation {place + 1} of {len(goal.show)})" if len(goal.show) > 1 else ""
             return f"not shown{of}: {_shortened(relation_text(shown))}"
         proofs.append(found[0])
-        methods.append(found[1])
-    return proofs, ", ".join(dict.fromkeys(methods))
+    return proofs
 
 
 def not_shown(goal: Goal, missing: str) -> str:

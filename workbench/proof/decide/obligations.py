@@ -17,6 +17,7 @@ from workbench.proof.checker import CertificateError, check, split_relation
 from workbench.proof.claim import OPPOSITE, Goal, Operator
 from workbench.proof.decide.combination import find_combination
 from workbench.proof.decide.engine import Certificate, not_shown, proofs_of
+from workbench.proof.decide.method import method_of
 from workbench.proof.decide.refute import descended_counterexample, examples, find_counterexample, quick_examples
 from workbench.proof.decide.turned import PLACES, contradictory, exclusion_of, find_turned, renumbered
 from workbench.proof.obligation import goals_of
@@ -76,7 +77,7 @@ def _decided(goal: Goal) -> Outcome:
     if proof is not None:
         certificate = _certified(goal, proof)
         if certificate is not None:
-            return Outcome("proved", str(proof["rule"]), (certificate,))
+            return Outcome("proved", method_of([proof]), (certificate,))
     broken = find_counterexample(goal, "refuted")
     if broken is not None:
         return Outcome("refuted", "counterexample", (broken,))
@@ -96,7 +97,7 @@ def _proof(goal: Goal) -> tuple[Proof | None, str]:
             return found, ""
     proofs = proofs_of(usual)
     if not isinstance(proofs, str):
-        return proofs[0][0], "a proof was found, and no point at which all that it uses holds"
+        return proofs[0], "a proof was found, and no point at which all that it uses holds"
     return find_turned(goal), proofs
 
 

@@ -1,0 +1,98 @@
+"""What Coq's kernel has accepted is said of the goals that it was shown, and of no others."""
+
+import json
+from dataclasses import replace
+
+import pytest
+from command_line import run
+
+from workbench.kernel.coqc import Checked
+from workbench.kernel.record import accepted_goals, exported_texts
+from workbench.proof.document import places, write_certificates
+from workbench.proof.kernel_record import RECORD, write_record
+from workbench.proof.prove import prove
+from workbench.proof.selection import targets
+
+CLAIMS = '''
+import sympy as sp
+
+from workbench.proof.claim import Goal, at_least
+from workbench.proof.paper import Paper
+
+paper = Paper("doe2031", "nobody, nowhere")
+x = sp.Symbol("x", real=True)
+
+
+@paper.claim("1", "true", "inequality", "x", "proved")
+def true() -> Goal:
+    return Goal((at_least(x**2, 0),))
+
+
+@paper.claim("2", "false", "inequality", "x", "refuted")
+def false() -> Goal:
+    return Goal((at_least(x**2, 1),))
+'''
+
+
+@pytest.fixture
+def paper(tmp_path, monkeypatch):
+    """A paper's folder with its certificates."""
+    monkeypatch.setenv("WORKBENCH_CACHE", str(tmp_path / "cache"))
+    folder = tmp_path / "doe2031"
+    folder.mkdir()
+    (folder / "paper.py").write_text(CLAIMS)
+    found = decided(folder)
+    write_certificates(found.decisions, places(found, None))
+    return folder
+
+
+def decided(folder):
+    return prove(targets([str(folder)]), jobs=1)
+
+
+def trusts(folder):
+    return {d.claim.equation: d.trust for d in decided(folder).decisions}
+
+
+def rows(folder):
+    """What check-coq finds of the paper's exports where the kernel accepts the first and refuses the second."""
+    digests = {d.claim.id: json.loads((folder / "certificates" / f"{d.claim.equation}.json").read_text())["goal_digest"]
+               for d in decided(folder).decisions}
+    texts = exported_texts(folder)
+    return [Checked(claim, outcome, goal_digest=digests[claim], text=texts[claim])
+            for claim, outcome in zip(sorted(texts), ("accepted", "refused"), strict=True)]
+
+
+def test_only_what_was_accepted_is_noted(paper):
+    found, texts = rows(paper), exported_texts(paper)
+    accepted = accepted_goals(found, texts)
+    assert accepted == {"1": found[0].goal_digest}
+    assert accepted_goals([replace(found[0], text="0" * 64)], texts) == {}
+    assert accepted_goals([replace(found[0], claim="other2031:1")], texts) == {}
+    assert accepted_goals([replace(found[0], text="")], {}) == {}
+
+
+def test_a_verdict_says_so_until_its_goal_is_another_one(paper):
+    assert trusts(paper) == {"1": "exact", "2": "exact"}
+    write_record(paper, "8.16.1", accepted_goals(rows(paper), exported_texts(paper)))
+    assert trusts(paper) == {"1": "kernel", "2": "exact"}
+    assert "1 of them accepted by Coq's kernel too" in " ".join(run("prove", paper).stdout.split())
+    (paper / "paper.py").write_text(CLAIMS.replace("at_least(x**2, 0)", "at_least(x**4, 0)"))
+    assert trusts(paper) == {"1": "exact", "2": "exact"}
+
+
+@pytest.mark.parametrize("text", ["{", "[]", '{"version": 2, "accepted": {}}', '{"version": 1, "accepted": ["1"]}',
+                                  '{"version": 1, "accepted": {"1": "yes"}}',
+                                  '{"version": 1, "accepted": {"../1": 3}}'])
+def test_what_is_no_record_is_said_in_a_line(paper, text):
+    (paper / RECORD).write_text(text)
+    done = run("prove", paper)
+    assert done.returncode == 2
+    assert RECORD in done.stderr
+    assert len(done.stderr.strip().splitlines()) == 1
+
+
+def test_a_paper_without_certificates_has_nothing_to_note(tmp_path):
+    done = run("check-coq", tmp_path, "--record", tmp_path)
+    assert done.returncode == 2
+    assert "prove --write" in done.stderr
