@@ -1,6 +1,8 @@
 """A law's compiled control step, given what was measured; without plant and loop, which take longest to compile."""
 # ruff: noqa: F821
 
+ENTRIES = ("answers",)
+
 # --- kernel ---
 
 

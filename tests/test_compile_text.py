@@ -1,19 +1,14 @@
-"""What is written into a generated module is what the parser finds, and everything else stays as it was."""
+"""What is marked in a generated module is what the parser finds, and everything else stays as it was."""
 
-import ast
 import importlib.util
-from pathlib import Path
+from itertools import pairwise
 
 import numpy as np
 import pytest
-from scenarios import LAWS
 
-from workbench.compile.kernel import kernel_module, loop_module
-from workbench.compile.text import CALLED, MARKER, PUT_IN, Form, loop_text, module_text
+from workbench.compile.kernel import loop_module
+from workbench.compile.text import CALLED, CALLED_UNCOUNTED, MARKER, PUT_IN, WITHIN, loop_text, module_text
 from workbench.errors import CompileError
-from workbench.simulate import kernel_loop
-from workbench.simulate.setting_loop import COUNTED, STAGES
-from workbench.trains.train import single_particle
 
 LOOP = f'''"""A loop."""
 
@@ -46,42 +41,27 @@ def loop(tmp_path, request):
     return written
 
 
-def test_nothing_but_what_is_meant_is_changed(loop):
-    plain, made = (module_text("a test", [ADDED], loop(), form).splitlines()
-                   for form in (Form(), Form(("added",), (("rows", 3),))))
-    assert [pair for pair in zip(plain, made, strict=True) if pair[0] != pair[1]] == [
-        (CALLED, PUT_IN),
-        ("    for i in range(rows.shape[0]):", "    for i in range(3):"),
-        ("        found += added(rows[i, 0], rows.shape[1]) * max(rows.shape[0], 1)",
-         "        found += added(rows[i, 0], rows.shape[1]) * max(3, 1)"),
-    ]
-    whole = "\n".join(line for line in plain if line != CALLED)
+@pytest.mark.parametrize(("stated", "total", "others"), [
+    ("", CALLED, CALLED), ('ENTRIES = ("total",)', CALLED, WITHIN),
+    ('ENTRIES = ("total",)\nONE_BODY = True', CALLED_UNCOUNTED, PUT_IN)])
+def test_every_function_is_marked_for_what_calls_it_and_nothing_else_is_changed(loop, stated, total, others):
+    lines = module_text("a test", [ADDED], loop(LOOP.replace(MARKER, f"{stated}\n{MARKER}"))).splitlines()
+    marks = {after.partition("(")[0]: line for line, after in pairwise(lines) if line.startswith("@")}
+    assert marks == {"def added": others, "def total": total, "def of_others": others}
+    whole = "\n".join(line for line in lines if line not in marks.values())
     assert whole.endswith(f"{ADDED}\n{LOOP.partition(MARKER)[2]}".rstrip("\n"))
-    assert plain.count(CALLED) == 3
 
 
-def test_a_form_computes_the_same(loop):
+def test_marks_change_no_value(loop):
     rows = np.arange(6.0).reshape(3, 2)
-    plain, made = (loop_module("a test", [ADDED], loop(), form) for form in (Form(), Form(("added",), (("rows", 3),))))
-    assert plain is not made
-    assert plain.total(rows) == made.total(rows) == 3 * (0.0 + 2.0 + 4.0 + 3 * 2)
-    assert made.of_others(rows[:2]) == 2
+    stated = ("", 'ENTRIES = ("total",)', 'ENTRIES = ("total",)\nONE_BODY = True')
+    found = [loop_module("a test", [ADDED], loop(LOOP.replace(MARKER, f"{s}\n{MARKER}"))).total(rows) for s in stated]
+    assert found == [3 * (0.0 + 2.0 + 4.0 + 3 * 2)] * 3
 
 
-@pytest.mark.parametrize(("form", "message"), [
-    (Form(("add",)), "no function 'add' to be put into its callers: choose among added, total, of_others"),
-    (Form(rows=(("row", 1),)), "no function counts the rows of an argument 'row'"),
-    (Form(rows=(("value", 1),)), "no function counts the rows of an argument 'value'"),
-])
-def test_a_form_that_does_not_fit_is_refused_by_name(loop, form, message):
-    with pytest.raises(CompileError, match=message):
-        module_text("a test", [ADDED], loop(), form)
-
-
-def test_rows_of_an_argument_that_becomes_another_are_no_constant(loop):
-    changed = LOOP.replace("    found = 0.0", "    rows = rows[1:]\n    found = 0.0")
-    with pytest.raises(CompileError, match="function 'total' gives 'rows' another value"):
-        module_text("a test", [ADDED], loop(changed), Form(rows=(("rows", 3),)))
+def test_an_entry_that_is_not_there_is_refused_by_name(loop):
+    with pytest.raises(CompileError, match="no function 'add' to be called: choose among added, total, of_others"):
+        module_text("a test", [ADDED], loop(LOOP.replace(MARKER, f"ENTRIES = ('add',)\n{MARKER}")))
 
 
 def test_a_loop_without_its_marker_is_refused(loop):
@@ -89,14 +69,3 @@ def test_a_loop_without_its_marker_is_refused(loop):
     with pytest.raises(CompileError, match=r"test_a_loop_without_its_marker_is_refused\.py: has no line"):
         loop_text(loop(LOOP.replace(MARKER, "")))
 
-
-@pytest.mark.parametrize("law", LAWS)
-def test_the_loop_of_every_law_can_be_made_for_a_setting(law):
-    form = Form(STAGES, tuple((name, count) for count, name in enumerate(COUNTED)))
-    module = kernel_module(single_particle(), LAWS[law], kernel_loop, form=form)
-    tree = ast.parse(Path(module.__file__).read_text(encoding="utf-8"))
-    marks = {node.name: ast.unparse(node.decorator_list[0]) for node in tree.body if isinstance(node, ast.FunctionDef)}
-    assert {name for name, mark in marks.items() if "inline='always'" in mark} == set(STAGES)
-    assert {"control_step", "domain_margin", "closed_loop"} <= marks.keys() - set(STAGES)
-    counted = {ast.unparse(node) for node in ast.walk(tree) if isinstance(node, ast.Subscript)}
-    assert counted.isdisjoint(f"{name}.shape[0]" for name in COUNTED)

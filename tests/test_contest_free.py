@@ -8,12 +8,10 @@ import pytest
 from contests import COMMON, few, only, without_actuator
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
-from scenarios import LAWS
 
-from workbench.compile.kernel import kernel_module
 from workbench.contest.effort import mpc_table
 from workbench.contest.energy import best_run
-from workbench.contest.entrants import follows_curve, play
+from workbench.contest.entrants import follows_curve
 from workbench.contest.learning import learning_tables
 from workbench.contest.matches import (
     OF_CURVE,
@@ -30,17 +28,11 @@ from workbench.contest.record import Contest, WithoutCurve
 from workbench.contest.study import KIND, located
 from workbench.contest.tables import Told, condition_table, winners_table
 from workbench.contest.tune import tune_all
-from workbench.errors import CompileError, InputError
-from workbench.model.sensing import Sensing
+from workbench.errors import InputError
 from workbench.mpc import linear, terminal, transcription, tube
 from workbench.mpc.controller import KINDS
 from workbench.paper.parameter_search import score
-from workbench.simulate import kernel_loop
-from workbench.simulate.closed_loop import Setting, run_law, setting_of, simulate_in
-from workbench.simulate.law_values import law_values
-from workbench.simulate.setting_loop import COUNTED, MOST_ROWS, law_loop, setting_form
 from workbench.trains.scenario import Scenario
-from workbench.trains.train import single_particle
 
 FREE = "mpc_economic"
 KEPT = (terminal.lqr, tube._extents, linear._linearised, transcription._program)
@@ -49,42 +41,6 @@ KEPT = (terminal.lqr, tube._extents, linear._linearised, transcription._program)
 @pytest.fixture(scope="module")
 def scenario(contest: Contest) -> Scenario:
     return contest.world
-
-
-def short(scenario: Scenario, end_s: float = 30.0, **sensing: float) -> Setting:
-    return replace(setting_of(scenario), end_s=end_s, sensing=Sensing(**sensing, seed=3))  # type: ignore[arg-type]
-
-
-def world(scenario: Scenario, contest: Contest, *, failing: bool, pushed: int) -> Setting:
-    setting = short(scenario, speed_noise_mps=0.01)
-    failures = np.array([[10.0, np.inf, 5e3, 0.0, 0.0, 0.0, 0.1]]) if failing else setting.failures
-    return replace(setting, terms=np.repeat(setting.terms[:1], pushed, axis=0), failures=failures)
-
-
-# Each compiles two loops, so that every law would take minutes here.
-@pytest.mark.parametrize(("name", "failing", "pushed"), [
-    ("pid", False, 1), ("rbfnn_pocrac", True, MOST_ROWS + 1), ("mao2018_corrected", True, 0)])
-def test_a_loop_made_for_a_setting_has_the_bits_of_the_plain_one(
-        contest: Contest, scenario: Scenario, name: str, failing: bool, pushed: int) -> None:
-    setting = world(scenario, contest, failing=failing, pushed=pushed)
-    plain, made = simulate_in(scenario, name, setting), play(scenario, name, setting).run
-    assert plain.log.tobytes() == made.log.tobytes()
-    assert plain.totals == made.totals and plain.failed == made.failed
-
-
-def test_a_loop_is_made_for_as_many_rows_as_the_setting_has(scenario: Scenario) -> None:
-    setting, law = short(scenario), LAWS["pid"]
-    calm = replace(setting, terms=setting.terms[:0])
-    assert law_loop(law, setting) is law_loop(law, short(scenario, end_s=20.0))
-    assert law_loop(law, setting) is not law_loop(law, calm)
-    assert all(len(getattr(calm, name)) <= MOST_ROWS for name in COUNTED)
-    # The one for a calm setting counts no disturbance: given one, it would not feel it.
-    spec = scenario.controllers["pid"]
-    values = law_values(law, spec, "pid")
-    runs = [run_law(law, values, setting, spec.period_s, module=law_loop(law, s)).log for s in (setting, calm)]
-    assert not np.array_equal(*runs)
-    with pytest.raises(CompileError, match="no function 'nonsense'"):
-        kernel_module(single_particle(), law, kernel_loop, form=setting_form(setting, "nonsense"))
 
 
 @pytest.mark.parametrize("law", KINDS)

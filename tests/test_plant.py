@@ -5,29 +5,27 @@ import pytest
 from scenarios import LAWS, short_scenario, with_law
 from scipy.integrate import solve_ivp
 
-from workbench.compile.kernel import kernel_module
 from workbench.model.sensing import PERFECT
-from workbench.simulate import kernel_loop
 from workbench.simulate.closed_loop import simulate
 from workbench.simulate.controllers import held_command
 from workbench.simulate.kernel_loop import ACCUMULATORS, DIVERGED, LOG_COLUMNS
+from workbench.simulate.law_loop import law_loop
 from workbench.simulate.metrics import measure
 from workbench.simulate.ride import SpeedLimits, ride
 from workbench.trains.track import resistance_table
-from workbench.trains.train import single_particle
 
 MASS, DAVIS, LINE, SINE = 2e5, (6e4, 8e2, 32.0), 0.02, (0.05, 2 * np.pi / 60)
 
 
 def held(command_mps2, dt, steps, limits=(1e9, 1e9, np.inf)):
     """The compiled plant alone under a held command, on a uniform line: position, speed, totals."""
-    kernel = kernel_module(single_particle(), held_command, kernel_loop).closed_loop
+    kernel, plant = law_loop(held_command).closed_loop, np.array([MASS, *DAVIS])
     state, acc = np.zeros(4), np.zeros(len(ACCUMULATORS))
     standstill = np.zeros((1, 6))
     status, reached = kernel(
         0, steps, 1, dt, state, np.zeros(2, dtype=np.int64), np.array([0.0, 1.0]), standstill, np.zeros(1),
         np.array([LINE]), np.array([[0.0, np.inf, 0.0, SINE[0], SINE[1], 0.0, 0.0]]),
-        np.zeros((0, 7)), np.zeros((0, 5)), np.array([MASS, *DAVIS]), np.array(limits), PERFECT.arrays(steps, dt),
+        np.zeros((0, 7)), np.zeros((0, 5)), plant, plant.copy(), np.array(limits), PERFECT.arrays(steps, dt),
         0.2, MASS, np.array([command_mps2]), np.zeros(0), np.zeros((0, 0)), np.zeros((0, 0)), acc,
         ride(dt, SpeedLimits()).arrays(), np.zeros((1, len(LOG_COLUMNS))), 10**9)
     return state[0], state[1], dict(zip(ACCUMULATORS, acc, strict=True)), status, reached

@@ -9,23 +9,19 @@ from __future__ import annotations
 
 from dataclasses import replace
 from functools import cache
-from types import ModuleType
 
 import numpy as np
 import sympy as sp
 
-from workbench.compile.kernel import cars_source, function_source, loop_module, plant_source
-from workbench.compile.text import Form
+from workbench.compile.kernel import cars_source, function_source
 from workbench.contest.entrant import Entrant, Played, trial_errors
 from workbench.model.law import LawState
 from workbench.paper.results import Array
-from workbench.simulate import kernel_loop
 from workbench.simulate.closed_loop import Run, Setting, run_law
 from workbench.simulate.controllers import held_command
-from workbench.simulate.setting_loop import setting_form
+from workbench.simulate.law_loop import LawLoop, written_loop
 from workbench.trains import multi_particle as of_train
 from workbench.trains.scenario import ControllerSpec, Scenario
-from workbench.trains.train import single_particle
 
 from . import laws as law
 from .simulation.cars_loop import COMPUTED
@@ -77,22 +73,20 @@ _CARRIED = sp.symbols("lambda_1 lambda_2 v_dot_followed v_last", real=True)
 ONE_CAR = replace(held_command, id="chen2019.one_car",
                   states=tuple(LawState(symbol, update=symbol) for symbol in _CARRIED))
 CAR = ("car_mass_kg", "m_low_kg", "m_high_kg")
-PUT_IN = ("control", "followed", "auxiliary", "control_step")
 LAW = tuple(str(symbol) for symbol in (*law.gains, *law.learning_gains))
 PARAMETERS = (*LAW, *CAR, "tau", "trials")
 
 
 @cache
-def _learner(form: Form) -> ModuleType:
-    sample, plant = law.control_sample("filtered"), single_particle()
-    return loop_module(f"chen2019 (8)-(22) for one car and {plant.source}", [
-        plant_source(plant),
+def _learner() -> LawLoop:
+    sample = law.control_sample("filtered")
+    return written_loop("chen2019 (8)-(22) for one car", [
         cars_source("control", law.CONTROL_SCALARS, law.VALUES,
                     (law.CAR_STATE, law.CAR_DATA, (of_train.f_a,), (law.v_dot_used,), law.memory_prev, law.memory_old),
                     (tuple(sample.computed[name] for name in COMPUTED), sample.kept), sample.shared),
         function_source("followed", (law.v_dot_used, _v_now, _v_last), law.VALUES, [_followed]),
         function_source("auxiliary", (law.lambda_1, law.lambda_2, law.Delta_u), law.VALUES, _euler),
-        STEP], kernel_loop, form)
+        STEP])
 
 
 def _values(scenario: Scenario, spec: ControllerSpec) -> Array:
@@ -119,7 +113,7 @@ def _play(scenario: Scenario, spec: ControllerSpec, setting: Setting) -> Played:
     for trial in range(1, int(given["trials"]) + 1):
         noisy = replace(setting, sensing=replace(setting.sensing, seed=setting.sensing.seed + trial - 1))
         run = run_law(ONE_CAR, (values, np.zeros(len(_CARRIED)), np.zeros((0, 0)), memory), noisy, spec.period_s,
-                      title=ENTRANTS[spec.law].title, module=_learner(setting_form(setting, *PUT_IN)))
+                      title=ENTRANTS[spec.law].title, loop=_learner())
         found = trial_errors(run, scenario.track.length_m)
         if found is None:
             return Played(replace(run, failed=f"trial {trial}: {run.failed}"), tuple(errors))

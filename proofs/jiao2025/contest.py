@@ -9,19 +9,14 @@ from __future__ import annotations
 import time
 from dataclasses import replace
 from functools import cache
-from types import ModuleType
 
 import numpy as np
 
-from workbench.compile.kernel import loop_module, plant_source
-from workbench.compile.text import Form
 from workbench.contest.entrant import Entrant, Played, trial_errors
-from workbench.simulate import kernel_loop
 from workbench.simulate.closed_loop import Run, Setting, run_law
 from workbench.simulate.controllers import held_command
-from workbench.simulate.setting_loop import setting_form
+from workbench.simulate.law_loop import LawLoop, written_loop
 from workbench.trains.scenario import ControllerSpec, Scenario
-from workbench.trains.train import single_particle
 
 from .laws import TRIAL_LAWS
 from .simulation.trials import trial_kernel
@@ -41,9 +36,8 @@ OWN = ("unit_mps2", "first_input", "trials")
 
 
 @cache
-def _player(form: Form) -> ModuleType:
-    plant = single_particle()
-    return loop_module(f"a table of commands and {plant.source}", [plant_source(plant), PLAYBACK], kernel_loop, form)
+def _player() -> LawLoop:
+    return written_loop("a table of commands", [PLAYBACK])
 
 
 def _play(scenario: Scenario, spec: ControllerSpec, setting: Setting) -> Played:
@@ -71,7 +65,7 @@ def _play(scenario: Scenario, spec: ControllerSpec, setting: Setting) -> Played:
         table[0, :length], table[0, length] = unit * u, unit * u[-1]
         noisy = replace(setting, sensing=replace(setting.sensing, seed=setting.sensing.seed + trial))
         run = run_law(held_command, (np.zeros(1), np.zeros(0), np.zeros((0, 0)), table), noisy, spec.period_s,
-                      title=law.title, module=_player(setting_form(setting, "control_step")))
+                      title=law.title, loop=_player())
         found = trial_errors(run, scenario.track.length_m)
         if found is None:
             return Played(replace(run, failed=f"trial {trial}: {run.failed}"), tuple(errors))

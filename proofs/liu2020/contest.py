@@ -6,7 +6,6 @@ import numpy as np
 
 from workbench.contest.entrant import Entrant, Played
 from workbench.simulate.closed_loop import Array, Setting, run_law
-from workbench.simulate.setting_loop import law_loop
 from workbench.trains.scenario import ControllerSpec, Scenario
 
 from .laws import LAWS
@@ -35,8 +34,7 @@ def values_of(scenario: Scenario, spec: ControllerSpec) -> tuple[Array, Array, A
 
 def _play(scenario: Scenario, spec: ControllerSpec, setting: Setting) -> Played:
     law = LAWS[spec.law]
-    return Played(run_law(law, values_of(scenario, spec), setting, spec.period_s, "explicit", title=law.title,
-                          module=law_loop(law, setting, "explicit")))
+    return Played(run_law(law, values_of(scenario, spec), setting, spec.period_s, "explicit", title=law.title))
 
 
 ENTRANTS = {f"liu2020.{name}": Entrant(

@@ -15,7 +15,9 @@ from pathlib import Path
 from types import ModuleType
 from typing import Any
 
+import numba
 from numba.core.caching import IndexDataCacheFile
+from numba.core.ccallback import CFunc
 from numba.core.dispatcher import Dispatcher
 
 from workbench.errors import CompileError
@@ -43,11 +45,32 @@ def imported_kernel(name: str, text: str) -> ModuleType:
         del sys.modules[name]
         raise
     for function in vars(module).values():
-        kept: Any = getattr(function, "_cache", None) if isinstance(function, Dispatcher) else None
-        if hasattr(kept, "_cache_file"):  # not where a function is put into its callers
-            before = kept._cache_file
-            kept._cache_file = _SealedFile(folder, before._index_name, before._source_stamp)
+        if isinstance(function, Dispatcher):
+            _seal(function, folder)
     return module
+
+
+def c_function(module: ModuleType, name: str, prototype: Any) -> Any:
+    """A function of an imported kernel as one of C, to be called by its address; compiled where it was not kept.
+
+    prototype: its type, as `ctypes.CFUNCTYPE` makes it.
+    """
+    function = getattr(module, name).py_func
+    signature = numba.typeof(prototype(0)).sig
+    found = CFunc(function, (signature.args, signature.return_type), {}, {"error_model": "numpy",
+                                                                        "no_cpython_wrapper": True})
+    found.enable_caching()
+    _seal(found, Path(str(module.__file__)).parent)
+    found.compile()
+    pointer = prototype(found.address)
+    pointer.code = found  # lives as long as it may be called
+    return pointer
+
+
+def _seal(function: Any, folder: Path) -> None:
+    """Have what numba keeps of a function kept in sealed files."""
+    before = function._cache._cache_file
+    function._cache._cache_file = _SealedFile(folder, before._index_name, before._source_stamp)
 
 
 class _TextLoader(SourceLoader):

@@ -14,7 +14,7 @@ import sympy as sp
 from sympy.printing.pycode import PythonCodePrinter
 
 from workbench.compile.code_cache import imported_kernel
-from workbench.compile.text import AS_WRITTEN, Form, module_text, shared_text
+from workbench.compile.text import module_text, shared_text
 from workbench.errors import CompileError
 from workbench.model.law import MEASUREMENTS, ControlLaw, neuron, neuron_count
 from workbench.trains.multi_particle import cars
@@ -223,23 +223,16 @@ def cars_source(name: str, arguments: Sequence[sp.Symbol], parameters: Sequence[
     return "\n".join([*lines, *(f"        {place} = {value}" for place, value in zip(places, values, strict=True)), ""])
 
 
-def kernel_module(plant: Plant, law: ControlLaw, loop: ModuleType, estimates: Estimates = "corrected",
-                  form: Form = AS_WRITTEN) -> ModuleType:
-    """The compiled module of a plant under a law, driven by the functions of `loop`; cached between runs."""
-    functions = [plant_source(plant), law_source(law, estimates)]
-    return loop_module(f"{law.source} and {plant.source}", functions, loop, form)
-
-
-def loop_module(source: str, functions: Sequence[str], loop: ModuleType, form: Form = AS_WRITTEN) -> ModuleType:
+def loop_module(source: str, functions: Sequence[str], loop: ModuleType) -> ModuleType:
     """The compiled module of generated functions, driven by what stands below the marker in `loop`; cached.
 
     source: what the functions were generated from, in words; functions: their Python source. All of it is joined
-    into one module on disk, in which every function becomes a numba kernel of the given form.
-    Raises CompileError for a form that does not fit, and where no folder can be written.
+    into one module on disk, in which every function becomes a numba kernel, as `module_text` says.
+    Raises CompileError where no folder can be written.
     """
     common = shared_text(loop)
     shared = _of_text(common).__name__ if common else ""
-    return _of_text(module_text(source, functions, loop, form, shared))
+    return _of_text(module_text(source, functions, loop, shared))
 
 
 def _of_text(text: str) -> ModuleType:

@@ -11,9 +11,8 @@ from workbench.errors import InputError
 from workbench.model.laws import law_named, named, names_near
 from workbench.mpc.controller import KINDS
 from workbench.simulate.closed_loop import Setting, run_law, simulate_in
-from workbench.simulate.controllers import SAMPLED, TOLD_THE_LINE, compiled_law, held_command, known_laws
+from workbench.simulate.controllers import SAMPLED, TOLD_THE_LINE, compiled_law, known_laws
 from workbench.simulate.law_values import check_controllers, law_values
-from workbench.simulate.setting_loop import law_loop
 from workbench.trains.periods import period_name
 from workbench.trains.scenario import Scenario
 
@@ -102,11 +101,9 @@ def play(scenario: Scenario, name: str, setting: Setting) -> Played:
     law = None if entrant else compiled_law(scenario, spec)
     if law is not None:
         return Played(run_law(law, law_values(law, spec, name), setting, spec.period_s, spec.estimates, name,
-                              spec.title or law.title, module=law_loop(law, setting, spec.estimates),
-                              predictor=spec.predictor))
+                              spec.title or law.title, predictor=spec.predictor))
     if entrant is None:
-        held = law_loop(held_command, setting, spec.estimates)
-        return Played(simulate_in(scenario, name, setting, held=held))
+        return Played(simulate_in(scenario, name, setting))
     found = entrant.play(scenario, spec, setting)
     return replace(found, run=replace(found.run, controller=name))
 

@@ -6,25 +6,25 @@ import time
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 from functools import cache, partial
-from types import ModuleType
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from workbench.compile.kernel import Estimates, kernel_module
+from workbench.compile.kernel import Estimates
 from workbench.errors import WorkbenchError
 from workbench.model.law import ControlLaw
 from workbench.model.sensing import PERFECT
-from workbench.simulate import kernel_loop, sensing_loop
+from workbench.simulate import sensing_loop
 from workbench.simulate.controllers import SAMPLED, SampledController, compiled_law, held_command
 from workbench.simulate.kernel_loop import ACCUMULATORS, DIVERGED, LEFT_DOMAIN, LOG_COLUMNS, RUNNING
+from workbench.simulate.law_loop import LawLoop, law_loop
 from workbench.simulate.law_values import check_controllers, controller_spec, law_values
 from workbench.simulate.ride import Ride, ride
 from workbench.simulate.setting import LEVEL, NOMINAL, UNLIMITED, Factors, Setting, setting_of
 from workbench.trains.actuator import Known, drive, drive_totals
 from workbench.trains.scenario import Scenario
-from workbench.trains.train import Plant, single_particle
+from workbench.trains.train import Plant
 
 TIMED_BLOCK = 1000
 
@@ -69,6 +69,7 @@ class _Arrays:
     failures: Array
     changes: Array
     plant: Array
+    now: Array
     drive: Array
     sensing: Told
     acc: Array
@@ -77,7 +78,7 @@ class _Arrays:
 
     def before_law(self) -> tuple[Any, ...]:
         return (self.state, self.hints, self.breaks, self.coefficients, self.edges, self.values, self.terms,
-                self.failures, self.changes, self.plant, self.drive, self.sensing)
+                self.failures, self.changes, self.plant, self.now, self.drive, self.sensing)
 
     def after_law(self) -> tuple[Any, ...]:
         return self.acc, self.ride.arrays(), self.log
@@ -96,19 +97,16 @@ def prepared(scenario: Scenario, name: str) -> Callable[[Setting], Run]:
     checked and compiled once. Raises InputError as `simulate`."""
     spec = controller_spec(scenario, name)
     law = compiled_law(scenario, spec)
-    loop = kernel_module(single_particle(), law or held_command, kernel_loop, spec.estimates)
     if law is None:
-        return partial(simulate_in, scenario, name, held=loop)
+        return partial(simulate_in, scenario, name)
     return partial(run_law, law, law_values(law, spec, name), period_s=spec.period_s, name=name,
-                   title=spec.title or law.title, module=loop, predictor=spec.predictor)
+                   title=spec.title or law.title, loop=law_loop(law, spec.estimates), predictor=spec.predictor)
 
 
-def simulate_in(scenario: Scenario, name: str, setting: Setting, plant: Plant | None = None,
-                held: ModuleType | None = None) -> Run:
+def simulate_in(scenario: Scenario, name: str, setting: Setting, plant: Plant | None = None) -> Run:
     """`simulate` in a setting, and with a plant, that may differ from the scenario's, which are what controllers know.
 
-    plant: as in `run_law`; the setting's plant_values belong to it. held: `held_command` compiled already, for a
-    controller that is called once a sample.
+    plant: as in `run_law`; the setting's plant_values belong to it.
     """
     spec = controller_spec(scenario, name)
     law = compiled_law(scenario, spec)
@@ -119,21 +117,21 @@ def simulate_in(scenario: Scenario, name: str, setting: Setting, plant: Plant | 
     plan = setting.plan(spec.period_s)
     arrays, sensing = _arrays(replace(setting, sensing=PERFECT), spec.period_s, held_command), setting.sensing
     sampled = SAMPLED[spec.law](scenario, spec, name)
-    module = held or kernel_module(plant or single_particle(), held_command, kernel_loop, spec.estimates)
     between = sensing.arrays(-(-plan[0] // plan[1]), spec.period_s)
-    status, reached, step_us = _run_sampled(module.closed_loop, arrays, sampled, _fixed(setting), plan, between)
+    status, reached, step_us = _run_sampled(law_loop(held_command, plant=plant).closed_loop, arrays, sampled,
+                                            _fixed(setting), plan, between)
     return _run(name, spec.title or sampled.title, held_command, arrays, plan, (status, reached, step_us),
                 _why(status, reached * plan[2], arrays.state, held_command, spec.law), sampled.counters)
 
 
 def run_law(law: ControlLaw, values: tuple[Array, Array, Array, Array], setting: Setting, period_s: float,
             estimates: Estimates = "corrected", name: str = "", title: str = "", plant: Plant | None = None,
-            module: ModuleType | None = None, predictor: bool = False) -> Run:
+            loop: LawLoop | None = None, predictor: bool = False) -> Run:
     """Run a compiled law once; one that leaves its domain or diverges is reported failed.
 
     values: the law's parameters, initial scalar states, initial neuron states and neuron data, as `law_values` gives
     them; plant: of position, speed, force, opposing force, mass and Davis coefficients, in the order of
-    `single_particle`, which it is unless given; the setting's plant_values come after these. module: compiled already,
+    `single_particle`, which it is unless given; the setting's plant_values come after these. loop: compiled already,
     of a law that is more than its expressions; it may write into the neuron data. predictor: the law is told the state
     at which its command takes effect, predicted over the delay of the setting's actuator.
     Raises WorkbenchError where the values are not those of the law's states.
@@ -142,10 +140,13 @@ def run_law(law: ControlLaw, values: tuple[Array, Array, Array, Array], setting:
         raise WorkbenchError(f"{law.id}: {len(values[1])} initial values for {len(law.scalar_states)} states of one "
                              "number each: give one value a state")
     arrays, plan = _arrays(setting, period_s, law, predictor), setting.plan(period_s)
-    kernel = (module or kernel_module(plant or single_particle(), law, kernel_loop, estimates)).closed_loop
     parameters, scalars, neurons, data = values
+    if data.dtype != np.float64 or not data.flags.c_contiguous:  # the law gets them by their address
+        raise WorkbenchError(f"{law.id}: neuron data must be floats that lie row by row in memory: "
+                             "take numpy.ascontiguousarray of them")
+    kernel = (loop or law_loop(law, estimates, plant)).closed_loop
     # The kernel advances states in place, and the caller's values are for other runs too.
-    own = (parameters, scalars.copy(), neurons.copy(), data)
+    own = (np.ascontiguousarray(parameters), scalars.copy(), neurons.copy(), data)
     status, reached, step_us = _run_compiled(kernel, arrays, own, _fixed(setting), plan)
     return _run(name or law.id, title or law.title, law, arrays, plan, (status, reached, step_us),
                 _why(status, reached * plan[2], arrays.state, law, law.id), {})
@@ -184,11 +185,12 @@ def _arrays(setting: Setting, period_s: float, law: ControlLaw, predictor: bool 
         acc[ACCUMULATORS.index(name)] = np.inf
     state = np.zeros(4)
     state[0] = setting.initial_position_m
+    own = np.array([setting.mass_kg, *setting.davis_n, *setting.plant_values])
     return _Arrays(
         state=state, hints=np.zeros(2, dtype=np.int64), breaks=setting.curve.breaks_s,
         coefficients=setting.curve.coefficients, edges=setting.line.position_m, values=setting.line.specific_force,
         terms=setting.terms, failures=setting.failures, changes=setting.changes,
-        plant=np.array([setting.mass_kg, *setting.davis_n, *setting.plant_values]),
+        plant=own, now=own.copy(),
         drive=drive(setting.limits, setting.actuator, setting.plant_step_s, setting.mass_kg,
                     (setting.known or Known(setting.nominal_mass_kg, setting.davis_n)) if predictor else None),
         sensing=setting.sensing.arrays(-(-steps // max(1, round(period_s / setting.plant_step_s))), period_s), acc=acc,

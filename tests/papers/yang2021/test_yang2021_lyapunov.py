@@ -10,14 +10,13 @@ from scenarios import short_scenario
 
 from proofs.yang2021 import error_dynamics, laws, lyapunov
 from proofs.yang2021.claims.section_5_2 import v_rate_closed
-from workbench.compile.kernel import kernel_module
 from workbench.model.law import neuron, neuron_count
 from workbench.proof.claim import D
 from workbench.proof.derive import lie_derivative
 from workbench.simulate import kernel_loop
 from workbench.simulate.closed_loop import _arrays, law_values, setting_of
+from workbench.simulate.law_loop import law_loop
 from workbench.trains.track import resistance_table
-from workbench.trains.train import single_particle
 
 START_S, DURATION_S = 1.0, 2.0
 
@@ -28,7 +27,7 @@ def trajectory(step_s: float):
     law, spec = laws.rbfnn_pocrac, scenario.controllers["rbfnn_pocrac"]
     parameters, scalars, neurons, data = law_values(law, spec, "rbfnn_pocrac")
     arrays = _arrays(setting_of(scenario), step_s, law)
-    kernel = kernel_module(single_particle(), law, kernel_loop, spec.estimates).closed_loop
+    kernel = law_loop(law, spec.estimates).closed_loop
     rows, weights = [], []
     for n in range(round((START_S + DURATION_S) / step_s)):
         before = (n * step_s, *arrays.state[:2], *scalars)

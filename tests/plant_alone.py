@@ -1,0 +1,3 @@
+"""A plant's compiled rates, without a loop."""
+
+# --- kernel ---

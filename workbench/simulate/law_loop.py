@@ -1,0 +1,55 @@
+"""The compiled closed loop under a law: a loop for a plant, compiled once for all laws, and a law that it calls.
+
+A call by address costs a few nanoseconds a sample, a loop some seconds to compile.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from functools import partial
+from types import ModuleType
+from typing import Any
+
+from workbench.compile.code_cache import c_function
+from workbench.compile.kernel import Estimates, law_source, loop_module, plant_source
+from workbench.model.law import ControlLaw
+from workbench.simulate import kernel_loop, law_call
+from workbench.trains.train import Plant, single_particle
+
+
+@dataclass(frozen=True)
+class LawLoop:
+    """A plant's closed loop under a law; closed_loop: as in `kernel_loop`, without its first argument."""
+
+    closed_loop: Callable[..., Any]
+    plant: ModuleType
+    law: ModuleType
+
+
+# By plant and law themselves, not by their names: a copied folder has laws of the same names.
+_made: dict[tuple[int, int, Estimates], tuple[Plant | None, ControlLaw, LawLoop]] = {}
+
+
+def law_loop(law: ControlLaw, estimates: Estimates = "corrected", plant: Plant | None = None) -> LawLoop:
+    """The closed loop of a plant, of the single particle unless given, under a law; compiled once a process.
+
+    Raises CompileError for expressions that have no code.
+    """
+    key = id(law), id(plant), estimates
+    if key not in _made:
+        _made[key] = plant, law, written_loop(law.source, [law_source(law, estimates)], plant)
+    return _made[key][2]
+
+
+def written_loop(source: str, functions: Sequence[str], plant: Plant | None = None) -> LawLoop:
+    """The same under a law that is more than its expressions: Python source of `control_step` and `domain_margin`.
+
+    source: what the functions were made from, in words; functions: these two and what they call.
+    """
+    plant = plant or single_particle()
+    driven = loop_module(plant.source, [plant_source(plant)], kernel_loop)
+    law = loop_module(source, functions, law_call)
+    return LawLoop(partial(driven.closed_loop, c_function(law, "answer", law_call.ANSWER)), driven, law)
+
+
