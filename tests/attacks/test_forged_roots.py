@@ -29,7 +29,7 @@ def contradiction(assume, show, example, *terms, operator="contradiction"):
 GENUINE = {
     "a root": on_circle(ROOT),
     "a root beside an inequality": on_circle(ROOT, assume=(CIRCLE, "y > 1")),
-    "two roots": refuted(["x**2 == 2", "y**2 == 3"], "x + y <= 3", {"x": "1", "y": "1"},
+    "two roots": refuted(["x**2 == 2", "y**2 == 3"], "x + y <= 3", {"x": "7/5", "y": "7/4"},
                          {"of": "x", "from": "7/5", "to": "71/50", "equality": "x**2 == 2"},
                          {"of": "y", "from": "17/10", "to": "9/5", "equality": "y**2 == 3"}),
     "an example that is a root": contradiction(["x**2 == 2", "x > 0"], "x != 0", {"x": "1"}, ("1", [1]),
@@ -42,7 +42,8 @@ GENUINE = {
 }
 
 FORGED = {
-    "no change of sign": on_circle(ROOT | {"from": "3/2", "to": "8/5"}),
+    "no change of sign": on_circle(ROOT | {"from": "1", "to": "7/5"}),
+    "a value that is not near it": on_circle(ROOT) | {"point": {"x": "1", "y": "9"}},
     "ends changed round": on_circle(ROOT | {"from": "71/50", "to": "7/5"}),
     "a sign that does not change": refuted(["(y - 1)**2 == 0"], "y <= 0", {"y": "1"},
                                            {"of": "y", "from": "0", "to": "2", "equality": "(y - 1)**2 == 0"}),

@@ -1098,8 +1098,9 @@ def _require_met(context: Context, goal: dict[str, Any], point: dict[str, Ratio]
     if roots and (goal.keys() - {"assume", "show", "flow"} or certificate.keys() & {"terms", "path"}):
         raise CertificateError("roots are taken of goals of one instant, without sums and inputs")
     between = roots_of(certificate)
-    for name in between:
-        point.pop(name)
+    for name, (low, high) in between.items():
+        if not low <= point.pop(name).num.get((), Fraction(0)) <= high:
+            raise CertificateError(f"the value given for the root {name} does not lie where it does")
     for root, (name, ends) in zip(roots, between.items(), strict=True):
         value, operator = margin(context, root["equality"])
         curve = substitute(context, value, point)
