@@ -24,6 +24,17 @@ SUMS = {"version": 2, "claim": "mine:2", "verdict": "proved", "example": {"a": "
         "goal": {"assume": ["a > 0"], "indexed": ["w"], "show": ["a*Sum(w**2) >= 0", "Sum(a*w) == a*Sum(w)"]},
         "proofs": [{"rule": "combination", "terms": [{"coefficient": "1", "factors": [
             {"assume": 0}, {"sum_of_squares": "w"}]}]}, {"rule": "identity"}]}
+OPPOSITES = {"version": 2, "claim": "mine:5", "verdict": "proved", "example": {"x": "1", "y": "2", "z": "0"},
+             "goal": {"assume": ["x > 0", "y > 1", "z**2 == 0"], "show": ["x*y > x", "x*y >= x", "x != 0", "z == 0"]},
+             "proofs": [{"rule": "contradiction", "terms": [{"coefficient": c, "factors": list(factors)}
+                                                            for c, factors in terms]} for terms in (
+                 [("1", [{"assume": 3}]), ("1", [{"assume": 0}, {"assume": 1}])],
+                 [("1", [{"assume": 3}]), ("1", [{"assume": 0}, {"assume": 1}])],
+                 [("1", [{"assume": 0}]), ("-1", [{"assume": 3}])],
+                 [("1", [{"square_of": 3}]), ("-1", [{"assume": 2}])])]}
+ROOT = {"version": 2, "claim": "mine:6", "verdict": "refuted", "point": {"z": "7/5"},
+        "goal": {"assume": ["z**2 == 2"], "show": ["z <= 1"]},
+        "roots": [{"of": "z", "from": "7/5", "to": "3/2", "equality": "z**2 == 2"}]}
 POINT = {"version": 2, "claim": "mine:3", "verdict": "refuted", "point": {"z": "1/2"},
          "goal": {"assume": ["z > 0"], "show": ["z**2 >= 1"]}}
 
@@ -71,13 +82,16 @@ def test_what_has_no_coq_text_is_listed_with_its_reason() -> None:
     found = export(certificate)
     assert found.text is None and found.reason == "the rule monotone"
     assert '"not_exported": "the rule monotone"' in files_of([found])["index.json"]
+    root = export(digested(ROOT))
+    assert root.text is None
+    assert root.reason == "a point that is a root: no theorem of intermediate values is used in Coq"
 
 
 @pytest.fixture(scope="module")
 def exports(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """A folder of three exports with the library, compiled."""
+    """A folder of exports with the library, compiled."""
     folder = tmp_path_factory.mktemp("exports")
-    for name, text in files_of([export(digested(one)) for one in (PRODUCT, SUMS, POINT)]).items():
+    for name, text in files_of([export(digested(one)) for one in (PRODUCT, SUMS, POINT, OPPOSITES)]).items():
         (folder / name).write_text(text)
     return folder
 
@@ -85,7 +99,7 @@ def exports(tmp_path_factory: pytest.TempPathFactory) -> Path:
 @with_coq
 def test_kernel_accepts_a_proof_a_sum_and_a_point(exports: Path) -> None:
     """And the axioms are those of the reals."""
-    assert [(row.outcome, row.reason) for row in check_folder(exports, 1, 120)] == [("accepted", "")] * 3
+    assert [(row.outcome, row.reason) for row in check_folder(exports, 1, 120)] == [("accepted", "")] * 4
     changed = next(path for path in exports.glob("mine_3*.v"))
     changed.write_text(changed.read_text() + " ")
     assert [row.outcome for row in check_folder(exports, 1, 120)].count("refused") == 1
@@ -94,7 +108,8 @@ def test_kernel_accepts_a_proof_a_sum_and_a_point(exports: Path) -> None:
 @with_coq
 @pytest.mark.parametrize(("certificate", "old", "new"), [
     (PRODUCT, "x*k >= k", "x*k >= 2*k"), (PRODUCT, "k > 0", "k < 0"), (PRODUCT, "x >= 1", "x >= 0"),
-    (SUMS, "Sum(a*w) == a*Sum(w)", "Sum(a*w) == Sum(w)"), (POINT, "z**2 >= 1", "z**2 <= 1"),
+    (SUMS, "Sum(a*w) == a*Sum(w)", "Sum(a*w) == Sum(w)"), (OPPOSITES, "y > 1", "y >= 1"),
+    (POINT, "z**2 >= 1", "z**2 <= 1"),
 ])
 def test_kernel_refuses_a_goal_that_is_not_so(exports: Path, certificate: dict[str, Any], old: str, new: str) -> None:
     """A changed goal has no Coq text, or one that coqc refuses: the checker is not asked."""

@@ -13,12 +13,11 @@ from workbench.proof.checker import (
     Context,
     Relations,
     _factor,
-    abs_bounds,
     bounds,
     number,
-    sign_bounds,
     sqrt_bounds,
     substitute,
+    symbol,
 )
 
 LEAVES, OF_AN_INDEX = ("0", "1", "2", "1/2", "x", "y", "z"), ("V", "W")
@@ -155,8 +154,9 @@ FRACTIONS = st.fractions(min_value=-10**6, max_value=10**6, max_denominator=10**
 def test_abs_and_sign_are_enclosed_tightly(one, other, share):
     low, high = sorted((one, other))
     inside = low + share * (high - low)
-    for function, true in ((abs_bounds, abs), (sign_bounds, lambda v: (v > 0) - (v < 0))):
-        below, above = function(low, high)
+    for name, true in (("abs", abs), ("sign", lambda v: (v > 0) - (v < 0))):
+        context = Context({}, [])
+        below, above = bounds(context, context.call(name, symbol("x")), {"x": (low, high)})
         assert below <= true(inside) <= above
         assert {below, above} <= {Fraction(true(v)) for v in (low, high, *([Fraction(0)] if low <= 0 <= high else []))}
 

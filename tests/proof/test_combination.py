@@ -38,7 +38,7 @@ FALSE = {
 def test_true_inequalities_are_proved(name):
     found = prove_goal(TRUE[name])
     assert found is not None
-    check(found[0])
+    check(found)
 
 
 @pytest.mark.parametrize("name", FALSE)

@@ -143,11 +143,12 @@ def test_whatever_is_proved_holds_at_random_points(summands, above, operator, as
     proof = prove_goal(goal)
     if proof is None:
         found = find_counterexample(goal, "refuted")
-        assert found is None or Evaluated(goal, neurons=1).holds_at(found["point"]) == (True, False)
+        # what is near a root is no point at which the equality holds
+        assert found is None or "roots" in found or Evaluated(goal, neurons=1).holds_at(found["point"]) == (True, False)
         return
-    check(proof[0])
+    check(proof)
     assert Evaluated(goal).falsifying_point(seed, batches=2, count=2_000, tight=4) is None
-    record = proof[0]["goal"]
+    record = proof["goal"]
     for point in at_points(seed):
         if all(holds(relation, point) for relation in record["assume"]):
             assert all(holds(relation, point) for relation in record["show"])

@@ -7,6 +7,7 @@ from small_decisions import certificate, paper
 
 from workbench.proof.fate import judged
 from workbench.report.counterexample import counterexample_of
+from workbench.report.errata.proof_steps import proof_steps
 from workbench.report.finding import findings
 from workbench.report.finding_sentences import consequence_sentence, findings_document, sentences, verdict_sentence
 from workbench.report.places_in_paper import place_of, places_of
@@ -71,6 +72,21 @@ def test_many_letters_of_one_value_are_said_together():
     assert point.values == ("b = 2",) and point.others == "1" and len(point.everything) == 9
     assert counterexample_of(certificate("a:1", "proved", "x**2 >= 0", example={"x": "0"}, proofs=[
         {"rule": "combination", "terms": [{"coefficient": "1", "factors": [{"square": "x"}]}]}])) is None
+
+
+def test_a_root_is_told_as_about_a_number():
+    goal = {"assume": ["z**2 == 2"], "show": ["2*z <= 1"]}
+    point = counterexample_of({"verdict": "refuted", "goal": goal, "point": {"z": "7/5"}, "roots": [
+        {"of": "z", "from": "1399999/1000000", "to": "71/50", "equality": "z**2 == 2"}]})
+    assert (point.values, point.right, point.put_in) == ((r"z \approx 1.4",), "1", None)
+    assert point.left.startswith(r"\approx 2.8")
+
+
+def test_a_contradiction_is_told_with_the_opposite_of_what_is_shown():
+    steps = [item.text for item in proof_steps({"goal": {"assume": ["x > 0"], "show": ["x != 0"]}, "proofs": [
+        {"rule": "contradiction", "terms": [{"coefficient": "1", "factors": [{"assume": 0}]},
+                                            {"coefficient": "-1", "factors": [{"assume": 1}]}]}]})]
+    assert "If it were not so" in steps[1] and "the opposite of what is to be shown" in steps[-1]
 
 
 def test_a_motion_is_told_as_functions_of_time():

@@ -44,6 +44,8 @@ def proof_at_point(goal: Goal, certificate: dict[str, Any]) -> Script:
     """The script that proves what `statement_of` says, by the certificate's values."""
     if goal.kind == "motion" or "functions" in certificate or "path" in certificate:
         raise NotExportedError("a point of a motion: that it goes on from there is not shown in Coq")
+    if "roots" in certificate:
+        raise NotExportedError("a point that is a root: no theorem of intermediate values is used in Coq")
     values = {name: number_of(Fraction(text)) for name, text in certificate["point"].items()}
     indexed = goal.letters.indexed
     rows = [{name: number_of(Fraction(text)) for name, text in row.items()} for row in certificate["terms"]

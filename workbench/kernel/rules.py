@@ -12,6 +12,7 @@ from workbench.kernel.syntax import NotExportedError
 from workbench.kernel.writing import joined_tactics
 from workbench.proof.checker import (
     CASES,
+    NEGATED,
     Ratio,
     margin,
     number,
@@ -56,10 +57,26 @@ def _cut(script: Script, value: Ratio, operator: str, proof: dict[str, Any]) -> 
 
 
 def _contradiction(script: Script, value: Ratio, operator: str, proof: dict[str, Any]) -> None:
-    script.say("exfalso. assert (absurd : 0 > 0).")
-    with script.subproof():
-        combination(script, number(0), ">", proof)
-    script.say("exact (Rgt_irrefl _ absurd).")
+    script.prepare_all(value)
+    text = script.normal.value(value)
+    direction, opposite = NEGATED[operator]
+    script.say(f"destruct (three_cases {text}) as [case_|[case_|case_]].")
+    for sign in (-1, 1, 0):
+        with script.subproof():
+            intro, case = ("intro eq_. ", "case_ eq_") if "!=" in (operator, opposite) else ("", "case_")
+            if {">": sign > 0, ">=": sign >= 0, "==": sign == 0, "!=": sign != 0}[operator]:
+                script.say("exact case_." if operator == "==" else f"{intro}generalize {case}. lra.")
+                continue
+            negation, name = number(direction) * value, script.fresh("M")
+            script.say(f"assert ({name} : {stated(script, negation, opposite)}).")
+            turned = f"replace {script.normal.value(negation)} with (- {text}) by same. " if direction < 0 else ""
+            script.say(f"{{ {turned}{intro if opposite == '!=' else ''}generalize "
+                       f"{case if opposite == '!=' else 'case_'}. lra. }}")
+            script.assume((negation, opposite), name)
+            script.say("exfalso. assert (absurd : 0 > 0).")
+            with script.subproof():
+                combination(script, number(0), ">", proof)
+            script.say("exact (Rgt_irrefl _ absurd).")
 
 
 def _nonincreasing(script: Script, value: Ratio, operator: str, proof: dict[str, Any]) -> None:

@@ -30,7 +30,6 @@ from typing import Any
 
 MOST_TERMS = 16  # of the sums at a point
 SUM = "Sum()"  # the formal sum over the index: a product SUM * term means the sum of the terms
-FLIP = {"<=": ">=", "<": ">"}
 OPERATORS = ("<=", ">=", "==", "!=", "<", ">")
 FUNCTIONS = ("log", "exp", "tanh", "sin", "cos", "abs", "sign", "sqrt")
 NAME = re.compile(r"[A-Za-z_][A-Za-z0-9_]*")  # no atom of this file looks like that
@@ -41,7 +40,7 @@ DIGEST = re.compile(r"[0-9a-f]{64}")
 EQUATION = re.compile(r"[A-Za-z0-9][A-Za-z0-9._+-]*")
 # More is refused, not computed.
 MOST_WORK, MOST_PRODUCTS, MOST_BITS, MOST_TEXT, MOST_DEPTH = 2_000_000, 20_000, 20_000, 100_000, 100
-LARGEST_EXPONENT = 10_000
+LARGEST_EXPONENT, LARGEST, PRECISION = 10_000, 64 * 2**20, Fraction(1, 10**30)  # of exp; of files; of enclosures
 
 Monomial = tuple[tuple[str, int], ...]
 Poly = dict[Monomial, Fraction]
@@ -53,8 +52,7 @@ class CertificateError(Exception):
 
 
 class Work:
-    """What checking one certificate has cost: products of terms, weighed by the length of their numbers, and looks at
-    terms. Outside of `check` nothing is counted."""
+    """What checking one certificate has cost: products of terms, by their length, and looks at terms."""
 
     spent, depth, counts = 0, 0, False
 
@@ -600,7 +598,7 @@ def margin(context: Context, text: str) -> Sign:
     left, operator, right = split_relation(text)
     a, b = context.read(left), context.read(right)
     if operator in ("<=", "<"):
-        return b + -a, FLIP[operator]
+        return b + -a, operator.replace("<", ">")
     return a + -b, operator
 
 
@@ -636,10 +634,12 @@ def _cut(value: Ratio, operator: str, given: Relations, proof: dict[str, Any]) -
 
 
 def _contradiction(value: Ratio, operator: str, given: Relations, proof: dict[str, Any]) -> None:
-    """Anything follows where the assumptions add up to 0 > 0, for there they never hold together."""
-    _combination(number(0), ">", given, proof)
+    """What is to be shown may be assumed not to hold: with that the assumptions add up to 0 > 0."""
+    direction, opposite = NEGATED[operator]
+    _combination(number(0), ">", given.with_margins([*given.margins, (number(direction) * value, opposite)]), proof)
 
 
+NEGATED = {">": (-1, ">="), ">=": (-1, ">"), "==": (1, "!="), "!=": (1, "==")}
 CASES = {("nonnegative", "nonpositive"): ((1, ">=", None), (-1, ">=", None)),
          ("negative", "positive", "zero"): ((-1, ">", -1), (1, ">", 1), (1, "==", 0))}
 
@@ -702,7 +702,7 @@ def _nonincreasing(value: Ratio, operator: str, given: Relations, proof: dict[st
 
 
 def _argument(given: Relations, text: str, wanted: str | None = None) -> Ratio:
-    """What a fact is about, read on its own, shown to be defined and of the sign that the function needs."""
+    """What a factor is about, read on its own, shown to be defined and of the sign wanted."""
     given.require_defined(text)
     value = given.context.read(text)
     if wanted is not None and not given.fits(value, wanted):
@@ -717,25 +717,20 @@ def _factor(given: Relations, item: dict[str, Any]) -> Sign:
         case {"assume": int(i)}:
             return given.margins[i]
         case {"positive": str(text)}:
-            given.require_defined(text)
-            if not given.sign_known_value(context.read(text)):
-                raise CertificateError(f"not shown positive: {text}")
-            return context.read(text), ">"
+            return _argument(given, text, "positive"), ">"
         case {"inverse": int(i)} if given.margins[i][1] == ">":
             return given.margins[i][0].inverse(), ">"
         case {"square_of": int(i)} if given.margins[i][1] == "!=":
             return given.margins[i][0] * given.margins[i][0], ">"
         case {"square": str(text)}:
-            given.require_defined(text)
-            root = context.read(text)
+            root = _argument(given, text)
             return root * root, ">="
         case {"sum_of_squares": str(text)}:
             given.require_defined(text)
             value = context.term(text)
             return value * value * symbol(SUM), ">="
         case {"any": str(text)}:
-            given.require_defined(text)
-            return context.read(text), "any"
+            return _argument(given, text), "any"
         case {"fact": "log_tangent", "of": str(text)}:
             inner = _argument(given, text, "positive")
             return inner + number(-1) + -context.call("log", inner), ">="
@@ -769,10 +764,9 @@ def _factor(given: Relations, item: dict[str, Any]) -> Sign:
         case {"fact": "sqrt_square", "of": str(text)}:
             root = context.call("sqrt", _argument(given, text, "non-negative"))
             return root * root + -context.read(text), "=="
-        case {"fact": "sqrt_nonnegative", "of": str(text)}:
-            return context.call("sqrt", _argument(given, text, "non-negative")), ">="
-        case {"fact": "sqrt_positive", "of": str(text)}:
-            return context.call("sqrt", _argument(given, text, "positive")), ">"
+        case {"fact": "sqrt_nonnegative" | "sqrt_positive" as fact, "of": str(text)}:
+            wanted, sign = ("positive", ">") if fact == "sqrt_positive" else ("non-negative", ">=")
+            return context.call("sqrt", _argument(given, text, wanted)), sign
     raise CertificateError(f"unknown factor {item}")
 
 
@@ -844,7 +838,7 @@ def substitute(context: Context, value: Ratio, point: dict[str, Ratio], done: di
 
 # --- values at a point: rational intervals -----------------------------------------------------------------
 
-PRECISION = Fraction(1, 10**30)
+Bounds = dict[str, tuple[Fraction, Fraction]]
 
 
 def exp_bounds(x: Fraction) -> tuple[Fraction, Fraction]:
@@ -935,29 +929,20 @@ def circle_bounds(kind: str, x: Fraction, y: Fraction) -> tuple[Fraction, Fracti
     return max(_round(total - slack, -1), Fraction(-1)), min(_round(total + slack, 1), Fraction(1))
 
 
-def abs_bounds(x: Fraction, y: Fraction) -> tuple[Fraction, Fraction]:
-    """Bounds of the absolute value of anything between x and y."""
-    return (Fraction(0) if x <= 0 <= y else min(abs(x), abs(y))), max(abs(x), abs(y))
-
-
-def sign_bounds(x: Fraction, y: Fraction) -> tuple[Fraction, Fraction]:
-    """Bounds of the sign of anything between x and y."""
-    return Fraction((x > 0) - (x < 0)), Fraction((y > 0) - (y < 0))
-
-
-def bounds(context: Context, value: Ratio,
-           known: dict[str, tuple[Fraction, Fraction]] | None = None) -> tuple[Fraction, Fraction]:
-    """Rational bounds of a value without free symbols (n = 1 for sums); `known` are functions bounded already."""
+def bounds(context: Context, value: Ratio, known: Bounds | None = None) -> tuple[Fraction, Fraction]:
+    """Rational bounds of a value (n = 1 for sums); `known` are symbols and functions that are bounded already."""
     known = {} if known is None else known
 
-    def function_bounds(atom: str) -> tuple[Fraction, Fraction]:
+    def atom_bounds(atom: str) -> tuple[Fraction, Fraction]:
         if atom not in known:
+            if atom not in context.functions:
+                raise CertificateError(f"symbol '{atom}' has no value at the point")
             kind, argument = context.functions[atom]
             x, y = bounds(context, argument, known)
             if kind == "abs":
-                known[atom] = abs_bounds(x, y)
+                known[atom] = (Fraction(0) if x <= 0 <= y else min(abs(x), abs(y))), max(abs(x), abs(y))
             elif kind == "sign":
-                known[atom] = sign_bounds(x, y)
+                known[atom] = Fraction((x > 0) - (x < 0)), Fraction((y > 0) - (y < 0))
             elif kind in ("sin", "cos"):
                 known[atom] = circle_bounds(kind, x, y)
             else:
@@ -972,9 +957,7 @@ def bounds(context: Context, value: Ratio,
             for atom, power in monomial:
                 if atom == SUM:
                     continue
-                if atom not in context.functions:
-                    raise CertificateError(f"symbol '{atom}' has no value at the point")
-                inner = function_bounds(atom)
+                inner = atom_bounds(atom)
                 spend(power)
                 for _ in range(power):
                     corners = [p * q for p in (a, b) for q in inner]
@@ -1013,23 +996,25 @@ def at(context: Context, value: Ratio, point: dict[str, Ratio], terms: Terms | N
     return total
 
 
-def require_defined_at(context: Context, text: str, point: dict[str, Ratio], terms: Terms | None = None) -> None:
+def require_defined_at(context: Context, text: str, point: dict[str, Ratio], terms: Terms | None = None,
+                       between: Bounds | None = None) -> None:
     """CertificateError unless an expression or relation is defined at a point, in every term of its sums."""
     for part, wanted in context.partial_operations(text):
         value = context.node(part)
         each = terms is not None and symbols_of(context, value) & context.indexed
         for here in [at(context, value, point, terms)] if not each else [
                 substitute(context, value, point | row) for row in terms or []]:
-            low, high = bounds(context, here)
+            low, high = bounds(context, here, dict(between or {}))
             if not (low > 0 or (wanted == "non-zero" and high < 0) or (wanted == "non-negative" and low == 0)):
                 raise CertificateError(f"undefined at the point: {ast.unparse(part)}")
 
 
-def holds(context: Context, text: str, point: dict[str, Ratio], terms: Terms | None = None) -> bool:
-    """Whether a relation holds at a point; an error where it is undefined or the enclosure cannot tell."""
-    require_defined_at(context, text, point, terms)
+def holds(context: Context, text: str, point: dict[str, Ratio], terms: Terms | None = None,
+          between: Bounds | None = None) -> bool:
+    """Whether a relation holds at a point, or wherever symbols lie between bounds; an error where that is not told."""
+    require_defined_at(context, text, point, terms, between)
     value, operator = margin(context, text)
-    low, high = bounds(context, at(context, value, point, terms))
+    low, high = bounds(context, at(context, value, point, terms), dict(between or {}))
     verdict = {">": (low > 0, high <= 0), ">=": (low >= 0, high < 0),
                "==": (low == high == 0, low > 0 or high < 0), "!=": (low > 0 or high < 0, low == high == 0)}
     true, false = verdict[operator]
@@ -1075,14 +1060,9 @@ def check_proved(goal: dict[str, Any], certificate: dict[str, Any]) -> None:
     for text, proof in zip(goal["show"], certificate["proofs"], strict=True):
         given.require_defined(text)
         prove(*margin(context, text), given, proof)
-    if all(_says_nothing(text) for text in goal["show"]):
+    sides = [split_relation(text)[::2] for text in goal["show"]]
+    if all(ast.dump(parse(left)) == ast.dump(parse(right)) for left, right in sides):
         raise CertificateError("trivial: both sides of every relation shown are the same text")
-
-
-def _says_nothing(text: str) -> bool:
-    """Whether a relation says of a text that it is itself."""
-    left, operator, right = split_relation(text)
-    return operator in ("==", "<=", ">=") and ast.dump(parse(left)) == ast.dump(parse(right))
 
 
 def _check_example(goal: dict[str, Any], context: Context, given: Relations, certificate: dict[str, Any]) -> None:
@@ -1091,11 +1071,9 @@ def _check_example(goal: dict[str, Any], context: Context, given: Relations, cer
     Where the goal names initial values, the point is time zero and meets them, or a path leads to it from them.
     """
     point = read_point(certificate["example"])
-    for text in (*goal.get("assume", []), *given.always):
-        if not holds(context, text, point):
-            raise CertificateError(f"the example breaks the assumption {text}")
+    between = _require_met(context, goal, point, certificate, "example")
     for rate in context.rates.values():
-        require_defined_at(context, rate, point)
+        require_defined_at(context, rate, point, None, between)
     if "path" in certificate:
         _check_reached(context, given, point, certificate)
         return
@@ -1110,6 +1088,38 @@ def _check_example(goal: dict[str, Any], context: Context, given: Relations, cer
         if bounds(context, substitute(context, value, point)) == (0, 0) and bounds(
                 context, substitute(context, context.derivative(value, context.flow), point))[1] < 0:
             raise CertificateError(f"the example's motion breaks at once what always holds: {text}")
+
+
+def _require_met(context: Context, goal: dict[str, Any], point: dict[str, Ratio], certificate: dict[str, Any],
+                 what: str, terms: Terms | None = None) -> Bounds:
+    """CertificateError unless all assumptions hold at a point. `roots` are symbols, left out of the point from here on,
+    that lie between two numbers at which an equality assumed has opposite signs: somewhere between them it holds."""
+    texts, roots = [*goal.get("assume", []), *goal.get("always", [])], certificate.get("roots", [])
+    if roots and (goal.keys() - {"assume", "show", "flow"} or certificate.keys() & {"terms", "path"}):
+        raise CertificateError("roots are taken of goals of one instant, without sums and inputs")
+    between = roots_of(certificate)
+    for name, (low, high) in between.items():
+        if not low <= point.pop(name).num.get((), Fraction(0)) <= high:
+            raise CertificateError(f"the value given for the root {name} does not lie where it does")
+    for root, (name, ends) in zip(roots, between.items(), strict=True):
+        value, operator = margin(context, root["equality"])
+        curve = substitute(context, value, point)
+        sides = [substitute(context, curve, {name: number(end)}).num.get((), Fraction(0)) for end in ends]
+        if operator != "==" or curve.den != ONE or atoms_of(curve) != {name} or (
+                ends[0] >= ends[1] or sides[0] * sides[1] >= 0):
+            raise CertificateError(f"no polynomial that changes its sign between the two numbers: {root['equality']}")
+        require_defined_at(context, root["equality"], point, None, between)
+        texts.remove(root["equality"])
+    for text in texts:
+        if not holds(context, text, point, terms, between):
+            raise CertificateError(f"the {what} breaks the assumption {text}")
+    return between
+
+
+def roots_of(certificate: dict[str, Any]) -> Bounds:
+    """The symbols that are roots, and the two numbers between which each lies."""
+    return {read_name(root["of"]): (read_rational(root["from"]), read_rational(root["to"]))
+            for root in certificate.get("roots", [])}
 
 
 def start_at(context: Context, value: Ratio, point: dict[str, Ratio], terms: Terms | None) -> Ratio:
@@ -1127,9 +1137,7 @@ def check_false(goal: dict[str, Any], certificate: dict[str, Any]) -> None:
     context, given = read_goal(goal)
     point = read_point(certificate["point"])
     terms = read_terms(certificate["terms"], context, point) if "terms" in certificate else None
-    for text in (*goal.get("assume", []), *goal.get("always", [])):
-        if not holds(context, text, point, terms):
-            raise CertificateError(f"the point breaks the assumption {text}")
+    between = _require_met(context, goal, point, certificate, "point", terms)
     if "path" in certificate:
         if terms is not None:
             raise CertificateError("a path leads to no point at which sums have several terms")
@@ -1138,7 +1146,7 @@ def check_false(goal: dict[str, Any], certificate: dict[str, Any]) -> None:
         for name, value in given.initial.items():  # a point alone can only be the first of all instants
             if not same(point[name], start_at(context, value, point, terms)):
                 raise CertificateError(f"nothing says that the flow reaches the point: {name} is not where it starts")
-    outcomes = [holds(context, text, point, terms) for text in goal["show"]]  # all of them: each must be defined
+    outcomes = [holds(context, text, point, terms, between) for text in goal["show"]]  # each must be defined
     if all(outcomes):
         raise CertificateError("the goal holds at the point")
 
@@ -1201,9 +1209,7 @@ def _check_model(goal: dict[str, Any], certificate: dict[str, Any]) -> None:
         start = substitute(context, values.get(name, symbol(name)), {time: number(0)})
         if not same(substitute(context, value, point), start):
             raise CertificateError(f"the model does not start at the initial value of {name}")
-    for text in goal.get("assume", []):
-        if not holds(context, text, point):
-            raise CertificateError(f"the model breaks the assumption {text}")
+    _require_met(context, {"assume": goal.get("assume", [])}, point, {}, "model")
     for text, proof in zip(goal["always"], certificate["always"], strict=True):
         value, operator = margin(context, text)
         prove(along(value), operator, later, proof)
@@ -1243,8 +1249,7 @@ UNDECIDED = ("assumed", "undecided")  # verdicts without a certificate
 
 
 def check(certificate: dict[str, Any]) -> None:
-    """Raise CertificateError, with the reason, unless the certificate establishes its verdict, and so do all that it is
-    composed of."""
+    """Raise CertificateError unless the certificate establishes its verdict, and so do all that it is composed of."""
     _check_alone(certificate)
     if "composition" in certificate:
         try:
@@ -1339,8 +1344,7 @@ def digest_of(stated: dict[str, Any]) -> str:
 
 
 def goal_digest(certificate: dict[str, Any]) -> str:
-    """The digest of what a certificate is for: claim, verdict and goal; of a violated condition its numbers too, and
-    the goals of a correction or a repair."""
+    """The digest of claim, verdict and goal; of a violated condition its numbers too, and a correction's goal."""
     stated = {name: certificate[name] for name in ("claim", "verdict", "goal")}
     if stated["verdict"] == "violated":
         stated["point"] = certificate["point"]
@@ -1358,7 +1362,6 @@ def _require_digest(certificate: dict[str, Any]) -> str:
 
 
 MANIFEST, THEOREMS = "manifest.json", "theorems"
-LARGEST = 64 * 2**20
 Row = tuple[Path, str, "str | None"]
 
 
@@ -1523,14 +1526,11 @@ def _unique(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
     return dict(pairs)
 
 
-USAGE = "usage: checker.py FOLDER | checker.py FILE --claim-digest SHA256\n"
-
-
 def main() -> int:
     """Check what the command line names; 0 when all certificates hold, 1 when not, 2 when there is none."""
     place, *option = sys.argv[1:] or ["."]
     if option and not (len(option) == 2 and option[0] == "--claim-digest" and Path(place).is_file()):
-        sys.stderr.write(USAGE)
+        sys.stderr.write("usage: checker.py FOLDER | checker.py FILE --claim-digest SHA256\n")
         return 2
     path = Path(place)
     results = [check_file(path, None, option[1] if option else None)] if path.is_file() else check_folder(path)

@@ -18,6 +18,7 @@ from workbench.proof.typed import as_evaluated, evaluated, kept_as_typed
 from workbench.proof.verdict import FAILED, VERDICTS, Decision, Kind, Stated, Verdict  # noqa: F401 - all records here
 
 Operator = Literal["==", "<=", "<", ">=", ">", "!="]
+OPPOSITE: dict[Operator, Operator] = {"==": "!=", "!=": "==", "<": ">=", ">=": "<", ">": "<=", "<=": ">"}
 
 
 @dataclass(frozen=True)
@@ -37,6 +38,11 @@ class Relation:
     def strict(self) -> bool:
         """Whether the margin must be positive."""
         return self.operator in ("<", ">")
+
+    @property
+    def negation(self) -> Relation:
+        """The relation that holds, where both sides are defined, just where this one does not."""
+        return Relation(self.left, OPPOSITE[self.operator], self.right)
 
     def subs(self, values: dict[sp.Expr, sp.Expr]) -> Relation:
         """The relation with symbols replaced."""

@@ -9,6 +9,7 @@ from fractions import Fraction
 from typing import Any
 
 from workbench.proof.checker import (
+    Bounds,
     CertificateError,
     Context,
     Poly,
@@ -20,6 +21,7 @@ from workbench.proof.checker import (
     holds,
     read_point,
     read_terms,
+    roots_of,
     split_relation,
     substitute,
     symbols_of,
@@ -69,11 +71,15 @@ def counterexample_of(certificate: Mapping[str, Any]) -> Counterexample | None:
         return _motion(certificate, context, point)
     terms = read_terms(certificate["terms"], context, point) if "terms" in certificate else None
     failing = goal["show"][0]
+    between = roots_of(dict(certificate))
+    for name in between:
+        point.pop(name)
     if len(goal["show"]) > 1:
-        failing = next((text for text in goal["show"] if not _holds(context, text, point, terms)), failing)
+        failing = next((text for text in goal["show"] if not _holds(context, text, point, terms, between)), failing)
     left, operator, right = split_relation(failing)
     deciding = _symbols(context, left) | _symbols(context, right)
-    shown = {name: value_latex(Fraction(text)) for name, text in sorted(certificate["point"].items())}
+    shown = {name: _rounded(Fraction(text), 10) if name in between else value_latex(Fraction(text))
+             for name, text in sorted(certificate["point"].items())}
     rows = [{name: value_latex(Fraction(text)) for name, text in sorted(row.items())}
             for row in certificate.get("terms", [])]
     values, others = _grouped({name: value for name, value in shown.items() if name in deciding})
@@ -82,8 +88,8 @@ def counterexample_of(certificate: Mapping[str, Any]) -> Counterexample | None:
     every = tuple((name_latex(name), value) for name, value in shown.items()) + tuple(
         (_indexed(name, i), value) for i, row in enumerate(rows, 1) for name, value in row.items())
     return Counterexample(relation_latex(failing), SIGNS[operator], values + in_sums, others,
-                          *_values(context, (left, right), point, terms), every, False,
-                          _put_in(left, right, certificate["point"]))
+                          *_values(context, (left, right), point, terms, between), every, False,
+                          None if between else _put_in(left, right, certificate["point"]))
 
 
 def _put_in(left: str, right: str, point: Mapping[str, str]) -> tuple[str, str] | None:
@@ -113,9 +119,9 @@ def _symbols(context: Context, text: str) -> set[str]:
     return symbols_of(context, context.read(text))
 
 
-def _holds(context: Context, text: str, point: dict[str, Ratio], terms: Terms | None) -> bool:
+def _holds(context: Context, text: str, point: dict[str, Ratio], terms: Terms | None, between: Bounds) -> bool:
     try:
-        return holds(context, text, point, terms)
+        return holds(context, text, point, terms, between)
     except CertificateError:
         return True
 
@@ -132,18 +138,19 @@ class _AtPoint(Context):
         return self.point.get(node.id) or super().node(node) if isinstance(node, ast.Name) else super().node(node)
 
 
-def _enclosed(context: Context, side: str, point: dict[str, Ratio], terms: Terms | None) -> tuple[Fraction, Fraction]:
+def _enclosed(context: Context, side: str, point: dict[str, Ratio], terms: Terms | None,
+              between: Bounds) -> tuple[Fraction, Fraction]:
     if calls(side, "D") or calls(side, "Sum"):
-        return bounds(context, at(context, context.read(side), point, terms))
+        return bounds(context, at(context, context.read(side), point, terms), dict(between))
     numbers = _AtPoint(point)
-    return bounds(numbers, numbers.read(side))
+    return bounds(numbers, numbers.read(side), dict(between))
 
 
 def _values(context: Context, sides: Sequence[str], point: dict[str, Ratio],
-            terms: Terms | None) -> tuple[str | None, str | None]:
+            terms: Terms | None, between: Bounds) -> tuple[str | None, str | None]:
     """Both sides at the point: exact where they are rational and short, else rounded so far that they differ."""
     try:
-        found = [_enclosed(context, side, point, terms) for side in sides]
+        found = [_enclosed(context, side, point, terms, between) for side in sides]
     except CertificateError:
         return None, None
     numbers = [(low + high) / 2 for low, high in found]

@@ -12,7 +12,7 @@ import sympy as sp
 
 from workbench.errors import ClaimError
 from workbench.proof.building import built
-from workbench.proof.checker import CertificateError, check
+from workbench.proof.checker import CertificateError, check, roots_of
 from workbench.proof.claim import Claim, Decision, Goal, Relation, Verdict, latex, name_of
 from workbench.proof.decide.method import method_of
 from workbench.proof.decide.nearest import smallest_margin
@@ -57,7 +57,7 @@ def _decide_statement(claim: Claim, goal: Goal) -> Decision:
         return shown_by(claim, goal, {"claim": claim.id, **proof})
     certificate_or_none = certificate_or_none or find_counterexample(goal, verdict)
     if certificate_or_none is None:
-        return Decision(claim, "undecided", _nearest(goal, proof), None, 0.0)
+        return Decision(claim, "undecided", not_shown(goal, proof), None, 0.0)
     certificate = {"claim": claim.id, **certificate_or_none}
     if claim.correction is not None:
         repaired = prove_goal(built(claim, claim.correction, "correction"))
@@ -113,7 +113,8 @@ def shown_by(claim: Claim, goal: Goal, certificate: Certificate) -> Decision:
         correction = claim.corrected_statement or nearest.show[0].latex()
     if claim.at is not None and claim.repair is not None:
         correction = ",\\ ".join(f"{latex(s)} = {_fraction(v)}" for s, v in claim.repair.items())
-    computed = None if goal.eventually else value_at(goal, certificate["point"], certificate.get("terms"))
+    computed = None if goal.eventually else value_at(
+        goal, certificate["point"], certificate.get("terms"), roots_of(certificate))
     return Decision(claim, verdict, "counterexample" if claim.at is None else at_values, "exact", 0.0, certificate,
                     point, correction, computed)
 
@@ -161,7 +162,7 @@ def attempted_proof(goal: Goal) -> Certificate | str:
         return "a claim of some later time is proved by naming that time"
     record, missing = goal_text(goal), ""
     for functions in (True, False):  # what sympy makes of Max, Min and abs the checker may have to be shown
-        found = _proofs(goal.evaluated(functions))
+        found = proofs_of(goal.evaluated(functions))
         if isinstance(found, str):
             return missing or found
         missing = "no instant was found at which all assumptions hold: they may contradict each other"
@@ -179,7 +180,7 @@ def attempted_proof(goal: Goal) -> Certificate | str:
     return missing
 
 
-def _proofs(goal: Goal) -> list[dict[str, Any]] | str:
+def proofs_of(goal: Goal) -> list[dict[str, Any]] | str:
     """A proof of each relation that the goal shows, not yet checked; or what was not shown."""
     proofs = []
     for place, shown in enumerate(goal.show):
@@ -191,8 +192,8 @@ def _proofs(goal: Goal) -> list[dict[str, Any]] | str:
     return proofs
 
 
-def _nearest(goal: Goal, missing: str) -> str:
-    """What came nearest to a decision."""
+def not_shown(goal: Goal, missing: str) -> str:
+    """Why a goal is undecided: what is missing, and what came nearest to a decision."""
     if missing.startswith("a proof") or goal.eventually is not None:
         return missing
     return f"{missing}; {smallest_margin(goal)}"

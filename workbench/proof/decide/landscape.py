@@ -40,6 +40,18 @@ class Landscape:
         every = (*self.domain, *self.given, *self.shown)
         self._all = Tape(self.symbols, [margin for _, margin in every], sizes=True)
 
+    def operators(self) -> list[tuple[str, bool]]:
+        """The relations' operators in the order of `margins`, and whether they are shown rather than assumed."""
+        every = [(operator, False) for operator, _ in (*self.domain, *self.given)]
+        return every + [(operator, True) for operator, _ in self.shown]
+
+    def margins(self, columns: Sequence[Numbers]) -> tuple[Numbers, Numbers]:
+        """All margins and the sums of their terms' sizes, each of shape (points, relations)."""
+        count = len(columns[0]) if columns else 1
+        with np.errstate(all="ignore"):
+            values = [np.broadcast_to(np.asarray(v, dtype=float), (count,)) for v in self._all(*columns)]
+        return np.stack(values[::2], axis=1), np.stack(values[1::2], axis=1)
+
     def look(self, columns: Sequence[Numbers]) -> tuple[Numbers, Numbers]:
         """(violation, excess) for each point: how far assumptions are from holding (0: they hold), and by how much
         the relation that fails most fails; an excess that is not positive says that all hold, rounding allowed for.

@@ -19,6 +19,7 @@ import sympy as sp
 
 from workbench.proof.claim import Goal, equal, name_of
 from workbench.proof.decide.boundary_points import Family, families
+from workbench.proof.decide.descent import descended
 from workbench.proof.decide.exact_values import exact_function
 from workbench.proof.decide.landscape import Landscape, landscape_of
 from workbench.proof.decide.local_search import climb
@@ -30,6 +31,7 @@ SCALES = (Fraction(1, 4000), Fraction(1, 400), Fraction(1, 40), Fraction(1, 4), 
 FIRST_BLOCKS = (40, 160, 400, 1_400)  # `quick` does without the last
 POINTS = 600
 FAMILIES, CLIMBS = 60, 8
+NEAR = 1e-2  # violation, in all, of points beside which equalities may hold
 LOOKS = 5  # exact looks for each batch of points
 
 Point = dict[str, Fraction]
@@ -52,6 +54,32 @@ def proposals(goal: Goal, seed: int, break_shown: bool, quick: bool = False) -> 
         yield from _worth_a_look(landscape, family, chosen, break_shown)
         if len(tried) <= CLIMBS:
             yield from _worth_a_look(landscape, family, climb(landscape, family, break_shown, rng), break_shown)
+
+
+@once_per_goal
+def _descents(goal: Goal) -> dict[tuple[int, bool], list[tuple[Point, bool]]]:
+    return {}
+
+
+def descents(goal: Goal, seed: int, break_shown: bool) -> list[tuple[Point, bool]]:
+    """Points that least squares reach, and whether they only come near: what is assumed equal may be so beside them."""
+    known = _descents(goal)
+    if (seed, break_shown) not in known:
+        known[seed, break_shown] = list(_descended(landscape_of(goal), seed, break_shown))
+    return known[seed, break_shown]
+
+
+def _descended(landscape: Landscape, seed: int, break_shown: bool) -> Iterator[tuple[Point, bool]]:
+    family = next(families(landscape, random.Random(seed), 1))
+    for chosen in descended(landscape, family, break_shown, np.random.default_rng(seed)):
+        violation, excess = landscape.look(family.columns(chosen))
+        near = violation < NEAR
+        if break_shown:
+            near &= excess > 0
+        for row in np.flatnonzero(near)[:LOOKS]:
+            point = family.exact({s: tidy_fraction(float(c[row])) for s, c in chosen.items()})
+            if point is not None:
+                yield point, violation[row] > 0
 
 
 def _worth_a_look(landscape: Landscape, family: Family, chosen: dict[sp.Symbol, Any],

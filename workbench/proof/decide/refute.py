@@ -3,12 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import dataclass
 from fractions import Fraction
 from itertools import islice
 from typing import Any
 
+import sympy as sp
+
 from workbench.errors import ClaimError
 from workbench.proof.checker import (
+    Bounds,
     CertificateError,
     Context,
     at,
@@ -18,6 +22,7 @@ from workbench.proof.checker import (
     number,
     read_rational,
     read_terms,
+    roots_of,
     split_relation,
 )
 from workbench.proof.claim import Goal, Verdict
@@ -25,8 +30,18 @@ from workbench.proof.decide.counts import counted_points
 from workbench.proof.decide.exact_look import Exact
 from workbench.proof.decide.model import find_model
 from workbench.proof.decide.path import find_path, reached_points
-from workbench.proof.decide.proposals import Point, proposals
+from workbench.proof.decide.proposals import Point, descents, proposals
+from workbench.proof.decide.roots import Root, roots_near
 from workbench.proof.text import goal_text
+
+
+@dataclass(frozen=True)
+class Place:
+    """A point, and what a certificate says of the symbols in it that are roots rather than rational."""
+
+    point: Point
+    roots: dict[str, list[Root]]
+
 
 EXAMPLES = 4  # of each kind, when the checker wants another
 SIMPLE = (Fraction(0), Fraction(1), Fraction(-1), Fraction(2), Fraction(1, 2), Fraction(-2), Fraction(3))
@@ -53,7 +68,35 @@ def find_counterexample(goal: Goal, verdict: Verdict, seed: int = 1, quick: bool
             return found
     except (CertificateError, ClaimError):  # nothing that the checker would accept can be said of such a goal
         return None
-    return find_path(usual, record, verdict, seed, quick)
+    found = find_path(usual, record, verdict, seed, quick)
+    return found if quick or found is not None else descended_counterexample(goal, verdict)
+
+
+def descended_counterexample(goal: Goal, verdict: Verdict, seed: int = 1) -> dict[str, Any] | None:
+    """The same with a point, rational or a root, to which least squares lead."""
+    record = goal_text(goal)
+    try:
+        for place in _descended(goal, seed, True):
+            certificate = {"version": 1, "verdict": verdict, "goal": record, "point": texts(place.point)} | place.roots
+            if _accepted(certificate):
+                return certificate
+    except (CertificateError, ClaimError):
+        pass
+    return None
+
+
+def _descended(goal: Goal, seed: int, break_shown: bool) -> Iterator[Place]:
+    """Rational points near which floating point sees no obstacle, and points where symbols are roots; of goals of one
+    instant without sums."""
+    if goal.initial or goal.always or goal.inputs or any(isinstance(s, sp.Indexed) for s in goal.symbols()):
+        return
+    exact = Exact(goal_text(goal))
+    for point, missed in descents(goal.evaluated(), seed, break_shown):
+        if not missed:
+            if exact.breaks(point) if break_shown else exact.meets(point):
+                yield Place(point, {})
+        elif (found := roots_near(goal, point)) is not None:
+            yield Place(found[0], {"roots": found[1]})
 
 
 def _simplest(exact: Exact, point: Point) -> Point:
@@ -83,7 +126,8 @@ def shown_point(certificate: dict[str, Any]) -> dict[str, str]:
     terms = certificate.get("terms", [])
     rows = {f"{name}[{place}]": value for place, term in enumerate(terms, 1) for name, value in term.items()}
     count = {"terms of the sums": str(len(terms))} if "terms" in certificate else {}
-    return dict(certificate.get("functions", {})) | count | rows | certificate["point"]
+    roots = {name: f"root near {float(Fraction(certificate['point'][name])):.10g}" for name in roots_of(certificate)}
+    return dict(certificate.get("functions", {})) | count | rows | certificate["point"] | roots
 
 
 def find_example(goal: Goal, seed: int = 1) -> dict[str, str] | None:
@@ -104,8 +148,25 @@ def examples(goal: Goal, seed: int = 1) -> Iterator[dict[str, Any]]:
         yield from ({"example": texts(point)} for point in islice(points, EXAMPLES if goal.initial else 1))
         for reached in islice(reached_points(usual, seed, False) if goal.initial else (), EXAMPLES):
             yield {"example": reached.pop("point"), **reached}
+        yield from _descended_examples(goal, seed)
     except (CertificateError, ClaimError):
         return
+
+
+def quick_examples(goal: Goal, seed: int = 1) -> Iterator[dict[str, Any]]:
+    """The same for a goal of one instant, from points that cost next to nothing."""
+    try:
+        exact, usual = Exact(goal_text(goal)), goal.evaluated()
+        points = (point for point in proposals(usual, seed, False, quick=True) if exact.meets(point))
+        yield from ({"example": texts(point)} for point in islice(points, 1))
+        yield from _descended_examples(goal, seed)
+    except (CertificateError, ClaimError):
+        return
+
+
+def _descended_examples(goal: Goal, seed: int) -> Iterator[dict[str, Any]]:
+    yield from ({"example": texts(place.point), **place.roots}
+                for place in islice(_descended(goal, seed, False), EXAMPLES))
 
 
 def _accepted(certificate: dict[str, Any]) -> bool:
@@ -121,17 +182,19 @@ def texts(point: Point) -> dict[str, str]:
     return {name: str(value) for name, value in point.items()}
 
 
-def value_at(goal: Goal, point: dict[str, str], terms: list[dict[str, str]] | None = None) -> str:
+def value_at(goal: Goal, point: dict[str, str], terms: list[dict[str, str]] | None = None,
+             between: Bounds | None = None) -> str:
     """The sides of the first relation that fails (or of the last) at a point, as exact or rounded numbers."""
     record = goal_text(goal)
     context = Context(record.get("flow", {}), record.get("indexed", []))
-    values = {name: number(read_rational(v)) for name, v in point.items()}
+    values = {name: number(read_rational(v)) for name, v in point.items() if name not in (between or {})}
     rows = None if terms is None else read_terms(terms, context, values)
     for shown in record["show"]:
-        if not holds(context, shown, values, rows) or shown is record["show"][-1]:
+        if not holds(context, shown, values, rows, between) or shown is record["show"][-1]:
             break
     left, operator, right = split_relation(shown)
-    sides = [bounds(context, at(context, context.read(side), values, rows)) for side in (left, right)]
+    sides = [bounds(context, at(context, context.read(side), values, rows), dict(between or {}))
+             for side in (left, right)]
     a, b = (f"{float(low):.6g}" if low == high or float(low) == float(high) else f"{float((low + high) / 2):.6g}"
             for low, high in sides)
     return f"{a} {operator} {b}"

@@ -50,11 +50,13 @@ def search(goal: Goal, shown: Relation, given: Given, lemmas: Given = (), depth:
 
 def _by_contradiction(goal: Goal, shown: Relation, given: Given) -> Found:
     """Where the relation fails the assumptions cannot all hold; finds what needs a division by the goal's margin."""
-    if shown.operator not in (">=", "<="):
+    if shown.operator == "==":
         return None
-    impossible = find_combination(goal, greater(0, 0), (*given, greater(-shown.margin, 0)))
+    impossible = find_combination(goal, greater(0, 0), (*given, shown.negation))
     if impossible is None:
         return None
+    if shown.operator not in (">=", "<="):
+        return impossible | {"rule": "contradiction"}, "contradiction"
     here: Proof = {"rule": "combination", "terms": [{"coefficient": "1", "factors": [{"assume": len(given)}]}]}
     return {"rule": "cases", "of": text(shown.margin), "positive": here, "zero": here,
             "negative": impossible | {"rule": "contradiction"}}, "contradiction"

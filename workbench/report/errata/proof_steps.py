@@ -28,6 +28,14 @@ class _Known:
     reason: str
 
 
+@dataclass(frozen=True)
+class _Wanted:
+    """What is to be shown: its margin, and that of its opposite."""
+
+    margin: str
+    opposite: str
+
+
 def proof_steps(certificate: Mapping[str, Any]) -> list[Item]:
     """The steps of a certificate of verdict `proved`, or of a correction in one: every relation shown, in turn."""
     goal = certificate["goal"]
@@ -35,18 +43,18 @@ def proof_steps(certificate: Mapping[str, Any]) -> list[Item]:
     found = []
     for text, proof in zip(goal["show"], certificate["proofs"], strict=True):
         found.append(Item(f"To show: ${_shown(relation_latex(text))}$.", 0))
-        found += _steps(_margin(text), given, proof, 1, goal)
+        found += _steps(_wanted(text), given, proof, 1, goal)
     return found
 
 
-def _steps(value: str, given: Sequence[_Known], proof: Mapping[str, Any], depth: int,
+def _steps(value: _Wanted, given: Sequence[_Known], proof: Mapping[str, Any], depth: int,
            goal: Mapping[str, Any]) -> Iterator[Item]:
     rule = proof["rule"]
     if rule == "identity":
         yield Item("Both sides are the same: their difference is zero, multiplied out.", depth)
     elif rule == "cut":
         yield Item(f"First, ${_shown(relation_latex(proof['lemma']))}$:", depth)
-        yield from _steps(_margin(proof["lemma"]), given, proof["proof"], depth + 1, goal)
+        yield from _steps(_wanted(proof["lemma"]), given, proof["proof"], depth + 1, goal)
         yield Item("With it:", depth)
         yield from _steps(value, [*given, _known(proof["lemma"], "shown above")], proof["then"], depth + 1, goal)
     elif rule == "cases":
@@ -57,7 +65,7 @@ def _steps(value: str, given: Sequence[_Known], proof: Mapping[str, Any], depth:
         yield from _combination(value, given, proof, depth)
 
 
-def _cases(value: str, given: Sequence[_Known], proof: Mapping[str, Any], depth: int,
+def _cases(value: _Wanted, given: Sequence[_Known], proof: Mapping[str, Any], depth: int,
            goal: Mapping[str, Any]) -> Iterator[Item]:
     of = expression_latex(proof["of"])
     for name, sign in CASES.items():
@@ -68,12 +76,13 @@ def _cases(value: str, given: Sequence[_Known], proof: Mapping[str, Any], depth:
             yield from _steps(value, [*given, _Known(margin, f"the case ${of} {sign}$")], proof[name], depth + 1, goal)
 
 
-def _nonincreasing(value: str, given: Sequence[_Known], proof: Mapping[str, Any], depth: int,
+def _nonincreasing(value: _Wanted, given: Sequence[_Known], proof: Mapping[str, Any], depth: int,
                    goal: Mapping[str, Any]) -> Iterator[Item]:
     function = expression_latex(proof["function"])
     yield Item(f"Along the motion $F = {_shown(function)}$ does not grow, because $-\\dot F \\ge 0$:", depth)
     along = [*given, *(_known(text, "at all times") for text in goal.get("always", []))]
-    yield from _steps(f"-D({proof['function']})", along, proof["decrease"], depth + 1, goal)
+    fall = _Wanted(f"-D({proof['function']})", f"D({proof['function']})")
+    yield from _steps(fall, along, proof["decrease"], depth + 1, goal)
     start = _at_start(proof["function"], goal.get("initial", {}))
     drop = _Known(f"({start}) - ({proof['function']})", "$F$ is at most what it was at time zero")
     yield Item("So it is at most what it was at time zero. With that:", depth)
@@ -85,12 +94,16 @@ def _at_start(text: str, initial: Mapping[str, str]) -> str:
     return re.sub(r"[A-Za-z_]\w*", lambda found: f"({initial[found[0]]})" if found[0] in initial else found[0], text)
 
 
-def _combination(value: str, given: Sequence[_Known], proof: Mapping[str, Any], depth: int) -> Iterator[Item]:
+def _combination(value: _Wanted, given: Sequence[_Known], proof: Mapping[str, Any], depth: int) -> Iterator[Item]:
     terms = proof["terms"]
     contradiction = proof["rule"] == "contradiction"
+    opposite = contradiction and any(len(given) in item.values() for term in terms for item in term["factors"])
+    if opposite:
+        given = [*given, _Known(value.opposite, "the opposite of what is to be shown")]
     scale = "".join(_factor(item, given)[0] for item in proof.get("multiplier", []))
-    what = "What is assumed cannot hold together, for zero" if contradiction else (
-        f"${_shown(expression_latex(value))}$" + (f", times ${scale}$, which is positive," if scale else ""))
+    what = "If it were not so, what is assumed could not hold together, for zero" if opposite else (
+        "What is assumed cannot hold together, for zero") if contradiction else (
+        f"${_shown(expression_latex(value.margin))}$" + (f", times ${scale}$, which is positive," if scale else ""))
     if not terms:
         yield Item(f"{what} is zero, multiplied out.", depth)
         return
@@ -132,6 +145,11 @@ def _fact(name: str, of: str) -> str:
 
 def _known(text: str, why: str = "assumed") -> _Known:
     return _Known(_margin(text), f"{why}: ${relation_latex(text)}$")
+
+
+def _wanted(text: str) -> _Wanted:
+    margin = _margin(text)
+    return _Wanted(margin, margin if split_relation(text)[1] in ("==", "!=") else f"-({margin})")
 
 
 def _margin(text: str) -> str:

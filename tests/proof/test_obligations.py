@@ -1,0 +1,125 @@
+"""Obligations stated as data are read as they stand, decided with certificates of their own, and never wrongly."""
+
+import json
+import random
+from fractions import Fraction
+from itertools import product
+from pathlib import Path
+
+import pytest
+
+from workbench.errors import ClaimError
+from workbench.proof.checker import check
+from workbench.proof.decide.obligations import belongs, decide_obligation
+from workbench.proof.obligation import goals_of
+from workbench.proof.text import goal_text
+from workbench.proof.time_limit import OutOfTime, at_most_seconds
+
+FILE = Path(__file__).parents[2] / "benchmarks" / "peers" / "ode_invariants.json"
+PEERS = json.loads(FILE.read_text(encoding="utf-8"))
+# Some of every kind, and of every way in which they are decided; each takes a fraction of a second.
+SAMPLE = (0, 46, 59, 93, 97, 128, 176, 185)
+
+
+def stated(show, *assume):
+    """An obligation."""
+    return {"assume": list(assume), "show": show}
+
+
+def outcome_of(obligation):
+    """The verdict, after its certificates are checked and found to be of the obligation."""
+    outcome = decide_obligation(obligation)
+    for certificate in outcome.certificates:
+        check(certificate)
+    assert outcome.verdict == "undecided" or belongs(obligation, outcome.verdict, outcome.certificates)
+    return outcome.verdict
+
+
+@pytest.mark.parametrize("number", SAMPLE)
+def test_the_peers_obligations_are_decided_as_they_are_known(number):
+    assert outcome_of(PEERS[number]) == {"true": "proved", "false": "refuted"}[PEERS[number]["known"]]
+
+
+@pytest.mark.parametrize(("obligation", "goals"), [
+    (stated(["and", ["<=", "x", "1"], [">", "x", "0"]], ["=", "y", "x"]),
+     [(["y == x"], "x <= 1"), (["y == x"], "x > 0")]),
+    (stated(["or", ["<=", "x", "1"], [">", "y", "0"]]), [(["x > 1"], "y > 0")]),
+    (stated([">", "x", "0"], ["or", ["=", "x", "1"], ["and", ["=", "x", "2"], ["<", "y", "0"]]]),
+     [(["x == 1"], "x > 0"), (["x == 2", "y < 0"], "x > 0")]),
+    (stated(["not", ["and", ["=", "x", "0"], ["not", ["<", "y", "0"]]]]), [(["x == 0"], "y < 0")]),
+    (stated(["<=", "x/2 - 1", "x/2 - 1"], ["<", "x", "y"]), [([], "x/2 - 1 - (x/2 - 1) <= 0")]),
+])
+def test_an_obligation_is_read_as_its_goals(obligation, goals):
+    found = [(record["assume"], record["show"][0]) for record in map(goal_text, goals_of(obligation))]
+    assert found == goals
+
+
+@pytest.mark.parametrize("statement", [
+    ["<=", "__import__('os')", "0"], ["<=", "x.real", "0"], ["<=", "[x]", "0"], ["<=", "x if y else z", "0"],
+    ["<=", "lambda: x", "0"], ["<=", "0.1*x", "0"], ["<=", "'x'", "0"], ["<=", "x**y", "0"], ["<=", "True", "0"],
+    ["=<", "x", "0"], ["<=", "x"], ["<=", ["x"], "0"], "x <= 0", ["and"], ["xor", ["<", "x", "0"], ["<", "y", "0"]],
+    ["<=", "(" * 3000 + "x" + ")" * 3000, "0"], ["<=", "", "0"], ["<=", "f(x)", "0"], ["<=", "1/0", "x"],
+])
+def test_what_is_no_obligation_is_refused_in_one_line(statement):
+    with pytest.raises(ClaimError) as trouble:
+        goals_of(stated(statement))
+    assert "\n" not in str(trouble.value)
+
+
+@pytest.mark.parametrize(("obligation", "verdict"), [
+    (stated(["!=", "x", "0"], [">", "x**2 + y**2", "0"], ["=", "y", "0"]), "proved"),
+    (stated([">", "x*y", "x"], [">", "x", "0"], [">", "y", "1"]), "proved"),
+    (stated([">=", "z", "7"], ["<", "x", "0"], [">", "x", "1"]), "proved"),  # nothing meets what is assumed
+    (stated(["<=", "x + y", "2"], ["=", "x**2 + y**2", "3"]), "refuted"),  # no rational point lies on that circle
+    (stated(["<=", "x + y", "5/2"], ["=", "x**2 + y**2", "3"]), "proved"),
+    (stated(["<=", "x**2 + y*(y + 10)/8 + 1961/13", "40*x"], ["<=", "(x - 9)**2 + (y - 20)**6", "4"]), "proved"),
+    (stated(["or", ["<=", "x", "y"], ["<=", "y", "x"]]), "proved"),
+    (stated(["and", [">=", "x**2", "0"], ["<=", "x", "x**2"]]), "refuted"),
+])
+def test_each_way_of_deciding(obligation, verdict):
+    assert outcome_of(obligation) == verdict
+
+
+def test_certificates_of_another_obligation_do_not_belong():
+    mine, other = stated([">=", "x*y", "x"], [">=", "x", "0"], [">=", "y", "1"]), stated([">=", "x*y", "2*x"],
+                                                                                       [">=", "x", "0"],
+                                                                                       [">=", "y", "1"])
+    outcome = decide_obligation(mine)
+    assert belongs(mine, "proved", outcome.certificates)
+    assert not belongs(other, "proved", outcome.certificates)
+    assert not belongs(mine, "refuted", outcome.certificates)
+    assert not belongs(mine, "proved", ())
+    assert not belongs(stated(mine["show"], [">=", "x", "0"]), "proved", outcome.certificates)
+
+
+def random_obligation(rng):
+    """Two random assumptions and what may follow of them, all of degree two at most in x and y."""
+    def polynomial():
+        terms = rng.sample(["x", "y", "x**2", "y**2", "x*y", "1"], rng.randint(2, 4))
+        return " + ".join(f"{rng.choice([-2, -1, 1, 2])}*{term}" for term in terms).replace("+ -", "- ")
+
+    return stated([rng.choice(["<", "<=", ">=", "!="]), polynomial(), "0"],
+                  *([rng.choice(["<", "<=", "=", ">="]), polynomial(), "0"] for _ in range(2)))
+
+
+def holds(statement, point):
+    """Whether a statement holds at a point, by Python's own arithmetic of fractions."""
+    operator, left, _ = statement
+    value = eval(left, {"__builtins__": {}}, dict(point))  # noqa: S307 - this file's own polynomials
+    return {"<": value < 0, "<=": value <= 0, "=": value == 0, "!=": value != 0, ">=": value >= 0}[operator]
+
+
+def test_random_obligations_are_never_proved_against_a_point_that_breaks_them():
+    rng, grid, decided = random.Random(20), [Fraction(n, 2) for n in range(-8, 9)], 0
+    for _ in range(14):
+        obligation = random_obligation(rng)
+        broken = any(all(holds(a, point) for a in obligation["assume"]) and not holds(obligation["show"], point)
+                     for point in ({"x": x, "y": y} for x, y in product(grid, grid)))
+        try:
+            with at_most_seconds(0.3):
+                verdict = outcome_of(obligation)
+        except OutOfTime:
+            continue
+        decided += verdict != "undecided"
+        assert not (broken and verdict == "proved")
+    assert decided >= 9

@@ -1,0 +1,69 @@
+"""Points that are not rational: one symbol lies where a polynomial, assumed to vanish, changes its sign."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+
+import sympy as sp
+
+from workbench.proof.claim import Goal, name_of
+from workbench.proof.text import assumptions, relation_text
+
+Point = dict[str, Fraction]
+Root = dict[str, str]
+NARROW = 40  # halvings of the interval in which the sign changes
+STEPS = (Fraction(1, 10**9), Fraction(1, 10**6), Fraction(1, 10**3), Fraction(1, 10))
+
+
+def roots_near(goal: Goal, point: Point) -> tuple[Point, list[Root]] | None:
+    """The point and its roots, if by a symbol each the equalities that fail at a point may be made to hold.
+
+    None where a symbol that would be moved stands in another equality, too.
+    """
+    values = {s: sp.Rational(*point[name_of(s)].as_integer_ratio()) for s in goal.symbols() if name_of(s) in point}
+    equalities = [(r, r.margin) for r in assumptions(goal) if r.operator == "=="]
+    roots: list[Root] = []
+    for relation, margin in equalities:
+        if margin.xreplace(values) == 0:
+            continue
+        others = {s for _, other in equalities if other is not margin for s in other.free_symbols}
+        curves = {name_of(s): _coefficients(margin, values, s) for s in sorted(margin.free_symbols - others, key=str)}
+        found = next(((name, ends) for step in STEPS for name, curve in curves.items()
+                      if (ends := _change_of_sign(curve, point[name], step)) is not None), None)
+        if found is None:
+            return None
+        name, (low, high) = found
+        point = point | {name: (low + high) / 2}
+        roots.append({"of": name, "from": str(low), "to": str(high), "equality": relation_text(relation)})
+    return (point, roots) if roots else None
+
+
+def _coefficients(margin: sp.Expr, values: dict[sp.Expr, sp.Expr], symbol: sp.Expr) -> list[Fraction]:
+    """A polynomial of one symbol, the others having values, highest power first; nothing where it is none."""
+    curve = sp.expand(margin.xreplace({s: v for s, v in values.items() if s != symbol}))
+    if not curve.is_polynomial(symbol) or curve.free_symbols != {symbol}:
+        return []
+    return [Fraction(int(c.p), int(c.q)) for c in sp.Poly(curve, symbol).all_coeffs()]
+
+
+def _change_of_sign(curve: list[Fraction], near: Fraction, step: Fraction) -> tuple[Fraction, Fraction] | None:
+    """Two numbers close together, no farther than a step from a given one, between which a polynomial changes sign."""
+    reach = step * max(Fraction(1), abs(near))
+    low, high = near - reach, near + reach
+    at_low = _value(curve, low)
+    if at_low * _value(curve, high) >= 0:
+        return None
+    for _ in range(NARROW):
+        middle = (low + high) / 2
+        value = _value(curve, middle)
+        if value == 0:  # it stays inside
+            break
+        low, high = (middle, high) if value * at_low > 0 else (low, middle)
+    return low, high
+
+
+def _value(coefficients: list[Fraction], at: Fraction) -> Fraction:
+    total = Fraction(0)
+    for c in coefficients:
+        total = total * at + c
+    return total
