@@ -32,6 +32,7 @@ import sympy as sp  # noqa: E402
 from falsifier import falsified  # noqa: E402
 
 from workbench.errors import ClaimError  # noqa: E402
+from workbench.files.time_limit import OutOfTime, at_most_seconds  # noqa: E402
 from workbench.proof.building import built  # noqa: E402
 from workbench.proof.checker import CertificateError, margin, read_goal  # noqa: E402
 from workbench.proof.claim import FAILED, Claim, Goal, Kind, name_of  # noqa: E402
@@ -39,7 +40,6 @@ from workbench.proof.decide.engine import decide, pinned, prove_goal  # noqa: E4
 from workbench.proof.mutate import KINDS, Mutation, mutations  # noqa: E402
 from workbench.proof.paper import collect_papers  # noqa: E402
 from workbench.proof.text import goal_text, relation_text  # noqa: E402
-from workbench.proof.time_limit import OutOfTime, at_most_seconds  # noqa: E402
 
 WANTED_SHARE = 0.99
 

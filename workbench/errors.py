@@ -20,9 +20,7 @@ class InputError(WorkbenchError):
 
     def __init__(self, where: str | Path, key: str, problem: str) -> None:
         self.where, self.key, self.problem = str(where), key, problem
-        message = ": ".join(part for part in (self.where, _shortened(key), _shortened(problem)) if part)
-        # Names and values come from files, so they may hold line breaks and control characters.
-        super().__init__("".join(c if c.isprintable() else " " for c in message))
+        super().__init__(": ".join(in_one_line(part) for part in (self.where, key, problem) if part))
 
     def __reduce__(self) -> tuple[type[InputError], tuple[str, str, str]]:
         # From a worker process the error comes by what it was made of.
@@ -45,7 +43,13 @@ class SolverError(WorkbenchError):
     """A numerical solver returned nothing that may be used: names the solver and its status."""
 
 
-def _shortened(text: str) -> str:
-    if len(text) <= LONGEST_PART:
-        return text
-    return f"{text[:BEGINNING]} ... ({len(text)} characters) ... {text[-END:]}"
+def in_one_line(text: str) -> str:
+    """A text that comes from a file, so that it may be of any length, and hold line breaks and control characters."""
+    if len(text) > LONGEST_PART:
+        text = f"{text[:BEGINNING]} ... ({len(text)} characters) ... {text[-END:]}"
+    return printable(text)
+
+
+def printable(text: str) -> str:
+    """A text with a blank in the place of what ends lines or steers a terminal."""
+    return "".join(c if c.isprintable() else " " for c in text)

@@ -8,9 +8,9 @@ import pytest
 from typer.testing import CliRunner
 
 from workbench.cli.app import app
+from workbench.files.time_limit import OutOfTime, at_most_seconds
 from workbench.proof.prove import prove
 from workbench.proof.selection import targets
-from workbench.proof.time_limit import OutOfTime, at_most_seconds
 
 TEXT = '''
 import sympy as sp

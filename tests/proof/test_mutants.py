@@ -14,8 +14,8 @@ from pathlib import Path
 import pytest
 
 from workbench.files.folders import papers_in
+from workbench.files.time_limit import OutOfTime, at_most_seconds
 from workbench.proof.mutate import KINDS
-from workbench.proof.time_limit import OutOfTime, at_most_seconds
 
 ROOT = Path(__file__).parents[2]
 sys.path.insert(0, str(ROOT / "benchmarks"))

@@ -5,8 +5,12 @@ from __future__ import annotations
 import signal
 import sys
 import threading
+from functools import cache
+from typing import Any
 
 import typer
+from typer.exceptions import TyperException
+from typer.main import get_command
 
 from workbench.cli import (
     check,
@@ -30,7 +34,7 @@ from workbench.cli import (
 )
 from workbench.cli.options import Version
 from workbench.cli.terminal import err_console
-from workbench.errors import WorkbenchError
+from workbench.errors import InputError, WorkbenchError, printable
 
 app = typer.Typer(no_args_is_help=True, add_completion=True, pretty_exceptions_enable=False,
                   help="A control paper as one executable object: proof, simulation, comparison.")
@@ -52,16 +56,28 @@ def main() -> None:
     if threading.current_thread() is threading.main_thread():
         signal.signal(signal.SIGTERM, signal.default_int_handler)  # what is finished is kept, as after Ctrl-C
     try:
-        app()
+        code = _command()(sys.argv[1:] or ["--help"], prog_name="workbench", standalone_mode=False)
     except WorkbenchError as trouble:
-        err_console.print(f"workbench: {trouble}", style="red", soft_wrap=True, highlight=False)
-        sys.exit(2)
+        code = _refused(str(trouble))
+    except TyperException as trouble:  # of options and arguments
+        context = getattr(trouble, "ctx", None)
+        command = context.command_path if context else "workbench"
+        problem = f"{trouble.format_message().removesuffix('.')}: see '{command} --help'"
+        code = _refused(str(InputError(command.removeprefix("workbench").strip(), "", problem)))
     except OSError as trouble:  # of what no room expects to fail, such as a terminal that is gone
         where = f"{trouble.filename}: " if trouble.filename else ""
-        err_console.print(f"workbench: {where}{trouble.strerror or trouble}: check path, permissions and free space",
-                          style="red", soft_wrap=True, highlight=False)
-        sys.exit(2)
-    except SystemExit as end:
-        if end.code == INTERRUPTED:
-            err_console.print("workbench: interrupted; what was finished is kept", style="yellow")
-        raise
+        code = _refused(f"{where}{trouble.strerror or trouble}: check path, permissions and free space")
+    if code == INTERRUPTED:
+        err_console.print("workbench: interrupted; what was finished is kept", style="yellow")
+    sys.exit(code)
+
+
+@cache
+def _command() -> Any:
+    """All verbs with their options, worked out once."""
+    return get_command(app)
+
+
+def _refused(line: str) -> int:
+    err_console.print(f"workbench: {printable(line)}", style="red", soft_wrap=True)
+    return 2

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from workbench.cli.terminal import err_console, out_console
-from workbench.errors import InputError, WorkbenchError
+from workbench.errors import InputError, WorkbenchError, in_one_line
 
 if TYPE_CHECKING:
     from workbench.proof.checker import Row
@@ -37,7 +37,8 @@ def command(folder: Annotated[Path, typer.Argument(help="Folder with certificate
     wrong = {path for path, _, reason in rows if reason is not None}
     for path, verdict, reason in rows:
         if reason is not None:
-            err_console.print(f"{path}: {verdict}: INVALID: {reason}", style="red", soft_wrap=True)
+            err_console.print(f"{path}: {in_one_line(verdict)}: INVALID: {in_one_line(reason)}", style="red",
+                              soft_wrap=True)
     files = {path for path, _, _ in rows}
     out_console.print(f"{len(files) - len(wrong)} of {len(files)} certificates hold; held against "
                       f"{bound or 'no claim'}", soft_wrap=True)

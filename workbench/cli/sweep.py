@@ -20,7 +20,7 @@ NAME = "sweep"
 def command(paper: PaperOrFile,
             out: Annotated[Path, typer.Option(help="Folder for sweep.csv, and the rows as Parquet")],
             runs: Annotated[int | None, typer.Option(
-                min=1, help="Runs per controller; default: 100, of a plant's study as it states.")] = None,
+                min=1, max=10**9, help="Runs per controller; default: 100, of a plant's study as it states.")] = None,
             seed: Annotated[int | None, typer.Option(min=0, help="Default: as the scenario states.")] = None,
             controller: Annotated[list[str] | None, typer.Option(help="Only this one; may be repeated.")] = None,
             sensitivity: Annotated[bool, typer.Option(

@@ -29,8 +29,9 @@ if TYPE_CHECKING:
     from workbench.paper.results import ResultTable, StudyResult
 
 # Names, paths and messages come from files: brackets and colons in them are what they are, no markup.
-out_console = Console(markup=False, emoji=False)
-err_console = Console(stderr=True, markup=False, emoji=False)
+# Nor is anything looked for in them to be coloured, which takes a minute where a name has 200,000 letters.
+out_console = Console(markup=False, emoji=False, highlight=False)
+err_console = Console(stderr=True, markup=False, emoji=False, highlight=False)
 LINE_EVERY_S = 30.0
 COLOURS = {"proved": "green", "refuted": "red", "violated": "red", "gap": "yellow", "assumed": "cyan",
            "undecided": "magenta"}

@@ -82,8 +82,11 @@ def _assignments(targets: Sequence[str], exprs: Sequence[sp.Expr], prefix: str, 
     # Sums were replaced before; Indexed symbols become plain symbols so that cse treats them as leaves.
     leaves = {i: sp.Symbol(_name(i)) for e in exprs for i in e.atoms(sp.Indexed)}
     shared, reduced = sp.cse([e.xreplace(leaves) for e in exprs], sp.numbered_symbols(prefix))
-    lines = [f"{indent}{name} = {_printer.doprint(expr)}" for name, expr in shared]
-    return lines + [f"{indent}{t} = {_printer.doprint(e)}" for t, e in zip(targets, reduced, strict=True)]
+    try:
+        lines = [f"{indent}{name} = {_printer.doprint(expr)}" for name, expr in shared]
+        return lines + [f"{indent}{t} = {_printer.doprint(e)}" for t, e in zip(targets, reduced, strict=True)]
+    except ValueError as trouble:  # Python's own limit on the digits of an integer
+        raise CompileError(f"a number cannot be written out ({trouble}): state it as a float") from None
 
 
 def _unpack(symbols: Sequence[sp.Expr], array: str, indent: str = "    ", index: str = "") -> list[str]:

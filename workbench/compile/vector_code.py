@@ -29,6 +29,8 @@ def _printed(expr: sp.Expr) -> str:
         name = str(trouble).partition(": ")[2].partition("\n")[0]
         raise CompileError(f"function '{name}' cannot be compiled: state it by exp, log, roots, trigonometric "
                            "functions, abs, sign, Min, Max or Piecewise") from None
+    except ValueError as trouble:  # Python's own limit on the digits of an integer
+        raise CompileError(f"a number cannot be written out ({trouble}): state it as a float") from None
 
 
 def _names(arrays: Arrays, scalars: Mapping[str, sp.Symbol]) -> dict[sp.Symbol, sp.Symbol]:

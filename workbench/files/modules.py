@@ -20,11 +20,16 @@ from typing import Any
 from workbench.errors import InputError
 from workbench.files.mistakes import OF_A_FOLDER, mistake
 from workbench.files.text import inputs_read_by, read_source, written_since_read
+from workbench.files.time_limit import OutOfTime, at_most_seconds
 
 PREFIX = OF_A_FOLDER
 
 # Files are stamped by a clock that is behind by up to a few milliseconds.
 TICK_NS = 50_000_000
+# Processor time that the import of a module, with all that it imports, may take.
+IMPORT_S = 10.0
+OUT_OF_TIME = (f"cannot be imported: computes for more than {IMPORT_S:g} s, or waits: state what takes so long in a "
+               "function, which is called when it is needed")
 
 _folders: dict[str, Path] = {}
 _imported_ns: dict[str, int] = {}
@@ -81,18 +86,21 @@ def has_module(folder: Path, name: str) -> bool:
 
 def module_in(folder: Path, name: str) -> ModuleType:
     """A module of a folder, `study.record` for `study/record.py`; InputError, naming file and line, where it cannot be
-    imported."""
+    imported, and where that takes more than IMPORT_S."""
     package = package_of(folder)
     dotted = f"{package}.{name}"
     if dotted in sys.modules:
         return sys.modules[dotted]
     _imported_ns.setdefault(package, time.time_ns())
     path = folder.joinpath(*name.split("."))
-    where = path.with_suffix(".py") if path.with_suffix(".py").is_file() else path / "__init__.py"
+    where = path / "__init__.py" if (path / "__init__.py").is_file() else path.with_name(f"{path.name}.py")
     try:
-        return importlib.import_module(dotted)
+        with at_most_seconds(IMPORT_S):
+            return importlib.import_module(dotted)
     except InputError:
         raise
+    except OutOfTime:
+        raise InputError(where, "", OUT_OF_TIME) from None
     except (Exception, SystemExit) as trouble:  # a file that exits would end the run
         raise InputError(where, "", f"cannot be imported: {mistake(trouble, where)}") from trouble
 

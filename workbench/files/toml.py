@@ -81,21 +81,21 @@ R = TypeVar("R", bound=BaseModel)
 _tables: dict[tuple[str, int, int, int], dict[str, Any]] = {}
 
 
-def read_toml(path: Path) -> dict[str, Any]:
+def read_toml(path: Path, where: str = "check the path") -> dict[str, Any]:
     """The table in a TOML file, read once as long as it does not change; InputError when it is missing, unreadable or
-    not TOML."""
+    not TOML. where: what to do when there is no such file."""
     try:
         status = path.stat()
         key = str(path.resolve()), status.st_ino, status.st_mtime_ns, status.st_size
     except (OSError, ValueError):  # what is wrong is for the reader to say
-        return _table(path)
+        return _table(path, where)
     if key not in _tables:
-        _tables[key] = _table(path)
+        _tables[key] = _table(path, where)
     return copy.deepcopy(_tables[key])
 
 
-def _table(path: Path) -> dict[str, Any]:
-    text = read_text(path, "TOML")
+def _table(path: Path, where: str) -> dict[str, Any]:
+    text = read_text(path, "TOML", where)
     if not text.strip():
         raise InputError(path, "", "is empty: a TOML table is expected")
     try:
@@ -106,9 +106,10 @@ def _table(path: Path) -> dict[str, Any]:
         raise InputError(path, "", "is nested too deeply: write flatter tables") from None
 
 
-def load_record(path: Path, model: type[R], reproduction: bool = False) -> R:
-    """Read `path` as a `model`; raises InputError naming the file, the first wrong key and the remedy."""
-    return validate_record(read_toml(path), model, path, reproduction)
+def load_record(path: Path, model: type[R], reproduction: bool = False, where: str = "check the path") -> R:
+    """Read `path` as a `model`; raises InputError naming the file, the first wrong key and the remedy. where: as for
+    `read_toml`."""
+    return validate_record(read_toml(path, where), model, path, reproduction)
 
 
 def validate_record(data: dict[str, Any], model: type[R], where: Path | str, reproduction: bool = False) -> R:

@@ -22,6 +22,9 @@ from workbench.kernel.export import HERE, INDEX, LIBRARY
 OF_THE_REALS = ("ClassicalDedekindReals.", "FunctionalExtensionality.", "Classical_Prop.classic")
 OF_THE_MACHINE = ("PrimInt63.", "Uint63.", "PrimFloat.", "FloatAxioms.", "Uint63Axioms.", "Sint63.")
 AXIOM = re.compile(r"^([A-Za-z_][A-Za-z0-9_.']*)\s*:", re.M)
+# What the index says of every certificate, and of one that has a file.
+FIELDS: dict[str, type] = {"claim": str, "goal_digest": str, "certificate": str, "motion": bool}
+OF_A_FILE: dict[str, type] = {"file": str, "sha256": str}
 REMEDY = "on Debian or Ubuntu: apt install coq libcoq-interval libcoq-coquelicot"
 
 
@@ -79,6 +82,12 @@ def read_index(folder: Path) -> dict[str, Any]:
     index = read_json(folder / INDEX)
     if index.get("version") != 1 or not isinstance(index.get("certificates"), list):
         raise InputError(str(folder / INDEX), "", "is no index of exports: run 'workbench export-coq' first")
+    for number, row in enumerate(index["certificates"]):
+        said = FIELDS | ({"not_exported": str} if isinstance(row, dict) and "not_exported" in row else OF_A_FILE)
+        wrong = [key for key, kind in said.items() if not (isinstance(row, dict) and isinstance(row.get(key), kind))]
+        if wrong:
+            raise InputError(str(folder / INDEX), f"certificates[{number}].{wrong[0]}", "is missing or no such value: "
+                             "run 'workbench export-coq' again")
     return index
 
 

@@ -9,6 +9,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+from workbench.errors import InputError
 from workbench.files.own_files import sha256
 from workbench.files.text import read_text
 from workbench.kernel import points, proved, theorem
@@ -22,6 +23,7 @@ IMPORTS = {
     "WorkbenchFlow": "From Coquelicot Require Import Coquelicot.\nRequire Import WorkbenchFlow.\n",
     "Interval": "From Interval Require Import Tactic.\n",
 }
+WRITE_AGAIN = "write it again with 'workbench prove --write'"
 UNLIKE_A_NAME = re.compile(r"[^A-Za-z0-9_]")
 
 
@@ -102,10 +104,17 @@ def _harmless(text: str) -> str:
 
 
 def export_folder(folder: Path) -> Iterator[Exported]:
-    """All certificates below a folder, in the order of their names."""
+    """All certificates below a folder, in the order of their names; InputError for one that does not hold."""
     for path in sorted(path for path in folder.rglob("*.json") if path.name != "manifest.json"):
         text = read_text(path, "certificate")
-        yield export(json.loads(text), sha256(text))
+        try:
+            certificate = json.loads(text)
+        except (ValueError, RecursionError) as trouble:
+            raise InputError(path, "", f"is no certificate ({trouble}): {WRITE_AGAIN}") from None
+        try:
+            yield export(certificate, sha256(text))
+        except CertificateError as trouble:
+            raise InputError(path, "", f"does not hold ({trouble}): {WRITE_AGAIN}") from None
 
 
 def files_of(exported: list[Exported]) -> dict[str, str]:

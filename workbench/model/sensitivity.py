@@ -6,7 +6,7 @@ from typing import Annotated, Any, Self
 
 from pydantic import Field, Strict, model_validator
 
-from workbench.files.toml import Count, Number, SourcedRecord, Text
+from workbench.files.toml import Number, SourcedRecord, Text
 from workbench.model.tuning import Seed
 
 
@@ -21,7 +21,7 @@ class Sensitivity(SourcedRecord):
 
     ranges: dict[Text, tuple[Number, Number]]
     metric: Text
-    samples: Count
+    samples: Annotated[int, Strict(), Field(ge=1, le=2**20)]
     seed: Seed
     controller: Text | None = None
     row: dict[Text, Any] = Field(default_factory=dict)

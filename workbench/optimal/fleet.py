@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import asdict, dataclass
 from functools import cache
 from pathlib import Path
@@ -40,6 +41,16 @@ class TripRow:
     def document(self) -> dict[str, Any]:
         """As data, by COLUMNS."""
         return asdict(self)
+
+    @classmethod
+    def read(cls, data: Any) -> TripRow | None:
+        """The row of a trip that was solved, as `document` has written it; None where it is anything else."""
+        if not isinstance(data, dict) or data.keys() != set(COLUMNS):
+            return None
+        texts, numbers = ("id", "track", "train", "status"), COLUMNS[3:9]
+        whole = (all(isinstance(data[name], str) for name in texts) and data["trouble"] is None
+                 and all(isinstance(data[name], float) and math.isfinite(data[name]) for name in numbers))
+        return cls(**data) if whole else None
 
 
 @dataclass(frozen=True)

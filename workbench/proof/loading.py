@@ -14,8 +14,9 @@ from types import ModuleType
 from workbench.errors import ClaimError, InputError
 from workbench.files.folders import CLAIMS_FOLDER, PAPER_FILE
 from workbench.files.mistakes import mistake
+from workbench.files.modules import IMPORT_S, OUT_OF_TIME, SourceLoader, forget_changed, module_in, sources_of
 from workbench.files.modules import PREFIX as FOLDER_PREFIX
-from workbench.files.modules import SourceLoader, forget_changed, module_in, sources_of
+from workbench.files.time_limit import OutOfTime, at_most_seconds
 from workbench.proof.dependencies import reading, reads
 
 PREFIX = "workbench_proofs_"
@@ -102,7 +103,11 @@ class ProofFile:
             raise InputError(self.path, "", "cannot be imported: is it a Python file?")
         module = importlib.util.module_from_spec(spec)
         sys.modules[name] = module
-        spec.loader.exec_module(module)
+        try:
+            with at_most_seconds(IMPORT_S):
+                spec.loader.exec_module(module)
+        except OutOfTime:
+            raise InputError(self.path, "", OUT_OF_TIME) from None
         return module
 
     def reads(self, cache_folder: Path | None = None) -> frozenset[str]:

@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Any, Literal
 
 from workbench.errors import InputError, WorkbenchError
+from workbench.files.time_limit import OutOfTime, at_most_seconds
 from workbench.proof.cache import DecisionCache, decision_cache
 from workbench.proof.checker import CertificateError, check, goal_digest
 from workbench.proof.claim import Claim
@@ -19,7 +20,6 @@ from workbench.proof.loading import ProofFile
 from workbench.proof.messages import Decided, Listing
 from workbench.proof.paper import papers_in
 from workbench.proof.recorded_certificate import decided_by, recorded_certificate
-from workbench.proof.time_limit import OutOfTime, at_most_seconds
 from workbench.proof.verdict import Decision, Stated
 
 How = Literal["cache", "certificate", "search"]

@@ -7,7 +7,7 @@ from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Any
 
-from workbench.errors import InputError
+from workbench.errors import InputError, in_one_line
 from workbench.files.json_input import read_json
 
 # What is told of a claim, in this order; the rest (seconds, method, certificate's path) may differ from run to run.
@@ -27,8 +27,8 @@ class Change:
     def sentence(self) -> str:
         """The change in one line; long texts are only named."""
         if self.what != "changed":
-            return f"{self.id}: {self.what}"
-        return f"{self.id}: " + ", ".join(_told(*field) for field in self.fields)
+            return f"{in_one_line(self.id)}: {self.what}"
+        return f"{in_one_line(self.id)}: " + ", ".join(in_one_line(_told(*field)) for field in self.fields)
 
 
 def _told(name: str, before: Any, after: Any) -> str:
@@ -47,6 +47,11 @@ def read_claims(path: Path) -> Claims:
     if not isinstance(rows, list) or not all(isinstance(row, Mapping) and isinstance(row.get("id"), str)
                                              for row in rows):
         raise InputError(path, "claims", "is no document of 'workbench prove --json': name one")
+    for number, row in enumerate(rows):
+        tainted_by = row.get("tainted_by") or []
+        if not isinstance(tainted_by, list) or not all(isinstance(one, str) for one in tainted_by):
+            raise InputError(path, f"claims[{number}].tainted_by", "is no list of claims: name a document of "
+                             "'workbench prove --json'")
     return {row["id"]: row for row in rows}
 
 

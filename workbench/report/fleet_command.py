@@ -45,7 +45,8 @@ def fleet_run(asked: FleetRequest) -> Iterator[str]:
     trips = fleet_trips(fleet, asked.fleet.parent)
     digests = {trip.trip.id: _digest(trip) for trip in trips}
     kept = _kept(asked.json) if asked.resume else {}
-    rows = {trip.trip.id: TripRow(**kept[digests[trip.trip.id]]) for trip in trips if digests[trip.trip.id] in kept}
+    rows = {trip.trip.id: row for trip in trips if (row := TripRow.read(kept.get(digests[trip.trip.id]))) is not None
+            and row.id == trip.trip.id}
     if rows:
         yield f"note: {len(rows)} of {len(trips)} trips are taken from {asked.json}"
 

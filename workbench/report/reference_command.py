@@ -9,6 +9,7 @@ from collections.abc import Iterator
 
 from workbench.errors import InputError
 from workbench.files.outputs import check_outputs, is_stream
+from workbench.optimal.envelope import InfeasibleRunError
 from workbench.optimal.inputs.etcs_file import load_supervision
 from workbench.optimal.inputs.files import load_cars, load_line, load_vehicle
 from workbench.report.reference_request import Request, certified_file, couplers_file, of_cars_file, table_file
@@ -32,7 +33,10 @@ def reference_run(asked: Request) -> Iterator[str]:
             raise InputError("", name, f"{value:g} is not usable: give 0 or more")
     from workbench.report.reference_answer import answered  # noqa: PLC0415 - as said above
 
-    yield from answered(asked, line, vehicle, train, (*notes, *more), etcs)
+    try:
+        yield from answered(asked, line, vehicle, train, (*notes, *more), etcs)
+    except InfeasibleRunError as trouble:
+        raise InfeasibleRunError(f"{asked.track.name}, {asked.train.name}: {trouble}", trouble.least_time_s) from None
 
 
 def _check_outputs(asked: Request) -> None:

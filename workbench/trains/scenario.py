@@ -265,7 +265,7 @@ def build_scenario(path: Path, data: dict[str, Any], like: Scenario | None = Non
     line, reproduction = data.get("track"), data.get(REPRODUCTION) is True
     if not isinstance(line, str):
         raise InputError(path, "track", "name the line's TOML file, relative to this one")
-    track = like.track if like else load_track(path.parent / line, reproduction)
+    track = like.track if like else load_track(path.parent / line, reproduction, f"check the path, 'track' in {path}")
     scenario = validate_record(data | {"track": track}, Scenario, path).in_folder(path.parent)
     if isinstance(scenario.reference, TableCurve):
         same = like and isinstance(like.reference, TableCurve) and like.reference.file == scenario.reference.file

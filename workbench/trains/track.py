@@ -192,6 +192,7 @@ def speed_limits(track: Track) -> tuple[NDArray[np.float64], NDArray[np.float64]
             np.array([*(section.speed_mps for section in found), np.inf]))
 
 
-def load_track(path: Path, reproduction: bool = False) -> Track:
-    """Load a line from TOML; raises InputError naming file and key. reproduction: every value needs its source."""
-    return load_record(path, Track, reproduction)
+def load_track(path: Path, reproduction: bool = False, where: str = "check the path") -> Track:
+    """Load a line from TOML; raises InputError naming file and key. reproduction: every value needs its source; where:
+    what to do when there is no such file."""
+    return load_record(path, Track, reproduction, where)

@@ -1,10 +1,11 @@
-"""A limit of the computing time that one claim may take."""
+"""A limit of the computing time that one claim, or the import of a module of a paper, may take."""
 
 from __future__ import annotations
 
 import gc
 import signal
 import threading
+import time
 import weakref
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -12,7 +13,12 @@ from types import FrameType
 
 AGAIN = 0.5  # seconds after which the interruption comes again, should a library have swallowed it
 SOON = 0.001  # the same where an exception would be dropped
+# Who has computed for less than IDLE_S in so many seconds waits for what may never come, such as somebody to write into
+# a pipe; a machine that is merely busy gives every process more than that.
+WAITING_S, IDLE_S = 20.0, 0.01
 WEAK_REFERENCES = (weakref.__file__, weakref.WeakSet.__init__.__code__.co_filename)
+
+_limited: list[float] = []
 
 
 class OutOfTime(BaseException):  # no Exception: deciders and libraries that catch every one let it pass
@@ -21,11 +27,14 @@ class OutOfTime(BaseException):  # no Exception: deciders and libraries that cat
 
 @contextmanager
 def at_most_seconds(limit: float | None) -> Iterator[None]:
-    """Raise OutOfTime in this block once it has used so many seconds of processor time, whatever else the machine does.
+    """Raise OutOfTime in this block once it has used so many seconds of processor time, whatever else the machine does,
+    or has waited for WAITING_S without using any.
 
-    Nothing is limited without a limit, outside of a process's main thread and on systems without such timers.
+    Nothing is limited without a limit, outside of a process's main thread and on systems without such timers; within
+    another such block that one's limit holds.
     """
-    if limit is None or not hasattr(signal, "ITIMER_PROF") or threading.current_thread() is not threading.main_thread():
+    here = threading.current_thread() is threading.main_thread()
+    if limit is None or not hasattr(signal, "ITIMER_PROF") or not here or _limited:
         yield
         return
 
@@ -35,13 +44,23 @@ def at_most_seconds(limit: float | None) -> Iterator[None]:
         else:
             raise OutOfTime
 
-    before = signal.signal(signal.SIGPROF, interrupt)
+    def look(number: int, frame: FrameType | None) -> None:
+        used, _limited[0] = time.process_time() - _limited[0], time.process_time()
+        if used < IDLE_S:
+            interrupt(number, frame)
+
+    before = signal.signal(signal.SIGPROF, interrupt), signal.signal(signal.SIGALRM, look)
+    _limited[:] = [time.process_time()]
     try:
         signal.setitimer(signal.ITIMER_PROF, limit, AGAIN)
+        signal.setitimer(signal.ITIMER_REAL, WAITING_S, WAITING_S)
         yield
     finally:
         signal.setitimer(signal.ITIMER_PROF, 0)
-        signal.signal(signal.SIGPROF, before)
+        signal.setitimer(signal.ITIMER_REAL, 0)
+        signal.signal(signal.SIGPROF, before[0])
+        signal.signal(signal.SIGALRM, before[1])
+        _limited.clear()
 
 
 def _drops_exceptions(frame: FrameType | None) -> bool:

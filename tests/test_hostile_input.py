@@ -1,0 +1,134 @@
+"""What somebody could write to keep a command busy for ever, or to have it say nothing of use: each is one line."""
+
+import json
+
+import pytest
+from command_line import one_line, run
+from pydantic import ValidationError
+from refusals import changed, changed_copy, refusal
+from scenarios import LINES, SHARED
+from small_folders import small_folder, with_claims
+
+from workbench.errors import InputError
+from workbench.files import modules, time_limit
+from workbench.files.modules import module_in
+from workbench.model.sensitivity import Sensitivity
+from workbench.optimal.fleet import COLUMNS, TripRow
+from workbench.proof import loading
+from workbench.proof.loading import ProofFile
+from workbench.report.changes import read_claims
+from workbench.report.formulas import formula
+from workbench.simulate.journal import Journal
+from workbench.trains.track import load_track
+
+METRO = SHARED / "lines" / "metro.toml"
+
+
+@pytest.fixture
+def little_time(monkeypatch):
+    for module in (modules, loading):
+        monkeypatch.setattr(module, "IMPORT_S", 0.2)
+    monkeypatch.setattr(time_limit, "WAITING_S", 0.2)
+
+
+@pytest.mark.parametrize("text", ["while True: pass\n", "import os; os.read(os.pipe()[0], 1)\n"])
+def test_a_module_that_never_ends_is_named(text, tmp_path, little_time):
+    folder = with_claims(small_folder(tmp_path / "doe2030"), "section_2")
+    for name in ("paper", "laws", "claims/section_2"):
+        path = folder / f"{name}.py"
+        before = path.read_text()
+        path.write_text(before + text)
+        said = refusal(module_in, folder, name.replace("/", "."))
+        assert said.startswith(f"{path}: cannot be imported: computes for more than")
+        path.write_text(before)
+    single = tmp_path / "single.py"
+    single.write_text(text)
+    assert refusal(ProofFile(single).modules).startswith(f"{single}: cannot be imported: computes for more than")
+
+
+def test_a_limit_within_another_is_the_outer_one():
+    with pytest.raises(time_limit.OutOfTime), time_limit.at_most_seconds(0.05), time_limit.at_most_seconds(60.0):
+        while True:
+            pass
+
+
+def test_deep_brackets_in_a_journal_are_a_damaged_record(tmp_path, capsys):
+    path = tmp_path / "a.jsonl"
+    with Journal(path, {"job": 1}, False) as journal:
+        journal.append({"run": 1})
+    path.write_bytes(path.read_bytes() + b"[" * 100_000 + b"\n")
+    with Journal(path, {"job": 1}, True) as journal:
+        assert journal.records == [{"run": 1}]
+    assert "1 of 2 records are not what was written" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(("old", "new", "words"), [
+    ("speed_mps = 13.88888888888889", "speed_mps = 1e-300", "speed_limit[0].speed_mps"),
+    ("length_m = 5400.0", "length_m = 1e8", "length_m"), ("radius_m = 300.0", "radius_m = 1e-300", "curve[1]")])
+def test_a_number_that_no_line_has_is_named_with_its_key(old, new, words, tmp_path):
+    assert METRO in LINES
+    assert words in refusal(load_track, changed_copy(METRO, tmp_path, old, new))
+
+
+def test_options_are_refused_in_one_line(tmp_path):
+    for arguments, words in ((("reference", "a", "b", "--intervals", 100_000), "'--intervals'"),
+                             (("compare", "--bogus"), "No such option: --bogus"), (("nothing",), "'nothing'"),
+                             (("sweep", "."), "'--out'"), (("compare", "a\nb", "c"), "unexpected extra argument")):
+        said = one_line(run(*arguments, folder=tmp_path))
+        assert words in said and "--help'" in said and said.isprintable()
+    assert run().returncode == 0 and "Usage" in run().stdout
+
+
+def test_a_value_of_any_length_is_told_in_a_short_line(tmp_path):
+    huge, path = "x" * 200_000, tmp_path / "a.json"
+    path.write_text(json.dumps({"verdict": huge, "version": huge}))
+    ended = run("check-certificates", path)
+    assert ended.returncode == 1 and len(ended.stderr) < 3000
+    for line in (f'track = "{huge}"', f'"{huge}" = 1', f'kind = "{huge}"', f"kind = '''{huge}\n'''"):
+        (tmp_path / "study.toml").write_text(f"version = 1\n{line}\n")
+        assert len(one_line(run("compare", tmp_path / "study.toml"))) < 3000
+
+
+@pytest.mark.parametrize("latex", [r"\undefined", r"\frac{", "{" * 400, "}" * 400, "\\", "\0", "x" * 5000])
+def test_a_formula_that_cannot_be_read_stands_on_the_page_as_it_is(latex):
+    assert len(formula(latex)) > 0
+
+
+def test_a_trip_is_taken_over_only_as_it_was_written():
+    row = TripRow("a", "line", "train", 1.0, 2.0, 1.5, 3.0, 2.9, 0.1, "optimal").document()
+    assert TripRow.read(row) == TripRow(**row)
+    for name in COLUMNS:
+        assert TripRow.read({key: value for key, value in row.items() if key != name}) is None
+        assert TripRow.read(row | {name: [1]}) is None
+    for wrong in (row | {"more": 1}, row | {"energy_J": float("nan")}, row | {"gap": None}, None, []):
+        assert TripRow.read(wrong) is None
+
+
+@pytest.mark.parametrize("wrong", [1.5, [1], "17"])
+def test_a_document_of_claims_that_is_none_is_named(wrong, tmp_path):
+    path = tmp_path / "a.json"
+    path.write_text(json.dumps({"claims": [{"id": "a:1", "tainted_by": wrong}]}))
+    with pytest.raises(InputError, match=r"claims\[0\].tainted_by"):
+        read_claims(path)
+
+
+def test_certificates_that_do_not_hold_are_not_exported(tmp_path):
+    path = tmp_path / "1.json"
+    for text in ("[" * 100_000, "{}", "[]", '{"verdict": "proved", "goal": 1, "version": 2}', ""):
+        path.write_text(text)
+        assert str(path) in one_line(run("export-coq", tmp_path, "--out", tmp_path / "coq"))
+    assert list(tmp_path.iterdir()) == [path]
+
+
+def test_a_joint_sweep_is_no_larger_than_can_be_drawn():
+    stated = {"ranges": {"a": (0.0, 1.0)}, "metric": "f", "seed": 1}
+    with pytest.raises(ValidationError, match="samples"):
+        Sensitivity(**stated, samples=2**40)
+
+
+def test_a_line_that_is_not_there_is_told_with_the_key_that_names_it(tmp_path):
+    folder = small_folder(tmp_path / "doe2030")
+    study = folder / "study.toml"
+    study.write_text(changed(study.read_text(), 'track = "line.toml"', 'track = "nowhere.toml"'))
+    said = one_line(run("compare", study))
+    assert "nowhere.toml: no such file: check the path, 'track' in" in said and str(study) in said
