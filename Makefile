@@ -1,11 +1,12 @@
-# make install | demo | test | lint | prove | kernel | clean        PYTHON=python3.12 chooses the interpreter
+# make install | demo | test | lint | docs | prove | kernel | clean        PYTHON=python3.12 chooses the interpreter
 PYTHON ?= python3
 VENV := .venv
 BIN := $(VENV)/bin
 STAMP := $(VENV)/.installed
 TOOLS := $(VENV)/.installed-tools
+PAGES := $(VENV)/.installed-docs
 
-.PHONY: install demo test lint prove kernel clean
+.PHONY: install demo test lint docs prove kernel clean
 
 install: $(TOOLS)
 
@@ -33,6 +34,14 @@ test: install
 lint: install
 	@$(BIN)/ruff check
 	@$(BIN)/mypy
+
+$(PAGES): $(STAMP)
+	@$(BIN)/python -m pip install -qq --disable-pip-version-check -c constraints.txt -e ".[docs]"
+	@touch $@
+
+# Every notebook is run and every warning is an error; out/docs/index.html is where to begin.
+docs: $(PAGES)
+	@$(BIN)/python -m sphinx -q -E -W -n --keep-going -b html -d out/doctrees docs out/docs
 
 prove: $(STAMP)
 	@$(BIN)/workbench prove proofs

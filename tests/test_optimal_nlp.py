@@ -129,12 +129,12 @@ def by_tables(vehicle: Vehicle, course: Course, price_w: float, steps: int, leve
         cost = np.where(force > 0, force / vehicle.traction_efficiency,
                         -vehicle.regenerative_efficiency * np.minimum(-force, electric)) * h
         total = np.where(possible, cost + price_w * np.where(mean > 0, time, 0.0) + value[None, :], np.inf)
-        choice.append((total.argmin(axis=1), cost))
+        best = total.argmin(axis=1)
+        choice.append((best, cost[np.arange(levels), best], time[np.arange(levels), best]))
         value = total.min(axis=1)
     at, energy, seconds = 0, 0.0, 0.0
-    for best, cost in reversed(choice):
-        then = int(best[at])
-        energy, seconds, at = energy + cost[at, then], seconds + time[at, then], then
+    for best, cost, lasts in reversed(choice):
+        energy, seconds, at = energy + cost[at], seconds + lasts[at], int(best[at])
     return float(energy), float(seconds)
 
 
@@ -161,7 +161,8 @@ def test_where_the_gap_is_wide_it_is_the_bound_that_is_loose(vehicle, factor):
     """
     course = hilly()
     asked = factor * least_time(vehicle, course).trip_time_s
-    found = find_reference(vehicle, course, asked)
+    # A coarse mesh where the curve is not concave: finer ones cost the nonlinear solvers minutes and leave the gap.
+    found = find_reference(vehicle, course, asked, intervals=None if vehicle is TRAIN else 150)
     prices = found.certificate.time_price_w * np.array([0.9, 1.0, 1.1, 1.2])
     dual = max(least_cost(vehicle, course, price, 400, 1500) - price * asked for price in prices)
     assert dual == pytest.approx(found.energy_j, rel=8e-3)

@@ -13,6 +13,7 @@ __version__ = "0.1.0"
 if TYPE_CHECKING:
     from workbench.api.functions import check_paper, compare, entrant, gains, load, prove, reference, simulate
     from workbench.api.results import Comparison, Proved, Run
+    from workbench.api.schemas import schema
     from workbench.model.law import LawState, period, time
     from workbench.mpc.plant_tracking import PlantMpc
     from workbench.proof.paper import Paper
@@ -27,7 +28,8 @@ if TYPE_CHECKING:
 _WHERE = {
     "api.functions": ("check_paper", "closed_loop", "compare", "entrant", "gains", "load", "prove",
                       "reference", "simulate"),
-    "api.results": ("Comparison", "Proved", "Run"), "model.law": ("LawState", "period", "time"),
+    "api.results": ("Comparison", "Proved", "Run"), "api.schemas": ("schema",),
+    "model.law": ("LawState", "period", "time"),
     "mpc.plant_tracking": ("PlantMpc",), "proof.paper": ("Paper",), "systems.setting": ("Setting",),
     "systems.law": ("Reference", "StateLaw"), "systems.lyapunov": ("Lyapunov", "closed_loop"),
     "systems.metric": ("Metric",), "systems.plant": ("Parameter", "Plant"),
@@ -38,7 +40,8 @@ _RENAMED = {"Law": "StateLaw"}
 
 __all__ = ["Comparison", "Constant", "Law", "LawState", "Lyapunov", "Metric", "Paper", "Parameter", "Plant",
            "PlantMpc", "Proved", "Ramp", "Reference", "Run", "Setting", "Sine", "Spline", "Step", "check_paper",
-           "closed_loop", "compare", "entrant", "gains", "load", "period", "prove", "reference", "simulate", "time"]
+           "closed_loop", "compare", "entrant", "gains", "load", "period", "prove", "reference", "schema", "simulate",
+           "time"]
 
 
 def __getattr__(name: str) -> Any:

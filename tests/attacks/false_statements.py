@@ -207,6 +207,43 @@ def sizes() -> Family:
         yield f"smooth sign {constant}", lambda b=constant: Goal((at_most(sp.Abs(x) - x*sp.tanh(x/k), b*k),))
 
 
+def angles() -> Family:
+    """Trigonometry with a sign, a factor or a bound that is wrong: false at x = 1, y = 2, or where cos x is 0 or -1."""
+    s, c = sp.sin, sp.cos
+    for number, (left, right) in enumerate([
+            (s(x)**2 - c(x)**2, 1), (s(x)**2 + c(y)**2, 1), (s(-x), s(x)), (c(-x), -c(x)), (s(2*x), 2*s(x)),
+            (s(2*x), s(x)*c(x)), (c(2*x), 1 - s(x)**2), (s(x + y), s(x) + s(y)), (c(x + y), c(x)*c(y)),
+            (s(x + y), s(x)*c(y) - c(x)*s(y)), (c(x + y), c(x)*c(y) + s(x)*s(y)), (s(x)/x, 1), (c(x), 1 - x**2/2),
+            (s(x*y), s(x)*s(y)), (c(x)*s(y), s(x)*c(y)), (s(x)**3, s(x) - c(x)**2)]):
+        yield f"angle {number}", lambda a=left, b=right: Goal((equal(a, b),))
+    for number, goal in enumerate([
+            lambda: Goal((at_least(s(x), 0),)), lambda: Goal((at_most(s(x), x),)), lambda: Goal((at_least(c(x), 0),)),
+            lambda: Goal((less(s(x), 1),)), lambda: Goal((greater(c(x), -1),)),
+            lambda: Goal((at_most(c(x), R(99, 100)),)),
+            lambda: Goal((at_least(x*s(x), 0),)), lambda: Goal((at_least(s(x), x - x**2/6),), assume=(at_least(x, 0),)),
+            lambda: Goal((at_least(c(x), 1 - x**2/4),)), lambda: Goal((at_most(s(x) + c(x), R(7, 5)),)),
+            lambda: Goal((at_most(c(x), 1 - x**2/2 + x**4/25),)), lambda: Goal((greater(1 - c(x), 0),)),
+            lambda: Goal((equal(D(s(x)), -c(x)*y),), flow={x: y}), lambda: Goal((equal(D(c(x)), s(x)*y),), flow={x: y}),
+            lambda: Goal((equal(D(s(x)**2), 2*s(x)),), flow={x: y}),
+            lambda: Goal((at_most(D(y**2/2 + 1 - c(x)), -y**2),), flow={x: y, y: -s(x) - y/2}),
+            lambda: Goal((at_most(D(y**2/2 + c(x)), 0),), flow={x: y, y: -s(x) - y}),
+            lambda: Goal((at_least(s(x)**2/c(x)**2, 0),)),
+            lambda: Goal((less(s(1), R(84, 100)),)), lambda: Goal((greater(c(1), R(5404, 10000)),))]):
+        yield f"angle bound {number}", goal
+
+
+def sums_in_functions() -> Family:
+    """exp of a sum and log of a product taken apart wrongly: false at x = 1, y = 2, p = 2, q = 3."""
+    e, ln = sp.exp, sp.log
+    for number, (left, right) in enumerate([
+            (e(x + y), e(x) + e(y)), (e(x - y), e(x)*e(y)), (e(2*x), 2*e(x)), (e(x*y), e(x)*e(y)),
+            (ln(p*q), ln(p)*ln(q)), (ln(p/q), ln(q) - ln(p)), (ln(p + q), ln(p) + ln(q)), (ln(p**2), ln(p)**2)]):
+        yield f"sum in a function {number}", lambda a=left, b=right: Goal((equal(a, b),))
+    # Of a negative number there is no logarithm: what is said of both sides says nothing there.
+    yield "log of a square", lambda: Goal((equal(ln(x**2), 2*ln(x)),))
+    yield "log of a product", lambda: Goal((equal(ln(x*y), ln(x) + ln(y)),), assume=(greater(x*y, 0),))
+
+
 def wrong_facts() -> Family:
     """Tangents with another slope or turned, given as facts too: false left or right of where they touch."""
     for slope in (R(-1), R(0), R(1, 2), R(9, 10), R(11, 10), R(2), R(5)):
@@ -321,9 +358,9 @@ def numbers() -> Family:
         yield f"order {digits}", lambda d=digits: Goal((less(R(1, 7), R(int("142857142857"[:d]), 10**d)),))
 
 
-FAMILIES = (wrong_coefficients, wrong_signs, young, strictness, domains, roots, sums, sums_in_time, saturations,
-            sizes, wrong_facts, wrong_lemmas, contradictory_assumptions, never_reached, later_instants, derivatives,
-            eventually, numbers)
+FAMILIES = (wrong_coefficients, wrong_signs, young, strictness, domains, roots, sums, sums_in_time, saturations, sizes,
+            angles, sums_in_functions, wrong_facts, wrong_lemmas, contradictory_assumptions, never_reached,
+            later_instants, derivatives, eventually, numbers)
 
 
 

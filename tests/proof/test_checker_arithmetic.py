@@ -8,7 +8,16 @@ import sympy as sp
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from workbench.proof.checker import CertificateError, Context, divide_exactly, exp_bounds, log_bounds, multiply, same
+from workbench.proof.checker import (
+    CertificateError,
+    Context,
+    circle_bounds,
+    divide_exactly,
+    exp_bounds,
+    log_bounds,
+    multiply,
+    same,
+)
 from workbench.proof.checker import substitute as substitute_ratio
 from workbench.proof.text import text
 
@@ -120,6 +129,20 @@ def test_log_is_enclosed_tightly(x):
         assert mpmath.mpf(low.numerator) / low.denominator <= true + slack
         assert mpmath.mpf(high.numerator) / high.denominator >= true - slack
     assert high - low <= Fraction(1, 10**25)
+
+
+@given(st.fractions(min_value=-40, max_value=40, max_denominator=10**9),
+       st.fractions(min_value=0, max_value=Fraction(1, 10), max_denominator=10**9), st.sampled_from(["sin", "cos"]))
+def test_sine_and_cosine_are_enclosed_wherever_the_angle_lies(x, width, name):
+    low, high = circle_bounds(name, x, x + width)
+    for angle in (x, x + width / 3, x + width):
+        with mpmath.workdps(60):
+            true, slack = getattr(mpmath, name)(mpmath.mpf(angle.numerator) / angle.denominator), mpmath.mpf(10) ** -50
+            assert mpmath.mpf(low.numerator) / low.denominator <= true + slack
+            assert mpmath.mpf(high.numerator) / high.denominator >= true - slack
+    assert -1 <= low <= high <= 1
+    if abs(x) <= 32:
+        assert high - low <= 2 * width + Fraction(1, 10**25)
 
 
 @pytest.mark.parametrize("x", [Fraction(0), Fraction(-1), Fraction(-1, 10**30)])

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import io
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -135,10 +136,18 @@ class Proved:
 def _figure(setting: Setting, runs: Sequence[PlantRun], columns: Sequence[str]) -> Any:
     from matplotlib.figure import Figure  # noqa: PLC0415 - for plots alone
 
+    class Drawn(Figure):
+        """A figure that a notebook shows without pyplot's help."""
+
+        def _repr_svg_(self) -> str:
+            text = io.StringIO()
+            self.savefig(text, format="svg")
+            return text.getvalue()
+
     plant = setting.plant
     units = {str(symbol): unit for symbol, unit in plant.units.items()}
     shown = columns or [*map(str, plant.states), *map(str, plant.inputs)]
-    figure = Figure(figsize=(7.0, 1.8 * len(shown)), layout="constrained")
+    figure = Drawn(figsize=(7.0, 1.8 * len(shown)), layout="constrained")
     for axes, name in zip(np.atleast_1d(figure.subplots(len(shown), 1, sharex=True)), shown, strict=True):
         channel = setting.tracks.get(name)
         if channel:

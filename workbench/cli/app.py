@@ -23,6 +23,7 @@ from workbench.cli import (
     prove,
     reference,
     report,
+    schema,
     show,
     sweep,
     tune,
@@ -37,7 +38,7 @@ app = typer.Typer(no_args_is_help=True, add_completion=True, pretty_exceptions_e
 INTERRUPTED = 130  # with which typer ends after Ctrl-C
 
 for verb in (prove, show, diff, check, new_paper, check_certificates, compare, sweep, tune, report, reference, gains,
-             listing, examples, errata, export_coq, check_coq):
+             listing, examples, schema, errata, export_coq, check_coq):
     app.command(verb.NAME, context_settings=getattr(verb, "CONTEXT", None))(verb.command)
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
@@ -12,6 +12,7 @@ from workbench.cli.terminal import claim_card, err_console, out_console, progres
 from workbench.errors import InputError
 
 if TYPE_CHECKING:
+    from workbench.proof.document_format import ClaimsDocument
     from workbench.proof.prove import Proof
 
 NAME = "prove"
@@ -78,7 +79,7 @@ def command(paths: Annotated[list[str] | None, typer.Argument(
     _end(proof)
 
 
-def _print_cards(proof: Proof, document: dict[str, Any]) -> None:
+def _print_cards(proof: Proof, document: ClaimsDocument) -> None:
     from workbench.cli.findings import print_counts
 
     for card in map(claim_card, document["claims"]):

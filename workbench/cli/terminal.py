@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import threading
 import time
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -111,7 +111,7 @@ def _duration(seconds: float) -> str:
     return f"{seconds / 60:.0f} min" if seconds < 6000 else f"{seconds / 3600:.1f} h"
 
 
-def answer_card(answer: dict[str, Any]) -> Table:
+def answer_card(answer: Mapping[str, Any]) -> Table:
     """A pasted line decided: the verdict, the goal as it was read, and what shows it."""
     from workbench.report.plain_formulas import plain_formula
 
@@ -130,7 +130,7 @@ def answer_card(answer: dict[str, Any]) -> Table:
     return table
 
 
-def claim_card(row: dict[str, Any]) -> Table:
+def claim_card(row: Mapping[str, Any]) -> Table:
     """One claim with all that is known of it."""
     from workbench.report.certificate_latex import assignment_latex
     from workbench.report.plain_formulas import plain_formula
@@ -173,7 +173,7 @@ ORIGIN_WORDS = {"printed": "a printed line", "implied": "a step taken without wo
 MATCH_WORDS = {"parsed": "a machine that parsed the line", "read": "a person who read the line", "words": "its words"}
 
 
-def _fate(row: dict[str, Any]) -> str | None:
+def _fate(row: Mapping[str, Any]) -> str | None:
     return f"{row['fate']}: {row['fate_why']}" if row["fate"] else None
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import sys
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
@@ -11,7 +12,7 @@ from workbench.files.outputs import STANDARD_OUTPUT
 from workbench.files.writing import write_text
 
 
-def write_json(path: Path, document: dict[str, Any]) -> None:
+def write_json(path: Path, document: Mapping[str, Any]) -> None:
     """Write a document as JSON, to standard output where the path is `-`; NaN is refused. Raises InputError where it
     cannot be written."""
     text = json.dumps(document, indent=1, ensure_ascii=False, allow_nan=False) + "\n"

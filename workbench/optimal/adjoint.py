@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -31,50 +33,72 @@ def certificate_from(vehicle: Vehicle, plan: Plan, near_limit: float = NEAR_LIMI
     """
     grid = plan.grid
     s, b = grid.position_m, plan.half_square
-    middle = (s[1:] + s[:-1]) / 2
     reached = b >= (near_limit * grid.node_limit_mps) ** 2 / 2
     reached |= (grid.node_least_mps > 0) & (b <= (grid.node_least_mps / near_limit) ** 2 / 2)
-    price = plan.interval_prices_w
     breaks = np.isin(s, kept_borders(grid.course)) & (reached | grid.stands)
     breaks[[0, -1]] = True
-    at, left, right = [s[:1]], [], []
-    for k in range(len(plan.adjoint)):
-        for start, end, other, node in ((s[k], middle[k], k - 1, k), (middle[k], s[k + 1], k + 1, k + 1)):
-            points = _parts(start, end, plan, k)
-            if breaks[node] and b[node] == 0.0:
-                values = _towards_standstill(vehicle, plan, k, points, float(price[k]))
-            else:
-                values = _between(points, plan, k, _neighbour(breaks, k, other), middle)
-            at.append(points[1:])
-            left.append(values[:-1])
-            right.append(values[1:])
+    halves = _halves(plan, breaks)
+    points, of = _points(halves, plan)
+    values = _values(vehicle, plan, halves, points, of)
+    first = np.insert(np.diff(of) > 0, 0, True)
     drawn = counted(vehicle.auxiliary_w)
     *earlier, last = plan.timetable.fair(plan.prices_w, drawn).tolist()
-    return Certificate(np.concatenate(at), np.concatenate(left), np.concatenate(right), last + drawn, tuple(earlier),
-                       drawn)
+    return Certificate(np.append(s[0], points[~first]), values[np.append(~first[1:], False)], values[~first],
+                       last + drawn, tuple(earlier), drawn)
 
 
-def _neighbour(breaks: NDArray[np.bool_], k: int, other: int) -> int:
-    """The interval whose middle gives the line on that side of interval k: beyond a border the one behind; or k."""
-    near, behind = (k, k + 1) if other < k else (k + 1, k)
-    if not breaks[near]:
-        return other
-    far = 2 * k - other
-    return k if breaks[behind] or not 0 <= far < len(breaks) - 1 else far
+@dataclass(frozen=True)
+class _Halves:
+    """The halves of the plan's intervals in order, each shape (m,).
+
+    k: of which interval. start_m, end_m: between its border and its middle. far: the interval whose middle gives the
+    line on that side: beyond a border the one behind, or k itself. stands: whether the train stands at its border.
+    """
+
+    k: NDArray[np.intp]
+    start_m: Array
+    end_m: Array
+    far: NDArray[np.intp]
+    stands: NDArray[np.bool_]
 
 
-def _half_square(points: Array, plan: Plan, k: int) -> Array:
+def _halves(plan: Plan, breaks: NDArray[np.bool_]) -> _Halves:
+    s, count = plan.grid.position_m, len(plan.adjoint)
+    k, later = np.repeat(np.arange(count), 2), np.tile([False, True], count)
+    middle = _middles(plan)[k]
+    near, behind = np.where(later, k + 1, k), np.where(later, k, k + 1)
+    next_one, one_behind = np.where(later, k + 1, k - 1), np.where(later, k - 1, k + 1)
+    inside = (one_behind >= 0) & (one_behind < count) & ~breaks[behind]
+    far = np.where(breaks[near], np.where(inside, one_behind, k), next_one)
+    return _Halves(k, np.where(later, middle, s[k]), np.where(later, s[k + 1], middle), far,
+                   breaks[near] & (plan.half_square[near] == 0.0))
+
+
+def _middles(plan: Plan) -> Array:
+    s = plan.grid.position_m
+    return np.asarray((s[1:] + s[:-1]) / 2)
+
+
+def _half_square(points: Array, plan: Plan, k: NDArray[np.intp]) -> Array:
+    """Half the squared speed at points, each of interval k."""
     s, b = plan.grid.position_m, plan.half_square
     found = b[k] + (b[k + 1] - b[k]) * (points - s[k]) / (s[k + 1] - s[k])
-    return np.where(found > STANDSTILL * max(b[k], b[k + 1]), found, 0.0)
+    return np.where(found > STANDSTILL * np.maximum(b[k], b[k + 1]), found, 0.0)
 
 
-def _parts(start: float, end: float, plan: Plan, k: int) -> Array:
-    """Positions from start to end with about equal ratios of speed, and a short last cell at a standstill."""
-    b = _half_square(np.array([start, end]), plan, k)
-    low, high = float(b.min()), float(b.max())
-    if high <= low * RATIO**2 or high == 0:
-        return np.array([start, end])
+def _points(halves: _Halves, plan: Plan) -> tuple[Array, NDArray[np.intp]]:
+    """Positions from start to end of each half in turn, and of which half each is."""
+    ends = np.stack((halves.start_m, halves.end_m), axis=1)
+    b = _half_square(ends, plan, halves.k[:, None])
+    found = list(ends)
+    for half in np.flatnonzero((b.max(axis=1) > b.min(axis=1) * RATIO**2) & (b.max(axis=1) > 0)):
+        found[half] = _parts(ends[half], b[half])
+    return np.concatenate(found), np.repeat(np.arange(len(found)), [len(points) for points in found])
+
+
+def _parts(ends: Array, b: Array) -> Array:
+    """Positions between two ends with about equal ratios of speed, and a short last cell at a standstill."""
+    (start, end), low, high = ends, float(b.min()), float(b.max())
     floor = max(low, high * RATIO ** (-2 * MOST_PARTS))
     count = int(np.ceil(np.log(high / floor) / (2 * np.log(RATIO))))
     levels = np.geomspace(floor, high, count + 1)
@@ -86,28 +110,37 @@ def _parts(start: float, end: float, plan: Plan, k: int) -> Array:
     return np.concatenate(([start], inner, [end]))
 
 
-def _inverse_speed(points: Array, plan: Plan, k: int) -> Array:
+def _values(vehicle: Vehicle, plan: Plan, halves: _Halves, points: Array, of: NDArray[np.intp]) -> Array:
+    """p at points of halves: by the adjoint equation towards a standstill, else by the line through the middles of its
+    interval and of the far one, in 1/v where the speed rises or falls from one to the other, else in position."""
+    k, far = halves.k, halves.far
+    p, b, middle = plan.adjoint, plan.half_square, _middles(plan)
+    inverse = _inverse_speeds(points, of, plan, halves)
+    here, there = (_half_square(middle[j], plan, j) for j in (k, far))
+    border = b[np.maximum(k, far)]
+    rising = (far != k) & (np.minimum(here, there) < border) & (border < np.maximum(here, there)) & (
+        np.abs(here - there) > 1e-3 * np.maximum(here, there))
+    values = p[k[of]]
+
+    def on(where: NDArray[np.bool_]) -> tuple[NDArray[np.bool_], NDArray[np.intp]]:
+        """Of the halves for which it holds: which points are theirs, and the half of each of these."""
+        return where[of], of[where[of]]
+
+    chosen, half = on(halves.stands)
+    acceleration = (b[k + 1] - b[k])[half] / plan.grid.step_m[k[half]]
+    rise = plan.interval_prices_w[k[half]] / (vehicle.inertia_kg * acceleration)
+    values[chosen] += rise * (inverse[chosen] - 1 / np.sqrt(2 * ((b[k] + b[k + 1]) / 2)[half]))
+    change = p[far] - p[k]
+    chosen, half = on(rising & ~halves.stands)
+    one, two = 1 / np.sqrt(2 * here[half]), 1 / np.sqrt(2 * there[half])
+    values[chosen] += change[half] * (inverse[chosen] - one) / (two - one)
+    chosen, half = on((far != k) & ~rising & ~halves.stands)
+    values[chosen] += change[half] * (points[chosen] - middle[k[half]]) / (middle[far] - middle[k])[half]
+    return values
+
+
+def _inverse_speeds(points: Array, of: NDArray[np.intp], plan: Plan, halves: _Halves) -> Array:
     """1/v; at a standstill that of the next point, since p times b vanishes there whatever a finite p is."""
-    b = _half_square(points, plan, k)
-    return np.asarray(1 / np.sqrt(2 * np.where(b > 0, b, b[b > 0].min(initial=np.inf))))
-
-
-def _towards_standstill(vehicle: Vehicle, plan: Plan, k: int, points: Array, price_w: float) -> Array:
-    b = plan.half_square
-    middle = np.array([(b[k] + b[k + 1]) / 2])
-    acceleration = (b[k + 1] - b[k]) / plan.grid.step_m[k]
-    rise = price_w / (vehicle.inertia_kg * acceleration)
-    return np.asarray(plan.adjoint[k] + rise * (_inverse_speed(points, plan, k) - 1 / np.sqrt(2 * middle)))
-
-
-def _between(points: Array, plan: Plan, k: int, far: int, middle: Array) -> Array:
-    """p at points of interval k, by the line in 1/v through its middle and that of interval `far`."""
-    p = plan.adjoint
-    if far == k:
-        return np.full(len(points), p[k])
-    here, there = (float(_half_square(middle[j:j + 1], plan, j)[0]) for j in (k, far))
-    border = plan.half_square[max(k, far)]
-    if (here < border < there or here > border > there) and abs(here - there) > 1e-3 * max(here, there):
-        one, two = 1 / np.sqrt(2 * here), 1 / np.sqrt(2 * there)
-        return np.asarray(p[k] + (p[far] - p[k]) * (_inverse_speed(points, plan, k) - one) / (two - one))
-    return np.asarray(p[k] + (p[far] - p[k]) * (points - middle[k]) / (middle[far] - middle[k]))
+    b = _half_square(points, plan, halves.k[of])
+    least = np.minimum.reduceat(np.where(b > 0, b, np.inf), np.flatnonzero(np.diff(of, prepend=-1)))
+    return np.asarray(1 / np.sqrt(2 * np.where(b > 0, b, least[of])))

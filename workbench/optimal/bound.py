@@ -30,7 +30,6 @@ the limits of force, power and speed enter as they are.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from itertools import pairwise
 
 import numpy as np
 from numba import njit
@@ -40,18 +39,15 @@ from workbench.errors import WorkbenchError
 from workbench.optimal.bound_fixed import fixed_part, owner_of
 from workbench.optimal.certificate import Certificate
 from workbench.optimal.course import Array, Course
-from workbench.optimal.force_pieces import ForcePiece, force_pieces
+from workbench.optimal.speed_ranges import PULL_BY, Pieces, Ranges, speed_ranges
 from workbench.optimal.timetable import Timetable, as_timetable
-from workbench.optimal.vehicle import ForceLimit, Vehicle
+from workbench.optimal.vehicle import Vehicle
 
 # Of 1 / v, 1, v and v^2.
 Coefficients = tuple[Array, Array, Array, Array]
 # A tunnel's drag is linear along a cell up to this share.
 DRAG_TOLERANCE = 1e-9
-# Ranges of speed on each of which one of several limits of the force is used.
-ACCELERATION_RANGES = 30
-# What limits a force: by their places in these lists limits stand in certificates.
-PULL_BY = ("force", "power", "table", "acceleration")
+# What limits a braking force: by its place in this list, as in PULL_BY, a limit stands in certificates.
 BRAKE_BY = ("brakes", "deceleration", "mixed")
 
 
@@ -108,20 +104,16 @@ def bound_terms(vehicle: Vehicle, course: Course, certificate: Certificate, time
     # p times a drag that changes along the cell bends: below its chord by a quarter of the product at most.
     bend = np.maximum((certificate.right - certificate.left) * (cells.drag[1] - cells.drag[0]), 0.0) / 4
     a, b_1, c = vehicle.davis_n
-    middle = (certificate.left + certificate.right) / 2
-    found = []
-    for low, high, traction, brake in _speed_edges(vehicle, float(cells.limit_mps.max())):
-        inside = np.flatnonzero(cells.limit_mps > low)
-        ways = [_cheapest(vehicle, cells, p, middle, (low + high) / 2, traction, brake)
-                for p in (certificate.left, certificate.right)]
-        for end, (p, way) in enumerate(zip((certificate.left, certificate.right), ways, strict=True)):
-            square = p * (c + cells.drag[end]) - bend - vehicle.inertia_kg * slope / 2 + way[3]
-            found.append(np.stack([
-                inside.astype(float), np.full(len(inside), float(end)), np.full(len(inside), low),
-                np.minimum(high, cells.limit_mps[inside]), (price + way[0])[inside],
-                (p * a + way[1])[inside], (p * b_1 + way[2])[inside], square[inside],
-                *(np.broadcast_to(choice, p.shape)[inside].astype(float) for choice in way[4:])]))
-    return Terms(*np.concatenate(found, axis=1))
+    p, middle = np.stack((certificate.left, certificate.right)), (certificate.left + certificate.right) / 2
+    ranges = speed_ranges(vehicle, float(cells.limit_mps.max()))
+    way = _cheapest(vehicle, cells, p, middle, ranges)
+    square = p * (c + cells.drag) - bend - vehicle.inertia_kg * slope / 2 + way[3]
+    shape = (len(ranges.low), *p.shape)
+    inside = np.broadcast_to(cells.limit_mps > ranges.low, shape)
+    every = (np.arange(p.shape[1], dtype=float), np.array([[0.0], [1.0]]), ranges.low,
+             np.minimum(ranges.high, cells.limit_mps), price + way[0],
+             p * a + way[1], p * b_1 + way[2], square, *way[4:])
+    return Terms(*(np.broadcast_to(values, shape)[inside] for values in every))
 
 
 @dataclass(frozen=True)
@@ -158,29 +150,31 @@ def _cells(course: Course, certificate: Certificate) -> _Cells:
     return _Cells(limit, drag, least, most)
 
 
-def _cheapest(vehicle: Vehicle, cells: _Cells, p: Array, middle: Array, speed: float, traction: ForcePiece,
-              brake: ForcePiece) -> tuple[Array, ...]:
-    """The least of c(u) - p u from below, as (inverse, constant, slope, square) of the speed, on each cell, followed by
-    the numbers of the limits it takes: of traction, of braking, of the electric brake.
+def _cheapest(vehicle: Vehicle, cells: _Cells, p: Array, middle: Array, ranges: Ranges) -> tuple[Array, ...]:
+    """The least of c(u) - p u from below, as (inverse, constant, slope, square) of the speed, on each range of speeds
+    and cell, followed by the numbers of the limits it takes: of traction, of braking, of the electric brake.
 
-    Each of several limits alone gives a bound; the one taken on a cell is the best in its middle, the same for both of
-    its ends. Without limits of the acceleration the first of each is the only one.
+    p: shape (2, n), at both ends of the cells; all that is returned can be broadcast to (ranges, 2, n). Each of several
+    limits alone gives a bound; the one taken on a cell is the best in its middle, the same for both of its ends.
+    Without limits of the acceleration the first of each is the only one.
     """
     pull = np.maximum(p - 1 / vehicle.traction_efficiency, 0.0)
     regain = np.maximum(vehicle.regenerative_efficiency - p, 0.0)
     rub = np.maximum(-p, 0.0)
     zero = np.zeros_like(p)
     a, b_1, c = vehicle.davis_n
+    speed, speed_square, traction, brake = ranges.middle, ranges.middle_square, ranges.traction, ranges.brake
     drag = cells.drag.min(axis=0), cells.drag.max(axis=0)
-    pulls, brakes_by = np.full_like(p, _kind(vehicle.traction, traction)), zero
-    most = (zero - pull * traction.inverse_w, zero - pull * traction.constant_n,
-            zero - pull * traction.slope_n_s_per_m, zero)
-    least = (zero - regain * brake.inverse_w, zero - regain * brake.constant_n - rub * vehicle.friction_brake_n,
-             zero - regain * brake.slope_n_s_per_m, zero)
+    pulls, brakes_by = traction.kind, zero
+    most: Coefficients = (zero - pull * traction.inverse_w, zero - pull * traction.constant_n,
+                          zero - pull * traction.slope_n_s_per_m, zero)
+    least: Coefficients = (zero - regain * brake.inverse_w,
+                           zero - regain * brake.constant_n - rub * vehicle.friction_brake_n,
+                           zero - regain * brake.slope_n_s_per_m, zero)
     if np.isfinite(vehicle.max_acceleration_mps2):
         top = (vehicle.inertia_kg * vehicle.max_acceleration_mps2 + a + cells.most_force, b_1, c + drag[1])
         # Where the force for it is traction's at every speed, so that the product with `pull` is concave.
-        lower = (top[0] >= 0) & (top[0] + top[1] * speed + top[2] * speed**2 < traction.at(speed))
+        lower = (top[0] >= 0) & (top[0] + top[1] * speed + top[2] * speed_square < traction.middle_n)
         pulls = np.where(lower, PULL_BY.index("acceleration"), pulls)
         most = _choose(lower, (zero, -pull * top[0], -pull * top[1], -pull * top[2]), most)
     if np.isfinite(vehicle.max_deceleration_mps2):
@@ -188,10 +182,10 @@ def _cheapest(vehicle: Vehicle, cells: _Cells, p: Array, middle: Array, speed: f
         # Holds where the force for the hardest braking is a brake's at every speed, so that the product is concave.
         limit = float(cells.limit_mps.max())
         brakes = low[0] + low[1] * limit + low[2] * limit**2 < 0
-        hardest = -(low[0] + low[1] * speed + low[2] * speed**2)
+        hardest = -(low[0] + low[1] * speed + low[2] * speed_square)
         mid_regain = np.maximum(vehicle.regenerative_efficiency - middle, 0.0)
         mid_rub = np.maximum(-middle, 0.0)
-        electric = brake.at(speed)
+        electric = brake.middle_n
         losses = (mid_regain * electric + mid_rub * vehicle.friction_brake_n, mid_regain * hardest,
                   vehicle.regenerative_efficiency * electric + mid_rub * hardest)
         alone = brakes & (losses[1] < np.minimum(losses[0], losses[2]))
@@ -200,22 +194,13 @@ def _cheapest(vehicle: Vehicle, cells: _Cells, p: Array, middle: Array, speed: f
         least = _choose(alone, (zero, regain * low[0], regain * low[1], regain * low[2]),
                         _choose(mixed, _mixed(vehicle, brake, rub, low), least))
     return (most[0] + least[0], most[1] + least[1], most[2] + least[2], most[3] + least[3], pulls, brakes_by,
-            np.full_like(p, _kind(vehicle.regenerative, brake)))
+            brake.kind)
 
 
-def _kind(limit: ForceLimit, piece: ForcePiece) -> int:
-    """Which part of a limit a piece of it is, as PULL_BY."""
-    if piece.inverse_w:
-        return PULL_BY.index("power")
-    constant = piece.slope_n_s_per_m == 0 and piece.constant_n == limit.force_n
-    return PULL_BY.index("force" if constant else "table")
-
-
-def _mixed(vehicle: Vehicle, brake: ForcePiece, rub: Array,
-           low: tuple[Array, float, Array]) -> Coefficients:
+def _mixed(vehicle: Vehicle, brake: Pieces, rub: Array, low: tuple[Array, float, Array]) -> Coefficients:
     """All that the electric brake returns, and the hardest braking at the price of friction."""
     regain = vehicle.regenerative_efficiency
-    return (np.full_like(rub, -regain * brake.inverse_w), rub * low[0] - regain * brake.constant_n,
+    return (-regain * brake.inverse_w, rub * low[0] - regain * brake.constant_n,
             rub * low[1] - regain * brake.slope_n_s_per_m, rub * low[2])
 
 
@@ -223,20 +208,6 @@ def _choose(where: NDArray[np.bool_], one: Coefficients, other: Coefficients) ->
     inverse, constant, slope, square = (np.where(where, first, second)
                                         for first, second in zip(one, other, strict=True))
     return inverse, constant, slope, square
-
-
-def _speed_edges(vehicle: Vehicle, top_mps: float) -> list[tuple[float, float, ForcePiece, ForcePiece]]:
-    """Ranges of speed on which both force limits are one piece each."""
-    traction, brake = force_pieces(vehicle.traction, top_mps), force_pieces(vehicle.regenerative, top_mps)
-    edges = {0.0, top_mps, *(p.high_mps for p in (*traction, *brake))}
-    if np.isfinite(min(vehicle.max_acceleration_mps2, vehicle.max_deceleration_mps2)):
-        edges |= set(np.linspace(0.0, top_mps, ACCELERATION_RANGES + 1).tolist())
-    found = []
-    for low, high in pairwise(sorted(edges)):
-        middle = (low + high) / 2
-        found.append((low, high, next(p for p in traction if p.low_mps <= middle <= p.high_mps),
-                      next(p for p in brake if p.low_mps <= middle <= p.high_mps)))
-    return found
 
 
 def minima(terms: Terms) -> Array:

@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 import numpy as np
 
 from workbench.optimal.course import Array
+from workbench.optimal.document_format import CertifiedRun
 from workbench.optimal.profile import Profile, largest_force
 from workbench.optimal.reference import Reference
 from workbench.optimal.vehicle import Vehicle
@@ -35,7 +34,7 @@ def certified_rows(vehicle: Vehicle, profile: Profile) -> Array:
                             profile.course.limit_mps[cell]))
 
 
-def certified_document(found: Reference, rows: Array, csv: str | None) -> dict[str, Any]:
+def certified_document(found: Reference, rows: Array, csv: str | None) -> CertifiedRun:
     """The run as data: its energy and gap, the energy of its simulation, and its rows by column."""
     return {"what": "the run that the bound is proved for: constant acceleration from row to row over position",
             "energy_J": found.energy_j, "lower_bound_J": found.lower_bound_j, "gap": found.gap,

@@ -6,13 +6,14 @@ import csv
 import io
 import math
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from workbench.errors import InputError
 from workbench.files.writing import write_text
 from workbench.optimal.course import Array, Course
+from workbench.optimal.document_format import ReferenceDocument, TimingRow
 from workbench.optimal.force_reserve import needed_force
 from workbench.optimal.reference import Reference
 from workbench.optimal.smooth import SmoothReference
@@ -32,10 +33,10 @@ LEAST_PRICE_W = 50.0
 
 
 def reference_document(found: Reference, smooth: SmoothReference | None,
-                       driven: SmoothCheck | None = None) -> dict[str, Any]:
+                       driven: SmoothCheck | None = None) -> ReferenceDocument:
     """The result as data, SI units: of the optimal run, and of the smooth one that tracks it with its simulation."""
     check = found.check
-    document: dict[str, Any] = {
+    document: ReferenceDocument = {
         "version": 1, "energy_J": found.energy_j, "lower_bound_J": found.lower_bound_j, "gap": found.gap,
         "trip_time_s": found.profile.trip_time_s, "solver": found.solver, "solve_s": found.solve_s,
         "status": found.status, "least_trip_time_s": found.least_time_s,
@@ -52,7 +53,7 @@ def reference_document(found: Reference, smooth: SmoothReference | None,
                               "lower_bound_J": found.lower_bound_j, "gap": smooth_gap(found, smooth),
                               "usable_traction": smooth.usable[0], "usable_brakes": smooth.usable[1],
                               "energy_without_reserve_J": smooth.unreserved_energy_j}
-    if driven is not None:
+    if smooth is not None and driven is not None:
         document["smooth"] |= {"simulated_energy_J": driven.energy_j, "position_drift_m": driven.position_drift_m,
                                "speed_drift_mps": driven.speed_drift_mps, "correction_N": driven.correction_n}
     return document
@@ -64,7 +65,7 @@ def smooth_gap(found: Reference, smooth: SmoothReference) -> float:
     return above / abs(smooth.energy_j) if smooth.energy_j else above
 
 
-def timing_rows(found: Reference, smooth: SmoothReference | None) -> list[dict[str, Any]]:
+def timing_rows(found: Reference, smooth: SmoothReference | None) -> list[TimingRow]:
     """Each event of the timetable with its window, when and how fast the run meets it, and what binds.
 
     `time_s`: of the optimal run; `simulated_time_s`: of its simulation; `smooth_time_s`: of the smooth one. `binds`:
@@ -75,7 +76,7 @@ def timing_rows(found: Reference, smooth: SmoothReference | None) -> list[dict[s
     prices = found.certificate.prices_w(timetable).tolist()
     at = np.searchsorted(profile.position_m, timetable.position_m)
     late = (found.check.clock_s(profile) - profile.time_s)[at]
-    rows = []
+    rows: list[TimingRow] = []
     for k, (event, price) in enumerate(zip(timetable.events, prices, strict=True)):
         point, time, simulated = timetable.points[event.point], float(found.clock_s[k]), float(late[event.point])
         rows.append({

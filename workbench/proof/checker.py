@@ -1,18 +1,19 @@
 """Re-check certificates with exact arithmetic alone. Standard library only; knows nothing of who made them.
 
 A certificate states a goal: for all real values of its symbols, the relations in `assume` imply those in
-`show`. Expressions are Python syntax over + - * / **, log, exp, tanh, abs, sign, sqrt, Max, Min, Sum(...) (over
-any number n of indexed symbols, also none, formally) and D(...) (derivative along `flow`, which maps symbols to rates).
+`show`. Expressions are Python syntax over + - * / **, log, exp, tanh, sin, cos, abs, sign, sqrt, Max, Min, Sum(...)
+(over any number n of indexed symbols, also none, formally) and D(...) (derivative along `flow`, symbols with rates).
 `proved` carries a proof, `refuted`/`violated`/`gap` a point (or functions of time) where the goal fails.
 
 D holds symbols without a rate constant; of `inputs`, which may vary without a known rate, it is not taken. Only the
 rule `nonincreasing`, paths and models follow the flow through time: `always` holds at every instant from time zero on,
 `initial` names values at time zero, and `assume` and `show` speak of one later instant.
 
-What must be believed: this file, and the facts named in `fact`: log x <= x - 1 (x > 0), exp x >= 1 + x,
-exp x > 0; abs(x)**2 = x**2, abs(x) >= 0; sqrt(x)**2 = x, sqrt(x) >= 0 (x >= 0), sqrt(x) > 0 (x > 0); a function
-whose derivative is never positive does not increase. tanh, Max and Min are read as what they stand for:
-tanh x = (exp 2x - 1)/(exp 2x + 1), Max(a, b) = (a + b + abs(a - b))/2, Min(a, b) = (a + b - abs(a - b))/2.
+What must be believed: this file, and the facts named in `fact`: log x <= x - 1 (x > 0), exp x >= 1 + x, exp x > 0;
+sin and cos on the unit circle, cos x >= 1 - x**2/2, sin x <= x (x >= 0); how sin, cos and exp of a sum and log of a
+product come from those of the parts; abs(x)**2 = x**2, abs(x) >= 0; sqrt(x)**2 = x, sqrt(x) >= 0 (x >= 0), sqrt(x) >
+0 (x > 0); a function whose derivative is never positive does not increase. tanh, Max and Min are read as what they
+stand for: tanh x = (exp 2x - 1)/(exp 2x + 1), Max(a, b) = (a + b + abs(a - b))/2, Min(a, b) = (a + b - abs(a - b))/2.
 """
 
 from __future__ import annotations
@@ -31,7 +32,7 @@ MOST_TERMS = 16  # of the sums at a point
 SUM = "Sum()"  # the formal sum over the index: a product SUM * term means the sum of the terms
 FLIP = {"<=": ">=", "<": ">"}
 OPERATORS = ("<=", ">=", "==", "!=", "<", ">")
-FUNCTIONS = ("log", "exp", "tanh", "abs", "sign", "sqrt")
+FUNCTIONS = ("log", "exp", "tanh", "sin", "cos", "abs", "sign", "sqrt")
 NAME = re.compile(r"[A-Za-z_][A-Za-z0-9_]*")  # no atom of this file looks like that
 EXPRESSION = re.compile(r"[A-Za-z0-9_ +*/(),-]*")
 OTHER_NUMBER = re.compile(r"(?<![A-Za-z0-9_])[0-9]+[A-Za-z_]")  # 0x10 and 1_0 are numbers to Python
@@ -339,13 +340,15 @@ class Context:
         for atom, (kind, known) in self.functions.items():
             if kind == name and same(known, argument):
                 return symbol(atom)
-            if kind == name != "sqrt" and same(known, -argument):  # abs is even, sign is odd
-                return symbol(atom) if name == "abs" else -symbol(atom)
+            if kind == name != "sqrt" and same(known, -argument):  # abs and cos are even, sign and sin are odd
+                return symbol(atom) if name in ("abs", "cos") else -symbol(atom)
         return self._new(name, argument)
 
     @staticmethod
     def _of_number(name: str, value: Fraction) -> Fraction | None:
-        """abs, sign or sqrt of a number, None where that is irrational."""
+        """abs, sign, sqrt, sin or cos of a number, None where that is irrational."""
+        if name in ("sin", "cos"):
+            return None if value else Fraction(name == "cos")
         if name != "sqrt":
             return abs(value) if name == "abs" else Fraction((value > 0) - (value < 0))
         if value < 0:
@@ -418,6 +421,8 @@ class Context:
         if atom in self.functions:
             kind, argument = self.functions[atom]
             inner = self.derivative(argument, flow)
+            if kind in ("sin", "cos"):
+                return inner * self.call("cos", argument) if kind == "sin" else -inner * self.call("sin", argument)
             if kind not in ("log", "exp") and not inner.is_zero():
                 raise CertificateError(f"a derivative of {kind} is not taken: it is none everywhere")
             return inner * argument.inverse() if kind == "log" else inner * symbol(atom)
@@ -739,6 +744,18 @@ def _factor(given: Relations, item: dict[str, Any]) -> Sign:
             return context.call("exp", inner) + number(-1) + -inner, ">="
         case {"fact": "exp_positive", "of": str(text)}:
             return context.call("exp", _argument(given, text)), ">"
+        case {"fact": "circle", "of": str(text)}:
+            sine, cosine = (context.call(name, _argument(given, text)) for name in ("sin", "cos"))
+            return sine * sine + cosine * cosine + number(-1), "=="
+        case {"fact": "cosine_parabola", "of": str(text)}:
+            inner = _argument(given, text)
+            return context.call("cos", inner) + number(-1) + inner * inner * number(Fraction(1, 2)), ">="
+        case {"fact": "sine_tangent", "of": str(text)}:
+            inner = _argument(given, text, "non-negative")
+            return inner + -context.call("sin", inner), ">="
+        case {"fact": "sine_sum" | "cosine_sum" | "exp_sum" | "log_product" as fact, "of": str(one), "and": str(two)}:
+            a, b = (_argument(given, text, "positive" if fact == "log_product" else None) for text in (one, two))
+            return _addition(context, fact, a, b), "=="
         case {"fact": "enclosure", "of": str(text)}:
             value = context.read(text)
             if symbols_of(context, value) or bounds(context, value)[0] < 0:  # bounds of a sum are those of one neuron
@@ -757,6 +774,19 @@ def _factor(given: Relations, item: dict[str, Any]) -> Sign:
         case {"fact": "sqrt_positive", "of": str(text)}:
             return context.call("sqrt", _argument(given, text, "positive")), ">"
     raise CertificateError(f"unknown factor {item}")
+
+
+def _addition(context: Context, fact: str, a: Ratio, b: Ratio) -> Ratio:
+    """What is 0 by the addition theorem of a function."""
+    match fact:
+        case "log_product":
+            return context.call("log", a * b) + -context.call("log", a) + -context.call("log", b)
+        case "exp_sum":
+            return context.call("exp", a + b) + -(context.call("exp", a) * context.call("exp", b))
+    (sin_a, cos_a), (sin_b, cos_b) = ((context.call("sin", x), context.call("cos", x)) for x in (a, b))
+    if fact == "sine_sum":
+        return context.call("sin", a + b) + -(sin_a * cos_b) + -(cos_a * sin_b)
+    return context.call("cos", a + b) + -(cos_a * cos_b) + sin_a * sin_b
 
 
 def _combination(value: Ratio, operator: str, given: Relations, proof: dict[str, Any]) -> None:
@@ -893,6 +923,18 @@ def sqrt_bounds(x: Fraction) -> tuple[Fraction, Fraction]:
     return Fraction(low, scale), Fraction(low if exact else low + 1, scale)
 
 
+def circle_bounds(kind: str, x: Fraction, y: Fraction) -> tuple[Fraction, Fraction]:
+    """Rational bounds of sin or cos between x and y: of its series at x, and no slope is beyond 1."""
+    start = Fraction(math.floor(x * 10**40), 10**40)
+    if abs(start) > 32 or y - start > 1:
+        return Fraction(-1), Fraction(1)
+    total, term, k = Fraction(0), start if kind == "sin" else Fraction(1), int(kind == "sin")
+    while k <= abs(start) or abs(term) > PRECISION:  # from there on terms fall, and their signs alternate
+        total, term, k = total + term, -term * start * start / ((k + 1) * (k + 2)), k + 2
+    slack = abs(term) + y - start
+    return max(_round(total - slack, -1), Fraction(-1)), min(_round(total + slack, 1), Fraction(1))
+
+
 def abs_bounds(x: Fraction, y: Fraction) -> tuple[Fraction, Fraction]:
     """Bounds of the absolute value of anything between x and y."""
     return (Fraction(0) if x <= 0 <= y else min(abs(x), abs(y))), max(abs(x), abs(y))
@@ -916,6 +958,8 @@ def bounds(context: Context, value: Ratio,
                 known[atom] = abs_bounds(x, y)
             elif kind == "sign":
                 known[atom] = sign_bounds(x, y)
+            elif kind in ("sin", "cos"):
+                known[atom] = circle_bounds(kind, x, y)
             else:
                 function = {"log": log_bounds, "exp": exp_bounds, "sqrt": sqrt_bounds}[kind]
                 known[atom] = function(x)[0], function(y)[1]

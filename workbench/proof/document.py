@@ -15,6 +15,7 @@ from workbench.files.outputs import check_outputs
 from workbench.files.own_files import MANIFEST, read_manifest, replace_files, sha256
 from workbench.files.writing import require_inside
 from workbench.proof.checker import THEOREMS, goal_digest
+from workbench.proof.document_format import ClaimRow, ClaimsDocument
 from workbench.proof.verdict import FATES, VERDICTS, Decision, Stated, Verdict, is_equation, is_paper_name
 from workbench.proof.whole_theorem import composed, whole_theorems
 
@@ -181,14 +182,14 @@ def _claim_of(data: bytes) -> str | None:
     return found.get("claim") if isinstance(found, dict) and "verdict" in found else None
 
 
-def claims_document(decisions: Sequence[Decision], where: Places) -> dict[str, Any]:
+def claims_document(decisions: Sequence[Decision], where: Places) -> ClaimsDocument:
     """The document of `workbench prove --json`; other programs read it.
 
     `summary` counts all verdicts, `totals` those of the paper's lines (printed and implied) and of our own questions
     apart, `proved_under` how many of the proved ones are so only under claims that are not shown, `fates` what becomes
     of the headline statements.
     """
-    rows = []
+    rows: list[ClaimRow] = []
     for d in decisions:
         claim = d.claim
         rows.append({
@@ -220,5 +221,5 @@ def _under(decisions: Sequence[Decision]) -> int:
     return sum(bool(d.proved_under) for d in decisions)
 
 
-def _counts(decisions: Sequence[Decision]) -> dict[str, int]:
+def _counts(decisions: Sequence[Decision]) -> dict[Verdict, int]:
     return {v: sum(d.verdict == v for d in decisions) for v in VERDICTS}

@@ -11,8 +11,8 @@ from workbench.errors import ClaimError
 from workbench.proof.claim import Goal, Relation, name_of
 from workbench.proof.typed import evaluated
 
-NAMES = {"log": "log", "exp": "exp", "D": "D", "tanh": "tanh", "Abs": "abs", "Size": "abs", "sign": "sign",
-         "Side": "sign", "Summed": "Sum", "Max": "Max", "Min": "Min"}
+NAMES = {"log": "log", "exp": "exp", "D": "D", "tanh": "tanh", "sin": "sin", "cos": "cos", "Abs": "abs", "Size": "abs",
+         "sign": "sign", "Side": "sign", "Summed": "Sum", "Max": "Max", "Min": "Min"}
 
 
 SUM, PRODUCT, POWER, ATOM = range(4)  # how tightly a text holds together

@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from workbench.errors import InputError
 from workbench.files.folders import CERTIFICATES, is_paper
@@ -36,6 +36,9 @@ from workbench.simulate.compare import Comparison, checked_variants, compare
 from workbench.simulate.process_pool import cores
 from workbench.simulate.sweep import summarise, sweep
 from workbench.simulate.sweep_rows import SweepSummary
+
+if TYPE_CHECKING:
+    from workbench.report.document_format import ComparisonDocument, FailureDocument, StudyDocument, TableDocument
 
 MONTE_CARLO = "monte_carlo"
 # What a report writes in its folder, certificates and curves apart, which their manifests name.
@@ -204,17 +207,17 @@ def run_study(loaded: Loaded, workers: int | None = None, on_progress: Progress 
     return kind.run(study, workers or cores(), told)
 
 
-def study_document(study: Study, result: StudyResult) -> dict[str, Any]:
+def study_document(study: Study, result: StudyResult) -> StudyDocument:
     """The document of `workbench compare --json` of a study."""
-    tables = [{"title": t.title, "source": t.source, "note": t.note, "header": list(t.headings),
+    tables: list[TableDocument] = [{"title": t.title, "source": t.source, "note": t.note, "header": list(t.headings),
                "rows": [list(row) for row in t.text], "units": [column.unit for column in t.columns],
                "values": [list(row) for row in t.values]} for t in result.tables]
-    failures = [{"run": run, "why": why} for run, why in result.failures]
+    failures: list[FailureDocument] = [{"run": run, "why": why} for run, why in result.failures]
     return {"version": 1, "scenario": study.name, "rows": list(result.rows), "tables": tables,
             "findings": list(result.findings), "failures": failures}
 
 
-def comparison_document(comparison: Comparison) -> dict[str, Any]:
+def comparison_document(comparison: Comparison) -> ComparisonDocument:
     """The document of `workbench compare --json`."""
     return {"version": 1, "scenario": comparison.scenario.name, "rows": [m.row() for m in comparison.metrics],
             "variants": [{"title": variant.title, "set": variant.set, "rows": [m.row() for m in metrics]}

@@ -5,6 +5,7 @@ from __future__ import annotations
 import html
 import re
 from functools import cache
+from itertools import groupby
 from xml.etree import ElementTree
 
 from latex2mathml.converter import convert_to_element
@@ -58,7 +59,8 @@ def _convert(latex: str) -> Markup:
         root = formula_tree(latex)
         if root is None:
             raise ValueError(latex)
-        return Markup("").join(_serialise(part) for part in _parts(root))
+        return Markup("").join(escape(piece) if isinstance(piece, str) else _serialise(piece)
+                               for piece in _flowing(root))
     except Exception:  # the converter raises many kinds on input it does not know, some of them its own bugs
         return Markup("<code>{}</code>").format(escape(latex)) if latex else Markup("")
 
@@ -85,6 +87,23 @@ def _words_apart(latex: str) -> str:
 def _serialise(root: ElementTree.Element) -> Markup:
     root.set("displaystyle", "true")
     return Markup(ElementTree.tostring(root, encoding="unicode"))
+
+
+def _flowing(root: ElementTree.Element) -> list[ElementTree.Element | str]:
+    """The formula in pieces between which lines may break: its sentences as words, what lies between as formulas."""
+    top = root[0] if len(root) == 1 and root[0].tag == "mrow" else root
+    pieces: list[ElementTree.Element | str] = []
+    for is_sentence, group in groupby(top, lambda child: child.tag == "mtext" and len(child.text or "") > LONG):
+        children = list(group)
+        if is_sentence:
+            pieces += [f" {' '.join((child.text or '').split())} " for child in children]
+        elif len(children) == len(top):
+            pieces += _parts(root)
+        else:
+            part = ElementTree.Element("math", root.attrib)
+            ElementTree.SubElement(part, "mrow").extend(children)
+            pieces += _parts(part)
+    return pieces
 
 
 def _parts(root: ElementTree.Element) -> list[ElementTree.Element]:

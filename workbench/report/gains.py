@@ -4,12 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from fractions import Fraction
-from typing import Any
+from typing import TYPE_CHECKING
 
 from workbench.gains.result import GainReport, GainSet
 from workbench.paper.cells import Cell, Phrase, Quantity
 from workbench.paper.gain_effects import Effect
 from workbench.paper.results import ResultTable, StudyResult
+
+if TYPE_CHECKING:
+    from workbench.report.document_format import GainsDocument
 
 LONG = 12  # characters of a fraction that is shown as it is
 APART = 1.02  # by what factor numbers differ that are said to
@@ -27,7 +30,7 @@ def gains_result(report: GainReport, effects: Sequence[Effect]) -> StudyResult:
         failures=tuple((f"{e.gains}, {e.setting}", e.failed) for e in effects if e.failed))
 
 
-def gains_document(report: GainReport, effects: Sequence[Effect]) -> dict[str, Any]:
+def gains_document(report: GainReport, effects: Sequence[Effect]) -> GainsDocument:
     """The document of `workbench gains --json`; numbers in SI units, gains as exact fractions and as floats."""
     return {
         "version": 1, "paper": report.paper,

@@ -57,6 +57,14 @@ def with_periods(scenario: Any) -> Any:
     return found
 
 
+def with_periods_in_schema(schema: dict[str, Any]) -> None:
+    """Say in a controller's JSON schema that `periods_s` may stand for `period_s`, as `at_periods` reads it."""
+    period = schema["properties"]["period_s"]
+    schema["properties"]["periods_s"] = {"type": "array", "items": period, "minItems": 1, "title": "Periods S"}
+    schema["required"].remove("period_s")
+    schema["oneOf"] = [{"required": ["period_s"]}, {"required": ["periods_s"]}]
+
+
 def for_all_periods(ranges: Mapping[str, Any], controllers: Iterable[str]) -> dict[str, Any]:
     """Ranges by controller: those of a name that became several hold for each that has none of its own."""
     names, found = list(controllers), {}

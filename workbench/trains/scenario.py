@@ -7,7 +7,7 @@ from itertools import pairwise
 from pathlib import Path
 from typing import Annotated, Any, Literal, Self
 
-from pydantic import BeforeValidator, Field, Strict, model_validator
+from pydantic import BeforeValidator, Field, Strict, WithJsonSchema, model_validator
 
 from workbench.errors import InputError, WorkbenchError
 from workbench.files.toml import (
@@ -31,7 +31,7 @@ from workbench.model.sensing import Instruments
 from workbench.model.sensitivity import Sensitivity
 from workbench.model.tuning import Searched, TrackingObjective
 from workbench.trains.actuator import Actuator
-from workbench.trains.periods import with_periods
+from workbench.trains.periods import with_periods, with_periods_in_schema
 from workbench.trains.track import Track, load_track
 from workbench.trains.train_record import Train
 
@@ -61,7 +61,7 @@ class NeuronGrid(SourcedRecord):
     width: Positive
 
 
-class ControllerSpec(SourcedRecord):
+class ControllerSpec(SourcedRecord, json_schema_extra=with_periods_in_schema):
     """One controller of a scenario: which law, its sampling period, its parameters and initial values.
 
     In a file `periods_s` instead of `period_s` states as many controllers, whose names say the period (`periods.py`).
@@ -153,7 +153,7 @@ class Scenario(FileRecord):
     title: Text
     paper: Text
     citation: Text
-    track: Track
+    track: Annotated[Track, WithJsonSchema({"type": "string", "title": "Track"})]  # the name of its file
     train: Train
     reference: Annotated[DavisCruise | CruiseSpeed | TableCurve, Field(discriminator="kind")]
     simulation: Simulation

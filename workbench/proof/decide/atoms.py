@@ -7,6 +7,7 @@ from fractions import Fraction
 
 import sympy as sp
 
+from workbench.errors import ClaimError
 from workbench.proof.decide.vanishing import vanishes
 from workbench.proof.derive import SUM, Side, Size, Summed, expand_derivatives, formal_sums, unfold
 from workbench.proof.text import text
@@ -25,6 +26,7 @@ class Atoms:
     exps: dict[sp.Expr, sp.Symbol] = field(default_factory=dict)
     squares: dict[sp.Symbol, tuple[sp.Expr, Item]] = field(default_factory=dict)  # abs or root: itself, its fact
     sides: dict[sp.Symbol, sp.Expr] = field(default_factory=dict)
+    circles: dict[sp.Expr, tuple[sp.Symbol, sp.Symbol]] = field(default_factory=dict)  # by angle its sine and cosine
     inverses: dict[sp.Symbol, sp.Expr] = field(default_factory=dict)
     strict: list[tuple[sp.Expr, int]] = field(default_factory=list)
     indexed: set[sp.Symbol] = field(default_factory=set)
@@ -34,13 +36,15 @@ class Atoms:
 
     def meanings(self) -> dict[sp.Symbol, sp.Expr]:
         """What the generators for functions and inverses stand for."""
-        state = tuple(map(len, (self.squares, self.sides, self.exps, self.logs, self.inverses)))
+        state = tuple(map(len, (self.squares, self.sides, self.circles, self.exps, self.logs, self.inverses)))
         if self.known_meanings[0] != state:
             self.known_meanings = state, self._meanings()
         return self.known_meanings[1]
 
     def _meanings(self) -> dict[sp.Symbol, sp.Expr]:
         functions: dict[sp.Symbol, sp.Expr] = {s: itself for s, (itself, _) in self.squares.items()} | self.sides
+        for angle, (sine, cosine) in self.circles.items():
+            functions |= {sine: sp.sin(angle.xreplace(functions)), cosine: sp.cos(angle.xreplace(functions))}
         functions |= {s: sp.exp(a.xreplace(functions)) for a, s in self.exps.items()}
         functions |= {s: sp.log(a.xreplace(functions)) for a, s in self.logs.items()}
         return functions | {s: 1 / known.xreplace(functions) for s, known in self.inverses.items()}
@@ -61,6 +65,7 @@ def flatten(expr: sp.Expr, atoms: Atoms, flow: dict[sp.Expr, sp.Expr]) -> sp.Exp
     flat = flat.xreplace(names)
     flat = flat.replace(lambda e: isinstance(e, (Size, Side)) or (e.is_Pow and not e.exp.is_Integer),
                         lambda e: square_atom(e, atoms))
+    flat = flat.replace(lambda e: isinstance(e, (sp.sin, sp.cos)), lambda e: circle_atom(e, atoms))
     flat = flat.xreplace({sp.E: sp.exp(1, evaluate=False)}).replace(sp.exp, lambda inner: exp_atom(inner, atoms))
     return flat.replace(sp.log, lambda inner: log_atom(inner, atoms))
 
@@ -98,6 +103,20 @@ def _with_sums(flat: sp.Expr) -> sp.Expr:
         return flat
     term = sp.expand(flat).coeff(SUM)
     return sp.expand(flat - SUM * term) + Summed(term)
+
+
+def circle_atom(itself: sp.Expr, atoms: Atoms) -> sp.Expr:
+    """sin or cos of an angle as an atom: cos is even, sin is odd; ClaimError where the angle holds exp or log."""
+    angle, sine = itself.args[0], isinstance(itself, sp.sin)
+    if angle.has(sp.exp, sp.log):
+        raise ClaimError(f"{itself} cannot be decided here: give the angle a letter of its own")
+    for known, (s, c) in atoms.circles.items():
+        for turn in (1, -1):
+            if vanishes(known - turn * angle):
+                return turn * s if sine else c
+    place = len(atoms.circles)
+    atoms.circles[angle] = sp.Dummy(f"s{place}", real=True), sp.Dummy(f"c{place}", real=True)
+    return atoms.circles[angle][0 if sine else 1]
 
 
 def log_atom(argument: sp.Expr, atoms: Atoms) -> sp.Expr:

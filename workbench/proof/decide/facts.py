@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from fractions import Fraction
+from itertools import combinations_with_replacement
 
 import sympy as sp
 
@@ -13,9 +14,16 @@ from workbench.proof.checker import Context, bounds
 from workbench.proof.claim import Goal, Relation
 from workbench.proof.decide.atoms import Atoms, Item, flatten
 from workbench.proof.decide.laurent import Laurent, multiply, reduce_inverses, to_laurent
+from workbench.proof.decide.vanishing import vanishes
 from workbench.proof.derive import Size
 from workbench.proof.text import text
 
+_EXCESS: dict[str, Callable[[sp.Expr], sp.Expr]] = {
+    "log_tangent": lambda x: x - 1 - sp.log(x),
+    "exp_tangent": lambda x: sp.exp(x, evaluate=False) - 1 - x,
+    "cosine_parabola": lambda x: sp.cos(x) - 1 + x**2 / 2,
+    "sine_tangent": lambda x: x - sp.sin(x),
+}
 GRID = 10**9  # bounds of numbers such as log(2) are multiples of 1/GRID
 
 
@@ -29,7 +37,7 @@ class Known:
 
 
 def tangents(goal: Goal, atoms: Atoms) -> Iterator[tuple[str, sp.Expr, sp.Expr]]:
-    """(fact, argument, what is at least 0) of the tangents that the checker knows of logarithms and exponentials.
+    """(fact, argument, what is at least 0) of the tangents that the checker knows of functions.
 
     Of those that are atoms at first: whoever flattens what is given may add others.
     """
@@ -38,10 +46,44 @@ def tangents(goal: Goal, atoms: Atoms) -> Iterator[tuple[str, sp.Expr, sp.Expr]]
         arguments += [(argument, "log_tangent"), (1 / argument, "log_tangent")]
     for argument in list(atoms.exps):
         arguments += [(argument, "exp_tangent"), (-argument, "exp_tangent")]
+    for angle in list(atoms.circles):
+        arguments += [(angle, "cosine_parabola")] + ([(angle, "sine_tangent")] if angle.is_nonnegative else [])
     for nested, fact in arguments:
         argument = nested.xreplace(atoms.meanings())
-        yield fact, argument, (argument - 1 - sp.log(argument) if fact == "log_tangent"
-                               else sp.exp(argument, evaluate=False) - 1 - argument)
+        yield fact, argument, _EXCESS[fact](argument)
+
+
+def circles(atoms: Atoms) -> Iterator[tuple[Item, sp.Expr]]:
+    """(fact, what is 0) of every angle: its sine and cosine lie on a circle."""
+    for angle, (sine, cosine) in list(atoms.circles.items()):
+        yield {"fact": "circle", "of": text(angle.xreplace(atoms.meanings()))}, sine**2 + cosine**2 - 1
+
+
+def additions(atoms: Atoms) -> Iterator[tuple[Item, sp.Expr]]:
+    """(fact, what is 0) of the addition theorems between the arguments that stand in a goal: that of one is the sum, or
+    the product, of two others or twice another."""
+    names = atoms.meanings()
+
+    def stated(fact: str, one: sp.Expr, two: sp.Expr) -> Item:
+        return {"fact": fact, "of": text(one.xreplace(names)), "and": text(two.xreplace(names))}
+
+    signed = [(t * angle, t * s, c) for angle, (s, c) in atoms.circles.items() for t in (1, -1)]
+    for (a, sa, ca), (b, sb, cb) in combinations_with_replacement(signed, 2):
+        for angle, (s, c) in list(atoms.circles.items()):
+            if vanishes(angle - a - b):
+                yield stated("sine_sum", a, b), s - sa * cb - ca * sb
+                yield stated("cosine_sum", a, b), c - ca * cb + sa * sb
+    powers = [(t * rest, e**t) for rest, e in atoms.exps.items() for t in (1, -1)]
+    for (a, ea), (b, eb) in combinations_with_replacement(powers, 2):
+        for rest, e in list(atoms.exps.items()):
+            if vanishes(rest - a - b) and e not in (ea, eb):
+                yield stated("exp_sum", a, b), e - ea * eb
+    logs = list(atoms.logs.items())
+    for (a, la), (b, lb) in combinations_with_replacement(logs, 2):
+        for whole, found in logs:
+            for turn in (1, -1):  # log(1/A) is -log(A)
+                if found not in (la, lb) and vanishes(whole - (a * b)**turn):
+                    yield stated("log_product", a, b), turn * found - la - lb
 
 
 def known_facts(goal: Goal, relations: tuple[Relation, ...], atoms: Atoms) -> list[Known]:
@@ -64,6 +106,7 @@ def known_facts(goal: Goal, relations: tuple[Relation, ...], atoms: Atoms) -> li
         inner = flatten(itself.args[0], atoms, {})
         value = to_laurent(root**2 - (inner**2 if isinstance(itself, Size) else inner), atoms)
         known.append(Known((square,), value, "=="))
+    known += [Known((item,), to_laurent(value, atoms), "==") for item, value in (*circles(atoms), *additions(atoms))]
     return known + [bound for atom, meaning in atoms.meanings().items() if not meaning.free_symbols
                     for bound in _enclosure(atom, meaning, atoms)]
 

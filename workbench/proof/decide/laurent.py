@@ -31,7 +31,7 @@ def to_laurent(flat: sp.Expr, atoms: Atoms) -> Laurent:
     for margin, position in atoms.strict:
         while denominator.has(*margin.free_symbols):
             quotient = sp.cancel(denominator / margin)
-            if not quotient.is_polynomial(*denominator.free_symbols):
+            if not quotient.is_polynomial(*quotient.free_symbols):
                 break
             denominator, rest = quotient, rest * _inverse_atom(margin, position, atoms)
     constant, factors = sp.factor_list(denominator)

@@ -15,7 +15,7 @@ from sympy.polys.rings import PolyRing
 from workbench.errors import ClaimError
 from workbench.proof.claim import Goal, Relation
 from workbench.proof.decide.atoms import Atoms, Item, flatten
-from workbench.proof.decide.facts import tangents
+from workbench.proof.decide.facts import additions, circles, tangents
 from workbench.proof.decide.laurent import as_fraction, goal_atoms, positive_by_terms
 from workbench.proof.decide.situation import Signed, Situation, Substitution
 from workbench.proof.derive import SUM, Size
@@ -75,7 +75,7 @@ def _cleared(flat: sp.Expr, atoms: Atoms, relations: tuple[Relation, ...]) -> tu
     for margin, position in atoms.strict:
         while denominator.has(*margin.free_symbols):
             quotient = sp.cancel(denominator / margin)
-            if not quotient.is_polynomial(*denominator.free_symbols):
+            if not quotient.is_polynomial(*quotient.free_symbols):
                 break
             denominator, items = quotient, [*items, {"assume": position}]
     constant, whole = denominator.primitive()
@@ -128,13 +128,19 @@ def _assumptions(goal: Goal, relations: tuple[Relation, ...], atoms: Atoms) -> I
 
 
 def _facts(goal: Goal, relations: tuple[Relation, ...], atoms: Atoms) -> Iterator[Stated]:
-    """(items, polynomial, sign) of tangents of logarithms and exponentials, and of squares of roots and sizes."""
+    """(items, polynomial, sign) of tangents of functions, of angles' circles, and of squares of roots and sizes."""
     for fact, argument, excess in tangents(goal, atoms):
         try:
             value, cleared = _cleared(flatten(excess, atoms, {}), atoms, relations)
         except ClaimError:
             continue
         yield ({"fact": fact, "of": text(argument)}, *cleared), value, ">="
+    for item, zero in (*circles(atoms), *additions(atoms)):
+        try:
+            value, cleared = _cleared(zero, atoms, relations)
+        except ClaimError:
+            continue
+        yield (item, *cleared), value, "=="
     for root, (itself, square) in list(atoms.squares.items()):
         inner = flatten(itself.args[0], atoms, {})
         if inner.has(SUM):

@@ -176,6 +176,8 @@ class Converter:
                 raise LatexError(f"'{name.name}' of a vector: give the piece in the notation", name.position)
         if name.name == "ln" and not arguments[0].is_Rational:
             self.conditions.append(Condition("logarithm", arguments[0], name.position))
+        if name.name == "tan":
+            self.conditions.append(Condition("denominator", sp.cos(arguments[0]), name.position))
         return applied(name.name, arguments, name.position), taken
 
     def _positive(self, exponent: Node) -> sp.Expr:

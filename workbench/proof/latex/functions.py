@@ -12,7 +12,7 @@ from workbench.proof.claim import saturation
 from workbench.proof.latex.error import LatexError
 from workbench.proof.latex.limits import LARGEST_EXPONENT
 
-_ONE = {"tanh": sp.tanh, "exp": sp.exp, "ln": sp.log, "sgn": sp.sign}
+_ONE = {"tanh": sp.tanh, "sin": sp.sin, "cos": sp.cos, "exp": sp.exp, "ln": sp.log, "sgn": sp.sign}
 _MOST_ARGUMENTS = 20
 _MOST_BITS = 100_000
 
@@ -23,13 +23,15 @@ def applied(name: str, arguments: Sequence[sp.Expr], position: int) -> sp.Expr:
         if name == "ln" and arguments[0].is_Rational and arguments[0] <= 0:
             raise LatexError(f"ln({arguments[0]}) is no real number: correct it", position)
         return _ONE[name](arguments[0])
+    if name == "tan" and len(arguments) == 1:
+        return sp.sin(arguments[0]) / sp.cos(arguments[0])
     if name in ("max", "min") and 0 < len(arguments) <= _MOST_ARGUMENTS:
         return (sp.Max if name == "max" else sp.Min)(*arguments)
     if name == "sat" and len(arguments) == 3:
         return saturation(*arguments)
     if name == "sat" and len(arguments) == 1:
         raise LatexError("sat without its limits: write sat(x, low, high), or give sat(x) in the notation", position)
-    if name in _ONE or name in ("max", "min", "sat"):
+    if name in _ONE or name in ("tan", "max", "min", "sat"):
         raise LatexError(f"{name} with {len(arguments)} arguments: give it what it takes", position)
     raise LatexError(f"'{name}' has no meaning in goals: give the piece in the notation", position)
 

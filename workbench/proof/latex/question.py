@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
-from typing import Any
 
 import sympy as sp
 
 from workbench.proof.claim import Claim, D, Decision, Goal, Relation
 from workbench.proof.decide.engine import decide
+from workbench.proof.document_format import AnswerDocument
 from workbench.proof.latex.convert import Converter
 from workbench.proof.latex.error import LatexError
 from workbench.proof.latex.notation import Notation
@@ -34,7 +34,7 @@ class Answer:
     constant: tuple[str, ...]
     counterexample: Mapping[str, str]
 
-    def document(self) -> dict[str, Any]:
+    def document(self) -> AnswerDocument:
         """The answer as the stable JSON document."""
         found = self.decision
         return {"version": 1, "line": self.line, "verdict": found.verdict, "method": found.method, "trust": found.trust,

@@ -82,6 +82,12 @@ class _Printer(LatexPrinter):
     def _print_tanh(self, expr: sp.Expr, exp: str | None = None) -> str:
         return self._applied(r"\tanh", expr, exp)
 
+    def _print_sin(self, expr: sp.Expr, exp: str | None = None) -> str:
+        return self._applied(r"\sin", expr, exp)
+
+    def _print_cos(self, expr: sp.Expr, exp: str | None = None) -> str:
+        return self._applied(r"\cos", expr, exp)
+
     def _print_Max(self, expr: sp.Expr, exp: str | None = None) -> str:
         return self._applied(r"\max", expr, exp)
 

@@ -1,0 +1,32 @@
+"""The documents: links lead somewhere, and the pages that `make docs` builds leave nothing out."""
+
+import re
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).resolve().parent.parent
+DOCS = ROOT / "docs"
+GENERATED = re.compile(r"(?:\.\./)*generated/(\w+\.md)")
+WRITTEN = {"commands.md", "gallery.md", "files_read.md", "files_written.md"}
+
+
+@pytest.mark.parametrize("path", [*ROOT.glob("*.md"), *(path for path in DOCS.glob("**/*.md")
+                                                        if path.parent.name != "generated")], ids=lambda p: p.stem)
+def test_links_between_documents_lead_somewhere(path):
+    for target in re.findall(r"\]\((?!https?:)([^)#\s]+)", path.read_text(encoding="utf-8").split("\n$$\n")[0]):
+        made = GENERATED.fullmatch(target)
+        assert (made and made[1] in WRITTEN) or (path.parent / target).exists(), target
+
+
+def test_every_page_is_named_in_a_table_of_contents():
+    named = set()
+    for path in DOCS.glob("**/*.md"):
+        for block in re.findall(r"```\{toctree\}\n(.*?)```", path.read_text(encoding="utf-8"), re.DOTALL):
+            for line in block.splitlines():
+                if line and not line.startswith(":"):
+                    place = f"{path.parent.relative_to(DOCS).as_posix()}/{line}.md"
+                    named |= {found.resolve() for found in DOCS.glob(place.removeprefix("./"))} if "*" in line else {
+                        (path.parent / f"{line}.md").resolve()}
+    pages = {path.resolve() for path in DOCS.glob("**/*.md") if path.parent.name != "generated"}
+    assert pages - named == {DOCS / "index.md"}
