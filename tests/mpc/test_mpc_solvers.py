@@ -186,8 +186,8 @@ def test_the_nonlinear_plan_cannot_be_improved_by_a_search_that_knows_no_derivat
     x, h, g = np.zeros((7, 3)), np.zeros(4), np.zeros((4, 3))
 
     def cost(commands):
-        module.roll_out(state, commands, window, problem.parameters, x)
-        return module.cost_of(x, commands, window, problem.weights.array(), mpc.lqr.upper(), problem.limits(),
+        module.roll_out.py_func(state, commands, window, problem.parameters, x)
+        return module.cost_of.py_func(x, commands, window, problem.weights.array(), mpc.lqr.upper(), problem.limits(),
                               problem.rows(ahead), np.array(problem.price), h, g)
 
     assert cost(plan) == pytest.approx(mpc.cost, rel=1e-12)

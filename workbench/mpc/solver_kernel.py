@@ -8,6 +8,10 @@ the disturbance f. weights: of p, v, F, u and u - F. limits: lowest and highest 
 # ruff: noqa: F821, ANN001, ANN201
 # mypy: ignore-errors
 
+# What Python calls. Below, arrays are copied number by number: for whole arrays the compiler brings along what would
+# say that their shapes differ, a third of all that there is to compile.
+ENTRIES = ("follow", "linearise_at", "soften_at", "shift", "solve_linear", "solve_nonlinear")
+
 # What a solution came from, and what became of it.
 BY_ACTIVE_SET, BY_INTERIOR_POINT, NOT_SOLVED = 0, 1, 2
 CONVERGED, OUT_OF_ITERATIONS, NO_ANSWER = 0, 1, 2
@@ -79,6 +83,15 @@ def shift(fixed, state, pull):
             pull[k, i] = pull[k + 1, i]
 
 
+def copy_plan(x, u, into_x, into_u):
+    """Copy states and commands into other arrays."""
+    for k in range(u.shape[0]):
+        into_u[k] = u[k]
+    for k in range(x.shape[0]):
+        for i in range(3):
+            into_x[k, i] = x[k, i]
+
+
 def solve_program(weights, jac, gap, start, rows, price, h, g, memory, work, most_passes, most_iterations):
     """The program by its active set, else by the interior point method; which of them, and passes + iterations."""
     fixed, state, pull = memory
@@ -107,7 +120,12 @@ def solve_program(weights, jac, gap, start, rows, price, h, g, memory, work, mos
     polished = active_set(cross, jac, gap, start, Q0, q0, R, r, low, high, rows, price, h, g, fixed, bound, state, pull,
                           scratch, dx, du, slope, most_passes // 2)
     if polished < 0:
-        dx[:], du[:], pull[:], fixed[:], state[:] = near_x, near_u, near_pull, near_fixed, near_state
+        copy_plan(near_x, near_u, dx, du)
+        for k in range(fixed.shape[0]):
+            fixed[k] = near_fixed[k]
+        for k in range(pull.shape[0]):
+            for i in range(pull.shape[1]):
+                pull[k, i], state[k, i] = near_pull[k, i], near_state[k, i]
     return 1, most_passes + steps + most_passes // 2
 
 
@@ -116,7 +134,9 @@ def solve_linear(measured, base_x, base_u, jac, gap, h, g, ahead, weights, termi
     """One program around a base that was linearised before; `plan` becomes the commands. Status and passes."""
     Q0, q0, R, r, low, high = work[:6]
     du = work[12]
-    start = measured - base_x[0]
+    start = measured.copy()
+    for i in range(3):
+        start[i] = measured[i] - base_x[0, i]
     cost_around(base_x, base_u, ahead, weights, terminal, limits, Q0, q0, R, r, low, high)
     status, passes = solve_program(weights, jac, gap, start, rows, price, h, g, memory, work, most_passes,
                                    most_iterations)
@@ -143,7 +163,8 @@ def solve_nonlinear(measured, ahead, parameters, weights, terminal, limits, rows
     Q0, q0, R, r, low, high = work[:6]
     du = work[12]
     N = plan.shape[0]
-    nowhere = measured * 0.0
+    nowhere = measured.copy()
+    nowhere[0], nowhere[1], nowhere[2] = 0.0, 0.0, 0.0
     for k in range(N):
         plan[k] = min(max(plan[k], limits[0]), limits[1])
     roll_out(measured, plan, ahead, parameters, x)
@@ -173,8 +194,7 @@ def solve_nonlinear(measured, ahead, parameters, weights, terminal, limits, rows
                 break
             share *= 0.5
         if found:
-            plan[:] = tried
-            x[:] = tried_x
+            copy_plan(tried_x, tried, x, plan)
             cost = after
         if longest * share < close or not found:
             # Without a shorter step that pays, the plan is as good as its rounding allows.
