@@ -72,6 +72,7 @@ FORGED = {
     "what holds there": on_circle(ROOT, show="x + y <= 3"),
     "what holds there with equality": on_circle(ROOT, show="y**2 <= 2"),
     "undefined there": on_circle(ROOT, show="1/(y**2 - 2) <= -1"),
+    "a root instead of a stated value": on_circle(ROOT) | {"verdict": "violated"},
     "a root of a motion": on_circle(ROOT) | {"goal": {"assume": [CIRCLE], "show": ["x + y <= 1"], "flow": {"y": "1"},
                                                       "initial": {"y": "5"}}},
     "a root of an input": on_circle(ROOT) | {"goal": {"assume": [CIRCLE], "show": ["x + y <= 1"], "inputs": ["y"]}},

@@ -63,15 +63,17 @@ def _contradiction(script: Script, value: Ratio, operator: str, proof: dict[str,
     script.say(f"destruct (three_cases {text}) as [case_|[case_|case_]].")
     for sign in (-1, 1, 0):
         with script.subproof():
-            intro, case = ("intro eq_. ", "case_ eq_") if "!=" in (operator, opposite) else ("", "case_")
+            known = script.fresh("C")
+            script.say(f"rename case_ into {known}.")  # there may be cases within
+            intro, case = ("intro eq_. ", f"{known} eq_") if "!=" in (operator, opposite) else ("", known)
             if {">": sign > 0, ">=": sign >= 0, "==": sign == 0, "!=": sign != 0}[operator]:
-                script.say("exact case_." if operator == "==" else f"{intro}generalize {case}. lra.")
+                script.say(f"exact {known}." if operator == "==" else f"{intro}generalize {case}. lra.")
                 continue
             negation, name = number(direction) * value, script.fresh("M")
             script.say(f"assert ({name} : {stated(script, negation, opposite)}).")
             turned = f"replace {script.normal.value(negation)} with (- {text}) by same. " if direction < 0 else ""
             script.say(f"{{ {turned}{intro if opposite == '!=' else ''}generalize "
-                       f"{case if opposite == '!=' else 'case_'}. lra. }}")
+                       f"{case if opposite == '!=' else known}. lra. }}")
             script.assume((negation, opposite), name)
             script.say("exfalso. assert (absurd : 0 > 0).")
             with script.subproof():

@@ -1095,8 +1095,9 @@ def _require_met(context: Context, goal: dict[str, Any], point: dict[str, Ratio]
     """CertificateError unless all assumptions hold at a point. `roots` are symbols, left out of the point from here on,
     that lie between two numbers at which an equality assumed has opposite signs: somewhere between them it holds."""
     texts, roots = [*goal.get("assume", []), *goal.get("always", [])], certificate.get("roots", [])
-    if roots and (goal.keys() - {"assume", "show", "flow"} or certificate.keys() & {"terms", "path"}):
-        raise CertificateError("roots are taken of goals of one instant, without sums and inputs")
+    if roots and (goal.keys() - {"assume", "show", "flow"} or certificate.keys() & {"terms", "path"}
+                  or certificate.get("verdict") == "violated"):
+        raise CertificateError("roots are taken of goals of one instant, without sums, inputs and stated values")
     between = roots_of(certificate)
     for name, (low, high) in between.items():
         if not low <= point.pop(name).num.get((), Fraction(0)) <= high:
