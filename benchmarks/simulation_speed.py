@@ -1,77 +1,98 @@
-"""How long a whole run takes per controller, and how much the compiled loop gains on the same source interpreted.
+"""How long a whole run takes per controller, and how the compiled loop compares with the same loop by hand in C.
 
     python benchmarks/simulation_speed.py [SCENARIO]
 
-The baseline is the very module that is compiled, run by the Python interpreter (NUMBA_DISABLE_JIT=1) over the first
-seconds of the same run, in the same call. Both are medians of three; the ratio is per control step.
+A controller with the PID law is run by `pid_loop.c` too, where gcc is there: built with -O2, in the same process,
+turn by turn with the compiled loop. It must leave the same bits in the log; the ratio is of the shortest of five runs.
 """
 
 from __future__ import annotations
 
-import json
-import os
-import statistics
+import ctypes
+import shutil
 import subprocess
 import sys
+import tempfile
 import time
+from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
-from workbench.model.desired_curve import CruiseSpeed
-from workbench.simulate.closed_loop import simulate
-from workbench.simulate.controllers import SAMPLED
+import numpy as np
+
+from workbench.simulate.closed_loop import _arrays, run_law, simulate
+from workbench.simulate.controllers import compiled_law
+from workbench.simulate.law_values import controller_spec, law_values
+from workbench.simulate.setting import setting_of
 from workbench.trains.scenario import Scenario, load_scenario
 
 STATED = Path(__file__).resolve().parent.parent / "proofs" / "yang2021" / "study.toml"
-INTERPRETED_M = 60.0
-REPEATS = 3
+SOURCE = Path(__file__).with_name("pid_loop.c")
+REPEATS = 5
 
 
-def shortened(scenario: Scenario, length_m: float) -> Scenario:
-    """The scenario on the first metres of its line, at low speed, so that an interpreter gets through."""
-    section = [s.model_copy(update={"end_m": length_m}) for s in (scenario.track.grade[0], scenario.track.curve[0])]
-    track = scenario.track.model_copy(update={
-        "length_m": length_m, "grade": (section[0],), "curve": (section[1],), "tunnel": ()})
-    values = {"kind": "cruise_speed", "cruise_mps": 4.0, "acceleration_mps2": 0.5, "braking_mps2": 0.5, "ramp_s": 1.0}
-    reference = CruiseSpeed(**values, source=dict.fromkeys(values, "convention: short"))
-    return scenario.model_copy(update={"track": track, "reference": reference})
-
-
-def seconds_per_step(scenario: Scenario, name: str) -> tuple[float, float, int]:
-    """Median seconds of a run, the same per control step, and the number of steps."""
-    simulate(scenario, name)  # compiles, or finds the compiled kernel
-    taken, steps = [], 1
+def shortest(*runs: Callable[[], Any]) -> list[float]:
+    """CPU seconds of the shortest of REPEATS calls of each, in turn."""
+    taken = [float("inf")] * len(runs)
     for _ in range(REPEATS):
-        before = time.perf_counter()
-        run = simulate(scenario, name)
-        taken.append(time.perf_counter() - before)
-        steps = int(run.totals["commands"])
-    median = statistics.median(taken)
-    return median, median / steps, steps
+        for i, run in enumerate(runs):
+            before = time.process_time()
+            run()
+            taken[i] = min(taken[i], time.process_time() - before)
+    return taken
 
 
-def interpreted(path: Path, names: list[str]) -> dict[str, float]:
-    """Seconds per step of the same source without compilation, from a process of its own."""
-    code = ("import json, sys; from pathlib import Path; sys.path.insert(0, str(Path(sys.argv[1]).parent)); "
-            "import simulation_speed as s; from workbench.trains.scenario import load_scenario; "
-            "sc = s.shortened(load_scenario(Path(sys.argv[2])), s.INTERPRETED_M); "
-            "print(json.dumps({n: s.seconds_per_step(sc, n)[1] for n in json.loads(sys.argv[3])}))")
-    answer = subprocess.run([sys.executable, "-c", code, __file__, str(path), json.dumps(names)], check=True,
-                            capture_output=True, text=True, env=os.environ | {"NUMBA_DISABLE_JIT": "1"})
-    return json.loads(answer.stdout)
+def in_c(folder: Path) -> Any:
+    """The loop of pid_loop.c."""
+    library = folder / "pid_loop.so"
+    subprocess.run(["gcc", "-O2", "-ffp-contract=off", "-shared", "-fPIC", "-o", library, SOURCE, "-lm"], check=True)
+    return ctypes.CDLL(str(library)).closed_loop
+
+
+def against_c(scenario: Scenario, name: str, loop: Any) -> tuple[float, float]:
+    """Shortest seconds of the compiled loop and of C, both with what a run prepares. The logs must be the same."""
+    spec, setting = controller_spec(scenario, name), setting_of(scenario)
+    law = compiled_law(scenario, spec)
+    assert law is not None
+    values = law_values(law, spec, name)
+
+    def ours() -> Any:
+        return run_law(law, values, setting, spec.period_s, spec.estimates).log
+
+    def theirs() -> Any:
+        arrays, (steps, per_sample, dt, every) = _arrays(setting, spec.period_s, law), setting.plan(spec.period_s)
+        ride, integral = arrays.ride.arrays()[0], values[1].copy()
+        given = [steps, per_sample, dt, arrays.state, arrays.breaks, arrays.coefficients, *arrays.coefficients.shape,
+                 arrays.edges, arrays.values, len(arrays.edges), arrays.terms, len(arrays.terms), arrays.plant,
+                 arrays.drive, setting.position_band_m, setting.nominal_mass_kg, values[0], integral, arrays.acc, ride,
+                 len(ride), arrays.log, arrays.log.shape[1], len(arrays.log), every]
+        loop(*(x.ctypes if isinstance(x, np.ndarray) else ctypes.c_double(x) if isinstance(x, float)
+               else ctypes.c_long(x) for x in given))
+        return arrays.log
+
+    log = ours()
+    if log.tobytes() != theirs()[:len(log)].tobytes():
+        raise SystemExit(f"{name}: C leaves another log: it does not do the same")
+    one, other = shortest(ours, theirs)
+    return one, other
 
 
 def main() -> None:
     """Print one line a controller."""
     path = Path(sys.argv[1]) if len(sys.argv) > 1 else STATED
     scenario = load_scenario(path)
-    names = list(scenario.controllers)
-    baseline = interpreted(path, [n for n in names if scenario.controllers[n].law not in SAMPLED])
-    print("controller           steps   run (s)   µs/step  interpreted µs/step   ratio")
-    for name in names:
-        run_s, step_s, steps = seconds_per_step(scenario, name)
-        other = baseline.get(name)
-        shown = f"{other * 1e6:20.1f} {other / step_s:7.0f}" if other else f"{'–':>20s} {'–':>7s}"
-        print(f"{name:16s} {steps:9d} {run_s:9.2f} {step_s * 1e6:9.3f} {shown}")
+    print("controller           steps   run (s)   µs/step   times C")
+    with tempfile.TemporaryDirectory() as folder:
+        loop = in_c(Path(folder)) if shutil.which("gcc") else None
+        for name, spec in scenario.controllers.items():
+            run = simulate(scenario, name)  # compiles, or finds the compiled kernel
+            steps, ratio = int(run.totals["samples"]), "–"
+            if spec.law == "pid" and loop is not None:
+                run_s, c_s = against_c(scenario, name, loop)
+                ratio = f"{run_s / c_s:.2f}"
+            else:
+                run_s, = shortest(lambda name=name: simulate(scenario, name))
+            print(f"{name:16s} {steps:9d} {run_s:9.2f} {run_s / steps * 1e6:9.3f} {ratio:>9s}", flush=True)
 
 
 if __name__ == "__main__":

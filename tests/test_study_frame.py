@@ -10,6 +10,7 @@ import pytest
 from refusals import refusal
 from scenarios import PROOFS
 from test_report import read, without_scripts
+from worker_tasks import square_from
 
 from workbench.cli import app as cli
 from workbench.cli.loading import load
@@ -216,16 +217,12 @@ def test_a_report_draws_few_trains_unless_it_is_to_be_full(tmp_path, full, drawn
     assert asked.loaded.study.pairs.draws == 100, "the page shows what is stated"
 
 
-def _square(offset, task):
-    return offset + task * task
-
-
 @pytest.mark.parametrize("workers", [1, 2])
 def test_stages_run_one_after_the_other_with_one_count(workers):
     steps = []
     numbers, none, more = run_stages((
-        Stage(_square, 1, (1, 3, 2), lambda task, result: f"{task}: {result}", work=lambda task: task),
-        Stage(_square, 0, (), lambda *_: "never"), Stage(_square, 0, (5,), lambda task, _: f"{task}")),
+        Stage(square_from, 1, (1, 3, 2), lambda task, result: f"{task}: {result}", work=lambda task: task),
+        Stage(square_from, 0, (), lambda *_: "never"), Stage(square_from, 0, (5,), lambda task, _: f"{task}")),
         workers, lambda *step: steps.append(step))
     assert (list(numbers.items()), dict(none), dict(more)) == ([(1, 2), (3, 10), (2, 5)], {}, {5: 25})
     assert [step[:2] for step in steps] == [(1, 4), (2, 4), (3, 4), (4, 4)] and steps[-1][2] == "5"

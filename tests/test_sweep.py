@@ -5,8 +5,6 @@ import hashlib
 import json
 import math
 import operator
-import os
-import signal
 import subprocess
 import sys
 from dataclasses import fields
@@ -17,6 +15,7 @@ import pandas
 import pytest
 import scipy.stats
 from scenarios import LIGHT_TRAIN, ROOT
+from worker_tasks import end_the_process
 
 from workbench.errors import InputError
 from workbench.simulate import row_store, stopping
@@ -403,15 +402,6 @@ def test_what_workers_have_started_is_recorded_before_an_interruption_goes_on():
 def test_an_exception_in_a_worker_is_raised_here():
     with pytest.raises(ZeroDivisionError):
         run_tasks(operator.truediv, 1.0, [1, 2, 0, 3], 2, print)
-
-
-def end_the_process(folder, task):
-    """Of each task the first process that has it is killed."""
-    mark = Path(folder) / str(task)
-    if task in (2, 5) and not mark.exists():
-        mark.touch()
-        os.kill(os.getpid(), signal.SIGKILL)
-    return task
 
 
 def test_tasks_of_a_process_that_dies_are_run_again(tmp_path, capsys):

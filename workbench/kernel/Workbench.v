@@ -179,6 +179,8 @@ Proof. intros. rewrite sqrt_sqrt by assumption. ring. Qed.
 Lemma sqrt_number : forall x y, 0 <= y -> x = y * y -> sqrt x = y.
 Proof. intros x y P ->. apply sqrt_square. exact P. Qed.
 
+Lemma not_zero : forall x, x <> 0 -> x = 0 -> False. Proof. intros x N Z. exact (N Z). Qed.
+
 (* --- rule cases --- *)
 
 Lemma two_cases : forall x, x >= 0 \/ - x >= 0. Proof. intros x. destruct (Rle_or_lt 0 x); [left|right]; lra. Qed.

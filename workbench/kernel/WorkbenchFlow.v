@@ -96,15 +96,15 @@ Proof.
   apply (D_scale (fun s => s - t)). apply (D_minus (fun s => s) (fun _ => t)); [apply D_id|apply D_const].
 Qed.
 
-(* rule nonincreasing: a function whose derivative is never positive after time zero is at most what it was *)
+(* rule nonincreasing: a function whose derivative is never positive from time zero to t is at t at most what it was *)
 Lemma nonincreasing : forall (f d : R -> R) (t : R), 0 <= t ->
-  (forall s, 0 <= s -> continuity_pt f s) -> (forall s, 0 < s -> is_derive f s (d s)) ->
-  (forall s, 0 < s -> d s <= 0) -> f t <= f 0.
+  (forall s, 0 <= s <= t -> is_derive f s (d s)) -> (forall s, 0 <= s <= t -> d s <= 0) -> f t <= f 0.
 Proof.
-  intros f d t T C D N. destruct (Req_dec t 0) as [->|Z]; [lra|].
-  destruct (MVT_gen f 0 t (fun s => Rmin (d s) 0)) as [c [_ E]].
-  - intros x [A _]. rewrite Rmin_left in A by lra. rewrite Rmin_left by (apply N; lra). apply D. lra.
-  - intros x [A _]. rewrite Rmin_left in A by lra. apply C. lra.
-  - pose proof (Rmin_r (d c) 0) as B. assert (Rmin (d c) 0 * (t - 0) <= 0 * (t - 0)); [|lra].
-    apply Rmult_le_compat_r; lra.
+  intros f d t T D N. destruct (Req_dec t 0) as [->|Z]; [lra|].
+  destruct (MVT_gen f 0 t d) as [c [A E]].
+  - intros x A. rewrite Rmin_left, Rmax_right in A by lra. apply D. lra.
+  - intros x A. rewrite Rmin_left, Rmax_right in A by lra. apply continuity_pt_filterlim.
+    apply (ex_derive_continuous f x). exists (d x). apply D. lra.
+  - rewrite Rmin_left, Rmax_right in A by lra. assert (d c * (t - 0) <= 0 * (t - 0)); [|lra].
+    apply Rmult_le_compat_r; [lra|apply N; lra].
 Qed.

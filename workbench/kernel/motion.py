@@ -103,7 +103,7 @@ def _drop(script: Script, function: ast.expr, value: Ratio, along: str, bound: s
             raise NotExportedError("a sum below a fraction bar")
         script.remember(ratio.num, script.show(
             "N", f"{script.normal.poly(ratio.num)} <> 0",
-            f"intro none_. apply (ne_or_pos {text_of(begun, script.normal.letters)}); "
+            f"intro none_. apply (not_zero {text_of(begun, script.normal.letters)}); "
             f"[first [exact {name} | apply pos_ne; exact {name}]|]. "
             f"rewrite ?{equation}. {'' if ratio.den.keys() == {()} else 'unfold Rdiv. '}rewrite none_. ring."))
     drop = substitute_ratio(context, value, given.initial) + -value

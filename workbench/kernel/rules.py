@@ -105,11 +105,12 @@ def _case(script: Script, value: Ratio, operator: str, proof: dict[str, Any], in
     context = script.context
     size = number(direction) * inspected
     text = script.normal.value(inspected)
-    hypothesis = script.fresh("M")
+    hypothesis, case = script.fresh("M"), script.fresh("C")
+    script.say(f"rename case_ into {case}.")  # there may be cases within
     # the cases of the library speak of x and - x
     script.say(f"assert ({hypothesis} : {stated(script, size, relation)}).")
     script.say(f"{{ replace {script.normal.value(size)} with ({text if direction > 0 else '- ' + text}) by same. "
-               "exact case_. }")
+               f"exact {case}. }}")
     known: dict[str, Ratio] = {}
     rewrites: list[str] = []
     for atom, (kind, argument) in list(context.functions.items()):
@@ -132,7 +133,7 @@ def _case(script: Script, value: Ratio, operator: str, proof: dict[str, Any], in
         else:
             lemma = {1: "sgn_pos", -1: "sgn_neg", 0: "sgn_zero"}[int(is_number(known[atom]) or 0)]
             step += (f"replace {inner} with ({'- ' if turned else ''}{text}) by same. apply {lemma}. "
-                     "generalize case_. lra.")
+                     f"generalize {case}. lra.")
         rewrites.append(script.show("K", f"{script.normal.atom(atom)} = {script.normal.ratio(known[atom])}", step))
 
     def change() -> str:

@@ -82,7 +82,7 @@ class Signs(Writing):
         for _, proof in factors:
             tree = f"apply {lemma}; [{tree} | {last.format(proof)}]"
         relation = f"0 < {text}" if strict else f"{text} <> 0"
-        change = f"replace {text} with ({product}) by ring. " if factors else ""
+        change = f"replace {text} with ({product}) by same. " if factors else ""
         name = self.show("N", f"{start}{relation}", f"{intros}{change}{tree}.")
         self.facts.signs[text, strict] = name
         if indexed:
