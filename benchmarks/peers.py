@@ -25,9 +25,9 @@ from pathlib import Path
 from typing import Any
 
 from workbench.errors import ClaimError
+from workbench.files.time_limit import OutOfTime, at_most_seconds
 from workbench.proof.checker import CertificateError, check
 from workbench.proof.decide.obligations import belongs, decide_obligation
-from workbench.proof.time_limit import OutOfTime, at_most_seconds
 from workbench.simulate.process_pool import single_threaded
 
 FILE = Path(__file__).parent / "peers" / "ode_invariants.json"

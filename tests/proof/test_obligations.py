@@ -9,11 +9,11 @@ from pathlib import Path
 import pytest
 
 from workbench.errors import ClaimError
+from workbench.files.time_limit import OutOfTime, at_most_seconds
 from workbench.proof.checker import check
 from workbench.proof.decide.obligations import belongs, decide_obligation
 from workbench.proof.obligation import goals_of
 from workbench.proof.text import goal_text
-from workbench.proof.time_limit import OutOfTime, at_most_seconds
 
 FILE = Path(__file__).parents[2] / "benchmarks" / "peers" / "ode_invariants.json"
 PEERS = json.loads(FILE.read_text(encoding="utf-8"))
