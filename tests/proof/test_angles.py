@@ -27,6 +27,7 @@ TRUE = {
     "energy is not negative": lambda: Goal((at_least(ENERGY, 0),)),
     "gravity compensated": lambda: Goal((equal(D(w**2/2 + k*x**2/2), -d*w**2),),
                                         flow={x: w, w: -g/r*s(x) + (g/r*s(x) - k*x - d*w)}),
+    "series of the sine": lambda: Goal((at_least(s(q), q - q**3/6), at_most(s(q), q - q**3/6 + q**5/120))),
     "sum in exp": lambda: Goal((equal(sp.exp(x + y), sp.exp(x)*sp.exp(y)), equal(sp.exp(x - y)*sp.exp(y), sp.exp(x)))),
     "product in log": lambda: Goal((equal(sp.log(m*g), sp.log(m) + sp.log(g)), equal(sp.log(m**2), 2*sp.log(m)))),
 }

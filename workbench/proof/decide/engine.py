@@ -188,7 +188,7 @@ def proofs_of(goal: Goal) -> list[dict[str, Any]] | str:
         if found is None:
             of = f" (relation {place + 1} of {len(goal.show)})" if len(goal.show) > 1 else ""
             return f"not shown{of}: {_shortened(relation_text(shown))}"
-        proofs.append(found[0])
+        proofs.append(found)
     return proofs
 
 

@@ -16,7 +16,7 @@ from workbench.proof.text import assumptions, relation_text, text
 
 Proof = dict[str, Any]
 Given = tuple[Relation, ...]
-Found = tuple[Proof, str] | None
+Found = Proof | None
 
 MOST_CASES = 6  # expressions whose sign is split, one inside the other
 MOST_STEPS = 3  # derivatives taken one after the other
@@ -24,7 +24,7 @@ EMPTY = at_least(0, 0)
 
 
 def prove_relation(goal: Goal, shown: Relation) -> Found:
-    """A proof of one relation of the goal, to be checked, and the method that found it; None when none was found."""
+    """A proof of one relation of the goal, to be checked; None when none was found."""
     if goal.decreasing is None or find_identity(goal, shown):
         return search(goal, shown, assumptions(goal), goal.lemmas)
     return _by_decrease(goal, shown)
@@ -36,7 +36,7 @@ def search(goal: Goal, shown: Relation, given: Given, lemmas: Given = (), depth:
     Of the goal itself only its flow and its facts are used.
     """
     if shown.operator in ("==", ">=", "<=") and find_identity(goal, shown):
-        return {"rule": "identity"}, "identity"
+        return {"rule": "identity"}
     inspected = _inspected((shown, *given), goal)
     if inspected is not None and depth < MOST_CASES:
         here, *rest = (_carried(r, goal) for r in (shown, *lemmas, *given))
@@ -56,16 +56,16 @@ def _by_contradiction(goal: Goal, shown: Relation, given: Given) -> Found:
     if impossible is None:
         return None
     if shown.operator not in (">=", "<="):
-        return impossible | {"rule": "contradiction"}, "contradiction"
+        return impossible | {"rule": "contradiction"}
     here: Proof = {"rule": "combination", "terms": [{"coefficient": "1", "factors": [{"assume": len(given)}]}]}
     return {"rule": "cases", "of": text(shown.margin), "positive": here, "zero": here,
-            "negative": impossible | {"rule": "contradiction"}}, "contradiction"
+            "negative": impossible | {"rule": "contradiction"}}
 
 
 def _by_growth(goal: Goal, shown: Relation, given: Given, steps: int = MOST_STEPS) -> Found:
-    """A margin with log or exp in it that is not negative where a symbol starts, and grows with it from there on."""
+    """A margin with log, exp, sin or cos in it that is not negative where a symbol starts, and grows with it."""
     margin = shown.margin
-    if shown.operator in ("==", "!=") or not margin.has(sp.log, sp.exp) or margin.has(
+    if shown.operator in ("==", "!=") or not margin.has(sp.log, sp.exp, sp.sin, sp.cos) or margin.has(
             sp.Sum, sp.Indexed, Size, Side) or steps == 0:
         return None
     for symbol, start in _starts(margin, given):
@@ -80,7 +80,7 @@ def _by_growth(goal: Goal, shown: Relation, given: Given, steps: int = MOST_STEP
         rising = _grown(place, at_least(sp.diff(margin, symbol), 0), (*elsewhere, at_least(symbol, start)), steps)
         if rising is not None:
             return {"rule": "monotone", "variable": text(symbol), "from": text(start), "derivative": rising,
-                    "at_start": at_start}, "a margin that grows"
+                    "at_start": at_start}
     return None
 
 
@@ -95,15 +95,11 @@ def _starts(margin: sp.Expr, given: Given) -> list[tuple[sp.Symbol, sp.Expr]]:
     return found
 
 
-def _grown(goal: Goal, shown: Relation, given: Given, steps: int) -> Proof | None:
+def _grown(goal: Goal, shown: Relation, given: Given, steps: int) -> Found:
     """A proof of what is left of a margin that grows."""
     if shown.operator == ">=" and find_identity(goal, shown):
         return {"rule": "identity"}
-    direct = find_combination(goal, shown, given)
-    if direct is not None:
-        return direct
-    found = _by_growth(goal, shown, given, steps - 1)
-    return None if found is None else found[0]
+    return find_combination(goal, shown, given) or _by_growth(goal, shown, given, steps - 1)
 
 
 def _carried(relation: Relation, goal: Goal) -> Relation:
@@ -144,7 +140,7 @@ def _by_cases(goal: Goal, shown: Relation, given: Given, lemmas: Given, argument
         if found is None:
             return None
         proof[name] = found
-    return proof, "cases and combination"
+    return proof
 
 
 def _settled(expr: sp.Expr, argument: sp.Expr, direction: int, sign: int | None) -> sp.Expr:
@@ -159,13 +155,12 @@ def _settled(expr: sp.Expr, argument: sp.Expr, direction: int, sign: int | None)
     return expr.xreplace(values)
 
 
-def _search_case(goal: Goal, shown: Relation, given: Given, lemmas: Given, depth: int) -> Proof | None:
+def _search_case(goal: Goal, shown: Relation, given: Given, lemmas: Given, depth: int) -> Found:
     """A proof of a case, or of its impossibility."""
     impossible = find_combination(goal, greater(0, 0), given, quick=True)
     if impossible is not None:
         return impossible | {"rule": "contradiction"}
-    found = search(goal, shown, given, lemmas, depth)
-    return None if found is None else found[0]
+    return search(goal, shown, given, lemmas, depth)
 
 
 def _by_lemmas(goal: Goal, shown: Relation, given: Given, lemmas: Given) -> Found:
@@ -181,15 +176,13 @@ def _by_lemmas(goal: Goal, shown: Relation, given: Given, lemmas: Given) -> Foun
     final = find_combination(goal, shown, (*given, *(r for r, _ in steps)))
     if final is None and steps:  # what does not help can still make a search too large
         steps, final = [], find_combination(goal, shown, given)
-    method = "combination"
     if final is None:
-        final, method = find_squares(goal, shown, given), "sum of squares"
+        final = find_squares(goal, shown, given)
     if final is None:
         return None
-    method = f"lemmas and {method}" if steps else method
     for lemma, proof in reversed(steps):
         final = {"rule": "cut", "lemma": relation_text(lemma), "proof": proof, "then": final}
-    return final, method
+    return final
 
 
 def _signs_of_logs(relations: Given) -> list[Relation]:
@@ -210,5 +203,4 @@ def _by_decrease(goal: Goal, shown: Relation) -> Found:
     final = search(goal, shown, (*given, at_least(start, function)))
     if decrease is None or final is None:
         return None
-    return {"rule": "nonincreasing", "function": text(function), "decrease": decrease[0], "then": final[0]}, (
-        "a function that does not increase, and combination")
+    return {"rule": "nonincreasing", "function": text(function), "decrease": decrease, "then": final}
