@@ -50,7 +50,7 @@ REFUSED = {
     "the number of members as a number": lambda: Goal((equal(sp.Sum(W[j] - W[j] + 1, (j, 1, n)), n),)),
     "a function's name": lambda: Goal((at_least(sp.Symbol("sqrt"), 0),)),
     "a power of unknown exponent": lambda: Goal((at_least(positive_x**y, 0),)),
-    "a sine": lambda: Goal((at_most(sp.sin(x), 1),)),
+    "a tangent": lambda: Goal((at_least(sp.tan(x)**2, 0),)),
     "a comparison inside": lambda: Goal((at_least(sp.Piecewise((x, x > 0), (0, True)), 0),)),
     "an index that no sum binds": lambda: Goal((at_least(W[j], 0),)),
     "an index that another sum binds": lambda: Goal((equal(sp.Sum(W[i], (j, 1, n)), sp.Sum(W[j], (j, 1, n))),)),

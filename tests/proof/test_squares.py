@@ -14,6 +14,7 @@ from workbench.proof.checker import check
 from workbench.proof.claim import Goal, at_least, at_most, differ, equal, greater, less
 from workbench.proof.decide import conic
 from workbench.proof.decide.engine import prove_goal
+from workbench.proof.decide.method import method_of
 from workbench.proof.decide.refute import find_example
 from workbench.proof.decide.rounding import simplest, weighted_squares
 from workbench.proof.decide.squares import find_squares
@@ -148,7 +149,7 @@ def test_false_inequalities_are_not(name):
 def test_the_engine_asks_for_squares_where_combinations_fail():
     found = prove_goal(UNCONSTRAINED["Motzkin"])
     assert found is not None
-    assert found[1] == "sum of squares"
+    assert method_of(found["proofs"]) == "sum of squares"
 
 
 def test_a_certificate_holds_no_more_than_it_needs():
