@@ -153,7 +153,7 @@ def test_the_sign_of_a_moving_symbol_is_an_assumption():
     goal = Goal((at_least(p * y**2, 0),), flow={p: y})
     proof = prove_goal(goal)
     assert proof is not None
-    assert proof[0]["goal"]["assume"] == ["p > 0"]
+    assert proof["goal"]["assume"] == ["p > 0"]
 
 
 def test_only_declared_inputs_vary():
@@ -174,7 +174,7 @@ def test_a_later_instant_that_is_never_reached_proves_nothing():
     assert isinstance(attempted_proof(never), str)
     later = prove_goal(Goal((at_least(x, 0),), (at_least(x, 3),), {x: one}, initial={x: sp.Integer(0)}, decreasing=-x))
     assert later is not None
-    assert later[0]["path"] == {"x": "time"}
+    assert later["path"] == {"x": "time"}
 
 
 COUNTED = {"false for none": (greater(over(W**2 + 1), 0), 0), "false for three": (at_most(over(one), 2), 3),

@@ -56,7 +56,7 @@ def main() -> None:
     if threading.current_thread() is threading.main_thread():
         signal.signal(signal.SIGTERM, signal.default_int_handler)  # what is finished is kept, as after Ctrl-C
     try:
-        code = _command()(sys.argv[1:] or ["--help"], prog_name="workbench", standalone_mode=False)
+        code = _command()(sys.argv[1:] or ["--help"], prog_name="workbench", standalone_mode=False) or 0
     except WorkbenchError as trouble:
         code = _refused(str(trouble))
     except TyperException as trouble:  # of options and arguments
