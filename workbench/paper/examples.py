@@ -14,6 +14,7 @@ from workbench.files.regular import contents
 from workbench.files.writing import write_tree
 
 SHARED_FOLDER = "benchmarks"
+SCRIPTS, NOT_SHARED = (".py", ".c"), "peers"  # in it: what measures the workbench itself
 
 
 @dataclass(frozen=True)
@@ -42,7 +43,7 @@ def examples(root: Path) -> list[Example]:
     for folder in (PAPERS_FOLDER, SHARED_FOLDER):
         for path in sorted((root / folder).rglob("*")):
             place = path.relative_to(root)
-            script = folder == SHARED_FOLDER and path.suffix == ".py"
+            script = folder == SHARED_FOLDER and (path.suffix in SCRIPTS or NOT_SHARED in place.parts)
             cached = any(part.startswith(("__pycache__", ".")) for part in place.parts)
             if path.is_file() and not script and not cached:
                 found.append(Example(path, PurePath(place)))

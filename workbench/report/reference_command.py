@@ -9,7 +9,6 @@ from collections.abc import Iterator
 
 from workbench.errors import InputError
 from workbench.files.outputs import check_outputs, is_stream
-from workbench.optimal.envelope import InfeasibleRunError
 from workbench.optimal.inputs.etcs_file import load_supervision
 from workbench.optimal.inputs.files import load_cars, load_line, load_vehicle
 from workbench.report.reference_request import Request, certified_file, couplers_file, of_cars_file, table_file
@@ -31,6 +30,7 @@ def reference_run(asked: Request) -> Iterator[str]:
     for name, value in (("--dwell", asked.dwell_s), ("--from-speed", asked.start_mps), ("--to-speed", asked.end_mps)):
         if not 0 <= value < 1e5:
             raise InputError("", name, f"{value:g} is not usable: give 0 or more")
+    from workbench.optimal.envelope import InfeasibleRunError  # noqa: PLC0415 - as said above
     from workbench.report.reference_answer import answered  # noqa: PLC0415 - as said above
 
     try:
