@@ -3,6 +3,7 @@ each module leaves behind."""
 
 import gc
 import os
+import sys
 from pathlib import Path
 
 import one_thread  # noqa: F401 - before anything imports numpy
@@ -10,6 +11,8 @@ import papers_import  # noqa: F401 - tests import from proofs
 import pytest
 from hypothesis import settings
 from shared_work import scheduler_of_files
+
+READ = {"workbench.files.text": ("_read", "_sources", "_digests"), "workbench.proof.dependencies": ("_data",)}
 
 os.environ.setdefault("WORKBENCH_CACHE", str(Path(__file__).parent.parent / ".cache"))
 # The same examples in every run, so that more of them find nothing that these have not found.
@@ -30,7 +33,11 @@ def pytest_collection_finish():
 
 @pytest.fixture(scope="module", autouse=True)
 def nothing_kept(request):
-    """What the functions of a test's module have cached goes with it: a test process runs a hundred modules."""
+    """What the functions of a test's module have cached goes with it: a test process runs a hundred modules. What it
+    has read is forgotten, too: decisions that are kept depend on everything that a process has read."""
+    for module, names in READ.items():
+        for name in names if module in sys.modules else ():
+            getattr(sys.modules[module], name).clear()
     yield
     for value in vars(request.module).values():
         if getattr(value, "__module__", None) == request.module.__name__ and hasattr(value, "cache_clear"):

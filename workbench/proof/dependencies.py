@@ -56,7 +56,7 @@ def reads(sources: Iterable[str], others: tuple[str, ...], cache_folder: Path | 
     """The files a proof file may depend on: sources read for it, every module here that is not an installed one, and
     all data this process has read, because a module may keep what it read. Too many are harmless, too few are not.
 
-    Modules whose name starts with one of `others` belong to other proof files.
+    Modules whose name starts with one of `others` belong to other proof files, or are generated from them.
     """
     modules = {file for name, module in list(sys.modules.items())
                if (file := getattr(module, "__file__", None)) and not name.startswith(("__", *others))}

@@ -11,12 +11,13 @@ from dataclasses import replace
 from pathlib import Path
 
 from workbench.errors import InputError
-from workbench.files.json_input import read_json
-from workbench.files.json_output import write_json
+from workbench.files.text import read_text
+from workbench.files.writing import write_text
 from workbench.proof.checker import DIGEST, goal_digest
 from workbench.proof.verdict import Decision, is_equation
 
-RECORD = "kernel.json"
+RECORD = "kernel.txt"  # no JSON: every JSON file beside certificates is taken for one
+FIRST = "accepted by Coq "
 
 
 def record_path(path: Path) -> Path:
@@ -27,7 +28,8 @@ def record_path(path: Path) -> Path:
 def write_record(path: Path, coq: str, accepted: Mapping[str, str]) -> None:
     """Note by equation the digests of the goals that this version of Coq has accepted. Raises InputError where it
     cannot be written."""
-    write_json(record_path(path), {"version": 1, "coq": coq, "accepted": dict(sorted(accepted.items()))})
+    lines = [f"{FIRST}{coq}", *(f"{digest} {name}" for name, digest in sorted(accepted.items()))]
+    write_text(record_path(path), "\n".join(lines) + "\n")
 
 
 def read_record(path: Path) -> dict[str, str]:
@@ -36,14 +38,13 @@ def read_record(path: Path) -> dict[str, str]:
     place = record_path(path)
     if not place.exists():
         return {}
-    found = read_json(place)
-    accepted = found.get("accepted")
-    if found.get("version") != 1 or not isinstance(accepted, dict) or not all(
-            is_equation(name) and isinstance(digest, str) and DIGEST.fullmatch(digest)
-            for name, digest in accepted.items()):
+    first, *lines = read_text(place, "record").splitlines() or [""]
+    rows = [line.partition(" ") for line in lines]
+    if not first.startswith(FIRST) or not all(DIGEST.fullmatch(digest) and is_equation(name)
+                                              for digest, _, name in rows):
         raise InputError(place, "", "is no record of what Coq has accepted: run 'workbench check-coq DIR --record "
                          f"{path}' again, or remove it")
-    return accepted
+    return {name: digest for digest, _, name in rows}
 
 
 def with_kernel(decisions: Sequence[Decision], records: Mapping[str, Mapping[str, str]]) -> list[Decision]:

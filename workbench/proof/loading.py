@@ -20,6 +20,7 @@ from workbench.files.time_limit import OutOfTime, at_most_seconds
 from workbench.proof.dependencies import reading, reads
 
 PREFIX = "workbench_proofs_"
+GENERATED = "workbench_kernel_"  # modules made of what the papers state, which change when others run
 
 
 class _NeighbourModules:
@@ -113,7 +114,7 @@ class ProofFile:
     def reads(self, cache_folder: Path | None = None) -> frozenset[str]:
         """The files it may depend on, as far as they have been read yet, those of the cache left out."""
         own = self.sources | sources_of(self.path) if self.path.is_dir() else self.sources
-        return reads(own, (PREFIX, FOLDER_PREFIX), cache_folder)
+        return reads(own, (PREFIX, FOLDER_PREFIX, GENERATED), cache_folder)
 
 
 def claim_files(folder: Path) -> list[str]:
