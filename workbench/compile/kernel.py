@@ -16,6 +16,7 @@ from sympy.printing.pycode import PythonCodePrinter
 from workbench.compile.code_cache import imported_kernel
 from workbench.compile.text import module_text, shared_text
 from workbench.errors import CompileError
+from workbench.files.modules import OF_A_KERNEL
 from workbench.model.law import MEASUREMENTS, ControlLaw, neuron, neuron_count
 from workbench.trains.multi_particle import cars
 from workbench.trains.train import Plant
@@ -239,7 +240,7 @@ def loop_module(source: str, functions: Sequence[str], loop: ModuleType) -> Modu
 
 
 def _of_text(text: str) -> ModuleType:
-    name = f"workbench_kernel_{hashlib.sha256(text.encode()).hexdigest()[:20]}"
+    name = f"{OF_A_KERNEL}{hashlib.sha256(text.encode()).hexdigest()[:20]}"
     return sys.modules.get(name) or imported_kernel(name, text)
 
 

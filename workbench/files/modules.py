@@ -23,6 +23,7 @@ from workbench.files.text import inputs_read_by, read_source, written_since_read
 from workbench.files.time_limit import OutOfTime, at_most_seconds
 
 PREFIX = OF_A_FOLDER
+OF_A_KERNEL = "workbench_kernel_"  # begins the names of modules that are generated from what papers state
 
 # Files are stamped by a clock that is behind by up to a few milliseconds.
 TICK_NS = 50_000_000

@@ -45,15 +45,18 @@ def at_most_seconds(limit: float | None) -> Iterator[None]:
             raise OutOfTime
 
     def look(number: int, frame: FrameType | None) -> None:
-        used, _limited[0] = time.process_time() - _limited[0], time.process_time()
-        if used < IDLE_S:
+        earlier, idle = _limited
+        now = time.process_time()
+        idle = idle + 1 if now - earlier < IDLE_S else 0  # a process that was stopped and goes on is idle once
+        _limited[:] = [now, idle]
+        if idle >= 2:
             interrupt(number, frame)
 
     before = signal.signal(signal.SIGPROF, interrupt), signal.signal(signal.SIGALRM, look)
-    _limited[:] = [time.process_time()]
+    _limited[:] = [time.process_time(), 0]
     try:
         signal.setitimer(signal.ITIMER_PROF, limit, AGAIN)
-        signal.setitimer(signal.ITIMER_REAL, WAITING_S, WAITING_S)
+        signal.setitimer(signal.ITIMER_REAL, WAITING_S / 2, WAITING_S / 2)
         yield
     finally:
         signal.setitimer(signal.ITIMER_PROF, 0)

@@ -14,13 +14,20 @@ from types import ModuleType
 from workbench.errors import ClaimError, InputError
 from workbench.files.folders import CLAIMS_FOLDER, PAPER_FILE
 from workbench.files.mistakes import mistake
-from workbench.files.modules import IMPORT_S, OUT_OF_TIME, SourceLoader, forget_changed, module_in, sources_of
+from workbench.files.modules import (
+    IMPORT_S,
+    OF_A_KERNEL,
+    OUT_OF_TIME,
+    SourceLoader,
+    forget_changed,
+    module_in,
+    sources_of,
+)
 from workbench.files.modules import PREFIX as FOLDER_PREFIX
 from workbench.files.time_limit import OutOfTime, at_most_seconds
 from workbench.proof.dependencies import reading, reads
 
 PREFIX = "workbench_proofs_"
-GENERATED = "workbench_kernel_"  # modules made of what the papers state, which change when others run
 
 
 class _NeighbourModules:
@@ -114,7 +121,7 @@ class ProofFile:
     def reads(self, cache_folder: Path | None = None) -> frozenset[str]:
         """The files it may depend on, as far as they have been read yet, those of the cache left out."""
         own = self.sources | sources_of(self.path) if self.path.is_dir() else self.sources
-        return reads(own, (PREFIX, FOLDER_PREFIX, GENERATED), cache_folder)
+        return reads(own, (PREFIX, FOLDER_PREFIX, OF_A_KERNEL), cache_folder)
 
 
 def claim_files(folder: Path) -> list[str]:

@@ -1,0 +1,31 @@
+"""Who waits for what never comes is ended; a process that was stopped for a while and goes on is not."""
+
+import time
+
+import pytest
+
+from workbench.files import time_limit
+from workbench.files.time_limit import OutOfTime, at_most_seconds
+
+
+def compute(seconds: float) -> None:
+    until = time.process_time() + seconds
+    while time.process_time() < until:
+        pass
+
+
+def test_waiting_is_ended(monkeypatch):
+    monkeypatch.setattr(time_limit, "WAITING_S", 0.4)
+    started = time.monotonic()
+    with pytest.raises(OutOfTime), at_most_seconds(60):
+        time.sleep(30)
+    assert time.monotonic() - started < 20
+
+
+def test_a_pause_between_two_computations_is_none(monkeypatch):
+    monkeypatch.setattr(time_limit, "WAITING_S", 0.8)
+    with at_most_seconds(60):
+        for _ in range(3):
+            compute(0.2)
+            time.sleep(0.5)  # longer than one look, shorter than two
+        compute(0.2)
