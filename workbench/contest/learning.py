@@ -33,7 +33,8 @@ def _trials(told: Told, condition: str, name: str, column: int) -> NDArray[np.fl
 
 def _rivals(told: Told) -> list[str]:
     return [entry.name for entry in told.entries
-            if entry.controller.startswith("mpc") and follows_curve(told.scenario, entry.controller)]
+            if entry.controller.startswith("mpc") and follows_curve(told.scenario, entry.controller)
+            and not learns(told.scenario, entry.controller)]
 
 
 def learning_tables(told: Told) -> Iterator[ResultTable]:
