@@ -163,7 +163,7 @@ def _polynomial(expr: sp.Expr, box: Mapping[sp.Symbol, Range], of: Any) -> PolyE
     for exponents, value in found.terms():
         term = of(QQ(value.p, value.q))
         for place, power in zip(places, exponents, strict=True):
-            term *= place**power
+            term = term * place**power if power else term  # a place may be zero, of which sympy takes no power 0
         total += term
     return total
 
