@@ -16,7 +16,8 @@ class {name}(Fmi3Slave, CoSimulation):
         self.default_experiment = DefaultExperiment(start_time=0.0, step_size=PERIOD_S)
         self.register_variable(Float64("time", causality=Fmi3Causality.independent, getter=lambda: self.now))
         self.listed(INPUTS, self.given, Fmi3Causality.input)
-        self.listed(dict.fromkeys(PARAMETERS, "parameter"), self.values, Fmi3Causality.parameter, Fmi3Variability.tunable)
+        self.listed(dict.fromkeys(PARAMETERS, "parameter"), self.values, Fmi3Causality.parameter,
+                    Fmi3Variability.tunable)
         for place, (variable, what) in enumerate(COMMANDS.items()):
             self.register_variable(Float64(variable, causality=Fmi3Causality.output, description=what,
                                            getter=lambda place=place: self.commands()[place]))
@@ -64,7 +65,8 @@ def slave_text(unit: LawUnit) -> str:
     start = [repr(array.tolist()) for array in unit.memory]
     memory = [start[0], *(f"numpy.array({text})" if neurons else text for text in start[1:])]
     return "\n".join([
-        f'"""{unit.name}: generated from the law\'s expressions."""', "", "import math", "from copy import deepcopy", "",
+        f'"""{unit.name}: generated from the law\'s expressions."""', "", "import math",
+        "from copy import deepcopy", "",
         *(["import numpy"] if neurons else []),
         "from pythonfmu3 import (CoSimulation, DefaultExperiment, Float64, Fmi3Causality, Fmi3Slave, Fmi3Status,",
         "                        Fmi3StepResult, Fmi3Variability)", "",

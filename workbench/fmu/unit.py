@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import keyword
 import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
@@ -136,7 +137,8 @@ def _plant_code(law: StateLaw, plant: Plant) -> str:
 
 
 def _identifier(law: str) -> str:
-    return re.sub(r"\W", "_", law, flags=re.ASCII)
+    name = re.sub(r"\W", "_", law, flags=re.ASCII)
+    return name if name.isidentifier() and not keyword.iskeyword(name) else f"law_{name}"
 
 
 def _about(law: ControlLaw | StateLaw) -> str:
