@@ -11,14 +11,7 @@ from workbench.paper.learning_comparison import rises
 
 from ..simulation.cars_trials import CarsRun
 from ..simulation.formulas import allowed_change, alternating_growth, cef_change, needed_force, trailer_force
-from .runs import Results, outcome
-
-
-def all_findings(results: Results) -> Iterator[str]:
-    """A sentence or a few each; one whose runs the study does not have is left out."""
-    for finding in (_learning, _further, _sampling, _acceleration, _gains, _masses, _trailers, _energy, _place,
-                    _assumed, _speed):
-        yield from finding(results)
+from .runs import ChenResults, outcome
 
 
 def _ends(run: CarsRun) -> str:
@@ -36,7 +29,7 @@ def _became(run: CarsRun) -> str:
     return f"{_ends(run)} ({outcome(run)})" if len(run.totals) else outcome(run)
 
 
-def _learning(results: Results) -> Iterator[str]:
+def _learning(results: ChenResults) -> Iterator[str]:
     run, count = results.stated, len(results.stated.totals)
     if run.failed is not None:
         yield f"The stated run ends early: {run.failed}."
@@ -49,7 +42,7 @@ def _learning(results: Results) -> Iterator[str]:
            "1-9 that they fall; it prints no numbers.")
 
 
-def _further(results: Results) -> Iterator[str]:
+def _further(results: ChenResults) -> Iterator[str]:
     """Runs with more iterations than the paper's."""
     for count, run in results.with_more_trials():
         if len(run.totals):
@@ -57,7 +50,7 @@ def _further(results: Results) -> Iterator[str]:
                    "The paper expects further iterations to reduce the errors.")
 
 
-def _sampling(results: Results) -> Iterator[str]:
+def _sampling(results: ChenResults) -> Iterator[str]:
     study, stated = results.study, results.stated
     half, cruise = study.sampling.period_s / 2, study.reference.cruise_mps
     same = results.find(sampling__memory="same_sample")
@@ -83,7 +76,7 @@ def _sampling(results: Results) -> Iterator[str]:
            f"like the stated run: their last position errors differ by {number(100 * apart, 2)} %.")
 
 
-def _acceleration(results: Results) -> Iterator[str]:
+def _acceleration(results: ChenResults) -> Iterator[str]:
     words = []
     for values, name in (
             ({"sampling__acceleration": "sampled"}, "that of the sample before"),
@@ -96,7 +89,7 @@ def _acceleration(results: Results) -> Iterator[str]:
         yield f"Other rules for the acceleration that (16) uses: {'; '.join(words)}."
 
 
-def _gains(results: Results) -> Iterator[str]:
+def _gains(results: ChenResults) -> Iterator[str]:
     exact, smaller = results.find(gains__c_1=1.0), results.find(gains__c_3=0.01)
     if exact is not None and len(results.stated.totals):
         yield (f"The stated c_1 = {results.study.gains.c_1:g} breaks the paper's own condition c_λ > 0 (claim "
@@ -109,7 +102,7 @@ def _gains(results: Results) -> Iterator[str]:
                f"{scaled}.")
 
 
-def _masses(results: Results) -> Iterator[str]:
+def _masses(results: ChenResults) -> Iterator[str]:
     ended = [f"{change.title}: {outcome(run)}" for change, run in results.group("masses") if run.failed is not None]
     if ended:
         yield ("The paper states no bounds of the mass. Where they let an estimate exceed the mass by 1/c_3 = "
@@ -117,7 +110,7 @@ def _masses(results: Results) -> Iterator[str]:
                f"solution (claims 16.unique, 16.stated): {'; '.join(ended)}.")
 
 
-def _trailers(results: Results) -> Iterator[str]:
+def _trailers(results: ChenResults) -> Iterator[str]:
     study, run, ref = results.study, results.stated, results.study.reference
     motors, trailers = results.motors_and_trailers
     need, limit = needed_force(study, ref.cruise_mps, ref.acceleration_mps2), len(motors) * study.train.traction_n
@@ -137,7 +130,7 @@ def _trailers(results: Results) -> Iterator[str]:
     yield f"{text}."
 
 
-def _energy(results: Results) -> Iterator[str]:
+def _energy(results: ChenResults) -> Iterator[str]:
     run = results.stated
     if not len(run.totals):
         return
@@ -152,7 +145,7 @@ def _energy(results: Results) -> Iterator[str]:
     yield text + (f"; not with these rules: {'; '.join(broken)}." if broken else ".")
 
 
-def _place(results: Results) -> Iterator[str]:
+def _place(results: ChenResults) -> Iterator[str]:
     time, place = (results.find(line__seen_by=by) for by in ("reference", "train"))
     if time is not None and place is not None:
         yield ("Slopes act where the train is, while (31) takes them for a function of time alone (claim 31.place). "
@@ -160,7 +153,7 @@ def _place(results: Results) -> Iterator[str]:
                f"is: {_became(place)}.")
 
 
-def _assumed(results: Results) -> Iterator[str]:
+def _assumed(results: ChenResults) -> Iterator[str]:
     group = results.group("assumed")
     runs = [run for change, run in group if run.failed is None and "trials.count" not in change.set]
     if not runs:
@@ -174,9 +167,12 @@ def _assumed(results: Results) -> Iterator[str]:
            f"{number(speeds[-1])} m/s then{early}.")
 
 
-def _speed(results: Results) -> Iterator[str]:
+def _speed(results: ChenResults) -> Iterator[str]:
     run, measured = results.stated, results.measured
     yield (f"A million samples of {results.study.train.cars} cars take {number(float(run.step_us.min()))} s in the "
            "fastest trial of the stated run, train and law together; its learned estimates, one set per sample, take "
            f"{number(run.memory_bytes / 1e6)} MB. From {min(measured.sample_s)} to {max(measured.sample_s)} cars the "
            f"time of a sample grows as the number of cars to the power {fixed(measured.exponent, 2)}.")
+
+
+FINDINGS = (_learning, _further, _sampling, _acceleration, _gains, _masses, _trailers, _energy, _place, _assumed, _speed)

@@ -12,33 +12,27 @@ from workbench.paper.results import Curve, Plot
 
 from ..simulation.cars_trials import CarsRun
 from ..simulation.formulas import allowed_change, cef_change
-from .runs import STATED, Results, grows_from, outcome, title
+from .runs import ChenResults, grows_from, outcome
 
 # The paper's figures by what they show: for its first and its last iteration.
 FIGURES = {"profile": (1, 2), "errors": (3, 4), "input": (6, 7), "difference": (8, 9)}
 FIGURE_5 = "paper, Figure 5"
 
 
-def all_plots(results: Results) -> Iterator[Plot]:
-    """All figures, the paper's first and in its order."""
-    for plots in (_profiles, _errors, _along_trials, _inputs, _differences, _energy, _cost):
-        yield from plots(results)
-
-
-def _shown(results: Results, kind: str) -> list[tuple[str, int]]:
+def _shown(results: ChenResults, kind: str) -> list[tuple[str, int]]:
     """The figures of a kind, and their trials, for those that ran to their end."""
     return [(f"paper, Figure {FIGURES[kind][min(place, 1)]}", trial)
             for place, trial in enumerate(results.study.trials.shown) if trial in results.stated.logs]
 
 
-def _cars(results: Results, trial: int, column: str, scale: float = 1.0, run: CarsRun | None = None
+def _cars(results: ChenResults, trial: int, column: str, scale: float = 1.0, run: CarsRun | None = None
           ) -> tuple[Curve, ...]:
     values = scale * (run or results.stated).log(trial, column)
     times = np.arange(len(values), dtype=float) * results.study.sampling.log_every_s
     return tuple(Curve(f"car {car + 1}", times, values[:, car]) for car in range(values.shape[1]))
 
 
-def _profiles(results: Results) -> Iterator[Plot]:
+def _profiles(results: ChenResults) -> Iterator[Plot]:
     """Displacement and speed of all cars with the reference."""
     for figure, trial in _shown(results, "profile"):
         for column, scale, row, name, unit in (("s_m", 1e-3, 0, "displacement", "km"),
@@ -50,7 +44,7 @@ def _profiles(results: Results) -> Iterator[Plot]:
                        "Every car counts its displacement from its own place at the start. The reference is assumed.")
 
 
-def _errors(results: Results) -> Iterator[Plot]:
+def _errors(results: ChenResults) -> Iterator[Plot]:
     """Errors of displacement and speed of all cars."""
     for figure, trial in _shown(results, "errors"):
         for name, column, label in (("Position error", "position_error_m", "s − s_r (m)"),
@@ -58,11 +52,9 @@ def _errors(results: Results) -> Iterator[Plot]:
             yield Plot(f"{name}, trial {trial}", figure, "t (s)", label, _cars(results, trial, column))
 
 
-def _along_trials(results: Results) -> Iterator[Plot]:
+def _along_trials(results: ChenResults) -> Iterator[Plot]:
     """Largest errors against the iteration, as stated and by the other rules."""
-    study = results.study
-    chosen = [STATED, *(i for i, change in enumerate(study.changes) if change.group == "rules")]
-    runs = [(title(study, i), results.runs[i]) for i in chosen]
+    runs = [("as stated", results.stated), *((change.title, run) for change, run in results.group("rules"))]
     early = "; ".join(f"{name}: {outcome(run)}" for name, run in runs if run.failed)
     for name, of, source, label in (
             ("position error", "position_error", FIGURE_5, "largest |s − s_r| of all cars (m)"),
@@ -73,14 +65,14 @@ def _along_trials(results: Results) -> Iterator[Plot]:
                    f"Curves that end early: {early}." if early else "", log_y=True)
 
 
-def _inputs(results: Results) -> Iterator[Plot]:
+def _inputs(results: ChenResults) -> Iterator[Plot]:
     """The limited inputs of all cars."""
     for figure, trial in _shown(results, "input"):
         yield Plot(f"Inputs within their limits, trial {trial}", figure, "t (s)", "u (kN)",
                    _cars(results, trial, "u_n", 1e-3))
 
 
-def _differences(results: Results) -> Iterator[Plot]:
+def _differences(results: ChenResults) -> Iterator[Plot]:
     """The difference between actual and unsaturated inputs of all cars, as stated and where the rules let it grow."""
     label, note = "Δu = u − μ (kN)", f"The largest within every {results.study.sampling.log_every_s:g} s."
     for figure, trial in _shown(results, "difference"):
@@ -93,7 +85,7 @@ def _differences(results: Results) -> Iterator[Plot]:
                        label, _cars(results, last, "difference_n", 1e-3, run), f"{note} It {outcome(run)}.")
 
 
-def _energy(results: Results) -> Iterator[Plot]:
+def _energy(results: ChenResults) -> Iterator[Plot]:
     """How much the energy function falls from iteration to iteration, beside what (35) promises."""
     run = results.stated
     if len(run.totals):
@@ -103,11 +95,15 @@ def _energy(results: Results) -> Iterator[Plot]:
                    "As stated. The proof is for continuous time; a sampled law may keep it or not.", log_y=True)
 
 
-def _cost(results: Results) -> Iterator[Plot]:
+def _cost(results: ChenResults) -> Plot:
     """Time of a sample against the number of cars."""
     cars = np.array(list(results.measured.sample_s), dtype=float)
     times = 1e6 * np.array(list(results.measured.sample_s.values()))
-    yield Plot("Time of a sample against the number of cars", "not in the paper", "cars", "time of a sample (µs)",
-               (Curve("measured", cars, times),
-                Curve(f"{number(times[0] / cars[0])} µs a car", cars, cars * times[0] / cars[0])),
-               "A straight line of slope 1 is linear growth.", log_y=True, log_x=True)
+    return Plot("Time of a sample against the number of cars", "not in the paper", "cars", "time of a sample (µs)",
+                (Curve("measured", cars, times),
+                 Curve(f"{number(times[0] / cars[0])} µs a car", cars, cars * times[0] / cars[0])),
+                "A straight line of slope 1 is linear growth.", log_y=True, log_x=True)
+
+
+# The paper's figures first, in its order.
+PLOTS = (_profiles, _errors, _along_trials, _inputs, _differences, _energy, _cost)
