@@ -22,6 +22,13 @@ def needed(value: T | None) -> T:
     return value
 
 
+def some(values: Iterable[T]) -> list[T]:
+    """All values, of which there must be one; else the finding that asks for them is left out."""
+    if not (every := list(values)):
+        raise LackingError
+    return every
+
+
 def found(makers: Sequence[Callable[[R], str | Iterable[str]]], results: R) -> Iterator[str]:
     """What makers of findings say of the results, a sentence or more each, in their order; none of what they lack."""
     for maker in makers:
@@ -32,17 +39,14 @@ def found(makers: Sequence[Callable[[R], str | Iterable[str]]], results: R) -> I
             continue
 
 
-def listed(words: Sequence[str]) -> str:
-    """`a, b and c`; LackingError where there is nothing to list."""
-    if not words:
-        raise LackingError
-    return words[0] if len(words) == 1 else f"{', '.join(words[:-1])} and {words[-1]}"
+def listed(words: Iterable[str]) -> str:
+    """`a, b and c`."""
+    *most, last = some(words)
+    return f"{', '.join(most)} and {last}" if most else last
 
 
-def span(values: Iterable[float], digits: int = 3) -> str:
-    """From the least to the largest, `0.2 to 3.1`, or one number where both read alike; LackingError without any."""
-    ordered = sorted(values)
-    if not ordered:
-        raise LackingError
-    low, high = number(ordered[0], digits), number(ordered[-1], digits)
+def span(values: Iterable[float]) -> str:
+    """From the least to the largest, `0.2 to 3.1`; one number where both read alike."""
+    every = some(values)
+    low, high = number(min(every)), number(max(every))
     return low if low == high else f"{low} to {high}"

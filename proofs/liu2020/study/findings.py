@@ -8,7 +8,7 @@ from itertools import pairwise
 import numpy as np
 
 from workbench.files.numbers import number
-from workbench.paper.findings import LackingError, needed, span
+from workbench.paper.findings import LackingError, needed, some, span
 
 from ..laws import LAWS
 from ..simulation.trip import desired_curve
@@ -90,9 +90,7 @@ def _step(results: LiuResults) -> str:
 
 def _inferred(results: LiuResults) -> str:
     by_column, study = {run.case.column: run for run in results.inferred()}, results.study
-    runs = [by_column[column] for column in HIGH_GAIN if column in by_column and column != VIBRATING]
-    if not runs:
-        raise LackingError
+    runs = some(by_column[column] for column in HIGH_GAIN if column in by_column and column != VIBRATING)
     text = (f"With that ({'; '.join(study.runs.inferred_changes)}) and feedback alone, Values 4, 5 and 7 to 9 "
             f"give, over printed, {_ratios(results, runs)}: most of Table 3 can be had from the feedback loop, at a k₅ "
             "that Table 2 does not print; networks and robust terms are not to be seen in it.")
@@ -212,10 +210,8 @@ def _networks(results: LiuResults) -> str:
 
 
 def _stiff(results: LiuResults) -> str:
-    lost = [change.title for change, run in _changes(results)
-            if run.failed and run.case.column == COLUMNS and "sampling.period_s" in change.set]
-    if not lost:
-        raise LackingError
+    lost = some(change.title for change, run in _changes(results)
+                if run.failed and run.case.column == COLUMNS and "sampling.period_s" in change.set)
     return f"Value {COLUMNS} is stiff: it diverges with {'; '.join(lost)}, as its eigenvalues say."
 
 
@@ -232,16 +228,12 @@ def _sensitivity(results: LiuResults) -> str:
                 _, title, value = max(moved)
                 parts.append(f"{of.title} at Value {column} most to '{title}' ({number(before)} to {number(value)} "
                              f"{of.unit})")
-    if not parts:
-        raise LackingError
-    return f"Of what is assumed, reacts {'; '.join(parts)}."
+    return f"Of what is assumed, reacts {'; '.join(some(parts))}."
 
 
 def _cost(results: LiuResults) -> str:
-    cost = [sorted(run.step_us for run in results.runs.values() if run.case.law == law and not run.failed)
+    cost = [sorted(some(run.step_us for run in results.select(law=law).values() if not run.failed))
             for law in (FEEDBACK, CORRECTED)]
-    if not all(cost):
-        raise LackingError
     bare, nets = (times[len(times) // 2] for times in cost)
     return (f"A million control steps take {bare:.2f} s without and {nets:.2f} s with two networks of "
             f"{results.study.networks.neurons} neurons, train included (median of the runs of this report).")
