@@ -121,7 +121,7 @@ def test_no_mutant_of_the_goal_is_matched():
     (r"h \le k", VECTORS, "vector stands where a number"),
     (r"h + a \le k", VECTORS, "a number is added to a vector"),
     (r"\sum_{j=2}^n h_j^2 \le k", goal(at_most(over(h**2), k)), "from 2 to n"),
-    (r"\sum_i h_j^2 \le k", goal(at_most(over(h**2), k)), "without the sum's index"),
+    (r"\sum_i h_j^2 \le k", goal(at_most(over(h**2), k)), "the index 'j' too"),
     (r"\frac{z_1^2}{z_1} \le k", goal(at_most(z_1, k)), "cancels"),
     (r"\sqrt{z_1}^2 \le k", goal(at_most(z_1, k)), "cancels"),
     (r"\frac{k^2}{k} \le k + \dots", goal(at_most(k, k)), "dots stand for"),
