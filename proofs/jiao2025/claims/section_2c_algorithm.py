@@ -180,16 +180,14 @@ def algorithm_estimate() -> Goal:
     return Goal((equal(phi_i, phi_prev + eta * Delta_u / (mu + Delta_u**2) * xi),), (*paper.shown("10"), equal(xi, innovation)))
 
 
-innovation_of_12 = estimate_step(Delta_u, innovation) * (mu + Delta_u**2) / (eta * Delta_u)
-
-
 @paper.claim("12.innovation", "The innovation xi", "identity",
              r"\xi(k+1, i-1) = \Delta v(k+1, i-1) - \hat{\phi}_c(k, i-1) \times \Delta u_f(k, i-1)", "proved", premises=("10",),
-             where={r"\xi(k+1, i-1)": innovation_of_12},
+             where={r"\xi(k+1, i-1)": estimate_step(Delta_u, innovation) * (mu + Delta_u**2) / (eta * Delta_u)},
              reading="A definition; decided as what xi must be for (12) to be the law (10), where the input has changed.")
 def innovation_named() -> Goal:
     """(12) solved for xi, with the step of (10)."""
-    return Goal((equal(innovation_of_12, innovation),), (differ(Delta_u, 0),))
+    solved = estimate_step(Delta_u, innovation) * (mu + Delta_u**2) / (eta * Delta_u)
+    return Goal((equal(solved, innovation),), (differ(Delta_u, 0),))
 
 
 fires, updated, after_reset = sp.symbols("fires phi_updated phi_reset", real=True)
