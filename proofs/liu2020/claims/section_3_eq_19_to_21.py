@@ -42,7 +42,6 @@ from ..plant import s, v
 from ..smooth_sign import constant_suffices, smooth_sign, smooth_sign_facts
 from .section_3_eq_11_to_18 import along_plant, v_other
 
-
 # The laws of one neuron as they run, and the letters that they are printed in.
 GAMMA_OF_SIGNAL = r"\gamma(\dot{\tilde s} + k_1\tilde s)"
 printed_signal = D(s_error) + k_1 * s_error
