@@ -10,9 +10,9 @@ from urllib.parse import quote
 from markupsafe import Markup, escape
 
 from workbench.proof.checker import CertificateError
+from workbench.proof.places import place_of
 from workbench.report.certificate_latex import assignment_latex
 from workbench.report.formulas import formula, in_html
-from workbench.report.places_in_paper import place_of
 from workbench.report.worded import worded
 
 # The order in which a reader wants to see them, with a sign for who cannot tell the colours.
