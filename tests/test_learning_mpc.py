@@ -6,8 +6,9 @@ import numpy as np
 import pytest
 from contests import common
 
+from workbench.contest.entrant import trial_errors
 from workbench.contest.entrants import check_entrants, information, learns, play
-from workbench.contest.learning import learners, learning_tables
+from workbench.contest.learning import learners, mpc_rivals
 from workbench.contest.matches import play_match
 from workbench.contest.record import Contest
 from workbench.contest.tables import Told
@@ -40,13 +41,14 @@ def test_errors_fall_from_trip_to_trip_and_end_below_those_of_the_same_mpc_that_
     contest = common()
     condition = contest.conditions["ten"]
     found = play_match(scenario, "mpc_learning", condition, 1, contest.seed)
-    plain = play_match(scenario, "mpc_offset_free", condition, 1, contest.seed)
+    plain, nominal = (trial_errors(play_match(scenario, name, condition, 1, contest.seed).run, scenario.track.length_m)
+                      for name in ("mpc_offset_free", "mpc_linear"))
+    assert plain is not None and nominal is not None
     position, speed = np.array(found.trials).T
-    assert len(position) == 4 and position[0] == pytest.approx(plain.values["position_rms"], rel=1e-12)
+    assert len(position) == 4 and position[0] == pytest.approx(plain[0], rel=1e-12)
     assert np.all(np.diff(position) < 0) and position[-1] < 0.5 * position[0] and speed[-1] < speed[0]
-    assert found.values["position_rms"] == pytest.approx(position[-1])
-    nominal = play_match(scenario, "mpc_linear", condition, 1, contest.seed)
-    assert position[-1] < nominal.values["position_rms"]
+    assert trial_errors(found.run, scenario.track.length_m) == found.trials[-1]
+    assert position[-1] < 0.1 * nominal[0]
 
 
 def test_it_is_told_position_and_speed_and_no_train_or_line(scenario: Scenario) -> None:
@@ -72,13 +74,12 @@ def test_it_enters_a_contest_and_is_no_rival_of_itself(scenario: Scenario) -> No
         check_entrants(wrong, stated, path, path)
     told = Told(few_of(contest), scenario, (), None)
     assert learners(told) == ["mpc_learning"]
-    for table in learning_tables(told):
-        assert "mpc_learning" not in [column.heading for column in table.columns[1:]]
+    assert mpc_rivals(told) == ["mpc_offset_free", "mpc_linear"]
 
 
 def few_of(contest: Contest) -> Contest:
     tuning = contest.tuning.model_copy(update={"found": {}})
-    return contest.model_copy(update={"conditions": {}, "entrants": {}, "absent": {}, "tuning": tuning})
+    return contest.model_copy(update={"conditions": {"ten": contest.conditions["ten"]}, "entrants": {}, "absent": {}, "tuning": tuning})
 
 
 def test_what_is_learned_is_smoothed_without_a_shift_and_gaps_are_bridged() -> None:
