@@ -79,7 +79,8 @@ def test_it_enters_a_contest_and_is_no_rival_of_itself(scenario: Scenario) -> No
 
 def few_of(contest: Contest) -> Contest:
     tuning = contest.tuning.model_copy(update={"found": {}})
-    return contest.model_copy(update={"conditions": {"ten": contest.conditions["ten"]}, "entrants": {}, "absent": {}, "tuning": tuning})
+    return contest.model_copy(update={"conditions": {"ten": contest.conditions["ten"]}, "entrants": {}, "absent": {},
+                                      "tuning": tuning})
 
 
 def test_what_is_learned_is_smoothed_without_a_shift_and_gaps_are_bridged() -> None:
