@@ -2,7 +2,7 @@
 
 The largest force that wheels pass on, falling and convex in the speed (`trains/actuator.py`, Curtius and Kniffler), is
 replaced by its tangents, so that no point of the table is above it; it is the table that a certified run keeps and of
-which a bound speaks. Between the tangents' points it is below the curve by less than a thousandth.
+which a bound speaks. Between the tangents' points it is below the curve by less than a hundredth.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ from workbench.optimal.vehicle import ForceLimit
 from workbench.trains.actuator import Adhesion
 from workbench.trains.resistance import STANDARD_GRAVITY_MPS2
 
-TANGENTS = 32
+TANGENTS = 10
 Table = tuple[tuple[float, float], ...]
 
 
