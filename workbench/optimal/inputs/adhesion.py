@@ -42,7 +42,7 @@ def least_of(one: Table, two: Table) -> Table:
     if not one or not two:
         return one or two
     speeds = sorted({speed for speed, _ in (*one, *two)})
-    first, second = (np.interp(speeds, *zip(*table, strict=True)) for table in (one, two))
+    first, second = (np.interp(speeds, [v for v, _ in table], [n for _, n in table]) for table in (one, two))
     points = []
     for k, speed in enumerate(speeds):
         points.append((speed, float(min(first[k], second[k]))))
