@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from typing import TypeVar
 
+from workbench.files import wording
 from workbench.files.numbers import number
 
 T = TypeVar("T")
@@ -40,9 +41,8 @@ def found(makers: Sequence[Callable[[R], str | Iterable[str]]], results: R) -> I
 
 
 def listed(words: Iterable[str]) -> str:
-    """`a, b and c`."""
-    *most, last = some(words)
-    return f"{', '.join(most)} and {last}" if most else last
+    """`a, b and c`; a finding without any word is left out."""
+    return wording.listed(some(words))
 
 
 def span(values: Iterable[float]) -> str:

@@ -34,9 +34,9 @@ from workbench.files.toml import validate_record
 from workbench.paper.cells import numbers_in
 from workbench.paper.learning_comparison import rises
 from workbench.paper.study import with_values
-from workbench.report.build import study_document
 from workbench.report.charts.chart import chart_of
 from workbench.report.charts.files import write_curves
+from workbench.report.runs import study_document
 from workbench.report.sources import sourced_values
 from workbench.report.study_page import StudyContent, build_study_page
 from workbench.trains import multi_particle as of_train

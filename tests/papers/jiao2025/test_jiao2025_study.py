@@ -21,7 +21,7 @@ from proofs.jiao2025.study.runs import JiaoResults, cases, concerns, name_of, ou
 from workbench.cli.loading import load
 from workbench.files.toml import read_toml, validate_record
 from workbench.paper.learning_comparison import rises
-from workbench.report.build import study_document
+from workbench.report.runs import study_document
 from workbench.report.sources import sourced_values
 
 FOLDER = Path(__file__).parents[3] / "proofs" / "jiao2025"

@@ -15,7 +15,7 @@ from proofs.liu2020.study.runs import DRAWN_LAWS, LiuResults, RunResult, run_cas
 from workbench.paper.cells import numbers_in
 from workbench.paper.comparison import ComparedRun, Task
 from workbench.paper.mpc_comparison import known, run_mpc
-from workbench.report.build import study_document
+from workbench.report.runs import study_document
 from workbench.report.study_page import StudyContent, build_study_page
 from workbench.trains.track import ResistanceTable
 

@@ -17,7 +17,7 @@ from workbench.paper.comparison import comparison_tasks
 from workbench.paper.mpc_comparison import MPC_KINDS, known, run_mpc
 from workbench.paper.pairs import pair_tasks
 from workbench.paper.reproduced import STATED
-from workbench.report.build import study_document
+from workbench.report.runs import study_document
 from workbench.simulate.closed_loop import Factors, simulate_in
 
 
