@@ -6,11 +6,11 @@ import pytest
 from small_decisions import certificate, paper
 
 from workbench.proof.fate import judged
+from workbench.proof.places import place_of, places_of
 from workbench.report.counterexample import counterexample_of
 from workbench.report.errata.proof_steps import proof_steps
 from workbench.report.finding import findings
 from workbench.report.finding_sentences import consequence_sentence, findings_document, sentences, verdict_sentence
-from workbench.report.places_in_paper import place_of, places_of
 from workbench.report.plain_formulas import plain_formula
 from workbench.report.worded import math, show, worded
 

@@ -4,7 +4,7 @@ medium."""
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 
 from workbench.proof.latex.commands import GREEK
 from workbench.report.certificate_latex import name_latex
@@ -81,8 +81,3 @@ def show(text: str, formula: Callable[[str], str], words: Callable[[str], str] =
     pieces = _FORMULA.split(text)
     return "".join(formula(piece.replace(INNER, "$")) if i % 2 else words(piece)
                    for i, piece in enumerate(pieces) if piece)
-
-
-def listed(words: Sequence[str]) -> str:
-    """`a`, `a and b`, `a, b and c`."""
-    return " and ".join([", ".join(words[:-1]), words[-1]]) if len(words) > 1 else "".join(words)
