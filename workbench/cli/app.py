@@ -22,7 +22,7 @@ INTERRUPTED = 130  # with which typer ends after Ctrl-C
 
 # The verbs in the order in which the help lists them; each is a module of this room, by its own name or another.
 VERBS = ("prove", "show", "diff", "check", "new-paper", "check-certificates", "compare", "sweep", "tune", "report",
-         "reference", "gains", "list", "examples", "schema", "errata", "export-coq", "check-coq")
+         "reference", "gains", "list", "examples", "schema", "errata", "export-coq", "check-coq", "export-fmu")
 MODULES = {"list": "listing"}
 
 
