@@ -1378,12 +1378,7 @@ Row = tuple[Path, str, "str | None"]
 File = tuple[Path, "Manifest | None"]
 
 
-def check_files(files: list[File]) -> list[Row]:
-    """A row for each file with what its manifest is, in their order."""
-    return [check_file(path, manifest) for path, manifest in files]
-
-
-def check_folder(folder: Path, checked: Callable[[list[File]], list[Row]] = check_files) -> list[Row]:
+def check_folder(folder: Path, checked: Callable[[list[File]], list[Row]] | None = None) -> list[Row]:
     """(file, verdict, reason it is invalid or None) for every certificate below a folder.
 
     A manifest.json beside them says of which paper they are, which claims that paper states, and for each its verdict,
@@ -1405,8 +1400,8 @@ def check_folder(folder: Path, checked: Callable[[list[File]], list[Row]] = chec
                 results.append((place / f"{name}.json", entry["verdict"], f"{MANIFEST} names it, and it is missing"))
         if all(entry["certificate"] is None for entry in stated[place].claims.values()):
             results.append((path, "?", "names no certificate"))
-    results += checked([(path, stated.get(path.parent)) for path in sorted(folder.rglob("*.json"))
-                        if path.name != MANIFEST])
+    files = [(path, stated.get(path.parent)) for path in sorted(folder.rglob("*.json")) if path.name != MANIFEST]
+    results += checked(files) if checked else [check_file(*file) for file in files]
     for place, theorems in stated.items():
         if place.name == THEOREMS and place.parent in stated:
             results += _other_parts(place, theorems, stated[place.parent])

@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-from workbench.proof.checker import THEOREMS, File, Row, check_files, check_folder
+from workbench.proof.checker import THEOREMS, File, Row, check_file, check_folder
 from workbench.simulate.process_pool import results_of
 
 WORTH_PROCESSES = 100  # certificates; fewer are checked sooner than another process has started
@@ -48,7 +48,7 @@ def _paper_of(path: Path) -> Path:
 def _part(given: Mapping[str, Mapping[Path, Any]], part: Part) -> Any:
     what, place = part
     if what == "files":
-        return check_files(given[what][place])
+        return [check_file(*file) for file in given[what][place]]
     from workbench.proof.binding import check_claims  # noqa: PLC0415 - needs sympy, which certificates do not
 
     return check_claims(*given[what][place])
