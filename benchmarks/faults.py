@@ -175,7 +175,7 @@ class Bench:
         time.sleep(after_s)
         os.kill(number, how)
         code = ended(number, LEFT_S)
-        if code not in (0, -signal.SIGKILL if how == signal.SIGKILL else 130):
+        if code not in (0, 130, -how):  # by the signal itself where it comes before or after all work
             return f"ends with {code}: {self.said(job).read_text()[-300:]}"
         if left := left_after(number, LEFT_S):
             return f"leaves processes {left}"
@@ -296,6 +296,8 @@ def main() -> None:
     parser.add_argument("--size", type=int, default=20)
     parser.add_argument("--job")
     asked = parser.parse_args()
+    # A shell's background job is started with SIGINT ignored, and so would be what is started from here.
+    signal.signal(signal.SIGINT, signal.default_int_handler)
     rng, wrong = random.Random(asked.seed), 0
     with tempfile.TemporaryDirectory(prefix="faults-") as place:
         bench = Bench(Path(place))

@@ -19,7 +19,7 @@ ORDER = (
     ("cli",),
     ("api",),
     ("report",),
-    ("contest",),
+    ("contest", "fmu"),
     ("paper",),
     ("kernel",),
     ("gains", "proof", "simulate", "mpc", "optimal"),

@@ -18,7 +18,7 @@ ORDER = (
     ("cli",),
     ("api",),
     ("report",),
-    ("contest",),
+    ("contest", "fmu"),
     ("paper",),
     ("kernel",),
     ("simulate", "mpc", "optimal", "gains", "proof"),

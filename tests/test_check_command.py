@@ -8,7 +8,7 @@ import pytest
 from command_line import run
 from scenarios import ROOT
 
-from workbench.errors import InputError, WorkbenchError
+from workbench.errors import ClaimError, InputError, WorkbenchError
 from workbench.proof.checker import check
 from workbench.proof.latex.question import answer, asked
 from workbench.proof.latex.read import read_line
@@ -47,6 +47,8 @@ def symbols(tmp_path):
     (r"\ln\frac{k^2}{k^2 - e_1^2} < \frac{e_1^2}{k^2 - e_1^2}", "refuted"),
     (r"\tilde W^Th \le \tfrac12\|\tilde W\|^2 + \tfrac12\sum_{j=1}^n h_j^2", "proved"),
     (r"\tilde W^Th \le \tfrac12\|\tilde W\|^2", "refuted"),
+    (r"2\tilde W^Th = \sum_{i=1}^n 2\tilde W_ih_i", "proved"),
+    (r"2\tilde W^Th \le \sum_{i=1}^n h_i^2 + \sum_{k=1}^n\tilde W_k^2", "proved"),
     (r"\lambda > 0 \Rightarrow \lambda^2 > 0", "proved"),
     (r"\lambda^2 > 0", "refuted"),
     (r"\hat{\theta}_1 \in [0, k] \Rightarrow \hat\theta_1^2 \le k^2", "proved"),
@@ -73,6 +75,30 @@ def test_what_is_shown_is_made_from_the_goal_and_reads_back(symbols):
         read_line(text)
 
 
+def test_what_varies_without_a_rate_is_an_input_and_no_constant(tmp_path):
+    path = tmp_path / "symbols.toml"
+    typed = "[symbols]\n'x' = 'real'\n'w' = 'real'\n'k' = 'positive'\n[flow]\n'x' = '-kx + w'\n"
+    line = r"\ddot x = k^2x - kw"
+    path.write_text(typed)
+    assert answer(line, load_symbols(path)).decision.verdict == "proved"
+    path.write_text("inputs = ['w']\n" + typed)
+    loaded = load_symbols(path)
+    moved = answer(r"\dot x = w - kx", loaded).document()
+    assert moved["verdict"] == "proved" and moved["certificate"]["goal"]["inputs"] == ["w"]
+    assert (moved["goal"]["inputs"], moved["goal"]["constant"]) == (["w"], ["k"])
+    with pytest.raises(ClaimError, match="rate of the input w"):
+        answer(line, loaded)
+
+
+@pytest.mark.parametrize(("inputs", "why"), [("['v']", "none of the symbols"), ("['x']", "has a rate")])
+def test_an_input_is_a_symbol_without_a_rate(tmp_path, inputs, why):
+    path = tmp_path / "symbols.toml"
+    path.write_text(f"inputs = {inputs}\n[symbols]\n'x' = 'real'\n[flow]\n'x' = '-x'\n")
+    with pytest.raises(InputError, match=why) as refused:
+        load_symbols(path)
+    assert refused.value.key == "inputs[0]"
+
+
 def test_a_counterexample_is_named_by_the_letters_of_the_file(symbols):
     found = answer(r"\hat\theta_1^2 \ge \hat\theta_1", load_symbols(symbols))
     value = Fraction(found.counterexample[r"\hat\theta_1"])
@@ -83,7 +109,7 @@ def test_a_counterexample_is_named_by_the_letters_of_the_file(symbols):
     (r"\mu = 1", "letter '\\mu' is not in the notation"), (r"\dot\lambda = 0", "does not move"),
     (r"\frac{e_1}{e_1} = 1", "cancels"), (r"\lambda \to 0", "relations"), (r"\lambda", "no relation"), ("", "empty"),
     (r"\lambda =", "ends where"), ("x" * 100_000, "at most"), (r"\forall k: k > 0", "quantifies"),
-    (r"\|e_1\| \le k", "no vector"), (r"\tilde W \le k", "vector"),
+    (r"\sum_{i=1}^n h_ih_j \ge 0", "the index 'j' too"), (r"\|e_1\| \le k", "no vector"), (r"\tilde W \le k", "vector"),
 ])
 def test_a_line_that_is_no_goal_is_refused_in_one_line(symbols, line, why):
     with pytest.raises(WorkbenchError) as refused:

@@ -6,8 +6,15 @@ import sys
 
 import pytest
 from scenarios import SHARED, YANG
+from small_folders import small_folder
+
+from workbench.cli.loading import load
+from workbench.simulate import compare as compare_module
+from workbench.simulate.process_pool import LocalProcesses
 
 HEAVY = ("control", "cvxpy", "casadi", "matplotlib", "sympy", "numba", "clarabel", "scipy")
+PAGE = ("jinja2", "plotly", "grandalf", "workbench.report.page", "workbench.contest.matches")
+OTHER_VERBS = tuple(f"workbench.cli.{verb}" for verb in ("show", "sweep", "report", "gains", "errata", "check_coq"))
 LINE, TRAIN = SHARED / "lines" / "hills.toml", SHARED / "trains" / "yang2021.toml"
 PROGRAM = """
 import json, sys
@@ -22,9 +29,9 @@ print(json.dumps([code, [name for name in json.loads(sys.stdin.read()) if name i
 
 
 def imported(*arguments: object) -> tuple[int, set[str]]:
-    """The exit code of a command in a process of its own, and which of HEAVY it imported."""
+    """The exit code of a command in a process of its own, and which of HEAVY, PAGE and OTHER_VERBS it imported."""
     done = subprocess.run([sys.executable, "-c", PROGRAM, json.dumps(list(map(str, arguments)))], check=True,
-                          input=json.dumps(HEAVY), capture_output=True, text=True, timeout=300)
+                          input=json.dumps((*HEAVY, *PAGE, *OTHER_VERBS)), capture_output=True, text=True, timeout=300)
     code, names = json.loads(done.stdout.splitlines()[-1])
     return code or 0, set(names)
 
@@ -42,7 +49,32 @@ def test_a_mistake_is_said_before_anything_heavy_is_imported(arguments):
 def test_a_mistake_in_a_scenario_is_said_before_solvers_and_figures_are_imported():
     code, names = imported("compare", "nowhere.toml")
     assert code == 2
-    assert names.isdisjoint({"control", "cvxpy", "casadi", "matplotlib"})
+    assert names == set()
+
+
+def test_a_proof_file_that_is_missing_is_said_before_sympy_is_imported():
+    code, names = imported("prove", "nowhere")
+    assert code == 2
+    assert names == set()
+
+
+def test_a_small_comparison_needs_no_page_no_other_verb_and_no_other_process(tmp_path):
+    folder = small_folder(tmp_path / "doe2030")
+    code, names = imported("compare", folder)
+    assert code == 0
+    assert names.isdisjoint({"control", "cvxpy", "matplotlib", "clarabel", *PAGE, *OTHER_VERBS})
+
+
+def test_a_small_comparison_is_run_where_it_is_asked_for(tmp_path, monkeypatch):
+    def started(*_: object) -> None:
+        pytest.fail("a process was started for runs that are shorter than its start")
+
+    monkeypatch.setattr(LocalProcesses, "run", started)
+    monkeypatch.setattr(compare_module, "HERE_S", 60.0)  # where kernels are compiled first, too
+    path = small_folder(tmp_path / "doe2030") / "study.toml"
+    loaded = load(path)
+    assert [m.controller for m in compare_module.compare(path, loaded.data, loaded.scenario).metrics] == list(
+        loaded.scenario.controllers)
 
 
 def test_a_run_needs_its_solver_and_no_modelling_tools():

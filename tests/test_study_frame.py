@@ -17,7 +17,8 @@ from workbench.cli.loading import load
 from workbench.paper.results import Curve, Plot, ResultTable, StudyResult
 from workbench.paper.stages import Stage, run_stages
 from workbench.report import build as building
-from workbench.report.build import Asked, build_study_report, run_study, study_document
+from workbench.report.build import Asked, build_study_report
+from workbench.report.runs import run_study, study_document
 from workbench.report.sources import sourced_values
 from workbench.report.study_figures import study_plot
 

@@ -17,6 +17,7 @@ if TYPE_CHECKING:
     from workbench.model.law import LawState, period, time
     from workbench.mpc.plant_tracking import PlantMpc
     from workbench.proof.paper import Paper
+    from workbench.systems.event import Event
     from workbench.systems.law import Reference
     from workbench.systems.law import StateLaw as Law
     from workbench.systems.lyapunov import Lyapunov, closed_loop
@@ -32,13 +33,13 @@ _WHERE = {
     "model.law": ("LawState", "period", "time"),
     "mpc.plant_tracking": ("PlantMpc",), "proof.paper": ("Paper",), "systems.setting": ("Setting",),
     "systems.law": ("Reference", "StateLaw"), "systems.lyapunov": ("Lyapunov", "closed_loop"),
-    "systems.metric": ("Metric",), "systems.plant": ("Parameter", "Plant"),
+    "systems.event": ("Event",), "systems.metric": ("Metric",), "systems.plant": ("Parameter", "Plant"),
     "systems.signals": ("Constant", "Ramp", "Sine", "Spline", "Step"),
 }
 _MODULES = {name: module for module, names in _WHERE.items() for name in names}
 _RENAMED = {"Law": "StateLaw"}
 
-__all__ = ["Comparison", "Constant", "Law", "LawState", "Lyapunov", "Metric", "Paper", "Parameter", "Plant",
+__all__ = ["Comparison", "Constant", "Event", "Law", "LawState", "Lyapunov", "Metric", "Paper", "Parameter", "Plant",
            "PlantMpc", "Proved", "Ramp", "Reference", "Run", "Setting", "Sine", "Spline", "Step", "check_paper",
            "closed_loop", "compare", "entrant", "gains", "load", "period", "prove", "reference", "schema", "simulate",
            "time"]

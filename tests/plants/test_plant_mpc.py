@@ -10,6 +10,8 @@ from shown_plants import CART, PENDULUM, u, v, x
 
 from workbench.mpc.plant_tracking import PlantMpc
 from workbench.simulate.plants.run import Entrant, run
+from workbench.systems.law import Reference
+from workbench.systems.metric import Metric
 from workbench.systems.plant import Parameter, Plant
 from workbench.systems.setting import Setting
 from workbench.systems.signals import Constant, Sine
@@ -122,3 +124,57 @@ def test_several_inputs_and_several_outputs():
                       tracks={"a": "r", "b": "w"})
     found = run(setting, Entrant("mpc", 0.1, build=PlantMpc(15, {"a": 1.0, "b": 1.0}, {"f": 1e-4, "g": 1e-4}).build))
     assert abs(found.metrics["a_error_final"]) < 0.02 and abs(found.metrics["b_error_final"]) < 0.05
+
+
+def test_a_constant_error_of_the_model_vanishes_with_the_disturbance_model():
+    """Held aslant with a mass 20 % heavier than believed; the limits of the torque stay kept."""
+    setting = Setting(PENDULUM, 5.0, step_s=0.005, references={"r": Constant(value=0.5)}, tracks={"theta": "r"},
+                      parameters={"m": 1.2})
+    errors = []
+    for gain in (0.0, 0.5):
+        how = PlantMpc(15, {"theta": 100.0}, change_weights={"tau": 1e-2}, disturbance_gain=gain)
+        found = run(setting, Entrant("mpc", 0.05, build=how.build))
+        assert found.failed is None and found.fallbacks == 0
+        assert np.max(np.abs(found.column("tau"))) <= 5.0
+        errors.append(abs(found.metrics["theta_error_final"]))
+    assert errors[0] > 1e-3 and errors[1] < 1e-4 * errors[0]
+
+
+def test_one_iteration_is_the_optimum_of_a_linear_plant_and_close_to_it_on_a_pendulum():
+    plant = Plant("limited", CART.states, CART.rates, CART.inputs, input_limits={u: (-1.0, 1.0)},
+                  state_limits={v: (-0.6, 0.6)})
+    setting = Setting(plant, 4.0, step_s=0.01, initial={"x": 1.0}, **AT_REST)
+    swing = Setting(PENDULUM, 2.0, references={"r": Sine(amplitude=1.0, period_s=2.0)}, tracks={"theta": "r"})
+    for where, period, tolerance, how in (
+            (setting, 0.1, 1e-4, {"weights": {"x": 1.0}, "input_weights": {"u": 0.01}, "rate_limits": {"u": 4.0}}),
+            (swing, 0.05, 0.05, {"weights": {"theta": 10.0}, "input_weights": {"tau": 1e-3}})):
+        one, whole = (run(where, Entrant("mpc", period, build=PlantMpc(20, one_iteration=single, **how).build))
+                      for single in (True, False))
+        assert one.failed is None and one.fallbacks == 0
+        assert np.max(np.abs(one.log[:, 1] - whole.log[:, 1])) < tolerance
+
+
+def test_economic_mpc_trades_by_its_price_within_limits_and_beats_tracking_on_its_own_metric():
+    price = Reference("p")
+    store = Plant("store", (x,), (u,), (u,), input_limits={u: (-1.0, 1.0)}, state_limits={x: (0.0, 1.0)})
+    cost = Metric("cost", "integral", price.value * u + u**2 / 20)
+    setting = Setting(store, 12.0, step_s=0.01, initial={"x": 0.5}, tracks={"x": "half"}, metrics=(cost,),
+                      references={"p": Sine(offset=1.0, amplitude=0.8, period_s=4.0), "half": Constant(value=0.5)})
+    economic = run(setting, Entrant("mpc", 0.1, build=PlantMpc(40, objective={"cost": 1.0}).build))
+    tracking = run(setting, Entrant("mpc", 0.1, build=PlantMpc(40, {"x": 1.0}, {"u": 0.01}).build))
+    assert economic.failed is None and economic.fallbacks == 0
+    assert economic.metrics["x_limit_excess"] < 1e-4 and np.max(np.abs(economic.column("u"))) <= 1 + 1e-6
+    # Whatever is traded earns at most the difference of the prices, and what was in the store at most the highest one.
+    assert economic.metrics["cost"] < tracking.metrics["cost"] - 1.5
+    assert economic.metrics["cost"] > -3 * 1.6 - 0.5 * 1.8
+
+
+@pytest.mark.parametrize(("how", "words"), [
+    ({"weights": {}}, "weights and objective are empty"), ({"disturbance_gain": 1.5}, "from 0 to 1"),
+    ({"disturbance_gain": 0.5, "input_weights": {"tau": 1.0}}, "take change_weights"),
+    ({"one_iteration": True, "solver": "ipopt"}, "one_iteration needs"),
+    ({"objective": {"theta_error_largest": 1.0}}, "integrated or taken at the end")])
+def test_what_contradicts_itself_is_one_line(how, words):
+    with pytest.raises(ValueError, match=words):
+        PlantMpc(**({"horizon": 5, "weights": {"theta": 1.0}} | how)).check(
+            Setting(PENDULUM, 1.0, references={"r": Constant(value=0.0)}, tracks={"theta": "r"}))

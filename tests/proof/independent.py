@@ -4,6 +4,7 @@ Deciders never see this file, and it takes nothing from them: sampling, tight po
 evaluation are its own.
 """
 
+import math
 from functools import cached_property, reduce
 
 import mpmath
@@ -17,6 +18,7 @@ CLEAR = {"==": 1e-9, "<=": 1e-9, ">=": 1e-9, "<": -1e-12, ">": -1e-12, "!=": 1e-
 SPECIAL = np.array([0.0, 1.0, -1.0, 0.5, 2.0])
 ROUNDING = 1e-7
 ENOUGH_DIGITS, MOST_DIGITS = 400, 4_000  # what is still zero then is zero
+DECIDING, SOME = 500, 4
 
 
 def rebuilt(expr):
@@ -61,8 +63,8 @@ class Evaluated:
 
     @cached_property
     def exact(self):
-        """The differences of all relations as mpmath computes them, to the digits in force."""
-        return sp.lambdify(self.symbols, [e for e, _ in (*self.given, *self.shown)], modules="mpmath", cse=True)
+        """The difference of each relation as mpmath computes it, to the digits in force."""
+        return [sp.lambdify(self.symbols, e, modules="mpmath", cse=True) for e, _ in (*self.given, *self.shown)]
 
     def _plain(self, expr):
         def written_out(term, limits):
@@ -125,27 +127,43 @@ class Evaluated:
 
         A symbol without a value counts as 1: it must not matter.
         """
-        given, digits = (*self.given, *self.shown), 50
+        return self._assumed_at(point), self._shown_at(point)
+
+    def _assumed_at(self, point):
+        return self._all_hold(point, range(len(self.given)))
+
+    def _shown_at(self, point, most=math.inf):
+        return self._all_hold(point, range(len(self.given), len(self.given) + len(self.shown)), most)
+
+    def _all_hold(self, point, places, most=math.inf):
+        """Whether the relations of these places hold; those that few digits settle first, and the rest only where none
+        of them has failed, for digits are what takes time. None where `most` digits do not tell."""
         numbers = [sp.Rational(str(point.get(str(s), 1))) for s in self.symbols]
-        verdicts = [None] * len(given)
-        while None in verdicts:
-            with mpmath.workdps(digits):
-                values = self.exact(*(mpmath.mpf(v.numerator) / v.denominator for v in numbers))
-                zero = mpmath.mpf(10) ** (-digits // 2)
-            again = None
-            with mpmath.workdps(digits + 60):  # what is only rounding, however large, is another number here
-                for place, ((_, operator), value) in enumerate(zip(given, values, strict=True)):
-                    if verdicts[place] is not None:
-                        continue
-                    if again is None and abs(value) >= zero:
-                        again = self.exact(*(mpmath.mpf(v.numerator) / v.denominator for v in numbers))
-                    settled = abs(value) >= zero and abs(value - again[place]) <= abs(value) / 1000
-                    if settled or (value == 0 and digits > ENOUGH_DIGITS):
-                        verdicts[place] = self._holds(operator, value, 0)
-                    elif digits > MOST_DIGITS:
-                        verdicts[place] = self._holds(operator, mpmath.mpf(0), 0)
+        digits, open_ones = 50, list(places)
+        while open_ones:
+            if digits > most:
+                return None
+            verdicts = [self._at_digits(place, numbers, digits) for place in open_ones]
+            if False in verdicts:
+                return False
+            open_ones = [place for place, verdict in zip(open_ones, verdicts, strict=True) if verdict is None]
             digits *= 10
-        return all(verdicts[:len(self.given)]), all(verdicts[len(self.given):])
+        return True
+
+    def _at_digits(self, place, numbers, digits):
+        """Whether one relation holds, as so many digits tell; None where they do not."""
+        operator = (*self.given, *self.shown)[place][1]
+
+        def value_with(digits):
+            with mpmath.workdps(digits):
+                return self.exact[place](*(mpmath.mpf(v.numerator) / v.denominator for v in numbers))
+
+        value, zero = value_with(digits), mpmath.mpf(10) ** (-digits // 2)
+        with mpmath.workdps(digits + 60):  # what is only rounding, however large, is another number here
+            settled = abs(value) >= zero and abs(value - value_with(digits + 60)) <= abs(value) / 1000
+            if settled or (value == 0 and digits > ENOUGH_DIGITS):
+                return bool(self._holds(operator, value, 0))
+            return bool(self._holds(operator, mpmath.mpf(0), 0)) if digits > MOST_DIGITS else None
 
     def falsifying_point(self, seed, batches=6, count=8_000, tight=0):
         """A point that meets the assumptions, where a shown relation is false to 50 digits; or None.
@@ -185,18 +203,24 @@ class Evaluated:
         return suspects, worst
 
     def _confirmed(self, columns, outcomes, good, equations, most):
+        """The first of so many rows, the farthest off first, that is false to any digits. What is an identity is zero
+        at each of them: after SOME of these, a row counts only if it fails within DECIDING digits."""
         suspects, worst = self._suspects(outcomes)
-        rows = np.flatnonzero(suspects & good)
+        rows, undecided = np.flatnonzero(suspects & good), 0
         for row in rows[np.argsort(-worst[rows], kind="stable")][:most]:
             point = {str(s): sp.Rational(float(c[row])) for s, c in zip(self.symbols, columns, strict=True)}
             try:
                 for _ in equations:
                     for symbol, expr in equations.items():
                         point[str(symbol)] = expr.xreplace({s: point[str(s)] for s in expr.free_symbols})
-                assumed, shown = self.holds_at(point)
+                if not self._assumed_at(point):
+                    continue
+                shown = self._shown_at(point, DECIDING)
+                if shown is None and undecided < SOME:
+                    shown, undecided = self._shown_at(point), undecided + 1
             except (ZeroDivisionError, TypeError, ValueError):
                 continue
-            if assumed and not shown:
+            if shown is False:
                 return point
         return None
 

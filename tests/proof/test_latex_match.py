@@ -54,6 +54,12 @@ MATCHING = [
 ]
 
 
+def test_sides_that_are_one_by_the_letters_keep_their_relation():
+    same = goal(at_most(z_1 * z_1, z_1**2))
+    assert match(r"2V_1 \le z_1^2", NOTATION, same).parsed and match(r"z_1^2 \le 2V_1", NOTATION, same).parsed
+    assert not match(r"2V_1 \ge z_1^2", NOTATION, same).parsed
+
+
 @pytest.mark.parametrize(("printed", "stated"), MATCHING)
 def test_the_line_that_a_goal_states_is_parsed(printed, stated):
     found = match(printed, NOTATION, stated)
@@ -115,7 +121,7 @@ def test_no_mutant_of_the_goal_is_matched():
     (r"h \le k", VECTORS, "vector stands where a number"),
     (r"h + a \le k", VECTORS, "a number is added to a vector"),
     (r"\sum_{j=2}^n h_j^2 \le k", goal(at_most(over(h**2), k)), "from 2 to n"),
-    (r"\sum_i h_j^2 \le k", goal(at_most(over(h**2), k)), "without the sum's index"),
+    (r"\sum_i h_j^2 \le k", goal(at_most(over(h**2), k)), "the index 'j' too"),
     (r"\frac{z_1^2}{z_1} \le k", goal(at_most(z_1, k)), "cancels"),
     (r"\sqrt{z_1}^2 \le k", goal(at_most(z_1, k)), "cancels"),
     (r"\frac{k^2}{k} \le k + \dots", goal(at_most(k, k)), "dots stand for"),

@@ -6,44 +6,50 @@ import signal
 import sys
 import threading
 from functools import cache
+from importlib import import_module
 from typing import Any
 
 import typer
+from typer.core import TyperGroup
 from typer.exceptions import TyperException
 from typer.main import get_command
 
-from workbench.cli import (
-    check,
-    check_certificates,
-    check_coq,
-    compare,
-    diff,
-    errata,
-    examples,
-    export_coq,
-    gains,
-    listing,
-    new_paper,
-    prove,
-    reference,
-    report,
-    schema,
-    show,
-    sweep,
-    tune,
-)
 from workbench.cli.options import Version
 from workbench.cli.terminal import err_console
 from workbench.errors import InputError, WorkbenchError, printable
 
-app = typer.Typer(no_args_is_help=True, add_completion=True, pretty_exceptions_enable=False,
-                  help="A control paper as one executable object: proof, simulation, comparison.")
-
 INTERRUPTED = 130  # with which typer ends after Ctrl-C
 
-for verb in (prove, show, diff, check, new_paper, check_certificates, compare, sweep, tune, report, reference, gains,
-             listing, examples, schema, errata, export_coq, check_coq):
-    app.command(verb.NAME, context_settings=getattr(verb, "CONTEXT", None))(verb.command)
+# The verbs in the order in which the help lists them; each is a module of this room, by its own name or another.
+VERBS = ("prove", "show", "diff", "check", "new-paper", "check-certificates", "compare", "sweep", "tune", "report",
+         "reference", "gains", "list", "examples", "schema", "errata", "export-coq", "check-coq", "export-fmu")
+MODULES = {"list": "listing"}
+
+
+class Verbs(TyperGroup):
+    """All verbs, each imported when it is asked for: a command waits for the options of no other."""
+
+    def list_commands(self, ctx: Any) -> list[str]:
+        """Their names, as the help lists them."""
+        del ctx
+        return list(VERBS)
+
+    def get_command(self, ctx: Any, cmd_name: str) -> Any:
+        """The verb of that name; None where there is none."""
+        del ctx
+        return _verb(cmd_name) if cmd_name in VERBS else None
+
+
+@cache
+def _verb(name: str) -> Any:
+    module = import_module(f"workbench.cli.{MODULES.get(name, name.replace('-', '_'))}")
+    alone = typer.Typer(add_completion=False)
+    alone.command(name, context_settings=getattr(module, "CONTEXT", None))(module.command)
+    return get_command(alone)
+
+
+app = typer.Typer(cls=Verbs, no_args_is_help=True, add_completion=True, pretty_exceptions_enable=False,
+                  help="A control paper as one executable object: proof, simulation, comparison.")
 
 
 @app.callback()

@@ -10,7 +10,6 @@ import typer
 from workbench.cli.options import JsonFile
 from workbench.cli.terminal import answer_card, out_console
 
-NAME = "check"
 CONTEXT = {"ignore_unknown_options": True}  # a line may begin with a minus
 
 

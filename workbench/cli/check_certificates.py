@@ -13,8 +13,6 @@ from workbench.errors import InputError, WorkbenchError, in_one_line
 if TYPE_CHECKING:
     from workbench.proof.checker import Row
 
-NAME = "check-certificates"
-
 
 def command(folder: Annotated[Path, typer.Argument(help="Folder with certificates in it or below it, or one file")],
             paper: Annotated[list[Path] | None, typer.Option(

@@ -11,8 +11,6 @@ import typer
 from workbench.cli.options import JsonFile, Workers, path_of
 from workbench.cli.terminal import err_console, out_console, progress
 
-NAME = "check-coq"
-
 
 def command(folder: Annotated[Path, typer.Argument(metavar="DIR", help="What export-coq wrote.")],
             workers: Workers = None, json: JsonFile = None,

@@ -11,8 +11,6 @@ from workbench.cli.options import JsonFile, PaperOrFile, Workers, load
 from workbench.cli.terminal import metrics_table, out_console, print_failures, print_study, progress
 from workbench.errors import InputError
 
-NAME = "compare"
-
 
 def command(paper: PaperOrFile, json: JsonFile = None,
             variants: Annotated[bool, typer.Option(help="Also run the scenario's variants.")] = False,
@@ -23,14 +21,11 @@ def command(paper: PaperOrFile, json: JsonFile = None,
     """Run all controllers of a scenario on the same train and line, and compare them; or all runs of a study."""
     loaded = load(paper)  # before what runs is imported: a mistake in the file is said at once
 
-    from workbench.contest.journal import JOURNAL_NAME
-    from workbench.contest.pareto import JOURNAL_NAME as FRONTS_NAME
     from workbench.files.json_output import write_json
     from workbench.files.outputs import check_outputs
-    from workbench.report.build import check_resumable, comparison_document, run_study, study_document
-    from workbench.simulate.compare import compare as run_comparison
+    from workbench.report.runs import check_resumable, comparison_document, run_study, study_document
 
-    check_outputs({"--json": json}, folders={"--out": (out, (JOURNAL_NAME, FRONTS_NAME)) if out else None})
+    check_outputs({"--json": json}, folders={"--out": (out, _kept())} if out else None)
     check_resumable(loaded, out, resume)
     if loaded.kind is not None:
         if variants:
@@ -41,6 +36,8 @@ def command(paper: PaperOrFile, json: JsonFile = None,
             write_json(json, study_document(loaded.study, found))
         print_study(found)
         return
+    from workbench.simulate.compare import compare as run_comparison
+
     with progress() as show:
         result = run_comparison(loaded.path, loaded.data, loaded.scenario, variants, workers,
                                 lambda done, total, _: show("runs", done, total))
@@ -51,3 +48,11 @@ def command(paper: PaperOrFile, json: JsonFile = None,
     for variant in document["variants"]:
         out_console.print(metrics_table(variant["rows"], variant["title"]))
     print_failures(document["rows"])
+
+
+def _kept() -> tuple[str, ...]:
+    """The names of the files in which a contest keeps its runs."""
+    from workbench.contest.journal import JOURNAL_NAME
+    from workbench.contest.pareto import JOURNAL_NAME as FRONTS_NAME
+
+    return JOURNAL_NAME, FRONTS_NAME

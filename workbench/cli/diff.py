@@ -10,8 +10,6 @@ import typer
 from workbench.cli.options import JsonFile
 from workbench.cli.terminal import out_console
 
-NAME = "diff"
-
 
 def command(before: Annotated[Path, typer.Argument(metavar="A.json", help="The earlier document.")],
             after: Annotated[Path, typer.Argument(metavar="B.json", help="The later one.")],

@@ -10,8 +10,6 @@ import typer
 from workbench.cli.options import Workers, path_of
 from workbench.cli.terminal import err_console, out_console, progress
 
-NAME = "errata"
-
 
 def command(paper: Annotated[str, typer.Argument(metavar="PAPER", help="A paper's folder, its name, or a proof file.")],
             out: Annotated[Path | None, typer.Option(

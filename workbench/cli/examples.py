@@ -9,8 +9,6 @@ import typer
 
 from workbench.cli.terminal import out_console
 
-NAME = "examples"
-
 
 def command(directory: Annotated[Path, typer.Argument(help="A new or empty folder")]) -> None:
     """Write the papers' folders, and the lines, trains and contests they share, into a folder of yours."""

@@ -11,8 +11,6 @@ import typer
 from workbench.cli.options import path_of
 from workbench.cli.terminal import out_console
 
-NAME = "export-coq"
-
 
 def command(paper: Annotated[str, typer.Argument(metavar="PAPER", help="A paper's folder, its name, or a folder of "
                                                                        "certificates.")],

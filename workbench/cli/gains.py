@@ -10,8 +10,6 @@ import typer
 from workbench.cli.options import JsonFile, PaperOrFile, Workers, load
 from workbench.cli.terminal import print_study, progress
 
-NAME = "gains"
-
 
 def command(paper: PaperOrFile, json: JsonFile = None,
             certificates: Annotated[Path | None, typer.Option(

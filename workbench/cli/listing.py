@@ -10,8 +10,6 @@ import typer
 from workbench.cli.terminal import out_console, papers_table
 from workbench.errors import InputError
 
-NAME = "list"
-
 
 def command(folder: Annotated[Path | None, typer.Argument(
         help="A folder of papers' folders; default: those found from here")] = None) -> None:

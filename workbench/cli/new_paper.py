@@ -11,7 +11,6 @@ import typer
 from workbench.cli.terminal import out_console
 from workbench.errors import InputError
 
-NAME = "new-paper"
 VERBS = ("prove", "compare", "sweep --out FOLDER", "report --out FOLDER")
 
 

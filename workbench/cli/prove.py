@@ -15,8 +15,6 @@ if TYPE_CHECKING:
     from workbench.proof.document_format import ClaimsDocument
     from workbench.proof.prove import Proof
 
-NAME = "prove"
-
 
 def command(paths: Annotated[list[str] | None, typer.Argument(
                 help="Papers' folders, a folder of them, proof files, and claims as in proofs/PAPER::24; "

@@ -11,8 +11,6 @@ from workbench.cli.options import JsonFile, Workers
 from workbench.cli.terminal import out_console
 from workbench.errors import InputError
 
-NAME = "reference"
-
 
 def command(track: Annotated[Path | None, typer.Argument(help="Line: TOML of this project or TTOBench JSON")] = None,
             train: Annotated[Path | None, typer.Argument(help="Train: TOML of this project or TTOBench JSON")] = None,

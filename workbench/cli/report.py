@@ -22,8 +22,6 @@ from workbench.errors import InputError
 if TYPE_CHECKING:
     from workbench.report.build import Report, StudyReport
 
-NAME = "report"
-
 
 def command(paper: PaperOrFile,
             proofs: Annotated[list[str] | None, typer.Argument(

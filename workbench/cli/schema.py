@@ -10,8 +10,6 @@ import typer
 from workbench.cli.terminal import out_console
 from workbench.errors import InputError
 
-NAME = "schema"
-
 
 def command(what: Annotated[str | None, typer.Argument(
                 metavar="FORMAT", help="A format's name, or a paper's folder for the file of its own study; default: "

@@ -10,8 +10,6 @@ import typer
 from workbench.cli.options import JsonFile, path_of
 from workbench.cli.terminal import claim_card, out_console, progress
 
-NAME = "show"
-
 
 def command(claim: Annotated[str, typer.Argument(metavar="ID", help="PAPER:EQUATION, as in doe2026:44, or "
                                                                     "FOLDER::EQUATION")],

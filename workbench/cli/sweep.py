@@ -14,8 +14,6 @@ from workbench.errors import InputError
 if TYPE_CHECKING:
     from workbench.paper.loading import Loaded
 
-NAME = "sweep"
-
 
 def command(paper: PaperOrFile,
             out: Annotated[Path, typer.Option(help="Folder for sweep.csv, and the rows as Parquet")],

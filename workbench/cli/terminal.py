@@ -122,6 +122,7 @@ def answer_card(answer: Mapping[str, Any]) -> Table:
     goal = {part: list(map(plain_formula, lines)) for part, lines in answer["goal"].items()}
     known = {"verdict": [answer["verdict"]], "the line as read": goal["show"], "given": goal["assume"],
              "along": goal["flow"], "constant": [", ".join(goal["constant"])],
+             "may vary": [", ".join(goal["inputs"])],
              "counterexample": [", ".join(plain_formula(f"{name} = {value}")
                                           for name, value in (answer["counterexample"] or {}).items())],
              "shown by": [answer["method"]]}

@@ -10,8 +10,6 @@ import typer
 from workbench.cli.options import PaperOrFile, Workers, load
 from workbench.cli.terminal import out_console, progress
 
-NAME = "tune"
-
 
 def command(paper: PaperOrFile,
             controller: Annotated[list[str] | None, typer.Option(help="Only this one; may be repeated.")] = None,

@@ -91,6 +91,7 @@ class AnswerGoal(TypedDict):
     assume: list[str]
     flow: list[str]
     constant: list[str]
+    inputs: list[str]
 
 
 class AnswerDocument(TypedDict):

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from workbench.errors import InputError
 from workbench.files.folders import CERTIFICATES, is_paper
@@ -31,14 +31,11 @@ from workbench.report.finding import findings
 from workbench.report.finding_sentences import findings_document
 from workbench.report.gains import gains_document, gains_result
 from workbench.report.page import ReportContent, build_page, scenario_charts
+from workbench.report.runs import Progress, comparison_document, run_study, study_document
 from workbench.report.study_page import StudyContent, build_study_page
 from workbench.simulate.compare import Comparison, checked_variants, compare
-from workbench.simulate.process_pool import cores
 from workbench.simulate.sweep import summarise, sweep
 from workbench.simulate.sweep_rows import SweepSummary
-
-if TYPE_CHECKING:
-    from workbench.report.document_format import ComparisonDocument, FailureDocument, StudyDocument, TableDocument
 
 MONTE_CARLO = "monte_carlo"
 # What a report writes in its folder, certificates and curves apart, which their manifests name.
@@ -46,8 +43,6 @@ FILES = ("report.html", "claims.json", "compare.json", "gains.json", f"{MONTE_CA
          f"{MONTE_CARLO}/sweep.journal.jsonl", "matches.journal.jsonl", "pareto.journal.jsonl")
 # So many drawn trains a report takes at the most, unless it is to be full.
 QUICK_DRAWS = 20
-# (what is being done, done, total); total 0 while it is not known
-Progress = Callable[[str, int, int], None]
 
 
 @dataclass(frozen=True)
@@ -177,51 +172,6 @@ def _draws_words(asked: Asked) -> str:
     if not isinstance(pairs, Pairs) or asked.draws(pairs.draws) == pairs.draws:
         return ""
     return f"the first {asked.draws(pairs.draws)} of {pairs.draws}; all with --full"
-
-
-def check_resumable(loaded: Loaded, out: Path | None, resume: bool) -> None:
-    """InputError unless runs can be kept in `out` and gone on with."""
-    keeps = loaded.kind is not None and loaded.kind.run_kept is not None
-    if not keeps and (out is not None or resume):
-        raise InputError("", "--resume" if out is None else "--out", "is for contests, which alone keep their finished "
-                         "runs: leave it out")
-    if resume and out is None:
-        raise InputError("", "--resume", "needs the folder of the runs to go on with: name it with --out")
-
-
-def run_study(loaded: Loaded, workers: int | None = None, on_progress: Progress = lambda what, done, total: None,
-              kept: Path | None = None, resume: bool = False) -> StudyResult:
-    """All runs of a study, in `workers` processes or one a core.
-
-    kept: a folder for what is finished, from which `resume` goes on; of no effect for a study whose runs are few.
-    Raises InputError for a folder that another study has used, or that cannot be written.
-    """
-    kind, study = loaded.kind, loaded.study
-    assert kind is not None
-
-    def told(done: int, total: int, _: str) -> None:
-        on_progress("runs", done, total)
-
-    if kept is not None and kind.run_kept is not None:
-        return kind.run_kept(study, workers or cores(), told, kept, resume)
-    return kind.run(study, workers or cores(), told)
-
-
-def study_document(study: Study, result: StudyResult) -> StudyDocument:
-    """The document of `workbench compare --json` of a study."""
-    tables: list[TableDocument] = [{"title": t.title, "source": t.source, "note": t.note, "header": list(t.headings),
-               "rows": [list(row) for row in t.text], "units": [column.unit for column in t.columns],
-               "values": [list(row) for row in t.values]} for t in result.tables]
-    failures: list[FailureDocument] = [{"run": run, "why": why} for run, why in result.failures]
-    return {"version": 1, "scenario": study.name, "rows": list(result.rows), "tables": tables,
-            "findings": list(result.findings), "failures": failures}
-
-
-def comparison_document(comparison: Comparison) -> ComparisonDocument:
-    """The document of `workbench compare --json`."""
-    return {"version": 1, "scenario": comparison.scenario.name, "rows": [m.row() for m in comparison.metrics],
-            "variants": [{"title": variant.title, "set": variant.set, "rows": [m.row() for m in metrics]}
-                         for variant, metrics in comparison.variants]}
 
 
 def _decide(asked: Asked, on_progress: Progress, timings: dict[str, float]) -> dict[str, Any]:

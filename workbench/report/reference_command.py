@@ -9,7 +9,6 @@ from collections.abc import Iterator
 
 from workbench.errors import InputError
 from workbench.files.outputs import check_outputs, is_stream
-from workbench.optimal.inputs.etcs_file import load_supervision
 from workbench.optimal.inputs.files import load_cars, load_line, load_vehicle
 from workbench.report.reference_request import Request, certified_file, couplers_file, of_cars_file, table_file
 
@@ -24,7 +23,11 @@ def reference_run(asked: Request) -> Iterator[str]:
     line, notes = load_line(asked.track)
     vehicle, more = load_vehicle(asked.train)
     train = load_cars(asked.train)
-    etcs = load_supervision(asked.train, asked.track) if asked.etcs else None
+    etcs = None
+    if asked.etcs:
+        from workbench.optimal.inputs.etcs_file import load_supervision  # noqa: PLC0415 - as said above
+
+        etcs = load_supervision(asked.train, asked.track)
     if asked.figure and asked.figure.suffix.lower() not in FIGURES:
         raise InputError(asked.figure, "figure", f"end the name in one of {', '.join(FIGURES)}")
     for name, value in (("--dwell", asked.dwell_s), ("--from-speed", asked.start_mps), ("--to-speed", asked.end_mps)):

@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 from workbench.compile.casadi_tree import casadi_of
 from workbench.compile.vector_code import numeric_vector
+from workbench.systems.event import Event
 from workbench.systems.symbols import expression, interval, require_distinct, require_known, symbols_of
 
 Limits = tuple[float, float]
@@ -61,8 +62,9 @@ class Plant:
 
     rates: one expression a state, in their order; outputs: what can be measured, symbol to expression, the states
     themselves where none is given; limits of inputs saturate them, limits of states are what MPC keeps and what a run
-    is measured against; domain: expressions that must stay positive, a run ends where one is not; units: of states,
-    inputs, outputs and disturbances. Raises ValueError, one line, for what fits not together.
+    is measured against; domain: expressions that must stay positive, a run ends where one is not; events: what resets
+    states in a run, where an expression crosses zero; units: of states, inputs, outputs and disturbances. Raises
+    ValueError, one line, for what fits not together.
     """
 
     id: str
@@ -75,6 +77,7 @@ class Plant:
     input_limits: Mapping[sp.Symbol, Limits] = field(default_factory=dict)
     state_limits: Mapping[sp.Symbol, Limits] = field(default_factory=dict)
     domain: Sequence[Any] = ()
+    events: Sequence[Event] = ()
     units: Mapping[sp.Symbol, str] = field(default_factory=dict)
     title: str = ""
     source: str = ""
@@ -105,11 +108,25 @@ class Plant:
         require_known({f"output '{s}'": value for s, value in self.outputs.items()},
                       (*self.states, *self.parameter_symbols), where)
         require_known({f"domain expression {e}": e for e in self.domain}, known, where)
+        self._check_events(where, known)
         put(self, "input_limits", self._limits(self.input_limits, self.inputs, "input"))
         put(self, "state_limits", self._limits(self.state_limits, self.states, "state"))
         for symbol in self.units:
             if symbol not in (*known, *self.outputs):
                 raise ValueError(f"{where}: units name '{symbol}', which the plant does not have: leave it out")
+
+    def _check_events(self, where: str, known: Sequence[sp.Symbol]) -> None:
+        object.__setattr__(self, "events", tuple(self.events))
+        names = [event.id for event in self.events]
+        for event in self.events:
+            if names.count(event.id) > 1:
+                raise ValueError(f"{where}: two events are called '{event.id}': rename one")
+            for symbol in event.reset:
+                if symbol not in self.states:
+                    raise ValueError(f"{where}: event '{event.id}' resets '{symbol}', which is no state: name one of "
+                                     f"{', '.join(map(str, self.states))}")
+            require_known({f"event '{event.id}'": event.expression,
+                           **{f"event '{event.id}': reset of '{s}'": e for s, e in event.reset.items()}}, known, where)
 
     def _limits(self, limits: Mapping[sp.Symbol, Limits], symbols: Iterable[sp.Symbol],
                 kind: str) -> dict[sp.Symbol, Limits]:

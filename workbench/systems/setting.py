@@ -57,9 +57,7 @@ class Setting:
                 raise ValueError(f"{name} = {getattr(self, name)}: give a positive number of seconds")
         if self.duration_s / self.step_s > MOST_STEPS:
             raise ValueError(f"duration_s / step_s is more than {MOST_STEPS}: take a longer step")
-        if self.integrator not in get_args(Integrator):
-            raise ValueError(f"integrator '{self.integrator}' is not known: it is one of "
-                             f"{', '.join(get_args(Integrator))}")
+        self._check_integrator()
         object.__setattr__(self, "parameters", plant.values(self.parameters))
         outputs, inputs = [*map(str, plant.outputs)], [*map(str, plant.inputs)]
         for key, kind, names in (("initial", "state", [*map(str, plant.states)]),
@@ -83,6 +81,14 @@ class Setting:
         if len(set(names)) < len(names):
             raise ValueError(f"two metrics are called '{max(names, key=names.count)}': rename one")
         require_known({f"metric '{m.id}'": m.expression for m in self.metrics}, self.symbols, f"plant '{plant.id}'")
+
+    def _check_integrator(self) -> None:
+        if self.integrator not in get_args(Integrator):
+            raise ValueError(f"integrator '{self.integrator}' is not known: it is one of "
+                             f"{', '.join(get_args(Integrator))}")
+        if self.plant.events and self.integrator != "rk4":
+            raise ValueError(f"integrator '{self.integrator}': plant '{self.plant.id}' has events, which are located "
+                             "within Runge-Kutta steps alone: take 'rk4' and a short step_s")
 
     def _require_names(self, key: str, kind: str, names: list[str]) -> None:
         for name in getattr(self, key):

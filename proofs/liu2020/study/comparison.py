@@ -5,9 +5,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any
 
-from workbench.mpc.controller import KINDS
 from workbench.paper.comparison import ComparedRun, TripComparison, compared_row, comparison_note
-from workbench.paper.drivers import MPC_NAMES, Drivers, keys_in
+from workbench.paper.drivers import MPC_NAMES, MPC_TITLES, Drivers, keys_in
 from workbench.paper.mpc_comparison import differing, known, run_mpc
 from workbench.simulate.closed_loop import NOMINAL, Factors
 
@@ -63,8 +62,7 @@ def value_words(column: int) -> str:
     return f", Value {column}"
 
 
-DRIVERS = Drivers({name: law.title for name, law in LAW_NAMES.items()} | {
-    name: KINDS[kind].title for name, kind in MPC_NAMES.items()}, places, keys, drive, variants)
+DRIVERS = Drivers({name: law.title for name, law in LAW_NAMES.items()} | MPC_TITLES, places, keys, drive, variants)
 
 
 def drawn_runs(study: LiuStudy, runs: Sequence[ComparedRun]) -> tuple[list[ComparedRun], str]:

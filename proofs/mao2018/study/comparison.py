@@ -7,14 +7,14 @@ from typing import Any
 
 from workbench.mpc.controller import KINDS
 from workbench.paper.comparison import ComparedRun, Task, TripComparison, compared_row, comparison_note
-from workbench.paper.drivers import MPC_NAMES, Drivers, keys_in
+from workbench.paper.drivers import MPC_NAMES, MPC_TITLES, Drivers, keys_in
 from workbench.paper.mpc_comparison import differing, known, run_mpc
 from workbench.simulate.closed_loop import NOMINAL, Factors, Run
 
 from ..plant import train
 from ..simulation.trip import law_of, run_under, setting_of, wrong_signs
-from .outcomes import Results
 from .record import MaoStudy
+from .runs import MaoResults
 
 LAW = "law"
 RATES = ("r_1_per_s", "r_2_per_s")
@@ -58,11 +58,10 @@ def variants(study: MaoStudy, name: str) -> dict[str, MaoStudy]:
     return {} if name == LAW else {"": study}
 
 
-DRIVERS = Drivers({LAW: "signs corrected"} | {name: KINDS[kind].title for name, kind in MPC_NAMES.items()},
-                  places, keys, drive, variants)
+DRIVERS = Drivers({LAW: "signs corrected"} | MPC_TITLES, places, keys, drive, variants)
 
 
-def with_own_runs(results: Results, others: Sequence[ComparedRun]) -> list[ComparedRun]:
+def with_own_runs(results: MaoResults, others: Sequence[ComparedRun]) -> list[ComparedRun]:
     """The runs of the comparison with the study's own of its first tuning, case by case; none without others."""
     own = []
     for number in results.numbers if others else ():

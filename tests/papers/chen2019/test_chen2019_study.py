@@ -25,7 +25,7 @@ from proofs.chen2019.simulation.formulas import (
 from proofs.chen2019.simulation.plans import plan
 from proofs.chen2019.study import KIND
 from proofs.chen2019.study.record import ChenStudy
-from proofs.chen2019.study.runs import STATED, grows_from, outcome, run_number, title
+from proofs.chen2019.study.runs import grows_from, outcome, run_case, run_cases, title
 from workbench.cli import app as cli
 from workbench.cli.loading import load
 from workbench.compile.kernel import cars_source
@@ -34,9 +34,9 @@ from workbench.files.toml import validate_record
 from workbench.paper.cells import numbers_in
 from workbench.paper.learning_comparison import rises
 from workbench.paper.study import with_values
-from workbench.report.build import study_document
 from workbench.report.charts.chart import chart_of
 from workbench.report.charts.files import write_curves
+from workbench.report.runs import study_document
 from workbench.report.sources import sourced_values
 from workbench.report.study_page import StudyContent, build_study_page
 from workbench.trains import multi_particle as of_train
@@ -75,8 +75,8 @@ def short(study):
 def runs(short):
     """Of every change by its title, and the stated one."""
     found = {}
-    for i in range(STATED, len(short.changes)):
-        found[title(short, i)] = run_number(short, i)
+    for case in run_cases(short):
+        found[title(short, case)] = run_case(short, case)
     return found
 
 

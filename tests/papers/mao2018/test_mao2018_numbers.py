@@ -12,6 +12,7 @@ from proofs.mao2018 import laws, plant
 from proofs.mao2018.simulation.trip import initial, parameters, setting_of
 from proofs.mao2018.study.record import MaoStudy
 from workbench.files.toml import read_toml, validate_record
+from workbench.paper.study import varied
 from workbench.trains.train import single_particle
 
 
@@ -44,12 +45,12 @@ def test_the_readings_of_the_units(study):
     assert rows.changes[rows.changes[:, 0] == 804][-1][4] == pytest.approx(grade + curve)
     assert rows.terms[:, 3].min() == pytest.approx(-100 / 4e5)
     assert sorted(rows.terms[rows.terms[:, 6] > 0][:, 3]) == [1e-3, 1e-3]
-    whole = study.changed({"readings.resistance": "whole train", "readings.disturbance_unit_n": 1000})
+    whole = varied(study, {"readings.resistance": "whole train", "readings.disturbance_unit_n": 1000}, "test")
     rows = setting_of(whole, whole.cases[4], whole.tunings["scaled"])
     assert rows.changes[0][1] == pytest.approx(8.63)
     assert rows.terms[:, 3].min() == pytest.approx(-0.25)
     assert sorted(rows.terms[rows.terms[:, 6] > 0][:, 3]) == pytest.approx([1e-3 / 400] * 2)
-    steep = study.changed({"readings.angle": "radian"})
+    steep = varied(study, {"readings.angle": "radian"}, "test")
     assert setting_of(steep, steep.cases[0], steep.tunings["scaled"]).changes[-3][4] == pytest.approx(
         9.81 * math.sin(0.018) + curve)
 

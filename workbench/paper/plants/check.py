@@ -140,15 +140,19 @@ def _mismatch(study: LocatedPlantStudy, lyapunov: Lyapunov, entrant: Entrant, sh
     columns = np.array([*known.values()], dtype=float)
     V, rate = np.array([evaluate(at, *row) for at, row in zip(t, columns.T, strict=True)], dtype=float).T
     seen, derived = np.diff(V) / step, rate[:-1]  # at the begin: a signal that jumps does so at a step
-    free = _unlimited(run, plant.inputs)
+    free = _smooth(run, plant.inputs)
     return float(np.max(np.abs(seen - derived)[free], initial=0.0) / max(np.max(np.abs(rate)), 1e-12))
 
 
-def _unlimited(run: PlantRun, inputs: Sequence[sp.Symbol]) -> NDArray[np.bool_]:
-    """Between which rows every input was what the law asked for: limits are no part of the derived rate."""
+def _smooth(run: PlantRun, inputs: Sequence[sp.Symbol]) -> NDArray[np.bool_]:
+    """Between which rows every input was what the law asked for and no event happened: neither is part of the derived
+    rate."""
     free = np.ones(len(run.log), dtype=bool)
     for symbol in inputs:
         free &= np.abs(run.column(f"{symbol}") - run.column(f"{symbol}_wanted")) <= 1e-12
+    t = run.column("t_s")
+    for event in run.events:
+        free[np.searchsorted(t, event.t_s):][:2] = False  # the row after it, and that at it where rounding hides which
     return free[1:]
 
 

@@ -64,7 +64,7 @@ class LocatedPlantStudy(PlantStudy):
             known = [*own, *names_near(self.folder, "laws", StateLaw)]
             raise InputError(self.file, "controllers", f"law '{name}' is not known: name one of "
                              f"{', '.join(dict.fromkeys(known)) or 'laws.py, which is missing or has none,'} "
-                             "or mpc.tracking")
+                             "or mpc.tracking, mpc.economic")
         return found
 
     def entrant(self, name: str, changed: Mapping[str, float] | None = None, shown: str = "") -> Entrant:
@@ -98,7 +98,7 @@ class LocatedPlantStudy(PlantStudy):
         entry = self.controllers[name]
         if isinstance(entry, LawEntry):
             return dict(entry.parameters)
-        tables = ("weights", "input_weights", "change_weights")
+        tables = ("weights", "input_weights", "change_weights", "objective")
         return {"terminal_weight": entry.terminal_weight,
                 **{f"{table}.{key}": value for table in tables for key, value in getattr(entry, table).items()}}
 

@@ -12,7 +12,7 @@ from workbench.paper.study import Study
 from workbench.systems.setting import Integrator
 from workbench.systems.signals import Signal
 
-MPC = "mpc.tracking"
+MPC = ("mpc.tracking", "mpc.economic")
 Values = dict[str, Number]
 Weights = dict[str, NonNegative]
 
@@ -27,12 +27,13 @@ class LawEntry(SourcedRecord):
 
 
 class MpcEntry(SourcedRecord):
-    """Tracking MPC, made from the plant's expressions; the fields are those of `PlantMpc`."""
+    """MPC made from the plant's expressions; the fields are those of `PlantMpc`. Economic MPC minimises metrics."""
 
-    law: Literal["mpc.tracking"]
+    law: Literal["mpc.tracking", "mpc.economic"]
     period_s: Positive
     horizon: Count
-    weights: Weights
+    weights: Weights = Field(default_factory=dict)
+    objective: Values = Field(default_factory=dict)
     input_weights: Weights = Field(default_factory=dict)
     change_weights: Weights = Field(default_factory=dict)
     input_targets: Values = Field(default_factory=dict)
@@ -41,11 +42,21 @@ class MpcEntry(SourcedRecord):
     excess_price: NonNegative = 1e3
     substeps: Count = 1
     solver: Literal["fatrop", "ipopt"] = "fatrop"
+    disturbance_gain: Annotated[float, Strict(), Field(ge=0, le=1)] = 0.0
+    one_iteration: bool = False
+
+    @model_validator(mode="after")
+    def _minimises_something(self) -> Self:
+        if self.law == "mpc.tracking" and not self.weights:
+            raise ValueError("weights: is missing or empty: weigh the outputs that shall follow a reference")
+        if (self.law == "mpc.economic") != bool(self.objective):
+            raise ValueError("objective: weighs metrics for mpc.economic, and for that alone: add it or take it out")
+        return self
 
 
 def _which(data: Any) -> str:
     law = data.get("law") if isinstance(data, dict) else getattr(data, "law", None)
-    return "mpc" if law == MPC else "law"
+    return "mpc" if law in MPC else "law"
 
 
 Controller = Annotated[Annotated[LawEntry, Tag("law")] | Annotated[MpcEntry, Tag("mpc")], Discriminator(_which)]

@@ -29,6 +29,7 @@ class Notation:
         self.single: dict[Node, sp.Expr] = {}
         self.products: dict[Node, list[tuple[tuple[Node, ...], sp.Expr]]] = {}
         self.typed = tuple(letters)
+        self.indices: set[str] = set()
         for typed, meaning in letters.items():
             self._add(typed, meaning)
         for pieces in self.products.values():
@@ -47,6 +48,7 @@ class Notation:
         if isinstance(key, Product):
             self.products.setdefault(key.factors[0], []).append((key.factors, meaning))
         else:
+            self.indices.update(map(str.strip, key.index_parts()) if isinstance(key, Letter) else ())
             known = self.single.setdefault(key, meaning)
             if known != meaning:
                 raise LatexError(f"the notation gives '{typed}' two meanings, {known} and {meaning}: keep one")

@@ -23,7 +23,7 @@ from workbench.proof.latex.write import latex
 class Answer:
     """A line decided, with the goal as it was read, in LaTeX made from what was decided.
 
-    constant: symbols that have no rate, where others have one.
+    constant: symbols that have no rate, where others have one; inputs: those of them that may vary nevertheless.
     """
 
     line: str
@@ -32,6 +32,7 @@ class Answer:
     given: tuple[str, ...]
     flow: tuple[str, ...]
     constant: tuple[str, ...]
+    inputs: tuple[str, ...]
     counterexample: Mapping[str, str]
 
     def document(self) -> AnswerDocument:
@@ -39,7 +40,7 @@ class Answer:
         found = self.decision
         return {"version": 1, "line": self.line, "verdict": found.verdict, "method": found.method, "trust": found.trust,
                 "goal": {"show": list(self.shown), "assume": list(self.given), "flow": list(self.flow),
-                         "constant": list(self.constant)},
+                         "constant": list(self.constant), "inputs": list(self.inputs)},
                 "counterexample": dict(self.counterexample) or None, "certificate": found.certificate}
 
 
@@ -60,7 +61,8 @@ def asked(line: str, symbols: Symbols) -> Goal:
         if not any(rate.args[0].has(symbol) for symbol in flow):
             raise LatexError(f"a rate of {latex(rate.args[0], symbols.letters)}, which does not move: give the rates "
                              "of its letters under [flow], or before an arrow")
-    return Goal(claimed, tuple(assume), flow if rates else {})
+    return Goal(claimed, tuple(assume), flow if rates else {},
+                inputs=tuple(symbol for symbol in symbols.inputs if symbol not in flow) if rates else ())
 
 
 def answer(line: str, symbols: Symbols) -> Answer:
@@ -78,5 +80,7 @@ def answer(line: str, symbols: Symbols) -> Answer:
         tuple(map(written, (*goal.signs(), *goal.assume))),
         tuple(rf"\frac{{d}}{{dt}} {latex(s, symbols.letters)} = {latex(rate, symbols.letters)}"
               for s, rate in goal.flow.items()),
-        tuple(latex(s, symbols.letters) for s in goal.symbols() if s not in goal.flow) if goal.flow else (),
+        tuple(latex(s, symbols.letters) for s in goal.symbols()
+              if s not in goal.flow and s not in goal.inputs) if goal.flow else (),
+        tuple(latex(s, symbols.letters) for s in goal.inputs),
         {symbols.letters.get(name, name): value for name, value in (decision.counterexample or {}).items()})

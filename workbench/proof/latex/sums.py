@@ -11,12 +11,12 @@ import sympy as sp
 
 from workbench.proof.latex.error import LatexError
 from workbench.proof.latex.limits import MOST_SUMMANDS
+from workbench.proof.latex.notation import Notation
 from workbench.proof.latex.read import read_line
 from workbench.proof.latex.tree import Big, Dot, Group, Letter, Node, Number, Product, Terms
 from workbench.proof.latex.vectors import is_vector
 
 _INDEX = re.compile(r"(?P<letter>(\\[A-Za-z]+|[A-Za-z])(_\w+)?)(=(?P<first>.+))?", re.DOTALL)
-_INDEX_PART = re.compile(r"\\[A-Za-z]+ ?|.", re.DOTALL)
 
 
 class Reading(Protocol):
@@ -25,6 +25,10 @@ class Reading(Protocol):
     @property
     def limits(self) -> sp.Tuple | None:
         """The limits of the goal's sums."""
+
+    @property
+    def notation(self) -> Notation:
+        """What letters stand for."""
 
     @property
     def index(self) -> str | None:
@@ -62,6 +66,7 @@ def _sum(converter: Reading, sign: Big, rest: tuple[Node, ...]) -> sp.Expr:
     ends = _ends(converter, found["first"], sign)
     if ends is not None and all(end.is_Integer for end in ends):
         return _written_out(converter, letter, ends, rest, sign.position)
+    letter, rest = _with_known_index(converter, letter, rest, sign.position)
     body = converter.within(letter).product(rest)
     if not is_vector(body):
         raise LatexError(f"nothing behind the sum has the index '{letter}': correct the notation", sign.position)
@@ -80,6 +85,21 @@ def _sum(converter: Reading, sign: Big, rest: tuple[Node, ...]) -> sp.Expr:
     return sp.Sum(body, (index, *ends))
 
 
+def _with_known_index(converter: Reading, letter: str, rest: tuple[Node, ...],
+                      position: int) -> tuple[str, tuple[Node, ...]]:
+    """The summand with the index that the notation's components bear, where it knows none by the sum's own letter.
+
+    Which letter a sum counts by says nothing: sum e_i^2 over i is sum e_j^2 over j.
+    """
+    known = None if converter.limits is None else str(converter.limits[0])
+    if known is None or known == letter or letter in converter.notation.indices:
+        return letter, rest
+    if any(_mentions(node, known) for node in rest):
+        raise LatexError(f"within the sum over '{letter}' stands the index '{known}' too: count by a letter that is "
+                         "not used", position)
+    return known, tuple(_put(node, letter, Letter(known)) for node in rest)
+
+
 def _ends(converter: Reading, first: str | None, sign: Big) -> tuple[sp.Expr, sp.Expr] | None:
     if (first is None) != (sign.above is None):
         raise LatexError("the sum has one end only: write both, or none", sign.position)
@@ -96,23 +116,33 @@ def _written_out(converter: Reading, letter: str, ends: tuple[sp.Expr, sp.Expr],
     first, last = map(int, ends)
     if not 0 <= last - first < MOST_SUMMANDS:
         raise LatexError(f"a sum from {first} to {last}: write one of 1 to {MOST_SUMMANDS} terms", position)
-    return sp.Add(*(converter.product(tuple(_put(node, letter, number) for node in rest))
+    return sp.Add(*(converter.product(tuple(_put(node, letter, Number(Fraction(number))) for node in rest))
                     for number in range(first, last + 1)))
 
 
-def _put(node: Any, letter: str, number: int) -> Any:
-    """The node with a number in place of an index's letter."""
+def _put(node: Any, letter: str, by: Number | Letter) -> Any:
+    """The node with a number or another letter in place of an index's letter."""
     if isinstance(node, Letter) and node == Letter(letter):
-        return Number(Fraction(number), position=node.position)
+        return replace(by, position=node.position)
     if isinstance(node, Letter):
-        parts = [part.group() for part in _INDEX_PART.finditer(node.index)]
-        return replace(node, index="".join(str(number) if part.strip() == letter else part for part in parts))
+        typed = by.name if isinstance(by, Letter) else str(by.value)
+        return replace(node, index="".join(typed if part.strip() == letter else part for part in node.index_parts()))
     if isinstance(node, tuple):
-        return tuple(_put(part, letter, number) for part in node)
+        return tuple(_put(part, letter, by) for part in node)
     if isinstance(node, Node) and is_dataclass(node):
-        return replace(node, **{f.name: _put(getattr(node, f.name), letter, number) for f in fields(node)
+        return replace(node, **{f.name: _put(getattr(node, f.name), letter, by) for f in fields(node)
                                 if f.name != "position"})
     return node
+
+
+def _mentions(node: Any, letter: str) -> bool:
+    """Whether a letter stands in a node, by itself or as an index."""
+    if isinstance(node, Letter):
+        return node.name == letter or letter in (part.strip() for part in node.index_parts())
+    if isinstance(node, tuple):
+        return any(_mentions(part, letter) for part in node)
+    return isinstance(node, Node) and is_dataclass(node) and any(
+        _mentions(getattr(node, f.name), letter) for f in fields(node) if f.name != "position")
 
 
 def _integrals(sign: Big, rest: tuple[Node, ...]) -> list[tuple[sp.Expr, tuple[Node, ...]]]:

@@ -33,23 +33,27 @@ class SymbolsFile(FileRecord):
 
     symbols: letters and what is known of each; a vector has components 1..n. definitions: letters that stand for an
     expression of letters before them. assumptions: relations that hold. flow: rates of the letters that move in time.
+    inputs: letters without a rate that may vary in time; all others are constant.
     """
 
     symbols: dict[Text, Kind] = Field(min_length=1)
     definitions: dict[Text, Text] = Field(default_factory=dict)
     assumptions: tuple[Text, ...] = ()
     flow: dict[Text, Text] = Field(default_factory=dict)
+    inputs: tuple[Text, ...] = ()
 
 
 @dataclass(frozen=True)
 class Symbols:
-    """Letters ready for use: the notation, LaTeX for the names of symbols, assumptions, rates, limits of sums."""
+    """Letters ready for use: the notation, LaTeX for the names of symbols, assumptions, rates, limits of sums, and the
+    symbols that vary without a rate."""
 
     notation: Mapping[str, sp.Expr]
     letters: Mapping[str, str]
     assume: tuple[Relation, ...] = ()
     flow: Mapping[sp.Expr, sp.Expr] = field(default_factory=dict)
     limits: sp.Tuple | None = None
+    inputs: tuple[sp.Symbol | sp.Indexed, ...] = ()
 
 
 def load_symbols(path: Path) -> Symbols:
@@ -102,6 +106,7 @@ def symbols_in(record: SymbolsFile, path: Path) -> Symbols:
             raise InputError(path, f"flow.{typed}", "is none of the symbols: add it there, as it is typed here")
         flow[moving] = _expression(path, f"flow.{typed}", formula, notation, limits,
                                    vector=isinstance(moving, sp.Indexed))
+    inputs = _inputs(path, record, notation, flow)
     assume: list[Relation] = []
     for number, formula in enumerate(record.assumptions):
         try:
@@ -111,7 +116,22 @@ def symbols_in(record: SymbolsFile, path: Path) -> Symbols:
         if stated.conditions:
             raise InputError(path, f"assumptions[{number}]", "has a condition of its own: state relations only")
         assume += relations(stated.claimed)
-    return Symbols(notation, letters, tuple(assume), flow, limits)
+    return Symbols(notation, letters, tuple(assume), flow, limits, inputs)
+
+
+def _inputs(path: Path, record: SymbolsFile, notation: Mapping[str, sp.Expr],
+            flow: Mapping[sp.Expr, sp.Expr]) -> tuple[sp.Symbol | sp.Indexed, ...]:
+    """The symbols that may vary without a rate."""
+    inputs: list[sp.Symbol | sp.Indexed] = []
+    for number, typed in enumerate(record.inputs):
+        varying = notation[typed] if typed in record.symbols else None
+        if not isinstance(varying, (sp.Symbol, sp.Indexed)):
+            raise InputError(path, f"inputs[{number}]", f"{typed!r} is none of the symbols: add it there, as it is "
+                             "typed here")
+        if varying in flow:
+            raise InputError(path, f"inputs[{number}]", f"{typed!r} has a rate under [flow] too: keep one of the two")
+        inputs.append(varying)
+    return tuple(inputs)
 
 
 def _expression(path: Path, key: str, formula: str, notation: Mapping[str, sp.Expr], limits: sp.Tuple | None,

@@ -6,8 +6,11 @@ counted in characters from the line's start; they are for messages and do not en
 
 from __future__ import annotations
 
+import re
 from dataclasses import dataclass, field
 from fractions import Fraction
+
+_INDEX_PART = re.compile(r"\\[A-Za-z]+ ?|.", re.DOTALL)
 
 
 @dataclass(frozen=True)
@@ -40,6 +43,10 @@ class Letter(Node):
     accents: tuple[str, ...] = ()
     index: str = ""
     mark: str = ""
+
+    def index_parts(self) -> tuple[str, ...]:
+        """The letters, digits and commas of its index, in order; a command with the blank behind it."""
+        return tuple(_INDEX_PART.findall(self.index))
 
 
 @dataclass(frozen=True)

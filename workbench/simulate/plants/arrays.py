@@ -15,6 +15,8 @@ from workbench.compile.kernel import loop_module
 from workbench.compile.vector_code import into_array, runge_kutta_step, smallest
 from workbench.model.law import period, time
 from workbench.simulate.plants import plant_loop
+from workbench.simulate.plants.event_code import event_functions
+from workbench.simulate.plants.event_loop import MOST_IN_A_RUN
 from workbench.systems.law import StateLaw
 from workbench.systems.setting import Setting
 from workbench.systems.signals import table_of
@@ -49,7 +51,7 @@ def compiled(setting: Setting, law: StateLaw | None) -> Compiled:
         runge_kutta_step([*plant.rates, *integrands], plant.states, given),
         into_array("plant_outputs", list(plant.outputs.values()), {"x": plant.states, "p": plant.parameter_symbols}),
         smallest("plant_margin", plant.domain, every),
-        into_array("extreme_values", extremes, every)]
+        into_array("extreme_values", extremes, every), *event_functions(plant, every)]
     if law is None:
         source += [into_array("law_step", [], held, sampled), smallest("law_margin", [], held, sampled)]
     else:
@@ -83,6 +85,14 @@ class Arrays:
     p: Array
     extremes: Array
     values: Array
+    sides: Array
+    crossing: Array
+    slopes: Array
+    event_log: Array
+    event_count: IntArray
+    moved: Array
+    inputs: Array
+    event_signals: Array
     log: Array
     log_every: int
     told: Array
@@ -93,8 +103,10 @@ class Arrays:
                 self.fade_full, *self.for_signals(), self.log, self.log_every, self.told)
 
     def for_signals(self) -> tuple[Any, ...]:
-        """Signals, parameters and extremes."""
-        return (self.table, self.pieces, self.s, self.s_middle, self.s_end, self.p, self.extremes, self.values)
+        """Signals, parameters, extremes and events."""
+        return (self.table, self.pieces, self.s, self.s_middle, self.s_end, self.p, self.extremes, self.values,
+                self.sides, self.crossing, self.slopes, self.event_log, self.event_count, self.moved, self.inputs,
+                self.event_signals)
 
 
 def arrays_of(setting: Setting, found: Compiled, law_states: Array) -> Arrays:
@@ -110,13 +122,17 @@ def arrays_of(setting: Setting, found: Compiled, law_states: Array) -> Arrays:
     every = max(1, setting.steps_of(setting.log_every_s, "log_every_s")) if setting.log_every_s else log_step(setting)
     rows = math.ceil(round(setting.duration_s / setting.step_s) / every) + 1
     columns = 1 + len(plant.states) + 2 * m + len(table) + len(law_states)
-    size = 4 * len(table)
+    size, count = 4 * len(table), len(plant.events)
+    sides = np.array([(0.0, *event.sides, 0.0) for event in plant.events]).reshape(count, 4)
     return Arrays(
         x=x, wanted=np.zeros(m), u=np.zeros(m), u_middle=np.zeros(m), u_end=np.zeros(m), delays=delays,
         ring=np.zeros((int(delays.max(initial=0)) + 1, m)), fade_half=half, fade_full=full, table=table, pieces=pieces,
         s=np.zeros(size), s_middle=np.zeros(size), s_end=np.zeros(size),
         p=np.array([*setting.parameters.values()], dtype=float), extremes=np.full(len(found.extremes), -math.inf),
-        values=np.zeros(len(found.extremes)), log=np.zeros((rows, columns)), log_every=every, told=law_states.copy())
+        values=np.zeros(len(found.extremes)), sides=sides, crossing=np.zeros(count), slopes=np.zeros(count),
+        event_log=np.zeros((MOST_IN_A_RUN if count else 0, 2 + len(plant.states))), event_count=np.zeros(1, np.int64),
+        moved=np.zeros(len(x)), inputs=np.zeros((3, m)), event_signals=np.zeros((3, size)),
+        log=np.zeros((rows, columns)), log_every=every, told=law_states.copy())
 
 
 def log_step(setting: Setting) -> int:

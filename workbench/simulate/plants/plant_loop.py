@@ -1,15 +1,22 @@
 """The sampled closed loop of any plant; joined with the generated functions of a plant and a law, and compiled.
 
-Generated: plant_step, plant_rates, plant_outputs, plant_margin, extreme_values, law_step, law_margin. Arrays:
+Generated: plant_step, plant_rates, plant_outputs, plant_margin, extreme_values, law_step, law_margin, and
+step_with_events where the plant has events (`event_loop.py`). Arrays:
 x the states and what is integrated with them; u inputs as they act; s signals, four values each (value and three
 rates), disturbances first, then references; p parameters.
 """
 
-# ruff: noqa: F821, ANN001, ANN201
+# ruff: noqa: F821, ANN001, ANN201, PLR0912
 # mypy: ignore-errors
 
 import math
 
+from workbench.simulate.plants import event_loop
+
+SHARES = (event_loop,)
+# What Python calls; all else is called by compiled functions alone.
+ENTRIES = ("signal_values", "limited", "plant_rates", "plant_outputs", "plant_margin", "law_margin", "law_step",
+           "advance", "add_extremes", "record", "closed_loop")
 RUNNING, DIVERGED, OUTSIDE, NO_COMMAND, LAW_OUTSIDE = 0, 1, 2, 3, 4
 
 # --- shared ---
@@ -65,7 +72,8 @@ def limited(command, lower, upper, out):
 
 
 def advance(first, count, h, states, x, wanted, u, u_middle, u_end, delays, ring, fade_half, fade_full, table, pieces,
-            s, s_middle, s_end, p, extremes, values, log, log_every, told):
+            s, s_middle, s_end, p, extremes, values, sides, crossing, slopes, event_log, event_count, moved, inputs,
+            signals, log, log_every, told):
     """Move the plant by `count` steps with the command `wanted` held; (status, steps done).
 
     ring: the last commands, a row a step, for delayed inputs; fade: what is left of an input's distance to its
@@ -73,10 +81,10 @@ def advance(first, count, h, states, x, wanted, u, u_middle, u_end, delays, ring
     taken from them, for the log.
     """
     length = ring.shape[0]
-    delayed, signals = length > 1, table.shape[0]
+    delayed, moving = length > 1, table.shape[0] > 0
     for k in range(first, first + count):
         t = k * h
-        if signals > 0:
+        if moving:
             signal_values(t, t, table, pieces, s)
             signal_values(t + 0.5 * h, t, table, pieces, s_middle)
             signal_values(t + h, t, table, pieces, s_end)
@@ -94,7 +102,13 @@ def advance(first, count, h, states, x, wanted, u, u_middle, u_end, delays, ring
             record(t, states, x, u, wanted, s, told, log, k // log_every)
         if extremes.shape[0] > 0:
             add_extremes(t, x, u, s, p, extremes, values)
-        plant_step(t, h, x, u, s, u_middle, s_middle, u_end, s_end, p)
+        if sides.shape[0] > 0:
+            status = step_with_events(k, h, states, x, u, u_end, fade_full, table, pieces, p, extremes, values, sides,
+                                      crossing, slopes, event_log, event_count, moved, inputs, signals)
+            if status != 0:
+                return status, k + 1 - first
+        else:
+            plant_step(t, h, x, u, s, u_middle, s_middle, u_end, s_end, p)
         for i in range(u.shape[0]):
             u[i] = u_end[i]
         for i in range(states):
@@ -133,8 +147,9 @@ def record(t, states, x, u, wanted, s, law_states, log, row):
 
 
 def closed_loop(samples, every, h, states, x, wanted, u, u_middle, u_end, delays, ring, fade_half, fade_full, lower,
-                upper, table, pieces, s, s_middle, s_end, p, extremes, values, log, log_every, told, measured, noise,
-                late, seen, law_states, law_parameters, command):
+                upper, table, pieces, s, s_middle, s_end, p, extremes, values, sides, crossing, slopes, event_log,
+                event_count, moved, inputs, signals, log, log_every, told, measured, noise, late, seen, law_states,
+                law_parameters, command):
     """Samples of `every` plant steps each: measure, command, hold; (status, plant steps done)."""
     period, kept = every * h, seen.shape[0]
     for sample in range(samples):
@@ -153,8 +168,8 @@ def closed_loop(samples, every, h, states, x, wanted, u, u_middle, u_end, delays
         if not limited(command, lower, upper, wanted):
             return 3, sample * every
         status, done = advance(sample * every, every, h, states, x, wanted, u, u_middle, u_end, delays, ring, fade_half,
-                               fade_full, table, pieces, s, s_middle, s_end, p, extremes, values, log, log_every,
-                               told)
+                               fade_full, table, pieces, s, s_middle, s_end, p, extremes, values, sides, crossing,
+                               slopes, event_log, event_count, moved, inputs, signals, log, log_every, told)
         if status != 0:
             return status, sample * every + done
     return 0, samples * every

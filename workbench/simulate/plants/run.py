@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 
 from workbench.compile.vector_code import numeric_vector
 from workbench.simulate.plants.arrays import Arrays, Compiled, arrays_of, compiled
+from workbench.simulate.plants.event_loop import MOST_IN_A_RUN, MOST_IN_A_STEP, PILED_UP, TOO_MANY
 from workbench.simulate.plants.plant_loop import DIVERGED, LAW_OUTSIDE, NO_COMMAND, OUTSIDE, RUNNING
 from workbench.simulate.plants.solver import advance_by_solver
 from workbench.systems.law import StateLaw
@@ -74,12 +75,22 @@ class Entrant:
 
 
 @dataclass(frozen=True)
+class Happened:
+    """An event of a run: when, which, and the plant's states just after it."""
+
+    t_s: float
+    id: str
+    states: tuple[float, ...]
+
+
+@dataclass(frozen=True)
 class PlantRun:
     """What a controller did: its log, a row an instant, and its metrics by name; failed says why it ended early.
 
     columns: t_s, states, inputs as they act, commands (`<input>_wanted`), signals by name, the law's states. step_us:
     microseconds of a control step; of a law with the plant's integration, of a sampled controller alone, the 99th
     percentile of which is step_us_p99. fallbacks: samples at which a sampled controller had to do without its solver.
+    events: in the order in which they happened.
     """
 
     name: str
@@ -91,6 +102,7 @@ class PlantRun:
     step_us: float
     step_us_p99: float
     fallbacks: int = 0
+    events: tuple[Happened, ...] = ()
 
     @cached_property
     def data(self) -> dict[str, Array]:
@@ -237,7 +249,9 @@ def _told(setting: Setting, entrant: Entrant, found: Compiled, a: Arrays, status
                *setting.signals, *(map(str, law.state_symbols) if law else ()))
     return PlantRun(entrant.name, columns, a.log[:rows], _metrics(setting, a, t, status == RUNNING),
                     _why(setting, entrant, status, t, a), t, float(np.median(taken)),
-                    float(np.percentile(taken, 99)))
+                    float(np.percentile(taken, 99)), events=tuple(
+                        Happened(float(row[0]), plant.events[int(row[1])].id, tuple(map(float, row[2:])))
+                        for row in a.event_log[:a.event_count[0]]))
 
 
 def _metrics(setting: Setting, a: Arrays, t: float, whole: bool) -> dict[str, float | None]:
@@ -275,6 +289,10 @@ def _why(setting: Setting, entrant: Entrant, status: int, t: float, a: Arrays) -
     where = ", ".join(f"{symbol} = {value:.4g}" for symbol, value in zip(plant.states, a.x, strict=False))
     law = entrant.law
     domain = ", ".join(f"{e} > 0" for e in (plant.domain if status == OUTSIDE else law.domain if law else ()))
-    what = {DIVERGED: "diverged", OUTSIDE: f"left the plant's domain ({domain})",
+    last = plant.events[int(a.event_log[a.event_count[0] - 1, 1])].id if a.event_count[0] else ""
+    what = {PILED_UP: f"met event '{last}' more often than {MOST_IN_A_STEP} times in a plant step, or faster than "
+            "numbers tell apart: state a mode in which the plant rests; this was",
+            TOO_MANY: f"met more than {MOST_IN_A_RUN} events, '{last}' last, which was",
+            DIVERGED: "diverged", OUTSIDE: f"left the plant's domain ({domain})",
             NO_COMMAND: "gave a command that is no number", LAW_OUTSIDE: f"left its domain ({domain})"}
     return f"{entrant.name} {what.get(status, 'was given up by the solver')} at t = {t:.4g} s, {where}"

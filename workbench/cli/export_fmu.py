@@ -1,0 +1,31 @@
+"""`workbench export-fmu`: a control law for other simulators."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from workbench.cli.options import PaperOrFile, load
+from workbench.cli.terminal import out_console
+
+NAME = "export-fmu"
+
+
+def command(paper: PaperOrFile,
+            controller: Annotated[str, typer.Argument(metavar="CONTROLLER", help="A controller of the file: a law.")],
+            out: Annotated[Path, typer.Option(metavar="FILE", help="The unit, as law.fmu.")]) -> None:
+    """Write a control law with its stated values as a co-simulation unit of FMI 3.0, for Simulink, Modelica tools and
+    FMPy; one sample is: set the inputs, read the commands, step by the law's period."""
+    from workbench.files.outputs import check_outputs
+    from workbench.files.writing import write_bytes
+    from workbench.fmu.build import fmu_bytes
+    from workbench.fmu.unit import unit_of
+
+    loaded = load(paper)
+    check_outputs({"--out": out}, [loaded.path])
+    unit = unit_of(loaded, controller)
+    write_bytes(out, fmu_bytes(unit))
+    out_console.print(f"{out}: {unit.name}, every {unit.period_s:g} s, from {', '.join(unit.inputs)} to "
+                      f"{', '.join(unit.commands)}", soft_wrap=True, highlight=False, markup=False)
