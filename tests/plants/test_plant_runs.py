@@ -149,16 +149,22 @@ def test_noise_is_the_same_for_the_same_seed_and_has_its_deviation():
 STILL = Plant("still", (x, v), (0, 0), inputs=(u,))
 
 
-@pytest.mark.parametrize(("plant", "law", "initial", "words"), [
-    (Plant("blowup", (x,), (x**2,), inputs=(u,)), StateLaw("l", {u: 0}), 2.0, r"l diverged at t = 0\.5"),
-    (Plant("tank", (x,), (-1 + u,), inputs=(u,), domain=(x,)), StateLaw("l", {u: 0}), 1.0,
-     r"left the plant's domain \(x > 0\) at t = 1 s"),
-    (Plant("pole", (x,), (u,), inputs=(u,)), StateLaw("l", {u: sp.log(x) - 1}), -1.0,
-     "gave a command that is no number"),
-    (Plant("barrier", (x,), (u,), inputs=(u,)), StateLaw("l", {u: 1}, domain=(1.95 - x,)), 1.0,
-     r"left its domain \(1\.95 - x > 0\) at t = 1 s")])
-def test_a_run_that_ends_early_says_why_and_has_no_metrics(plant, law, initial, words):
-    found = run(Setting(plant, 3.0, initial={"x": initial}), Entrant("l", 0.1, law))
+a, b, room, push, root, top = sp.symbols("a b room push root top", real=True)
+ANYWHERE = {"a": 0.0, "b": 0.0, "room": 1e300}, {"push": 0.0, "root": 0.0, "top": 1e300}
+
+
+@pytest.mark.parametrize(("of_plant", "of_law", "initial", "words"), [
+    ({"a": 1.0}, {}, 2.0, r"l diverged at t = 0\.5"),
+    ({"b": -1.0, "room": 0.0}, {}, 1.0, r"left the plant's domain \(room \+ x > 0\) at t = 1 s"),
+    ({}, {"root": 1.0}, -1.0, "gave a command that is no number"),
+    ({}, {"push": 1.0, "top": 1.95}, 1.0, r"left its domain \(top - x > 0\) at t = 1 s")])
+def test_a_run_that_ends_early_says_why_and_has_no_metrics(of_plant, of_law, initial, words):
+    """One plant and one law, compiled once, whose values decide which end a run meets."""
+    plant = Plant("ends", (x,), (a * x**2 + b + u,), inputs=(u,), domain=(x + room,),
+                  parameters=[Parameter(symbol, ANYWHERE[0][str(symbol)]) for symbol in (a, b, room)])
+    law = StateLaw("l", {u: push + sp.sqrt(root * x)}, parameters=(push, root, top), domain=(top - x,))
+    found = run(Setting(plant, 3.0, initial={"x": initial}, parameters=of_plant),
+                Entrant("l", 0.1, law, ANYWHERE[1] | of_law))
     assert found.failed is not None and re.search(words, found.failed), found.failed
     assert set(found.metrics.values()) == {None} and found.reached_s < 3.0
     assert np.isfinite(found.log).all()

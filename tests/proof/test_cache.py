@@ -25,6 +25,24 @@ def cache(tmp_path, monkeypatch):
     return tmp_path / "cache" / "decided-claims"
 
 
+@pytest.fixture(scope="module")
+def decided(tmp_path_factory):
+    """The small paper decided once: its folder, the cache that this filled, and what was decided."""
+    place = tmp_path_factory.mktemp("decided")
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setenv("WORKBENCH_CACHE", str(place / "cache"))
+        patch.setattr(kept_module, "engine_digest", lambda: "these deciders")
+        return place / "paper", place / "cache", proved(write_paper(place / "paper"))
+
+
+@pytest.fixture
+def filled(decided, cache):
+    """A paper that is in the cache, and what was decided of it."""
+    folder, before, proof = decided
+    shutil.copytree(before, cache.parent)
+    return write_paper(folder), proof
+
+
 def decided_now(proof):
     return set(proof.now) & DECIDED
 
@@ -46,9 +64,8 @@ def test_a_second_run_gives_the_same_document_and_the_same_certificates(tmp_path
     assert [d.tainted_by for d in second.decisions] == [(), (), (), (IDS[2],), (IDS[2],)]
 
 
-def test_without_the_proof_file_s_entry_each_claim_is_found_by_itself(tmp_path, cache):
-    path = write_paper(tmp_path)
-    first = proved(path)
+def test_without_the_proof_file_s_entry_each_claim_is_found_by_itself(filled, cache):
+    path, first = filled
     shutil.rmtree(cache / "files")
     second = proved(path)
     assert decided_now(second) == set()
@@ -85,11 +102,10 @@ CHANGES = {
 
 
 @pytest.mark.parametrize("change", CHANGES)
-def test_a_change_decides_again_what_it_touches_and_nothing_else(change, tmp_path):
+def test_a_change_decides_again_what_it_touches_and_nothing_else(change, filled):
     text, touched = CHANGES[change]
     assert text != TEXT
-    proved(write_paper(tmp_path))
-    path = write_paper(tmp_path, text)
+    path = write_paper(filled[0].parent, text)
     again = proved(path)
     assert set(again.now) - {IDS[4]} == touched
     assert document(again, seconds=False) == document(proved(path, use_cache=False), seconds=False)
@@ -127,9 +143,8 @@ def test_a_file_that_was_read_before_and_has_gone_is_in_no_one_s_way(tmp_path):
     assert proved(path).now == frozenset()
 
 
-def test_changed_deciders_decide_everything_again(tmp_path, monkeypatch):
-    path = write_paper(tmp_path)
-    proved(path)
+def test_changed_deciders_decide_everything_again(filled, monkeypatch):
+    path, _ = filled
     monkeypatch.setattr(kept_module, "engine_digest", lambda: "another")
     assert decided_now(proved(path)) == DECIDED
     assert proved(path).now == frozenset()
@@ -189,9 +204,8 @@ def sealed(text):
 
 
 @pytest.mark.parametrize("damage", DAMAGES)
-def test_a_damaged_entry_is_ignored_and_written_anew(damage, tmp_path, cache):
-    path = write_paper(tmp_path)
-    first = proved(path)
+def test_a_damaged_entry_is_ignored_and_written_anew(damage, filled, cache):
+    path, first = filled
     for entry in [*entries(cache, "files"), *entries(cache, "claims")]:
         entry.write_bytes(DAMAGES[damage](entry.read_bytes()))
     again = proved(path)
@@ -200,9 +214,8 @@ def test_a_damaged_entry_is_ignored_and_written_anew(damage, tmp_path, cache):
     assert proved(path).now == frozenset()
 
 
-def test_an_entry_that_stands_for_another_claim_is_ignored(tmp_path, cache):
-    path = write_paper(tmp_path)
-    first = proved(path)
+def test_an_entry_that_stands_for_another_claim_is_ignored(filled, cache):
+    path, first = filled
     shutil.rmtree(cache / "files")
     one, *others = entries(cache, "claims")
     for other in others:
@@ -210,9 +223,8 @@ def test_an_entry_that_stands_for_another_claim_is_ignored(tmp_path, cache):
     assert document(proved(path), seconds=False) == document(first, seconds=False)
 
 
-def test_a_well_sealed_entry_needs_a_certificate_that_holds(tmp_path, cache):
-    path = write_paper(tmp_path)
-    first = proved(path)
+def test_a_well_sealed_entry_needs_a_certificate_that_holds(filled, cache):
+    path, first = filled
     shutil.rmtree(cache / "files")
     for entry in entries(cache, "claims"):
         record = json.loads(entry.read_text().splitlines()[1])

@@ -2,6 +2,7 @@
 
 import json
 import os
+import shutil
 from pathlib import Path
 
 import pytest
@@ -14,14 +15,20 @@ from workbench.proof.document import places, write_certificates
 SHOWN = set(IDS[:4])  # the fifth is assumed: nothing shows it
 
 
-@pytest.fixture
-def paper(tmp_path, monkeypatch):
-    """A paper with its certificates beside it, and an empty cache."""
-    path = write_paper(tmp_path / "paper")
+@pytest.fixture(scope="module")
+def certified(tmp_path_factory):
+    """The folder of a paper with its certificates beside it, decided once for all tests."""
+    path = write_paper(tmp_path_factory.mktemp("certified") / "paper")
     found = proved(path, use_cache=False)
     write_certificates(found.decisions, places(found, None))
+    return path.parent
+
+
+@pytest.fixture
+def paper(certified, tmp_path, monkeypatch):
+    """A copy of the paper and its certificates, and an empty cache."""
     monkeypatch.setenv("WORKBENCH_CACHE", str(tmp_path / "cache"))
-    return path
+    return shutil.copytree(certified, tmp_path / "paper", ignore=shutil.ignore_patterns("__pycache__")) / "small2020.py"
 
 
 def certificate(paper: Path, equation: str) -> Path:
