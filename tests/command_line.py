@@ -1,8 +1,12 @@
 """The command line, called in the tests' own process: the same main, arguments, streams and exit codes, but no start of
-Python and its imports, which take seconds. Some tests start a process of its own all the same (`run_apart`)."""
+Python and its imports, which take seconds. Some tests start a process of its own all the same (`run_apart`).
+
+To a call it is a machine of one core: what a verb would share out among processes, which cost seconds each to start,
+is done here, unless the call says how many `--workers`."""
 
 import contextlib
 import io
+import os
 import subprocess
 import sys
 from dataclasses import dataclass
@@ -26,6 +30,7 @@ def run(*arguments: object, folder: Path = ROOT) -> Ended:
 
     out, err = io.StringIO(), io.StringIO()
     with (patch.object(sys, "argv", ["workbench", *map(str, arguments)]), contextlib.chdir(folder),
+          patch.object(os, "sched_getaffinity", lambda _: {0}, create=True),
           contextlib.redirect_stdout(out), contextlib.redirect_stderr(err)):
         try:
             main()

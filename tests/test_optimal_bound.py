@@ -32,7 +32,7 @@ def own_energy(vehicle, run):
     return used + 2 * beyond / vehicle.traction_efficiency, EXCESS * (work + 1.0)
 
 
-@settings(max_examples=150)
+@settings(max_examples=60)  # of twelve runs each
 @given(vehicles(), courses(), st.data(), st.integers(0, 2**31))
 def test_no_run_takes_less_than_any_certificate_proves(vehicle, course, data, seed):
     runs = random_runs(vehicle, course, seed, 12)
@@ -49,7 +49,7 @@ def test_no_run_takes_less_than_any_certificate_proves(vehicle, course, data, se
         assert bound <= energy + tolerance
 
 
-@settings(max_examples=120)
+@settings(max_examples=60)  # of eight runs each
 @given(vehicles(), courses(), st.data(), st.integers(0, 2**31), numbers(0.0, 12.0), numbers(0.0, 12.0))
 def test_cells_need_not_know_the_limits_nor_the_stops(vehicle, course, data, seed, start_mps, end_mps):
     """Certificates on cells of their own, at runs that start and end at a speed; without tunnels."""
@@ -66,7 +66,7 @@ def test_cells_need_not_know_the_limits_nor_the_stops(vehicle, course, data, see
         assert bound <= energy + tolerance
 
 
-@settings(max_examples=25)
+@settings(max_examples=12)  # of thirty runs each
 @given(vehicles(), courses(4), st.integers(0, 2**31), st.sampled_from([1.03, 1.15, 1.5]))
 def test_no_run_in_time_takes_less_than_the_bound_of_a_reference(vehicle, course, seed, factor):
     runs = random_runs(vehicle, course, seed, 30)

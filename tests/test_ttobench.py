@@ -293,7 +293,7 @@ def mutated(draw, original: dict) -> dict:
     return data
 
 
-@settings(max_examples=300, deadline=None, suppress_health_check=[HealthCheck.too_slow])
+@settings(max_examples=150, deadline=None, suppress_health_check=[HealthCheck.too_slow])
 @given(mutated(TRACK), mutated(TRAIN))
 def test_a_mutated_file_loads_and_runs_or_is_refused_in_one_line(folder, track, train):
     loaded: list[object] = []

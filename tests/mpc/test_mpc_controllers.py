@@ -1,5 +1,6 @@
 """The MPC family as controllers: every one of KINDS keeps its word on a line, whatever is measured or goes wrong."""
 
+import functools
 import math
 
 import numpy as np
@@ -35,6 +36,12 @@ def controller(law, **changes):
     return MpcController(scenario, scenario.controllers["mpc"], "mpc"), scenario.desired_curve()
 
 
+@functools.cache
+def driven(law, factors=Factors()):  # noqa: B008 - frozen
+    """The run of a kind with its plain values, looked at by several tests."""
+    return simulate(scenario_of(law), "mpc", factors)
+
+
 def errors(run):
     return run.column("s_m") - run.column("s_desired_m")
 
@@ -65,8 +72,7 @@ OTHER_TRAINS = [Factors(), Factors(mass=1.1, davis_a=1.2), Factors(mass=0.93, li
 @pytest.mark.parametrize("factors", OTHER_TRAINS)
 @pytest.mark.parametrize("law", KINDS)
 def test_every_kind_keeps_the_band_without_a_failure(law, factors):
-    scenario = scenario_of(law)
-    run = simulate(scenario, "mpc", factors)
+    scenario, run = scenario_of(law), driven(law, factors)
     assert run.failed is None
     assert np.abs(errors(run)).max() < BAND
     assert run.counters["qp"] == len(run.step_us)
@@ -76,7 +82,7 @@ def test_every_kind_keeps_the_band_without_a_failure(law, factors):
 
 @pytest.mark.parametrize("law", KINDS)
 def test_a_run_repeats_bit_for_bit(law):
-    one, other = (simulate(scenario_of(law), "mpc", Factors(mass=1.03)) for _ in range(2))
+    one, other = driven(law, OTHER_TRAINS[1]), simulate(scenario_of(law), "mpc", OTHER_TRAINS[1])
     assert one.log.tobytes() == other.log.tobytes()
     assert one.counters == other.counters
 
@@ -84,7 +90,7 @@ def test_a_run_repeats_bit_for_bit(law):
 def test_an_observer_takes_the_offset_out_and_knowing_the_grades_the_transients():
     rms = {}
     for law in ("mpc.nonlinear", "mpc.offset_free", "mpc.told"):
-        run = simulate(scenario_of(law), "mpc")
+        run = driven(law)
         settled = (run.column("t_s") > 52) & (run.column("s_m") < 499)  # between two changes of the line
         rms[law] = np.sqrt(np.mean(errors(run) ** 2))
         if law != "mpc.nonlinear":

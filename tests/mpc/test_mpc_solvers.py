@@ -116,7 +116,7 @@ def banded(squares):
     return problem, ahead, LinearMpc(problem, ahead)
 
 
-@settings(max_examples=20, deadline=None)
+@settings(max_examples=10, deadline=None)
 @given(st.integers(0, 100), st.tuples(st.floats(-8, 8), st.floats(-3, 3), st.floats(-1, 1)),
        st.sampled_from([0.0, 20.0]))
 def test_linear_programs_are_solved_as_an_outside_solver_does(sample, error, squares):
@@ -131,7 +131,7 @@ def test_linear_programs_are_solved_as_an_outside_solver_does(sample, error, squ
 EXPONENT = st.floats(-3, 4)
 
 
-@settings(max_examples=20, deadline=None)
+@settings(max_examples=10, deadline=None)
 @given(st.tuples(EXPONENT, EXPONENT, st.floats(-1, 2)), st.tuples(st.floats(0, 4), st.floats(0, 4)), st.floats(-1, 1),
        st.integers(0, 100), st.tuples(st.floats(-50, 50), st.floats(-3, 3), st.floats(-1, 1)))
 def test_weights_prices_and_errors_of_all_sizes_are_solved(weights, prices, band, sample, error):

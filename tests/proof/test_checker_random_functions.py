@@ -44,7 +44,7 @@ def expressions(depth, indexed=False):
 ANY = expressions(3)
 GIVEN = st.lists(st.sampled_from(ASSUMED), max_size=2, unique=True)
 SEEDS = st.integers(0, 10**9)
-MANY = settings(max_examples=250)
+MANY = settings(max_examples=125)
 
 
 def read(context, text):
