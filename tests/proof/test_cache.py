@@ -77,8 +77,8 @@ def test_a_second_run_needs_neither_sympy_nor_the_deciders(tmp_path):
     code = ("import sys; sys.argv = ['workbench', 'prove', *sys.argv[1:]]; from workbench.cli.app import main\n"
             "try: main()\nfinally: sys.stdout.write('loaded: ' + ' '.join(sorted(sys.modules)))")
     with deciders_at_rest():
-        for jobs in (("--jobs", "1"), ()):  # nobody need be started to decide so little
-            done = subprocess.run([sys.executable, "-W", "error", "-c", code, str(path), *jobs], cwd=tmp_path,
+        for workers in (("--workers", "1"), ()):  # nobody need be started to decide so little
+            done = subprocess.run([sys.executable, "-W", "error", "-c", code, str(path), *workers], cwd=tmp_path,
                                   capture_output=True, text=True, check=True)
         loaded = set(done.stdout.partition("loaded: ")[2].split())
         assert "workbench.proof.prove" in loaded

@@ -48,9 +48,9 @@ def test_what_they_show_is_what_a_search_finds(paper):
 
 
 def test_the_command_says_so_and_searches_anew_when_asked(paper):
-    said = CliRunner().invoke(app, ["prove", str(paper), "--jobs", "1"]).output
+    said = CliRunner().invoke(app, ["prove", str(paper), "--workers", "1"]).output
     assert "5 decided now (4 by the certificates at hand, checked again), 0 from the cache" in " ".join(said.split())
-    said = CliRunner().invoke(app, ["prove", str(paper), "--no-cache", "--jobs", "1"]).output
+    said = CliRunner().invoke(app, ["prove", str(paper), "--no-cache", "--workers", "1"]).output
     assert "5 decided now, 0 from the cache" in " ".join(said.split())
 
 
