@@ -54,9 +54,9 @@ class ReproducedStudy(Study):
             return self
         return varied(self, self.changes[number].set, f"changes: '{self.changes[number].title}'")
 
-    def change_title(self, number: int) -> str:
-        """What a run is made under, in words."""
-        return "as stated" if number == STATED else self.changes[number].title
+    def change_title(self, number: int) -> str | None:
+        """The title of a change, by its number; None for what is as stated."""
+        return None if number == STATED else self.changes[number].title
 
 
 def one_of(key: str, what: str, name: object, known: Iterable[object]) -> None:

@@ -11,9 +11,8 @@ from workbench.report.certificate_latex import name_latex
 
 INNER = "\ue000"  # a dollar sign inside a formula
 _FORMULA = re.compile(r"\$([^$]*)\$")
-# A letter with indices, `rho_hat`, `4c_k`, `W_v*` and `E_{i-1}` or `e_(i-1)`, and what it is raised to.
+# A letter with indices, `rho_hat`, `4c_k` or `W_v*`, and what it is raised to; below, `E_{i-1}` or `e_(i-1)`.
 _LETTER = re.compile(r"(?<![A-Za-z_.$\\{])([A-Za-z]+(?:_[A-Za-z0-9]+)+)(\*?)(\^\d|\^T\b)?(?![\w]|\.py)")
-_INDEXED = re.compile(r"(?<![\w.$\\{])([A-Za-z]+)_(?:\{([^{}$]+)\}|\(([^()$]+)\))")
 _EXPONENTIAL = re.compile(r"(?<![\w$\\{])(exp|e)\^\(([^()$]*)\)")
 _STEM = re.compile(r"([A-Za-z]+?)(?:d?dot|hat|tilde|bar)?\d*")
 _SIGNS = (("==", "="), ("<=", "≤"), (">=", "≥"), ("!=", "≠"), ("->", "→"))
@@ -21,6 +20,7 @@ _POWER = re.compile(r"(?<![\w$\\{])([A-Za-z])\^(\d|[a-z])(?!\w)")
 _SHORT = {"eps": "varepsilon"}
 _WORDS = ("Re", "Im", "ell", "wp", "partial")  # words, before they are letters
 _NAMES = "|".join(sorted((name for name in GREEK if name not in _WORDS), key=len, reverse=True))
+_INDEXED = re.compile(rf"(?<![\w.$\\{{])({_NAMES}|sum|[A-Za-z])_(?:\{{([^{{}}$]+)\}}|\(([^()$]+)\))")
 # A Greek letter or a single one with its accent in words, such as W-tilde, where no claim's number goes on with it.
 _ACCENTED = re.compile(rf"(?<![\w.$\\{{-])({_NAMES}|eps|[A-Za-z])-(hat|tilde|bar|dot)(?!\w|\.\w)")
 _GREEK = re.compile(rf"(?<![\w.$\\{{])({_NAMES}|eps)(\*|\^\d)?(?!\w|\.\w)")

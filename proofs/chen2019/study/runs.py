@@ -95,7 +95,7 @@ def run_cases(study: ChenStudy) -> list[RunCase]:
 
 def title(study: ChenStudy, case: RunCase) -> str:
     """A run in words."""
-    return study.change_title(case.change)
+    return study.change_title(case.change) or "as stated"
 
 
 def run_case(study: ChenStudy, case: RunCase) -> CarsRun:

@@ -11,7 +11,7 @@ import numpy as np
 
 from workbench.model.desired_curve import DesiredCurve
 from workbench.paper.learning_comparison import rises
-from workbench.paper.reproduced import STATED, Change, Results
+from workbench.paper.reproduced import Change, Results
 from workbench.paper.tracked import Tracked
 
 from .. import laws
@@ -58,14 +58,11 @@ def run_case(study: JiaoStudy, case: Case) -> TrialRun:
 
 def name_of(study: JiaoStudy, case: Case) -> str:
     """A run in words: law, reading, and what is not as stated."""
-    words = [case.law, case.reading]
-    if case.opposed:
-        words.append("resistance against the motion")
-    if case.change != STATED:
-        words.append(study.change_title(case.change))
-    if case.unit_mps2 is not None:
-        words.append(f"unit of u {case.unit_mps2:.3g} m/s^2")
-    return ", ".join(words if case.seed == study.trials.seed else [*words, f"seed {case.seed}"])
+    words = (case.law, case.reading, "resistance against the motion" if case.opposed else None,
+             study.change_title(case.change),
+             None if case.unit_mps2 is None else f"unit of u {case.unit_mps2:.3g} m/s^2",
+             None if case.seed == study.trials.seed else f"seed {case.seed}")
+    return ", ".join(filter(None, words))
 
 
 @dataclass(frozen=True)
@@ -128,7 +125,7 @@ def run_row(study: JiaoStudy, case: Case, run: TrialRun) -> dict[str, Any]:
     trial, ratio = peak(run) if len(run.rows) else (None, None)
     return {
         "controller": case.law, "reading": case.reading, "seed": case.seed,
-        "variant": None if case.change == STATED else study.change_title(case.change), "unit_mps2": case.unit_mps2,
+        "variant": study.change_title(case.change), "unit_mps2": case.unit_mps2,
         "resistance_opposed": case.opposed, "mse_0": mse_at(run, 0),
         **{f"mse_{trial}": mse_at(run, trial) for trial in (*study.trials.compared, study.trials.count)},
         "peak_trial": trial, "peak_over_first": ratio, "trials_worse": rises(run.mse),

@@ -161,7 +161,7 @@ def changes(results: JiaoResults) -> ResultTable:
 
     return ResultTable(
         "How much the assumed data matter", "assumed values", ("Change", *map(results.title, study.shown)),
-        tuple((study.change_title(number), *(cell(entry, number) for entry in study.shown))
+        tuple((study.change_title(number) or "as stated", *(cell(entry, number) for entry in study.shown))
               for number in range(STATED, len(study.changes))),
         f"MSE of trials {', '.join(map(str, study.trials.compared))} and {study.trials.count}, one value changed at a "
         "time. ▲: another outcome, or the last MSE more than doubled or halved.")

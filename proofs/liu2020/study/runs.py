@@ -99,14 +99,11 @@ def run_cases(study: LiuStudy) -> list[RunCase]:
 
 def title_of(study: LiuStudy, case: RunCase) -> str:
     """A run in words: law, column, and what is not as in Table 3."""
-    words = [f"{case.law}, Value {case.column}"]
-    if case.disturbance != study.runs.table_3_disturbance:
-        words.append(study.disturbances[case.disturbance].title)
-    if case.leak_rate_per_s is not None:
-        words.append(f"leak rate {case.leak_rate_per_s:g} 1/s")
-    if case.change != STATED:
-        words.append(study.change_title(case.change))
-    return ", ".join(words)
+    as_table_3 = case.disturbance == study.runs.table_3_disturbance
+    words = (f"{case.law}, Value {case.column}", None if as_table_3 else study.disturbances[case.disturbance].title,
+             None if case.leak_rate_per_s is None else f"leak rate {case.leak_rate_per_s:g} 1/s",
+             study.change_title(case.change))
+    return ", ".join(filter(None, words))
 
 
 def run_case(study: LiuStudy, case: RunCase) -> RunResult:
@@ -185,7 +182,7 @@ def run_row(study: LiuStudy, case: RunCase, result: RunResult) -> dict[str, Any]
     """A run as data, SI units; inputs in N."""
     return {
         "controller": case.law, "column": case.column, "disturbance": case.disturbance,
-        "change": None if case.change == STATED else study.change_title(case.change),
+        "change": study.change_title(case.change),
         "leak_rate_per_s": case.leak_rate_per_s, **{key: result.numbers.get(name) for name, key in ROW.items()},
         "largest_position_error": result.largest_position_error_m, "end_s": result.end_s,
         "step_us_median": result.step_us, "failed": result.failed}

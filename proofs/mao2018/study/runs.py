@@ -140,8 +140,7 @@ def run_case(study: MaoStudy, of: RunCase) -> RunResult:
         curves |= _more_curves(study, case, run)
     row = measure_run(run, float(study.reference.curve().length_m)).row() | {
         "controller": run.controller, "case": of.number, "tuning": of.tuning, "law": law_words(study, of),
-        "change": None if of.change == STATED else study.change_title(of.change),
-        "period_s": run.period_s, "end_s": run.end_s,
+        "change": study.change_title(of.change), "period_s": run.period_s, "end_s": run.end_s,
         "command_reversals_per_s": run.totals["command_reversals"] / max(run.end_s, run.period_s),
         "command_change_mps2": run.totals["command_variation_mps2"] / max(1.0, run.totals["commands"]),
         "loop_gain": _loop_gain(study, case, run), "failure_learned_n": _failure_learned(study, case, run)}
@@ -151,13 +150,11 @@ def run_case(study: MaoStudy, of: RunCase) -> RunResult:
 
 def name_of(study: MaoStudy, of: RunCase) -> str:
     """A run in words."""
-    words = [f"case {of.number}", law_words(study, of), study.tunings[of.tuning].title]
-    if of.change != STATED:
-        words.append(study.change_title(of.change))
-    if of.end_s is not None:
-        tuning = _tuning(study, of)
-        words.append(f"period {1e3 * tuning.period_s:g} ms, r_2 = {tuning.r_2_per_s:g}/s, until {of.end_s:g} s")
-    return ", ".join(words)
+    tuning = _tuning(study, of)
+    words = (f"case {of.number}", law_words(study, of), tuning.title, study.change_title(of.change), None
+             if of.end_s is None else f"period {1e3 * tuning.period_s:g} ms, r_2 = {tuning.r_2_per_s:g}/s, until "
+             f"{of.end_s:g} s")
+    return ", ".join(filter(None, words))
 
 
 def law_words(study: MaoStudy, of: RunCase) -> str:
