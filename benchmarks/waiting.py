@@ -111,6 +111,7 @@ def graded_line(path: Path, length_m: float, grades: int, seed: int = 1) -> Path
     fast = rng.choice([25.0, 30.0, 35.0], max(1, grades // 10)).tolist()
     borders = np.linspace(0.0, length_m, len(fast) + 1).tolist()
     rows = [f'name = "{grades} grades by chance"', f"length_m = {length_m}", f"stops_m = [0.0, {length_m}]"]
+    rows.append(f"curve = [{{ start_m = 0.0, end_m = {length_m}, radius_m = inf }}]")
     for key, value, at, many in (("grade", "grade_permille", ends, steep), ("speed_limit", "speed_mps", borders, fast)):
         rows.append(f"{key} = [")
         rows += [f"  {{ start_m = {a}, end_m = {b}, {value} = {x} }}," for a, b, x in zip(at, at[1:], many,

@@ -18,7 +18,7 @@ Case = tuple[int, str]  # 0 is the scenario as stated, i > 0 its i-th variant
 Progress = Callable[[int, int, str], None]
 Result = tuple[Case, Run | None, Metrics]
 
-HERE_S = 1.0  # what a process more takes to start, about
+HERE_S = 1.0  # seconds of the processor that a process more takes to start, about
 
 
 @dataclass(frozen=True)
@@ -63,11 +63,11 @@ def compare(path: Path, data: Mapping[str, Any], scenario: Scenario, with_varian
 
 
 def _quick_ones_here(scenarios: list[Scenario], cases: list[Case], record: Callable[[Result], None]) -> list[Case]:
-    """Run compiled laws in this process for at most HERE_S, and say which cases are left: of a small scenario none are
-    worth what starting processes costs."""
-    left, until = list(cases), time.monotonic() + HERE_S
+    """Run compiled laws in this process, for HERE_S of the processor, and say which cases are left: a small scenario's
+    are not worth what starting processes costs."""
+    left, until = list(cases), time.process_time() + HERE_S
     for case in cases:
-        if time.monotonic() > until:
+        if time.process_time() > until:
             break
         if scenarios[case[0]].controllers[case[1]].law not in SAMPLED:
             left.remove(case)
