@@ -154,28 +154,34 @@ def car_growth() -> list[dict[str, float]]:
     """Median and p99 of a step (us) of chen2019's train for growing numbers of cars and horizons."""
     rows = []
     for cars in (6, 8, 12, 16, 24, 32):
-        train = CarTrain(np.full(cars, 5e4), np.full(cars, -4e4), np.where(np.arange(cars) % 2 == 0, 4e4, 0.0),
-                         (0.00775, 0.000228, 0.0000166, 2e6, 1e5))
-        of_rates, n = train_rates(train), cars
-        x, u, h = ca.SX.sym("x", 2 * n), ca.SX.sym("u", n), 0.01
-        k1 = of_rates(x, u)
-        k2 = of_rates(x + h / 2 * k1, u)
-        k3 = of_rates(x + h / 2 * k2, u)
-        step = ca.Function("step", [x, u], [x + h / 6 * (k1 + 2 * k2 + 2 * k3 + of_rates(x + h * k3, u))]).fold(50)
-        curve = start_cruise_stop(2500.0, 25.0, 0.3, 0.4, 4.0)
         row: dict[str, float] = {"cars": cars}
         for horizon in (20, 50):
-            desired = np.stack(curve.at(np.arange(280 + horizon + 2) * 0.5), axis=1)
-            mpc = MultiCarMpc(train, desired, horizon, 0.5, CarWeights(1.0, 1.0, 0.1), 25.0)
-            state, taken = np.concatenate([np.full(n, -1.0), np.zeros(n)]), np.zeros(280)
-            for k in range(280):
-                before = time.thread_time()
-                forces = mpc.command(k, state[:n], state[n:])
-                taken[k] = (time.thread_time() - before) * 1e6
-                state = np.asarray(step(state, np.tile(forces.reshape(-1, 1), (1, 50)))).ravel()
+            taken = car_steps(cars, horizon)
             row[f"median_us_{horizon}"], row[f"p99_us_{horizon}"] = np.median(taken), np.percentile(taken, 99)
         rows.append(row)
     return rows
+
+
+def car_steps(cars: int, horizon: int, samples: int = 280) -> Array:
+    """What each step of chen2019's train takes (us), with so many cars, as it starts and goes on."""
+    train = CarTrain(np.full(cars, 5e4), np.full(cars, -4e4), np.where(np.arange(cars) % 2 == 0, 4e4, 0.0),
+                     (0.00775, 0.000228, 0.0000166, 2e6, 1e5))
+    of_rates, n = train_rates(train), cars
+    x, u, h = ca.SX.sym("x", 2 * n), ca.SX.sym("u", n), 0.01
+    k1 = of_rates(x, u)
+    k2 = of_rates(x + h / 2 * k1, u)
+    k3 = of_rates(x + h / 2 * k2, u)
+    step = ca.Function("step", [x, u], [x + h / 6 * (k1 + 2 * k2 + 2 * k3 + of_rates(x + h * k3, u))]).fold(50)
+    curve = start_cruise_stop(2500.0, 25.0, 0.3, 0.4, 4.0)
+    desired = np.stack(curve.at(np.arange(280 + horizon + 2) * 0.5), axis=1)
+    mpc = MultiCarMpc(train, desired, horizon, 0.5, CarWeights(1.0, 1.0, 0.1), 25.0)
+    state, taken = np.concatenate([np.full(n, -1.0), np.zeros(n)]), np.zeros(samples)
+    for k in range(samples):
+        before = time.thread_time()
+        forces = mpc.command(k, state[:n], state[n:])
+        taken[k] = (time.thread_time() - before) * 1e6
+        state = np.asarray(step(state, np.tile(forces.reshape(-1, 1), (1, 50)))).ravel()
+    return taken
 
 
 def measured(horizon: int, load: str, peer: bool) -> list[dict[str, Any]]:

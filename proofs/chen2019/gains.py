@@ -23,7 +23,7 @@ from workbench.gains.search import Found, search
 from workbench.gains.stated import Stated
 from workbench.paper.gain_search import GainSearch, Row, Task, same_for_all
 from workbench.paper.loading import Loaded
-from workbench.paper.study import with_values
+from workbench.paper.study import varied
 from workbench.proof.claim import D, Goal, at_least, at_most
 
 from . import laws as law
@@ -180,7 +180,7 @@ def run(loaded: Loaded, task: Task) -> tuple[Row, str | None]:
     """All trials of the study with the task's changes."""
     study = loaded.study
     assert isinstance(study, ChenStudy)
-    changed = with_values(study.model_copy(update={"changes": ()}), task.changes, str(loaded.path))
+    changed = varied(study, task.changes, str(loaded.path))
     run = run_cars(replace(plan(changed), kept=()))
     if not len(run.totals):
         return {}, run.failed

@@ -24,12 +24,13 @@ from workbench.gains.stated import Stated
 from workbench.paper.gain_search import GainSearch, Row, Task, changes_of
 from workbench.paper.learning_comparison import rises
 from workbench.paper.loading import Loaded
+from workbench.paper.study import varied
 from workbench.proof.claim import Goal, at_least, at_most
 
 from . import laws, plant
-from .simulation.plans import Case, changed, plan
+from .simulation.plans import Case, plan
 from .simulation.trials import run_trials
-from .study.record import Change, JiaoStudy
+from .study.record import JiaoStudy
 from .study.runs import outcome
 
 x, w = sp.symbols("x w", real=True)
@@ -251,7 +252,7 @@ def run(loaded: Loaded, task: Task) -> tuple[Row, str | None]:
     """All trials of a law with the task's changes."""
     study = loaded.study
     assert isinstance(study, JiaoStudy)
-    other = changed(study, Change(title=task.gains, set=dict(task.changes)))
+    other = varied(study, task.changes, task.gains)
     run = run_trials(plan(other, Case(READING, task.values["law"], other.trials.seed)))
     mse = run.mse
     numbers: Row = {f"mse_{n}": float(mse[n]) if n < len(mse) else None

@@ -20,7 +20,7 @@ from workbench.gains.search import Infeasible, confirm, largest, search
 from workbench.gains.stated import Stated
 from workbench.paper.gain_search import GainSearch, Row, Task
 from workbench.paper.loading import Loaded
-from workbench.paper.study import with_values
+from workbench.paper.study import varied
 from workbench.proof.claim import D, at_least, at_most
 from workbench.proof.derive import lie_derivative
 
@@ -250,7 +250,7 @@ def run(loaded: Loaded, task: Task) -> tuple[Row, str | None]:
     """A column of Table 3 with the task's changes, under the observer that the certificates are of."""
     study = loaded.study
     assert isinstance(study, LiuStudy)
-    changed = with_values(study.model_copy(update={"changes": ()}), task.changes, str(loaded.path))
+    changed = varied(study, task.changes, str(loaded.path))
     case = RunCase(task.values["column"], "liu2020.corrected_rate", study.runs.table_3_disturbance)
     found = run_case(changed, case)
     names = ("s_tilde_m", "v_tilde_mps", "position_m", "speed_mps", "energy_J", "reversals")

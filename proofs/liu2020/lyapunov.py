@@ -31,7 +31,8 @@ def positive(expr: sp.Expr) -> sp.Expr:
 
 
 # The rate rho of decay, mu, and the eigenvalues of Gamma^(-1) that stand in rho.
-rho, mu, lambda_f, lambda_v = sp.symbols("rho mu lambda_f lambda_v", positive=True)
+rho, lambda_f, lambda_v = sp.symbols("rho lambda_f lambda_v", positive=True)
+mu = sp.Symbol("mu", nonnegative=True)
 rates_1 = (at_most(rho, 2 * k_1), at_most(rho, 2 * k_3), at_most(rho * lambda_f, sigma_f))
 rates_scalar = (at_most(rho * M, 2 * chi * k_5), at_most(rho, alpha_1 * beta_1), at_most(rho, alpha_2 * beta_2))
 

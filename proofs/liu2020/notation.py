@@ -23,7 +23,7 @@ from .error_dynamics import (
     theta_tilde,
 )
 from .laws import s_tilde, v_tilde
-from .lyapunov import V_1, V_2, rho
+from .lyapunov import V_1, V_2
 from .plant import M, acceleration, chi, d, f_d, s, u, v
 
 # Greek and indexed letters that are symbols of the same name.
@@ -36,7 +36,7 @@ NOTATION: dict[str, sp.Expr] = _SAME | {
     r"\hat s": laws.s_hat, r"\hat v": laws.v_hat, r"\hat f": laws.f_hat, r"\tilde s": s_tilde, r"\tilde v": v_tilde,
     "s_d": laws.s_d, r"\dot s_d": laws.sdot_d, r"\ddot s_d": laws.sddot_d, "e_v": laws.e_v, "D_1": laws.D_1,
     "D_2": laws.D_2, r"\hat\delta": laws.delta_hat, r"\hat\theta": laws.theta_hat, r"\delta": delta, r"\theta": theta,
-    r"\tilde\delta": delta_tilde, r"\tilde\theta": theta_tilde, r"\varepsilon_v": eps_v, r"\rho_1": rho, r"\rho_2": rho,
+    r"\tilde\delta": delta_tilde, r"\tilde\theta": theta_tilde, r"\varepsilon_v": eps_v,
     r"\hat W_f": laws.W_f_hat, "W_f^*": W_f_star, r"\tilde W_f": W_f_tilde, "W_{f0}": W_f_star - W_f_off,
     r"\hat W_v": laws.W_v_hat, "W_v^*": W_v_star, r"\tilde W_v": W_v_tilde, "W_{v0}": W_v_star - W_v_off,
     r"h_f(\hat z_1)": laws.h_f, "h_v(z_2)": laws.h_v, "V_1": V_1, "V_2": V_2,

@@ -22,6 +22,7 @@ from workbench.gains.search import search
 from workbench.gains.stated import Stated
 from workbench.paper.gain_search import GainSearch, Row, Task, changes_of
 from workbench.paper.loading import Loaded
+from workbench.paper.study import varied
 from workbench.proof.claim import at_least, at_most
 from workbench.simulate.closed_loop import run_law
 from workbench.simulate.metrics import measure_run
@@ -209,7 +210,7 @@ def run(loaded: Loaded, task: Task) -> tuple[Row, str | None]:
     """The case under its law with signs corrected, with the task's changes and leakage."""
     study = loaded.study
     assert isinstance(study, MaoStudy)
-    changed = study.changed(dict(task.changes))
+    changed = varied(study, task.changes, "set")
     case, tuning = changed.cases[CASE - 1], changed.tunings[TUNING]
     law = failure_law("damped", KINDS["damped"][-1])
     named, start = parameters(changed, case, tuning), initial(changed, case)

@@ -60,7 +60,7 @@ def test_what_is_refuted_falls_and_says_by_what(functions, how):
     assert how in fate(theorem).why
     mended = decided("T.mended", "proved", origin="ours", mends="T")
     assert fate(theorem, mended).word == "falls"
-    assert "(T.mended)" in fate(theorem, mended).why
+    assert "T [mended]" in fate(theorem, mended).why
 
 
 def test_a_line_with_an_unclear_glyph_taints_and_costs_a_theorem_nothing_where_its_other_reading_holds():

@@ -54,6 +54,12 @@ MATCHING = [
 ]
 
 
+def test_sides_that_are_one_by_the_letters_keep_their_relation():
+    same = goal(at_most(z_1 * z_1, z_1**2))
+    assert match(r"2V_1 \le z_1^2", NOTATION, same).parsed and match(r"z_1^2 \le 2V_1", NOTATION, same).parsed
+    assert not match(r"2V_1 \ge z_1^2", NOTATION, same).parsed
+
+
 @pytest.mark.parametrize(("printed", "stated"), MATCHING)
 def test_the_line_that_a_goal_states_is_parsed(printed, stated):
     found = match(printed, NOTATION, stated)

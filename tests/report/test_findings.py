@@ -6,11 +6,11 @@ import pytest
 from small_decisions import certificate, paper
 
 from workbench.proof.fate import judged
+from workbench.proof.places import place_of, places_of
 from workbench.report.counterexample import counterexample_of
 from workbench.report.errata.proof_steps import proof_steps
 from workbench.report.finding import findings
 from workbench.report.finding_sentences import consequence_sentence, findings_document, sentences, verdict_sentence
-from workbench.report.places_in_paper import place_of, places_of
 from workbench.report.plain_formulas import plain_formula
 from workbench.report.worded import math, show, worded
 
@@ -112,7 +112,10 @@ def test_places_of_one_kind_stand_together():
 
 @pytest.mark.parametrize(("text", "shown"), [
     ("z_1 <= 0 and rho_hat -> 0", "z₁ ≤ 0 and ρ̂ → 0"), ("see leakage_proof.py and closed_loop", None),
-    ("t^2 and x_1^2", "t² and x₁²"), ("see proofs/paper.py", None)])
+    ("t^2 and x_1^2", "t² and x₁²"), ("see proofs/paper.py", None),
+    ("rho_knu_hat, 4c_k and W_v*", "ρ̂_{kν}, 4cₖ and Wᵥ*"),
+    ("E_{i-1} and e_(i-1)", "Eᵢ₋₁ and eᵢ₋₁"), ("f^a, x' and 'in'", "f^a, x′ and 'in'"), ("exp^(-mu t)", "exp^{−μt}"),
+    ("sum_q omega_q", "∑_q ω_q")])
 def test_words_keep_their_letters_as_formulas(text, shown):
     assert show(worded(text), plain_formula) == (text if shown is None else shown)
 

@@ -19,6 +19,7 @@ from workbench.report.certificate_latex import (
     value_latex,
 )
 from workbench.report.errata.typst_formulas import typst_formula
+from workbench.report.formulas import formula, in_html
 from workbench.report.plain_formulas import plain_formula
 
 
@@ -82,3 +83,11 @@ def test_typst_sets_every_formula(latex):
 def test_what_is_no_formula_stays_as_it_is():
     assert plain_formula(r"\nosuchcommand{x}") == r"\nosuchcommand{x}"
     assert typst_formula(r"\nosuchcommand{x}").startswith("#raw(")
+
+
+def test_no_line_begins_with_the_punctuation_behind_a_formula():
+    shown = in_html("with $a = 1$, $b$ and (as $c$) it says $d$.")
+    assert shown.count('<span class="unbroken">') == 3
+    for mark in (",", ")", "."):
+        assert f"</math>{mark}</span>" in shown
+    assert str(in_html("<b> & $x$")) == "&lt;b&gt; &amp; " + str(formula("x"))

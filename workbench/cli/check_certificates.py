@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from workbench.cli.options import Workers
 from workbench.cli.terminal import err_console, out_console
 from workbench.errors import InputError, WorkbenchError, in_one_line
 
@@ -19,7 +20,8 @@ def command(folder: Annotated[Path, typer.Argument(help="Folder with certificate
                 help="A paper's folder or proof file whose claims the certificates must be of; a folder of "
                      "certificates in its paper's own is held against it without.")] = None,
             claim_digest: Annotated[str | None, typer.Option(
-                help="For one file: the goal digest of the claim that it must be of.")] = None) -> None:
+                help="For one file: the goal digest of the claim that it must be of.")] = None,
+            workers: Workers = None) -> None:
     """Re-check certificates with checker.py, and hold them against their manifest and, where it is at hand, the paper
     whose claims they are of; exit 0 when all hold, 1 when one does not."""
     from workbench.proof.checker import check_file
@@ -29,7 +31,7 @@ def command(folder: Annotated[Path, typer.Argument(help="Folder with certificate
     elif claim_digest is not None:
         raise InputError("--claim-digest", "", f"is for one certificate's file, and {folder} is none: leave it out")
     else:
-        rows, bound = _folder(folder, paper or [])
+        rows, bound = _folder(folder, paper or [], workers)
     if not rows:
         raise WorkbenchError(f"{folder}: holds no certificate (*.json): run 'workbench prove --write' first")
     wrong = {path for path, _, reason in rows if reason is not None}
@@ -44,16 +46,13 @@ def command(folder: Annotated[Path, typer.Argument(help="Folder with certificate
         raise typer.Exit(1)
 
 
-def _folder(folder: Path, named: list[Path]) -> tuple[list[Row], str]:
+def _folder(folder: Path, named: list[Path], workers: int | None) -> tuple[list[Row], str]:
     """The rows of a folder, and what its certificates were held against."""
-    from workbench.proof.binding import check_claims, papers_at_hand
-    from workbench.proof.checker import check_folder
+    from workbench.proof.binding import papers_at_hand
+    from workbench.proof.checking import check_all
+    from workbench.simulate.process_pool import cores
 
-    rows = check_folder(folder)
-    bound = 0
-    for place, path in papers_at_hand(folder, named).items():
-        found, count = check_claims(place, path)
-        rows, bound = rows + found, bound + count
+    rows, bound = check_all(folder, papers_at_hand(folder, named), workers or cores())
     others = len({path for path, _, _ in rows}) - bound
     whole = f"the goals of their papers' claims: {bound}" if bound else ""
     alone = f"their manifest alone, for no claims are at hand: {others}" if others > 0 else ""

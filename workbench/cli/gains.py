@@ -17,6 +17,9 @@ def command(paper: PaperOrFile, json: JsonFile = None,
             write: Annotated[bool, typer.Option(
                 "--write", help="Also write the certificates into the paper's own folder.")] = False,
             runs: Annotated[bool, typer.Option(help="Simulate the found gains beside the stated ones.")] = True,
+            search: Annotated[bool, typer.Option(
+                "--search", help="Search anew the gains whose runs cost least for what is proved of them, some minutes "
+                "long; --write keeps them.")] = False,
             workers: Workers = None) -> None:
     """Which conditions the stated gains meet, what can be proved of them, and gains that are proved to do better."""
     from workbench.files.folders import CERTIFICATES
@@ -24,6 +27,7 @@ def command(paper: PaperOrFile, json: JsonFile = None,
     from workbench.files.outputs import check_outputs
     from workbench.gains.certificate import write_certificates
     from workbench.paper.gain_effects import effects, gains_of
+    from workbench.paper.kept_front import FRONT_FOLDER, searched_or_kept, shown_fronts, write_front
     from workbench.proof.document import check_places
     from workbench.report.gains import gains_document, gains_result
 
@@ -32,12 +36,19 @@ def command(paper: PaperOrFile, json: JsonFile = None,
     check_places([], certificates, {"--json": json})
     check_places([loaded.folder] if write else [], None, {"--json": json})
     found = gains_of(loaded)
+    with progress() as show:
+        front = searched_or_kept(loaded, search, workers, lambda at, total, _: show("searches", at, total))
     if certificates:
         write_certificates(found.certificates, certificates / found.paper, certificates)
+        write_certificates(front.certificates.values(), certificates / found.paper / FRONT_FOLDER, certificates)
     if write:
         write_certificates(found.certificates, loaded.folder / CERTIFICATES / "gains", loaded.folder)
+        if search:
+            write_front(loaded.folder, front)
     with progress() as show:
         done = effects(loaded, found, workers, lambda at, total, _: show("runs", at, total)) if runs else ()
+    with progress() as show:
+        fronts = shown_fronts(loaded, front, workers, lambda at, total, _: show("fronts", at, total)) if runs else ()
     if json:
-        write_json(json, gains_document(found, done))
-    print_study(gains_result(found, done))
+        write_json(json, gains_document(found, done, fronts))
+    print_study(gains_result(found, done, fronts))

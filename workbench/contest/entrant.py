@@ -30,8 +30,8 @@ class Entrant:
     """A law beside those of a scenario.
 
     parameters: all that a file must give, positive numbers; counts: those among them that are whole numbers; signed:
-    those that need not be positive. play(scenario, spec, setting) runs it; a law that learns is told the noise of the
-    setting's seed in its first trial and of the following seeds in the others.
+    those that need not be positive; predicts: it may be told of the actuator. play(scenario, spec, setting) runs it; a
+    law that learns is told the noise of the setting's seed in its first trial and of the following seeds in the others.
     """
 
     title: str
@@ -41,13 +41,14 @@ class Entrant:
     counts: tuple[str, ...] = ()
     signed: tuple[str, ...] = ()
     learns: bool = False
+    predicts: bool = False
 
     def check(self, spec: ControllerSpec, where: str) -> None:
         """Raise InputError for parameters that are missing, unknown or unfit."""
         for key, given in (("initial", spec.initial), ("neurons", spec.neurons)):
             if given:
                 raise InputError("", f"{where}.{key}", f"'{spec.law}' has none in a contest: remove it")
-        if spec.predictor:
+        if spec.predictor and not self.predicts:
             raise InputError("", f"{where}.predictor", f"'{spec.law}' runs by itself and has none: remove it")
         for key in self.parameters:
             if key not in spec.parameters:

@@ -6,6 +6,7 @@ from dataclasses import replace
 from pathlib import Path
 
 from workbench.contest.entrant import Entrant, Played
+from workbench.contest.learning_mpc import ENTRANTS
 from workbench.contest.record import Contest
 from workbench.errors import InputError
 from workbench.model.laws import law_named, named, names_near
@@ -37,7 +38,9 @@ def _from(folder: Path, law: str) -> str:
 
 
 def entrant_named(law: str, folder: Path) -> Entrant | None:
-    """The law that needs a run of its own, from a paper's contest.py; None where there is none of that name."""
+    """The law that needs a run of its own, from a paper's contest.py or this room; None where none has that name."""
+    if law in ENTRANTS:
+        return ENTRANTS[law]
     if law.partition("::")[1]:
         return None
     return named(law, folder, "contest", Entrant)
@@ -63,7 +66,7 @@ def check_entrants(contest: Contest, scenario: Scenario, path: Path, scenario_pa
         elif spec.law in (*SAMPLED, *TOLD_THE_LINE) or law_named(spec.law, contest.folder):
             ordinary[name] = spec.model_copy(update={"law": _from(contest.folder, spec.law)})
         else:
-            others = ", ".join(names_near(contest.folder, "contest", Entrant))
+            others = ", ".join((*ENTRANTS, *names_near(contest.folder, "contest", Entrant)))
             raise InputError(path, f"entrants.{name}.law", f"unknown '{spec.law}': choose one of "
                              f"{known_laws(scenario)}{', ' if others else ''}{others}")
     try:
@@ -114,7 +117,7 @@ def information(scenario: Scenario, name: str) -> str:
     law = spec.law
     known = entrant_named(law, scenario.folder) or compiled_law(scenario, spec)
     told = known.information if known else KINDS[law].information if law in KINDS else "full state, nominal model"
-    return f"{told}; {PREDICTS[law in KINDS]}" if spec.predictor else told
+    return f"{told}; {PREDICTS[law in KINDS or law in ENTRANTS]}" if spec.predictor else told
 
 
 def follows_curve(scenario: Scenario, name: str) -> bool:

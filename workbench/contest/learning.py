@@ -31,14 +31,16 @@ def _trials(told: Told, condition: str, name: str, column: int) -> NDArray[np.fl
     return np.array([[trial[column] for trial in match.trials] for match in matches])
 
 
-def _rivals(told: Told) -> list[str]:
+def mpc_rivals(told: Told) -> list[str]:
+    """Names of the entries by MPC that follow the curve and do not learn."""
     return [entry.name for entry in told.entries
-            if entry.controller.startswith("mpc") and follows_curve(told.scenario, entry.controller)]
+            if entry.controller.startswith("mpc") and follows_curve(told.scenario, entry.controller)
+            and not learns(told.scenario, entry.controller)]
 
 
 def learning_tables(told: Told) -> Iterator[ResultTable]:
     """One for each error: a row per learner and condition, a column per MPC."""
-    rivals = _rivals(told)
+    rivals = mpc_rivals(told)
     if not learners(told) or not rivals:
         return
     names = [entry.name for entry in told.entries]
@@ -73,7 +75,7 @@ def _cell(told: Told, trials: NDArray[np.float64], rival: NDArray[np.float64] | 
 
 def learning_findings(told: Told) -> Iterator[str]:
     """A sentence per learner: against how many MPCs and where it gets ahead."""
-    rivals, names = _rivals(told), [entry.name for entry in told.entries]
+    rivals, names = mpc_rivals(told), [entry.name for entry in told.entries]
     for learner in learners(told):
         if not rivals:
             return
@@ -111,7 +113,7 @@ def learning_plot(told: Told) -> Iterator[Plot]:
             curves.append(Curve(learner, np.arange(1.0, trials.shape[1] + 1), trials.mean(axis=0)))
     names = [entry.name for entry in told.entries]
     values = dict(zip(names, told.values(condition, "position_rms"), strict=True))
-    means = {name: float(value.mean()) for name in _rivals(told) if (value := values[name]) is not None}
+    means = {name: float(value.mean()) for name in mpc_rivals(told) if (value := values[name]) is not None}
     if curves and means:
         last = max(float(curve.x[-1]) for curve in curves)
         for name in sorted({min(means, key=lambda n: means[n]), max(means, key=lambda n: means[n])}):

@@ -89,6 +89,17 @@ Proof. intros. subst. rewrite bigsum_plus. ring. Qed.
 Lemma scale_split : forall n c a f, c * (a + bigsum n f) = c * a + bigsum n (fun i => c * f i).
 Proof. intros. rewrite bigsum_scal. ring. Qed.
 
+(* two values with a sum agree, or are opposites, when what stands outside of the sum and each of its terms do *)
+Lemma equal_sums : forall n a f b g, a = b -> (forall i, (i < n)%nat -> f i = g i) -> a + bigsum n f = b + bigsum n g.
+Proof. intros n a f b g -> H. f_equal. apply bigsum_ext. exact H. Qed.
+
+Lemma opposite_sums : forall n a f b g, a = - b -> (forall i, (i < n)%nat -> f i = - g i) ->
+  a + bigsum n f = - (b + bigsum n g).
+Proof.
+  intros n a f b g -> H. rewrite (bigsum_ext n f (fun i => -1 * g i)); [rewrite bigsum_scal; ring|].
+  intros i I. rewrite (H i I). ring.
+Qed.
+
 Lemma no_split : forall n x, x = x + bigsum n (fun _ => 0).
 Proof. intros. rewrite bigsum_zero by reflexivity. ring. Qed.
 
@@ -126,6 +137,44 @@ Proof. intros x. destruct (Req_dec x 0) as [->|N]; [rewrite exp_0; lra|]. pose p
 
 Lemma log_tangent : forall x, 0 < x -> 0 <= x - 1 - ln x.
 Proof. intros x P. pose proof (exp_tangent (ln x)) as T. rewrite exp_ln in T by exact P. lra. Qed.
+
+Lemma circle : forall x, sin x * sin x + cos x * cos x - 1 = 0.
+Proof. intros x. pose proof (sin2_cos2 x) as C. unfold Rsqr in C. lra. Qed.
+
+Lemma sine_tangent : forall x, 0 <= x -> 0 <= x - sin x.
+Proof. intros x [P|<-]; [pose proof (sin_lt_x x P)|rewrite sin_0]; lra. Qed.
+
+Lemma sine_square : forall x, 0 <= x -> sin x * sin x <= x * x.
+Proof.
+  intros x P. pose proof (sine_tangent x P) as T. assert (B : - x <= sin x).
+  { destruct (Rle_or_lt x PI) as [L|G]; [pose proof (sin_ge_0 x P L); lra|].
+    pose proof (SIN_bound x). pose proof PI2_1. lra. }
+  replace (x * x) with (sin x * sin x + (x - sin x) * (x + sin x)) by ring.
+  assert (0 <= (x - sin x) * (x + sin x)) by (apply Rmult_le_pos; lra). lra.
+Qed.
+
+Lemma cosine_parabola : forall x, 0 <= cos x - 1 + x * x * (1 / 2).
+Proof.
+  assert (H : forall x, 0 <= x -> 0 <= cos x - 1 + x * x * (1 / 2)).
+  { intros x P. pose proof (sine_square (x / 2)) as S. pose proof (cos_2a_sin (x / 2)) as E.
+    replace (2 * (x / 2)) with x in E by field. rewrite E. lra. }
+  intros x. destruct (Rle_or_lt 0 x) as [P|N]; [exact (H x P)|].
+  pose proof (H (- x)) as T. rewrite cos_neg in T. lra.
+Qed.
+
+Lemma sine_sum : forall a b s, s = a + b -> sin s - sin a * cos b - cos a * sin b = 0.
+Proof. intros a b s ->. rewrite sin_plus. ring. Qed.
+Lemma cosine_sum : forall a b s, s = a + b -> cos s - cos a * cos b + sin a * sin b = 0.
+Proof. intros a b s ->. rewrite cos_plus. ring. Qed.
+Lemma exp_sum : forall a b s, s = a + b -> exp s - exp a * exp b = 0.
+Proof. intros a b s ->. rewrite exp_plus. ring. Qed.
+Lemma log_product : forall a b p, 0 < a -> 0 < b -> p = a * b -> ln p - ln a - ln b = 0.
+Proof. intros a b p A B ->. rewrite ln_mult by assumption. ring. Qed.
+
+Lemma sin_zero : forall a, a = 0 -> sin a = 0. Proof. intros a ->. apply sin_0. Qed.
+Lemma cos_zero : forall a, a = 0 -> cos a = 1. Proof. intros a ->. apply cos_0. Qed.
+Lemma sin_turned : forall x y, x = - y -> sin x = - sin y. Proof. intros x y ->. apply sin_neg. Qed.
+Lemma cos_turned : forall x y, x = - y -> cos x = cos y. Proof. intros x y ->. apply cos_neg. Qed.
 
 Lemma exp_minus_inv : forall x y, x = - y -> exp x = / exp y.
 Proof. intros x y ->. apply exp_Ropp. Qed.
@@ -186,18 +235,36 @@ Lemma not_zero : forall x, x <> 0 -> x = 0 -> False. Proof. intros x N Z. exact 
 Lemma two_cases : forall x, x >= 0 \/ - x >= 0. Proof. intros x. destruct (Rle_or_lt 0 x); [left|right]; lra. Qed.
 Lemma three_cases : forall x, - x > 0 \/ x > 0 \/ x = 0.
 Proof. intros x. destruct (total_order_T x 0) as [[|]|]; lra. Qed.
-Lemma abs_plus : forall x y, x >= 0 -> x = y -> Rabs y = x. Proof. intros. subst. apply Rabs_right. assumption. Qed.
+Lemma abs_plus : forall x y, x >= 0 -> y = x -> Rabs y = x. Proof. intros. subst. apply Rabs_right. assumption. Qed.
+Lemma abs_minus : forall x y, x >= 0 -> y = - x -> Rabs y = x.
+Proof. intros. subst. rewrite Rabs_Ropp. apply Rabs_right. assumption. Qed.
 
 (* --- tactics: nothing is trusted in them, the kernel sees what they make --- *)
 
+(* linear arithmetic of the goal alone: what stands in the context would all be read *)
+Ltac linear := clear; lra.
+
 (* an expression is not zero because a known one, which equals it up to ring laws, is not *)
+Ltac nonzero_plainly :=
+  first [ assumption
+        | match goal with
+          | P : ?p > 0 |- ?p <> 0 => exact (pos_ne p P)
+          | P : 0 < ?p |- ?p <> 0 => exact (pos_ne p P)
+          end
+        | match goal with |- IZR _ <> 0 => linear end
+        | match goal with |- ?a * ?b <> 0 => apply product_ne; nonzero_plainly end
+        | match goal with |- ?a ^ _ <> 0 => apply power_ne; nonzero_plainly end
+        | match goal with |- / ?a <> 0 => apply Rinv_neq_0_compat; nonzero_plainly end ].
+
 Ltac nonzero :=
   repeat match goal with |- _ /\ _ => split end;
-  solve [ assumption | lra
+  solve [ nonzero_plainly
+        | linear
         | match goal with
           | N : ?p <> 0 |- ?q <> 0 => replace q with p by ring; exact N
           | N : ?p <> 0 |- ?q <> 0 => replace q with (- p) by ring; apply Ropp_neq_0_compat; exact N
           end
+        | lra
         | match goal with |- ?a * ?b <> 0 => apply product_ne; nonzero end
         | match goal with |- ?a ^ _ <> 0 => apply power_ne; nonzero end
         | match goal with |- / ?a <> 0 => apply Rinv_neq_0_compat; nonzero end ].

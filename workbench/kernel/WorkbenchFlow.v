@@ -64,6 +64,18 @@ Proof.
   intros. apply (is_derive_comp ln f t (/ f t) a); [apply is_derive_ln; assumption|assumption].
 Qed.
 
+Lemma D_sin : forall (f : R -> R) (t a : R), is_derive f t a -> is_derive (fun s => sin (f s)) t (cos (f t) * a).
+Proof.
+  intros. apply (D_same _ t (a * cos (f t))); [|ring].
+  apply (is_derive_comp sin f t (cos (f t)) a); [apply is_derive_sin|assumption].
+Qed.
+
+Lemma D_cos : forall (f : R -> R) (t a : R), is_derive f t a -> is_derive (fun s => cos (f s)) t (- sin (f t) * a).
+Proof.
+  intros. apply (D_same _ t (a * - sin (f t))); [|ring].
+  apply (is_derive_comp cos f t (- sin (f t)) a); [apply is_derive_cos|assumption].
+Qed.
+
 Lemma D_tanh : forall (f : R -> R) (t a : R), is_derive f t a ->
   is_derive (fun s => tanh (f s)) t ((1 - tanh (f t) ^ 2) * a).
 Proof.
@@ -107,4 +119,15 @@ Proof.
     apply (ex_derive_continuous f x). exists (d x). apply D. lra.
   - rewrite Rmin_left, Rmax_right in A by lra. assert (d c * (t - 0) <= 0 * (t - 0)); [|lra].
     apply Rmult_le_compat_r; [lra|apply N; lra].
+Qed.
+
+(* what has the rate 0 from time zero to t is at each instant between what it is at t *)
+Lemma constant : forall (f : R -> R) (t : R), (forall s, 0 <= s <= t -> is_derive f s 0) ->
+  forall s, 0 <= s <= t -> f s = f t.
+Proof.
+  intros f t D s S. destruct (MVT_gen f s t (fun _ => 0)) as [c [_ E]].
+  - intros x A. rewrite Rmin_left, Rmax_right in A by lra. apply D. lra.
+  - intros x A. rewrite Rmin_left, Rmax_right in A by lra. apply continuity_pt_filterlim.
+    apply (ex_derive_continuous f x). exists 0. apply D. lra.
+  - lra.
 Qed.

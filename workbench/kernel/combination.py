@@ -86,7 +86,7 @@ def _product(script: Script, term: dict[str, Any]) -> Term:
     else:
         strict = coefficient > 0 and all(factor.sign == ">" for factor in factors)
         sign = ">" if strict else ">="
-        proof = f"(ltac:(lra) : 0 {'<' if strict else '<='} {text})"
+        proof = f"(ltac:(linear) : 0 {'<' if strict else '<='} {text})"
         for factor in factors:
             one = factor.proof if strict or factor.sign != ">" else f"(pos_ge _ {factor.proof})"
             proof = f"({'Rmult_lt_0_compat' if strict else 'Rmult_le_pos'} _ _ {proof} {one})"

@@ -50,6 +50,14 @@ class Differentiation:
             case ast.Call(func=ast.Name(id="log"), args=[inner]):
                 below = self.of(inner)
                 return Rate(operation(_value(below), ast.Div(), inner), self._lemma("D_ln", [inner], [below], "_"))
+            case ast.Call(func=ast.Name(id="sin"), args=[inner]):
+                below = self.of(inner)
+                return Rate(operation(call("cos", inner), ast.Mult(), _value(below)),
+                            self._lemma("D_sin", [inner], [below]))
+            case ast.Call(func=ast.Name(id="cos"), args=[inner]):
+                below = self.of(inner)
+                return Rate(operation(ast.UnaryOp(ast.USub(), call("sin", inner)), ast.Mult(), _value(below)),
+                            self._lemma("D_cos", [inner], [below]))
             case ast.Call(func=ast.Name(id="tanh"), args=[inner]):
                 below = self.of(inner)
                 slope = operation(ast.Constant(1), ast.Sub(), operation(node, ast.Pow(), ast.Constant(2)))

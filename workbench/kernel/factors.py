@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from fractions import Fraction
 from typing import Any
 
 from workbench.kernel.script import Script
-from workbench.kernel.syntax import NotExportedError
+from workbench.kernel.syntax import FUNCTIONS, NotExportedError
 from workbench.proof.checker import SUM, Ratio, atoms_of, constant, number, symbol
 
 
@@ -20,7 +21,7 @@ class Factor:
     value: Ratio
 
 
-def factor_of(script: Script, item: dict[str, Any]) -> Factor:  # noqa: PLR0911 - a case a kind
+def factor_of(script: Script, item: dict[str, Any]) -> Factor:  # noqa: PLR0911, PLR0912 - a case a kind
     """A factor with the proof of its sign, as the checker reads it; what it needs is written into the script."""
     given, context, normal = script.given, script.context, script.normal
     match item:
@@ -43,7 +44,7 @@ def factor_of(script: Script, item: dict[str, Any]) -> Factor:  # noqa: PLR0911 
                 over = normal.poly(value.num)
                 script.remember(value.num, script.show(
                     "N", f"{over} <> 0", f"intro zero_. generalize {name}. unfold Rdiv. "
-                    "rewrite zero_, Rmult_0_l. lra."))
+                    "rewrite zero_, Rmult_0_l. linear."))
             return Factor(f"(/ {below})", ">", f"(inverse_pos _ {name})", value.inverse())
         case {"square_of": int(i)}:
             value = given.margins[i][0]
@@ -73,6 +74,10 @@ def factor_of(script: Script, item: dict[str, Any]) -> Factor:  # noqa: PLR0911 
             value = context.read(text)
             script.prepare_all(value)
             return Factor(normal.value(value), "any", "", value)
+        case {"fact": "sine_sum" | "cosine_sum" | "exp_sum" | "log_product" as name, "of": str(one), "and": str(two)}:
+            return _addition(script, name, context.read(one), context.read(two))
+        case {"fact": "circle" | "cosine_parabola" | "sine_tangent" as name, "of": str(text)}:
+            return _angle(script, name, context.read(text))
         case {"fact": str(name), "of": str(text)}:
             return _fact(script, name, text)
     raise NotExportedError(f"the factor {str(item)[:60]}")
@@ -87,15 +92,8 @@ def _fact(script: Script, name: str, text: str) -> Factor:
         script.libraries.add("Interval")
         proof = script.show("F", f"0 <= {normal.value(inner)}", f"{unfold}interval with (i_prec 120).")
         return Factor(normal.value(inner), ">=", proof, inner)
-    kind = name.partition("_")[0]
-    if SUM in atoms_of(inner):
-        raise NotExportedError(f"{kind} of a sum")
-    script.prepare_all(inner)
+    call, equation, worth = _call(script, name.partition("_")[0], inner)
     argument = normal.ratio(inner)
-    function = {"log": "ln", "abs": "Rabs"}.get(kind, kind)
-    equation = script.function(kind, f"({function} {argument})", argument, inner)
-    worth = context.call(kind, inner)
-    call = f"({function} {argument})"
     match name:
         case "log_tangent":
             value, sign = inner + number(-1) + -worth, ">="
@@ -121,8 +119,67 @@ def _fact(script: Script, name: str, text: str) -> Factor:
             lemma = f"apply sqrt_lt_R0. exact {script.positive(inner)}."
         case _:
             raise NotExportedError(f"the fact {name[:40]}")
+    return _shown(script, value, sign, bare, equation, lemma)
+
+
+def _angle(script: Script, name: str, angle: Ratio) -> Factor:
+    """A fact of sin and cos of one angle."""
+    text = script.normal.ratio(angle)
+    if name == "sine_tangent":
+        call, equation, worth = _call(script, "sin", angle)
+        sign = script.positive(angle, "non-negative")
+        return _shown(script, angle + -worth, ">=", f"({text} - {call})", equation,
+                      f"apply sine_tangent. exact {sign}.")
+    call, equation, worth = _call(script, "cos", angle)
+    if name == "cosine_parabola":
+        return _shown(script, worth + number(-1) + angle * angle * number(Fraction(1, 2)), ">=",
+                      f"({call} - 1 + {text} * {text} * (1 / 2))", equation, "apply cosine_parabola.")
+    other, change, sine = _call(script, "sin", angle)
+    return _shown(script, sine * sine + worth * worth + number(-1), "==",
+                  f"({other} * {other} + {call} * {call} - 1)", f"{change}, ?{equation}", "apply circle.")
+
+
+def _call(script: Script, kind: str, argument: Ratio) -> tuple[str, str, Ratio]:
+    """A function of a value as Coq text, the equation of what it is worth, and that."""
+    if SUM in atoms_of(argument):
+        raise NotExportedError(f"{kind} of a sum")
+    script.prepare_all(argument)
+    text = script.normal.ratio(argument)
+    call = f"({FUNCTIONS[kind]} {text})"
+    return call, script.function(kind, call, text, argument), script.context.call(kind, argument)
+
+
+def _addition(script: Script, name: str, a: Ratio, b: Ratio) -> Factor:
+    """What is 0 by the addition theorem of a function."""
+    whole = a * b if name == "log_product" else a + b
+    kinds = {"log_product": ("log",), "exp_sum": ("exp",)}.get(name, ("sin", "cos"))
+    parts = {(kind, place): _call(script, kind, value) for kind in kinds for place, value in (("a", a), ("b", b))}
+    main = "cos" if name == "cosine_sum" else kinds[0]
+    call, equation, worth = _call(script, main, whole)
+    joined = {"log_product": "{0} - {log_a} - {log_b}", "exp_sum": "{0} - {exp_a} * {exp_b}",
+              "sine_sum": "{0} - {sin_a} * {cos_b} - {cos_a} * {sin_b}",
+              "cosine_sum": "{0} - {cos_a} * {cos_b} + {sin_a} * {sin_b}"}[name]
+    bare = joined.format(call, **{f"{kind}_{place}": text for (kind, place), (text, _, _) in parts.items()})
+    one, two = ({kind: parts[kind, place][2] for kind in kinds} for place in "ab")
+    match name:
+        case "log_product":
+            value = worth + -one["log"] + -two["log"]
+        case "exp_sum":
+            value = worth + -(one["exp"] * two["exp"])
+        case "sine_sum":
+            value = worth + -(one["sin"] * two["cos"]) + -(one["cos"] * two["sin"])
+        case _:
+            value = worth + -(one["cos"] * two["cos"]) + one["sin"] * two["sin"]
+    signs = f"exact {script.positive(a)}. exact {script.positive(b)}. " if name == "log_product" else ""
+    changes = ", ?".join([equation, *(change for _, change, _ in parts.values())])
+    return _shown(script, value, "==", f"({bare})", changes, f"apply {name}. {signs}same.")
+
+
+def _shown(script: Script, value: Ratio, sign: str, bare: str, equations: str, lemma: str) -> Factor:
+    """A factor whose sign a lemma says of it as it is written, `bare`."""
     script.prepare_all(value)
+    text = script.normal.value(value)
     relation = {">": "0 < {}", ">=": "0 <= {}", "==": "{} = 0"}[sign]
-    proof = script.show("F", relation.format(normal.value(value)),
-                        f"replace {normal.value(value)} with {bare} by (rewrite {equation}; same). {lemma}")
-    return Factor(normal.value(value), sign, proof, value)
+    proof = script.show("F", relation.format(text),
+                        f"replace {text} with {bare} by (rewrite ?{equations}; same). {lemma}")
+    return Factor(text, sign, proof, value)

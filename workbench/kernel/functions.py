@@ -1,4 +1,4 @@
-"""What log, exp, abs, sign and sqrt of an argument are worth, each an equation with its lemma."""
+"""What log, exp, abs, sign, sqrt, sin and cos of an argument are worth, each an equation with its lemma."""
 
 from __future__ import annotations
 
@@ -44,8 +44,9 @@ class Functions(Signs):
         number = is_number(value)
         shown = f"{inside}same."
         if number is not None:
-            proof = {"log": "apply ln_one. ", "exp": "apply exp_zero. "}.get(kind)
-            if proof is None or (kind, number) not in (("log", 0), ("exp", 1)):
+            proof = {"log": "apply ln_one. ", "exp": "apply exp_zero. ", "sin": "apply sin_zero. ",
+                     "cos": "apply cos_zero. "}.get(kind)
+            if proof is None or (kind, number) not in (("log", 0), ("exp", 1), ("sin", 0), ("cos", 1)):
                 proof = self._of_number(kind, inner, is_number(argument), number, inside)
                 return self.show("C", statement, f"{intros}{proof}")
             return self.show("C", statement, f"{intros}{proof}{shown}")
@@ -57,7 +58,7 @@ class Functions(Signs):
         named = f"rewrite {self.normal.name(atom)}_is. "
         if same(value, symbol(atom)):
             turned = not same(known, argument)
-            proof = f"{named}apply abs_turned. " if turned else f"{named}apply f_equal. "
+            proof = f"{named}apply {kind}_turned. " if turned else f"{named}apply f_equal. "
         elif kind == "log" and same(value, -symbol(atom)):
             positive = self.positive(argument)
             worth = f"replace {inner} with {self.normal.ratio(argument)} by (symmetry; {joined_tactics(inside)}same)"
@@ -65,8 +66,9 @@ class Functions(Signs):
                              f"{intros}transitivity (- {self.normal.atom(atom)}); [|ring]. {named}apply ln_reciprocal. "
                              f"{{ {worth}. "
                              f"exact {positive}. }} {shown}")
-        elif kind == "sign" and same(value, -symbol(atom)):
-            proof = f"transitivity (- {self.normal.atom(atom)}); [|ring]. {named}apply sgn_turned. "
+        elif kind in ("sign", "sin") and same(value, -symbol(atom)):
+            lemma = "sgn_turned" if kind == "sign" else "sin_turned"
+            proof = f"transitivity (- {self.normal.atom(atom)}); [|ring]. {named}apply {lemma}. "
         elif kind == "exp" and same(value, symbol(atom).inverse()):
             proof = f"transitivity (/ {self.normal.atom(atom)}); [|same]. {named}apply exp_minus_inv. "
         else:
@@ -78,12 +80,12 @@ class Functions(Signs):
             raise NotExportedError(f"{kind} of {inner[:40]}")
         change = f"replace {inner} with {number_text(argument)} by (symmetry; {joined_tactics(inside)}same). "
         if kind == "abs":
-            return f"{change}rewrite {'Rabs_right' if argument >= 0 else 'Rabs_left'} by lra. lra."
+            return f"{change}rewrite {'Rabs_right' if argument >= 0 else 'Rabs_left'} by linear. linear."
         if kind == "sign":
             lemma = "sgn_pos" if argument > 0 else "sgn_neg" if argument < 0 else "sgn_zero"
-            return f"{change}apply {lemma}. lra."
+            return f"{change}apply {lemma}. linear."
         if kind == "sqrt":
-            return f"{change}apply sqrt_number; lra."
+            return f"{change}apply sqrt_number; linear."
         raise NotExportedError(f"{kind} of the number {argument}")
 
     def _shifted(self, statement: str, intros: str, inner: str, argument: Ratio, value: Ratio, inside: str,

@@ -15,6 +15,7 @@ from workbench.kernel.writing import conjunction
 from workbench.proof.checker import SUM, Ratio, Sign, atoms_of, parse, partial_operations, same, symbols_of
 from workbench.proof.checker import substitute as substitute_ratio
 
+COQ = {">": ">", ">=": ">=", "==": "=", "!=": "<>"}
 Prover = Callable[[Script, Ratio, str, dict[str, Any]], None]
 
 
@@ -55,6 +56,7 @@ def _along(script: Script, proof: dict[str, Any], function: ast.expr, slope: ast
     script.normal = Normal(context, script.normal.letters.at("s"))
     for name in script.rates:
         script.say(f"pose proof (rate_of_{name} s within_) as rate_{name}s. cbv beta in rate_{name}s.")
+    _steady(script, moving)
     for number, text in enumerate(kept.always):
         script.say(f"pose proof (always_{number} s within_) as always_{number}s.")
         script.defined(text)
@@ -71,7 +73,7 @@ def _along(script: Script, proof: dict[str, Any], function: ast.expr, slope: ast
         term = term.replace(f"rate_{name} ", f"rate_{name}s ").replace(f"rate_{name})", f"rate_{name}s)")
         term = f"rate_{name}s" if term == f"rate_{name}" else term
     derives = script.show("X", f"is_derive (fun s => {of_s}) s {slope_of_s}",
-                          f"refine {term}; cbv beta; solve [assumption | reflexivity | simpl; lra | nonzero].")
+                          f"refine {term}; cbv beta; solve [assumption | reflexivity | simpl; linear | nonzero].")
     falls = -context.derivative(value, context.flow)
     equation, found_value = script.evaluate(ast.UnaryOp(ast.USub(), slope))
     if not same(found_value, falls):
@@ -82,8 +84,30 @@ def _along(script: Script, proof: dict[str, Any], function: ast.expr, slope: ast
     with script.subproof():
         prove(script, falls, ">=", proof["decrease"])
     down = script.show("G", f"{slope_of_s} <= 0",
-                       f"generalize {equation} {name}. rewrite <- ?{equation}. intros. lra.")
+                       f"generalize {equation} {name}. linear.")
     script.say(f"exact {conjunction([*found, derives, down])}.")
+
+
+def _steady(script: Script, moving: set[str]) -> None:
+    """What is assumed of states whose rate is zero holds at the instant s as it does at t: they are the same there."""
+    letters = script.normal.letters
+    steady = sorted(letters.moving - moving)
+    for name in steady:
+        still = script.show("H", f"forall s, 0 <= s <= t -> is_derive v_{name} s 0",
+                            f"intros r between_. apply (D_same _ _ _ _ (rate_of_{name} r between_)). cbv beta. ring.")
+        script.say(f"pose proof (constant v_{name} t {still} s within_) as steady_{name}.")
+    change = "".join(f"rewrite ?steady_{name}. " for name in steady)
+    names = []
+    for (value, operator), name in zip(script.given.margins, script.names, strict=True):
+        if symbols_of(script.context, value) & letters.moving:
+            if atoms_of(value) & script.context.functions.keys():
+                raise NotExportedError("a function of what has the rate zero")
+            names.append(script.show("M", f"{script.normal.value(value)} {COQ[operator]} 0", f"{change}exact {name}."))
+        else:
+            names.append(name)
+    script.names = names
+    script.facts.nonzero = [(poly, name, strict) for poly, name, strict in script.facts.nonzero
+                            if not symbols_of(script.context, Ratio(poly)) & letters.moving]
 
 
 def _drop(script: Script, function: ast.expr, value: Ratio, along: str, bound: str,
@@ -113,5 +137,5 @@ def _drop(script: Script, function: ast.expr, value: Ratio, along: str, bound: s
     script.prepare_all(drop)
     start = "".join(f"rewrite ?start_{name} in begun_. " for name in starts)
     name = script.show("M", f"{script.normal.value(drop)} >= 0",
-                       f"pose proof {bound} as begun_. {start}generalize {equation}. lra.")
+                       f"pose proof {bound} as begun_. {start}generalize {equation} begun_. linear.")
     return (drop, ">="), name

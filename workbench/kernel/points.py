@@ -120,7 +120,7 @@ class _Here:
             function, worth = f"(fun s => {text_of(inner, self.letters.at('s'))})", text_of(value, self.letters)
             derives = self.script.show("X", f"is_derive {function} 0 {worth}",
                                        f"refine {found.proof}; cbv beta; "
-                                       "solve [assumption | reflexivity | simpl; lra | nonzero].")
+                                       "solve [assumption | reflexivity | simpl; linear | nonzero].")
             exists = self.script.show("Y", f"ex_derive {function} 0", f"exists {worth}. exact {derives}.")
             equation = self.script.show("D", f"(Derive {function} 0) = {worth}",
                                         f"apply is_derive_unique. exact {derives}.")
@@ -151,7 +151,7 @@ class _Here:
                 elif name == "t":
                     script.say("exists 0.")
                 elif kind == "nat":
-                    script.say(f"exists {len(self.rows) if goal.letters.indexed else 1}%nat.")
+                    script.say(f"pose (n := {len(self.rows) if goal.letters.indexed else 1}%nat). exists n.")
                 elif kind == "nat -> R":
                     each = [text_of(row[name[2:]], letters) for row in self.rows]
                     cases = "".join(f"{number}%nat => {text} | " for number, text in enumerate(each[:-1]))
@@ -197,14 +197,14 @@ class _Here:
         relation = {"positive": "0 < {}", "non-negative": "0 <= {}"}.get(wanted, "{} > 0" if low > 0 else "{} < 0")
         worth = self.script.normal.ratio(value)
         sign = self.script.show("V", relation.format(worth), self._decide(value, worth))
-        proof = f"rewrite ?{equation}. generalize {sign}. lra."
+        proof = f"rewrite ?{equation}. generalize {sign}. linear."
         if wanted == "non-zero":
             return self.script.show("W", f"{text} <> 0", proof)
         return self.script.show("W", relation.format(text), proof)
 
     def _decide(self, value: object, worth: str) -> str:
         if is_number(value) is not None:  # type: ignore[arg-type]
-            return "lra."
+            return "linear."
         self.script.libraries.add("Interval")
         names = sorted(self.script.facts.atoms, key=lambda name: -int(name[1:]))
         return "".join(f"rewrite ?{name}_is. " for name in names) + "interval with (i_prec 120)."
@@ -232,7 +232,7 @@ class _Here:
         stated = f"{text_of(self.closed(parse(left)), self.script.normal.letters)} " \
                  f"{RELATIONS[operator]} {text_of(self.closed(parse(right)), self.script.normal.letters)}"
         false = self.script.show("U", f"~ ({stated})", f"intro holds_. generalize ({MARGINS[operator]}_margin _ _ _ "
-                                                      f"holds_ {equation}) {against}. lra.")
+                                                      f"holds_ {equation}) {against}. linear.")
         return self.moved(f"~ ({self._partly(text)})", false)
 
     def _partly(self, text: str) -> str:
@@ -244,7 +244,7 @@ class _Here:
         low, _ = bounds(self.script.context, value)
         relation = ">" if low > 0 else "<"
         sign = self.script.show("V", f"{worth} {relation} 0", self._decide(value, worth))
-        return self.script.show("V", f"{worth} <> 0", f"generalize {sign}. lra.")
+        return self.script.show("V", f"{worth} <> 0", f"generalize {sign}. linear.")
 
     def failing(self) -> str:
         """That not all relations shown hold."""

@@ -5,10 +5,10 @@ from __future__ import annotations
 from typing import Any
 
 from workbench.kernel.combination import combination
-from workbench.kernel.motion import nonincreasing
+from workbench.kernel.motion import COQ, nonincreasing
 from workbench.kernel.normal import is_number
 from workbench.kernel.script import Script
-from workbench.kernel.syntax import NotExportedError
+from workbench.kernel.syntax import FUNCTIONS, NotExportedError
 from workbench.kernel.writing import joined_tactics
 from workbench.proof.checker import (
     CASES,
@@ -20,8 +20,6 @@ from workbench.proof.checker import (
     substitute,
     symbol,
 )
-
-COQ = {">": ">", ">=": ">=", "==": "=", "!=": "<>"}
 
 
 def stated(script: Script, value: Ratio, operator: str) -> str:
@@ -67,13 +65,14 @@ def _contradiction(script: Script, value: Ratio, operator: str, proof: dict[str,
             script.say(f"rename case_ into {known}.")  # there may be cases within
             intro, case = ("intro eq_. ", f"{known} eq_") if "!=" in (operator, opposite) else ("", known)
             if {">": sign > 0, ">=": sign >= 0, "==": sign == 0, "!=": sign != 0}[operator]:
-                script.say(f"exact {known}." if operator == "==" else f"{intro}generalize {case}. lra.")
+                script.say(f"exact {known}." if operator == "==" else f"{intro}generalize {case}. linear.")
                 continue
             negation, name = number(direction) * value, script.fresh("M")
             script.say(f"assert ({name} : {stated(script, negation, opposite)}).")
-            turned = f"replace {script.normal.value(negation)} with (- {text}) by same. " if direction < 0 else ""
+            turned = (f"replace {script.normal.value(negation)} with (- {text}) by {script.agree(value, True)}. "
+                      if direction < 0 else "")
             script.say(f"{{ {turned}{intro if opposite == '!=' else ''}generalize "
-                       f"{case if opposite == '!=' else known}. lra. }}")
+                       f"{case if opposite == '!=' else known}. linear. }}")
             script.assume((negation, opposite), name)
             script.say("exfalso. assert (absurd : 0 > 0).")
             with script.subproof():
@@ -111,8 +110,10 @@ def _case(script: Script, value: Ratio, operator: str, proof: dict[str, Any], in
     script.say(f"rename case_ into {case}.")  # there may be cases within
     # the cases of the library speak of x and - x
     script.say(f"assert ({hypothesis} : {stated(script, size, relation)}).")
-    script.say(f"{{ replace {script.normal.value(size)} with ({text if direction > 0 else '- ' + text}) by same. "
+    script.say(f"{{ replace {script.normal.value(size)} with ({text if direction > 0 else '- ' + text}) "
+               f"by {script.agree(inspected, direction < 0)}. "
                f"exact {case}. }}")
+    weakly = hypothesis if relation == ">=" else f"({'Rgt_ge' if relation == '>' else 'Req_ge'} _ _ {hypothesis})"
     known: dict[str, Ratio] = {}
     rewrites: list[str] = []
     for atom, (kind, argument) in list(context.functions.items()):
@@ -129,13 +130,11 @@ def _case(script: Script, value: Ratio, operator: str, proof: dict[str, Any], in
         inner = script.normal.ratio(argument)
         step = f"rewrite {script.normal.name(atom)}_is. "
         if kind == "abs":
-            positive = same(argument, size)
-            step += (f"replace {inner} with ({'' if positive else '- '}{script.normal.ratio(size)}) by same. "
-                     f"{'' if positive else 'rewrite Rabs_Ropp. '}apply Rabs_right. generalize {hypothesis}. lra.")
+            step += f"apply (abs_{'plus' if same(argument, size) else 'minus'} _ _ {weakly}); same."
         else:
             lemma = {1: "sgn_pos", -1: "sgn_neg", 0: "sgn_zero"}[int(is_number(known[atom]) or 0)]
             step += (f"replace {inner} with ({'- ' if turned else ''}{text}) by same. apply {lemma}. "
-                     f"generalize {case}. lra.")
+                     f"generalize {case}. linear.")
         rewrites.append(script.show("K", f"{script.normal.atom(atom)} = {script.normal.ratio(known[atom])}", step))
 
     def change() -> str:
@@ -157,7 +156,7 @@ def _case(script: Script, value: Ratio, operator: str, proof: dict[str, Any], in
             script.prepare_all(new)
             known_by = script.show("M", f"{script.normal.value(new)} {COQ[op]} 0",
                                f"replace {script.normal.value(new)} with {script.normal.value(old)} "
-                               f"by ({joined_tactics(change())}same). exact {name}.")
+                               f"by ({joined_tactics(change())}{script.agree(old)}). exact {name}.")
         margins.append((new, op))
         names.append(known_by)
     script.given, script.names = script.given.with_margins([*margins, (size, relation)]), [*names, hypothesis]
@@ -165,9 +164,10 @@ def _case(script: Script, value: Ratio, operator: str, proof: dict[str, Any], in
     if not same(new, value):
         script.prepare_all(new)
         script.say(f"replace {script.normal.value(value)} with {script.normal.value(new)} "
-                   f"by ({joined_tactics(change())}same).")
+                   f"by ({joined_tactics(change())}{script.agree(value)}).")
     elif script.normal.value(new) != script.normal.value(value):
-        script.say(f"replace {script.normal.value(value)} with {script.normal.value(new)} by same.")
+        script.say(f"replace {script.normal.value(value)} with {script.normal.value(new)} "
+                   f"by {script.agree(value)}.")
     prove(script, new, operator, proof)
 
 
@@ -178,8 +178,7 @@ def _deeper(script: Script, atom: str, done: dict[str, Ratio], change: str) -> s
     if script.normal.indexed(symbol(atom)):
         raise NotExportedError("a case inside of a function of each index")
     inner = script.normal.ratio(argument)
-    function = {"log": "ln", "abs": "Rabs", "sign": "sgn"}.get(kind, kind)
     new = substitute(script.context, argument, done, done)
-    equation = script.function(kind, f"({function} {inner})", inner, new, change)
+    equation = script.function(kind, f"({FUNCTIONS[kind]} {inner})", inner, new, change)
     return script.show("K", f"{script.normal.atom(atom)} = {script.normal.ratio(done[atom])}",
                        f"rewrite {script.normal.name(atom)}_is. exact {equation}.")

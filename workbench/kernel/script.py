@@ -112,6 +112,8 @@ class Script(Functions):
             inside = Ratio({})
         if not same(value, self.context.node(node)):
             raise NotExportedError("a sum reads differently here and in the checker")
+        outside, whole = self.normal.split(value)  # both over one denominator, as the value is written
+        inside = whole if whole is not None else inside
         self.prepare(outside)
         self.prepare(inside)
         for weight in weights.values():
@@ -159,7 +161,7 @@ class Script(Functions):
         function = f"(fun s => {text_of(inner, letters.at('s'))})"
         derives = self.show("X", f"{start}is_derive {function} {letters.instant} {text_of(value, letters)}",
                             f"{intros}refine {found.proof}; cbv beta; "
-                            "solve [assumption | reflexivity | simpl; lra | nonzero].")
+                            "solve [assumption | reflexivity | simpl; linear | nonzero].")
         at = " i" if start else ""
         exists = self.show("Y", f"{start}ex_derive {function} {letters.instant}",
                            f"{'intros i. ' if start else ''}exists {text_of(value, letters)}. exact ({derives}{at}).")

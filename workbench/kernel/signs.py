@@ -5,7 +5,7 @@ from __future__ import annotations
 from fractions import Fraction
 
 from workbench.kernel.normal import number_text
-from workbench.kernel.syntax import NotExportedError
+from workbench.kernel.syntax import FUNCTIONS, NotExportedError
 from workbench.kernel.writing import Writing
 from workbench.proof.checker import SUM, Poly, Ratio, atoms_of, constant, divide_exactly, same, symbol
 
@@ -37,9 +37,8 @@ class Signs(Writing):
         if SUM in atoms_of(argument):
             raise NotExportedError(f"{kind} of a sum")
         self.prepare(argument)
-        function = {"log": "ln", "abs": "Rabs", "sign": "sgn"}.get(kind, kind)
         indexed = self.normal.indexed(symbol(atom))
-        text = f"{function} {self.normal.ratio(argument)}"
+        text = f"{FUNCTIONS[kind]} {self.normal.ratio(argument)}"
         if indexed:
             self.say(f"destruct (named_each (fun i => {text})) as [{name} {name}_is].")
         else:
@@ -71,7 +70,10 @@ class Signs(Writing):
                     rest, changed = quotient, True
                     factors.append((factor, proof))
         if set(rest) == {()} and (rest[()] > 0 or not strict):
-            proofs = ["lra"]
+            proofs = ["linear"]
+        elif factors:  # what is left is known by a name too: `field` asks for it
+            inner = self.sign(rest, strict)
+            proofs = [f"exact {f'({inner} i)' if self.normal.indexed(Ratio(rest)) else inner}"]
         else:
             proofs = [f"{'' if strict else 'apply pos_ne; '}exact {self.terms(rest, strictly=True)}"]
         indexed = self.normal.indexed(Ratio(poly))
@@ -134,7 +136,7 @@ class Signs(Writing):
         if coefficient <= 0:
             raise NotExportedError("a sign that is not seen term by term")
         if coefficient != 1 or not monomial:
-            parts.append((f"(ltac:(lra) : 0 < {number_text(coefficient)})", True))
+            parts.append((f"(ltac:(linear) : 0 < {number_text(coefficient)})", True))
         for atom, power in monomial:
             text, sign = self.normal.atom(atom), self._sign_of(atom)
             if sign is not None and (sign[1] or power % 2):
@@ -167,8 +169,8 @@ class Signs(Writing):
                 if monomial == ((atom, 1),) and coefficient > 0:
                     text = self.normal.atom(atom)
                     if operator == ">":
-                        return f"(ltac:(generalize {name}; lra) : 0 < {text})", True
-                    weak = f"(ltac:(generalize {name}; lra) : 0 <= {text})", False
+                        return f"(ltac:(generalize {name}; linear) : 0 < {text})", True
+                    weak = f"(ltac:(generalize {name}; linear) : 0 <= {text})", False
         return weak
 
     def positive(self, value: Ratio, wanted: str = "positive") -> str:
@@ -178,7 +180,7 @@ class Signs(Writing):
                 if operator in (">", ">=") and same(value, known):
                     goal = f"0 <= {self.normal.value(value)}"
                     return self.show("F", goal, f"replace {self.normal.value(value)} with {self.normal.value(known)} "
-                                                f"by same. generalize {name}. lra.")
+                                                f"by {self.agree(value)}. generalize {name}. linear.")
             try:
                 over = f"(pos_ge _ {self.sign(value.num)})"
             except NotExportedError:

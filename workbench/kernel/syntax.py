@@ -9,7 +9,8 @@ from dataclasses import dataclass, replace
 
 from workbench.proof.checker import parse, split_relation
 
-FUNCTIONS = {"log": "ln", "exp": "exp", "tanh": "tanh", "abs": "Rabs", "sign": "sgn", "sqrt": "sqrt"}
+FUNCTIONS = {"log": "ln", "exp": "exp", "tanh": "tanh", "abs": "Rabs", "sign": "sgn", "sqrt": "sqrt",
+             "sin": "sin", "cos": "cos"}
 RELATIONS = {"<=": "<=", ">=": ">=", "==": "=", "!=": "<>", "<": "<", ">": ">"}
 EXTREMES = {"Max": "Rmax", "Min": "Rmin"}
 NAMED = "@"  # before the name of a value that the Coq file names itself

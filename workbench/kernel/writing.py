@@ -9,7 +9,7 @@ from dataclasses import dataclass, field
 
 from workbench.kernel.normal import Normal
 from workbench.kernel.theorem import Goal
-from workbench.proof.checker import Context, Poly, Ratio, Relations, Sign
+from workbench.proof.checker import SUM, Context, Poly, Ratio, Relations, Sign, atoms_of
 
 
 @dataclass
@@ -73,6 +73,14 @@ class Writing:
         if not indexed:
             return "", ""
         return "forall i : nat, ", "intros i. " + "".join(f"pose proof ({name} i). " for name in self.facts.each)
+
+    def agree(self, value: Ratio, opposite: bool = False) -> str:
+        """The tactic that a value equals another one, or its opposite, which is written otherwise."""
+        if SUM not in atoms_of(value):
+            return "same"
+        _, intros = self.every(True)
+        lemma = "symmetry; apply opposite_sums" if opposite else "apply equal_sums"  # as `replace` asks for it
+        return (f"({lemma}; [same | {joined_tactics(intros)}intros _; cbv beta; same])")
 
     def assume(self, relation: Sign, name: str) -> None:
         """One more assumption in force, and its hypothesis."""

@@ -95,10 +95,11 @@ KINDS: dict[str, Kind] = {
 class MpcController:
     """One of KINDS on a scenario's train; raises InputError for parameters that are missing, unknown or unfit.
 
+    learned: pushes (m/s^2) that it foresees beside what it is told, one a sample of the problem.
     `command` never raises and never answers NaN; `counters` and `explain` say what went otherwise than planned.
     """
 
-    def __init__(self, scenario: Scenario, spec: ControllerSpec, name: str) -> None:
+    def __init__(self, scenario: Scenario, spec: ControllerSpec, name: str, learned: Array | None = None) -> None:
         kind, where = KINDS[spec.law], f"controllers.{name}.parameters"
         values = _checked(_with_horizon(spec, where), kind, where)
         train, curve = scenario.train, scenario.desired_curve()
@@ -124,8 +125,8 @@ class MpcController:
                 if kind.tracker in (_tube, _adaptive):  # whose promise, and learning, is of states as measured
                     raise InputError("", "predictor", f"'{spec.law}' cannot be told of an actuator: leave it out")
                 self.problem, late_s = told(self.problem, scenario.actuator)
-            self.ahead = preview(self.problem, curve, duration, line=line, limits=kept, late_s=late_s)
-            now = preview(self.problem, curve, duration, line=line) if late_s else self.ahead
+            self.ahead = preview(self.problem, curve, duration, line=line, limits=kept, late_s=late_s, learned=learned)
+            now = preview(self.problem, curve, duration, line=line, learned=learned) if late_s else self.ahead
             start = scenario.simulation.initial_position_m - float(self.ahead[0, 0])
             tracker = kind.tracker(self.problem, self.ahead, values, start)
             self._observer = Observer(self.problem, now, values.get("observer_gain", 0.0))

@@ -21,12 +21,13 @@ resistance = numeric((x_2, a_star, b_star, c_star), davis_resistance(x_2, a_star
 
 def preview(problem: Problem, curve: DesiredCurve, duration_s: float, speed_limit_mps: float = math.inf,
             line: ResistanceTable | None = None, limits: Sequence[SpeedSection] = (),
-            late_s: float = 0.0) -> Array:
+            late_s: float = 0.0, learned: Array | None = None) -> Array:
     """Rows (COLUMNS) for every sample of a run of duration_s, and of the horizon beyond it.
 
     line: the line's force (N/kg), where the controller is told it; met at the desired position. The force is what the
     model needs to stay on the curve, and the command what makes it through the actuator. limits: of the speed along
     the line, met at the desired position too. late_s: what lies ahead of commands that act so much after their sample.
+    learned: further pushes (m/s^2), the mean over each sample, of the train where it is then.
     """
     steps = math.ceil(duration_s / problem.period_s) + problem.horizon + 2
     position, speed, acceleration = curve.at(np.arange(steps + 1, dtype=np.float64) * problem.period_s + late_s)
@@ -34,6 +35,9 @@ def preview(problem: Problem, curve: DesiredCurve, duration_s: float, speed_limi
     if line is not None:
         section = np.clip(np.searchsorted(line.position_m, position, side="right") - 1, 0, len(line.position_m) - 1)
         told = -line.specific_force[section]
+    if learned is not None:
+        samples = np.arange(len(learned), dtype=np.float64)
+        told = told + np.interp(np.arange(steps + 1) + late_s / problem.period_s, samples, learned)
     needed = acceleration + resistance(speed, *problem.davis) - told
     if problem.actuator == "lag":
         kept = math.exp(-problem.period_s / problem.lag_s)

@@ -1,17 +1,25 @@
-"""The contract of a paper's gains.py: what is looked at and searched, and which runs show what found gains do."""
+"""The contract of a paper's gains.py: what is looked at and searched, and which runs show what found gains do.
+
+Of a front (`gain_front.py`): which gains are searched for what their runs cost against what is proved of them.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
+from fractions import Fraction
 from typing import Any
 
 from workbench.files.folders import held_in, is_paper
+from workbench.gains.held_loop import SampledLoop
 from workbench.gains.result import GainReport
 from workbench.gains.stated import Stated
+from workbench.model.tuning import Range
 from workbench.paper.loading import Loaded
 
 Row = dict[str, float | str | None]
+Values = Mapping[str, float]
+Numbers = dict[str, float | None]
 
 
 @dataclass(frozen=True)
@@ -28,14 +36,49 @@ class Task:
 
 
 @dataclass(frozen=True)
+class FrontSetting:
+    """Sampling, delay and lag for which a front is searched.
+
+    loop(stated, gains): the loop of which the bound is proved; run(loaded, gains): the numbers of its run in SI, `cost`
+    among them, which is what is minimised; None for what a failed run does not have.
+    """
+
+    id: str
+    title: str
+    loop: Callable[[Stated, Mapping[str, Fraction]], SampledLoop]
+    run: Callable[[Loaded, Values], Numbers]
+
+
+@dataclass(frozen=True)
+class FrontSearch:
+    """What is searched: the ranges of gains, the stated ones, and in which settings.
+
+    bounded: in words what the bound is of; unit: its unit; weights: how many compromises between cost and bound are
+    searched for, with `evaluations` each; points: how many are kept of a front at most.
+    """
+
+    paper: str
+    ranges: Mapping[str, Range]
+    stated: Callable[[Stated], Mapping[str, float]]
+    bounded: str
+    unit: str
+    settings: tuple[FrontSetting, ...]
+    weights: int = 5
+    evaluations: int = 60
+    points: int = 5
+    seed: int = 1
+
+
+@dataclass(frozen=True)
 class GainSearch:
     """report(stated): conditions, certificates and found gains of a file's numbers; tasks(report): the runs, each
     setting first with the stated gains, then with those found for it; run(loaded, task): the numbers of one, in SI
-    units, and why it ended early if it did."""
+    units, and why it ended early if it did. front: what cost against proved bound is searched for, if anything."""
 
     report: Callable[[Stated], GainReport]
     tasks: Callable[[GainReport], list[Task]]
     run: Callable[[Loaded, Task], tuple[Row, str | None]]
+    front: FrontSearch | None = None
 
 
 def gain_search_of(loaded: Loaded) -> GainSearch | None:

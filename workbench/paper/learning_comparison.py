@@ -33,6 +33,11 @@ def rises(errors: Array) -> int:
     return int(np.sum(np.diff(errors) > 0))
 
 
+def at_trials(values: Array, trials: Sequence[int], first_trial: int) -> tuple[float | None, ...]:
+    """The values of some trials, of which the first has the number first_trial; None where the run had ended."""
+    return tuple(float(values[trial - first_trial]) if trial - first_trial < len(values) else None for trial in trials)
+
+
 def trial_curve(label: str, errors: Array, first_trial: int) -> Curve:
     """An error along the trials, of which the first has the number first_trial."""
     return Curve(label, np.arange(len(errors), dtype=float) + first_trial, errors)

@@ -2,17 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Hashable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
 from typing import Any, Protocol
 
 from workbench.model.desired_curve import DesiredCurve
 from workbench.paper.drivers import Drivers, checked, tune_with
+from workbench.paper.findings import found
 from workbench.paper.pairs import compared_pairs, pair_findings, pair_stage, pair_table
-from workbench.paper.results import Shown, StudyResult
+from workbench.paper.reproduced import ReproducedStudy
+from workbench.paper.results import Plot, ResultTable, Shown, StudyResult
 from workbench.paper.stages import Stage, run_stages
-from workbench.paper.study import Progress, Study, StudyKind
+from workbench.paper.study import Progress, StudyKind
 from workbench.paper.tracked import Tracked
 
 
@@ -33,23 +35,41 @@ class Beside(Protocol):
         ...
 
 
+def _nothing_more(study: Any) -> Sequence[Stage]:
+    return ()
+
+
+def _every(case: Any) -> bool:
+    return True
+
+
 @dataclass(frozen=True)
 class Reproduction:
     """What a paper's study declares; the package runs it and puts it together.
 
-    record: of its file; stages(study): its own runs; results(study, *found): what they gave, a mapping a stage, as the
-    others take it, with the study as `study`; rows: a run each; shown: tables, figures and findings in the order of the
-    page; failures: (run, why); beside: law and MPC; track: see `StudyKind`.
+    record: of its file; cases(study): its own runs, hashable, each with the number of its `change`; run(study, case):
+    what a run left, with `failed`, why it ended early, or None; title(study, case): a run in words; row(study, case,
+    run): a run as data; results(study, runs, *of_stages): what the makers of tables, figures and findings are given,
+    `reproduced.Results` or more. A maker gives one or several, in the order of the page; a finding that
+    lacks its runs is left out.
+    beside: law and MPC; track: see `StudyKind`; work: how long a run takes, see `Stage`; stages(study): runs of other
+    kinds; told(case): whether the report says that a run failed, which for a sweep's it need not.
     """
 
-    record: type[Study]
-    stages: Callable[[Any], Sequence[Stage]]
+    record: type[ReproducedStudy]
+    cases: Callable[[Any], Sequence[Hashable]]
+    run: Callable[[Any, Any], Any]
+    title: Callable[[Any, Any], str]
+    row: Callable[[Any, Any, Any], dict[str, Any]]
     results: Callable[..., Any]
-    rows: Callable[[Any], Iterable[dict[str, Any]]]
-    shown: Callable[[Any], Shown]
-    failures: Callable[[Any], Iterable[tuple[str, str]]]
+    tables: Sequence[Callable[[Any], ResultTable | Iterable[ResultTable]]]
+    plots: Sequence[Callable[[Any], Plot | Iterable[Plot]]]
+    findings: Sequence[Callable[[Any], str | Iterable[str]]]
     beside: Beside
     track: Callable[[Any, DesiredCurve | None], Tracked]
+    work: Callable[[Any, Any], float] | None = None
+    stages: Callable[[Any], Sequence[Stage]] = _nothing_more
+    told: Callable[[Any], bool] = _every
 
     @property
     def kind(self) -> StudyKind:
@@ -57,16 +77,34 @@ class Reproduction:
         drivers = self.beside.drivers
         return StudyKind(self.record, partial(_run, self), checked(drivers), tune_with(drivers), track=self.track)
 
+    def own_stage(self, study: Any) -> Stage:
+        """The runs of all cases."""
+        return Stage(self.run, study, self.cases(study), lambda case, _: self.title(study, case),
+                     partial(self.work, study) if self.work else None)
+
+    def shown(self, results: Any) -> Shown:
+        """The paper's own tables, figures and findings."""
+        return Shown(_each(self.tables, results), _each(self.plots, results), found(self.findings, results))
+
+
+def _each(makers: Sequence[Callable[[Any], Any]], results: Any) -> Iterator[Any]:
+    for maker in makers:
+        made = maker(results)
+        yield from (made,) if isinstance(made, ResultTable | Plot) else made
+
 
 def _run(of: Reproduction, study: Any, workers: int, on_progress: Progress) -> StudyResult:
     """All runs of the study in `workers` processes; a run that diverges is told and stops no other."""
     drivers = of.beside.drivers
-    *own, compared, drawn = run_stages((*of.stages(study), of.beside.stage(study), pair_stage(drivers, study)), workers,
-                                       on_progress)
-    results, pairs = of.results(study, *own), compared_pairs(drivers, study, drawn)
+    stages = (of.own_stage(study), *of.stages(study), of.beside.stage(study), pair_stage(drivers, study))
+    runs, *others, compared, drawn = run_stages(stages, workers, on_progress)
+    results, pairs = of.results(study, runs, *others), compared_pairs(drivers, study, drawn)
     parts = (of.shown(results), of.beside.shown(results, compared),
              Shown(pair_table(study, drivers, pairs), (), pair_findings(study, drivers, pairs)))
     return StudyResult(
-        rows=tuple(of.rows(results)), tables=tuple(table for part in parts for table in part.tables),
+        rows=tuple(of.row(study, case, run) for case, run in runs.items()),
+        tables=tuple(table for part in parts for table in part.tables),
         plots=tuple(plot for part in parts for plot in part.plots),
-        findings=tuple(finding for part in parts for finding in part.findings), failures=tuple(of.failures(results)))
+        findings=tuple(finding for part in parts for finding in part.findings),
+        failures=tuple((of.title(study, case), run.failed) for case, run in runs.items()
+                       if run.failed is not None and of.told(case)))

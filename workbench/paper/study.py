@@ -38,8 +38,6 @@ class Study(FileRecord):
 
 
 S = TypeVar("S", bound=Study)
-# What a study changes by itself.
-_CHANGES = ("changes", "sensitivity", "variants")
 
 
 def with_values(study: S, values: Mapping[str, Any], where: str) -> S:
@@ -63,7 +61,7 @@ def with_values(study: S, values: Mapping[str, Any], where: str) -> S:
 
 def varied(study: S, values: Mapping[str, Any], where: str) -> S:
     """`with_values` for one run, without the changes that a study makes by itself: of no use where one is made."""
-    bare = study.model_copy(update={key: () for key in _CHANGES if hasattr(study, key)})
+    bare = study.model_copy(update={"changes": ()} if hasattr(study, "changes") else {})
     return with_values(bare, values, where) if values else bare
 
 

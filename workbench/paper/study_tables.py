@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import replace
+from typing import TypeVar
 
-from workbench.paper.cells import Cell, Column
+from workbench.paper.cells import Cell, Column, Phrase, Quantity
 from workbench.paper.results import ResultTable
+
+T = TypeVar("T")
 
 
 def printed_columns(quantities: Sequence[Column], ratio: bool = False) -> tuple[Column, ...]:
@@ -22,10 +25,19 @@ def printed_cells(pairs: Iterable[tuple[float | None, float | None]], ratio: boo
         printed, obtained, *((obtained / printed if printed and obtained is not None else None,) if ratio else ())))
 
 
-def statement_table(title: str, source: str, columns: Sequence[str], rows: Iterable[Sequence[Cell]],
-                    note: str) -> ResultTable:
-    """What a paper says in words beside what came out; rows: the statement, what is printed, a cell for each column."""
-    return ResultTable(title, source, ("Statement", "Printed", *columns), tuple(map(tuple, rows)), note)
+def statement_table(title: str, source: str, runs: Mapping[str, T],
+                    statements: Iterable[tuple[str, str, Callable[[T], Cell]]], note: str) -> ResultTable:
+    """What a paper says in words beside what came out in runs, by their titles.
+
+    statements: what it says, where it says so, and what a run says of it.
+    """
+    return ResultTable(title, source, ("Statement", "Printed", *runs), tuple(
+        (statement, printed, *map(says, runs.values())) for statement, printed, says in statements), note)
+
+
+def verdict(holds: bool, words: str, numbers: Sequence[float | Quantity | None]) -> Phrase:
+    """Whether a statement holds, and the numbers that say so."""
+    return Phrase(f"{'yes' if holds else 'no'}: {words}", tuple(numbers))
 
 
 def sensitivity_table(title: str, header: Sequence[Column | str],

@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 
+from workbench.files.wording import listed
+from workbench.proof.places import place_of, places_of
 from workbench.proof.premises import holds_in_other_reading, proved_under, with_taint
 from workbench.proof.verdict import Decision, Fate
 
@@ -36,21 +38,21 @@ def fates(decisions: Sequence[Decision]) -> dict[str, Fate]:
 
 def _fate(decision: Decision, by_id: dict[str, Decision], mended: Decision | None,
           unshown: tuple[str, ...]) -> Fate:
-    instead = f"; its mended form {_number(mended.claim.id)} is proved" if mended else ""
+    instead = f"; its mended form, {_place(mended.claim.id)}, is proved" if mended else ""
     if decision.verdict == "refuted":
         if holds_in_other_reading(decision, by_id):
             other = str(decision.claim.glyph)
-            return Fate("open", f"depends on the reading: {_number(other)} holds", (other,))
+            return Fate("open", f"depends on the reading: {_place(other)} holds", (other,))
         return Fate("falls", f"refuted by {_how(decision)}{instead}", (mended.claim.id,) if mended else ())
     if decision.verdict == "proved" and not unshown:
         failing = tuple(line for line in decision.tainted_by if not holds_in_other_reading(by_id[line], by_id))
         open_glyphs = tuple(line for line in decision.tainted_by if line not in failing)
         holds = "holds in its other reading" if len(open_glyphs) == 1 else "hold in their other readings"
-        readings = f"; {_numbers(open_glyphs)} on the way {holds}" if open_glyphs else ""
+        readings = f"; {_named(open_glyphs)} on the way {holds}" if open_glyphs else ""
         if not failing:
             return Fate("stands", f"proved, and no line that the paper uses to get there fails{readings}", open_glyphs)
         return Fate("stands with corrections", f"proved as a whole, though the paper's way there fails at "
-                    f"{_numbers(failing)}{readings}", failing)
+                    f"{_named(failing)}{readings}", failing)
     if mended is not None:
         return Fate("stands with corrections", f"{_shortfall(decision, unshown)}{instead}", (mended.claim.id,))
     return Fate("open", _shortfall(decision, unshown), unshown)
@@ -58,7 +60,7 @@ def _fate(decision: Decision, by_id: dict[str, Decision], mended: Decision | Non
 
 def _shortfall(decision: Decision, unshown: tuple[str, ...]) -> str:
     if decision.verdict == "proved":
-        return f"proved only under lines that are not shown: {_numbers(unshown)}"
+        return f"proved only under lines that are not shown: {_named(unshown)}"
     return {"gap": "does not follow from its premises", "violated": "its conditions fail at the printed numbers",
             "assumed": "taken from the literature", "undecided": "not decided"}[decision.verdict]
 
@@ -67,9 +69,10 @@ def _how(decision: Decision) -> str:
     return "an exact motion" if (decision.certificate or {}).get("functions") else "a counterexample"
 
 
-def _numbers(claim_ids: Sequence[str]) -> str:
-    return ", ".join(map(_number, claim_ids))
+def _place(claim_id: str) -> str:
+    return place_of(claim_id.partition(":")[2])
 
 
-def _number(claim_id: str) -> str:
-    return f"({claim_id.partition(':')[2]})"
+def _named(claim_ids: Sequence[str]) -> str:
+    """Lines as a reader calls them, `equation (4) and Theorem 1`."""
+    return listed(places_of([name.partition(":")[2] for name in claim_ids]))

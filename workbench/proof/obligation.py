@@ -24,7 +24,7 @@ ARITHMETIC: dict[type[ast.operator], Callable[[sp.Expr, sp.Expr], sp.Expr]] = {
     ast.Add: lambda a, b: a + b, ast.Sub: lambda a, b: a - b, ast.Mult: lambda a, b: a * b,
     ast.Div: lambda a, b: a / b, ast.Pow: lambda a, b: a**b}
 FUNCTIONS = {"abs": sp.Abs, "max": sp.Max, "min": sp.Min, "exp": sp.exp, "log": sp.log, "tanh": sp.tanh,
-             "sqrt": sp.sqrt, "sign": sp.sign}
+             "sqrt": sp.sqrt, "sign": sp.sign, "sin": sp.sin, "cos": sp.cos}
 MOST_GOALS, LONGEST = 64, 100_000
 
 Conjunction = tuple[Relation, ...]

@@ -10,10 +10,10 @@ from urllib.parse import quote
 from markupsafe import Markup, escape
 
 from workbench.proof.checker import CertificateError
+from workbench.proof.places import place_of
 from workbench.report.certificate_latex import assignment_latex
-from workbench.report.formulas import formula
-from workbench.report.places_in_paper import place_of
-from workbench.report.worded import show, worded
+from workbench.report.formulas import formula, in_html
+from workbench.report.worded import worded
 
 # The order in which a reader wants to see them, with a sign for who cannot tell the colours.
 VERDICTS = {"refuted": "✗", "violated": "!", "gap": "⋯", "undecided": "?", "assumed": "≔", "proved": "✓"}
@@ -151,7 +151,7 @@ def _list(value: object) -> list[Any]:
 
 def in_words(text: str, letters: bool = True) -> Markup:
     """A text with its letters, such as z_1 or rho_hat, as formulas."""
-    return Markup(show(worded(text), formula, lambda words: str(escape(words)))) if letters else escape(text)
+    return in_html(worded(text)) if letters else escape(text)
 
 
 def _lines(value: object) -> tuple[Markup, ...]:

@@ -100,10 +100,33 @@ class GainSetDocument(TypedDict):
     note: str
 
 
+class FrontPointDocument(TypedDict):
+    """Gains of a front: what their run costs, what is proved of them, and what no proof can go below; or null."""
+
+    name: str
+    gains: dict[str, float]
+    numbers: dict[str, float | None]
+    cost: float | None
+    bound: float | None
+    no_bound_below: float | None
+    certificate: str
+
+
+class FrontDocument(TypedDict):
+    """What runs cost against what is proved, in one setting; the stated gains are the first point."""
+
+    setting: str
+    bounded: str
+    unit: str
+    evaluations: int
+    points: list[FrontPointDocument]
+
+
 class GainsDocument(TypedDict):
     """What `workbench gains --json` writes: conditions, proved numbers, found gains, and runs with both.
 
-    effects: a row a run; compared: in which numbers found gains are better and worse, in sentences; search_s: seconds.
+    effects: a row a run; fronts: cost against what is proved, by setting; compared: in which numbers found gains are
+    better and worse, in sentences; search_s: seconds.
     """
 
     version: Literal[1]
@@ -112,6 +135,7 @@ class GainsDocument(TypedDict):
     quantities: list[QuantityDocument]
     found: list[GainSetDocument]
     effects: list[dict[str, Any]]
+    fronts: list[FrontDocument]
     compared: list[str]
     certificates: list[str]
     notes: list[str]

@@ -6,10 +6,11 @@ from collections.abc import Sequence
 from dataclasses import asdict
 from typing import Any
 
+from workbench.files.wording import listed
+from workbench.proof.places import place_of, places_of
 from workbench.report.counterexample import Counterexample
 from workbench.report.finding import Finding, Gravity
-from workbench.report.places_in_paper import place_of, places_of
-from workbench.report.worded import INNER, listed, math
+from workbench.report.worded import INNER, math
 
 HEADINGS: dict[Gravity, str] = {
     "falls": "Headline statements that fall", "corrected": "Headline statements that stand with corrections",

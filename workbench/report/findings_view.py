@@ -6,11 +6,10 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
-from markupsafe import Markup, escape
+from markupsafe import Markup
 
 from workbench.report.claims import VERDICTS, anchor
-from workbench.report.formulas import formula
-from workbench.report.worded import show
+from workbench.report.formulas import formula, in_html
 
 FOLDED = ("cosmetic", "reading")  # gravities that are told of when asked for
 
@@ -57,10 +56,6 @@ def _view(entry: Mapping[str, Any]) -> FindingView:
     digest = entry.get("digest")
     return FindingView(
         str(entry.get("place", equation)), anchor(f"{entry.get('paper')}:{equation}"), verdict,
-        VERDICTS.get(verdict, "?"), _shown(sentences[0]), tuple(map(_shown, shown)),
+        VERDICTS.get(verdict, "?"), in_html(sentences[0]), tuple(map(in_html, shown)),
         formula(str(entry.get("printed") or "")), formula(str(entry.get("should_read") or "")),
         f"python checker.py certificates/{equation}.json --claim-digest {digest}" if digest else "")
-
-
-def _shown(text: str) -> Markup:
-    return Markup(show(text, formula, lambda words: str(escape(words))))

@@ -11,7 +11,7 @@ from xml.etree import ElementTree
 from latex2mathml.converter import convert_to_element
 from markupsafe import Markup, escape
 
-from workbench.report.worded import worded
+from workbench.report.worded import show, worded
 
 # What a formula may consist of: a claim file is a stranger's, and \href, \style and \text can carry anything.
 ELEMENTS = frozenset((
@@ -30,6 +30,8 @@ OPERATORS = frozenset("⟹⟸⟺⟶⟵⟷⇒⇐⇔→←↔↦:")
 LIMITS = frozenset(("lim", "max", "min", "sup", "inf", "lim sup", "lim inf", "∑", "∏"))
 _SENTENCE = re.compile(r"[A-Za-z]{2,} [a-z]+ [a-z]+ ")
 _PHRASE = re.compile(r"(?<![\\\w])(?:[A-Za-z]{2,}[ -]){3,}[A-Za-z]{2,}")
+# The last formula before a mark of punctuation, and the mark.
+_BEFORE_MARK = re.compile(r"(<math\b(?:(?!<math\b).)*</math>[.,;:)]+)", re.DOTALL)
 UNDER = {"msub": "munder", "msup": "mover", "msubsup": "munderover"}
 
 
@@ -39,6 +41,13 @@ def formula(latex: str) -> Markup:
     Whatever cannot be converted comes back as the escaped LaTeX in a `code` element; this never raises.
     """
     return _convert(latex.strip().strip("$").strip())
+
+
+def in_html(text: str) -> Markup:
+    """A text whose formulas stand between dollar signs as HTML; no line breaks between a formula and the punctuation
+    behind it."""
+    found = show(text, formula, lambda words: str(escape(words)))
+    return Markup(_BEFORE_MARK.sub(r'<span class="unbroken">\1</span>', found))
 
 
 def formula_tree(latex: str) -> ElementTree.Element | None:

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 from workbench.gains.result import GainReport, GainSet
 from workbench.paper.cells import Cell, Phrase, Quantity
 from workbench.paper.gain_effects import Effect
+from workbench.paper.kept_front import GainFront
 from workbench.paper.results import ResultTable, StudyResult
 
 if TYPE_CHECKING:
@@ -19,18 +20,19 @@ APART = 1.02  # by what factor numbers differ that are said to
 NOT_ERRORS = {"energy_J", "command_max", "bound_used", "mse_0", "reversals"}  # less of these is not better tracking
 
 
-def gains_result(report: GainReport, effects: Sequence[Effect]) -> StudyResult:
+def gains_result(report: GainReport, effects: Sequence[Effect], fronts: Sequence[GainFront] = ()) -> StudyResult:
     """The tables that `workbench gains` prints, its notes as findings."""
     tables = [_conditions(report), _quantities(report), _found(report)]
     if effects:
         tables += _effects(effects)
+    tables += [_front(front) for front in fronts]
     return StudyResult(
         rows=tuple({"controller": e.gains, "setting": e.setting, **e.numbers, "failed": e.failed} for e in effects),
-        tables=tuple(tables), plots=(), findings=(*compared(effects), *report.notes),
+        tables=tuple(tables), plots=(), findings=(*compared(effects), *map(front_sentence, fronts), *report.notes),
         failures=tuple((f"{e.gains}, {e.setting}", e.failed) for e in effects if e.failed))
 
 
-def gains_document(report: GainReport, effects: Sequence[Effect]) -> GainsDocument:
+def gains_document(report: GainReport, effects: Sequence[Effect], fronts: Sequence[GainFront] = ()) -> GainsDocument:
     """The document of `workbench gains --json`; numbers in SI units, gains as exact fractions and as floats."""
     return {
         "version": 1, "paper": report.paper,
@@ -42,6 +44,11 @@ def gains_document(report: GainReport, effects: Sequence[Effect]) -> GainsDocume
                    "exact": {k: str(v) for k, v in s.values.items()}, "proved": s.proved,
                    "certificate": s.certificate, "changes": dict(s.changes), "note": s.note} for s in report.found],
         "effects": [{"gains": e.gains, "setting": e.setting, **e.numbers, "failed": e.failed} for e in effects],
+        "fronts": [{"setting": front.title, "bounded": front.bounded, "unit": front.unit,
+                    "evaluations": front.evaluations, "points": [
+                        {"name": p.name, "gains": p.gains, "numbers": p.numbers, "cost": p.cost, "bound": p.bound,
+                         "no_bound_below": p.frozen, "certificate": p.certificate} for p in front.points]}
+                   for front in fronts],
         "compared": compared(effects), "certificates": [str(c["claim"]) for c in report.certificates],
         "notes": list(report.notes),
         "search_s": dict(report.seconds)}
@@ -58,6 +65,33 @@ def _quantities(report: GainReport) -> ResultTable:
                        ("quantity", "by the paper", "proved", "check", "remark"), tuple(
                            (q.name + (f" ({q.unit})" if q.unit else ""), q.papers, _near_one(q.proved),
                             _near_one(q.check), q.note) for q in report.quantities))
+
+
+def _front(front: GainFront) -> ResultTable:
+    names = [name for name in front.points[0].numbers if name != "cost"]
+    rows = tuple((p.name, p.cost, *(p.numbers[name] for name in names), p.bound, p.frozen,
+                  Phrase(", ".join(f"{name} = {{}}" for name in p.gains), tuple(p.gains.values())),
+                  p.certificate) for p in front.points)
+    return ResultTable(
+        f"cost against what is proved: {front.title}", "runs, and certificates checked again", (
+            "gains", "cost", *(name.replace("_", " ") for name in names), f"proved ({front.unit})",
+            f"none below ({front.unit})", "values", "certificate"), rows,
+        f"Proved: {front.bounded}, of the linearised sampled loop over a box of speeds and masses; none below: where a "
+        f"bound cannot be, by frequency responses at the hull's vertices. Of {front.evaluations} evaluations.")
+
+
+def front_sentence(front: GainFront) -> str:
+    """How what was found stands to the stated gains, in both."""
+    stated, found = front.points[0], front.points[1:]
+    if not found:
+        return f"{front.title.capitalize()}: no gains are kept of a search."
+    ran = "fail in their run" if stated.cost is None else f"cost {stated.cost:.3g}"
+    proved = f"{'nothing' if stated.bound is None else f'{stated.bound:.3g} {front.unit}'} is proved of them"
+    better = [p for p in found if p.cost is not None and p.bound is not None
+              and (stated.cost is None or p.cost <= stated.cost) and (stated.bound is None or p.bound <= stated.bound)]
+    best = ", ".join(p.name for p in better)
+    return (f"{front.title.capitalize()}: the stated gains {ran}, {proved}; "
+            f"{f'better in both: {best}' if better else 'none that was found is better in both'}.")
 
 
 def _near_one(value: float | None) -> Cell:

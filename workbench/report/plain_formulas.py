@@ -10,7 +10,7 @@ from xml.etree import ElementTree
 from workbench.report.formulas import formula_tree
 
 _UP = "⁰¹²³⁴⁵⁶⁷⁸⁹⁺⁻⁼⁽⁾ⁱⁿᵀ"
-_RAISED = dict(zip("0123456789+−=()inT", _UP, strict=True))
+_RAISED = dict(zip("0123456789+−=()inT", _UP, strict=True)) | {"′": "′"}
 _LOWERED = dict(zip("0123456789+−=()aeijklmnoprstuvxβγρφχ",
                     "₀₁₂₃₄₅₆₇₈₉₊₋₌₍₎ₐₑᵢⱼₖₗₘₙₒₚᵣₛₜᵤᵥₓᵦᵧᵨᵩᵪ", strict=True))
 # What stands over a letter, as a combining character behind it.

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from pydantic import BaseModel
 
 from workbench.files.numbers import NOTHING, exact
-from workbench.files.toml import SourcedRecord
+from workbench.files.toml import FileRecord, SourcedRecord
 
 
 @dataclass(frozen=True)
@@ -27,7 +27,7 @@ def sourced_values(record: BaseModel) -> list[SourcedValue]:
 
 
 def _walk(record: BaseModel, prefix: str) -> Iterator[SourcedValue]:
-    for name in type(record).model_fields:
+    for name in _in_order(record):
         value, key = getattr(record, name), f"{prefix}{name}"
         source = record.source.get(name) if isinstance(record, SourcedRecord) else None
         if source is not None and not isinstance(value, SourcedRecord):
@@ -45,6 +45,12 @@ def _walk(record: BaseModel, prefix: str) -> Iterator[SourcedValue]:
             for place, entry in enumerate(value):
                 if isinstance(entry, BaseModel):
                     yield from _walk(entry, f"{key}[{place}].")
+
+
+def _in_order(record: BaseModel) -> list[str]:
+    """The names of a record's values; in a file its own come before those that every file of its kind may state."""
+    own = type(record).__annotations__ if isinstance(record, FileRecord) else type(record).model_fields
+    return sorted(type(record).model_fields, key=lambda name: name not in own)
 
 
 def stated(value: object) -> str:

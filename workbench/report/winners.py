@@ -7,9 +7,9 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 from workbench.files.numbers import NOTHING, length, number
+from workbench.files.wording import listed
 from workbench.report.sources import stated
 from workbench.report.tables import information, largest_error
-from workbench.report.worded import listed
 from workbench.simulate.metrics import Metrics
 from workbench.simulate.sweep import SweepRow
 from workbench.trains.scenario import Scenario, Variant

@@ -4,32 +4,37 @@ medium."""
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 
 from workbench.proof.latex.commands import GREEK
 from workbench.report.certificate_latex import name_latex
 
 INNER = "\ue000"  # a dollar sign inside a formula
 _FORMULA = re.compile(r"\$([^$]*)\$")
-_LETTER = re.compile(r"(?<![\w.$\\{])([A-Za-z]+(?:_[A-Za-z0-9]+)+)(\^\d)?(?![\w]|\.py)")
+# A letter with indices, `rho_hat`, `4c_k` or `W_v*`, and what it is raised to; below, `E_{i-1}` or `e_(i-1)`.
+_LETTER = re.compile(r"(?<![A-Za-z_.$\\{])([A-Za-z]+(?:_[A-Za-z0-9]+)+)(\*?)(\^\d|\^T\b)?(?![\w]|\.py)")
+_EXPONENTIAL = re.compile(r"(?<![\w$\\{])(exp|e)\^\(([^()$]*)\)")
 _STEM = re.compile(r"([A-Za-z]+?)(?:d?dot|hat|tilde|bar)?\d*")
 _SIGNS = (("==", "="), ("<=", "≤"), (">=", "≥"), ("!=", "≠"), ("->", "→"))
-_POWER = re.compile(r"(?<![\w$\\{])([A-Za-z])\^(\d)(?!\w)")
+_POWER = re.compile(r"(?<![\w$\\{])([A-Za-z])\^(\d|[a-z])(?!\w)")
 _SHORT = {"eps": "varepsilon"}
 _WORDS = ("Re", "Im", "ell", "wp", "partial")  # words, before they are letters
 _NAMES = "|".join(sorted((name for name in GREEK if name not in _WORDS), key=len, reverse=True))
+_INDEXED = re.compile(rf"(?<![\w.$\\{{])({_NAMES}|sum|[A-Za-z])_(?:\{{([^{{}}$]+)\}}|\(([^()$]+)\))")
 # A Greek letter or a single one with its accent in words, such as W-tilde, where no claim's number goes on with it.
 _ACCENTED = re.compile(rf"(?<![\w.$\\{{-])({_NAMES}|eps|[A-Za-z])-(hat|tilde|bar|dot)(?!\w|\.\w)")
 _GREEK = re.compile(rf"(?<![\w.$\\{{])({_NAMES}|eps)(\*|\^\d)?(?!\w|\.\w)")
 _STARRED = re.compile(r"(?<![\w$\\{*])([A-Za-z])\*(?![\w*])")
-_DERIVED = re.compile(r"(?<![\w$\\{'])([A-Z])'(?!\w)")
-_RAISED = re.compile(r"\^(?:\{(-?\w+)\}|\((-?\w+(?:[-+]\w+)?)\)|(-?\d+|T\b|[-+](?!\w)))")
+_DERIVED = re.compile(r"(?<![\w$\\{'])([A-Za-z])'(?!\w)")
+_RAISED = re.compile(r"\^(?:\{(-?\w+)\}|\((-?\w+(?:[-+/]\w+)?)\)|(-?\d+|T\b|i\b|[-+](?!\w)))")
 
 
 def worded(text: str) -> str:
     """A note or title with its letters, such as z_1 or rho_hat, as formulas between dollar signs."""
     for typed, sign in _SIGNS:
         text = text.replace(typed, sign)
+    text = _outside(text, _EXPONENTIAL, lambda found: rf"$\mathrm{{{found[1]}}}^{{{_spelled(found[2])}}}$")
+    text = _outside(text, _INDEXED, lambda found: f"${_greek(found[1])}_{{{_spelled(found[2] or found[3])}}}$")
     text = _outside(text, _LETTER, _as_formula)
     text = _outside(text, _POWER, lambda found: rf"${found[1]}^{found[2]}$")
     text = _outside(text, _ACCENTED, lambda found: rf"$\{found[2]}{{{_greek(found[1])}}}$")
@@ -49,13 +54,21 @@ def _greek(name: str) -> str:
     return name if len(name) == 1 else rf"\{_SHORT.get(name, name)}"
 
 
+def _spelled(text: str) -> str:
+    """An exponent or an index, its Greek letters as such."""
+    return re.sub(r"[A-Za-z]+", lambda found: rf"\{found[0]} " if found[0] in GREEK else found[0], text).strip()
+
+
 def _as_formula(found: re.Match[str]) -> str:
     stem = _STEM.fullmatch(found[1].partition("_")[0])
     short = stem[1] if stem else ""
     letter = _SHORT.get(short, short)
+    raised = f"{found[2]}{(found[3] or '').removeprefix('^')}"
+    if short == "sum":
+        return rf"$\sum_{{{found[1].partition('_')[2]}}}$"
     if len(letter) != 1 and letter not in GREEK:
         return found[0]
-    return f"${name_latex(letter + found[1][len(short):])}{found[2] or ''}$"
+    return f"${name_latex(letter + found[1][len(short):])}{f'^{{{raised}}}' if raised else ''}$"
 
 
 def math(latex: str) -> str:
@@ -68,8 +81,3 @@ def show(text: str, formula: Callable[[str], str], words: Callable[[str], str] =
     pieces = _FORMULA.split(text)
     return "".join(formula(piece.replace(INNER, "$")) if i % 2 else words(piece)
                    for i, piece in enumerate(pieces) if piece)
-
-
-def listed(words: Sequence[str]) -> str:
-    """`a`, `a and b`, `a, b and c`."""
-    return " and ".join([", ".join(words[:-1]), words[-1]]) if len(words) > 1 else "".join(words)

@@ -103,10 +103,12 @@ def prepared(scenario: Scenario, name: str) -> Callable[[Setting], Run]:
                    title=spec.title or law.title, loop=law_loop(law, spec.estimates), predictor=spec.predictor)
 
 
-def simulate_in(scenario: Scenario, name: str, setting: Setting, plant: Plant | None = None) -> Run:
+def simulate_in(scenario: Scenario, name: str, setting: Setting, plant: Plant | None = None,
+                sampled: SampledController | None = None) -> Run:
     """`simulate` in a setting, and with a plant, that may differ from the scenario's, which are what controllers know.
 
-    plant: as in `run_law`; the setting's plant_values belong to it.
+    plant: as in `run_law`; the setting's plant_values belong to it. sampled: the controller itself, of one that is
+    called once a sample and is more than its parameters.
     """
     spec = controller_spec(scenario, name)
     law = compiled_law(scenario, spec)
@@ -116,7 +118,7 @@ def simulate_in(scenario: Scenario, name: str, setting: Setting, plant: Plant | 
     # The kernel holds what it is told; noise and delays lie between it and the controller.
     plan = setting.plan(spec.period_s)
     arrays, sensing = _arrays(replace(setting, sensing=PERFECT), spec.period_s, held_command), setting.sensing
-    sampled = SAMPLED[spec.law](scenario, spec, name)
+    sampled = sampled or SAMPLED[spec.law](scenario, spec, name)
     between = sensing.arrays(-(-plan[0] // plan[1]), spec.period_s)
     status, reached, step_us = _run_sampled(law_loop(held_command, plant=plant).closed_loop, arrays, sampled,
                                             _fixed(setting), plan, between)

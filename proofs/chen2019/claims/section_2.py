@@ -78,6 +78,12 @@ def projection_property_of_any_number() -> Goal:
     return Goal((_property_1(h, h),), within)
 
 
+paper.axiom("A1", "Assumption 1: the masses have known bounds",
+            r"\text{The unknown time-varying parameter } m_j(t) \text{ has the known lower bound } \underline{m}_j \text{ and upper bound } "
+            r"\overline{m}_j, \text{ i.e., } \underline{m}_j \leq m_j(t) \leq \overline{m}_j, \text{ where } \underline{m}_j, \overline{m}_j "
+            r"\text{ are constants, and } \underline{m}_j > 0", "assumption of the paper", hypotheses=(), severity="data", match="words",
+            note="Used in (33) and (44), as an assumption of their goals. Section IV states no bounds.")
+
 self_weight, load, full_load = sp.symbols("m_self load load_full", real=True)
 
 
@@ -158,6 +164,12 @@ def reference_can_be_tracked() -> Goal:
     return Goal((*(at_most(u, high) for u, high in zip(needed, most, strict=True)),
                  *(at_least(u, -u_most) for u in needed)))
 
+
+paper.axiom("remark3", "Remark 3: the same initial state in every iteration",
+            r"\text{The identical initialization condition or its modifications are essential for the stability analysis of control system, "
+            r"which can be easily satisfied in the repetitive operation environment of high-speed trains.}",
+            "the paper's choice", hypotheses=(), severity="cosmetic", match="words",
+            note="What Assumption 3 gives, and what it leaves out, is row A3.")
 
 trailer_mass, rolling_0, rolling_v = sp.symbols("m c_0 c_v", positive=True)
 speed_r, acceleration_r, falling = sp.symbols("v_r v_r_dot f_least", nonnegative=True)  # f^a = -f_least <= 0

@@ -25,7 +25,7 @@ from ..simulation.cars_trials import CarsRun, run_cars
 from ..simulation.mpc_trip import MpcTrip, run_mpc
 from ..simulation.plans import plan
 from .record import ChenStudy
-from .runs import Results, trial_row, trip_row
+from .runs import ChenResults, trial_row, trip_row
 
 LAW, MPC, PLACE = "law", "mpc_multi_car", "trip"
 WEIGHTS = ("position_weight", "speed_weight", "command_weight")
@@ -83,7 +83,7 @@ def stated_tasks(study: ChenStudy) -> list[Task]:
     return [*([(PLACE, LAW, False)] if logged else []), *([(PLACE, MPC, False)] if study.mpc else [])]
 
 
-def stated_rows(results: Results) -> dict[Task, Mapping[str, Any]]:
+def stated_rows(results: ChenResults) -> dict[Task, Mapping[str, Any]]:
     """The rows of `stated_tasks`."""
     study, trip = results.study, results.measured.trip
     law: dict[Task, Mapping[str, Any]] = {(PLACE, LAW, False): law_row(study, results.stated)}
@@ -95,7 +95,7 @@ COMPARISON = LearningComparison(DRIVERS, COLUMNS, ("position_rms", "speed_rms"),
                                 own_rows=stated_rows)
 
 
-def mpc_tables(results: Results) -> Iterator[ResultTable]:
+def mpc_tables(results: ChenResults) -> Iterator[ResultTable]:
     """The law's first and last trial beside MPC's trip, and what a step of both costs; nothing without MPC."""
     study, run, measured = results.study, results.stated, results.measured
     if measured.trip is None or study.mpc is None:
@@ -117,7 +117,7 @@ def mpc_tables(results: Results) -> Iterator[ResultTable]:
         f"The first {study.cost.end_s:g} s of the trip, {study.mpc.horizon} samples ahead.")
 
 
-def mpc_findings(results: Results) -> Iterator[str]:
+def mpc_findings(results: ChenResults) -> Iterator[str]:
     """At which trial learning overtakes MPC, or that it does not."""
     trip, run = results.measured.trip, results.stated
     if trip is None or run.failed is not None:

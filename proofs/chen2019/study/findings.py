@@ -7,18 +7,12 @@ from collections.abc import Iterator
 import numpy as np
 
 from workbench.files.numbers import fixed, number
+from workbench.paper.findings import LackingError, needed, some
 from workbench.paper.learning_comparison import rises
 
 from ..simulation.cars_trials import CarsRun
 from ..simulation.formulas import allowed_change, alternating_growth, cef_change, needed_force, trailer_force
-from .runs import Results, outcome
-
-
-def all_findings(results: Results) -> Iterator[str]:
-    """A sentence or a few each; one whose runs the study does not have is left out."""
-    for finding in (_learning, _further, _sampling, _acceleration, _gains, _masses, _trailers, _energy, _place,
-                    _assumed, _speed):
-        yield from finding(results)
+from .runs import ChenResults, outcome
 
 
 def _ends(run: CarsRun) -> str:
@@ -36,7 +30,7 @@ def _became(run: CarsRun) -> str:
     return f"{_ends(run)} ({outcome(run)})" if len(run.totals) else outcome(run)
 
 
-def _learning(results: Results) -> Iterator[str]:
+def _learning(results: ChenResults) -> Iterator[str]:
     run, count = results.stated, len(results.stated.totals)
     if run.failed is not None:
         yield f"The stated run ends early: {run.failed}."
@@ -49,7 +43,7 @@ def _learning(results: Results) -> Iterator[str]:
            "1-9 that they fall; it prints no numbers.")
 
 
-def _further(results: Results) -> Iterator[str]:
+def _further(results: ChenResults) -> Iterator[str]:
     """Runs with more iterations than the paper's."""
     for count, run in results.with_more_trials():
         if len(run.totals):
@@ -57,13 +51,13 @@ def _further(results: Results) -> Iterator[str]:
                    "The paper expects further iterations to reduce the errors.")
 
 
-def _sampling(results: Results) -> Iterator[str]:
+def _sampling(results: ChenResults) -> str:
     study, stated = results.study, results.stated
     half, cruise = study.sampling.period_s / 2, study.reference.cruise_mps
-    same = results.find(sampling__memory="same_sample")
-    finer = results.find(sampling__memory="same_sample", sampling__period_s=half)
-    if same is None or finer is None or stated.failed or finer.failed or not len(same.totals):
-        return
+    same = needed(results.find(sampling__memory="same_sample"))
+    finer = needed(results.find(sampling__memory="same_sample", sampling__period_s=half))
+    if stated.failed or finer.failed or not len(same.totals):
+        raise LackingError
     fast, answered = alternating_growth(study, cruise)
     # Up to which speed the stated memory rule lets no alternating error grow.
     place = 0 if study.sampling.memory == "same_sample" else 1
@@ -74,29 +68,24 @@ def _sampling(results: Results) -> Iterator[str]:
     if same.failed is not None:
         did = f"ends in trial {reached + 1} ({did.partition(': ')[2]})"
     apart = float(abs(stated.position_error[-1] / finer.position_error[-1] - 1))
-    yield (f"The learning rules are for continuous time. With the error of the same sample, every {2e3 * half:g} ms, "
-           f"the run {did}: |Δu| is {_kilonewtons(same, reached)} in trial {reached} (as stated "
-           f"{_kilonewtons(stated, reached)}). While the first car is at its limit, an error that alternates "
-           f"from sample to sample can become up to {number(fast)} times as large in the next trial at {cruise:g} m/s, "
-           f"where γ_a v⁴ of (18) dominates; with the error of the next sample {number(answered)} times, and less than "
-           f"once below {number(safe)} m/s. Every {1e3 * half:g} ms the error of the same sample learns "
-           f"like the stated run: their last position errors differ by {number(100 * apart, 2)} %.")
+    return (f"The learning rules are for continuous time. With the error of the same sample, every {2e3 * half:g} ms, "
+            f"the run {did}: |Δu| is {_kilonewtons(same, reached)} in trial {reached} (as stated "
+            f"{_kilonewtons(stated, reached)}). While the first car is at its limit, an error that alternates from "
+            f"sample to sample can become up to {number(fast)} times as large in the next trial at {cruise:g} m/s, "
+            f"where γ_a v⁴ of (18) dominates; with the error of the next sample {number(answered)} times, and less than "
+            f"once below {number(safe)} m/s. Every {1e3 * half:g} ms the error of the same sample learns "
+            f"like the stated run: their last position errors differ by {number(100 * apart, 2)} %.")
 
 
-def _acceleration(results: Results) -> Iterator[str]:
-    words = []
-    for values, name in (
-            ({"sampling__acceleration": "sampled"}, "that of the sample before"),
-            ({"sampling__acceleration": "filtered", "sampling__filter_s": 0.01}, "filtered with 0.01 s"),
-            ({"sampling__acceleration": "filtered"}, f"filtered with {results.study.sampling.filter_s:g} s")):
-        run = results.find(**values)
-        if run is not None:
-            words.append(f"{name}: {_became(run)}")
-    if words:
-        yield f"Other rules for the acceleration that (16) uses: {'; '.join(words)}."
+def _acceleration(results: ChenResults) -> str:
+    rules = {"that of the sample before": results.find(sampling__acceleration="sampled"),
+             "filtered with 0.01 s": results.find(sampling__acceleration="filtered", sampling__filter_s=0.01),
+             f"filtered with {results.study.sampling.filter_s:g} s": results.find(sampling__acceleration="filtered")}
+    words = some(f"{name}: {_became(run)}" for name, run in rules.items() if run is not None)
+    return f"Other rules for the acceleration that (16) uses: {'; '.join(words)}."
 
 
-def _gains(results: Results) -> Iterator[str]:
+def _gains(results: ChenResults) -> Iterator[str]:
     exact, smaller = results.find(gains__c_1=1.0), results.find(gains__c_3=0.01)
     if exact is not None and len(results.stated.totals):
         yield (f"The stated c_1 = {results.study.gains.c_1:g} breaks the paper's own condition c_λ > 0 (claim "
@@ -109,15 +98,14 @@ def _gains(results: Results) -> Iterator[str]:
                f"{scaled}.")
 
 
-def _masses(results: Results) -> Iterator[str]:
-    ended = [f"{change.title}: {outcome(run)}" for change, run in results.group("masses") if run.failed is not None]
-    if ended:
-        yield ("The paper states no bounds of the mass. Where they let an estimate exceed the mass by 1/c_3 = "
-               f"{number(1 / results.study.gains.c_3)} kg, the loop through the acceleration may lose its unique "
-               f"solution (claims 16.unique, 16.stated): {'; '.join(ended)}.")
+def _masses(results: ChenResults) -> str:
+    ended = some(f"{change.title}: {outcome(run)}" for change, run in results.group("masses") if run.failed)
+    return ("The paper states no bounds of the mass. Where they let an estimate exceed the mass by 1/c_3 = "
+            f"{number(1 / results.study.gains.c_3)} kg, the loop through the acceleration may lose its unique "
+            f"solution (claims 16.unique, 16.stated): {'; '.join(ended)}.")
 
 
-def _trailers(results: Results) -> Iterator[str]:
+def _trailers(results: ChenResults) -> str:
     study, run, ref = results.study, results.stated, results.study.reference
     motors, trailers = results.motors_and_trailers
     need, limit = needed_force(study, ref.cruise_mps, ref.acceleration_mps2), len(motors) * study.train.traction_n
@@ -134,13 +122,13 @@ def _trailers(results: Results) -> Iterator[str]:
         time_s = float(np.argmax(np.abs(run.log(last, "speed_error_mps")).max(axis=1))) * study.sampling.log_every_s
         text += (f". The largest speed error of trial {last} stands at {number(time_s, 4)} s, where the reference has "
                  f"{number(float(ref.curve().at(np.array([time_s]))[2][0]))} m/s²")
-    yield f"{text}."
+    return f"{text}."
 
 
-def _energy(results: Results) -> Iterator[str]:
+def _energy(results: ChenResults) -> str:
     run = results.stated
     if not len(run.totals):
-        return
+        raise LackingError
     change, allowed = cef_change(run), allowed_change(results.study, run)
     text = (f"The energy function (25) of the stated run falls by at least what (35) promises in "
             f"{int(np.sum(change <= allowed))} of {len(change)} trials")
@@ -149,34 +137,35 @@ def _energy(results: Results) -> Iterator[str]:
         lost = np.flatnonzero(cef_change(other) > allowed_change(results.study, other))
         if len(lost):
             broken.append(f"{one.title}, first in trial {lost[0] + 1}")
-    yield text + (f"; not with these rules: {'; '.join(broken)}." if broken else ".")
+    return text + (f"; not with these rules: {'; '.join(broken)}." if broken else ".")
 
 
-def _place(results: Results) -> Iterator[str]:
-    time, place = (results.find(line__seen_by=by) for by in ("reference", "train"))
-    if time is not None and place is not None:
-        yield ("Slopes act where the train is, while (31) takes them for a function of time alone (claim 31.place). "
-               f"With {results.study.line.slope_permille:g} ‰ as a function of time: {_became(time)}; where the car "
-               f"is: {_became(place)}.")
+def _place(results: ChenResults) -> str:
+    time, place = (needed(results.find(line__seen_by=by)) for by in ("reference", "train"))
+    return ("Slopes act where the train is, while (31) takes them for a function of time alone (claim 31.place). With "
+            f"{results.study.line.slope_permille:g} ‰ as a function of time: {_became(time)}; where the car is: "
+            f"{_became(place)}.")
 
 
-def _assumed(results: Results) -> Iterator[str]:
+def _assumed(results: ChenResults) -> str:
     group = results.group("assumed")
-    runs = [run for change, run in group if run.failed is None and "trials.count" not in change.set]
-    if not runs:
-        return
+    runs = some(run for change, run in group if run.failed is None and "trials.count" not in change.set)
     first, last = (sorted(float(run.position_error[i]) for run in runs) for i in (0, -1))
     speeds = sorted(float(run.speed_error[-1]) for run in runs)
     early = "".join(f"; {change.title}: {outcome(run)}" for change, run in group if run.failed is not None)
-    yield (f"{len(runs)} other assumed references, slopes, coefficients and initial auxiliary states leave largest "
-           f"position errors of {number(first[0])} to {number(first[-1])} m in trial 1 and {number(last[0])} to "
-           f"{number(last[-1])} m in trial {results.study.trials.count}, speed errors of {number(speeds[0])} to "
-           f"{number(speeds[-1])} m/s then{early}.")
+    return (f"{len(runs)} other assumed references, slopes, coefficients and initial auxiliary states leave largest "
+            f"position errors of {number(first[0])} to {number(first[-1])} m in trial 1 and {number(last[0])} to "
+            f"{number(last[-1])} m in trial {results.study.trials.count}, speed errors of {number(speeds[0])} to "
+            f"{number(speeds[-1])} m/s then{early}.")
 
 
-def _speed(results: Results) -> Iterator[str]:
+def _speed(results: ChenResults) -> str:
     run, measured = results.stated, results.measured
-    yield (f"A million samples of {results.study.train.cars} cars take {number(float(run.step_us.min()))} s in the "
-           "fastest trial of the stated run, train and law together; its learned estimates, one set per sample, take "
-           f"{number(run.memory_bytes / 1e6)} MB. From {min(measured.sample_s)} to {max(measured.sample_s)} cars the "
-           f"time of a sample grows as the number of cars to the power {fixed(measured.exponent, 2)}.")
+    return (f"A million samples of {results.study.train.cars} cars take {number(float(run.step_us.min()))} s in the "
+            "fastest trial of the stated run, train and law together; its learned estimates, one set per sample, take "
+            f"{number(run.memory_bytes / 1e6)} MB. From {min(measured.sample_s)} to {max(measured.sample_s)} cars the "
+            f"time of a sample grows as the number of cars to the power {fixed(measured.exponent, 2)}.")
+
+
+FINDINGS = (_learning, _further, _sampling, _acceleration, _gains, _masses, _trailers, _energy, _place, _assumed,
+            _speed)

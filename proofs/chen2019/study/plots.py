@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from functools import partial
 
 import numpy as np
 
@@ -12,57 +13,46 @@ from workbench.paper.results import Curve, Plot
 
 from ..simulation.cars_trials import CarsRun
 from ..simulation.formulas import allowed_change, cef_change
-from .runs import STATED, Results, grows_from, outcome, title
+from .runs import ChenResults, grows_from, outcome
 
-# The paper's figures by what they show: for its first and its last iteration.
-FIGURES = {"profile": (1, 2), "errors": (3, 4), "input": (6, 7), "difference": (8, 9)}
 FIGURE_5 = "paper, Figure 5"
+OWN_PLACE = "Every car counts its displacement from its own place at the start. The reference is assumed."
+# Figures of a trip, of all cars: those of the paper for its first and its last iteration; title, axis, logged column,
+# what one of the axis' unit is in the log's, which row of the reference is drawn with it, note.
+PROFILES = ((1, 2), (("Displacement", "displacement (km)", "s_m", 1e-3, 0, OWN_PLACE),
+                     ("Speed", "speed (m/s)", "v_mps", 1.0, 1, OWN_PLACE)))
+ERRORS = ((3, 4), (("Position error", "s − s_r (m)", "position_error_m", 1.0, None, ""),
+                   ("Speed error", "v − v_r (m/s)", "speed_error_mps", 1.0, None, "")))
+INPUTS = ((6, 7), (("Inputs within their limits", "u (kN)", "u_n", 1e-3, None, ""),))
+DIFFERENCE = ("Difference of the inputs", "Δu = u − μ (kN)", "difference_n", 1e-3, None, "The largest within every {:g} s.")
+DIFFERENCES = ((8, 9), (DIFFERENCE,))
+Drawn = tuple[str, str, str, float, int | None, str]
 
 
-def all_plots(results: Results) -> Iterator[Plot]:
-    """All figures, the paper's first and in its order."""
-    for plots in (_profiles, _errors, _along_trials, _inputs, _differences, _energy, _cost):
-        yield from plots(results)
+def _of_trip(results: ChenResults, run: CarsRun, trial: int, source: str, drawn: Drawn, of: str = "", ends: str = ""
+             ) -> Plot:
+    """One figure of a trip; of: which run it is, in the title; ends: what became of it, in the note."""
+    title, label, column, scale, row, note = drawn
+    values, every = scale * run.log(trial, column), results.study.sampling.log_every_s
+    times = np.arange(len(values), dtype=float) * every
+    curves = [Curve(f"car {car + 1}", times, values[:, car]) for car in range(values.shape[1])]
+    if row is not None:
+        curves.insert(0, Curve("desired", times, scale * results.study.reference.curve().at(times)[row]))
+    return Plot(f"{title}, trial {trial}{of}", source, "t (s)", label, tuple(curves), note.format(every) + ends)
 
 
-def _shown(results: Results, kind: str) -> list[tuple[str, int]]:
-    """The figures of a kind, and their trials, for those that ran to their end."""
-    return [(f"paper, Figure {FIGURES[kind][min(place, 1)]}", trial)
-            for place, trial in enumerate(results.study.trials.shown) if trial in results.stated.logs]
+def _over_trips(shown: tuple[tuple[int, int], tuple[Drawn, ...]], results: ChenResults) -> Iterator[Plot]:
+    """The paper's figures of the stated run's trips, of those that ran to their end."""
+    figures, every = shown
+    for place, trial in enumerate(results.study.trials.shown):
+        if trial in results.stated.logs:
+            yield from (_of_trip(results, results.stated, trial, f"paper, Figure {figures[min(place, 1)]}", drawn)
+                        for drawn in every)
 
 
-def _cars(results: Results, trial: int, column: str, scale: float = 1.0, run: CarsRun | None = None
-          ) -> tuple[Curve, ...]:
-    values = scale * (run or results.stated).log(trial, column)
-    times = np.arange(len(values), dtype=float) * results.study.sampling.log_every_s
-    return tuple(Curve(f"car {car + 1}", times, values[:, car]) for car in range(values.shape[1]))
-
-
-def _profiles(results: Results) -> Iterator[Plot]:
-    """Displacement and speed of all cars with the reference."""
-    for figure, trial in _shown(results, "profile"):
-        for column, scale, row, name, unit in (("s_m", 1e-3, 0, "displacement", "km"),
-                                               ("v_mps", 1.0, 1, "speed", "m/s")):
-            cars = _cars(results, trial, column, scale)
-            wanted = results.study.reference.curve().at(cars[0].x)[row]
-            yield Plot(f"{name.capitalize()}, trial {trial}", figure, "t (s)", f"{name} ({unit})",
-                       (Curve("desired", cars[0].x, scale * wanted), *cars),
-                       "Every car counts its displacement from its own place at the start. The reference is assumed.")
-
-
-def _errors(results: Results) -> Iterator[Plot]:
-    """Errors of displacement and speed of all cars."""
-    for figure, trial in _shown(results, "errors"):
-        for name, column, label in (("Position error", "position_error_m", "s − s_r (m)"),
-                                    ("Speed error", "speed_error_mps", "v − v_r (m/s)")):
-            yield Plot(f"{name}, trial {trial}", figure, "t (s)", label, _cars(results, trial, column))
-
-
-def _along_trials(results: Results) -> Iterator[Plot]:
+def _along_trials(results: ChenResults) -> Iterator[Plot]:
     """Largest errors against the iteration, as stated and by the other rules."""
-    study = results.study
-    chosen = [STATED, *(i for i, change in enumerate(study.changes) if change.group == "rules")]
-    runs = [(title(study, i), results.runs[i]) for i in chosen]
+    runs = [("as stated", results.stated), *((change.title, run) for change, run in results.group("rules"))]
     early = "; ".join(f"{name}: {outcome(run)}" for name, run in runs if run.failed)
     for name, of, source, label in (
             ("position error", "position_error", FIGURE_5, "largest |s − s_r| of all cars (m)"),
@@ -73,27 +63,16 @@ def _along_trials(results: Results) -> Iterator[Plot]:
                    f"Curves that end early: {early}." if early else "", log_y=True)
 
 
-def _inputs(results: Results) -> Iterator[Plot]:
-    """The limited inputs of all cars."""
-    for figure, trial in _shown(results, "input"):
-        yield Plot(f"Inputs within their limits, trial {trial}", figure, "t (s)", "u (kN)",
-                   _cars(results, trial, "u_n", 1e-3))
-
-
-def _differences(results: Results) -> Iterator[Plot]:
-    """The difference between actual and unsaturated inputs of all cars, as stated and where the rules let it grow."""
-    label, note = "Δu = u − μ (kN)", f"The largest within every {results.study.sampling.log_every_s:g} s."
-    for figure, trial in _shown(results, "difference"):
-        yield Plot(f"Difference of the inputs, trial {trial}", figure, "t (s)", label,
-                   _cars(results, trial, "difference_n", 1e-3), note)
+def _growing_differences(results: ChenResults) -> Iterator[Plot]:
+    """The difference between actual and unsaturated inputs where the rules let it grow."""
     for change, run in results.group("rules"):
         last = max(run.logs, default=0)
         if change.set.get("sampling.memory") == "same_sample" and last and grows_from(run.difference) is not None:
-            yield Plot(f"Difference of the inputs, trial {last}: {change.title}", "beside paper, Figure 9", "t (s)",
-                       label, _cars(results, last, "difference_n", 1e-3, run), f"{note} It {outcome(run)}.")
+            yield _of_trip(results, run, last, "beside paper, Figure 9", DIFFERENCE, f": {change.title}",
+                           f" It {outcome(run)}.")
 
 
-def _energy(results: Results) -> Iterator[Plot]:
+def _energy(results: ChenResults) -> Iterator[Plot]:
     """How much the energy function falls from iteration to iteration, beside what (35) promises."""
     run = results.stated
     if len(run.totals):
@@ -103,11 +82,16 @@ def _energy(results: Results) -> Iterator[Plot]:
                    "As stated. The proof is for continuous time; a sampled law may keep it or not.", log_y=True)
 
 
-def _cost(results: Results) -> Iterator[Plot]:
+def _cost(results: ChenResults) -> Plot:
     """Time of a sample against the number of cars."""
     cars = np.array(list(results.measured.sample_s), dtype=float)
     times = 1e6 * np.array(list(results.measured.sample_s.values()))
-    yield Plot("Time of a sample against the number of cars", "not in the paper", "cars", "time of a sample (µs)",
-               (Curve("measured", cars, times),
-                Curve(f"{number(times[0] / cars[0])} µs a car", cars, cars * times[0] / cars[0])),
-               "A straight line of slope 1 is linear growth.", log_y=True, log_x=True)
+    return Plot("Time of a sample against the number of cars", "not in the paper", "cars", "time of a sample (µs)",
+                (Curve("measured", cars, times),
+                 Curve(f"{number(times[0] / cars[0])} µs a car", cars, cars * times[0] / cars[0])),
+                "A straight line of slope 1 is linear growth.", log_y=True, log_x=True)
+
+
+# The paper's figures first, in its order.
+PLOTS = (partial(_over_trips, PROFILES), partial(_over_trips, ERRORS), _along_trials, partial(_over_trips, INPUTS),
+         partial(_over_trips, DIFFERENCES), _growing_differences, _energy, _cost)

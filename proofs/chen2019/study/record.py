@@ -2,16 +2,14 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Any, Literal, Self
+from typing import Annotated, Literal, Self
 
 from pydantic import Field, Strict, model_validator
 
 from workbench.errors import WorkbenchError
-from workbench.files.toml import Positive, Record, SourcedRecord, Text
+from workbench.files.toml import Positive, SourcedRecord
 from workbench.model.desired_curve import DesiredCurve, start_cruise_stop
-from workbench.paper.mpc_comparison import MpcData
-from workbench.paper.study import Study, varied
-from workbench.paper.tuning_record import Pairs, StudyTuning
+from workbench.paper.reproduced import Change, ReproducedStudy
 
 Mass = Annotated[float, Strict(), Field(ge=1e3, le=2e5, allow_inf_nan=False)]
 Force = Annotated[float, Strict(), Field(ge=1e3, le=1e6, allow_inf_nan=False)]
@@ -136,12 +134,10 @@ class Variation(SourcedRecord):
     beat_s: Annotated[float, Strict(), Field(ge=1, le=1e6, allow_inf_nan=False)]
 
 
-class Change(Record):
-    """A run that differs from the stated one: dotted key -> value; group: the table in which it stands."""
+class ChenChange(Change):
+    """A run that differs from the stated one; group: the table in which it stands."""
 
-    title: Text
     group: Literal["rules", "gains", "masses", "assumed"]
-    set: dict[str, Any]
 
 
 class Cost(SourcedRecord):
@@ -152,7 +148,7 @@ class Cost(SourcedRecord):
     trials: Trial
 
 
-class ChenStudy(Study):
+class ChenStudy(ReproducedStudy):
     """Everything that the runs of chen2019 need, with the source of every value."""
 
     train: Train
@@ -164,10 +160,7 @@ class ChenStudy(Study):
     line: Line
     variation: Variation
     cost: Cost
-    changes: tuple[Change, ...] = ()
-    mpc: MpcData | None = None
-    tuning: StudyTuning | None = None
-    pairs: Pairs | None = None
+    changes: tuple[ChenChange, ...] = ()
 
     @property
     def samples(self) -> int:
@@ -179,26 +172,16 @@ class ChenStudy(Study):
         """Numbers that are learned: three per car and three for all cars, in every sample."""
         return self.samples * (3 * self.train.cars + 3)
 
-    @model_validator(mode="after")
-    def _parts_fit_together(self) -> Self:
+    def check(self) -> None:
+        """The trip and the log are whole numbers of samples, and what is learned fits into the memory."""
         period = self.sampling.period_s
-        if abs(self.samples * period - self.reference.trip_time_s) > 1e-6 * period:
-            raise ValueError(f"reference.trip_time_s = {self.reference.trip_time_s:g} is not a whole number of samples "
-                             f"of {period:g} s: choose a multiple")
-        every = self.sampling.log_every_s / period
-        if round(every) < 1 or abs(every - round(every)) > 1e-9 * every:
-            raise ValueError(f"sampling.log_every_s = {self.sampling.log_every_s:g} is not a whole number of samples "
-                             f"of {period:g} s: choose a multiple")
+        for key, value_s in (("reference.trip_time_s", self.reference.trip_time_s),
+                             ("sampling.log_every_s", self.sampling.log_every_s)):
+            if round(value_s / period) < 1 or abs(round(value_s / period) * period - value_s) > 1e-6 * period:
+                raise ValueError(f"{key} = {value_s:g} is not a whole number of samples of {period:g} s: choose a "
+                                 "multiple")
         if self.learned > MOST_LEARNED:
             raise ValueError(f"sampling.period_s = {period:g} asks for {self.learned / 1e6:.0f} million learned "
                              f"numbers, {8e-9 * self.learned:.1f} GB: sample more coarsely or shorten the trip")
         if self.cost.end_s > self.reference.trip_time_s:
             raise ValueError("cost.end_s is beyond reference.trip_time_s: lower it")
-        for change in self.changes:
-            with_change(self, change)
-        return self
-
-
-def with_change(study: ChenStudy, change: Change) -> ChenStudy:
-    """The study with a change's values set; ValueError naming the change for what does not fit."""
-    return varied(study, change.set, f"changes: '{change.title}'")

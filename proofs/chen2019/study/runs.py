@@ -11,16 +11,16 @@ import numpy as np
 
 from workbench.model.desired_curve import DesiredCurve
 from workbench.paper.learning_comparison import jerk_rms, rises
+from workbench.paper.reproduced import STATED, Results
 from workbench.paper.tracked import Tracked
 
 from ..simulation.cars_loop import TRIAL_COLUMNS
 from ..simulation.cars_trials import Array, CarsRun, run_cars
 from ..simulation.mpc_trip import MpcTrip, run_mpc
 from ..simulation.plans import plan
-from .record import Change, ChenStudy, with_change
+from .record import ChenChange, ChenStudy
 
-# The change of the study with this number; the stated run has none.
-STATED = -1
+MEASURING = "cost"
 # By what factor the largest error has to come back to be said to grow again.
 AGAIN = 1.02
 
@@ -43,31 +43,43 @@ class Measured:
 
 
 @dataclass(frozen=True)
-class Results:
-    """The study and its runs, by the number of the change."""
+class RunCase:
+    """A run: the number of the study's change that it is made under."""
 
-    study: ChenStudy
-    runs: Mapping[int, CarsRun]
-    measured: Measured
+    change: int = STATED
+
+
+@dataclass(frozen=True)
+class ChenResults(Results[ChenStudy, RunCase, CarsRun]):
+    """The runs, and what is measured beside them, by the one task of that stage."""
+
+    of_measuring: Mapping[str, Measured]
+
+    @property
+    def measured(self) -> Measured:
+        """What is measured with nothing beside it."""
+        return self.of_measuring[MEASURING]
 
     @property
     def stated(self) -> CarsRun:
         """The run as stated."""
-        return self.runs[STATED]
+        return self.runs[RunCase()]
 
-    def group(self, name: str) -> list[tuple[Change, CarsRun]]:
+    def group(self, name: str) -> list[tuple[ChenChange, CarsRun]]:
         """The runs of a group of changes."""
-        return [(change, self.runs[i]) for i, change in enumerate(self.study.changes) if change.group == name]
+        return [(self.study.changes[case.change], run) for case, run in self.changing().items()
+                if self.study.changes[case.change].group == name]
 
     def find(self, **values: object) -> CarsRun | None:
         """The run with exactly these values changed (dots as double underscores), if the study has it."""
         wanted = {key.replace("__", "."): value for key, value in values.items()}
-        return next((self.runs[i] for i, change in enumerate(self.study.changes) if change.set == wanted), None)
+        return next((run for case, run in self.changing().items()
+                     if self.study.changes[case.change].set == wanted), None)
 
     def with_more_trials(self) -> list[tuple[int, CarsRun]]:
         """Runs that differ by the number of their trials alone, with it."""
-        return [(change.set["trials.count"], run) for change, run in self.group("assumed")
-                if set(change.set) == {"trials.count"}]
+        return [(self.study.changes[case.change].set["trials.count"], run)
+                for case, run in self.changing("trials.count").items()]
 
     @property
     def motors_and_trailers(self) -> tuple[list[int], list[int]]:
@@ -76,20 +88,20 @@ class Results:
         return motors, [car for car in range(self.study.train.cars) if car not in motors]
 
 
-def changed(study: ChenStudy, number: int) -> ChenStudy:
-    """The study of a run."""
-    return study if number == STATED else with_change(study, study.changes[number])
+def run_cases(study: ChenStudy) -> list[RunCase]:
+    """The stated run and its changes."""
+    return [RunCase(number) for number in range(STATED, len(study.changes))]
 
 
-def title(study: ChenStudy, number: int) -> str:
+def title(study: ChenStudy, case: RunCase) -> str:
     """A run in words."""
-    return "as stated" if number == STATED else study.changes[number].title
+    return study.change_title(case.change) or "as stated"
 
 
-def run_number(study: ChenStudy, number: int) -> CarsRun:
+def run_case(study: ChenStudy, case: RunCase) -> CarsRun:
     """Run the stated study or one of its changes; those about what else is assumed leave no log."""
-    made = plan(changed(study, number))
-    logged = number == STATED or study.changes[number].group == "rules"
+    made = plan(study.changed(case.change))
+    logged = case.change == STATED or study.changes[case.change].group == "rules"
     return run_cars(made if logged else replace(made, kept=()))
 
 
@@ -148,13 +160,13 @@ def trial_row(study: ChenStudy, run: CarsRun, trial: int) -> dict[str, Any]:
                     1e-6 * float(np.median(run.step_us)))
 
 
-def run_row(study: ChenStudy, number: int, run: CarsRun) -> dict[str, Any]:
+def run_row(study: ChenStudy, case: RunCase, run: CarsRun) -> dict[str, Any]:
     """A run as data, of its last trial; SI units, over all cars; None for what one that failed does not have."""
-    of, ended = changed(study, number), run.failed is None
+    of, ended = study.changed(case.change), run.failed is None
     last = trial_row(of, run, len(run.totals)) if ended else {}
     ends = {f"{name}_error_{end}": float(getattr(run.of_cars(f"{name}_error_{end}")[-1], end)()) if ended else None
             for name in ("position", "speed") for end in ("min", "max")}
-    return {"controller": f"chen2019.{of.sampling.acceleration}", "run": title(study, number),
+    return {"controller": f"chen2019.{of.sampling.acceleration}", "run": title(study, case),
             "memory": of.sampling.memory, "period_s": of.sampling.period_s, "trials": len(run.totals), **ends,
             **{key: last.get(key) for key in ("position_rms", "speed_rms", "stopping_error", "energy_J")},
             "saturated_fraction": last.get("at_limit"),

@@ -2,21 +2,22 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator
+from functools import partial
 
 import numpy as np
 
 from workbench.files.numbers import fixed, number
 from workbench.paper.cells import Cell, Column, Phrase, Quantity
-from workbench.paper.learning_comparison import rises
+from workbench.paper.learning_comparison import at_trials, rises
 from workbench.paper.results import ResultTable
-from workbench.paper.study_tables import statement_table
+from workbench.paper.study_tables import statement_table, verdict
 
 from .. import laws as law
-from ..simulation.cars_trials import Array, CarsRun
+from ..simulation.cars_trials import CarsRun
 from ..simulation.formulas import allowed_change, cef_change, first_cef, needed_force, trailer_force
 from ..simulation.plans import law_values
-from .runs import STATED, Results, grows_from, outcome, title
+from .runs import ChenResults, grows_from, outcome
 
 LARGEST = "Largest values of all cars over the whole trip."
 # How near to the reference a car is said to be on it.
@@ -33,38 +34,25 @@ GROUPS = (
     ("assumed", "How much the assumed data matter", "assumed values", ""))
 
 
-def all_tables(results: Results) -> tuple[ResultTable, ...]:
-    """All tables, in the order of the page."""
-    return (statements(results), *(group_table(results, *group) for group in GROUPS), bounds(results), forces(results),
-            cost(results))
-
-
-def _trials(results: Results) -> tuple[int, ...]:
+def _trials(results: ChenResults) -> tuple[int, ...]:
     """The trials that the tables show: the paper's, and some between."""
     first, last = min(results.study.trials.shown), max(results.study.trials.shown)
     return tuple(sorted({first, last, *(trial for trial in (10, 20) if first < trial < last)}))
 
 
-def _at(values: Array, trials: Sequence[int]) -> tuple[float | None, ...]:
-    """Values of trials, counted from 1; None where the run had ended."""
-    return tuple(float(values[trial - 1]) if trial <= len(values) else None for trial in trials)
-
-
-def _fall(values: Array, unit: str, si: float = 1.0) -> Cell:
+def _fall(name: str, unit: str, si: float, run: CarsRun) -> Cell:
     """First and last value of a run, and whether it fell."""
-    if len(values) < 2:
-        return None
-    words = "yes: {} → {}" if values[-1] < values[0] else "no: {} → {}"
-    return Phrase(words, (Quantity(float(values[0]), "", si), Quantity(float(values[-1]), unit, si)))
+    values = getattr(run, name)
+    return None if len(values) < 2 else verdict(bool(values[-1] < values[0]), "{} → {}", (
+        Quantity(float(values[0]), "", si), Quantity(float(values[-1]), unit, si)))
 
 
-def statements(results: Results) -> ResultTable:
+def statements(results: ChenResults) -> ResultTable:
     """What section IV says of its figures beside what the runs gave."""
     study = results.study
-    chosen = [STATED, *(i for i, change in enumerate(study.changes)
-                        if change.group == "rules" and change.set.get("sampling.memory") == "same_sample"
-                        and "sampling.period_s" not in change.set)]
-    runs = [results.runs[i] for i in chosen]
+    runs = {"as stated": results.stated} | {
+        change.title: run for change, run in results.group("rules")
+        if change.set.get("sampling.memory") == "same_sample" and "sampling.period_s" not in change.set}
     motors, trailers = results.motors_and_trailers
 
     def every(run: CarsRun) -> Cell:
@@ -85,15 +73,14 @@ def statements(results: Results) -> ResultTable:
 
     def traction(run: CarsRun) -> Cell:
         most = float(run.of_cars("force_max")[:, trailers].max()) if trailers and len(run.totals) else 0.0
-        return Phrase(f"{'yes' if most <= 0 else 'no'}: trailers at most {{}} N", (most,))
+        return verdict(most <= 0, "trailers at most {} N", (most,))
 
     def braking(run: CarsRun) -> Cell:
         if not len(run.totals):
             return None
         weakest = [-float(run.of_cars("force_min")[trial].max()) for trial in (0, -1)]
-        words = "each up to {} or more in the first, {} or more in the last trial"
-        return Phrase(f"{'yes' if min(weakest) > 0 else 'no'}: {words}",
-                      tuple(Quantity(force, "kN", 1e3) for force in weakest))
+        return verdict(min(weakest) > 0, "each up to {} or more in the first, {} or more in the last trial",
+                       [Quantity(force, "kN", 1e3) for force in weakest])
 
     def more(run: CarsRun) -> Cell:
         if run.failed is not None or grows_from(run.difference) is not None:
@@ -106,36 +93,37 @@ def statements(results: Results) -> ResultTable:
 
     return statement_table(
         "What the paper says of its figures, and what came out", "paper, section IV, Figures 1-9",
-        [title(study, i) for i in chosen], [
+        runs, [
             ("the position errors shrink from the first to the last iteration", "yes (Figures 1-5)",
-             *(_fall(run.position_error, "m") for run in runs)),
-            ("so do the speed errors", "yes (Figures 1-5)", *(_fall(run.speed_error, "m/s") for run in runs)),
-            ("the largest errors fall from iteration to iteration", "yes (Figure 5)", *map(every, runs)),
-            ("the largest speed error is not eliminated", "yes (Figure 5)", *map(zero, runs)),
-            ("the errors stay around zero in most of the last trip", "yes (Figure 4)", *map(near, runs)),
+             partial(_fall, "position_error", "m", 1.0)),
+            ("so do the speed errors", "yes (Figures 1-5)", partial(_fall, "speed_error", "m/s", 1.0)),
+            ("the largest errors fall from iteration to iteration", "yes (Figure 5)", every),
+            ("the largest speed error is not eliminated", "yes (Figure 5)", zero),
+            ("the errors stay around zero in most of the last trip", "yes (Figure 4)", near),
             (f"traction comes from the motor cars alone ({', '.join(str(car + 1) for car in motors)})",
-             "yes (Figures 6, 7)", *map(traction, runs)),
-            ("all cars brake", "yes (Figures 6, 7)", *map(braking, runs)),
+             "yes (Figures 6, 7)", traction),
+            ("all cars brake", "yes (Figures 6, 7)", braking),
             ("the difference between actual and unsaturated input shrinks", "yes (Figures 8, 9)",
-             *(_fall(run.difference, "kN", 1e3) for run in runs)),
-            ("more iterations would reduce the errors further", "yes (section IV)", *map(more, runs))],
+             partial(_fall, "difference", "kN", 1e3)),
+            ("more iterations would reduce the errors further", "yes (section IV)", more)],
         f"The paper prints no number of an error; its figures are not in the text. {LARGEST}")
 
 
-def group_table(results: Results, group: str, name: str, source: str, note: str) -> ResultTable:
-    """The stated run and those of a group of changes."""
+def groups(results: ChenResults) -> Iterator[ResultTable]:
+    """The stated run and those of a group of changes, a table a group."""
     trials = _trials(results)
     ends = trials[0], trials[-1]
-    rows = [(label, *_at(run.position_error, trials), *_at(run.speed_error, ends), *_at(run.difference, ends),
-             outcome(run))
-            for label, run in (("as stated", results.stated), *((c.title, run) for c, run in results.group(group)))]
     header = (Column("Run"), *(Column(f"|e_s| (m), trial {trial}", "m") for trial in trials),
               *(Column(f"|e_v| (m/s), trial {trial}", "m/s") for trial in ends),
               *(Column(f"|Δu| (kN), trial {trial}", "kN", 1e3) for trial in ends), Column("Outcome"))
-    return ResultTable(name, source, header, tuple(rows), f"{LARGEST} {note}".strip())
+    for group, name, source, note in GROUPS:
+        runs = [("as stated", results.stated), *((change.title, run) for change, run in results.group(group))]
+        yield ResultTable(name, source, header, tuple(
+            (label, *at_trials(run.position_error, trials, 1), *at_trials(run.speed_error, ends, 1),
+             *at_trials(run.difference, ends, 1), outcome(run)) for label, run in runs), f"{LARGEST} {note}".strip())
 
 
-def bounds(results: Results) -> ResultTable:
+def bounds(results: ChenResults) -> ResultTable:
     """The inequalities of the proof along the stated run."""
     study, run = results.study, results.stated
     values = {symbol: law_values(study)[str(symbol)] for symbol in law.gains}
@@ -158,7 +146,7 @@ def bounds(results: Results) -> ResultTable:
         "learned since the couplers hardly stretch; so (54) bounds little.")
 
 
-def forces(results: Results) -> ResultTable:
+def forces(results: ChenResults) -> ResultTable:
     """What the reference asks of the train on level track."""
     study, ref, train = results.study, results.study.reference, results.study.train
     rows: list[tuple[Cell, ...]] = []
@@ -179,7 +167,7 @@ def forces(results: Results) -> ResultTable:
         "a coupler, which pulls only when the cars are not at the same place.")
 
 
-def cost(results: Results) -> ResultTable:
+def cost(results: ChenResults) -> ResultTable:
     """Time of a sample against the number of cars."""
     run, study, measured = results.stated, results.study, results.measured
     return ResultTable(
@@ -193,3 +181,6 @@ def cost(results: Results) -> ResultTable:
         f"Train and law together, one core, compiling left out. The time grows as the number of cars to the power "
         f"{fixed(measured.exponent, 2)}. The stated run itself: {number(float(run.step_us.min()))} µs a sample in "
         "its fastest trial.")
+
+
+TABLES = (statements, groups, bounds, forces, cost)

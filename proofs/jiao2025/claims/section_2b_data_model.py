@@ -6,7 +6,8 @@ import sympy as sp
 
 from workbench.proof.claim import Goal, at_least, at_most, differ, equal, greater
 
-from ..notation import Delta_u_i, Delta_v_k, Delta_v_next, epsilon_bar, p, v_next_prev
+from ..laws import e_prev, phi
+from ..notation import Delta_u_i, Delta_v_k, Delta_v_next, e_i, epsilon_bar, p, v_d, v_next, v_next_prev
 from ..paper import paper
 from ..plant import M, T_s, next_speed, u_i, u_prev, v_i, v_prev
 from .section_2a_train import a, b, secant, two_trials
@@ -94,6 +95,37 @@ def data_model_speed() -> Goal:
     """(5) with Delta v(k+1,i) written out."""
     changes, = paper.shown("5")
     return Goal((equal(v_next_prev + changes.left, v_next_prev + changes.right),), (differ(Delta_u_i, 0),))
+
+
+named = equal(Delta_v_next, phi * Delta_u_i)  # (5)
+speed_by_model = equal(v_next, v_next_prev + phi * Delta_u_i)  # (6)
+
+
+@paper.claim("5.output", "The change of the speed from trial to trial", "identity",
+             r"\Delta v(k+1, i) = v(k+1, i) - v(k+1, i-1)", "proved", rests_on=(),
+             reading="A definition, for which (5) and (6) say the same.")
+def change_of_speed() -> Goal:
+    """(5) and (6) with one phi_c and one change of the input."""
+    return Goal((equal(Delta_v_next, v_next - v_next_prev),), (named, speed_by_model))
+
+
+@paper.claim("5.input", "The change of the input from trial to trial", "identity",
+             r"\Delta u_f(k, i) = u_f(k, i) - u_f(k, i-1)", "proved", premises=("1",), rests_on=(),
+             reading="A definition; decided as the change of the force that (1) answers to at the same speed and place.")
+def change_of_input() -> Goal:
+    """Two forces on the train of (1) at one speed."""
+    answer = equal(T_s / M * Delta_u_i, next_speed(v_i, u_i) - next_speed(v_i, u_prev))
+    return Goal((equal(Delta_u_i, u_i - u_prev),), (answer,))
+
+
+@paper.claim("6.error", "The tracking error", "identity", r"e(k+1, i) = v_d(k+1) - v(k+1, i)", "proved", rests_on=(),
+             where={"v_d(k+1)": v_d},
+             reading="A definition; decided as what (6) makes of it from one trial to the next.",
+             note="With e(k+1,i) = e(k+1,i-1) - phi_c Delta u(k,i), the form in which (7) is minimised.")
+def tracking_error() -> Goal:
+    """From trial i - 1 to trial i."""
+    return Goal((equal(e_i, v_d - v_next),),
+                (equal(e_prev, v_d - v_next_prev), equal(e_i, e_prev - phi * Delta_u_i), speed_by_model))
 
 
 change_at_rest, slope = sp.symbols("Delta_v_0 L", real=True)

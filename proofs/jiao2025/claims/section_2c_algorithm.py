@@ -180,6 +180,16 @@ def algorithm_estimate() -> Goal:
     return Goal((equal(phi_i, phi_prev + eta * Delta_u / (mu + Delta_u**2) * xi),), (*paper.shown("10"), equal(xi, innovation)))
 
 
+@paper.claim("12.innovation", "The innovation xi", "identity",
+             r"\xi(k+1, i-1) = \Delta v(k+1, i-1) - \hat{\phi}_c(k, i-1) \times \Delta u_f(k, i-1)", "proved", premises=("10",),
+             where={r"\xi(k+1, i-1)": estimate_step(Delta_u, innovation) * (mu + Delta_u**2) / (eta * Delta_u)},
+             reading="A definition; decided as what xi must be for (12) to be the law (10), where the input has changed.")
+def innovation_named() -> Goal:
+    """(12) solved for xi, with the step of (10)."""
+    solved = estimate_step(Delta_u, innovation) * (mu + Delta_u**2) / (eta * Delta_u)
+    return Goal((equal(solved, innovation),), (differ(Delta_u, 0),))
+
+
 fires, updated, after_reset = sp.symbols("fires phi_updated phi_reset", real=True)
 
 
@@ -251,3 +261,8 @@ def no_weight() -> Goal:
     return Goal((at_most(factor, -1),), (greater(phi_i, 0), at_least(rho * phi, 2 * phi_i)))
 
 
+paper.axiom("lambda.overshoot", "Section 4: the smaller lambda, the larger the overshoot; without it the learning oscillates or diverges",
+            r"\text{the smaller } \lambda, \text{ the faster the response of the system, but its overshoot grows [...]. With } \lambda = 0 "
+            r"\text{ the system oscillates in most cases or even loses stability.}",
+            "the paper's [5], Hou and Jin 2013", hypotheses=(), match="words", severity="cosmetic",
+            note="Said 'in general', of model-free adaptive control. What of it can be decided for the laws here: lambda.response and lambda.zero.")

@@ -145,6 +145,21 @@ def _modified(equation: str, latex: str, starred: sp.Symbol, plain: sp.Symbol, n
         return Goal((equal(starred, 0),), (definition, equal(gamma, 0), at_least(sample, length_i + 1), at_most(sample, T_d)))
 
 
+def _definition(equation: str, latex: str, starred: sp.Symbol, plain: sp.Symbol) -> None:
+    """The definition of a modified quantity, from the two cases that the paper draws from it."""
+    name = latex.replace("\\", "")
+
+    @paper.claim(equation, f"The modified {'error' if latex == 'e' else 'innovation'}", "identity",
+                 rf"{latex}^*(k, i) \triangleq \gamma(k, i){latex}(k, i)", "proved", rests_on=(),
+                 where={rf"{latex}^*(k, i)": starred, rf"{latex}(k, i)": plain},
+                 reading=f"A definition; decided as the one formula for both printed cases, {name}* = {name} where gamma = 1 and {name}* = 0 where gamma = 0.")
+    def one_formula() -> Goal:
+        """Either case, times gamma and times 1 - gamma."""
+        return Goal((equal(starred, gamma * plain),), (equal(gamma * (starred - plain), 0), equal((1 - gamma) * starred, 0)))
+
+
+_definition("14.definition", "e", e_now, e_i)
+_definition("15.definition", r"\xi", xi_star, xi)
 _modified("14.error", "e", e_now, e_i, "gamma(k,i) = 1 just for k <= T_i, as the event is described. That gamma is Bernoulli, the "
           "reason given, would not suffice: the gammas of one trial are not independent of one another.")
 _modified("15.innovation", r"\xi", xi_star, xi, "As 14.error.")

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from workbench.compile.kernel import numeric
-from workbench.paper.study import varied
+from workbench.paper.reproduced import STATED
 from workbench.simulate.closed_loop import Factors
 
 from .. import laws, plant
@@ -17,7 +17,7 @@ from ..laws import TRIAL_LAWS
 from .trials import Array, TrialPlan
 
 if TYPE_CHECKING:
-    from ..study.record import Change, JiaoStudy, Reading, Trials
+    from ..study.record import JiaoStudy, Reading, Trials
 
 GRAVITY = 9.80665
 _speed_at = numeric((plant.k,), plant.desired_curve)
@@ -26,7 +26,7 @@ _additional = numeric((plant.slope_coefficient, plant.slope_angle), plant.additi
 
 @dataclass(frozen=True)
 class Case:
-    """One run: reading, law, seed of the lengths, variant (-1: as stated), another unit of u in m/s^2.
+    """One run: reading, law, seed of the lengths, number of the change, another unit of u in m/s^2.
 
     opposed: whether (3) opposes the motion backwards too, as it does not as printed.
     """
@@ -34,20 +34,14 @@ class Case:
     reading: str
     law: str
     seed: int
-    variant: int = -1
+    change: int = STATED
     unit_mps2: float | None = None
     opposed: bool = False
 
 
-def changed(study: JiaoStudy, change: Change) -> JiaoStudy:
-    """The study with a change's values set; ValueError naming the change for what does not fit."""
-    return varied(study, change.set, f"variants: '{change.title}'")
-
-
 def plan(study: JiaoStudy, case: Case) -> TrialPlan:
     """The plan of one run."""
-    if case.variant >= 0:
-        study = changed(study, study.variants[case.variant])
+    study = study.changed(case.change)
     reading, mass = study.readings[case.reading], study.train.mass_kg
     unit_n = reading.unit_n if case.unit_mps2 is None else case.unit_mps2 * mass
     desired, positions = desired_trip(study, reading)

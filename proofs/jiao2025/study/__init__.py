@@ -3,31 +3,22 @@
 from __future__ import annotations
 
 from workbench.paper.reproduction import Reproduction
-from workbench.paper.results import Shown
 from workbench.paper.stages import Stage
 
 from ..simulation.mpc_trip import run_mpc
 from .comparison import COMPARISON, mpc_findings, mpc_table, mpc_tasks
-from .findings import all_findings
-from .plots import all_plots
+from .findings import FINDINGS
+from .plots import PLOTS
 from .record import JiaoStudy
-from .runs import Results, cases, name_of, run_case, run_row, track
-from .tables import all_tables
+from .runs import JiaoResults, cases, name_of, run_case, run_row, track
+from .tables import TABLES
 
 
-def stages(study: JiaoStudy) -> tuple[Stage, ...]:
-    """The laws in all readings, and MPC on all trips."""
-    return (Stage(run_case, study, tuple(dict.fromkeys(cases(study))), lambda case, _: name_of(study, case)),
-            Stage(run_mpc, study, mpc_tasks(study), lambda task, _: f"{task[1]}, {task[0]}"))
-
-
-def shown(results: Results) -> Shown:
-    """The paper's own, and MPC's trips beside it."""
-    return Shown((*all_tables(results), *mpc_table(results)), all_plots(results),
-                 (*all_findings(results), *mpc_findings(results)))
+def mpc_trips(study: JiaoStudy) -> tuple[Stage, ...]:
+    """MPC on all trips."""
+    return (Stage(run_mpc, study, mpc_tasks(study), lambda task, _: f"{task[1]}, {task[0]}"),)
 
 
 KIND = Reproduction(
-    JiaoStudy, stages, Results, lambda results: (run_row(results.study, *run) for run in results.runs.items()), shown,
-    lambda results: ((name_of(results.study, case), one.failed) for case, one in results.runs.items()
-                     if one.failed is not None and case.unit_mps2 is None), COMPARISON, track).kind
+    JiaoStudy, cases, run_case, name_of, run_row, JiaoResults, (*TABLES, mpc_table), PLOTS, (*FINDINGS, mpc_findings),
+    COMPARISON, track, stages=mpc_trips, told=lambda case: case.unit_mps2 is None).kind

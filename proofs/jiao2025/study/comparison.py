@@ -11,7 +11,7 @@ import numpy as np
 from workbench.mpc.controller import KINDS
 from workbench.paper.cells import Column, Phrase
 from workbench.paper.comparison import STEP
-from workbench.paper.drivers import MPC_NAMES, Drivers, keys_in
+from workbench.paper.drivers import MPC_NAMES, MPC_TITLES, Drivers, keys_in
 from workbench.paper.learning_comparison import LearningComparison, jerk_rms
 from workbench.paper.mpc_comparison import MPC_KINDS, counters_words
 from workbench.paper.results import ResultTable
@@ -23,11 +23,10 @@ from ..simulation.mpc_trip import MpcTrip, run_mpc
 from ..simulation.plans import Case, plan_on
 from ..simulation.trials import TrialRun, run_trials
 from .record import JiaoStudy
-from .runs import PRINTED_LAWS, Results, outcome
+from .runs import PRINTED_LAWS, JiaoResults, outcome
 
 LAW_NAMES = {law.partition(".")[2]: law for law in PRINTED_LAWS}
-TITLES = {name: TRIAL_LAWS[law].title for name, law in LAW_NAMES.items()} | {
-    name: KINDS[kind].title for name, kind in MPC_NAMES.items()}
+TITLES = {name: TRIAL_LAWS[law].title for name, law in LAW_NAMES.items()} | MPC_TITLES
 STARTS = ("first_input", "first_estimate")
 COLUMNS = {"speed_rms": Column("speed RMS", "m/s"), "largest_mps": Column("largest |speed error|", "m/s"),
            "jerk_rms": Column("jerk RMS", "m/s³"), "step_s": STEP}
@@ -87,14 +86,14 @@ def _overtaken(rival: float, trial: int | None, ended: bool) -> Phrase:
     return Phrase("{}: {}" if trial is None else "{}: trial {}", (rival, trial))
 
 
-def _rivals(results: Results, reading: str) -> list[MpcTrip]:
+def _rivals(results: JiaoResults, reading: str) -> list[MpcTrip]:
     trip = _of_trip(results.study, reading)
-    return [one for one in results.trips if _of_trip(results.study, one.reading) == trip]
+    return [one for one in results.of_mpc.values() if _of_trip(results.study, one.reading) == trip]
 
 
-def mpc_table(results: Results) -> Iterator[ResultTable]:
+def mpc_table(results: JiaoResults) -> Iterator[ResultTable]:
     """A row per reading and law: what is learned, MPC's error, and the trial that is ahead of it."""
-    if not results.trips or results.study.mpc is None:
+    if not results.of_mpc or results.study.mpc is None:
         return
     rows = []
     for name, reading in results.study.readings.items():
@@ -116,12 +115,12 @@ def mpc_table(results: Results) -> Iterator[ResultTable]:
         f"In m²/s². No: not within {results.study.trials.count} trials. MPC drives the same train once, at T_s, "
         f"{results.study.mpc.horizon} samples ahead: {KINDS[MPC_KINDS[0]].information}; the laws: speeds of earlier "
         "trials, model unknown. Neither has limits. MPC counted "
-        f"{counters_words([one.counters for one in results.trips])}.")
+        f"{counters_words([one.counters for one in results.of_mpc.values()])}.")
 
 
-def mpc_findings(results: Results) -> Iterator[str]:
+def mpc_findings(results: JiaoResults) -> Iterator[str]:
     """How often and when each law overtakes each kind of MPC."""
-    for law in PRINTED_LAWS if results.trips else ():
+    for law in PRINTED_LAWS if results.of_mpc else ():
         finish = [name for name in results.study.readings if results.run(name, law).failed is None]
         words = []
         for kind in MPC_KINDS:

@@ -13,15 +13,9 @@ from workbench.paper.results import Array, Curve, Plot
 from ..laws import TRIAL_LAWS
 from ..simulation.plans import Case, desired_trip, lengths, plan
 from .record import Reading
-from .runs import ICFDL, PD, PRINTED_LAWS, Results, outcome
+from .runs import ICFDL, PD, PRINTED_LAWS, JiaoResults, outcome
 
 FIGURE_OF = {ICFDL: "paper, Figure 5", PD: "paper, Figure 6"}
-
-
-def all_plots(results: Results) -> Iterator[Plot]:
-    """All figures, the paper's first and in its order."""
-    for plots in (_desired, _lengths, _additional, _speeds, _errors, _transients, _estimates, _units, _seeds):
-        yield from plots(results)
 
 
 def _over_k(label: str, reading: Reading, values: Array) -> Curve:
@@ -29,25 +23,25 @@ def _over_k(label: str, reading: Reading, values: Array) -> Curve:
     return Curve(label, np.linspace(0.0, (len(values) - 1) * reading.k_per_sample, len(values)), values)
 
 
-def _desired(results: Results) -> Iterator[Plot]:
+def _desired(results: JiaoResults) -> Plot:
     """The desired speed (16)."""
     reading = next(iter(results.study.readings.values()))
-    yield Plot("Desired speed", "paper, Figure 2", "k", "speed (m/s)",
-               (_over_k("v_d", reading, desired_trip(results.study, reading)[0]),),
-               "(16); it is the same in every reading.")
+    return Plot("Desired speed", "paper, Figure 2", "k", "speed (m/s)",
+                (_over_k("v_d", reading, desired_trip(results.study, reading)[0]),),
+                "(16); it is the same in every reading.")
 
 
-def _lengths(results: Results) -> Iterator[Plot]:
+def _lengths(results: JiaoResults) -> Plot:
     """The lengths T_i of the trials."""
     trials = results.study.trials
     drawn = lengths(trials, trials.seed).astype(float)
-    yield Plot("Lengths of the trials", "paper, Figure 3", "trial i", "T_i (k)", (trial_curve("T_i", drawn, 0),),
-               f"Drawn from {trials.shortest_length_k + 1} to {trials.desired_length_k}, seed {trials.seed}; "
-               f"k = {trials.desired_length_k} is reached in {int(np.sum(drawn == trials.desired_length_k))} of "
-               f"{len(drawn)} trials.")
+    return Plot("Lengths of the trials", "paper, Figure 3", "trial i", "T_i (k)", (trial_curve("T_i", drawn, 0),),
+                f"Drawn from {trials.shortest_length_k + 1} to {trials.desired_length_k}, seed {trials.seed}; "
+                f"k = {trials.desired_length_k} is reached in {int(np.sum(drawn == trials.desired_length_k))} of "
+                f"{len(drawn)} trials.")
 
 
-def _additional(results: Results) -> Iterator[Plot]:
+def _additional(results: JiaoResults) -> Plot:
     """f_a over M, in the desired trip and in the trials that the paper shows."""
     study, entry = results.study, results.study.shown[0]
     reading, case = study.readings[entry.reading], Case(entry.reading, entry.law, study.trials.seed)
@@ -56,30 +50,29 @@ def _additional(results: Results) -> Iterator[Plot]:
     curves = [_over_k("desired trip", reading, made.additional_n[place] / made.mass_kg)]
     curves += [_over_k(f"trial {trial}", reading, run.sample(trial, "additional_n")[:-1] / made.mass_kg)
                for trial in study.trials.line_shown if trial in run.samples]
-    yield Plot("Additional resistance per unit of mass", "paper, Figure 4", "k", "f_a / M (m/s²)", tuple(curves),
-               f"The profile is assumed. Of {results.title(entry.reading, entry.law)}.")
+    return Plot("Additional resistance per unit of mass", "paper, Figure 4", "k", "f_a / M (m/s²)", tuple(curves),
+                f"The profile is assumed. Of {results.title(entry)}.")
 
 
-def _speeds(results: Results) -> Iterator[Plot]:
+def _speeds(results: JiaoResults) -> Iterator[Plot]:
     """Speeds in the trials that the paper compares."""
-    for entry in results.study.shown:
-        reading, run = results.study.readings[entry.reading], results.run(entry.reading, entry.law)
+    for entry, run in results.shown():
+        reading = results.study.readings[entry.reading]
         curves = [_over_k("desired", reading, desired_trip(results.study, reading)[0])]
         curves += [_over_k(f"trial {trial}", reading, run.sample(trial, "speed"))
                    for trial in results.study.trials.compared if trial in run.samples]
-        yield Plot(f"Speed: {results.title(entry.reading, entry.law)}", FIGURE_OF.get(entry.law, "not in the paper"),
+        yield Plot(f"Speed: {results.title(entry)}", FIGURE_OF.get(entry.law, "not in the paper"),
                    "k", "speed (m/s)", tuple(curves), f"Reading: {reading.title}; it {outcome(run)}.")
 
 
-def _errors(results: Results) -> Iterator[Plot]:
+def _errors(results: JiaoResults) -> Plot:
     """MSE against the trial for the runs that are shown."""
-    curves = tuple(trial_curve(results.title(entry.reading, entry.law), results.run(entry.reading, entry.law).mse, 0)
-                   for entry in results.study.shown)
-    yield Plot("Mean squared error of the speed", "paper, Figure 7", "trial i", "MSE (m²/s²)", curves,
-               "k in samples of 0.1 s; what diverges in trial 1 is left out.", log_y=True)
+    return Plot("Mean squared error of the speed", "paper, Figure 7", "trial i", "MSE (m²/s²)",
+                tuple(trial_curve(results.title(entry), run.mse, 0) for entry, run in results.shown()),
+                "k in samples of 0.1 s; what diverges in trial 1 is left out.", log_y=True)
 
 
-def _transients(results: Results) -> Iterator[Plot]:
+def _transients(results: JiaoResults) -> Iterator[Plot]:
     """MSE and largest error in every reading, on a logarithmic axis."""
     for law in (*PRINTED_LAWS, "jiao2025.fixed_estimate"):
         for column, name, label in (("mse", "MSE", "MSE (m²/s²)"),
@@ -91,11 +84,11 @@ def _transients(results: Results) -> Iterator[Plot]:
                        "theorem1.*. A run ends where it diverges.", log_y=True)
 
 
-def _estimates(results: Results) -> Iterator[Plot]:
+def _estimates(results: JiaoResults) -> Iterator[Plot]:
     """What (15) with (13) estimates, beside dv(k+1)/du(k)."""
     study, trial = results.study, results.study.trials.compared[-1]
-    for entry in study.shown:
-        reading, run = study.readings[entry.reading], results.run(entry.reading, entry.law)
+    for entry, run in results.shown():
+        reading = study.readings[entry.reading]
         if entry.law not in (ICFDL, "jiao2025.cfdl") or trial not in run.samples:
             continue
         estimate = run.sample(trial, "estimate")[:-1]
@@ -104,7 +97,7 @@ def _estimates(results: Results) -> Iterator[Plot]:
         anew, large = (f"{number(100 * float(np.mean(which)), 2)} %" for which in (
             estimate == first, estimate > 10 * b))
         yield Plot(
-            f"Estimate of the pseudo partial derivative: {results.title(entry.reading, entry.law)}", "not in the paper",
+            f"Estimate of the pseudo partial derivative: {results.title(entry)}", "not in the paper",
             "k", f"m/s per {reading.unit}",
             (_over_k("desired: (k + 1) T_s/M, all inputs so far changed alike", reading,
                      b * np.linspace(1.0, count, count)),
@@ -115,7 +108,7 @@ def _estimates(results: Results) -> Iterator[Plot]:
             "(claims 5, A2, 10.lag).", log_y=True)
 
 
-def _units(results: Results) -> Iterator[Plot]:
+def _units(results: JiaoResults) -> Plot:
     """MSE after all trials against the unit of u."""
     study, curves = results.study, []
     for reading in study.unit_sweep.readings:
@@ -127,19 +120,23 @@ def _units(results: Results) -> Iterator[Plot]:
                 label = f"{TRIAL_LAWS[law].title}, steps of {study.readings[reading].step_s:g} s"
                 curves.append(Curve(label, points[:, 0], points[:, 1]))
     mass = study.train.mass_kg
-    yield Plot(f"MSE left after {study.trials.count} trials against the unit of u", "not in the paper",
-               "acceleration per unit of u (m/s²)", "last MSE over first", tuple(curves),
-               f"Units at which a run diverges are left out. 1 N is {number(1 / mass)} m/s², 1 kN is "
-               f"{number(1000 / mass)}, 1 N/kg is 1.", log_y=True, log_x=True)
+    return Plot(f"MSE left after {study.trials.count} trials against the unit of u", "not in the paper",
+                "acceleration per unit of u (m/s²)", "last MSE over first", tuple(curves),
+                f"Units at which a run diverges are left out. 1 N is {number(1 / mass)} m/s², 1 kN is "
+                f"{number(1000 / mass)}, 1 N/kg is 1.", log_y=True, log_x=True)
 
 
-def _seeds(results: Results) -> Iterator[Plot]:
+def _seeds(results: JiaoResults) -> Iterator[Plot]:
     """MSE along the trials over all seeds of the lengths."""
     for entry in results.study.shown:
         whole = [run.mse for run in results.of_seeds(entry) if run.failed is None]
         if whole:
             levels = np.quantile(np.array(whole), (0.0, 0.5, 1.0), axis=0)
-            yield Plot(f"MSE over the seeds: {results.title(entry.reading, entry.law)}", "not in the paper", "trial i",
+            yield Plot(f"MSE over the seeds: {results.title(entry)}", "not in the paper", "trial i",
                        "MSE (m²/s²)", tuple(trial_curve(label, level, 0) for label, level in zip(
                            ("least", "median", "largest"), levels, strict=True)),
                        f"{len(whole)} of {results.study.trials.seeds} draws of the lengths run to the end.", log_y=True)
+
+
+# The paper's figures first, in its order.
+PLOTS = (_desired, _lengths, _additional, _speeds, _errors, _transients, _estimates, _units, _seeds)

@@ -9,13 +9,10 @@ import numpy as np
 from pydantic import BeforeValidator, Field, Strict, model_validator
 
 from workbench.files.toml import Name, Number, Positive, Record, SourcedRecord, Text
-from workbench.paper.mpc_comparison import MpcData
+from workbench.paper.reproduced import ReproducedStudy, one_of
 from workbench.paper.results import Array
-from workbench.paper.study import Study
-from workbench.paper.tuning_record import Pairs, StudyTuning
 
 from ..laws import TRIAL_LAWS
-from ..simulation.plans import changed
 
 Trial = Annotated[int, Strict(), Field(ge=1, le=10_000)]
 Share = Annotated[float, Strict(), Field(gt=0, le=1, allow_inf_nan=False)]
@@ -145,14 +142,7 @@ class UnitSweep(SourcedRecord):
         return np.geomspace(self.lowest_mps2, self.highest_mps2, self.count)
 
 
-class Change(Record):
-    """One change of an assumed value: dotted key -> value."""
-
-    title: Text
-    set: dict[str, Any]
-
-
-class JiaoStudy(Study):
+class JiaoStudy(ReproducedStudy):
     """Everything that the runs of jiao2025 need, with the source of every value."""
 
     train: Train
@@ -162,20 +152,11 @@ class JiaoStudy(Study):
     readings: dict[Name, Reading]
     shown: tuple[Shown, ...]
     unit_sweep: UnitSweep
-    variants: tuple[Change, ...] = ()
-    mpc: MpcData | None = None
-    tuning: StudyTuning | None = None
-    pairs: Pairs | None = None
 
-    @model_validator(mode="after")
-    def _names_are_known(self) -> Self:
-        for key, name in [("shown", s.reading) for s in self.shown] + [
-                ("unit_sweep.readings", name) for name in self.unit_sweep.readings]:
-            if name not in self.readings:
-                raise ValueError(f"{key}: '{name}' is no reading: choose one of {', '.join(self.readings)}")
+    def check(self) -> None:
+        """Readings and laws that are named are there."""
         for entry in self.shown:
-            if entry.law not in TRIAL_LAWS:
-                raise ValueError(f"shown: there is no law '{entry.law}': choose one of {', '.join(TRIAL_LAWS)}")
-        for variant in self.variants:
-            changed(self, variant)
-        return self
+            one_of("shown", "reading", entry.reading, self.readings)
+            one_of("shown", "law", entry.law, TRIAL_LAWS)
+        for name in self.unit_sweep.readings:
+            one_of("unit_sweep.readings", "reading", name, self.readings)

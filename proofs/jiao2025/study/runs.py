@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from typing import Any
 
@@ -11,6 +11,7 @@ import numpy as np
 
 from workbench.model.desired_curve import DesiredCurve
 from workbench.paper.learning_comparison import rises
+from workbench.paper.reproduced import Change, Results
 from workbench.paper.tracked import Tracked
 
 from .. import laws
@@ -18,7 +19,7 @@ from ..laws import TRIAL_LAWS
 from ..simulation.mpc_trip import MpcTrip
 from ..simulation.plans import Case, plan
 from ..simulation.trials import TrialRun, run_trials
-from .record import Change, JiaoStudy, Shown
+from .record import JiaoStudy, Shown
 
 ICFDL, PD = PRINTED_LAWS = ("jiao2025.icfdl", "jiao2025.pd")
 # By what part of the first mean squared error a law is said to have learned, or hardly to learn.
@@ -27,27 +28,27 @@ LEARNED, HARDLY = 0.01, 0.5
 AGAIN = 10.0
 
 
-def cases(study: JiaoStudy) -> Iterator[Case]:
-    """All runs of a study, each once: every law in every reading, variants, seeds, units."""
-    seed = study.trials.seed
+def cases(study: JiaoStudy) -> list[Case]:
+    """All runs of a study, each once: every law in every reading, changes, seeds, units."""
+    seed, found = study.trials.seed, []
     for reading in study.readings:
-        yield from (Case(reading, law, seed) for law in TRIAL_LAWS)
-        yield from (Case(reading, law, seed, opposed=True) for law in PRINTED_LAWS)
+        found += [Case(reading, law, seed) for law in TRIAL_LAWS]
+        found += [Case(reading, law, seed, opposed=True) for law in PRINTED_LAWS]
     for entry in study.shown:
-        yield from (Case(entry.reading, entry.law, seed, place) for place, variant in enumerate(study.variants)
-                    if concerns(variant, entry.law))
-        yield from (Case(entry.reading, entry.law, seed + more) for more in range(1, study.trials.seeds))
-    for reading in study.unit_sweep.readings:
-        for law in PRINTED_LAWS:
-            yield from (Case(reading, law, seed, unit_mps2=float(unit)) for unit in study.unit_sweep.units_mps2)
+        found += [Case(entry.reading, entry.law, seed, number) for number, change in enumerate(study.changes)
+                  if concerns(change, entry.law)]
+        found += [Case(entry.reading, entry.law, seed + more) for more in range(1, study.trials.seeds)]
+    found += [Case(reading, law, seed, unit_mps2=float(unit)) for reading in study.unit_sweep.readings
+              for law in PRINTED_LAWS for unit in study.unit_sweep.units_mps2]
+    return list(dict.fromkeys(found))
 
 
-def concerns(variant: Change, law_id: str) -> bool:
-    """Whether a variant changes anything that a law's run depends on."""
+def concerns(change: Change, law_id: str) -> bool:
+    """Whether a change has to do with anything that a law's run depends on."""
     law = TRIAL_LAWS[law_id]
     used = {"first_input", *map(str, law.parameters)}
     used |= {"first_estimate"} if law.next_estimate != laws.phi_first else set()
-    return any(not key.startswith("learning.") or key.removeprefix("learning.") in used for key in variant.set)
+    return any(not key.startswith("learning.") or key.removeprefix("learning.") in used for key in change.set)
 
 
 def run_case(study: JiaoStudy, case: Case) -> TrialRun:
@@ -57,28 +58,18 @@ def run_case(study: JiaoStudy, case: Case) -> TrialRun:
 
 def name_of(study: JiaoStudy, case: Case) -> str:
     """A run in words: law, reading, and what is not as stated."""
-    words = [case.law, case.reading]
-    if case.opposed:
-        words.append("resistance against the motion")
-    if case.variant >= 0:
-        words.append(study.variants[case.variant].title)
-    if case.unit_mps2 is not None:
-        words.append(f"unit of u {case.unit_mps2:.3g} m/s^2")
-    return ", ".join(words if case.seed == study.trials.seed else [*words, f"seed {case.seed}"])
+    words = (case.law, case.reading, "resistance against the motion" if case.opposed else None,
+             study.change_title(case.change),
+             None if case.unit_mps2 is None else f"unit of u {case.unit_mps2:.3g} m/s^2",
+             None if case.seed == study.trials.seed else f"seed {case.seed}")
+    return ", ".join(filter(None, words))
 
 
 @dataclass(frozen=True)
-class Results:
+class JiaoResults(Results[JiaoStudy, Case, TrialRun]):
     """The study and its runs; of_mpc: (reading, kind) -> trip."""
 
-    study: JiaoStudy
-    runs: Mapping[Case, TrialRun]
     of_mpc: Mapping[tuple[str, str], MpcTrip] = field(default_factory=dict)
-
-    @property
-    def trips(self) -> tuple[MpcTrip, ...]:
-        """MPC's, one for each trip that differs."""
-        return tuple(self.of_mpc.values())
 
     def run(self, reading: str, law: str, **other: Any) -> TrialRun:
         """The run of a law in a reading; other: what of its case is not as stated."""
@@ -89,9 +80,13 @@ class Results:
         first = self.study.trials.seed
         return [self.run(entry.reading, entry.law, seed=first + more) for more in range(self.study.trials.seeds)]
 
-    def title(self, reading: str, law: str) -> str:
+    def title(self, entry: Shown) -> str:
         """A run as texts name it."""
-        return f"{TRIAL_LAWS[law].title}, u in {self.study.readings[reading].label}"
+        return f"{TRIAL_LAWS[entry.law].title}, u in {self.study.readings[entry.reading].label}"
+
+    def shown(self) -> list[tuple[Shown, TrialRun]]:
+        """What is shown, with its runs as stated."""
+        return [(entry, self.run(entry.reading, entry.law)) for entry in self.study.shown]
 
     def short_readings(self) -> list[str]:
         """The readings in which k counts the samples of T_s, as (1) has it."""
@@ -130,7 +125,7 @@ def run_row(study: JiaoStudy, case: Case, run: TrialRun) -> dict[str, Any]:
     trial, ratio = peak(run) if len(run.rows) else (None, None)
     return {
         "controller": case.law, "reading": case.reading, "seed": case.seed,
-        "variant": study.variants[case.variant].title if case.variant >= 0 else None, "unit_mps2": case.unit_mps2,
+        "variant": study.change_title(case.change), "unit_mps2": case.unit_mps2,
         "resistance_opposed": case.opposed, "mse_0": mse_at(run, 0),
         **{f"mse_{trial}": mse_at(run, trial) for trial in (*study.trials.compared, study.trials.count)},
         "peak_trial": trial, "peak_over_first": ratio, "trials_worse": rises(run.mse),

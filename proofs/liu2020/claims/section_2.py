@@ -8,7 +8,7 @@ from workbench.proof.claim import D, Goal, Relation, at_least, at_most, equal
 
 from ..goal_forms import within
 from ..paper import paper
-from ..plant import M, a_1, a_2, acceleration, chi, d, davis, f_d, s, u, v
+from ..plant import M, a_0, a_1, a_2, acceleration, chi, d, davis, f_d, model, opposing, s, u, v
 
 NEWTON = {s: v, v: (u - f_d) / M}  # (1)
 
@@ -26,6 +26,19 @@ s_1, s_2 = sp.symbols("s_1 s_2", real=True)
 def position_by_integral() -> Goal:
     """s(t_2) - s(t_1) against a position in between."""
     return Goal((equal(s_2 - s_1, s),), (at_most(s_1, s), at_most(s, s_2)))
+
+
+coasting = -M / chi * model().rates[v].xreplace({u: sp.Integer(0), opposing: sp.Integer(0)})
+
+
+@paper.claim("8", "The general resistance", "identity", r"f_b(v, t) = a_0(t) + a_1(t)v + a_2(t)v^2", "proved", rests_on=(),
+             where={"f_b(v, t)": coasting, "a_0(t)": a_0, "a_1(t)": a_1, "a_2(t)": a_2},
+             reading="f_b is what the train of the simulation loses when it coasts on a level line without disturbance, "
+                     "in newtons.",
+             note="In the simulation the coefficients rest, as (61) has them.")
+def general_resistance() -> Goal:
+    """The deceleration of the coasting train times M/chi."""
+    return Goal((equal(coasting, a_0 + a_1 * v + a_2 * v**2),))
 
 
 @paper.claim("9", "The model (9) from (1)", "implication",

@@ -7,7 +7,7 @@ import sympy as sp
 from workbench.model.law import over_neurons
 from workbench.proof.claim import D, Goal, at_most, equal
 
-from ..error_dynamics import W_f_tilde, delta, delta_tilde, in_errors, observer_loop, w_f
+from ..error_dynamics import W_f_tilde, delta, delta_tilde, in_errors, observer_loop, one_neuron, w_f
 from ..exact_motions import UPDATE_SIGNAL, observer_motion
 from ..laws import (
     W_f_0,
@@ -17,6 +17,7 @@ from ..laws import (
     delta_0,
     delta_hat,
     e_v,
+    g_f,
     gamma_1,
     h_f,
     k_1,
@@ -24,6 +25,8 @@ from ..laws import (
     observer_laws,
     robust_1,
     s_error,
+    s_hat,
+    s_hat_rate,
     s_tilde,
     sigma_f,
     tracking_laws,
@@ -35,9 +38,45 @@ from ..laws import (
 from ..lyapunov import V_f
 from ..notation import ERRORS, OBSERVED
 from ..paper import EVERY_NETWORK, paper
-from ..plant import v
+from ..plant import s, v
 from ..smooth_sign import constant_suffices, smooth_sign, smooth_sign_facts
 from .section_3_eq_11_to_18 import along_plant, v_other
+
+# The laws of one neuron as they run, and the letters that they are printed in.
+GAMMA_OF_SIGNAL = r"\gamma(\dot{\tilde s} + k_1\tilde s)"
+printed_signal = D(s_error) + k_1 * s_error
+PRINTED_LAWS = OBSERVED | {r"\hat W_f": one_neuron(W_f_hat), "W_{f0}": one_neuron(W_f_0), r"\Gamma_f": one_neuron(g_f**2),
+                           r"h_f(\hat z_1)": one_neuron(h_f), GAMMA_OF_SIGNAL: gamma_1(printed_signal)}
+HATS = "The extracted text has hats, and stray letters, over s where the section speaks of the estimation error."
+
+
+@paper.claim("19", "The law of the weights of the observer", "identity",
+             r"\dot{\hat W}_f = \Gamma_f(-h_f(\hat z_1)(\dot{\tilde s} + k_1\tilde s) + \sigma_f(\hat W_f - W_{f0}))", "proved",
+             rests_on=(), scope="every neuron", where=PRINTED_LAWS,
+             reading="Of one neuron, which stands for each; the rate is that of its weight in the loop that runs as "
+                     f"printed. {HATS}")
+def rate_of_weight() -> Goal:
+    """The rate of one weight as it is simulated, against the printed line."""
+    weight, prior = one_neuron(W_f_hat), one_neuron(W_f_0)
+    stated = one_neuron(g_f**2) * (-one_neuron(h_f) * printed_signal + sigma_f * (weight - prior))
+    return Goal((equal(D(weight), stated),), flow={s: v, s_hat: s_hat_rate, weight: one_neuron(observer_laws()[W_f_hat])})
+
+
+@paper.claim("20", "The robust term of the observer", "identity", rf"D_1 = -{GAMMA_OF_SIGNAL}\hat\delta", "proved", rests_on=(),
+             where=PRINTED_LAWS | {"D_1": robust_1}, reading=f"D_1 as it runs. {HATS}")
+def robust_term() -> Goal:
+    """D_1 as it is simulated, by v_hat - v, against the printed line."""
+    return Goal((equal(robust_1, -gamma_1(printed_signal) * delta_hat),), flow=along_plant)
+
+
+@paper.claim("21", "The law of the estimate of delta", "identity",
+             rf"\dot{{\hat\delta}} = \alpha_1({GAMMA_OF_SIGNAL}(\dot{{\tilde s}} + k_1\tilde s) + "
+             r"\beta_1(\hat\delta - \delta_0))", "proved", rests_on=(), where=PRINTED_LAWS,
+             reading=f"The rate is that of the loop that runs as printed; the accent over the last delta is a zero's. {HATS}")
+def rate_of_estimate() -> Goal:
+    """The rate of delta_hat as it is simulated, against the printed line."""
+    stated = alpha_1 * (gamma_1(printed_signal) * printed_signal + beta_1 * (delta_hat - delta_0))
+    return Goal((equal(D(delta_hat), stated),), flow={**along_plant, delta_hat: observer_laws()[delta_hat]})
 
 
 @paper.claim("19.cancels", "(19) cancels the weights in the rate of V_1", "identity",
@@ -126,7 +165,6 @@ leakage_claim("21", "the estimate of delta", (delta_hat - delta_0) ** 2,
 
 # The signal of the update laws as it is printed, s_tilde' being free.
 s_tilde_rate = sp.Symbol("sdot_tilde", real=True)
-GAMMA_OF_SIGNAL = r"\gamma(\dot{\tilde s} + k_1\tilde s)"
 free_signal = {s_tilde: s_tilde_rate}
 signal = s_tilde_rate + k_1 * s_tilde
 

@@ -29,6 +29,7 @@ from ..laws import (
     command,
     e_v,
     f_hat,
+    g_v,
     gamma_2,
     h_v,
     k_5,
@@ -36,11 +37,12 @@ from ..laws import (
     sigma_v,
     theta_0,
     theta_hat,
+    tracking_laws,
 )
 from ..lyapunov import V_v
 from ..notation import ERRORS
 from ..paper import EVERY_NETWORK, paper
-from ..plant import M, chi, d, u
+from ..plant import M, acceleration, chi, d, f_d, u, v
 from .section_1 import network_of, others, speed_other, speed_seen
 from .section_3_eq_19_to_21 import leakage_claim
 from .section_4_eq_22_to_27 import f_v_inside
@@ -92,6 +94,42 @@ def network_without_speed() -> Goal:
     return Goal((equal(network_of(speed_seen), network_of(speed_other)),), (at_least(others, 0),))
 
 
+felt_input = M / chi * (D(v) - d) + f_d  # what (9) says of the input of a moving train
+
+
+@paper.claim("31", "The control law", "identity", r"u(t) = \hat W_v^Th_v(z_2) + k_5e_v + D_2", "proved", rests_on=(),
+             scope=EVERY_NETWORK, where={"u(t)": felt_input},
+             reading="u is the input that the train feels, by (9).",
+             note="The input of the loop that is run, read back from the train's acceleration.")
+def control_law() -> Goal:
+    """The train of (9) with the command that is simulated."""
+    stated = over_neurons(W_v_hat * h_v) + k_5 * e_v + D_2
+    return Goal((equal(felt_input, stated),), flow={v: acceleration.xreplace({u: command})})
+
+
+@paper.claim("32", "The law of the weights of the controller", "identity",
+             r"\dot{\hat W}_v = \Gamma_v(-h(z_2)e_v + \sigma_v(\hat W_v - W_{v0}))", "proved", rests_on=(),
+             scope="every neuron",
+             where={r"\hat W_v": one_neuron(W_v_hat), "W_{v0}": one_neuron(W_v_0), r"\Gamma_v": one_neuron(g_v**2),
+                    "h(z_2)": one_neuron(h_v)},
+             reading="Of one neuron, which stands for each; the rate is that of its weight in the loop that runs as "
+                     "printed. h lacks its index v.")
+def rate_of_weight() -> Goal:
+    """The rate of one weight as it is simulated, against the printed line."""
+    weight, prior = one_neuron(W_v_hat), one_neuron(W_v_0)
+    stated = one_neuron(g_v**2) * (-one_neuron(h_v) * e_v + sigma_v * (weight - prior))
+    return Goal((equal(D(weight), stated),), flow={weight: one_neuron(tracking_laws()[W_v_hat])})
+
+
+@paper.claim("35", "The law of the estimate of theta", "identity",
+             r"\dot{\hat\theta} = \alpha_2(\gamma(e_v)e_v + \beta_2(\hat\theta - \theta_0))", "proved", rests_on=(),
+             reading="The rate is that of the loop that runs as printed; the accent over the last theta is a zero's.")
+def rate_of_estimate() -> Goal:
+    """The rate of theta_hat as it is simulated, against the printed line."""
+    return Goal((equal(D(theta_hat), alpha_2 * (gamma_2(e_v) * e_v + beta_2 * (theta_hat - theta_0))),),
+                flow={theta_hat: tracking_laws()[theta_hat]})
+
+
 PRINTED_33 = (r"\frac{M}{\chi}\dot e_v = -k_5e_v + \tilde W_v^Th_v(z_2) + \varepsilon_v(z_2) - \frac{M}{\chi}d(t) - D_2")
 MENDED_33 = (r"\frac{M}{\chi}\dot e_v = -k_5e_v - \tilde W_v^Th_v(z_2) + \varepsilon_v(z_2) - \frac{M}{\chi}d(t) - D_2")
 ESTIMATED = {r"\tilde W_v": W_v_hat - W_v_star}
@@ -105,7 +143,7 @@ def _closed_e_v(sign: int, h_limited: bool = False) -> Goal:
 
 
 @paper.claim("33", "Rate of e_v in closed loop", "identity", PRINTED_33, "refuted", premises=("26", "28"),
-             rests_on=("25", "26", "28"), scope=EVERY_NETWORK, where=ESTIMATED, correction=lambda: _closed_e_v(-1),
+             rests_on=("25", "26", "28", "31"), scope=EVERY_NETWORK, where=ESTIMATED, correction=lambda: _closed_e_v(-1),
              corrected_statement=MENDED_33,
              note="(28) and (31) leave (W_v* - W_v_hat)^T h_v, which is -W_v_tilde^T h_v by the definition W_v_tilde = "
                   "W_v_hat - W_v* in the next line. The wrong sign is used in choosing (32), see 32.cancels, so it is not "

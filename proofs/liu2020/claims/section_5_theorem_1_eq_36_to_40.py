@@ -91,7 +91,7 @@ def _rate_of_v1(moving_delta: bool) -> Goal:
 
 
 @paper.claim("39", "Rate of V_1 in closed loop", "identity", PRINTED_39, "refuted",
-             premises=("18.glyph", "19.cancels", "20.cancels"), rests_on=("13", "18", "38.delta"), scope=EVERY_NETWORK,
+             premises=("18.glyph", "19.cancels", "20.cancels"), rests_on=("13", "18", "19", "20", "21", "38.delta"), scope=EVERY_NETWORK,
              where=ERRORS,
              reading="Hats and tildes over delta and W_f as (19) to (21) have them; eps_tilde_f = delta, as the text "
                      "defines delta.",

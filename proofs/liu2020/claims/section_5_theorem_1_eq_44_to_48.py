@@ -94,7 +94,7 @@ smallest_f = at_least(square_f, lambda_f * norm_f)  # what the smallest eigenval
 V_1_dot = sp.Symbol("Vdot_1", real=True)
 robust_size = sp.Symbol("delta_size", nonnegative=True)  # |delta|
 mu_1 = mu_1_stated.xreplace({delta_size: robust_size})
-DECAY_1 = {r"\mu_1": mu_1, r"\dot V_1": V_1_dot} | ERRORS
+DECAY_1 = {r"\mu_1": mu_1, r"\dot V_1": V_1_dot, r"\rho_1": rho} | ERRORS
 
 
 def bounded_43() -> Relation:
@@ -237,7 +237,7 @@ norm_key = (r"\left\|\tilde s, \tilde v, \sqrt{\tilde W_f^T\Gamma_f^{-1}\tilde W
              norm_key + r" \le \sqrt{2\varphi_1 + 2(V_1(0) - \varphi_1)e^{-\rho_1t}}", "gap",
              premises=("47",), scope=EVERY_NETWORK,
              where={norm_key: sp.sqrt(norm_48 + (delta_tilde / alpha_1) ** 2), r"\varphi_1": mu / rho, "V_1(0)": V_start,
-                    "t": t},
+                    r"\rho_1": rho, "t": t},
              correction=lambda: Goal((equal(norm_48 + delta_tilde**2 / alpha_1, 2 * V_1),)),
              corrected_statement=r"\left\|\tilde s, \tilde v, \sqrt{\tilde W_f^T\Gamma_f^{-1}\tilde W_f}, "
                                  r"\tfrac{1}{\sqrt{\alpha_1}}\tilde\delta\right\| = \sqrt{2V_1}",

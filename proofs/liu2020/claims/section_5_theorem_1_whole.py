@@ -75,7 +75,7 @@ def mended_decay() -> Goal:
              r"2\left(\frac{\mu_1}{\rho_1} + c\right),\ \tilde\delta^2 \le 2\alpha_1\left(\frac{\mu_1}{\rho_1} + "
              r"c\right)", "proved", origin="ours", mends="theorem1", severity="result", rests_on=(),
              premises=("theorem1.decay", "comparison", "48.mended"), scope=EVERY_NETWORK,
-             where=ERRORS | {r"\mu_1": mu, "c": slack},
+             where=ERRORS | {r"\mu_1": mu, r"\rho_1": rho, "c": slack},
              note="For every c > 0, from t = V(0)/(rho c) on, and all k_i > 0: all signals of the observer are uniformly "
                   "ultimately bounded, with minus signs before the leakage of (19) and (21) and a constant delta that "
                   "bounds |eps_tilde_f|, as it does while z_1 stays in Omega. V decays (theorem1.decay), so it meets the "

@@ -106,7 +106,7 @@ LETTERS_52 = ERRORS | {"D_2": robust_52, r"\varepsilon_v(z_2)": theta + M / chi 
 
 
 @paper.claim("52", "Rate of V_2 with the laws", "identity", _printed_52("+"), "refuted", premises=("33.mended", "50.mended"),
-             rests_on=("33", "50", "52.theta"), scope=EVERY_NETWORK, where=LETTERS_52, correction=lambda: _rate_52(-1),
+             rests_on=("32", "33", "35", "50", "52.theta"), scope=EVERY_NETWORK, where=LETTERS_52, correction=lambda: _rate_52(-1),
              corrected_statement=_printed_52("-"),
              reading="The second bracket has z_2 where (32) has e_v, which is read; theta_tilde moves as theta_hat does.",
              note="The sign of (33): W_v_tilde^T h_v enters with minus.")

@@ -148,7 +148,7 @@ def _mended_57() -> Goal:
 
 @paper.claim("57", "V_2 decays up to mu_2", "implication", r"\dot V_2 \le -\rho_2V_2 + \mu_2", "gap", premises=("55.second",),
              rests_on=("55.second", "56.rates", "56.weights", "44.weights"),
-             where={r"\dot V_2": V_2_dot, "V_2": V_2_weights, r"\mu_2": mu_2},
+             where={r"\dot V_2": V_2_dot, "V_2": V_2_weights, r"\mu_2": mu_2, r"\rho_2": rho},
              scope="two neurons in the controller's network, diagonal gain, all other errors zero", correction=_mended_57,
              corrected_statement=r"\text{the same with}\ \lambda_{\max}\ \text{in place of}\ \lambda_{\min}",
              reading="rho_2 is at most each entry of (56), mu_2 is its mu.",
@@ -187,7 +187,7 @@ NORM_60 = (r"\left\|\tilde s, \tilde v, \sqrt{\tilde W_f^T\Gamma_f^{-1}\tilde W_
 @paper.claim("60", "Norm of all errors", "implication",
              NORM_60 + r" \le \sqrt{\varphi_2 + (V_2(0) - \varphi_2)e^{-\rho_2t}}", "gap", premises=("59",),
              scope=EVERY_NETWORK,
-             where={NORM_60: sp.sqrt(size_60), r"\varphi_2": mu / rho, "V_2(0)": V_start, "t": t},
+             where={NORM_60: sp.sqrt(size_60), r"\varphi_2": mu / rho, r"\rho_2": rho, "V_2(0)": V_start, "t": t},
              correction=lambda: Goal((equal(norm_60 + theta_tilde**2 / alpha_2, 2 * V_2),)),
              corrected_statement=r"\left\|\tilde s, \tilde v, \ldots, \tfrac1{\sqrt{\alpha_1}}\tilde\delta, \ldots, "
                                  r"\tfrac{1}{\sqrt{\alpha_2}}\tilde\theta\right\| = \sqrt{2V_2}",

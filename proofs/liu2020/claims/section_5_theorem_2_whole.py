@@ -56,7 +56,7 @@ def mended_decay() -> Goal:
              r"2\left(\frac{\mu_2}{\rho_2} + c\right),\ \tilde\theta^2 \le 2\alpha_2\left(\frac{\mu_2}{\rho_2} + c\right)",
              "proved", origin="ours", mends="theorem2", severity="result", rests_on=(),
              premises=("28", "theorem1.mended", "theorem2.decay", "comparison", "60.mended", "23.bounded"), scope=EVERY_NETWORK,
-             where=ERRORS | {r"\mu_2": mu, "c": slack},
+             where=ERRORS | {r"\mu_2": mu, r"\rho_2": rho, "c": slack},
              note="For every c > 0 from some time on: V_2 - V_1 decays (theorem2.decay), so it meets the bound of "
                   "60.mended, and e_s follows (23.bounded). It needs (28) with a bounded eps_v along the motion, for an "
                   "f_v that contains the input and the estimated weights.")

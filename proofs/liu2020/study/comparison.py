@@ -5,10 +5,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any
 
-from workbench.mpc.controller import KINDS
-from workbench.paper.comparison import ComparedRun, TripComparison, compared_row, comparison_note
-from workbench.paper.drivers import MPC_NAMES, Drivers, keys_in
-from workbench.paper.mpc_comparison import differing, known, run_mpc
+from workbench.paper.comparison import ComparedRun, TripComparison, compared_row, comparison_note, driven
+from workbench.paper.drivers import MPC_NAMES, MPC_TITLES, Drivers, keys_in
 from workbench.simulate.closed_loop import NOMINAL, Factors
 
 from .. import plant
@@ -40,14 +38,9 @@ def drive(study: LiuStudy, name: str, place: str, factors: Factors = NOMINAL) ->
     MPC knows mass and general resistance, chi among them, and neither slopes nor disturbances; factors: by which the
     train's mass and general resistance differ from what controllers know.
     """
-    setting = differing(setting_of(study, place), factors)
-    if name in LAW_NAMES:
-        run = run_under(LAW_NAMES[name], study, study.table_4_column, setting)
-    else:
-        assert study.mpc is not None
-        nominal = known(study.mpc, setting.curve, study.train.mass_kg / study.train.chi, davis_newton(study.train),
-                        setting.end_s)
-        run = run_mpc(nominal, MPC_NAMES[name], setting, plant.model())
+    run = driven(study, name, setting_of(study, place), factors,
+                 lambda setting: run_under(LAW_NAMES[name], study, study.table_4_column, setting),
+                 study.train.mass_kg / study.train.chi, davis_newton(study.train), plant.model())
     return compared_row(run, study.line.length_m)
 
 
@@ -63,8 +56,7 @@ def value_words(column: int) -> str:
     return f", Value {column}"
 
 
-DRIVERS = Drivers({name: law.title for name, law in LAW_NAMES.items()} | {
-    name: KINDS[kind].title for name, kind in MPC_NAMES.items()}, places, keys, drive, variants)
+DRIVERS = Drivers({name: law.title for name, law in LAW_NAMES.items()} | MPC_TITLES, places, keys, drive, variants)
 
 
 def drawn_runs(study: LiuStudy, runs: Sequence[ComparedRun]) -> tuple[list[ComparedRun], str]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Iterator, Sequence
 
 import numpy as np
 
@@ -10,8 +10,8 @@ from workbench.paper.results import Curve, Plot
 
 from ..laws import LAWS
 from ..simulation.trip import desired_curve, line_table
-from .outcomes import QUANTITIES, RMS, Results
-from .runs import ALL_COLUMNS, BY_RATE, CORRECTED, PRINTED, RunResult
+from .runs import ALL_COLUMNS, BY_RATE, CORRECTED, PRINTED, LiuResults, RunResult
+from .tables import QUANTITIES, RMS
 
 TIME = "time (s)"
 CASE_1, CASE_2 = (1, 2, 3, 4, 5), (5, 6, 7, 8, 9)
@@ -24,18 +24,6 @@ BY_COLUMN = ((5, "s_tilde_m", CASE_1), (6, "v_tilde_mps", CASE_1), (7, "input_n"
 CONTROL_GAINS = (10, 11, 12)  # what they show depends on k_4 and k_5
 
 
-def all_plots(results: Results) -> tuple[Plot, ...]:
-    """Every figure of the study; one of which all runs failed is left out."""
-    plots = [_line(results), _desired(results)]
-    for figure, name, columns in BY_COLUMN:
-        plots += [_by_column(results, figure, name, columns, law)
-                  for law in (CORRECTED, *((BY_RATE,) if name == "v_tilde_mps" else ()))]
-    plots += [_trajectory(results), *(_by_disturbance(results, figure, name)
-                                      for figure, name in enumerate(LABELS, start=14)),
-              *(_rms_by_column(results, name) for name in RMS)]
-    return tuple(plot for plot in plots if plot.curves)
-
-
 def _of(run: RunResult, name: str, label: str) -> tuple[Curve, ...]:
     """A run's curve up to where it is finite; none if there is nothing of it."""
     x, y = run.curves["t_s"], run.curves[name] * (1e-6 if name == "input_n" else 1.0)
@@ -43,7 +31,7 @@ def _of(run: RunResult, name: str, label: str) -> tuple[Curve, ...]:
     return (Curve(label, x[:end], y[:end]),) if end else ()
 
 
-def _line(results: Results) -> Plot:
+def _line(results: LiuResults) -> Plot:
     table, study = line_table(results.study), results.study
     position = np.repeat(np.append(table.position_m, study.line.length_m), 2)[1:-1] / 1e3
     force = np.repeat(table.specific_force, 2) * study.train.mass_kg / 1e3
@@ -51,7 +39,7 @@ def _line(results: Results) -> Plot:
                 "additional resistance (kN)", (Curve("", position, force),))
 
 
-def _desired(results: Results) -> Plot:
+def _desired(results: LiuResults) -> Plot:
     curve = desired_curve(results.study)
     time = np.linspace(0.0, curve.trip_time_s, 5000)
     position, speed, _ = curve.at(time)
@@ -60,48 +48,58 @@ def _desired(results: Results) -> Plot:
                 "Figure 4 and (62) to (68) are not in the text: this one starts, cruises at 350 km/h and stops.")
 
 
-def _by_column(results: Results, figure: int, name: str, columns: Sequence[int], law: str) -> Plot:
-    curves = tuple(curve for column in columns
-                   for curve in _of(results.table_3(column, law), name, f"Value {column}"))
+def _drawn(title: str, figure: int, law: str, label: str, curves: Iterable[Curve], note: str = "") -> Iterator[Plot]:
+    """A figure of the paper over time under a law; none where all runs failed."""
+    if drawn := tuple(curves):
+        yield Plot(title, f"paper, Figure {figure}; {LAWS[law].title}", TIME, label, drawn, note)
+
+
+def _by_column(results: LiuResults) -> Iterator[Plot]:
     alike = "Values 5 and 7, and 6, 8 and 9, have the same control gains and nearly coincide."
-    return Plot(f"{_words(name)}, Values {columns[0]} to {columns[-1]}", f"paper, Figure {figure}; {LAWS[law].title}",
-                TIME, LABELS[name], curves, alike if figure in CONTROL_GAINS else "")
+    for figure, name, columns in BY_COLUMN:
+        for law in (CORRECTED, *((BY_RATE,) if name == "v_tilde_mps" else ())):
+            yield from _drawn(f"{_words(name)}, Values {columns[0]} to {columns[-1]}", figure, law, LABELS[name], (
+                curve for column in columns for curve in _of(results.table_3(column, law), name, f"Value {column}")),
+                alike if figure in CONTROL_GAINS else "")
 
 
-def _trajectory(results: Results) -> Plot:
+def _trajectory(results: LiuResults) -> Iterator[Plot]:
     study = results.study
     curves = results.table_4(study.runs.table_3_disturbance, CORRECTED).curves
     shown = [(f"{state}{what} ({unit})", curves[key] / size) for state, end in (("desired ", "_desired"), ("", ""))
              for what, unit, key, size in (("speed", "m/s", f"v{end}_mps", 1.0), ("position", "km", f"s{end}_m", 1e3))]
-    return Plot(f"Position and speed, Value {study.table_4_column}", f"paper, Figure 13; {LAWS[CORRECTED].title}", TIME,
-                "speed (m/s), position (km)",
-                tuple(Curve(label, curves["t_s"], y) for label, y in shown if np.isfinite(y).all()))
+    return _drawn(f"Position and speed, Value {study.table_4_column}", 13, CORRECTED, "speed (m/s), position (km)",
+                  (Curve(label, curves["t_s"], y) for label, y in shown if np.isfinite(y).all()))
 
 
-def _by_disturbance(results: Results, figure: int, name: str) -> Plot:
+def _by_disturbance(results: LiuResults) -> Iterator[Plot]:
     study = results.study
-    curves = tuple(curve for key, push in study.disturbances.items()
-                   for curve in _of(results.table_4(key, CORRECTED), name, push.title))
-    return Plot(f"{_words(name)}, Value {study.table_4_column} under three disturbances",
-                f"paper, Figure {figure}; {LAWS[CORRECTED].title}", TIME, LABELS[name], curves)
+    for figure, name in enumerate(LABELS, start=14):
+        yield from _drawn(f"{_words(name)}, Value {study.table_4_column} under three disturbances", figure, CORRECTED,
+                          LABELS[name], (curve for key, push in study.disturbances.items()
+                                         for curve in _of(results.table_4(key, CORRECTED), name, push.title)))
 
 
 def _words(name: str) -> str:
     return LABELS[name].rpartition(" (")[0].capitalize()
 
 
-def _rms_by_column(results: Results, name: str) -> Plot:
-    quantity, columns = QUANTITIES[name], np.array(ALL_COLUMNS, dtype=float)
-    curves = [Curve("printed in Table 3", columns, np.array(getattr(results.study.table_3, name)))]
-    for law in (CORRECTED, BY_RATE, PRINTED, "liu2020.position_only_speed"):
-        curves += _by_value(LAWS[law].title, [results.table_3(column, law) for column in ALL_COLUMNS], name)
-    curves += _by_value("feedback alone as inferred", results.inferred(), name)
-    return Plot(f"RMS of {quantity.title} by column of Table 2", "paper, Table 3", "Value",
-                f"RMS {quantity.heading}", tuple(curves),
-                "" if name == "s_tilde_m" else "Of Value 10 Table 4 prints a tenth.", log_y=True)
+def _rms_by_column(results: LiuResults) -> Iterator[Plot]:
+    for name in RMS:
+        curves = [Curve("printed in Table 3", np.array(ALL_COLUMNS, dtype=float),
+                        np.array(getattr(results.study.table_3, name)))]
+        for law in (CORRECTED, BY_RATE, PRINTED, "liu2020.position_only_speed"):
+            curves += _by_value(LAWS[law].title, [results.table_3(column, law) for column in ALL_COLUMNS], name)
+        curves += _by_value("feedback alone as inferred", results.inferred(), name)
+        yield Plot(f"RMS of {QUANTITIES[name].title} by column of Table 2", "paper, Table 3", "Value",
+                   f"RMS {QUANTITIES[name].heading}", tuple(curves),
+                   "" if name == "s_tilde_m" else "Of Value 10 Table 4 prints a tenth.", log_y=True)
 
 
 def _by_value(label: str, runs: Sequence[RunResult], name: str) -> list[Curve]:
     """A curve over the columns whose runs did not fail; none when all did."""
     known = [(float(run.case.column), value) for run in runs if (value := run.numbers.get(name)) is not None]
     return [Curve(label, *map(np.array, zip(*known, strict=True)))] if known else []
+
+
+PLOTS = (_line, _desired, _by_column, _trajectory, _by_disturbance, _rms_by_column)

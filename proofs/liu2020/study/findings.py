@@ -2,40 +2,33 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from itertools import pairwise
 
 import numpy as np
 
 from workbench.files.numbers import number
+from workbench.paper.findings import LackingError, needed, some, span
 
 from ..laws import LAWS
 from ..simulation.trip import desired_curve
 from ..steady_run import eigenvalues, largest_step_s
-from .outcomes import ENERGY, QUANTITIES, RMS, Results
-from .record import COLUMNS, Change
-from .runs import BY_RATE, CORRECTED, FEEDBACK, SIGN_LAWS, RunResult
+from .record import COLUMNS, LiuChange
+from .runs import BY_RATE, CORRECTED, FEEDBACK, SIGN_LAWS, LiuResults, RunResult
+from .tables import ENERGY, QUANTITIES, RMS
 
 CASE_1 = (1, 2, 3, 4, 5)
 HIGH_GAIN = (4, 5, 6, 7, 8, 9)  # where the observer is fast against the reference
 VIBRATING = 6  # "a slight vibration" in Figure 11
 
 
-def all_findings(results: Results) -> tuple[str, ...]:
-    """Every finding; one whose runs failed or are not asked for is left out."""
-    made = (_table_3, _observer_gain, _implied, _step, _inferred, _value_10, _control_gain, _energy, _slow_disturbance,
-            _signs, _position_only, _networks, _stiff, _sensitivity, _cost)
-    return tuple(text for finding in made if (text := finding(results)))
-
-
-def _values(results: Results, law: str, name: str, columns: Sequence[int]) -> list[float]:
-    """A number of several columns' runs; nothing where one of them failed."""
-    known = [value for column in columns if (value := results.rms(column, law, name)) is not None]
-    return known if len(known) == len(columns) else []
+def _values(results: LiuResults, law: str, name: str, columns: Sequence[int]) -> list[float]:
+    """A number of several columns' runs, none of which failed."""
+    return [needed(results.rms(column, law, name)) for column in columns]
 
 
 def _falls(numbers: list[float]) -> bool:
-    return bool(numbers) and all(after < before for before, after in pairwise(numbers))
+    return all(after < before for before, after in pairwise(numbers))
 
 
 def _course(numbers: list[float]) -> str:
@@ -43,45 +36,38 @@ def _course(numbers: list[float]) -> str:
     return f"{word} from {number(numbers[0])} to {number(numbers[-1])}"
 
 
-def _ratio(results: Results, runs: list[RunResult], name: str) -> str:
+def _ratio(results: LiuResults, runs: list[RunResult], name: str) -> str:
     """Smallest and largest ratio of an obtained number to Table 3's, as text."""
-    sign, printed = QUANTITIES[name].title, results.study.table_3
-    known = [value / results.printed(printed, run.case.column, name) for run in runs
+    known = [value / results.printed(results.study.table_3, run.case.column, name) for run in runs
              if (value := run.numbers.get(name)) is not None]
-    if not known:
-        return f"{sign} not at all"
-    low, high = number(min(known)), number(max(known))
-    return f"{sign} {low}" if low == high else f"{sign} {low} to {high}"
+    return f"{QUANTITIES[name].title} {span(known) if known else 'not at all'}"
 
 
-def _ratios(results: Results, runs: list[RunResult]) -> str:
+def _ratios(results: LiuResults, runs: list[RunResult]) -> str:
     return ", ".join(_ratio(results, runs, name) for name in RMS)
 
 
-def _changes(results: Results) -> Iterator[tuple[Change, RunResult]]:
-    for place, change in enumerate(results.study.changes):
-        for run in results.change(place):
-            yield change, run
+def _changes(results: LiuResults) -> list[tuple[LiuChange, RunResult]]:
+    return [(results.study.changes[case.change], run) for case, run in results.changing(leak_rate_per_s=None).items()]
 
 
-def _table_3(results: Results) -> str:
+def _table_3(results: LiuResults) -> str:
     runs = [results.table_3(column, CORRECTED) for column in HIGH_GAIN]
     return (f"Values 4 to 9 with their signs corrected, obtained over printed: {_ratios(results, runs)}. The "
             "estimation errors are near what Table 3 prints, the tracking errors far above it.")
 
 
-def _observer_gain(results: Results) -> str:
+def _observer_gain(results: LiuResults) -> str:
     by_error, by_rate = (_values(results, law, "v_tilde_mps", CASE_1) for law in (CORRECTED, BY_RATE))
-    position, last = _values(results, CORRECTED, "s_tilde_m", CASE_1), results.rms(COLUMNS, BY_RATE, "v_tilde_mps")
-    if not by_error or not by_rate or not position or last is None:
-        return ""
+    position, (last,) = (_values(results, law, name, columns) for law, name, columns in (
+        (CORRECTED, "s_tilde_m", CASE_1), (BY_RATE, "v_tilde_mps", (COLUMNS,))))
     return (f"More observer gain, Values 1 to 5: with k₃ṽ, as (12) and (14) print, s̃ {_course(position)} m and ṽ "
             f"{_course(by_error)} m/s. With k₃s̃′, as (18) and (25) have it, ṽ {_course(by_rate)} m/s and is "
             f"{number(last)} m/s at Value 10: k₁ : k₂ : k₃ = 4 : 1 : 5 in all of Table 2, so the slow eigenvalue, near "
             f"k₂/(k₁ + k₃), stays where it is from Value 4 on.")
 
 
-def _implied(results: Results) -> str:
+def _implied(results: LiuResults) -> str:
     high = [results.implied()[f"Table 3, Value {column}"] for column in (7, 8, 9)]
     by_estimates, ratio = [i.by_estimates for i in high], [i.ratio for i in high]
     time = np.linspace(0.0, desired_curve(results.study).trip_time_s, 100_001)
@@ -92,7 +78,7 @@ def _implied(results: Results) -> str:
             f"{number(max(ratio))} times smaller than k₄k₅ lets it be.")
 
 
-def _step(results: Results) -> str:
+def _step(results: LiuResults) -> str:
     rows, study = results.implied(), results.study
     steps = [rows[f"Table 3, Value {column}"].step_s for column in HIGH_GAIN]
     tenth = rows[f"Table 4, Value {study.table_4_column}"].step_s
@@ -102,11 +88,9 @@ def _step(results: Results) -> str:
             f"must stay below {number(limits[0])} s with k₃ṽ; with k₃s̃′ they must stay below {number(limits[1])} s.")
 
 
-def _inferred(results: Results) -> str:
+def _inferred(results: LiuResults) -> str:
     by_column, study = {run.case.column: run for run in results.inferred()}, results.study
-    runs = [by_column[column] for column in HIGH_GAIN if column in by_column and column != VIBRATING]
-    if not runs:
-        return ""
+    runs = some(by_column[column] for column in HIGH_GAIN if column in by_column and column != VIBRATING)
     text = (f"With that ({'; '.join(study.runs.inferred_changes)}) and feedback alone, Values 4, 5 and 7 to 9 "
             f"give, over printed, {_ratios(results, runs)}: most of Table 3 can be had from the feedback loop, at a k₅ "
             "that Table 2 does not print; networks and robust terms are not to be seen in it.")
@@ -122,7 +106,7 @@ def _inferred(results: Results) -> str:
     return text
 
 
-def _value_10(results: Results) -> str:
+def _value_10(results: LiuResults) -> str:
     study, rows, column = results.study, results.implied(), results.study.table_4_column
     third, fourth = rows[f"Table 3, Value {column}"], rows[f"Table 4, Value {column}"]
     printed = results.printed(study.table_3, column, "v_tilde_mps")
@@ -140,22 +124,20 @@ def _value_10(results: Results) -> str:
             f"{range_16 / s_printed[1]:.0f} times Table 4's.")
 
 
-def _control_gain(results: Results) -> str:
+def _control_gain(results: LiuResults) -> str:
     said = []
     for columns in ((5, 6), (7, 8)):
         for name in ("position_m", "speed_mps"):
             pair, of = _values(results, CORRECTED, name, columns), QUANTITIES[name]
             if not _falls(pair):
-                return ""
+                raise LackingError
             said.append(f"{of.title} from {number(pair[0])} to {number(pair[1])} {of.unit}")
     return f"More control gain tracks better, as the paper says: Values 5 to 6 and 7 to 8 take {', '.join(said)}."
 
 
-def _energy(results: Results) -> str:
+def _energy(results: LiuResults) -> str:
     study, column = results.study, results.study.table_4_column
-    both, traction = (results.rms(column, CORRECTED, name) for name in (ENERGY, "energy_J"))
-    if both is None or traction is None:
-        return ""
+    both, traction = (needed(results.rms(column, CORRECTED, name)) for name in (ENERGY, "energy_J"))
     others = [f"{change.title}: {number((run.numbers.get(ENERGY) or 0.0) / 1e11)}" for change, run in _changes(results)
               if run.case.column == column and not run.failed and {"train.davis_unit", "line.length_m"} & set(change.set)]
     tail = f" With other assumptions: {'; '.join(others)}." if others else ""
@@ -164,25 +146,25 @@ def _energy(results: Results) -> str:
             f"without a unit.{tail}")
 
 
-def _slow_disturbance(results: Results) -> str:
+def _slow_disturbance(results: LiuResults) -> str:
     """The energy that the slow disturbance can add at most, from its force and the way that is left."""
     study, names = results.study, list(results.study.disturbances)
     if not {"none", "slow"} <= set(names):
-        return ""
+        raise LackingError
     printed = study.table_4.energy[names.index("slow")] - study.table_4.energy[names.index("none")]
     push, curve = study.disturbances["slow"], desired_curve(study)
     force = push.largest_n / study.train.chi
     most = force * (curve.length_m - float(curve.at(np.array([push.from_s]))[0][0]))
     if most >= printed:
-        return ""
+        raise LackingError
     return (f"Table 4 has the slow disturbance cost {number(printed / 1e11)}·10¹¹ more than none. It takes at most "
             f"{force / 1e6:.2f} MN to balance from {push.from_s:g} s on, at most {number(most / 1e11)}·10¹¹ J over the "
             f"way that is left here: the paper's trip must be far longer, or its energy another quantity.")
 
 
-def _signs(results: Results) -> str:
+def _signs(results: LiuResults) -> str:
     if not results.study.changes:
-        return ""
+        raise LackingError
     runs = results.study.runs
     pairs = [(column, rate) for column in runs.divergence_columns for rate in runs.divergence_leak_rates_per_s]
     by_law = {law: [(rate, results.divergence(column, law, rate)) for column, rate in pairs] for law in SIGN_LAWS}
@@ -203,24 +185,20 @@ def _signs(results: Results) -> str:
     return text
 
 
-def _position_only(results: Results) -> str:
+def _position_only(results: LiuResults) -> str:
     laws = (CORRECTED, "liu2020.position_only_speed", BY_RATE, "liu2020.position_only")
-    found = [results.rms(COLUMNS, law, "v_tilde_mps") for law in laws]
-    if None in found:
-        return ""
+    found = [needed(results.rms(COLUMNS, law, "v_tilde_mps")) for law in laws]
     return (f"(19) to (21), (30) and k₃ṽ need the speed that is not measured (claim 19.measured). With the position "
             f"alone, its difference filtered over {results.study.sampling.speed_filter_s:g} s, ṽ at Value {COLUMNS} is "
             f"{number(found[1])} m/s instead of {number(found[0])}; with k₃s̃′, which needs the speed in the adaptation "
             f"only, {number(found[3])} and {number(found[2])}.")
 
 
-def _networks(results: Results) -> str:
+def _networks(results: LiuResults) -> str:
     said = []
     for column in (5, COLUMNS):
-        pair = [results.rms(column, law, "position_m") for law in (FEEDBACK, CORRECTED)]
-        if None in pair:
-            return ""
-        said.append(f"{number(pair[0])} to {number(pair[1])} m at Value {column}")
+        bare, nets = (needed(results.rms(column, law, "position_m")) for law in (FEEDBACK, CORRECTED))
+        said.append(f"{number(bare)} to {number(nets)} m at Value {column}")
     text = (f"The paper states no value of networks and adaptation. As assumed, slow enough for every column, they "
             f"take s−s_d from {', from '.join(said)}.")
     lost = [f"{change.title}, Value {run.case.column}" for change, run in _changes(results)
@@ -231,13 +209,13 @@ def _networks(results: Results) -> str:
     return text
 
 
-def _stiff(results: Results) -> str:
-    lost = [change.title for change, run in _changes(results)
-            if run.failed and run.case.column == COLUMNS and "sampling.period_s" in change.set]
-    return f"Value {COLUMNS} is stiff: it diverges with {'; '.join(lost)}, as its eigenvalues say." if lost else ""
+def _stiff(results: LiuResults) -> str:
+    lost = some(change.title for change, run in _changes(results)
+                if run.failed and run.case.column == COLUMNS and "sampling.period_s" in change.set)
+    return f"Value {COLUMNS} is stiff: it diverges with {'; '.join(lost)}, as its eigenvalues say."
 
 
-def _sensitivity(results: Results) -> str:
+def _sensitivity(results: LiuResults) -> str:
     """Which assumed value moves the errors most, among the changes of the law as stated."""
     parts = []
     for column in results.study.runs.sensitivity_columns:
@@ -250,14 +228,16 @@ def _sensitivity(results: Results) -> str:
                 _, title, value = max(moved)
                 parts.append(f"{of.title} at Value {column} most to '{title}' ({number(before)} to {number(value)} "
                              f"{of.unit})")
-    return f"Of what is assumed, reacts {'; '.join(parts)}." if parts else ""
+    return f"Of what is assumed, reacts {'; '.join(some(parts))}."
 
 
-def _cost(results: Results) -> str:
-    cost = [sorted(run.step_us for run in results.runs.values() if run.case.law == law and not run.failed)
+def _cost(results: LiuResults) -> str:
+    cost = [sorted(some(run.step_us for run in results.select(law=law).values() if not run.failed))
             for law in (FEEDBACK, CORRECTED)]
-    if not all(cost):
-        return ""
     bare, nets = (times[len(times) // 2] for times in cost)
     return (f"A million control steps take {bare:.2f} s without and {nets:.2f} s with two networks of "
             f"{results.study.networks.neurons} neurons, train included (median of the runs of this report).")
+
+
+FINDINGS = (_table_3, _observer_gain, _implied, _step, _inferred, _value_10, _control_gain, _energy, _slow_disturbance,
+            _signs, _position_only, _networks, _stiff, _sensitivity, _cost)

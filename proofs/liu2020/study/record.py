@@ -4,15 +4,13 @@ from __future__ import annotations
 
 import math
 from itertools import pairwise
-from typing import Annotated, Any, Literal, Self
+from typing import Annotated, Literal, Self
 
 from pydantic import Field, Strict, model_validator
 
-from workbench.files.toml import NonNegative, Number, Positive, Record, SourcedRecord, Text
+from workbench.files.toml import NonNegative, Number, Positive, SourcedRecord, Text
 from workbench.model.desired_curve import RampTime
-from workbench.paper.mpc_comparison import MpcData
-from workbench.paper.study import Study, varied
-from workbench.paper.tuning_record import Pairs, StudyTuning
+from workbench.paper.reproduced import Change, ReproducedStudy, one_of
 
 from ..laws import FEEDBACK_GAINS, LAWS
 
@@ -189,16 +187,14 @@ class Runs(SourcedRecord):
     sensitivity_columns: tuple[Column, ...]
 
 
-class Change(Record):
-    """One change of an assumed value: dotted key -> value; columns, law: those that it runs, unless as stated."""
+class LiuChange(Change):
+    """One change of an assumed value; columns, law: those that it runs, unless as stated."""
 
-    title: Text
-    set: dict[str, Any]
     columns: tuple[Column, ...] = ()
     law: Text | None = None
 
 
-class LiuStudy(Study):
+class LiuStudy(ReproducedStudy):
     """Everything that the runs of liu2020 need, with the source of every value."""
 
     train: Train
@@ -215,34 +211,19 @@ class LiuStudy(Study):
     table_4_column: Column
     figure_ranges: FigureRanges
     runs: Runs
-    changes: tuple[Change, ...] = ()
-    mpc: MpcData | None = None
-    tuning: StudyTuning | None = None
-    pairs: Pairs | None = None
+    changes: tuple[LiuChange, ...] = ()
 
-    @model_validator(mode="after")
-    def _parts_fit_together(self) -> Self:
-        if len(self.table_3.energy) != COLUMNS:
-            raise ValueError(f"table_3: has {len(self.table_3.energy)} columns: give {COLUMNS}")
-        if len(self.table_4.energy) != len(self.disturbances):
-            raise ValueError(f"table_4: has {len(self.table_4.energy)} columns: give one for each of disturbances")
-        if self.runs.table_3_disturbance not in self.disturbances:
-            raise ValueError(f"runs.table_3_disturbance: '{self.runs.table_3_disturbance}' is no disturbance: choose "
-                             f"one of {', '.join(self.disturbances)}")
+    def check(self) -> None:
+        """Tables are as long as what they list, and what names a disturbance, law or change names one that is there."""
+        for key, table, wanted in (("table_3", self.table_3, COLUMNS), ("table_4", self.table_4, len(self.disturbances))):
+            if len(table.energy) != wanted:
+                raise ValueError(f"{key}: has {len(table.energy)} columns: give {wanted}, one for each that it is of")
+        one_of("runs.table_3_disturbance", "disturbance", self.runs.table_3_disturbance, self.disturbances)
         for key, law in (("runs.sensitivity_law", self.runs.sensitivity_law),
-                         *((f"changes: '{c.title}'", c.law) for c in self.changes if c.law)):
-            if law not in LAWS:
-                raise ValueError(f"{key}: there is no law '{law}': choose one of {', '.join(LAWS)}")
-        # A changed study has no changes of its own.
+                         *((f"changes: '{change.title}'", change.law) for change in self.changes if change.law)):
+            one_of(key, "law", law, LAWS)
         titles = [change.title for change in self.changes]
+        # A changed study has no changes of its own.
         for key, title in (("divergence_change", self.runs.divergence_change),
-                           *(("inferred_changes", title) for title in self.runs.inferred_changes)):
-            if titles and title not in titles:
-                raise ValueError(f"runs.{key}: there is no change '{title}': name one by its title")
-        for change in self.changes:
-            self.with_change(change)
-        return self
-
-    def with_change(self, change: Change) -> Self:
-        """The study with a change's values set; ValueError for an unknown key or an unfit value."""
-        return varied(self, change.set, f"changes: '{change.title}'")
+                           *(("inferred_changes", title) for title in self.runs.inferred_changes)) if titles else ():
+            one_of(f"runs.{key}", "change", title, titles)

@@ -9,12 +9,14 @@ from typing import Any
 import numpy as np
 
 from workbench.model.desired_curve import DesiredCurve
+from workbench.paper.reproduced import STATED, Results
 from workbench.paper.tracked import Tracked, of_run
 from workbench.simulate.closed_loop import Array, Run
 
 from ..laws import LAWS
 from ..simulation.trip import run_under, setting_of
-from .record import COLUMNS, LiuStudy
+from ..steady_run import Implied, implied
+from .record import COLUMNS, LiuStudy, Printed
 
 ALL_COLUMNS = tuple(range(1, COLUMNS + 1))
 CORRECTED, BY_RATE, PRINTED, FEEDBACK = (
@@ -37,7 +39,7 @@ ROW = {"position_m_min": "position_error_min", "position_m_max": "position_error
 
 @dataclass(frozen=True)
 class RunCase:
-    """A run: column of Table 2, law, disturbance; change: number of the study's changes, -1 as stated.
+    """A run: column of Table 2, law, disturbance; change: number of the study's changes.
 
     drawn: whether its curves are wanted; leak_rate_per_s: in place of the stated one.
     """
@@ -45,7 +47,7 @@ class RunCase:
     column: int
     law: str
     disturbance: str
-    change: int = -1
+    change: int = STATED
     drawn: bool = False
     leak_rate_per_s: float | None = None
 
@@ -82,13 +84,6 @@ def divergence_case(study: LiuStudy, column: int, law: str, leak_rate_per_s: flo
     return RunCase(column, law, study.runs.table_3_disturbance, number, leak_rate_per_s=leak_rate_per_s)
 
 
-def change_cases(study: LiuStudy, number: int) -> list[RunCase]:
-    """The runs of a change of the assumed values."""
-    change, runs = study.changes[number], study.runs
-    return [RunCase(column, change.law or runs.sensitivity_law, runs.table_3_disturbance, number)
-            for column in change.columns or runs.sensitivity_columns]
-
-
 def run_cases(study: LiuStudy) -> list[RunCase]:
     """All runs, each once."""
     found = [table_3_case(study, column, law) for law in TABLE_LAWS for column in ALL_COLUMNS]
@@ -96,25 +91,24 @@ def run_cases(study: LiuStudy) -> list[RunCase]:
     if study.changes:
         found += [divergence_case(study, column, law, rate) for column in study.runs.divergence_columns
                   for law in SIGN_LAWS for rate in study.runs.divergence_leak_rates_per_s]
-    found += [case for number in range(len(study.changes)) for case in change_cases(study, number)]
+    found += [RunCase(column, change.law or study.runs.sensitivity_law, study.runs.table_3_disturbance, number)
+              for number, change in enumerate(study.changes)
+              for column in change.columns or study.runs.sensitivity_columns]
     return list(dict.fromkeys(found))
 
 
 def title_of(study: LiuStudy, case: RunCase) -> str:
     """A run in words: law, column, and what is not as in Table 3."""
-    words = [f"{case.law}, Value {case.column}"]
-    if case.disturbance != study.runs.table_3_disturbance:
-        words.append(study.disturbances[case.disturbance].title)
-    if case.leak_rate_per_s is not None:
-        words.append(f"leak rate {case.leak_rate_per_s:g} 1/s")
-    if case.change >= 0:
-        words.append(study.changes[case.change].title)
-    return ", ".join(words)
+    as_table_3 = case.disturbance == study.runs.table_3_disturbance
+    words = (f"{case.law}, Value {case.column}", None if as_table_3 else study.disturbances[case.disturbance].title,
+             None if case.leak_rate_per_s is None else f"leak rate {case.leak_rate_per_s:g} 1/s",
+             study.change_title(case.change))
+    return ", ".join(filter(None, words))
 
 
 def run_case(study: LiuStudy, case: RunCase) -> RunResult:
     """Run a case and measure it; a run that diverges is reported failed."""
-    changed = study if case.change < 0 else study.with_change(study.changes[case.change])
+    changed = study.changed(case.change)
     run = run_under(LAWS[case.law], changed, case.column, setting_of(changed, case.disturbance), case.leak_rate_per_s)
     return _measured(case, run, changed.train.mass_kg)
 
@@ -143,12 +137,52 @@ def _measured(case: RunCase, run: Run, mass_kg: float) -> RunResult:
     return RunResult(case, numbers, run.end_s, largest, run.failed, float(np.median(run.step_us)), curves)
 
 
-def run_row(study: LiuStudy, result: RunResult) -> dict[str, Any]:
+@dataclass(frozen=True)
+class LiuResults(Results[LiuStudy, RunCase, RunResult]):
+    """The runs by what tables, figures and findings ask for, and what the paper prints of them."""
+
+    def table_3(self, column: int, law: str) -> RunResult:
+        """The run of a column of Table 3."""
+        return self.runs[table_3_case(self.study, column, law)]
+
+    def table_4(self, disturbance: str, law: str) -> RunResult:
+        """The run of a column of Table 4."""
+        return self.runs[table_4_case(self.study, disturbance, law)]
+
+    def divergence(self, column: int, law: str, leak_rate_per_s: float) -> RunResult:
+        """The run of a column under a leak rate."""
+        return self.runs[divergence_case(self.study, column, law, leak_rate_per_s)]
+
+    def inferred(self) -> list[RunResult]:
+        """The runs of the changes under which the paper's numbers seem to have been computed."""
+        return [run for case, run in self.changing(leak_rate_per_s=None).items()
+                if self.study.changes[case.change].title in self.study.runs.inferred_changes]
+
+    def rms(self, column: int, law: str, name: str) -> float | None:
+        """A number of a column's run of Table 3; None where it failed."""
+        return self.table_3(column, law).numbers.get(name)
+
+    def printed(self, table: Printed, column: int, name: str) -> float:
+        """A value of Table 3 for its column, or of Table 4 for the disturbance that Table 3 is run with."""
+        study = self.study
+        disturbance = list(study.disturbances).index(study.runs.table_3_disturbance)
+        return float(getattr(table, name)[column - 1 if table is study.table_3 else disturbance])
+
+    def implied(self) -> dict[str, Implied]:
+        """What every printed column implies, by where it is printed."""
+        study = self.study
+        where = [(study.table_3, "Table 3", column) for column in ALL_COLUMNS]
+        where.append((study.table_4, "Table 4", study.table_4_column))
+        return {f"{name}, Value {column}": implied(study, column, *(
+            self.printed(table, column, key) for key in ("s_tilde_m", "v_tilde_mps", "position_m")))
+            for table, name, column in where}
+
+
+def run_row(study: LiuStudy, case: RunCase, result: RunResult) -> dict[str, Any]:
     """A run as data, SI units; inputs in N."""
-    case = result.case
     return {
         "controller": case.law, "column": case.column, "disturbance": case.disturbance,
-        "change": study.changes[case.change].title if case.change >= 0 else None,
+        "change": study.change_title(case.change),
         "leak_rate_per_s": case.leak_rate_per_s, **{key: result.numbers.get(name) for name, key in ROW.items()},
         "largest_position_error": result.largest_position_error_m, "end_s": result.end_s,
         "step_us_median": result.step_us, "failed": result.failed}

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from functools import partial
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -11,21 +13,17 @@ from workbench.paper.study_tables import printed_cells, printed_columns, sensiti
 
 from ..laws import LAWS
 from ..steady_run import DAMPED, eigenvalues, largest_step_s
-from .outcomes import ENERGY, QUANTITIES, RMS, Results
-from .runs import ALL_COLUMNS, BY_RATE, CORRECTED, SIGN_LAWS, TABLE_4_LAWS, TABLE_LAWS, RunResult
+from .runs import ALL_COLUMNS, BY_RATE, CORRECTED, SIGN_LAWS, TABLE_4_LAWS, TABLE_LAWS, LiuResults, RunResult
 
+RMS = ("s_tilde_m", "v_tilde_mps", "position_m", "speed_mps")
+ENERGY = "energy_both_J"
+QUANTITIES = {"s_tilde_m": Column("s̃", "m"), "v_tilde_mps": Column("ṽ", "m/s"), "position_m": Column("s−s_d", "m"),
+              "speed_mps": Column("v−v_d", "m/s"), "input_n": Column("u", "N")}
 RMS_NOTE = "RMS values; a dash: the run failed."
 ENERGY_UNIT = 1e11
 
 
-def all_tables(results: Results) -> tuple[ResultTable, ...]:
-    """Every table of the study."""
-    return (_table_3(results, CORRECTED), _table_3(results, BY_RATE), _table_4(results), _implied(results),
-            _inferred(results), _ranges(results), _laws_by_column(results), _divergence(results), _steps(results),
-            _sensitivity(results))
-
-
-def _table_3(results: Results, law: str) -> ResultTable:
+def _table_3(law: str, results: LiuResults) -> ResultTable:
     study, names = results.study, ("energy", *RMS)
     rows = [(column, *printed_cells((results.printed(study.table_3, column, name),
                                      results.rms(column, law, ENERGY if name == "energy" else name))
@@ -36,7 +34,7 @@ def _table_3(results: Results, law: str) -> ResultTable:
         tuple(rows), f"{RMS_NOTE} Energy obtained: the integral of |u v| in J, braking counted as positive.")
 
 
-def _table_4(results: Results) -> ResultTable:
+def _table_4(results: LiuResults) -> ResultTable:
     study, rows = results.study, []
     for index, (key, push) in enumerate(study.disturbances.items()):
         runs = [results.table_4(key, law) for law in TABLE_4_LAWS]
@@ -51,7 +49,7 @@ def _table_4(results: Results) -> ResultTable:
                        f"{RMS_NOTE} Table 4 prints them in 10⁻⁵; they stand here in m and m/s.")
 
 
-def _implied(results: Results) -> ResultTable:
+def _implied(results: LiuResults) -> ResultTable:
     return ResultTable(
         "What the printed errors imply", "from Tables 2, 3 and 4, no run",
         ("printed in", Column("a by s̃, ṽ", "m/s²"), Column("a by s−s_d", "m/s²"), "ratio", Column("step", "s")),
@@ -61,7 +59,7 @@ def _implied(results: Results) -> ResultTable:
         "are high, Values 4 to 10.")
 
 
-def _inferred(results: Results) -> ResultTable:
+def _inferred(results: LiuResults) -> ResultTable:
     study, rows = results.study, []
     for run in results.inferred():
         column, both = run.case.column, run.case.column == study.table_4_column
@@ -74,7 +72,7 @@ def _inferred(results: Results) -> ResultTable:
         f"Feedback alone, k₃ṽ; {'; '.join(study.runs.inferred_changes)}. {RMS_NOTE}")
 
 
-def _ranges(results: Results) -> ResultTable:
+def _ranges(results: LiuResults) -> ResultTable:
     rows = []
     for figure, (name, quantity) in enumerate(QUANTITIES.items(), start=14):
         for key, push in results.study.disturbances.items():
@@ -88,7 +86,7 @@ def _ranges(results: Results) -> ResultTable:
                        "value here was chosen by what is printed.")
 
 
-def _laws_by_column(results: Results) -> ResultTable:
+def _laws_by_column(results: LiuResults) -> ResultTable:
     rows: list[tuple[Cell, ...]] = []
     for name in RMS:
         sign = QUANTITIES[name].title
@@ -99,7 +97,7 @@ def _laws_by_column(results: Results) -> ResultTable:
         str, ALL_COLUMNS)), tuple(rows), "In m and m/s. k₃ stands before ṽ, as (12) prints, unless said.")
 
 
-def _divergence(results: Results) -> ResultTable:
+def _divergence(results: LiuResults) -> ResultTable:
     runs = results.study.runs
     rows = [(column, LAWS[law].title, *(_position(results.divergence(column, law, rate))
                                         for rate in runs.divergence_leak_rates_per_s))
@@ -115,7 +113,7 @@ def _position(run: RunResult) -> Cell:
     return run.numbers["position_m"] if run.failed is None else Phrase("at {} s", (Quantity(run.end_s, decimals=0),))
 
 
-def _steps(results: Results) -> ResultTable:
+def _steps(results: LiuResults) -> ResultTable:
     study, step = results.study, Column("step", "s")
     roots = [[eigenvalues(study, column, damped) for damped in DAMPED] for column in ALL_COLUMNS]
     return ResultTable(
@@ -133,15 +131,20 @@ def _pair(roots: NDArray[np.complex128]) -> Cell:
     return Phrase("{}, {}", (float(first.real), float(second.real)))
 
 
-def _sensitivity(results: Results) -> ResultTable:
+def _sensitivity(results: LiuResults) -> ResultTable:
     """The law as stated in all columns that changes run with it, then every change."""
     study = results.study
     columns = {column for change in study.changes if change.law is None for column in change.columns}
     stated = [results.table_3(column, study.runs.sensitivity_law)
               for column in sorted(columns | set(study.runs.sensitivity_columns))]
-    entries = [("as stated", stated), *((change.title, results.change(i)) for i, change in enumerate(study.changes))]
+    entries = [("as stated", stated), *((change.title, list(results.select(change=i, leak_rate_per_s=None).values()))
+                                        for i, change in enumerate(study.changes))]
     return sensitivity_table(
         "Sensitivity to what is assumed", ("law", "Value", *(QUANTITIES[name] for name in RMS),
                                           Column("energy", "10¹¹ J", ENERGY_UNIT)),
         [(title, [(LAWS[run.case.law].title, run.case.column, *map(run.numbers.get, (*RMS, ENERGY))) for run in runs])
          for title, runs in entries], RMS_NOTE)
+
+
+TABLES = (partial(_table_3, CORRECTED), partial(_table_3, BY_RATE), _table_4, _implied, _inferred, _ranges,
+          _laws_by_column, _divergence, _steps, _sensitivity)

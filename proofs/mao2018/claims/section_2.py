@@ -148,6 +148,31 @@ def force_with_failures() -> Goal:
     return Goal((equal(force_of_motors(sp.Integer(0)), healthy * nu_0 + known),))
 
 
+force_11, F_of_11, F_0_one, F_1_one, f_one = sp.symbols("F_j Fbar_j F_0 F_1 f_1", real=True)
+model_11 = equal(F_of_11, F_0_one + F_1_one * f_one)
+fails = equal(force_11, F_of_11)
+FORCE_11 = {r"F_j(t)": force_11, r"\bar{F}_j(t)": F_of_11, r"\bar{F}_{j0}": F_0_one, r"\bar{F}_{j1}": F_1_one, r"\sin(wt)": f_one}
+
+
+def _failure_of_11(name: str, title: str, printed: str, shown: tuple[Relation, ...], given: tuple[Relation, ...],
+                   reading: str) -> None:
+    @paper.claim(f"11.{name}", title, "identity", printed, "proved", severity="cosmetic", scope=EVERY_MOTOR, where=FORCE_11,
+                 reading=reading)
+    def special_case() -> Goal:
+        """(11), the varying basis signals gathered in one."""
+        return Goal((fails, *shown), (fails, model_11, *given))
+
+
+_failure_of_11("total", "A motor that stops is a failure of (11)", r"F_j(t) = \bar{F}_j(t) = \bar{F}_{j0} = 0",
+               (equal(F_of_11, F_0_one), equal(F_0_one, 0)),
+               (equal(F_0_one, 0), equal(F_1_one, 0)), "With all constants of (11) zero.")
+_failure_of_11("constant", "A constant torque is a failure of (11)", r"F_j(t) = \bar{F}_j(t) = \bar{F}_{j0}", (equal(F_of_11, F_0_one),),
+               (equal(F_1_one, 0),), "With the constants of the basis signals zero.")
+_failure_of_11("periodic", "A sine of known frequency is a failure of (11)", r"F_j(t) = \bar{F}_j(t) = \bar{F}_{j1}\sin(wt)",
+               (equal(F_of_11, F_1_one * f_one),),
+               (equal(F_0_one, 0),), "With the sine as the basis signal.")
+
+
 motors, most_failed, failures = sp.symbols("n n_bar failures", nonnegative=True)
 
 
@@ -169,3 +194,14 @@ def motors_left() -> Goal:
 def force_with_rest() -> Goal:
     """(12) with (16) for failed motors."""
     return Goal((equal(force_of_motors(delta_j), healthy * nu_0 + known + over_motors(failed * delta_j)),))
+
+
+delta_one = sp.Symbol("deltabar_j", real=True)
+
+
+@paper.claim("16", "Without the unparameterizable term (16) is (11)", "implication",
+             r"\text{As } \bar{\delta}_j(t) = 0 \text{, (16) is equivalent to the parametric failure (11)}", "proved",
+             severity="cosmetic", scope=EVERY_MOTOR, match="words", reading="Both forces agree where the term is zero.")
+def parametric_again() -> Goal:
+    """(16) at zero against (11)."""
+    return Goal((equal(F_0_one + F_1_one * f_one + delta_one, F_of_11),), (model_11, equal(delta_one, 0)))

@@ -208,7 +208,7 @@ def _law_claim(equation: str, i: int, printed: str, lost: str = "") -> None:
     rate = sp.Symbol("hat_rate", real=True)
     left = printed.partition(" = ")[0]
 
-    @paper.claim(equation, f"The law of the estimate of {letter} cancels its error in the rate of V_2", "identity",
+    @paper.claim(equation, f"The law of the estimate of {letter.lstrip(chr(92))} cancels its error in the rate of V_2", "identity",
                  printed, "proved", premises=("26.a",), rests_on=("26",), scope="each mode", reading=lost,
                  where={left: rate, rf"\Gamma_{{{letter} i}}": gain, rf"\chi_{{{letter} i}}(t)": chi},
                  note="Decided as what the paper chooses it for: the rate for which the coefficient of the estimation "
@@ -226,6 +226,15 @@ _law_claim("30", 3, r"\hat{\vartheta}_i(t) = -\Gamma_{\vartheta i}z_2(t)\chi_{\v
 _law_claim("31", 4, r"\hat{D}_i(t) = -0.004\Gamma_{Di}z_2(t)\chi_{Di}(t)", LOST)
 
 open_loop: Flow = {**train(m_i * chi_mi * F), **estimates, rho_hat_i: rho_rate_i}
+
+
+@paper.claim("32", "The known part of the rate of z_2", "identity",
+             r"\eta(t) = x_1(t) - x_m(t) + r_1(\dot{x}_1(t) - \dot{x}_m(t)) - \ddot{x}_m(t)", "proved", premises=("7",),
+             where={r"\eta(t)": x_1 - x_m - D(alpha_1)}, reading="What stands beside the train's forces in the rate of V_2: z_1 - alpha_1'.")
+def known_part() -> Goal:
+    """z_1 - D(alpha_1) along (7)."""
+    return Goal((equal(x_1 - x_m - D(alpha_1), x_1 - x_m + r_1 * (D(x_1) - xdot_m) - xddot_m),),
+                flow={x_1: x_2, x_m: xdot_m, xdot_m: xddot_m})
 
 
 def _rate_33(own: bool) -> Goal:

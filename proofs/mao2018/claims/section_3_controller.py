@@ -89,7 +89,8 @@ def disturbance_outweighed() -> Goal:
 
 
 rate_37 = sp.Symbol("rho_hat_rate", real=True)
-Gamma_one, chi_one, zeta_one = sp.symbols("Gamma chi zeta", positive=True)
+Gamma_one = sp.Symbol("Gamma", positive=True)
+chi_one, zeta_one = sp.Symbol("chi", nonnegative=True), sp.Symbol("zeta", real=True)
 
 
 @paper.claim("37", "The law of rho_hat cancels its error in the rate of V_2", "identity",

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import sympy as sp
 
-from workbench.proof.claim import D, Goal, at_least, at_most, equal
+from workbench.proof.claim import D, Goal, at_least, at_most, differ, equal
 
 from ..active_mode import Gamma_k, basis, chi_d, d, lambda_0, m, nu_failed, over_basis, rho_0, rho_k_hat, signal_of
 from ..counterexamples import failing, one_mode
@@ -114,6 +114,20 @@ def v2_bound_failed_mended() -> Goal:
 def v2_bound_between() -> Goal:
     """The same instant as for (45)."""
     return _printed_45()
+
+
+a_mode, a_before, a_after = sp.symbols("a_mode a_before a_after", real=True)
+
+
+@paper.claim("46.parameters", "The parameters of a mode change their values when the mode switches", "inequality",
+             r"\text{the unknown system parameters } a_i, b_i, c_i, \vartheta_i \text{, and } D_i \text{ change their values, at time } "
+             r"T_q", "refuted", severity="cosmetic", match="words", rests_on=("8.modes",),
+             reading="Of a_i, which by (9), (10) is one unknown constant of its mode: before and after T_q it is not the same.",
+             note="The text before (41) says that they are constant for all such time intervals. That is what (9), (10) have, and "
+                  "the proof needs it (25.switch): were they to jump, V_2 would at each of infinitely many instants.")
+def parameters_jump() -> Goal:
+    """A constant at two instants."""
+    return Goal((differ(a_before, a_after),), (equal(a_before, a_mode), equal(a_after, a_mode)))
 
 
 weight, error_before, jump = (sp.IndexedBase(name, real=True)[basis] for name in ("omega", "error", "jump"))

@@ -35,7 +35,8 @@ from .section_4_design import LEFT, left_by
 
 rate = sp.Symbol("acceleration", real=True)
 rho_rate, nu_one = sp.symbols("rho_hat_rate nu_Delta", real=True)
-gamma, chi_one, zeta_one = sp.symbols("gamma chi zeta", positive=True)
+gamma = sp.Symbol("gamma", positive=True)
+chi_one, zeta_one = sp.Symbol("chi", nonnegative=True), sp.Symbol("zeta", real=True)
 
 
 @paper.claim("58", "Position and speed", "identity", r"\dot{x}_1(t) = x_2(t)", "proved", premises=("7",),

@@ -106,3 +106,10 @@ b_stated, c_stated, Delta_b_most, Delta_c_most = sp.symbols("b_1 c_1 Delta_b_max
 def uncertainty_above_resistance() -> Goal:
     """The amplitudes of Delta_b and Delta_c against b_1 and c_1."""
     return Goal((greater(Delta_b_most, 100 * b_stated), greater(Delta_c_most, 800 * c_stated)))
+
+
+paper.axiom("figure2", "Figures 1 and 2: the loop is stable and the tracking asymptotic in all five cases",
+            r"\text{The simulation results show that the proposed adaptive controller can achieve the close-loop stability and "
+            r"asymptotic tracking properties of the train even in the presence of parameters changes and actuator failures.}",
+            "read off the figures by the authors", hypotheses=(), match="words", severity="data",
+            note="A statement on simulations, which the study runs anew. For case 5 nothing asymptotic is claimed by Theorem 5.")

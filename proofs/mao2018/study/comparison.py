@@ -6,15 +6,14 @@ from collections.abc import Sequence
 from typing import Any
 
 from workbench.mpc.controller import KINDS
-from workbench.paper.comparison import ComparedRun, Task, TripComparison, compared_row, comparison_note
-from workbench.paper.drivers import MPC_NAMES, Drivers, keys_in
-from workbench.paper.mpc_comparison import differing, known, run_mpc
+from workbench.paper.comparison import ComparedRun, Task, TripComparison, compared_row, comparison_note, driven
+from workbench.paper.drivers import MPC_TITLES, Drivers, keys_in
 from workbench.simulate.closed_loop import NOMINAL, Factors, Run
 
 from ..plant import train
 from ..simulation.trip import law_of, run_under, setting_of, wrong_signs
-from .outcomes import Results
 from .record import MaoStudy
+from .runs import MaoResults
 
 LAW = "law"
 RATES = ("r_1_per_s", "r_2_per_s")
@@ -39,13 +38,10 @@ def drive_case(study: MaoStudy, name: str, number: int, factors: Factors = NOMIN
     """
     case, tuning = study.cases[number - 1], next(iter(study.tunings.values()))
     nominal = setting_of(study, case, tuning)
-    setting = differing(nominal, factors)
-    if name == LAW:
-        return run_under(law_of(case, wrong_signs(case)), study, case, tuning, setting)
-    assert study.mpc is not None
     a, b, c = (float(value) for value in nominal.changes[0, 1:4])
-    return run_mpc(known(study.mpc, nominal.curve, nominal.mass_kg, (a, b, c), nominal.end_s), MPC_NAMES[name],
-                   setting, train)
+    return driven(study, name, nominal, factors,
+                  lambda setting: run_under(law_of(case, wrong_signs(case)), study, case, tuning, setting),
+                  nominal.mass_kg, (a, b, c), train)
 
 
 def drive(study: MaoStudy, name: str, place: str, factors: Factors = NOMINAL) -> dict[str, Any]:
@@ -58,11 +54,10 @@ def variants(study: MaoStudy, name: str) -> dict[str, MaoStudy]:
     return {} if name == LAW else {"": study}
 
 
-DRIVERS = Drivers({LAW: "signs corrected"} | {name: KINDS[kind].title for name, kind in MPC_NAMES.items()},
-                  places, keys, drive, variants)
+DRIVERS = Drivers({LAW: "signs corrected"} | MPC_TITLES, places, keys, drive, variants)
 
 
-def with_own_runs(results: Results, others: Sequence[ComparedRun]) -> list[ComparedRun]:
+def with_own_runs(results: MaoResults, others: Sequence[ComparedRun]) -> list[ComparedRun]:
     """The runs of the comparison with the study's own of its first tuning, case by case; none without others."""
     own = []
     for number in results.numbers if others else ():

@@ -2,28 +2,24 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import replace
 
 import numpy as np
 
 from workbench.model.events import failure_rows
 from workbench.paper.cells import cell_text
+from workbench.paper.reproduced import STATED
 from workbench.paper.results import Curve, Plot
 from workbench.simulate.kernel_loop import term
 
 from ..simulation.trip import failures_of
-from .outcomes import Results, ended
-from .runs import START_S, RunResult
+from .outcomes import ended
+from .runs import START_S, MaoResults, RunResult
 
 # The figures that show how runs settle begin here, and end where an error passes LOST_MM.
 START_OVER_S, LOST_MM = 20.0, 100.0
 TIME, SIZE = "time (s)", "|position error| (m)"
-
-
-def all_plots(results: Results) -> tuple[Plot, ...]:
-    """Figure 1, Figure 2 (a) to (d), and the errors by size, the start, the failure's estimate, the command."""
-    return (_distance(results), *(_errors(results, number) for number in results.numbers[1:]), _starts(results),
-            *(_sizes(results, tuning) for tuning in results.study.tunings), _failure(results), _commands(results))
 
 
 def _until(curve: Curve, most: float) -> Curve:
@@ -39,18 +35,18 @@ def _size(curve: Curve, label: str) -> Curve:
     return Curve(label, curve.x[some], np.abs(curve.y[some])) if some.any() else replace(curve, label=label)
 
 
-def _title(results: Results) -> str:
+def _title(results: MaoResults) -> str:
     title = results.study.tunings[results.first_tuning].title
     return f"{title[0].upper()}{title[1:]}."
 
 
-def _label(results: Results, run: RunResult) -> str:
+def _label(results: MaoResults, run: RunResult) -> str:
     signs = results.left(run)
     law = "corrected" if signs == "none" else f"{signs} as printed"
     return law + (f" ({cell_text(ended(run))})" if run.failed else "")
 
 
-def _distance(results: Results) -> Plot:
+def _distance(results: MaoResults) -> Plot:
     curves = results.corrected(1, results.first_tuning).curves
     return Plot("Distance of the healthy train", "paper, Figure 1", TIME, "distance (km)",
                 tuple(Curve(label, curves[name].x, curves[name].y / 1e3)
@@ -58,31 +54,33 @@ def _distance(results: Results) -> Plot:
                 "The desired curve is assumed, since Figure 1 is not in the text; on this scale the two coincide.")
 
 
-def _errors(results: Results, number: int) -> Plot:
+def _errors(results: MaoResults) -> Iterator[Plot]:
     """Every law of a case once the error of the start is over, in mm."""
-    curves, missing, case = [], [], results.study.cases[number - 1]
-    for run in results.stated(results.first_tuning):
-        curve, label = run.curves["error"], _label(results, run)
-        after = curve.x >= START_OVER_S
-        if run.case.number == number and after.any():
-            curves.append(_until(Curve(label, curve.x[after], 1e3 * curve.y[after]), LOST_MM))
-        elif run.case.number == number:
-            missing.append(label)
-    return Plot(
-        f"Position error in case {number}: {case.title}", f"paper, Figure 2 ({'abcd'[number - 2]})", TIME,
-        "position error (mm)", tuple(curves),
-        f"From {START_OVER_S:g} s on, when the {case.initial_position_m:g} m of the start are over; runs that diverge "
-        f"later end where they pass {LOST_MM:g} mm. {_title(results)}"
-        + (f" Not shown: {'; '.join(missing)}." if missing else ""))
+    for number in results.numbers[1:]:
+        curves, missing, case = [], [], results.study.cases[number - 1]
+        for run in results.select(number=number, tuning=results.first_tuning, change=STATED, end_s=None).values():
+            curve, label = run.curves["error"], _label(results, run)
+            after = curve.x >= START_OVER_S
+            if after.any():
+                curves.append(_until(Curve(label, curve.x[after], 1e3 * curve.y[after]), LOST_MM))
+            else:
+                missing.append(label)
+        yield Plot(
+            f"Position error in case {number}: {case.title}", f"paper, Figure 2 ({'abcd'[number - 2]})", TIME,
+            "position error (mm)", tuple(curves),
+            f"From {START_OVER_S:g} s on, when the {case.initial_position_m:g} m of the start are over; runs that "
+            f"diverge later end where they pass {LOST_MM:g} mm. {_title(results)}"
+            + (f" Not shown: {'; '.join(missing)}." if missing else ""))
 
 
-def _sizes(results: Results, tuning: str) -> Plot:
-    curves = [_size(run.curves["error"], f"case {run.case.number}") for run in results.all_corrected(tuning)]
-    return Plot(f"Size of the position error, all signs corrected, {results.study.tunings[tuning].title}",
-                "not in the paper", TIME, SIZE, tuple(curves), log_y=True)
+def _sizes(results: MaoResults) -> Iterator[Plot]:
+    for name, tuning in results.study.tunings.items():
+        curves = [_size(run.curves["error"], f"case {run.case.number}") for run in results.all_corrected(name)]
+        yield Plot(f"Size of the position error, all signs corrected, {tuning.title}", "not in the paper", TIME, SIZE,
+                   tuple(curves), log_y=True)
 
 
-def _starts(results: Results) -> Plot:
+def _starts(results: MaoResults) -> Plot:
     """The first seconds, in which laws as printed leave the desired curve."""
     curves = [_size(run.curves["start"], f"case {run.case.number}, {_label(results, run)}")
               for run in results.stated(results.first_tuning)
@@ -91,7 +89,7 @@ def _starts(results: Results) -> Plot:
                 tuple(curves), f"{_title(results)} No motor has failed yet.", log_y=True)
 
 
-def _failure(results: Results) -> Plot:
+def _failure(results: MaoResults) -> Plot:
     """What the failed motor of case 2 gives and what its estimates make of it."""
     estimates = [replace(results.corrected(2, tuning).curves["failure"], label=f"estimated, {tuning}")
                  for tuning in results.study.tunings]
@@ -102,9 +100,12 @@ def _failure(results: Results) -> Plot:
                 "Case 2, corrected. The estimates of a, b, c, ϑ and D take up what these leave.")
 
 
-def _commands(results: Results) -> Plot:
+def _commands(results: MaoResults) -> Plot:
     mass_t = results.study.train.mass_t
     curves = [Curve(f"case {run.case.number}", run.curves["command"].x, mass_t / 1e3 * run.curves["command"].y)
               for run in results.all_corrected(results.first_tuning) if not run.failed]
     return Plot("Commanded force, all signs corrected", "not in the paper", TIME, "force of all motors (MN)",
                 tuple(curves), f"{_title(results)} The paper states no limit of force.")
+
+
+PLOTS = (_distance, _errors, _starts, _sizes, _failure, _commands)

@@ -2,35 +2,31 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 from workbench.paper.cells import cell_text
+from workbench.paper.findings import listed
 
-from .outcomes import Results, ended, force, length, outcome
-from .runs import RunResult
-
-
-def all_findings(results: Results) -> tuple[str, ...]:
-    """A sentence or two each."""
-    scaled, si = results.study.tunings
-    return (_healthy(results), _signs(results, scaled), _signs(results, si), _estimates(results, si),
-            _single_signs(results, scaled), _gains(results), _sampling(results), _units(results),
-            _chattering(results, scaled), _forces(results, scaled))
-
-
-def _listed(words: list[str]) -> str:
-    return words[0] if len(words) == 1 else f"{', '.join(words[:-1])} and {words[-1]}"
+from .outcomes import ended, force, length, outcome
+from .runs import MaoResults, RunResult
 
 
 def _case(run: RunResult) -> str:
     return f"case {run.case.number} {outcome(run)}"
 
 
-def _healthy(results: Results) -> str:
+def _in(tuning: int, finding: Callable[[str, MaoResults], str]) -> Callable[[MaoResults], str]:
+    """A finding of a tuning, by its number: the first has scaled regressors, the second those in SI units."""
+    return lambda results: finding(list(results.study.tunings)[tuning], results)
+
+
+def _healthy(results: MaoResults) -> str:
     words = [f"{outcome(results.printed(1, tuning))} ({tuning})" for tuning in results.study.tunings]
     return ("Healthy motors: the law (35)-(37) follows the curve as Theorem 1 says; position errors after the start: "
-            f"{_listed(words)}.")
+            f"{listed(words)}.")
 
 
-def _signs(results: Results, tuning: str) -> str:
+def _signs(tuning: str, results: MaoResults) -> str:
     """The laws as printed beside the corrected ones."""
     corrected = results.all_corrected(tuning)[1:]
     printed = [results.printed(run.case.number, tuning) for run in corrected]
@@ -42,10 +38,10 @@ def _signs(results: Results, tuning: str) -> str:
     title = results.study.tunings[tuning].title
     text = f"{title[0].upper()}{title[1:]}, laws as printed: "
     if lost:
-        text += _listed(lost) + {0: "", len(lost): f", before a motor fails at {first:.0f} s"}.get(
+        text += listed(lost) + {0: "", len(lost): f", before a motor fails at {first:.0f} s"}.get(
             early, f"; {early} of them before a motor fails at {first:.0f} s") + ". "
     if alike:
-        text += ("No divergence in " if lost else "no divergence: ") + _listed(alike) + ". "
+        text += ("No divergence in " if lost else "no divergence: ") + listed(alike) + ". "
     ending = [run for run in corrected if not run.failed]
     if lost and ending:
         text += (f"With the signs corrected {len(ending)} of {len(corrected)} cases run to the end: position errors up "
@@ -54,7 +50,7 @@ def _signs(results: Results, tuning: str) -> str:
     return text.strip()
 
 
-def _estimates(results: Results, tuning: str) -> str:
+def _estimates(tuning: str, results: MaoResults) -> str:
     """How much of the failure its own estimates take, where the other estimates are fast."""
     learned = [abs(run.row["failure_learned_n"]) for number in results.numbers[1:]
                for run in (results.printed(number, tuning), results.corrected(number, tuning))
@@ -66,7 +62,7 @@ def _estimates(results: Results, tuning: str) -> str:
             f"most {max(learned, default=0.0):.2g} N; so what (44) makes of it hardly enters.")
 
 
-def _single_signs(results: Results, tuning: str) -> str:
+def _single_signs(tuning: str, results: MaoResults) -> str:
     """What each wrong sign does alone, where a law has two."""
     words = []
     for run in results.stated(tuning):
@@ -77,60 +73,57 @@ def _single_signs(results: Results, tuning: str) -> str:
     return f"One wrong sign alone, {results.study.tunings[tuning].title}: {'; '.join(words)}."
 
 
-def _gains(results: Results) -> str:
+def _gains(results: MaoResults) -> str:
     """For which gains of the failure's estimates the printed sign of (44) shows."""
+    tried = results.changing("law.gain_xi", "law.gain_rho_k")
     words = []
-    for number, change in enumerate(results.study.sensitivity, start=1):
-        if change.laws == "both" and len(change.cases) == 1 and {"law.gain_xi", "law.gain_rho_k"} == set(change.set):
-            printed, corrected = results.changed(number)
-            words.append(f"{change.set['law.gain_xi']:g}: {outcome(printed)} (corrected {outcome(corrected)})")
+    for number, change in enumerate(results.study.changes):
+        if change.laws == "both" and len(change.cases) == 1 and (pair := [
+                run for case, run in tried.items() if case.change == number]):
+            words.append(f"{change.set['law.gain_xi']:g}: {outcome(pair[0])} (corrected {outcome(pair[1])})")
     return ("How strong the failure's estimates must be for the sign of (44) to show, case 2 by the gains of (41) and "
             f"(44): {'; '.join(words)}.") if words else "The gains of (41) and (44) were not varied."
 
 
-def _sampling(results: Results) -> str:
+def _sampling(results: MaoResults) -> str:
     study, words, again = results.study, [], []
     for damping in study.sampling.r_2_per_s:
         borne = [run.row["period_s"] for run in results.sampled() if run.case.r_2_per_s == damping and not run.failed]
         words.append(f"r_2 = {damping:g}/s: " + (f"{1e3 * max(borne):g} ms" if borne else "none of those tried"))
-    for number, change in enumerate(study.sensitivity, start=1):
+    for number, change in enumerate(study.changes):
         if change.laws == "printed" and len(change.set) == 1 and next(iter(change.set)).endswith("period_s"):
-            again.append(f"{change.title}: {_listed([_case(run) for run in results.changed(number)])}")
+            again.append(f"{change.title}: {listed([_case(run) for run in results.select(change=number).values()])}")
     return (f"Sampling: the stated gain of {study.law.gain:g} multiplies v⁴ in the loop of c (29). The longest "
             f"period that case {study.sampling.case}, corrected, bears beyond the failure with SI units is, for "
-            f"{_listed(words)}; the paper states no step. What the printed laws do with scaled regressors is not the "
+            f"{listed(words)}; the paper states no step. What the printed laws do with scaled regressors is not the "
             f"sampling's doing; {'; '.join(again) or 'no other period was run'}.")
 
 
-def _changes(results: Results, key: str, case: int) -> list[RunResult]:
-    return [run for number, change in enumerate(results.study.sensitivity, start=1) if set(change.set) == {key}
-            for run in results.changed(number) if run.case.number == case]
-
-
-def _units(results: Results) -> str:
+def _units(results: MaoResults) -> str:
     """What the ambiguous units change."""
     words = [f"case {case}, {text}: {outcome(run)}" for case, key, text in (
         (2, "readings.resistance", "resistance of the whole train in kN"), (5, "readings.resistance", "the same"),
         (2, "readings.angle", "slope in radians"), (2, "readings.disturbance_unit_n", "disturbance in kN"))
-        for run in _changes(results, key, case)]
+        for run in results.changing(key, number=case).values()]
     stated = "; ".join(f"case {case}: {outcome(results.corrected(case, results.first_tuning))}" for case in (2, 5))
     return (f"Units: how the table is read changes the errors little, because the estimates adapt to either. As read "
             f"here, {stated}. Otherwise read, {'; '.join(words)}.") if words else "Units: no other reading was run."
 
 
-def _chattering(results: Results, tuning: str) -> str:
+def _chattering(tuning: str, results: MaoResults) -> str:
     runs = [run for run in results.all_corrected(tuning) if not run.failed]
     if not runs:
         return "Chattering: no corrected run reached its end."
     run = max(runs, key=lambda run: run.row["command_change_mps2"])
+    layers = results.changing("law.layer_mps", number=run.case.number).values()
     softer = "".join(f"; with a boundary layer by {other.row['command_change_mps2']:.1e} m/s², settling to "
-                     f"{length(other.settled_m)}" for other in _changes(results, "law.layer_mps", run.case.number))
+                     f"{length(other.settled_m)}" for other in layers)
     return (f"Chattering: with sgn(z_2) as printed the command of case {run.case.number} changes by "
             f"{run.row['command_change_mps2']:.1e} m/s² from sample to sample in the mean and turns "
             f"{run.row['command_reversals_per_s']:.0f} times a second, settling to {length(run.settled_m)}{softer}.")
 
 
-def _forces(results: Results, tuning: str) -> str:
+def _forces(tuning: str, results: MaoResults) -> str:
     def most(run: RunResult) -> float:
         return max(abs(run.row["command_min"]), abs(run.row["command_max"]))
 
@@ -141,3 +134,7 @@ def _forces(results: Results, tuning: str) -> str:
     return (f"Forces: nothing limits them. The corrected laws ask for up to {force(1e3 * mass_t * most(run))} (case "
             f"{run.case.number}), {most(run):.1f} m/s²; adhesion gives a train about 1 m/s². One failed motor's "
             f"200 kN in (67) are 0.5 m/s² of {mass_t:g} t.")
+
+
+FINDINGS = (_healthy, _in(0, _signs), _in(1, _signs), _in(1, _estimates), _in(0, _single_signs), _gains, _sampling,
+            _units, _in(0, _chattering), _in(0, _forces))

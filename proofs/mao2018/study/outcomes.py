@@ -1,66 +1,10 @@
-"""The runs of mao2018's study by what tables, figures and findings ask for, and how they say how a run went."""
+"""How a run of mao2018's study went, as cells of tables and as words of sentences."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from dataclasses import dataclass
-
 from workbench.paper.cells import FORCES, Cell, Phrase, Quantity, Scaled, cell_text
 
-from ..simulation.trip import Signs, wrong_signs
-from .record import MaoStudy
-from .runs import RunCase, RunResult
-
-
-@dataclass(frozen=True)
-class Results:
-    """A study with all its runs."""
-
-    study: MaoStudy
-    runs: Mapping[RunCase, RunResult]
-
-    @property
-    def numbers(self) -> range:
-        """The cases, from 1."""
-        return range(1, len(self.study.cases) + 1)
-
-    @property
-    def first_tuning(self) -> str:
-        """The tuning that figures and the comparison show, by name."""
-        return next(iter(self.study.tunings))
-
-    def wrong(self, number: int) -> Signs:
-        """The equations of a case's law whose printed sign is wrong."""
-        return wrong_signs(self.study.cases[number - 1])
-
-    def printed(self, number: int, tuning: str) -> RunResult:
-        """The run of a case with the law as printed."""
-        return self.runs[RunCase(number, tuning)]
-
-    def corrected(self, number: int, tuning: str) -> RunResult:
-        """The run of a case with all signs corrected; for the healthy law, which has none wrong, the only one."""
-        return self.runs[RunCase(number, tuning, self.wrong(number))]
-
-    def all_corrected(self, tuning: str) -> list[RunResult]:
-        """Of every case the run with all signs corrected."""
-        return [self.corrected(number, tuning) for number in self.numbers]
-
-    def stated(self, tuning: str) -> list[RunResult]:
-        """The runs of a tuning without any change, case by case."""
-        return [run for of, run in self.runs.items()
-                if of.tuning == tuning and not of.change and of.end_s is None]
-
-    def sampled(self) -> list[RunResult]:
-        """The runs that vary the sampling period and the damping."""
-        return [run for of, run in self.runs.items() if of.end_s is not None]
-
-    def changed(self, number: int) -> list[RunResult]:
-        """The runs of the sensitivity's entry `number`, from 1."""
-        return [run for of, run in self.runs.items() if of.change == number]
-
-    def left(self, run: RunResult) -> str:
-        """Which wrong signs a run still has."""
-        return ", ".join(f"({sign})" for sign in self.wrong(run.case.number) if sign not in run.case.mended) or "none"
+from .runs import RunResult
 
 
 def ended(run: RunResult) -> Cell:

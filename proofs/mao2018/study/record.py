@@ -2,18 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from itertools import pairwise
-from typing import Annotated, Any, Literal, Self
+from typing import Annotated, Literal
 
-from pydantic import Field, Strict, model_validator
+from pydantic import Field, Strict
 
 from workbench.files.toml import Count, Name, NonNegative, Number, Positive, Record, SourcedRecord, Text
 from workbench.model.desired_curve import SpeedLevels
 from workbench.model.events import Term
-from workbench.paper.mpc_comparison import MpcData
-from workbench.paper.study import Study, varied
-from workbench.paper.tuning_record import Pairs, StudyTuning
+from workbench.paper.reproduced import Change, ReproducedStudy, one_of
 from workbench.trains.scenario import Interval
 
 from ..laws import MODES, SLOPE_MODE
@@ -147,20 +144,15 @@ class SamplingData(SourcedRecord):
     r_2_per_s: tuple[Gain, ...]
 
 
-class Change(Record):
-    """A change of assumed values, to see how much they matter: dotted key -> value, in the cases named.
+class MaoChange(Change):
+    """A change of assumed values in the cases named; laws: with the signs corrected, as printed, or both."""
 
-    laws: with the signs corrected, as printed, or both.
-    """
-
-    title: Text
-    set: dict[str, Any]
     cases: tuple[Count, ...]
     tuning: Name
     laws: Literal["corrected", "printed", "both"] = "corrected"
 
 
-class MaoStudy(Study):
+class MaoStudy(ReproducedStudy):
     """Section VIII of mao2018 with every value's source."""
 
     train: TrainData
@@ -176,13 +168,10 @@ class MaoStudy(Study):
     cases: tuple[CaseData, ...]
     horizon: Horizon
     sampling: SamplingData
-    sensitivity: tuple[Change, ...] = ()
-    mpc: MpcData | None = None
-    tuning: StudyTuning | None = None
-    pairs: Pairs | None = None
+    changes: tuple[MaoChange, ...] = ()
 
-    @model_validator(mode="after")
-    def _parts_fit_together(self) -> Self:
+    def check(self) -> None:
+        """Modes, cases, tunings and times are those of the laws and tables, and a run of them ends."""
         self._modes_fit()
         self._cases_fit()
         self._runs_are_finite()
@@ -191,9 +180,6 @@ class MaoStudy(Study):
             raise ValueError(f"horizon.end_s or sampling.end_s lies beyond the desired curve's end at {end:g} s")
         if any(after.from_s < (before.to_s or end) for before, after in pairwise(self.failure)):
             raise ValueError("failure: its parts overlap, though they are one motor: order them by time")
-        for i, change in enumerate(self.sensitivity):
-            self.changed(change.set, f"sensitivity[{i}].set")
-        return self
 
     def _modes_fit(self) -> None:
         if len(self.modes) != len(MODES):
@@ -212,18 +198,14 @@ class MaoStudy(Study):
         laws = [case.law for case in self.cases]
         if not 2 <= len(laws) <= MOST_CASES or laws[0] != "healthy" or "healthy" in laws[1:]:
             raise ValueError(f"cases: give the healthy one first, then one to {MOST_CASES - 1} with a law for failures")
-        changes = list(enumerate(self.sensitivity))
-        named: list[tuple[str, str, Mapping[str, Any]]] = [
-            ("sampling.tuning", self.sampling.tuning, self.tunings),
-            *((f"cases[{i}].disturbance", case.disturbance, self.disturbances) for i, case in enumerate(self.cases)),
-            *((f"sensitivity[{i}].tuning", change.tuning, self.tunings) for i, change in changes)]
-        for key, name, known in named:
-            if name not in known:
-                raise ValueError(f"{key}: there is no '{name}': choose one of {', '.join(known)}")
-        for key, number in (("sampling.case", self.sampling.case), *(
-                (f"sensitivity[{i}].cases", number) for i, change in changes for number in change.cases)):
-            if number > len(laws):
-                raise ValueError(f"{key}: there is no case {number}: choose one of 1 to {len(laws)}")
+        one_of("sampling.tuning", "tuning", self.sampling.tuning, self.tunings)
+        one_of("sampling.case", "case", self.sampling.case, range(1, len(laws) + 1))
+        for number, case in enumerate(self.cases):
+            one_of(f"cases[{number}].disturbance", "disturbance", case.disturbance, self.disturbances)
+        for change in self.changes:
+            one_of(f"changes: '{change.title}': tuning", "tuning", change.tuning, self.tunings)
+            for of in change.cases:
+                one_of(f"changes: '{change.title}': cases", "case", of, range(1, len(laws) + 1))
 
     def _runs_are_finite(self) -> None:
         """Longer runs and logs than any train's would not end, or not fit in memory."""
@@ -235,7 +217,3 @@ class MaoStudy(Study):
         if self.horizon.end_s / self.horizon.log_every_s > MOST_LOG_ROWS:
             raise ValueError(f"horizon.log_every_s = {self.horizon.log_every_s:g}: gives more than {MOST_LOG_ROWS:.0e} "
                              f"rows: log less often")
-
-    def changed(self, values: Mapping[str, Any], where: str = "set") -> Self:
-        """The study with other values by dotted key, without its sensitivity; ValueError for one that does not fit."""
-        return varied(self, values, where)

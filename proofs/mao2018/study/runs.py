@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 
 from workbench.model.desired_curve import DesiredCurve
+from workbench.paper.reproduced import STATED, Results
 from workbench.paper.results import Curve, thinned
 from workbench.paper.tracked import Tracked, of_run
 from workbench.simulate.closed_loop import Run
@@ -25,16 +26,15 @@ START_S = 5.0
 
 @dataclass(frozen=True)
 class RunCase:
-    """A run: case (from 1), tuning, wrong signs that are mended, and which change of the study it belongs to.
+    """A run: case (from 1), tuning, wrong signs that are mended, and the number of the change it is made under.
 
-    change: 0 for the study as stated, i for its i-th sensitivity; period_s, r_2_per_s and end_s replace the tuning's
-    and the horizon's where they are given.
+    period_s, r_2_per_s and end_s replace the tuning's and the horizon's where they are given.
     """
 
     number: int
     tuning: str
     mended: Signs = ()
-    change: int = 0
+    change: int = STATED
     period_s: float | None = None
     r_2_per_s: float | None = None
     end_s: float | None = None
@@ -51,14 +51,9 @@ class Stretch:
 
 @dataclass(frozen=True)
 class RunResult:
-    """What a run leaves: a row of numbers, its stretches between events (those it finished), curves over time.
-
-    name: the run in words; law: `as printed`, `corrected` or which signs are.
-    """
+    """What a run leaves: a row of numbers, its stretches between events (those it finished), curves over time."""
 
     case: RunCase
-    name: str
-    law: str
     row: dict[str, Any]
     stretches: tuple[Stretch, ...]
     curves: dict[str, Curve]
@@ -87,9 +82,9 @@ def run_cases(study: MaoStudy) -> list[RunCase]:
     runs = [RunCase(number, tuning, mended) for tuning in study.tunings
             for number, case in enumerate(study.cases, start=1) for mended in variants(case)]
     of = study.sampling
-    runs += [RunCase(of.case, of.tuning, wrong_signs(study.cases[of.case - 1]), 0, period, r_2, of.end_s)
+    runs += [RunCase(of.case, of.tuning, wrong_signs(study.cases[of.case - 1]), STATED, period, r_2, of.end_s)
              for r_2 in of.r_2_per_s for period in of.periods_s]
-    for number, change in enumerate(study.sensitivity, start=1):
+    for number, change in enumerate(study.changes):
         for case in change.cases:
             wrong = wrong_signs(study.cases[case - 1])
             chosen = {"corrected": (wrong,), "printed": ((),), "both": ((), wrong)}[change.laws]
@@ -115,7 +110,7 @@ def _tuning(study: MaoStudy, of: RunCase) -> Tuning:
 
 def simulate(study: MaoStudy, of: RunCase) -> Run:
     """The run itself, with its whole log."""
-    changed = study.changed(study.sensitivity[of.change - 1].set) if of.change else study
+    changed = study.changed(of.change)
     case, tuning = changed.cases[of.number - 1], _tuning(changed, of)
     return run_under(law_of(case, of.mended), changed, case, tuning, setting_of(changed, case, tuning, of.end_s))
 
@@ -141,22 +136,31 @@ def run_case(study: MaoStudy, of: RunCase) -> RunResult:
         last = np.abs(error[(time >= end - study.horizon.settled_window_s) & (time < end)])
         stretches.append(Stretch(start, float(within.max()), float(last.max())))
     curves = {"error": thinned("position error", time, error)}
-    if of.change == 0 and of.end_s is None:
+    if of.change == STATED and of.end_s is None:
         curves |= _more_curves(study, case, run)
-    which = "as printed" if case.law == "healthy" else laws.corrections(case.law, of.mended)
-    change = study.sensitivity[of.change - 1].title if of.change else None
     row = measure_run(run, float(study.reference.curve().length_m)).row() | {
-        "controller": run.controller, "case": of.number, "tuning": of.tuning, "law": which, "change": change,
-        "period_s": run.period_s, "end_s": run.end_s,
+        "controller": run.controller, "case": of.number, "tuning": of.tuning, "law": law_words(study, of),
+        "change": study.change_title(of.change), "period_s": run.period_s, "end_s": run.end_s,
         "command_reversals_per_s": run.totals["command_reversals"] / max(run.end_s, run.period_s),
         "command_change_mps2": run.totals["command_variation_mps2"] / max(1.0, run.totals["commands"]),
         "loop_gain": _loop_gain(study, case, run), "failure_learned_n": _failure_learned(study, case, run)}
     row = {key: None if isinstance(value, float) and not math.isfinite(value) else value for key, value in row.items()}
-    words = [f"case {of.number}", which, study.tunings[of.tuning].title, *([change] if change else ())]
-    if of.end_s is not None:
-        tuning = _tuning(study, of)
-        words.append(f"period {1e3 * tuning.period_s:g} ms, r_2 = {tuning.r_2_per_s:g}/s, until {of.end_s:g} s")
-    return RunResult(of, ", ".join(words), which, row, tuple(stretches), curves, run.failed)
+    return RunResult(of, row, tuple(stretches), curves, run.failed)
+
+
+def name_of(study: MaoStudy, of: RunCase) -> str:
+    """A run in words."""
+    tuning = _tuning(study, of)
+    words = (f"case {of.number}", law_words(study, of), tuning.title, study.change_title(of.change), None
+             if of.end_s is None else f"period {1e3 * tuning.period_s:g} ms, r_2 = {tuning.r_2_per_s:g}/s, until "
+             f"{of.end_s:g} s")
+    return ", ".join(filter(None, words))
+
+
+def law_words(study: MaoStudy, of: RunCase) -> str:
+    """`as printed`, `corrected`, or which signs are."""
+    law = study.cases[of.number - 1].law
+    return "as printed" if law == "healthy" else laws.corrections(law, of.mended)
 
 
 def _loop_gain(study: MaoStudy, case: CaseData, run: Run) -> float:
@@ -191,3 +195,46 @@ def _more_curves(study: MaoStudy, case: CaseData, run: Run) -> dict[str, Curve]:
         estimate = study.train.motors * (run.column("xi_hat_0") + run.column("xi_hat_1") * varpi)
         curves["failure"] = thinned("estimate", time, study.law.force_unit_n / KILONEWTON * estimate)
     return curves
+
+
+@dataclass(frozen=True)
+class MaoResults(Results[MaoStudy, RunCase, RunResult]):
+    """The runs by what tables, figures and findings ask for."""
+
+    @property
+    def numbers(self) -> range:
+        """The cases, from 1."""
+        return range(1, len(self.study.cases) + 1)
+
+    @property
+    def first_tuning(self) -> str:
+        """The tuning that figures and the comparison show, by name."""
+        return next(iter(self.study.tunings))
+
+    def wrong(self, number: int) -> Signs:
+        """The equations of a case's law whose printed sign is wrong."""
+        return wrong_signs(self.study.cases[number - 1])
+
+    def printed(self, number: int, tuning: str) -> RunResult:
+        """The run of a case with the law as printed."""
+        return self.runs[RunCase(number, tuning)]
+
+    def corrected(self, number: int, tuning: str) -> RunResult:
+        """The run of a case with all signs corrected; for the healthy law, which has none wrong, the only one."""
+        return self.runs[RunCase(number, tuning, self.wrong(number))]
+
+    def all_corrected(self, tuning: str) -> list[RunResult]:
+        """Of every case the run with all signs corrected."""
+        return [self.corrected(number, tuning) for number in self.numbers]
+
+    def stated(self, tuning: str) -> list[RunResult]:
+        """The runs of a tuning without any change, case by case."""
+        return list(self.select(tuning=tuning, change=STATED, end_s=None).values())
+
+    def sampled(self) -> list[RunResult]:
+        """The runs that vary the sampling period and the damping."""
+        return list(self.select(end_s=self.study.sampling.end_s).values())
+
+    def left(self, run: RunResult) -> str:
+        """Which wrong signs a run still has."""
+        return ", ".join(f"({sign})" for sign in self.wrong(run.case.number) if sign not in run.case.mended) or "none"

@@ -2,24 +2,20 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+
 from workbench.paper.cells import FORCES, Cell, Column, Quantity, Scaled
 from workbench.paper.results import ResultTable
 from workbench.paper.study_tables import sensitivity_table
 
-from .outcomes import Results, ended, summary
-from .runs import RunCase, event_times
+from .outcomes import ended, summary
+from .runs import MaoResults, RunCase, RunResult, event_times
 
 FIGURES = {1: "Figure 1", 2: "Figure 2 (a)", 3: "Figure 2 (b)", 4: "Figure 2 (c)", 5: "Figure 2 (d)"}
 SIGNS_LEFT = "wrong signs left"
 
 
-def all_tables(results: Results) -> tuple[ResultTable, ...]:
-    """Printed and obtained; the cases in every tuning; sampling; commands; assumed values."""
-    return (_printed(results), *(_cases(results, tuning) for tuning in results.study.tunings), _sampling(results),
-            _commands(results), _sensitivity(results))
-
-
-def _printed(results: Results) -> ResultTable:
+def _printed(results: MaoResults) -> ResultTable:
     study, rows = results.study, []
     for number, case in enumerate(study.cases, start=1):
         said = "follows the desired curve" if number == 1 else "transients at changes and failures, then settles"
@@ -37,24 +33,25 @@ def _printed(results: Results) -> ResultTable:
         f"before an event. {tunings}")
 
 
-def _cases(results: Results, tuning: str) -> ResultTable:
-    """Every law of every case, from event to event."""
-    times, rows = event_times(results.study)[:-1], []
-    for run in results.stated(tuning):
-        start: tuple[Cell, ...] = (run.case.number, results.left(run), ended(run))
-        missing = [None] * (len(times) - len(run.stretches))
-        rows.append((*start, "largest", *(Scaled(one.largest_m) for one in run.stretches), *missing))
-        if run.stretches:
-            rows.append((*start, "settled", *(Scaled(one.settled_m) for one in run.stretches), *missing))
-    return ResultTable(
-        f"The cases, {results.study.tunings[tuning].title}", "paper, section VIII, cases 1 to 5",
-        ("case", SIGNS_LEFT, "end", "position error", *(f"from {time:.0f} s" for time in times)), tuple(rows),
-        "From each event to the next: the largest position error, and what it has settled to, the largest of the last "
-        f"{results.study.horizon.settled_window_s:g} s. 400 s: tunnel; 600 s: a motor gives 200 kN; 800 s: curve and "
-        "slope; 1000 s: its force varies; 1200 s: it stops; 1400 s: open, level track.")
+def _cases(results: MaoResults) -> Iterator[ResultTable]:
+    """Every law of every case, from event to event, in every tuning."""
+    times = event_times(results.study)[:-1]
+    for name, tuning in results.study.tunings.items():
+        rows: list[tuple[Cell, ...]] = []
+        for run in results.stated(name):
+            start, missing = (run.case.number, results.left(run), ended(run)), [None] * (len(times) - len(run.stretches))
+            rows.append((*start, "largest", *(Scaled(one.largest_m) for one in run.stretches), *missing))
+            if run.stretches:
+                rows.append((*start, "settled", *(Scaled(one.settled_m) for one in run.stretches), *missing))
+        yield ResultTable(
+            f"The cases, {tuning.title}", "paper, section VIII, cases 1 to 5",
+            ("case", SIGNS_LEFT, "end", "position error", *(f"from {time:.0f} s" for time in times)), tuple(rows),
+            "From each event to the next: the largest position error, and what it has settled to, the largest of the "
+            f"last {results.study.horizon.settled_window_s:g} s. 400 s: tunnel; 600 s: a motor gives 200 kN; 800 s: "
+            "curve and slope; 1000 s: its force varies; 1200 s: it stops; 1400 s: open, level track.")
 
 
-def _sampling(results: Results) -> ResultTable:
+def _sampling(results: MaoResults) -> ResultTable:
     study = results.study
     fastest = max(study.reference.speeds_mps)
     rows: list[tuple[Cell, ...]] = []
@@ -76,17 +73,17 @@ def _sampling(results: Results) -> ResultTable:
         "the estimate ρ̂ down until 2 rad are met, or the run is lost, as where a new mode brings its own ρ̂.")
 
 
-def _commands(results: Results) -> ResultTable:
+def _commands(results: MaoResults) -> ResultTable:
     """Chattering and the forces that are asked for, of the runs that ended."""
     study = results.study
-    layers = {number: change.set["law.layer_mps"] for number, change in enumerate(study.sensitivity, start=1)
-              if "law.layer_mps" in change.set}
-    runs = [run for tuning in study.tunings for run in results.stated(tuning)]
-    runs += [run for number in layers for run in results.changed(number)]
+    softer = {case: run for case, run in results.changing().items()
+              if "law.layer_mps" in study.changes[case.change].set}
+    runs = [*(run for tuning in study.tunings for run in results.stated(tuning)), *softer.values()]
     mass, rows = 1e3 * study.train.mass_t, []
     for run in runs:
         if not run.failed:
-            layer, row = layers.get(run.case.change, study.law.layer_mps), run.row
+            row = run.row
+            layer = study.changes[run.case.change].set["law.layer_mps"] if run.case in softer else study.law.layer_mps
             rows.append((run.case.number, results.left(run), run.case.tuning,
                          Quantity(layer, "mm/s", 1e-3, None) if layer else "sgn", row["command_reversals_per_s"],
                          row["command_change_mps2"], Scaled(mass * row["command_min"], FORCES),
@@ -99,14 +96,16 @@ def _commands(results: Results) -> ResultTable:
         f"{study.train.motors} motors would give; nothing limits it.")
 
 
-def _sensitivity(results: Results) -> ResultTable:
-    entries = []
-    for number, change in enumerate(results.study.sensitivity, start=1):
-        runs = results.changed(number)
-        stated = [results.runs.get(RunCase(run.case.number, run.case.tuning, run.case.mended)) for run in runs]
-        entries.append((change.title, [
-            (run.case.number, results.left(run), summary(run), summary(as_stated) if as_stated else None)
-            for run, as_stated in zip(runs, stated, strict=True)]))
+def _sensitivity(results: MaoResults) -> ResultTable:
+    def compared(case: RunCase, run: RunResult) -> tuple[Cell, ...]:
+        as_stated = results.runs.get(RunCase(case.number, case.tuning, case.mended))
+        return case.number, results.left(run), summary(run), summary(as_stated) if as_stated else None
+
     return sensitivity_table(
-        "How much the assumed values matter", ("case", SIGNS_LEFT, "obtained", "without the change"), entries,
+        "How much the assumed values matter", ("case", SIGNS_LEFT, "obtained", "without the change"),
+        [(change.title, [compared(case, run) for case, run in results.select(change=number).items()])
+         for number, change in enumerate(results.study.changes)],
         "The largest error after the first event and what it settles to, as above.")
+
+
+TABLES = (_printed, _cases, _sampling, _commands, _sensitivity)

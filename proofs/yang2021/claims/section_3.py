@@ -53,9 +53,9 @@ of_center = sp.exp(-((x_i - c_ji) ** 2 + q_rest) / (2 * width**2))
 @paper.claim("10", "Gradient step of a weight", "identity",
              r"\Delta w_j(t) = \eta[f(\mathbf{x}) - \hat{f}(\mathbf{x})]h_j", "proved", scope=EVERY_SIZE,
              where=letters(plain) | {r"\Delta w_j(t)": descent(plain)},
-             reading=f"The step is -eta dE/dw_j of (9). {GATHERED}.")
+             reading=f"The step is -eta times the derivative of (9) by w_j. {GATHERED}.")
 def weight_gradient() -> Goal:
-    """-eta dE/dw_j of (9), the other neurons gathered in one term."""
+    """-eta times the derivative of (9) by w_j, the other neurons gathered in one term."""
     return Goal((equal(descent(plain), eta * residual(plain) * plain),), flow={weight: sp.Integer(1)})
 
 
@@ -63,9 +63,9 @@ def weight_gradient() -> Goal:
              r"\Delta b_j = \eta[f(\mathbf{x}) - \hat{f}(\mathbf{x})]w_jh_j\frac{\|\mathbf{x} - \mathbf{c}_j\|^2}{b_j^3}",
              "proved", scope=EVERY_SIZE,
              where=letters(of_width) | {r"\Delta b_j": descent(of_width), r"\|\mathbf{x} - \mathbf{c}_j\|": sp.sqrt(squared)},
-             reading=f"The step is -eta dE/db_j of (9) with (5), q being the squared distance. {GATHERED}.")
+             reading=f"The step is -eta times the derivative of (9) by b_j, with (5), q being the squared distance. {GATHERED}.")
 def width_gradient() -> Goal:
-    """-eta dE/db_j of (9) with (5); q is the squared distance, of any dimension."""
+    """-eta times the derivative of (9) by b_j, with (5); q is the squared distance, of any dimension."""
     step = eta * residual(of_width) * weight * of_width * squared / width**3
     return Goal((equal(descent(of_width), step),), (greater(width, 0),), {width: sp.Integer(1)})
 
@@ -76,7 +76,7 @@ def _center_goal(distance: sp.Expr) -> Goal:
 
 
 CENTER_WHERE = letters(of_center) | {r"\Delta c_{ji}": descent(of_center)}
-CENTER_READING = f"The step is -eta dE/dc_ji of (9) with (5), the other inputs' distance in one term. {GATHERED}."
+CENTER_READING = f"The step is -eta times the derivative of (9) by c_ji, with (5), the other inputs' distance in one term. {GATHERED}."
 
 
 @paper.claim("14", "Gradient step of a center", "identity",
@@ -87,7 +87,7 @@ CENTER_READING = f"The step is -eta dE/dc_ji of (9) with (5), the other inputs' 
              note="The square on c_ji subtracts square metres from metres. It may be a misread index: 14.glyph decides "
                   "the line without it.")
 def center_gradient() -> Goal:
-    """-eta dE/dc_ji against the printed line."""
+    """-eta times the derivative of (9) by c_ji, against the printed line."""
     return _center_goal(x_i - c_ji**2)
 
 

@@ -51,6 +51,21 @@ def resistance_is_continuous() -> Goal:
     return Goal((equal(f_before, f_after),))
 
 
+f_at_x, rest_now, rest_later = sp.symbols("f_x f_now f_later", real=True)
+
+
+@paper.claim("7.time", "f is a function of the network's input", "implication",
+             r"f(\mathbf{x}) = -\frac{f(x_1, x_2, t)}{m},\ \mathbf{x} = [x_1\ x_2]^T", "gap", origin="implied", severity="cosmetic",
+             rests_on=(),
+             reading="At two instants with the same position and speed f is the same, as (7) has it.",
+             note="(1) and (4) let f depend on time, and so does Assumption 2, by which f(x) is time-varying. What the "
+                  "network cannot know is left to eps, which then depends on time too; the proof needs only that it is "
+                  "bounded (7.bounded).")
+def resistance_without_time() -> Goal:
+    """The part of f that changes with time, at two instants."""
+    return Goal((equal(f_at_x + rest_now, f_at_x + rest_later),))
+
+
 @paper.claim("7.error", "What a step in f costs the approximation", "inequality",
              r"|f(s^\pm) - y| \le \varepsilon^* \Rightarrow \varepsilon^* \ge \tfrac12 |f(s^+) - f(s^-)|", "proved",
              origin="ours")

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import sympy as sp
 
+from workbench.model.law import desired_position as x_d
+from workbench.model.law import desired_speed as xdot_d
 from workbench.model.law import over_neurons
 from workbench.proof.claim import D, Goal, at_least, at_most, equal, greater, less
 from workbench.trains.train import a_star
@@ -20,6 +22,7 @@ from ..error_dynamics import (
     stars,
     tildes,
     varying_flow,
+    x_2_errors,
 )
 from ..laws import alpha, beta, chi, k
 from ..lyapunov import (
@@ -72,6 +75,26 @@ def bounded() -> Goal:
                  for tilde, star, lam in zip(tildes, stars, lambdas, strict=True)]
     weights = at_most(over_neurons((W_tilde + W_star) ** 2), 4 * chi * bound + 2 * W_star_square)
     return Goal((*errors, *estimates, weights), (inside, *(r.subs({V_t: V}) for r in paper.shown("theorem1.level"))))
+
+
+starting: dict[sp.Expr, sp.Expr] = {symbol: sp.Symbol(f"{symbol}_0", real=True) for symbol in (e_1, e_2, *tildes)}
+W_start, V_start = over_neurons(W_tilde**2), V.xreplace(starting)
+
+
+@paper.claim("theorem1.start", "The initial state of Theorem 1 is one with V(0) <= zeta", "implication",
+             r"\frac{1}{2} \log \frac{k^2}{k^2 - e_1^2(0)} + \frac{1}{2}e_2^2(0) + \frac{1}{2\chi}\tilde{W}^2(0) + "
+             r"\frac{1}{2\lambda_1}\tilde{a}^2(0) + \frac{1}{2\lambda_2}\tilde{b}^2(0) + \frac{1}{2\lambda_3}\tilde{c}^2(0) "
+             r"\leq \zeta", "proved", rests_on=("38",), scope=EVERY_NETWORK,
+             where={r"\zeta": V_start, "e_1^2(0)": starting[e_1]**2, "e_2^2(0)": starting[e_2]**2, r"\tilde{W}^2(0)": W_start,
+                    **{rf"\tilde{{{name}}}^2(0)": starting[tilde]**2 for name, tilde in zip("abc", tildes, strict=True)}},
+             reading="zeta is V(0) of (38), the least that the line allows, and what theorem1.zeta supposes to be at most zeta.",
+             note="'zeta is any positive constant', says the text: of the initial state it is a condition, not a free choice.")
+def initial_state() -> Goal:
+    """(38) at the start against the printed sum."""
+    a_0, b_0, c_0 = (starting[tilde] for tilde in tildes)
+    stated = (sp.log(k**2 / (k**2 - starting[e_1]**2)) / 2 + starting[e_2]**2 / 2 + W_start / (2 * chi) + a_0**2 / (2 * lambdas[0])
+              + b_0**2 / (2 * lambdas[1]) + c_0**2 / (2 * lambdas[2]))
+    return Goal((at_most(stated, V_start),), (inside.subs(starting),))
 
 
 @paper.claim("theorem1.zeta", "V(0) <= zeta keeps V <= zeta", "implication", r"V(0) \leq \zeta,\ t \geq 0 \Rightarrow V(t) \leq \zeta",
@@ -161,6 +184,24 @@ def influence_of_initial_errors() -> Goal:
     share = sum((square / (2 * gain) for square, gain in zip(squares, gains, strict=True)), sp.Integer(0))
     return Goal((at_most(share, wanted),), tuple(at_least(gain * wanted, 2 * square)
                                                  for square, gain in zip(squares, gains, strict=True)))
+
+
+position_most, speed_most = sp.symbols("X_d V_d", nonnegative=True)
+
+
+@paper.claim("objective.stable", "The second objective of section 5: all signals of the closed loop are bounded", "implication",
+             r"\text{The FAO is stable; that is, all closed-loop signals are bounded.}", "proved", severity="result", match="words",
+             premises=("theorem1.bounded", "theorem1.barrier", "A4"), rests_on=("theorem1.bounded", "theorem1.barrier", "A3", "A4"),
+             scope=EVERY_NETWORK,
+             reading="Position and speed by the bounds of the errors and of the desired curve (A3); the errors and estimates are "
+                     "theorem1.bounded, the input is A4. For constant coefficients and gains with mu > 0.",
+             note="The position is bounded on a line of finite length; Assumption 3 says the same of the desired one.")
+def all_signals_bounded() -> Goal:
+    """x_1 = e_1 + x_d and x_2 = e_2 - alpha e_1 + x_d' from what is shown of e_2, and |e_1| < k."""
+    speed, *_ = paper.shown("theorem1.bounded")
+    return Goal((at_most((e_1 + x_d) ** 2, 2 * k**2 + 2 * position_most**2),
+                 at_most(x_2_errors**2, 3 * (speed.right + alpha**2 * k**2 + speed_most**2))),
+                (inside, speed, at_most(x_d**2, position_most**2), at_most(xdot_d**2, speed_most**2)))
 
 
 OBJECTIVE = (r"\text{When the coefficients of the basic resistance Davis equation are uncertain or time-varying, the additional resistance "

@@ -6,7 +6,7 @@ from fractions import Fraction
 
 import sympy as sp
 
-from workbench.proof.claim import D, Goal, Relation, at_least, at_most, equal, less
+from workbench.proof.claim import D, Goal, Relation, at_least, at_most, equal, greater, less
 from workbench.trains.train import u
 
 from ..error_dynamics import plant
@@ -84,3 +84,35 @@ def table_keeps_the_band() -> Goal:
     band, k_stated = sp.Rational(2, 10), sp.Symbol("k_stated", positive=True)
     ends = [_columns(name)[letter] for name in NAMES[:2] for letter in LETTERS[:2]]
     return Goal(tuple(relation(sp.Abs(end), limit) for end in ends for relation, limit in ((at_most, band), (less, k_stated))))
+
+
+def _width(name: str) -> sp.Expr:
+    return _columns(name)["v_high"] - _columns(name)["v_low"]
+
+
+@paper.claim("table2.speed", "The speed errors of the four controllers in their order", "condition",
+             r"\text{the train running speed error of the RBFNN-POCRAC controller was the smallest, and the train running speed "
+             r"error and fluctuation of the PID controller were the largest. [...] RBFNN-PID control obviously alleviated the speed "
+             r"error, but it was still greater than the speed tracking error of the POCRAC controller and RBFNN-POCRAC controller}",
+             "proved", match="words", at=table_values,
+             reading="Said of Figure 10; by the widths of the speed errors' ranges in Table 2.")
+def speed_errors_in_order() -> Goal:
+    """RBFNN-POCRAC below POCRAC below RBFNN-PID below PID."""
+    first, second, third, last = map(_width, NAMES)
+    return Goal((less(first, second), less(second, third), less(third, last)))
+
+
+@paper.claim("table2.position", "The position errors of PID and RBFNN-PID are far above 0.2 m", "condition",
+             r"\text{PID control and RBFNN-PID control exhibited a large position error [...], being far greater than the 0.2 m "
+             r"position error defined in this article}", "proved", match="words",
+             at={symbol: value for name in NAMES[2:] for symbol, value in _printed(name).items()},
+             reading="Said of Figure 9; in Table 2 both ends of their ranges are more than twice as large.")
+def position_errors_of_pid() -> Goal:
+    """Both controllers without the constraint."""
+    return Goal(tuple(greater(sp.Abs(_columns(name)[letter]), 2 * sp.Rational(2, 10)) for name in NAMES[2:] for letter in LETTERS[:2]))
+
+
+paper.axiom("figures", "Figures 4 to 10: the curve is tracked with high precision, and the errors are the smallest of the four",
+            r"\text{the RBFNN-POCRAC controller had the fastest convergence speed and the smallest overall position error and speed "
+            r"error}", "read off the figures by the authors", hypotheses=(), match="words", severity="data",
+            note="A statement on simulations, which the study runs anew; for its numbers see figure8.input, 33.figures and table2.")

@@ -25,7 +25,7 @@ from proofs.chen2019.simulation.formulas import (
 from proofs.chen2019.simulation.plans import plan
 from proofs.chen2019.study import KIND
 from proofs.chen2019.study.record import ChenStudy
-from proofs.chen2019.study.runs import STATED, grows_from, outcome, run_number, title
+from proofs.chen2019.study.runs import grows_from, outcome, run_case, run_cases, title
 from workbench.cli import app as cli
 from workbench.cli.loading import load
 from workbench.compile.kernel import cars_source
@@ -75,8 +75,8 @@ def short(study):
 def runs(short):
     """Of every change by its title, and the stated one."""
     found = {}
-    for i in range(STATED, len(short.changes)):
-        found[title(short, i)] = run_number(short, i)
+    for case in run_cases(short):
+        found[title(short, case)] = run_case(short, case)
     return found
 
 

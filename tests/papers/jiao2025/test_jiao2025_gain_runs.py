@@ -6,11 +6,11 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from proofs.jiao2025.simulation.plans import Case, changed, plan
+from proofs.jiao2025.simulation.plans import Case, plan
 from proofs.jiao2025.simulation.trials import run_trials
-from proofs.jiao2025.study.record import Change
 from workbench.paper.gain_effects import effects, gains_of
 from workbench.paper.loading import load
+from workbench.paper.study import varied
 from workbench.report.gains import compared, gains_document, gains_result
 
 FOLDER = Path(__file__).parents[3] / "proofs" / "jiao2025"
@@ -47,7 +47,7 @@ def test_where_trials_repeat_the_law_contracts_as_fast_as_is_certified(done):
     found = next(s for s in report.found if s.name == "difference")
     certified = next(q for q in report.quantities if q.certificate == "jiao2025:difference")
     repeated = {"line.seen_by": "desired", "trials.shortest_length_k": 1999}
-    other = changed(study, Change(title="test", set={**found.changes, **repeated}))
+    other = varied(study, {**found.changes, **repeated}, "test")
     mse = run_trials(plan(other, Case("kN", "jiao2025.pd_difference", 0))).column("mse")[:13]
     ratios = np.sqrt(mse[1:] / mse[:-1])
     assert ratios.max() <= certified.proved

@@ -13,11 +13,11 @@ from refusals import changed_copy, refusal
 from proofs.jiao2025 import laws as paper
 from proofs.jiao2025 import stated_values
 from proofs.jiao2025.laws import TRIAL_LAWS
-from proofs.jiao2025.simulation.plans import Case, changed, plan
+from proofs.jiao2025.simulation.plans import Case, plan
 from proofs.jiao2025.simulation.trials import run_trials
 from proofs.jiao2025.study import KIND
 from proofs.jiao2025.study.record import JiaoStudy
-from proofs.jiao2025.study.runs import Results, cases, concerns, name_of, outcome
+from proofs.jiao2025.study.runs import JiaoResults, cases, concerns, name_of, outcome
 from workbench.cli.loading import load
 from workbench.files.toml import read_toml, validate_record
 from workbench.paper.learning_comparison import rises
@@ -41,7 +41,7 @@ def small(study):
         "readings": {name: study.readings[name] for name in keep},
         "trials": study.trials.model_copy(update={"seeds": 3}),
         "unit_sweep": study.unit_sweep.model_copy(update={"readings": ("N",), "count": 4}),
-        "variants": tuple(v for v in study.variants if v.title in wanted),
+        "changes": tuple(v for v in study.changes if v.title in wanted),
         "pairs": study.pairs.model_copy(update={"draws": 2})})
 
 
@@ -52,7 +52,7 @@ def result(small):
 
 @pytest.fixture(scope="module")
 def results(small):
-    return Results(small, {case: run_trials(plan(small, case)) for case in cases(small) if case.unit_mps2 is None})
+    return JiaoResults(small, {case: run_trials(plan(small, case)) for case in cases(small) if case.unit_mps2 is None})
 
 
 # --- the compiled trials --------------------------------------------------------------------------------------
@@ -78,7 +78,7 @@ def test_compiled_trials_are_those_of_a_plain_loop(study, law, reading, seen_by,
 
 
 def test_ten_samples_a_k_and_a_resistance_as_printed(study):
-    as_printed = changed(study, next(v for v in study.variants if "train.resistance" in v.set))
+    as_printed = study.changed(next(i for i, v in enumerate(study.changes) if "train.resistance" in v.set))
     made = plan(as_printed, Case("N_long", "jiao2025.pd", 5))
     made = replace(made, lengths=made.lengths[:2])
     assert len(made.desired) == 20_001 and made.divisor == study.train.mass_kg
@@ -138,11 +138,11 @@ def test_every_value_says_where_it_comes_from(study):
     ("compared = [50, 100]", "compared = [50, 200]", "trials: compared names a trial beyond the last, 150"),
     ("end_fraction = 0.35", "end_fraction = 0.10", "line: sections: end_fraction must increase"),
     ("k_per_sample = 0.1\n", "k_per_sample = 0.3\n", "readings.N_long: k_per_sample = 0.3 is no whole part of 1"),
-    ('reading = "kN"', 'reading = "MN"', "shown: 'MN' is no reading: choose one of N, kN"),
+    ('reading = "kN"', 'reading = "MN"', "shown: there is no reading 'MN': choose one of N, kN"),
     ('law = "jiao2025.pd"', 'law = "pid"', "shown: there is no law 'pid'"),
     ('"learning.lamda" = 0.000005', '"learning.lambda" = 0.1',
-     "variants: 'lambda ten times smaller': learning.lambda: no such key"),
-    ('"learning.lamda" = 0.000005', '"learning.lamda" = -1.0', "variants: 'lambda ten times smaller'"),
+     "changes: 'lambda ten times smaller': learning.lambda: no such key"),
+    ('"learning.lamda" = 0.000005', '"learning.lamda" = -1.0', "changes: 'lambda ten times smaller'"),
     ('mu = "paper, Table 1"\n', "", "learning: source.mu is missing"),
 ])
 def test_bad_input_is_one_line_with_file_and_key(tmp_path, old, new, message):
@@ -214,17 +214,17 @@ def test_pd_with_a_difference_learns_where_pd_as_printed_diverges(results):
 
 def test_full_lengths_are_the_law_without_gaps(results):
     """(13)-(15) with every trial complete are (11)-(13)."""
-    place = next(i for i, v in enumerate(results.study.variants) if "trials.shortest_length_k" in v.set)
+    place = next(i for i, v in enumerate(results.study.changes) if "trials.shortest_length_k" in v.set)
     whole = results.runs[Case("kN", "jiao2025.icfdl", results.study.trials.seed, place)]
     assert np.array_equal(whole.mse, results.run("kN", "jiao2025.cfdl").mse)
 
 
 def test_the_first_estimate_decides_how_it_ends(results):
-    place = next(i for i, v in enumerate(results.study.variants) if v.title == "first estimate 1")
+    place = next(i for i, v in enumerate(results.study.changes) if v.title == "first estimate 1")
     other = results.runs[Case("kN", "jiao2025.icfdl", results.study.trials.seed, place)]
     assert outcome(other) == "falls, then grows again"
     assert other.mse[-1] > 100 * results.run("kN", "jiao2025.icfdl").mse[-1]
-    assert not concerns(results.study.variants[place], "jiao2025.pd")
+    assert not concerns(results.study.changes[place], "jiao2025.pd")
 
 
 def test_the_outcome_hardly_hangs_on_the_drawn_lengths(results):

@@ -14,7 +14,7 @@ from workbench.proof.claim import at_most
 from workbench.proof.paper import collect_papers
 
 CLAIMS = {claim.equation: claim for paper in collect_papers([PROOFS / "liu2020"]) for claim in paper.claims}
-DEFINITIONS = {11, 16, 17, 29, 31}  # lines that name something and state nothing of it
+DEFINITIONS = {11, 16, 17, 29}  # lines that name something and state nothing of it
 HELD = np.log(3) / 2
 
 

@@ -130,7 +130,7 @@ def test_every_value_has_its_source(study):
     ("k_1 = [0.048, ", "k_1 = [", "gains", "k_1 has 9 values"),
     ("k_3 = [0.06, ", "k_3 = [-0.06, ", "gains.k_3[0]", "greater than 0"),
     ("energy = [1.6383e11, ", "energy = [", "table_4", "values"),
-    ('table_3_disturbance = "fast"', 'table_3_disturbance = "wind"', "", "'wind' is no disturbance"),
+    ('table_3_disturbance = "fast"', 'table_3_disturbance = "wind"', "", "there is no disturbance 'wind'"),
     ('sensitivity_law = "liu2020.corrected"', 'sensitivity_law = "liu2020.best"', "", "there is no law 'liu2020.best'"),
     ('divergence_change = "all', 'divergence_change = "al', "", "runs.divergence_change: there is no change"),
     ('"line.length_m" = 300000.0', '"line.length_km" = 300.0', "", "line.length_km: no such key"),

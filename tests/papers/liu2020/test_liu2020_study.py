@@ -9,13 +9,9 @@ import pytest
 from proofs.liu2020 import plant as of_train
 from proofs.liu2020.laws import LAWS
 from proofs.liu2020.simulation.trip import davis_newton, setting_of
-from proofs.liu2020.study import KIND
+from proofs.liu2020.study import KIND, REPRODUCTION
 from proofs.liu2020.study.comparison import drawn_runs, variants
-from proofs.liu2020.study.figures import all_plots
-from proofs.liu2020.study.findings import all_findings
-from proofs.liu2020.study.outcomes import Results
-from proofs.liu2020.study.runs import DRAWN_LAWS, RunResult, run_cases, title_of
-from proofs.liu2020.study.tables import all_tables
+from proofs.liu2020.study.runs import DRAWN_LAWS, LiuResults, RunResult, run_cases, title_of
 from workbench.paper.cells import numbers_in
 from workbench.paper.comparison import ComparedRun, Task
 from workbench.paper.mpc_comparison import known, run_mpc
@@ -103,7 +99,7 @@ def test_a_study_whose_runs_all_fail_still_reports(small):
     curves = few | dict.fromkeys(("s_tilde_m", "v_tilde_mps", "position_m", "speed_mps", "input_n"), broken)
     outcomes = {case: RunResult(case, {}, 1.0, 5.0, why, 1.0, curves if case.law in DRAWN_LAWS else {})
                 for case in run_cases(small)}
-    results = Results(small, outcomes)
-    assert all_tables(results) and all_plots(results)
-    assert not any("None" in text for text in all_findings(results))
+    shown = REPRODUCTION.shown(LiuResults(small, outcomes))
+    assert list(shown.tables) and list(shown.plots)
+    assert not any("None" in text for text in shown.findings)
     assert all(title_of(small, case) for case in outcomes)

@@ -4,6 +4,7 @@ import pytest
 from mao2018_cases import CASES, all_wrong
 
 from proofs.mao2018.study.runs import RunCase, run_case
+from workbench.paper.study import varied
 
 
 def test_healthy_motors_track_as_theorem_1_says(study):
@@ -31,7 +32,7 @@ def test_corrected_laws_track_through_failures_and_printed_ones_do_not(study, ca
 
 
 def test_with_weak_failure_estimates_the_sign_of_44_goes_unnoticed(study):
-    weak = study.changed({"law.gain_xi": 0.02, "law.gain_rho_k": 0.02})
+    weak = varied(study, {"law.gain_xi": 0.02, "law.gain_rho_k": 0.02}, "test")
     printed, corrected = (run_case(weak, RunCase(2, "scaled", mended, end_s=1100.0)) for mended in ((), ("44",)))
     assert printed.failed is None
     for one, other in zip(printed.stretches, corrected.stretches, strict=True):
@@ -67,7 +68,7 @@ def test_longer_periods_do_not_bear_the_stated_gains_in_si_units(study):
 
 
 def test_a_boundary_layer_ends_the_chattering(study):
-    soft = study.changed({"law.layer_mps": 1e-3})
+    soft = varied(study, {"law.layer_mps": 1e-3}, "test")
     hard, soft = (run_case(which, RunCase(3, "scaled", ("44",), end_s=700.0)) for which in (study, soft))
     assert hard.row["command_change_mps2"] > 1000 * soft.row["command_change_mps2"]
     assert hard.row["command_reversals_per_s"] > 100

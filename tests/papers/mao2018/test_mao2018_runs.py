@@ -14,6 +14,7 @@ from proofs.mao2018.simulation.trip import initial, parameters
 from proofs.mao2018.study.record import MaoStudy
 from proofs.mao2018.study.runs import RunCase, simulate
 from workbench.files.toml import validate_record
+from workbench.paper.study import varied
 
 FASTER = 200
 
@@ -90,14 +91,14 @@ def test_compiled_cases_are_those_of_plain_python(case, corrected, layer):
 @pytest.mark.parametrize(("corrected", "end_s"), [(False, 0.28), (True, 6.0)])
 def test_short_periods_come_near_the_continuous_closed_loop(study, corrected, end_s):
     """Also as printed: that the train runs away within a second is the law's doing, not the sampling's."""
-    smooth = study.changed({"law.layer_mps": 1e-4})
+    smooth = varied(study, {"law.layer_mps": 1e-4}, "test")
     mended = all_wrong(study, 2) if corrected else ()
     train, law, curve, x = _plain(smooth, 2, mended, 0.0)
     period = 2e-5 if end_s < 1 else 2e-4
     start = [x, 0.0, *law.state.values()]
     flow = plain.rates(train, law, curve)
     true = solve_ivp(flow, (0.0, end_s), start, method="LSODA", rtol=1e-9, atol=1e-11, max_step=0.01).y[:, -1]
-    quick = smooth.changed({"tunings.scaled.period_s": period, "horizon.log_every_s": 0.01})
+    quick = varied(smooth, {"tunings.scaled.period_s": period, "horizon.log_every_s": 0.01}, "test")
     done = simulate(quick, RunCase(2, "scaled", mended, end_s=end_s + 0.02))
     row = round(end_s / 0.01)
     assert done.column("s_m")[row] == pytest.approx(true[0], rel=1e-3, abs=1e-4)

@@ -16,6 +16,7 @@ from workbench.paper.cells import numbers_in
 from workbench.paper.comparison import comparison_tasks
 from workbench.paper.mpc_comparison import MPC_KINDS, known, run_mpc
 from workbench.paper.pairs import pair_tasks
+from workbench.paper.reproduced import STATED
 from workbench.report.runs import study_document
 from workbench.simulate.closed_loop import Factors, simulate_in
 
@@ -23,10 +24,10 @@ from workbench.simulate.closed_loop import Factors, simulate_in
 @pytest.fixture(scope="module")
 def short(study):
     """The first seconds of everything, and few changes."""
-    some = [change for change in study.sensitivity if change.laws != "corrected" or len(change.cases) > 1]
+    some = [change for change in study.changes if change.laws != "corrected" or len(change.cases) > 1]
     return study.model_copy(update={
         "horizon": study.horizon.model_copy(update={"end_s": 1.5, "settled_window_s": 0.5}),
-        "sampling": study.sampling.model_copy(update={"end_s": 1.0}), "sensitivity": tuple(some),
+        "sampling": study.sampling.model_copy(update={"end_s": 1.0}), "changes": tuple(some),
         "pairs": study.pairs.model_copy(update={"draws": 2, "set": {}})})
 
 
@@ -89,7 +90,8 @@ def test_every_case_runs_printed_corrected_and_with_each_sign_alone(study):
     assert len(asked) == len(set(asked))
     for tuning in study.tunings:
         for case, ways in zip(CASES, (1, 2, 2, 4, 4), strict=True):
-            runs = [one for one in asked if (one.number, one.tuning, one.change, one.end_s) == (case, tuning, 0, None)]
+            runs = [one for one in asked
+                    if (one.number, one.tuning, one.change, one.end_s) == (case, tuning, STATED, None)]
             assert len(runs) == ways
 
 

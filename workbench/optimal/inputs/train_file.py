@@ -8,10 +8,12 @@ from typing import Annotated, Self
 from pydantic import Field, Strict, model_validator
 
 from workbench.files.toml import NonNegative, Positive, Record
+from workbench.optimal.inputs.adhesion import with_adhesion
 from workbench.optimal.inputs.cars_file import CarsTable
 from workbench.optimal.inputs.etcs_table import EtcsTable
 from workbench.optimal.inputs.plausible import plausible
 from workbench.optimal.vehicle import ForceLimit, Vehicle
+from workbench.trains.actuator import Adhesion
 from workbench.trains.train_record import Train
 
 Efficiency = Annotated[float, Strict(), Field(ge=0, le=1, allow_inf_nan=False)]
@@ -29,8 +31,8 @@ class TrainFile(Train):
 
     max_braking_n is what all brakes give at standstill, regenerative_force_n the part of it that is electric; the
     remainder returns nothing. max_power_w limits traction. traction_curve: the largest force between its points (a
-    motor's, adhesion), constant beyond them, beside max_traction_n and max_power_w. cars: of a train of several cars.
-    etcs: how it brakes, for `--etcs`.
+    motor's), constant beyond them, beside max_traction_n and max_power_w. adhesion: what wheels and rail pass on at
+    most, of traction and of both brakes together. cars: of a train of several cars. etcs: how it brakes, for `--etcs`.
     """
 
     rotating_fraction: NonNegative = 0.0
@@ -38,6 +40,7 @@ class TrainFile(Train):
     max_acceleration_mps2: Positive | None = None
     max_deceleration_mps2: Positive | None = None
     traction_curve: tuple[ForcePoint, ...] = ()
+    adhesion: Adhesion | None = None
     traction_efficiency: Annotated[float, Strict(), Field(gt=0, le=1, allow_inf_nan=False)] = 1.0
     regenerative_force_n: NonNegative = 0.0
     regenerative_power_w: Positive | None = None
@@ -61,11 +64,15 @@ class TrainFile(Train):
 def vehicle(train: TrainFile, name: str) -> Vehicle:
     """The train as the optimiser knows it; raises InputError where a value is implausible."""
     curve = tuple((point.speed_mps, point.force_n) for point in train.traction_curve)
+    traction = ForceLimit(train.max_traction_n, _or_none(train.max_power_w), curve)
+    electric = ForceLimit(train.regenerative_force_n, _or_none(train.regenerative_power_w))
+    friction = train.max_braking_n - train.regenerative_force_n
+    if train.adhesion is not None:
+        traction, electric = with_adhesion(train.adhesion, train.mass_kg, _or_none(train.max_speed_mps), traction,
+                                           electric, friction)
     return plausible(Vehicle(
         name=name, mass_kg=train.mass_kg, davis_n=train.davis_newton,
-        traction=ForceLimit(train.max_traction_n, _or_none(train.max_power_w), curve),
-        regenerative=ForceLimit(train.regenerative_force_n, _or_none(train.regenerative_power_w)),
-        friction_brake_n=train.max_braking_n - train.regenerative_force_n,
+        traction=traction, regenerative=electric, friction_brake_n=friction,
         rotating_fraction=train.rotating_fraction,
         max_acceleration_mps2=_or_none(train.max_acceleration_mps2),
         max_deceleration_mps2=_or_none(train.max_deceleration_mps2),

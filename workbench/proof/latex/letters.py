@@ -26,8 +26,13 @@ def latex_name(name: str) -> str:
     for accent in accents:
         result = result if accent == "star" else rf"\{accent}{{{result}}}"
     if indices:
-        result += f"_{{{','.join(_letter(part, part) for part in indices)}}}"
+        result += f"_{{{','.join(_letter(part, _letters(part)) for part in indices)}}}"
     return result + "^{*}" * ("star" in accents)
+
+
+def _letters(index: str) -> str:
+    """An index of a letter and a Greek one, such as knu; any other stays a word."""
+    return rf"{index[0]}\{index[1:]}" if index[1:] in GREEK else index
 
 
 def _is_letter(name: str) -> bool:

@@ -149,12 +149,13 @@ class _Sides:
         return next(op for op in self.related.operators[below:above] if op != "==")
 
     def _places(self, relation: Relation) -> Iterator[tuple[int, int, Operator]]:
-        """Where the relation's sides stand in the chain."""
+        """Where the relation's sides stand in the chain; sides that are one by the letters stand in its order."""
+        alike = self.same(relation.left, relation.right)
         lefts = [i for i, side in enumerate(self.related.sides) if self.same(side, relation.left)]
         rights = [i for i, side in enumerate(self.related.sides) if self.same(side, relation.right)]
         for left in lefts:
             for right in rights:
-                if left != right:
+                if left < right or (left > right and not alike):
                     yield left, right, relation.operator
 
     def _missing(self, place: int, relations: list[Relation], what: str) -> str:

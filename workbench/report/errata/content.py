@@ -5,7 +5,9 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Sequence
 
+from workbench.files.wording import listed
 from workbench.proof.checker import goal_digest
+from workbench.proof.places import place_of
 from workbench.proof.verdict import VERDICTS, Decision, verdict_words
 from workbench.report.counterexample import Counterexample
 from workbench.report.errata.blocks import Block, Code, Formula, Heading, Item, Items, Paragraph
@@ -18,8 +20,7 @@ from workbench.report.finding_sentences import (
     reading_sentence,
     verdict_sentence,
 )
-from workbench.report.places_in_paper import place_of
-from workbench.report.worded import listed, math, worded
+from workbench.report.worded import math, worded
 
 MOST_STEPS = 120  # lines of a proof beyond which a reader is sent to the certificate
 CHECKER = "checker.py"

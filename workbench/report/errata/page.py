@@ -4,17 +4,16 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from markupsafe import Markup, escape
+from markupsafe import Markup
 
 from workbench.report.errata.blocks import Block, Item, Medium, written
-from workbench.report.formulas import formula
-from workbench.report.worded import show
+from workbench.report.formulas import formula, in_html
 
 STYLE = """:root{color-scheme:light dark}body{font:1.05rem/1.55 Georgia,serif;max-width:46rem;margin:2rem auto;
 padding:0 1rem}h1,h2,h3{line-height:1.25;font-family:system-ui,sans-serif}h2{margin-top:2.5rem;border-bottom:1px solid
 #8886}h3{margin-top:2rem;font-size:1.05rem}.formula{margin:.6rem 0;overflow-x:auto}.label{font:600 .85rem
 system-ui,sans-serif;display:block;color:#777}math{font-size:1.05em}pre{font-size:.78rem;overflow-x:auto;
-background:#8881;padding:.5rem}ul{padding-left:1.2rem}li{margin:.25rem 0}
+background:#8881;padding:.5rem}ul{padding-left:1.2rem}li{margin:.25rem 0}.unbroken{white-space:nowrap}
 @media print{body{max-width:none;margin:0;font-size:10pt}pre{white-space:pre-wrap;word-break:break-all}}"""
 POLICY = "default-src 'none'; style-src 'unsafe-inline'; base-uri 'none'; form-action 'none'"
 
@@ -31,7 +30,7 @@ def html_document(blocks: Sequence[Block], title: str) -> str:
 
 def _paragraph(text: str, label: str) -> Markup:
     bold = Markup("<strong>{}.</strong> ").format(label) if label else Markup("")
-    return Markup("<p>{}{}</p>").format(bold, _text(text))
+    return Markup("<p>{}{}</p>").format(bold, in_html(text))
 
 
 def _formula(latex: str, label: str) -> Markup:
@@ -47,14 +46,10 @@ def _items(items: Sequence[Item]) -> Markup:
             found, at = found + Markup("<ul>"), at + 1
         while at > item.depth:
             found, at = found + Markup("</ul>"), at - 1
-        found += Markup("<li>{}</li>").format(_text(item.text))
+        found += Markup("<li>{}</li>").format(in_html(item.text))
     return found + Markup("</ul>") * (at + 1)
 
 
-def _text(text: str) -> Markup:
-    return Markup(show(text, formula, lambda words: str(escape(words))))
-
-
 HTML = Medium(
-    heading=lambda level, text: Markup("<h{0}>{1}</h{0}>").format(level, _text(text)), paragraph=_paragraph,
+    heading=lambda level, text: Markup("<h{0}>{1}</h{0}>").format(level, in_html(text)), paragraph=_paragraph,
     formula=_formula, items=_items, code=lambda text: Markup("<pre>{}</pre>").format(text))

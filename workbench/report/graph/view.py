@@ -7,11 +7,11 @@ from dataclasses import dataclass
 
 from markupsafe import Markup, escape
 
+from workbench.proof.places import place_of
 from workbench.proof.verdict import FAILED
 from workbench.report.claims import ClaimRef, ClaimView
 from workbench.report.graph.layout import HEIGHT, Layout, Point, layout
 from workbench.report.graph.premise_graph import PremiseGraph, premise_graphs
-from workbench.report.places_in_paper import place_of
 
 LETTER, PADDING = 7.1, 26.0  # pixels: an average letter, the room around the letters of a box
 

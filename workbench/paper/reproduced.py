@@ -1,0 +1,97 @@
+"""What studies that run a paper again share: what their files may state beside the paper's own, and runs by case."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+from typing import Any, Generic, Protocol, Self, TypeVar
+
+from pydantic import model_validator
+
+from workbench.files.toml import Record, Text
+from workbench.paper.mpc_comparison import MpcData
+from workbench.paper.study import Study, varied
+from workbench.paper.tuning_record import Pairs, StudyTuning
+
+# The number of the change that a run as stated is made under.
+STATED = -1
+
+
+class Change(Record):
+    """A change of assumed values, to see how much they matter: dotted key -> value."""
+
+    title: Text
+    set: dict[str, Any]
+
+
+class ReproducedStudy(Study):
+    """A paper's study beside MPC: its own tables, and changes of assumed values, MPC, tuning and pairs.
+
+    A paper whose changes state more than a title and values has its own `changes`, of its own `Change`.
+    """
+
+    changes: tuple[Change, ...] = ()
+    mpc: MpcData | None = None
+    tuning: StudyTuning | None = None
+    pairs: Pairs | None = None
+
+    def check(self) -> None:
+        """ValueError for values of the paper's own tables that do not fit together."""
+
+    @model_validator(mode="after")
+    def _parts_and_changes_fit(self) -> Self:
+        self.check()
+        for number in range(len(self.changes)):
+            self.changed(number)
+        return self
+
+    def changed(self, number: int) -> Self:
+        """The study that a run is made of: this one, or that of a change, by its number.
+
+        ValueError naming the change for an unknown key or an unfit value.
+        """
+        if number == STATED:
+            return self
+        return varied(self, self.changes[number].set, f"changes: '{self.changes[number].title}'")
+
+    def change_title(self, number: int) -> str | None:
+        """The title of a change, by its number; None for what is as stated."""
+        return None if number == STATED else self.changes[number].title
+
+
+def one_of(key: str, what: str, name: object, known: Iterable[object]) -> None:
+    """ValueError where what a key names is not there: a law, a reading, a case."""
+    if name not in (among := list(known)):
+        raise ValueError(f"{key}: there is no {what} {name!r}: choose one of {', '.join(map(str, among))}")
+
+
+class HasChange(Protocol):
+    """What names a run: at least the number of the change that it is made under, STATED for none."""
+
+    @property
+    def change(self) -> int:
+        """A number of the study's changes."""
+        ...
+
+
+S = TypeVar("S", bound=ReproducedStudy)
+C = TypeVar("C", bound=HasChange)
+R = TypeVar("R")
+
+
+@dataclass(frozen=True)
+class Results(Generic[S, C, R]):
+    """A study and its runs by case, as tables, figures and findings ask for them."""
+
+    study: S
+    runs: Mapping[C, R]
+
+    def select(self, **case: object) -> dict[C, R]:
+        """The runs whose cases have these values."""
+        return {of: run for of, run in self.runs.items() if all(getattr(of, key) == value
+                                                                for key, value in case.items())}
+
+    def changing(self, *keys: str, **case: object) -> dict[C, R]:
+        """Those of `select` under changes of exactly these keys; under any change where no key is named."""
+        return {of: run for of, run in self.select(**case).items() if of.change != STATED and (
+            not keys or self.study.changes[of.change].set.keys() == set(keys))}
