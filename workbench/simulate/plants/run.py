@@ -14,8 +14,8 @@ from numpy.typing import NDArray
 
 from workbench.compile.vector_code import numeric_vector
 from workbench.simulate.plants.arrays import Arrays, Compiled, arrays_of, compiled
-from workbench.simulate.plants.event_loop import MOST_IN_A_RUN, MOST_IN_A_STEP, PILED_UP, TOO_MANY
-from workbench.simulate.plants.plant_loop import DIVERGED, LAW_OUTSIDE, NO_COMMAND, OUTSIDE, RUNNING
+from workbench.simulate.plants.endings import why
+from workbench.simulate.plants.plant_loop import LAW_OUTSIDE, NO_COMMAND, RUNNING
 from workbench.simulate.plants.solver import advance_by_solver
 from workbench.systems.law import StateLaw
 from workbench.systems.setting import Setting, limits_of
@@ -248,10 +248,14 @@ def _told(setting: Setting, entrant: Entrant, found: Compiled, a: Arrays, status
     columns = ("t_s", *map(str, plant.states), *map(str, plant.inputs), *(f"{u}_wanted" for u in plant.inputs),
                *setting.signals, *(map(str, law.state_symbols) if law else ()))
     return PlantRun(entrant.name, columns, a.log[:rows], _metrics(setting, a, t, status == RUNNING),
-                    _why(setting, entrant, status, t, a), t, float(np.median(taken)),
-                    float(np.percentile(taken, 99)), events=tuple(
-                        Happened(float(row[0]), plant.events[int(row[1])].id, tuple(map(float, row[2:])))
-                        for row in a.event_log[:a.event_count[0]]))
+                    why(setting, entrant.name, law, status, t, a), t, float(np.median(taken)),
+                    float(np.percentile(taken, 99)), events=_events(setting, a))
+
+
+def _events(setting: Setting, a: Arrays) -> tuple[Happened, ...]:
+    names = [event.id for event in setting.plant.events]
+    return tuple(Happened(t, names[int(which)], tuple(states))
+                 for t, which, *states in a.event_log[:a.event_count[0]].tolist())
 
 
 def _metrics(setting: Setting, a: Arrays, t: float, whole: bool) -> dict[str, float | None]:
@@ -280,19 +284,3 @@ def _metrics(setting: Setting, a: Arrays, t: float, whole: bool) -> dict[str, fl
             case _:
                 found[metric.id] = float(value)
     return {name: value if value is not None and math.isfinite(value) else None for name, value in found.items()}
-
-
-def _why(setting: Setting, entrant: Entrant, status: int, t: float, a: Arrays) -> str | None:
-    if status == RUNNING:
-        return None
-    plant = setting.plant
-    where = ", ".join(f"{symbol} = {value:.4g}" for symbol, value in zip(plant.states, a.x, strict=False))
-    law = entrant.law
-    domain = ", ".join(f"{e} > 0" for e in (plant.domain if status == OUTSIDE else law.domain if law else ()))
-    last = plant.events[int(a.event_log[a.event_count[0] - 1, 1])].id if a.event_count[0] else ""
-    what = {PILED_UP: f"met event '{last}' more often than {MOST_IN_A_STEP} times in a plant step, or faster than "
-            "numbers tell apart: state a mode in which the plant rests; this was",
-            TOO_MANY: f"met more than {MOST_IN_A_RUN} events, '{last}' last, which was",
-            DIVERGED: "diverged", OUTSIDE: f"left the plant's domain ({domain})",
-            NO_COMMAND: "gave a command that is no number", LAW_OUTSIDE: f"left its domain ({domain})"}
-    return f"{entrant.name} {what.get(status, 'was given up by the solver')} at t = {t:.4g} s, {where}"

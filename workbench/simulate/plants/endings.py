@@ -1,0 +1,31 @@
+"""Why a run ended early: one line with controller, time, states and, where there is one, a remedy."""
+
+from __future__ import annotations
+
+import math
+
+from workbench.simulate.plants.arrays import Arrays
+from workbench.simulate.plants.event_loop import MOST_IN_A_RUN, MOST_IN_A_STEP, PILED_UP, TOO_MANY
+from workbench.simulate.plants.plant_loop import DIVERGED, LAW_OUTSIDE, NO_COMMAND, OUTSIDE, RUNNING
+from workbench.systems.law import StateLaw
+from workbench.systems.setting import Setting
+
+STIFF = ": where the plant itself is stable, its fastest pole wants a shorter step_s, or the integrator 'radau'"
+
+
+def why(setting: Setting, name: str, law: StateLaw | None, status: int, t: float, a: Arrays) -> str | None:
+    """The line for a status of the loop or the solver; None for a run that came to its end."""
+    if status == RUNNING:
+        return None
+    plant = setting.plant
+    where = ", ".join(f"{symbol} = {value:.4g}" if math.isfinite(value) else f"{symbol} beyond all numbers"
+                      for symbol, value in zip(plant.states, a.x, strict=False))
+    domain = ", ".join(f"{e} > 0" for e in (plant.domain if status == OUTSIDE else law.domain if law else ()))
+    last = plant.events[int(a.event_log[a.event_count[0] - 1, 1])].id if a.event_count[0] else ""
+    what = {PILED_UP: f"met event '{last}' more than {MOST_IN_A_STEP} times in a plant step, or too fast to tell apart "
+            "(state a mode in which the plant rests), which was",
+            TOO_MANY: f"met more than {MOST_IN_A_RUN} events, '{last}' last, which was",
+            DIVERGED: "diverged", OUTSIDE: f"left the plant's domain ({domain})",
+            NO_COMMAND: "gave a command that is no number", LAW_OUTSIDE: f"left its domain ({domain})"}
+    remedy = STIFF if status == DIVERGED and setting.integrator == "rk4" else ""
+    return f"{name} {what.get(status, 'was given up by the solver')} at t = {t:.4g} s, {where}{remedy}"
