@@ -164,4 +164,4 @@ def test_what_becomes_of_the_headline_statements(claims):
     assert {equation: fate.word for equation, fate in fates.items() if fate} == {
         "lemma1": "stands", "theorem1": "falls", "remark5": "falls", "remark5.distribution": "stands with corrections",
         "conclusion": "stands with corrections"}
-    assert "theorem1.mended" in fates["theorem1"].why and "theorem1.train" in fates["conclusion"].why
+    assert fates["theorem1"].by == ("jiao2025:theorem1.mended",) and "jiao2025:theorem1.train" in fates["conclusion"].by
