@@ -13,17 +13,15 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import casadi as ca
 import numpy as np
 from numpy.typing import NDArray
 
 from workbench.compile.casadi_tree import casadi_of
+from workbench.mpc.plant_values import PlantMpcValues
 from workbench.systems.setting import Setting, limits_of
-
-if TYPE_CHECKING:
-    from workbench.mpc.plant_tracking import PlantMpc
 
 Array = NDArray[np.float64]
 
@@ -42,7 +40,7 @@ class Program:
     limited: tuple[int, ...]
 
 
-def program(how: PlantMpc, setting: Setting, period_s: float, tracked: list[str]) -> Program:
+def program(how: PlantMpcValues, setting: Setting, period_s: float, tracked: list[str]) -> Program:
     """The problem of an MPC in a setting, whose parameters are what it believes."""
     plant = setting.plant
     n, m, N = len(plant.states), len(plant.inputs), how.horizon
@@ -119,7 +117,7 @@ def _vector(table: Mapping[str, float], names: list[str]) -> Any:
     return ca.DM([table.get(name, 0.0) for name in names])
 
 
-def _step(how: PlantMpc, setting: Setting, period_s: float) -> Any:
+def _step(how: PlantMpcValues, setting: Setting, period_s: float) -> Any:
     """(x, u) -> x one sample later."""
     plant = setting.plant
     f = plant.to_casadi(setting.parameters)
@@ -146,7 +144,7 @@ def _known(setting: Setting, x: Any) -> dict[Any, Any]:
             **{symbol: setting.parameters[str(symbol)] for symbol in plant.parameter_symbols}}
 
 
-def _metrics(how: PlantMpc, setting: Setting, period_s: float) -> tuple[Any, Any, int]:
+def _metrics(how: PlantMpcValues, setting: Setting, period_s: float) -> tuple[Any, Any, int]:
     """The stage's and the end's weighted metrics as functions of x, u and [t, all references' values]; rows of that."""
     if not how.objective:
         return None, None, 0
@@ -167,7 +165,7 @@ def _metrics(how: PlantMpc, setting: Setting, period_s: float) -> tuple[Any, Any
     return (ca.Function("stage", [x, u, ahead], [stage]), ca.Function("end", [x, u, ahead], [end]), 1 + len(symbols))
 
 
-def _solver(how: PlantMpc, nlp: dict[str, Any], equal: list[bool]) -> Any:
+def _solver(how: PlantMpcValues, nlp: dict[str, Any], equal: list[bool]) -> Any:
     common: dict[str, Any] = {"expand": True, "print_time": False, "error_on_fail": False}
     structured: dict[str, Any] = {"structure_detection": "auto", "equality": equal}
     if how.one_iteration:

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from typing import TypeVar
 
-from workbench.files import wording
 from workbench.files.numbers import number
+from workbench.proof import wording
 
 T = TypeVar("T")
 R = TypeVar("R")

@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 
-from workbench.files.wording import listed
 from workbench.proof.places import place_of, places_of
 from workbench.proof.premises import holds_in_other_reading, proved_under, with_taint
 from workbench.proof.verdict import Decision, Fate
+from workbench.proof.wording import listed
 
 
 def is_headline(decision: Decision) -> bool:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Sequence
 
-from workbench.files.wording import listed
+from workbench.proof.wording import listed
 
 _WORDS = {"theorem": "Theorem", "lemma": "Lemma", "remark": "Remark", "table": "Table", "figure": "Figure",
           "proposition": "Proposition", "contribution": "Contribution", "section": "Section", "A": "Assumption",

@@ -6,8 +6,8 @@ from collections.abc import Sequence
 from dataclasses import asdict
 from typing import Any
 
-from workbench.files.wording import listed
 from workbench.proof.places import place_of, places_of
+from workbench.proof.wording import listed
 from workbench.report.counterexample import Counterexample
 from workbench.report.finding import Finding, Gravity
 from workbench.report.worded import INNER, math

@@ -7,7 +7,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 from workbench.files.numbers import NOTHING, length, number
-from workbench.files.wording import listed
+from workbench.proof.wording import listed
 from workbench.report.sources import stated
 from workbench.report.tables import information, largest_error
 from workbench.simulate.metrics import Metrics

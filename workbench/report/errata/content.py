@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Sequence
 
-from workbench.files.wording import listed
 from workbench.proof.checker import goal_digest
 from workbench.proof.places import place_of
 from workbench.proof.verdict import VERDICTS, Decision, verdict_words
+from workbench.proof.wording import listed
 from workbench.report.counterexample import Counterexample
 from workbench.report.errata.blocks import Block, Code, Formula, Heading, Item, Items, Paragraph
 from workbench.report.errata.proof_steps import proof_steps
