@@ -32,7 +32,7 @@ from workbench.gains.sampling import sampled_map
 from workbench.gains.stated import Stated
 from workbench.paper.gain_front import Tried, chosen, exact, front_search_of, not_beaten, tried_for
 from workbench.paper.gain_search import FrontSearch, FrontSetting
-from workbench.paper.kept_front import recorded_fronts, shown_point
+from workbench.paper.recorded_front import recorded_fronts, shown_point
 from workbench.proof.checker import check
 
 x, v, u, w, estimate, rate = sp.symbols("x v u w estimate rate", real=True)

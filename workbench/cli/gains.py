@@ -27,7 +27,7 @@ def command(paper: PaperOrFile, json: JsonFile = None,
     from workbench.files.outputs import check_outputs
     from workbench.gains.certificate import write_certificates
     from workbench.paper.gain_effects import effects, gains_of
-    from workbench.paper.kept_front import FRONT_FOLDER, searched_or_kept, shown_fronts, write_front
+    from workbench.paper.recorded_front import FRONT_FOLDER, searched_or_recorded, shown_fronts, write_front
     from workbench.proof.document import check_places
     from workbench.report.gains import gains_document, gains_result
 
@@ -37,7 +37,7 @@ def command(paper: PaperOrFile, json: JsonFile = None,
     check_places([loaded.folder] if write else [], None, {"--json": json})
     found = gains_of(loaded)
     with progress() as show:
-        front = searched_or_kept(loaded, search, workers, lambda at, total, _: show("searches", at, total))
+        front = searched_or_recorded(loaded, search, workers, lambda at, total, _: show("searches", at, total))
     if certificates:
         write_certificates(found.certificates, certificates / found.paper, certificates)
         write_certificates(front.certificates.values(), certificates / found.paper / FRONT_FOLDER, certificates)

@@ -33,6 +33,7 @@ STATED = "stated"
 UNSTABLE, UNPROVED = 100.0, 50.0
 LEAST_SHARE = 0.01  # so little of the other, that of two that are level the one that nothing beats is taken
 
+
 class Found(Record):
     """Gains of a front as they stand in the file."""
 
@@ -78,7 +79,7 @@ def not_beaten(points: Sequence[Tried]) -> list[Tried]:
 
 
 @dataclass(frozen=True)
-class KeptFront:
+class RecordedFront:
     """What was found, and its certificates by claim, those of the stated gains too where there are any."""
 
     record: FrontRecord
@@ -86,7 +87,7 @@ class KeptFront:
 
 
 def search_fronts(loaded: Loaded, asked: FrontSearch, workers: int | None = None,
-                  on_progress: Progress = lambda done, total, what: None) -> KeptFront:
+                  on_progress: Progress = lambda done, total, what: None) -> RecordedFront:
     """What is found in every setting, each point with its certificate; the same whatever the number of workers."""
     tasks = [(s.id, number) for s in asked.settings for number in range(asked.weights)]
     done: dict[tuple[str, int], list[Tried]] = results_of(
@@ -95,7 +96,7 @@ def search_fronts(loaded: Loaded, asked: FrontSearch, workers: int | None = None
     certificates: dict[str, dict[str, Any]] = {}
     found = {s.id: chosen(loaded, asked, s, [one for task in tasks if task[0] == s.id for one in done[task]],
                           certificates) for s in asked.settings}
-    return KeptFront(FrontRecord(evaluations=asked.weights * asked.evaluations, found=found), certificates)
+    return RecordedFront(FrontRecord(evaluations=asked.weights * asked.evaluations, found=found), certificates)
 
 
 def chosen(loaded: Loaded, asked: FrontSearch, setting: FrontSetting, tried: Sequence[Tried],
@@ -107,18 +108,18 @@ def chosen(loaded: Loaded, asked: FrontSearch, setting: FrontSetting, tried: Seq
     stated = Stated(loaded.path, loaded.data)
     efficient = not_beaten(tried)
     places = sorted(set(np.linspace(0, len(efficient) - 1, asked.points).round().astype(int))) if efficient else []
-    kept: list[Found] = []
+    named: list[Found] = []
     start = dict(asked.stated(stated))
     for gains in [start, *(one.gains for one in (efficient[i] for i in places) if one.gains != start)]:
-        name = f"found_{len(kept) + 1}" if gains is not start else STATED
+        name = f"found_{len(named) + 1}" if gains is not start else STATED
         try:
             certificate = certified(asked, setting, stated, name, gains)
         except SolverError:
             continue
         certificates[str(certificate["claim"])] = certificate
         if gains is not start:
-            kept.append(Found(name=name, gains=gains))
-    return tuple(kept)
+            named.append(Found(name=name, gains=gains))
+    return tuple(named)
 
 
 def certified(asked: FrontSearch, setting: FrontSetting, stated: Stated, name: str, gains: Values) -> dict[str, Any]:

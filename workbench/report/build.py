@@ -18,8 +18,8 @@ from workbench.files.writing import make_folder, require_inside, write_text
 from workbench.gains.result import GainReport
 from workbench.paper.gain_effects import effects, gains_of
 from workbench.paper.gain_search import gain_search_of
-from workbench.paper.kept_front import searched_or_kept, shown_fronts
 from workbench.paper.loading import Loaded
+from workbench.paper.recorded_front import searched_or_recorded, shown_fronts
 from workbench.paper.results import StudyResult
 from workbench.paper.study import Study
 from workbench.paper.tuning_record import Pairs
@@ -196,7 +196,7 @@ def _gains(asked: Asked, on_progress: Progress, timings: dict[str, float]) -> St
     with _timed(timings, "gains"):
         done = effects(asked.loaded, asked.gains, asked.workers,
                        lambda at, total, _: on_progress("runs of gains", at, total))
-        fronts = shown_fronts(asked.loaded, searched_or_kept(asked.loaded, False), asked.workers,
+        fronts = shown_fronts(asked.loaded, searched_or_recorded(asked.loaded, False), asked.workers,
                               lambda at, total, _: on_progress("fronts of gains", at, total))
         write_json(asked.out / "gains.json", gains_document(asked.gains, done, fronts))
     return gains_result(asked.gains, done, fronts)

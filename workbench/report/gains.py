@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 from workbench.gains.result import GainReport, GainSet
 from workbench.paper.cells import Cell, Phrase, Quantity
 from workbench.paper.gain_effects import Effect
-from workbench.paper.kept_front import GainFront
+from workbench.paper.recorded_front import GainFront
 from workbench.paper.results import ResultTable, StudyResult
 
 if TYPE_CHECKING:

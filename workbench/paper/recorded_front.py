@@ -26,7 +26,7 @@ from workbench.paper.gain_front import (
     STATED,
     Found,
     FrontRecord,
-    KeptFront,
+    RecordedFront,
     claim_of,
     exact,
     front_search_of,
@@ -73,11 +73,11 @@ class GainFront:
     evaluations: int
 
 
-NO_FRONT = KeptFront(FrontRecord(evaluations=0), {})
+NO_FRONT = RecordedFront(FrontRecord(evaluations=0), {})
 
 
-def searched_or_kept(loaded: Loaded, anew: bool, workers: int | None = None,
-                     on_progress: Progress = lambda done, total, what: None) -> KeptFront:
+def searched_or_recorded(loaded: Loaded, anew: bool, workers: int | None = None,
+                     on_progress: Progress = lambda done, total, what: None) -> RecordedFront:
     """What a search finds now, or what the folder keeps; InputError where a search is asked for and none is stated."""
     asked = front_search_of(loaded)
     if anew and asked is None:
@@ -88,7 +88,7 @@ def searched_or_kept(loaded: Loaded, anew: bool, workers: int | None = None,
     return search_fronts(loaded, asked, workers, on_progress) if anew else recorded_fronts(loaded, asked)
 
 
-def write_front(folder: Path, front: KeptFront) -> None:
+def write_front(folder: Path, front: RecordedFront) -> None:
     """front.toml and certificates/front of a paper's folder; InputError where they cannot be written."""
     record = front.record
     lines = ["# Found by 'workbench gains --search --write'; other numbers are computed when they are shown.",
@@ -101,7 +101,7 @@ def write_front(folder: Path, front: KeptFront) -> None:
     write_certificates(front.certificates.values(), folder / CERTIFICATES / FRONT_FOLDER, folder)
 
 
-def recorded_fronts(loaded: Loaded, asked: FrontSearch) -> KeptFront:
+def recorded_fronts(loaded: Loaded, asked: FrontSearch) -> RecordedFront:
     """What stands in the folder's front.toml, and its certificates; nothing where it was never searched."""
     path = loaded.folder / FRONT_FILE
     if not path.is_file():
@@ -122,7 +122,7 @@ def recorded_fronts(loaded: Loaded, asked: FrontSearch) -> KeptFront:
             file = loaded.folder / CERTIFICATES / FRONT_FOLDER / f"{claim.partition(':')[2]}.json"
             if file.is_file():
                 certificates[claim] = _read(file)
-    return KeptFront(record, certificates)
+    return RecordedFront(record, certificates)
 
 
 def _read(file: Path) -> dict[str, Any]:
@@ -135,7 +135,7 @@ def _read(file: Path) -> dict[str, Any]:
     return found
 
 
-def shown_fronts(loaded: Loaded, front: KeptFront, workers: int | None = None,
+def shown_fronts(loaded: Loaded, front: RecordedFront, workers: int | None = None,
                  on_progress: Progress = lambda done, total, what: None) -> tuple[GainFront, ...]:
     """Every point run again and its certificate held against its loop and checked again, the stated gains first.
 
