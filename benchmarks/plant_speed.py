@@ -17,6 +17,7 @@ import tempfile
 import time
 import warnings
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -107,27 +108,58 @@ def cart_pole() -> tuple[wb.Setting, dict[str, float]]:
                       tracks={"x": "x_d", "theta": "theta_d"}, metrics=(wb.Metric("cost", "integral", cost),)), values
 
 
+def quadrotor() -> tuple[wb.Setting, dict[str, float]]:
+    """A quadrotor of twelve states, with roll, pitch and yaw, to be brought a metre along all axes."""
+    position, angle, speed, turn = (sp.symbols(names, real=True) for names in ("x y z", "phi theta psi", "v_x v_y v_z",
+                                                                               "p q r"))
+    inputs = thrust, *torques = sp.symbols("f t_x t_y t_z", real=True)
+    m, g, j_x, j_y, j_z = sp.symbols("m g j_x j_y j_z", positive=True)
+    (phi, theta, psi), (p, q, r) = angle, turn
+    s, c = sp.sin, sp.cos
+    push = (c(phi) * s(theta) * c(psi) + s(phi) * s(psi), c(phi) * s(theta) * s(psi) - s(phi) * c(psi),
+            c(phi) * c(theta))
+    forces = tuple(thrust / m * one - (g if i == 2 else 0) for i, one in enumerate(push))
+    rates = (*speed, p + (q * s(phi) + r * c(phi)) * s(theta) / c(theta), q * c(phi) - r * s(phi),
+             (q * s(phi) + r * c(phi)) / c(theta), *forces, (torques[0] + (j_y - j_z) * q * r) / j_x,
+             (torques[1] + (j_z - j_x) * p * r) / j_y, (torques[2] + (j_x - j_y) * p * q) / j_z)
+    values = {"m": 1.0, "g": 9.81, "j_x": 0.01, "j_y": 0.01, "j_z": 0.02}
+    plant = wb.Plant("quadrotor", (*position, *angle, *speed, *turn), rates, inputs,
+                     input_limits={thrust: (0.0, 20.0), **dict.fromkeys(torques, (-0.3, 0.3))},
+                     parameters=tuple(wb.Parameter(one, values[str(one)]) for one in (m, g, j_x, j_y, j_z)))
+    names = ("x", "y", "z", "psi")
+    channels = [wb.Reference(f"{name}_d") for name in names]
+    square = sum((one - channel.value) ** 2 for one, channel in zip((*position, psi), channels, strict=True))
+    cost = square + ((thrust - values["m"] * values["g"]) ** 2 + sum(one**2 for one in torques)) / 100
+    wanted = {f"{name}_d": wb.Constant(value=0.0 if name == "psi" else 1.0) for name in names}
+    return wb.Setting(plant, CATCH_S, STEP_S, references=wanted, tracks={name: f"{name}_d" for name in names},
+                      metrics=(wb.Metric("cost", "integral", cost),)), values
+
+
 class DoMpc:
     """do-mpc's controller with the same cost, horizon and limits, its defaults otherwise (collocation, ipopt)."""
 
-    def __init__(self, setting: wb.Setting, values: dict[str, float]) -> None:
+    def __init__(self, setting: wb.Setting, values: dict[str, float], how: wb.PlantMpc) -> None:
         do_mpc: Any = importlib.import_module("do_mpc")
         model = do_mpc.model.Model("continuous", "SX")
-        names = [*map(str, setting.plant.states)]
-        states = [model.set_variable("_x", name) for name in names]
-        force = model.set_variable("_u", "F")
-        rates = setting.plant.to_casadi(values)(0, ca.vertcat(*states), force, ca.DM.zeros(0))
-        for i, name in enumerate(names):
+        plant = setting.plant
+        state = {str(symbol): model.set_variable("_x", str(symbol)) for symbol in plant.states}
+        given = {str(symbol): model.set_variable("_u", str(symbol)) for symbol in plant.inputs}
+        rates = plant.to_casadi(values)(0, ca.vertcat(*state.values()), ca.vertcat(*given.values()), ca.DM.zeros(0))
+        for i, name in enumerate(state):
             model.set_rhs(name, rates[i])
         model.setup()
+        wanted = {name: setting.references[setting.tracks[name]].value for name in how.weights}
+        stage = sum(weight * (state[name] - wanted[name]) ** 2 for name, weight in how.weights.items())
+        effort = sum(weight * (given[name] - how.input_targets.get(name, 0.0)) ** 2
+                     for name, weight in how.input_weights.items())
         mpc = do_mpc.controller.MPC(model)
         mpc.settings.n_horizon, mpc.settings.t_step = HORIZON, PERIOD_S
         mpc.settings.store_full_solution = False
         mpc.settings.supress_ipopt_output()
-        stage = states[0] ** 2 + 10 * states[1] ** 2
-        mpc.set_objective(lterm=stage + 0.01 * force**2, mterm=10 * stage)
-        mpc.set_rterm(F=0.0)
-        mpc.bounds["lower", "_u", "F"], mpc.bounds["upper", "_u", "F"] = -15.0, 15.0
+        mpc.set_objective(lterm=stage + effort, mterm=how.terminal_weight * stage)
+        mpc.set_rterm(**dict.fromkeys(given, 0.0))
+        for symbol, (low, high) in plant.input_limits.items():
+            mpc.bounds["lower", "_u", str(symbol)], mpc.bounds["upper", "_u", str(symbol)] = low, high
         mpc.setup()
         self._mpc, self._first = mpc, True
 
@@ -141,18 +173,27 @@ class DoMpc:
 
 
 def against_do_mpc() -> None:
-    """Closed-loop cost and processor time, both controllers on the same plant."""
-    setting, values = cart_pole()
-    how = wb.PlantMpc(HORIZON, {"x": 1.0, "theta": 10.0}, {"F": 0.01}, terminal_weight=10.0)
-    builds: dict[str, Callable[[Any, float], Any]] = {"workbench": how.build}
+    """Closed-loop cost and processor time of the three controllers on the same plants."""
+    whole = wb.PlantMpc(HORIZON, {"x": 1.0, "theta": 10.0}, {"F": 0.01}, terminal_weight=10.0)
+    _against("cart and pole", *cart_pole(), whole)
+    setting, values = quadrotor()
+    flight = wb.PlantMpc(HORIZON, dict.fromkeys(setting.tracks, 1.0),
+                         {str(one): 0.01 for one in setting.plant.inputs}, terminal_weight=10.0,
+                         input_targets={"f": values["m"] * values["g"]})
+    _against("quadrotor, 12 states", setting, values, flight)
+
+
+def _against(title: str, setting: wb.Setting, values: dict[str, float], how: wb.PlantMpc) -> None:
+    builds: dict[str, Callable[[Any, float], Any]] = {
+        "workbench": how.build, "workbench, one iteration": replace(how, one_iteration=True).build}
     if importlib.util.find_spec("do_mpc") is None:
-        print("cart and pole, do-mpc: left out, not installed (pip install do-mpc)")
+        print(f"{title}, do-mpc: left out, not installed (pip install do-mpc)")
     else:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")
             importlib.import_module("do_mpc")
-        builds["do-mpc"] = lambda given, period: DoMpc(given, values)
-    seconds = {}
+        builds["do-mpc"] = lambda given, period: DoMpc(given, values, how)
+    seconds, costs = {}, {}
     for name, build in builds.items():
         made = build(setting, PERIOD_S)
         taken: list[float] = []
@@ -165,12 +206,13 @@ def against_do_mpc() -> None:
                 return found
 
         found = run(setting, Entrant(name, PERIOD_S, build=lambda given, period, timed=Timed: timed()))
-        seconds[name] = float(np.median(taken))
-        print(f"cart and pole, {name}: closed-loop cost {found.metrics['cost']:.4g}, ends at theta "
-              f"{found.metrics['theta_error_final']:.3g} rad; median {np.median(taken) * 1e3:.2f} ms a sample, largest "
-              f"{max(taken) * 1e3:.1f} ms")
-    if len(seconds) == 2:
-        print(f"cart and pole: do-mpc takes {seconds['do-mpc'] / seconds['workbench']:.1f} times as long a sample")
+        seconds[name], costs[name] = float(np.median(taken)), found.metrics["cost"]
+        ends = ", ".join(f"{output} {found.metrics[f'{output}_error_final']:.1e}" for output in setting.tracks)
+        print(f"{title}, {name}: closed-loop cost {found.metrics['cost']:.4g}, ends off by {ends}; median "
+              f"{np.median(taken) * 1e3:.2f} ms a sample, largest {max(taken) * 1e3:.1f} ms")
+    for name in [name for name in seconds if "do-mpc" in seconds and name != "do-mpc"]:
+        print(f"{title}: do-mpc takes {seconds['do-mpc'] / seconds[name]:.1f} times as long a sample as {name}, whose "
+              f"closed-loop cost is {costs[name] / costs['do-mpc']:.3f} of do-mpc's")
 
 
 if __name__ == "__main__":

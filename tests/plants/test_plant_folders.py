@@ -14,7 +14,7 @@ from workbench.paper.loading import load
 from workbench.paper.new_paper import TEMPLATES, template_files, write_new_paper
 from workbench.paper.plants.sweep import sweep
 
-FILES = ["claims/section_2.py", "laws.py", "paper.py", "plant.py", "study.toml"]
+FILES = ["claims/section_2.py", "gains.py", "laws.py", "paper.py", "plant.py", "study.toml"]
 
 
 @pytest.fixture(scope="module")
@@ -50,6 +50,11 @@ def test_every_verb_takes_it(mine):
     assert len((folder / "mc" / "sweep.csv").read_text().splitlines()) == 1 + 2 * 2
     tuned = run("tune", "mine2026", "--write", "--workers", 1, folder=folder)
     assert tuned.returncode == 0 and "tuned: alpha" in tuned.stdout, tuned.stderr
+    searched = run("gains", "mine2026", "--json", "gains.json", "--workers", 1, folder=folder)
+    assert searched.returncode == 0, searched.stderr
+    effects = json.loads((folder / "gains.json").read_text())["effects"]
+    assert len(effects) == 2 and all(
+        one["failed"] is None and one["root_of_V_left"] < one["root_of_V_left_proved"] < 0.01 for one in effects)
     report = run("report", "mine2026", "--out", "page", "--workers", 1, folder=folder)
     assert report.returncode == 0, report.stderr
     assert "adaptive (tuned)" in (folder / "page" / "report.html").read_text()

@@ -1,0 +1,157 @@
+"""State feedback of any plant: against poles, norms and theory, and every certificate by the checker."""
+
+import math
+from dataclasses import replace
+from fractions import Fraction
+from pathlib import Path
+
+import numpy as np
+import pytest
+import sympy as sp
+from hypothesis import example, given
+from hypothesis import strategies as st
+
+from workbench.errors import InputError
+from workbench.gains.enclosure import enclosed
+from workbench.gains.exact import rational
+from workbench.gains.feedback import attenuating, decaying, proved_decay
+from workbench.gains.linearised import linearised
+from workbench.gains.search import Infeasible
+from workbench.gains.stated import Stated
+from workbench.paper.plants.gains import feedback_search
+from workbench.proof.checker import check
+from workbench.systems.plant import Parameter, Plant
+
+theta, omega, u, w = sp.symbols("theta omega u w", real=True)
+g, b = sp.symbols("g b", positive=True)
+PENDULUM = Plant("pendulum", (theta, omega), (omega, -g * sp.sin(theta) - b * omega + u), (u,),
+                 parameters=(Parameter(g, 9.81), Parameter(b, 0.5, known=(0.2, 0.8))))
+UP = {"theta": sp.pi}
+
+
+def numbers(matrix):
+    return np.array(matrix.tolist(), dtype=float)
+
+
+def test_a_pendulum_held_up_decays_for_every_friction_that_may_be():
+    plants = linearised(PENDULUM, UP)
+    assert len(plants.extremes) == 2
+    assert {A[1, 1] for A, _ in plants.extremes} == {sp.Rational(-1, 5), sp.Rational(-4, 5)}
+    found = decaying("mine:hold", plants, Fraction(2), {"theta": Fraction(1, 10), "omega": Fraction(1, 10)})
+    check(found.found.certificate)
+    K = numbers(found.K)
+    P = numbers(sp.Matrix(2, 2, [found.found.values[sp.Symbol(f"P_{i}_{j}", real=True)]
+                                 for i, j in ((1, 1), (1, 2), (1, 2), (2, 2))]))
+    for A, B in plants.extremes:
+        assert np.linalg.eigvals(numbers(A) + numbers(B) @ K).real.max() <= -2 + 1e-6
+    # From every state of the ellipsoid x^T P^-1 x <= 1 the command is at most its bound.
+    assert math.sqrt((K @ P @ K.T).item()) <= found.bound + 1e-9
+    assert np.linalg.eigvalsh(P).min() >= 0.01 - 1e-9
+    scaled = decaying("mine:hold", plants, Fraction(2), {"theta": Fraction(1, 10), "omega": Fraction(1, 10)},
+                      {"u": Fraction(10)})
+    assert scaled.bound == pytest.approx(found.bound / 10, rel=1e-3)
+    stated = proved_decay("mine:stated", plants, [[Fraction(-40), Fraction(-8)]], Fraction(2))
+    check(stated.certificate)
+    with pytest.raises(Infeasible):
+        proved_decay("mine:slow", plants, [[Fraction(-40), Fraction(-8)]], Fraction(8))
+
+
+def test_the_least_gain_of_one_plant_is_that_of_theory():
+    """x' = -x + u + w, z = (x, u): with u = K x the gain is that at rest, sqrt(1 + K^2) / (1 - K), least at K = -1."""
+    x = sp.Symbol("x", real=True)
+    plant = Plant("lag", (x,), (u - x,), (u,))
+    found = attenuating("mine:gain", linearised(plant), sp.Matrix([[1]]), sp.Matrix([1, 0]), sp.Matrix([0, 1]))
+    check(found.found.certificate)
+    assert math.sqrt(0.5) <= found.bound < 1.01 * math.sqrt(0.5)
+    K = float(found.K[0])
+    assert pytest.approx(-1, abs=0.2) == K and math.sqrt(1 + K**2) / (1 - K) <= found.bound
+
+
+def test_a_train_in_newtons_and_kilograms_is_within_the_solvers_reach():
+    x, v, force = sp.symbols("x v F", real=True)
+    m, c = sp.symbols("m c", positive=True)
+    train = Plant("train", (x, v), (v, force / m - c * v * sp.Abs(v)), (force,),
+                  parameters=(Parameter(m, 8e4, known=(6e4, 1e5)), Parameter(c, 1e-3)))
+    plants = linearised(train)
+    assert plants.extremes[0][0] == sp.Matrix([[0, 1], [0, 0]])  # quadratic drag has no slope at rest
+    assert {B[1] for _, B in plants.extremes} == {sp.Rational(1, 60000), sp.Rational(1, 100000)}
+    found = decaying("mine:train", plants, Fraction(1, 10), {"x": Fraction(10), "v": Fraction(1)})
+    check(found.found.certificate)
+    for A, B in plants.extremes:
+        assert np.linalg.eigvals(numbers(A) + numbers(B) @ numbers(found.K)).real.max() <= -0.1 + 1e-6
+
+
+LEAN = sp.symbols("x", real=True)
+
+
+@given(st.floats(-2, 2), st.floats(0, 1), st.floats(0, 1))
+@example(0.0, 1.0, 0.0)
+def test_bounds_hold_all_values(low, width, share):
+    box = {LEAN: (Fraction(low), Fraction(low) + Fraction(width))}
+    value = Fraction(low) + Fraction(width) * Fraction(share)
+    for expr in (LEAN**2 - 3 * LEAN / 7, LEAN**3 * sp.sin(LEAN), sp.exp(-LEAN) / (LEAN**2 + 1), sp.sqrt(LEAN + 3),
+                 sp.pi * sp.cos(5 * LEAN), sp.log(LEAN + 3) - 0.1 * LEAN, 1 / sp.sqrt(LEAN + 3)):
+        lower, upper = enclosed(expr, box)
+        exact = expr.xreplace({LEAN: rational(value)}).evalf(40)
+        assert rational(lower) - sp.Rational(1, 10**15) <= exact <= rational(upper) + sp.Rational(1, 10**15)
+
+
+@pytest.mark.parametrize(("expr", "words"), [(1 / LEAN, "denominator"), (sp.log(LEAN), "finite|log|defined"),
+                                             (sp.sqrt(LEAN), "not defined"), (sp.tanh(LEAN), "tanh are not known"),
+                                             (sp.tan(2 * LEAN), "no finite bounds")])
+def test_what_has_no_bounds_is_said(expr, words):
+    with pytest.raises(ValueError, match=words):
+        enclosed(expr, {LEAN: (Fraction(-1), Fraction(1))})
+
+
+def test_simple_bounds_stay_simple():
+    assert enclosed(-b * g + 1, {b: (Fraction(1, 5), Fraction(4, 5)), g: (Fraction(2), Fraction(2))}) == (
+        Fraction(-3, 5), Fraction(3, 5))
+    assert enclosed(sp.Float(0.1), {}) == (Fraction(1, 10), Fraction(1, 10))
+
+
+@pytest.mark.parametrize(("at", "words"), [({"theta": 1.0}, "give an equilibrium"),
+                                           ({"phi": 1.0}, "no state and no input")])
+def test_what_cannot_be_linearised_is_one_line(at, words):
+    with pytest.raises(InputError, match=words):
+        linearised(PENDULUM, at)
+
+
+def test_a_point_at_rest_for_some_parameters_alone_is_refused():
+    lift = Plant("lift", (omega,), (u * b - g,), (u,),
+                 parameters=(Parameter(g, 10.0), Parameter(b, 1.0, known=(0.5, 2))))
+    with pytest.raises(InputError, match="for all values of the parameters"):
+        linearised(lift, {"u": 10})
+
+
+@pytest.mark.parametrize("friction", [sp.Abs(omega), sp.Max(0, omega), sp.Piecewise((omega, omega > 0), (0, True))])
+def test_a_kink_has_no_linearisation(friction):
+    with pytest.raises(InputError, match="kink"):
+        linearised(Plant("rough", (omega,), (u - friction,), (u,)))
+
+
+def test_a_plant_that_decays_alone_is_told_so():
+    with pytest.raises(InputError, match="without feedback"):
+        decaying("mine:calm", linearised(Plant("lag", (omega,), (u - omega,), (u,))), Fraction(1, 2),
+                 {"omega": Fraction(1)})
+
+
+@pytest.mark.parametrize(("changes", "words"), [
+    ({"rate": "fast"}, "'fast' is no decimal"), ({"rate": "-1"}, "not positive"),
+    ({"radius": {"theta": "0.1"}}, "radius.omega.*is missing"),
+    ({"radius": {"theta": "0.1", "omega": "1", "phi": "1"}}, "radius.phi.*is no state"),
+    ({"plant": replace(PENDULUM, outputs={theta: theta})}, "feeds back all states"),
+    ({"plant": replace(PENDULUM, input_limits={u: (0.0, 1.0)})}, "at or beyond its limits")])
+def test_what_a_folder_states_wrongly_is_one_line(changes, words):
+    search = feedback_search(**{"paper": "mine", "plant": PENDULUM, "rate": "2", "at": UP,
+                                "radius": {"theta": "0.1", "omega": "0.1"}, **changes})
+    with pytest.raises(InputError, match=words):
+        search.report(Stated(Path("study.toml"), {}))
+
+
+def test_limits_that_the_proof_does_not_keep_are_told():
+    stated = Stated(Path("study.toml"), {})
+    for limit, told in ((50.0, False), (1.0, True)):
+        plant = replace(PENDULUM, input_limits={u: (-limit, limit)})
+        notes = feedback_search("mine", plant, "2", {"theta": "0.1", "omega": "0.1"}, UP).report(stated).notes
+        assert any("saturates" in note for note in notes) == told

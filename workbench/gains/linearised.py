@@ -1,0 +1,93 @@
+"""The linear plants that the linearisation of a plant at a point of rest may be: a polytope over known intervals."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from fractions import Fraction
+from itertools import product
+from typing import Any
+
+import sympy as sp
+
+from workbench.errors import InputError
+from workbench.gains.enclosure import Interval, enclosed, stated_number
+from workbench.gains.exact import rational
+from workbench.systems.plant import Plant
+
+MOST_UNCERTAIN = 6  # entries that differ among the plants; each doubles the number of extreme plants
+AT_REST = Fraction(1, 10**6)  # what a rate is at most at a point of rest that is given by decimals
+
+
+@dataclass(frozen=True)
+class LinearPlants:
+    """x' = A x + B u, every (A, B) between the extreme pairs: exact matrices; states and inputs as the plant's are."""
+
+    states: tuple[str, ...]
+    inputs: tuple[str, ...]
+    extremes: tuple[tuple[sp.Matrix, sp.Matrix], ...]
+
+
+def linearised(plant: Plant, at: Mapping[str, Any] | None = None) -> LinearPlants:
+    """The hull of the linearisations at a point, parameters in their known intervals or at their values.
+
+    at: states and inputs by name, zero where none is given; disturbances are zero. Each uncertain entry is bounded by
+    itself, so that the hull may hold more plants than there are. Raises InputError where the point is no equilibrium
+    for some of the parameters, an entry has a kink there or no finite bounds, or too many entries differ.
+    """
+    symbols = {str(symbol): symbol for symbol in (*plant.states, *plant.inputs)}
+    for name in at or {}:
+        if name not in symbols:
+            raise InputError(plant.id, name, f"is no state and no input: name one of {', '.join(symbols)}")
+    point: dict[sp.Basic, sp.Expr] = {symbol: _number((at or {}).get(name, 0)) for name, symbol in symbols.items()}
+    point |= {symbol: sp.Integer(0) for symbol in plant.disturbances}
+    box: dict[sp.Symbol, Interval] = {}
+    for one in plant.parameters:
+        if one.known is None:
+            point[one.symbol] = rational(stated_number(one.value))
+        else:
+            box[one.symbol] = (stated_number(one.known[0]), stated_number(one.known[1]))
+    for state, rate in plant.flow.items():
+        low, high = _bounds(plant, rate, point, box)
+        if not -AT_REST <= low <= high <= AT_REST:
+            raise InputError(plant.id, str(state), f"moves by {float(low):.3g} to {float(high):.3g} at that point: "
+                             "give an equilibrium for all values of the parameters, its inputs too")
+    rates = sp.Matrix(plant.rates)
+    parts = [rates.jacobian(plant.states), rates.jacobian(plant.inputs)] if plant.inputs else []
+    if not parts:
+        raise InputError(plant.id, "inputs", "there is none: a feedback needs at least one")
+    entries = [[_bounds(plant, entry, point, box) for entry in part] for part in parts]
+    wide = [(k, i) for k, part in enumerate(entries) for i, (low, high) in enumerate(part) if low < high]
+    if len(wide) > MOST_UNCERTAIN:
+        raise InputError(plant.id, "", f"{len(wide)} entries of its linearisation are uncertain, more than "
+                         f"{MOST_UNCERTAIN}: say of fewer parameters that they are known in an interval only")
+    extremes = []
+    for sides in product((0, 1), repeat=len(wide)):
+        side = dict(zip(wide, sides, strict=True))
+        A, B = (sp.Matrix(part.rows, part.cols, [rational(pair[side.get((k, i), 0)])
+                                                 for i, pair in enumerate(entries[k])]) for k, part in enumerate(parts))
+        extremes.append((A, B))
+    return LinearPlants(tuple(map(str, plant.states)), tuple(map(str, plant.inputs)), tuple(extremes))
+
+
+def _number(value: Any) -> sp.Expr:
+    return rational(stated_number(value)) if isinstance(value, float) else sp.sympify(value, strict=True)
+
+
+def _bounds(plant: Plant, entry: sp.Expr, point: Mapping[sp.Basic, sp.Expr],
+            box: Mapping[sp.Symbol, Interval]) -> Interval:
+    """Bounds of an expression at the point, none where it has no derivative there."""
+    jumps = {one: sp.Dummy() for one in entry.atoms(sp.sign, sp.Heaviside, sp.DiracDelta)
+             if one.args[0].xreplace(point) == 0}
+    borders = {one: sp.Dummy() for one in entry.atoms(sp.Piecewise)
+               if any(side.lhs.xreplace(point) == side.rhs.xreplace(point) for _, when in one.args
+                      for side in when.atoms(sp.core.relational.Relational))}
+    kinks = {**jumps, **borders}
+    here = entry.xreplace(kinks).xreplace(point)
+    if here.free_symbols & set(kinks.values()):
+        raise InputError(plant.id, "", f"has a kink at that point, in {entry}: linearise it elsewhere")
+    try:
+        return enclosed(here, box)
+    except ValueError as trouble:
+        raise InputError(plant.id, "", f"{entry} has no bounds at that point for the parameters' known intervals "
+                         f"({trouble}): narrow these") from None

@@ -1,0 +1,131 @@
+"""The search of gains for a folder's plant: a state feedback at a point of rest, proved, then run on the plant."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from fractions import Fraction
+from math import exp, isfinite, sqrt
+from typing import Any
+
+import numpy as np
+import sympy as sp
+
+from workbench.errors import InputError
+from workbench.gains.enclosure import stated_number
+from workbench.gains.exact import fraction
+from workbench.gains.feedback import decaying
+from workbench.gains.linearised import linearised
+from workbench.gains.result import GainReport, GainSet, Quantity
+from workbench.gains.stated import Stated
+from workbench.paper.gain_search import GainSearch, Row, Task
+from workbench.paper.loading import Loaded
+from workbench.simulate.plants.run import Entrant
+from workbench.simulate.plants.run import run as run_plant
+from workbench.systems.law import StateLaw
+from workbench.systems.plant import Plant
+from workbench.systems.setting import Setting
+
+SAMPLES, LENGTHS = 2000, 5  # of a run; how many of the proved time constants it takes
+
+
+def feedback_search(paper: str, plant: Plant, rate: str, radius: Mapping[str, str],
+                    at: Mapping[str, Any] | None = None) -> GainSearch:
+    """The least feedback that is proved to decay by `rate` (1/s) from all states within `radius` of a point of rest.
+
+    rate and radius: decimals as text, a radius for each state; at: states and inputs of the point by name, zero where
+    none is given. Proved for every linearisation that the parameters' known intervals allow; the runs are of the plant
+    itself, from the border of these radii, with all uncertain parameters at their least, then at their largest. The
+    search raises InputError for what it cannot take.
+    """
+    name, point = f"{paper}:feedback", dict(at or {})
+
+    def report(stated: Stated) -> GainReport:
+        _check_measured(plant)
+        decay, radii = _positive(plant, "rate", rate), _radii(plant, radius)
+        plants = linearised(plant, point)
+        room = _room(plant, point)
+        found = decaying(name, plants, decay, radii, room)
+        bounds = ", ".join(f"{u} within {found.bound * float(room.get(u, 1)):.3g}" for u in plants.inputs)
+        values = {f"K_{u}_{x}": fraction(found.K[i, j]) for i, u in enumerate(plants.inputs)
+                  for j, x in enumerate(plants.states)}
+        beyond = [u for u in room if found.bound > 1]
+        return GainReport(
+            paper, (), (Quantity("decay rate of the feedback", "1/s", None, float(decay), name,
+                                 note=f"for {len(plants.extremes)} extreme plants; from the stated radii {bounds} of "
+                                      "that at rest"),),
+            (GainSet("feedback", "least command among those that decay so fast", values,
+                     f"decay {float(decay):.3g} 1/s for every linear plant", name),), (found.found.certificate,),
+            ("What is proved is of the plant linearised at the point, without limits; the runs are of the plant "
+             "itself.",
+             *(f"The limits of {u} are less than its bound: where it saturates, nothing is proved." for u in beyond)),
+            {name: found.found.seconds})
+
+    def tasks(found: GainReport) -> list[Task]:
+        box = {str(one.symbol): one.known for one in plant.parameters if one.known}
+        ends = [{key: pair[side] for key, pair in box.items()} for side in (0, 1)] if box else [{}]
+        values = {"K": {key: float(k) for key, k in found.found[0].values.items()}, "P": _function(found)}
+        return [Task("feedback", ", ".join(f"{key} = {value:g}" for key, value in end.items()) or "as stated",
+                     values={**values, "parameters": end}) for end in ends]
+
+    def run(loaded: Loaded, task: Task) -> tuple[Row, str | None]:
+        duration, radii = LENGTHS / float(Fraction(rate)), _radii(plant, radius)
+        K = {key: sp.Symbol(key, real=True) for key in task.values["K"]}
+        law = StateLaw(name, {u: _at(point, u) + sum((K[f"K_{u}_{x}"] * (x - _at(point, x)) for x in plant.states),
+                                                     sp.Integer(0)) for u in plant.inputs}, parameters=[*K.values()])
+        start = {str(x): float(_at(point, x)) + float(radii[str(x)]) / sqrt(len(radii)) for x in plant.states}
+        step = duration / SAMPLES
+        done = run_plant(Setting(plant, duration, step, initial=start, parameters=task.values["parameters"]),
+                         Entrant("feedback", step, law, task.values["K"]))
+        off = np.array([done.column(str(x))[[0, -1]] - float(_at(point, x)) for x in plant.states])
+        first, last = np.diag(off.T @ np.linalg.solve(np.array(task.values["P"]), off))
+        largest = {f"{u}_largest": float(abs(done.column(str(u))).max()) for u in plant.inputs}
+        return {"root_of_V_left": sqrt(last / first), "root_of_V_left_proved": exp(-LENGTHS), **largest}, done.failed
+
+    return GainSearch(report, tasks, run)
+
+
+def _function(found: GainReport) -> list[list[float]]:
+    """P of V = x^T P^-1 x, as it stands in the certificate."""
+    values = found.certificates[0]["values"]
+    n = max(int(name.split("_")[1]) for name in values if name.startswith("P_"))
+    return [[float(Fraction(values[f"P_{min(i, j)}_{max(i, j)}"])) for j in range(1, n + 1)] for i in range(1, n + 1)]
+
+
+def _at(point: Mapping[str, Any], symbol: sp.Symbol) -> sp.Expr:
+    return sp.sympify(point.get(str(symbol), 0), strict=True)
+
+
+def _room(plant: Plant, point: Mapping[str, Any]) -> dict[str, Fraction]:
+    """How far each limited input may move to both sides of where it is at rest."""
+    found = {}
+    for u, (low, high) in plant.input_limits.items():
+        rest = float(_at(point, u))
+        if not low < rest < high:
+            raise InputError(plant.id, str(u), f"= {rest:g} is at or beyond its limits: give a point within them")
+        if isfinite(room := min(rest - low, high - rest)):
+            found[str(u)] = stated_number(room)
+    return found
+
+
+def _positive(plant: Plant, key: str, written: str) -> Fraction:
+    try:
+        value = Fraction(written)
+    except (TypeError, ValueError, ZeroDivisionError):
+        raise InputError(plant.id, key, f"{written!r} is no decimal as text: write one such as '0.5'") from None
+    if value <= 0:
+        raise InputError(plant.id, key, f"{written} is not positive: give a positive number")
+    return value
+
+
+def _radii(plant: Plant, radius: Mapping[str, str]) -> dict[str, Fraction]:
+    names = [str(state) for state in plant.states]
+    for name in {*names} ^ {*radius}:
+        raise InputError(plant.id, f"radius.{name}", "is missing: give one for each state" if name in names else
+                         f"is no state: name {', '.join(names)}")
+    return {name: _positive(plant, f"radius.{name}", radius[name]) for name in names}
+
+
+def _check_measured(plant: Plant) -> None:
+    for state in plant.states:
+        if plant.outputs.get(state) != state:
+            raise InputError(plant.id, str(state), "is not among the outputs: what is searched feeds back all states")
