@@ -117,6 +117,14 @@ def test_what_cannot_be_linearised_is_one_line(at, words):
         linearised(PENDULUM, at)
 
 
+def test_more_uncertain_entries_than_can_be_taken_are_refused():
+    names, known = sp.symbols("c_1:8", positive=True), sp.symbols("y_1:8", real=True)
+    chain = Plant("chain", known, [-c * y + u for c, y in zip(names, known, strict=True)], (u,),
+                  parameters=[Parameter(c, 1.0, known=(0.5, 2.0)) for c in names])
+    with pytest.raises(InputError, match="7 entries of its linearisation are uncertain"):
+        linearised(chain)
+
+
 def test_a_point_at_rest_for_some_parameters_alone_is_refused():
     lift = Plant("lift", (omega,), (u * b - g,), (u,),
                  parameters=(Parameter(g, 10.0), Parameter(b, 1.0, known=(0.5, 2))))

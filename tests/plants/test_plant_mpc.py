@@ -1,6 +1,7 @@
 """MPC of any plant: against the linear optimum, a second solver, its limits, and what it refuses."""
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -152,6 +153,19 @@ def test_one_iteration_is_the_optimum_of_a_linear_plant_and_close_to_it_on_a_pen
                       for single in (True, False))
         assert one.failed is None and one.fallbacks == 0
         assert np.max(np.abs(one.log[:, 1] - whole.log[:, 1])) < tolerance
+
+
+def test_one_iteration_starts_from_a_plan_where_no_input_means_no_steering():
+    """A craft whose tilt does nothing without thrust: the first plan is iterated, since at rest its slope is zero."""
+    theta, f, w = sp.symbols("theta f w", real=True)
+    craft = Plant("craft", (x, v, theta), (v, f * sp.sin(theta) - v / 5, w), (f, w),
+                  input_limits={f: (0.0, 5.0), w: (-3.0, 3.0)})
+    setting = Setting(craft, 1.0, step_s=0.01, initial={"x": -1.0}, **AT_REST)
+    how = PlantMpc(15, {"x": 1.0}, {"f": 0.01, "w": 0.01}, terminal_weight=10.0, input_targets={"f": 2.0})
+    first = [replace(how, one_iteration=single).build(setting, 0.1).command(0.0, np.array([-1.0, 0.0, 0.0]))
+             for single in (True, False)]
+    assert abs(first[1][1]) > 0.5
+    np.testing.assert_allclose(first[0], first[1], atol=0.02)
 
 
 def test_economic_mpc_trades_by_its_price_within_limits_and_beats_tracking_on_its_own_metric():

@@ -20,6 +20,7 @@ from workbench.systems.setting import Setting, limits_of
 from workbench.systems.signals import signals_at
 
 Array = NDArray[np.float64]
+FIRST_ITERATIONS = 10  # of the first sample of an MPC of one iteration, which has no plan to go on from
 
 
 @dataclass(frozen=True)
@@ -64,21 +65,31 @@ class TrackingMpc:
         if self._predicted is not None:
             self.disturbance += self._how.disturbance_gain * (x - self._predicted)
         start = np.concatenate([x, self._before])
-        guess = self._shifted(start)
-        more = {} if self._multipliers is None else dict(zip(("lam_x0", "lam_g0"), self._multipliers, strict=True))
-        solve = self._program.solve
-        found = solve(x0=guess, p=self._given(t, start), **self._program.bounds, **more)
-        plan = np.asarray(found["x"]).ravel()
-        usable = np.isfinite(plan).all() and self._answered(solve.stats())
+        cold, guess = self._plan is None, self._shifted(start)
+        given = self._given(t, start)
+        usable = self._solved(guess, given)
         if not usable:
             self.fallbacks += 1
-        self._plan = plan if usable else guess
-        self._multipliers = (found["lam_x"], found["lam_g"]) if usable else None
+        elif cold and self._how.one_iteration:
+            # A state at rest without inputs is no plan to go on from: a quadrotor without thrust cannot be steered.
+            for _ in range(FIRST_ITERATIONS - 1):
+                self._solved(np.asarray(self._plan), given)
         u = self._plan[n + m:n + 2 * m].copy()
         self._before = np.clip(u, *limits_of(self._setting))
         if self._how.disturbance_gain:
             self._predicted = np.asarray(self._program.step(x, self._before)).ravel() + self.disturbance
         return u
+
+    def _solved(self, guess: Array, given: Array) -> bool:
+        """Whether the solver gave a plan from a guess; the guess stays the plan where it did not."""
+        more = {} if self._multipliers is None else dict(zip(("lam_x0", "lam_g0"), self._multipliers, strict=True))
+        solve = self._program.solve
+        found = solve(x0=guess, p=given, **self._program.bounds, **more)
+        plan = np.asarray(found["x"]).ravel()
+        usable = bool(np.isfinite(plan).all()) and self._answered(solve.stats())
+        self._plan = plan if usable else guess
+        self._multipliers = (found["lam_x"], found["lam_g"]) if usable else None
+        return usable
 
     def _answered(self, told: Mapping[str, Any]) -> bool:
         """Whether the solver is at its end; after one iteration it says that it has had no more."""

@@ -23,7 +23,7 @@ class PlantMpcValues:
     rate_limits: of an input, per second; excess_price: of a limited state's excess, per unit and per unit squared;
     disturbance_gain: of the filter that makes constant errors vanish, at most 1, none where 0; substeps: Runge-Kutta
     steps a sample. solver: fatrop, or ipopt, which knows no structure; both to convergence. one_iteration: one
-    quadratic program a sample, along the last plan, instead.
+    quadratic program a sample, along the last plan, instead, and some at the first one.
     """
 
     horizon: int
