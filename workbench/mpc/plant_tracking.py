@@ -74,6 +74,7 @@ class TrackingMpc:
             # A state at rest without inputs is no plan to go on from: a quadrotor without thrust cannot be steered.
             for _ in range(FIRST_ITERATIONS - 1):
                 self._solved(np.asarray(self._plan), given)
+        assert self._plan is not None
         u = self._plan[n + m:n + 2 * m].copy()
         self._before = np.clip(u, *limits_of(self._setting))
         if self._how.disturbance_gain:
