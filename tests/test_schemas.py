@@ -16,7 +16,7 @@ ROOT = Path(__file__).resolve().parent.parent
 TABLES = sorted([*ROOT.glob("proofs/*/*.toml"), *ROOT.glob("benchmarks/**/*.toml")])
 # A key that stands in no other kind of file.
 TELLING = {"controllers": "scenario", "grade": "line", "davis_a_mps2": "train", "trips": "fleet", "point": "timetable",
-           "trip_time_s": "reference-rule"}
+           "trip_time_s": "reference-rule", "found": "front"}
 # Files of TTOBench, which that project describes.
 ELSEWHERE = {"TrackFile", "Journey", "_TrainBlock", "_TrackBlock"}
 

@@ -43,6 +43,7 @@ FORMATS = tuple(Format(*row) for row in (
     ("rows", "rows.toml of a paper that was made from its LaTeX source", "reads", "proof.latex.rows", "RowsFile"),
     ("letters", "symbols.toml of a paper that was made from its LaTeX source", "reads",
      "proof.latex.rows", "LettersFile"),
+    ("front", "front.toml, the gains that `gains --search --write` found", "reads", "paper.gain_front", "FrontRecord"),
     ("claims", "what `prove --json` and `show --json` write", "writes", "proof.document_format", "ClaimsDocument"),
     ("answer", "what `check --json` writes", "writes", "proof.document_format", "AnswerDocument"),
     ("changes", "what `diff --json` writes", "writes", "report.document_format", "ChangesDocument"),
