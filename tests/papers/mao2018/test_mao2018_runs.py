@@ -33,7 +33,7 @@ def two_hundred_times_faster(**law):
     data["horizon"] |= {"end_s": 10.0, "log_every_s": 0.01, "settled_window_s": 0.1}
     data["sampling"]["end_s"] = 3.5
     data["law"] |= law
-    data["sensitivity"] = []
+    data["changes"] = []
     return validate_record(data, MaoStudy, "fast")
 
 
