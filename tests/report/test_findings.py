@@ -108,6 +108,7 @@ def test_places_are_named_as_a_reader_names_them(equation, place):
 
 def test_places_of_one_kind_stand_together():
     assert places_of(["theorem2", "41", "theorem3", "41.a", "44"]) == ["Theorems 2 and 3", "equations (41) and (44)"]
+    assert places_of(["41", "41.a", "gamma.b"], parts=True) == ["equations (41) and (41) [a]", "Gamma [b]"]
 
 
 @pytest.mark.parametrize(("text", "shown"), [

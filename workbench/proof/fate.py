@@ -74,5 +74,5 @@ def _place(claim_id: str) -> str:
 
 
 def _named(claim_ids: Sequence[str]) -> str:
-    """Lines as a reader calls them, `equation (4) and Theorem 1`."""
-    return listed(places_of([name.partition(":")[2] for name in claim_ids]))
+    """Lines as a reader calls them, `equation (4) and Theorem 1`, with their parts: one may fail and another hold."""
+    return listed(places_of([name.partition(":")[2] for name in claim_ids], parts=True))

@@ -38,12 +38,13 @@ def _part(suffix: str) -> str:
     return suffix if re.fullmatch(r"(\.\d+)+", suffix) else f" [{suffix[1:]}]"
 
 
-def places_of(equations: Sequence[str]) -> list[str]:
-    """The names of several lines without their parts, those of one kind together: `Theorems 2, 3 and 4`,
-    `equations (41) and (44)`."""
+def places_of(equations: Sequence[str], parts: bool = False) -> list[str]:
+    """The names of several lines, those of one kind together: `Theorems 2, 3 and 4`, `equations (41) and (44)`; with
+    what tells their parts apart where it is asked for, `equations (41) [rate] and (44)`."""
     groups: dict[str, list[str]] = {}
     for equation in equations:
-        kind, _, number = place_of(equation).partition(" [")[0].partition(" ")
+        place = place_of(equation)
+        kind, _, number = (place if parts else place.partition(" [")[0]).partition(" ")
         if number not in groups.setdefault(kind, []):
             groups[kind].append(number)
     found = []
