@@ -242,7 +242,7 @@ def report(stated: Stated) -> GainReport:
                  f"|e_1| <= {float(reach):.3g} m, |e_1'| <= {float(fast + gains[law.alpha] * reach):.3g} m/s, t >= 0",
                  "yang2021:bounds.found", {f"{CONTROLLER}.parameters.{s}": float(gains[s]) for s in GAINS}),),
         tuple(certificates), (
-            f"The bounds take W* = 0 and eps* = f* = {float(f_star):g} m/s^2, which holds on the whole line of "
+            f"The bounds take W* = 0 and eps* = f* = {float(f_star):g} m/s², which holds on the whole line of "
             "Table 1 (claim A2) without the approximation property; an added disturbance must fit into f*.",
             "The sampling period is that of the loop linearised at cruise speed, its entries rounded to 1e-12; near "
             "the barrier the loop is stiffer.",

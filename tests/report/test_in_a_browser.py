@@ -138,6 +138,7 @@ def test_plots_zoom_tell_values_and_have_their_table_and_file(view):
     view.mouse.up()
     view.wait_for_function(f"{span}[1] - {span}[0] < {0.5 * (before[1] - before[0])}")
     figure.locator("summary").click()
+    figure.locator("tbody tr").first.wait_for()  # the table is filled once it is opened
     assert figure.locator("tbody tr").count() > 20
     assert (figure.locator("thead").inner_text()).split("\t")[-1].strip() == "value"
     file = figure.locator("a").get_attribute("href")
