@@ -11,13 +11,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from workbench.compile.kernel import law_source
-from workbench.compile.vector_code import into_array, smallest
 from workbench.errors import InputError
-from workbench.model.law import ControlLaw, period, time
+from workbench.model.law import ControlLaw
 from workbench.paper.loading import Loaded
 from workbench.paper.plants.problem import LocatedPlantStudy
 from workbench.simulate.controllers import compiled_law
 from workbench.simulate.law_values import controller_spec, law_values
+from workbench.simulate.plants.arrays import law_functions
 from workbench.systems.law import ORDERS, StateLaw
 from workbench.systems.plant import Plant
 from workbench.trains.scenario import Scenario
@@ -126,14 +126,8 @@ def _with_unit(what: str, plant: Plant, symbol: object) -> str:
 
 
 def _plant_code(law: StateLaw, plant: Plant) -> str:
-    arrays = {"y": [*plant.outputs], "s": law.reference_symbols, "q": law.state_symbols, "c": law.parameters}
-    sampled = {"t": time, "T_s": period}
-    commands = [law.commands[symbol] for symbol in plant.inputs]
-    targets = [*(f"q[{i}]" for i in range(len(law.states))), *(f"out[{i}]" for i in range(len(commands)))]
-    return "\n\n".join([
-        into_array("law_step", [*law.next_values, *commands], arrays, sampled, targets),
-        smallest("law_margin", law.domain, arrays, sampled),
-        _OF_PLANTS.format(inputs=len(commands), outputs=len(plant.outputs))])
+    return "\n\n".join([*law_functions(law, plant, law.reference_symbols),
+                        _OF_PLANTS.format(inputs=len(plant.inputs), outputs=len(plant.outputs))])
 
 
 def _identifier(law: str) -> str:

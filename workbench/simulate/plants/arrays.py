@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 from types import ModuleType
 from typing import Any
@@ -18,11 +19,13 @@ from workbench.simulate.plants import plant_loop
 from workbench.simulate.plants.event_code import event_functions
 from workbench.simulate.plants.event_loop import MOST_IN_A_RUN
 from workbench.systems.law import StateLaw
+from workbench.systems.plant import Plant
 from workbench.systems.setting import Setting
 from workbench.systems.signals import table_of
 
 Array = NDArray[np.float64]
 IntArray = NDArray[np.int64]
+SAMPLED = {"t": time, "T_s": period}  # what a law's functions are given before their arrays
 
 
 @dataclass(frozen=True)
@@ -45,7 +48,6 @@ def compiled(setting: Setting, law: StateLaw | None) -> Compiled:
                      if m.measure in ("largest", "smallest"))
     given = {"u": plant.inputs, "s": setting.signal_symbols, "p": plant.parameter_symbols}
     every = {"x": plant.states, **given}
-    sampled = {"t": time, "T_s": period}
     held = {"y": (), "s": (), "q": (), "c": ()}
     source = [
         runge_kutta_step([*plant.rates, *integrands], plant.states, given),
@@ -53,15 +55,21 @@ def compiled(setting: Setting, law: StateLaw | None) -> Compiled:
         smallest("plant_margin", plant.domain, every),
         into_array("extreme_values", extremes, every), *event_functions(plant, every)]
     if law is None:
-        source += [into_array("law_step", [], held, sampled), smallest("law_margin", [], held, sampled)]
+        source += [into_array("law_step", [], held, SAMPLED), smallest("law_margin", [], held, SAMPLED)]
     else:
-        arrays = {"y": [*plant.outputs], "s": setting.signal_symbols, "q": law.state_symbols, "c": law.parameters}
-        commands = [law.commands[symbol] for symbol in plant.inputs]
-        targets = [*(f"q[{i}]" for i in range(len(law.states))), *(f"out[{i}]" for i in range(len(commands)))]
-        source += [into_array("law_step", [*law.next_values, *commands], arrays, sampled, targets),
-                   smallest("law_margin", law.domain, arrays, sampled)]
+        source += law_functions(law, plant, setting.signal_symbols)
     what = f"plant {plant.id}" + (f" and law {law.id}" if law else "")
     return Compiled(loop_module(what, source, plant_loop), integrands, extremes)
+
+
+def law_functions(law: StateLaw, plant: Plant, signals: Sequence[sp.Symbol]) -> list[str]:
+    """Source of law_step(t, T_s, y, s, q, c, out), which moves the states q and puts a command an input of the plant
+    into out, and of law_margin(t, T_s, y, s, q, c), positive in the law's domain; signals: what s holds."""
+    arrays = {"y": [*plant.outputs], "s": signals, "q": law.state_symbols, "c": law.parameters}
+    commands = [law.commands[symbol] for symbol in plant.inputs]
+    targets = [*(f"q[{i}]" for i in range(len(law.states))), *(f"out[{i}]" for i in range(len(commands)))]
+    return [into_array("law_step", [*law.next_values, *commands], arrays, SAMPLED, targets),
+            smallest("law_margin", law.domain, arrays, SAMPLED)]
 
 
 @dataclass
