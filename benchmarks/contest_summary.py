@@ -9,6 +9,7 @@ from __future__ import annotations
 import json
 import sys
 from collections.abc import Iterator
+from itertools import product
 from pathlib import Path
 
 from pydantic import TypeAdapter
@@ -17,7 +18,7 @@ from workbench.cli.loading import load
 from workbench.contest.by_period import at_each_period, period_findings
 from workbench.contest.entrants import information
 from workbench.contest.journal import JOURNAL_NAME
-from workbench.contest.matches import Match, draws_of, entries
+from workbench.contest.matches import Match, entries, rounds
 from workbench.contest.pareto import JOURNAL_NAME as FRONTS_NAME
 from workbench.contest.pareto import Front, front_tables
 from workbench.contest.record import Contest
@@ -37,16 +38,18 @@ def records(path: Path) -> list[dict[str, object]]:
 
 
 def played(folder: Path, contest: Contest) -> Told:
-    """The contest of the conditions of which every match is there."""
+    """The contest of the conditions of which a whole round is there: every match of as many draws as that takes."""
     read = TypeAdapter(Match)
     matches = [read.validate_python(record) for record in records(folder / JOURNAL_NAME)]
-    count, names = {}, {entry.name for entry in entries(contest, contest.world)}
-    for match in matches:
-        count[match.condition] = count.get(match.condition, 0) + (match.entry in names)
-    done = [name for name in contest.conditions if count.get(name) == draws_of(contest, name) * len(names)]
+    names = {entry.name for entry in entries(contest, contest.world)}
+    there = {(match.condition, match.draw, match.entry) for match in matches}
+    draws = {condition: max((count for count in rounds(contest, condition)
+                             if there.issuperset(product([condition], range(count), names))), default=0)
+             for condition in contest.conditions}
+    done = {condition: i for i, condition in enumerate(name for name, count in draws.items() if count)}
     whole = contest.model_copy(update={"conditions": {name: contest.conditions[name] for name in done}})
-    order = {name: i for i, name in enumerate(done)}
-    kept = sorted((match for match in matches if match.condition in order), key=lambda m: (order[m.condition], m.draw))
+    kept = sorted((match for match in matches if match.draw < draws[match.condition] and match.entry in names),
+                  key=lambda match: (done[match.condition], match.draw))
     return Told(whole.with_world(contest.world), contest.world, tuple(kept), None)
 
 
@@ -86,18 +89,18 @@ def page(told: Told, contest: Contest, fronts: list[Front]) -> Iterator[str]:
     yield from (
         "# The common contest, as it was played", "",
         "Written by `benchmarks/contest_summary.py`; every number is from the runs. Behind the actuator of "
-        f"`benchmarks/common_run.toml` unless the condition says otherwise; {told.contest.seeds} draws where anything "
-        f"is drawn. + marks tuned parameters. Intervals are {100 * told.contest.confidence:g} % BCa; ● is the best and "
-        "all who are not told apart from it by Holm's correction over all metrics and conditions of those who sample "
-        "alike. Who learns shows its last trip.", "")
+        "`benchmarks/common_run.toml` unless the condition says otherwise; where anything is drawn, draws are added "
+        "until who tracks best is told apart at each period, or to the most. + marks tuned parameters. Intervals are "
+        f"{100 * told.contest.confidence:g} % BCa; ● is the best and all who are not told apart from it by Holm's "
+        "correction over all metrics and conditions of those who sample alike. Who learns shows its last trip.", "")
     if left:
         yield from (f"Stated in the contest's file and not played here: {', '.join(left)}.", "")
     yield from ("## Headline", "", *(f"- {words}" for words in period_findings(told)), "")
     groups = list(at_each_period(told))
     yield from ("## The best tracker by condition", "")
-    rows = [[stated.title, *(", ".join(own.winners(name, "position_rms")) for _, own in groups)]
+    rows = [[stated.title, str(told.runs(name)), *(", ".join(own.best(name, "position_rms")) for _, own in groups)]
             for name, stated in told.contest.conditions.items()]
-    yield from table(["condition", *(f"every {1e3 * period:g} ms" for period, _ in groups)], rows)
+    yield from table(["condition", "draws", *(f"every {1e3 * period:g} ms" for period, _ in groups)], rows)
     for period, own in groups:
         base = told.contest.tuning.condition
         yield from (f"## Commands every {1e3 * period:g} ms, {told.contest.conditions[base].title}", "")

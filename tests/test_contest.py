@@ -117,6 +117,20 @@ def test_a_race_ends_where_everyone_is_told_apart_and_all_have_the_same_draws(
     assert look(small).confidence == pytest.approx(1 - 0.05 / 3) and looks(small) == 3
 
 
+def test_a_race_is_decided_among_those_who_sample_alike(contest: Contest, scenario: Scenario) -> None:
+    """Nobody is held apart from who commands at another period."""
+    race = Racing(first=16, step=8, metrics=("position_rms",))
+    small = few(contest, "noise", seeds=28).model_copy(update={"racing": race})
+
+    def asked(**levels: float) -> list[str]:
+        return undecided(Told(small, scenario, tuple(
+            played("noise", draw, entry, level + np.random.default_rng([draw, len(entry)]).normal())
+            for draw in range(16) for entry, level in levels.items()), None))
+
+    assert asked(pid=20.0, pocrac=25.0, mpc_linear=20.0) == []
+    assert asked(pid=20.0, pocrac=20.0, mpc_linear=25.0) == ["noise"]
+
+
 def test_entries_whose_runs_agree_are_one_row(contest: Contest, scenario: Scenario) -> None:
     small = few(contest, "ten", seeds=16)
     matches = tuple(played("ten", draw, entry, value + draw) for draw in range(16) for entry, value in (

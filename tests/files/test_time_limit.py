@@ -23,9 +23,10 @@ def test_waiting_is_ended(monkeypatch):
 
 
 def test_a_pause_between_two_computations_is_none(monkeypatch):
-    monkeypatch.setattr(time_limit, "WAITING_S", 0.8)
+    """One of the looks, which come every 1.2 s, finds nothing computed; the next one something."""
+    monkeypatch.setattr(time_limit, "WAITING_S", 2.4)
     with at_most_seconds(60):
-        for _ in range(3):
-            compute(0.2)
-            time.sleep(0.5)  # longer than one look, shorter than two
         compute(0.2)
+        time.sleep(2.28)
+        compute(0.2)
+        time.sleep(1.0)

@@ -185,10 +185,15 @@ def one_match(shared: tuple[Contest, Scenario], task: Task) -> Match:
 Undecided = Callable[[Sequence[Match]], Sequence[str]]
 
 
+def rounds(contest: Contest, condition: str) -> tuple[int, ...]:
+    """After how many draws of a condition a race asks whether it is decided, the last of them all draws there are."""
+    race, most = contest.racing, draws_of(contest, condition)
+    return (*range(race.first, most, race.step), most) if race else (most,)
+
+
 def looks(contest: Contest) -> int:
-    """How often a race may ask whether it is decided; once where there is none."""
-    race = contest.racing
-    return 1 if race is None else 1 + max(0, math.ceil((contest.seeds - race.first) / race.step))
+    """How often a contest may ask whether it is decided; once without a race."""
+    return max(len(rounds(contest, name)) for name in contest.conditions)
 
 
 def all_matches(contest: Contest, scenario: Scenario, workers: int, on_progress: Callable[[int, int, str], None],
@@ -200,9 +205,8 @@ def all_matches(contest: Contest, scenario: Scenario, workers: int, on_progress:
     the draws grow round by round in the conditions that `undecided` names, for all who take part alike, so that what is
     played depends on the matches alone and neither on workers nor on interruptions.
     """
-    race = contest.racing
-    draws = {name: min(draws_of(contest, name), race.first) if race else draws_of(contest, name)
-             for name in contest.conditions}
+    ahead = {name: list(rounds(contest, name)) for name in contest.conditions}
+    draws = {name: coming.pop(0) for name, coming in ahead.items()}
     before = {(match.condition, match.draw, match.entry): match for match in played}
     found: dict[tuple[str, int, str], Match] = {}
     while True:
@@ -219,8 +223,7 @@ def all_matches(contest: Contest, scenario: Scenario, workers: int, on_progress:
         run_tasks(one_match, (contest, scenario), [task for task, place in zip(tasks, places, strict=True)
                                                    if place not in found], workers, record)
         matches = tuple(found[place] for place in places)
-        more = {name: min(contest.seeds, draws[name] + race.step) for name in undecided(matches)
-                if draws[name] < draws_of(contest, name)} if race else {}
+        more = {name: ahead[name].pop(0) for name in undecided(matches) if ahead[name]}
         if not more:
             return matches
         draws |= more

@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from workbench.contest.by_period import period_findings, period_tables
+from workbench.contest.by_period import at_each_period, period_findings, period_tables
 from workbench.contest.energy import best_run
 from workbench.contest.entrants import check_entrants, check_names, entered, follows_curve, learns
 from workbench.contest.journal import contest_digest, matches_journal, matches_of, world_digest
@@ -71,14 +71,15 @@ def located(contest: Contest, path: Path) -> Contest:
 
 
 def undecided(told: Told) -> list[str]:
-    """In a race the conditions in which somebody is not told apart from the best in a metric that decides.
+    """In a race the conditions in which, of those who sample alike, somebody is not told apart from the best.
 
-    Those whose runs agree are one.
+    In a metric that decides; those whose runs agree are one.
     """
-    race, numbers = told.contest.racing, {entry: i for i, entry in enumerate(told.entries)}
-    one = [{numbers[entry] for entry in group} for group in told.alike]
-    return [name for name, condition in told.contest.conditions.items() if race and condition.random and any(
-        not any(group >= set(told.rankings[name, metric].winners) for group in one) for metric in race.metrics)]
+    race = told.contest.racing
+    groups = [own for _, own in at_each_period(told)] or [told]
+    return [name for name, condition in told.contest.conditions.items()
+            if race and condition.random and any(len(own.best(name, metric)) > 1 for own in groups
+                                                 for metric in race.metrics)]
 
 
 def _delays_alike(contest: Contest, scenario: Scenario, path: Path) -> None:
