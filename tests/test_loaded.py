@@ -1,6 +1,8 @@
 """What a path names at the command line becomes one record: a scenario, a study, a contest, or a refusal of a line."""
 
 import dataclasses
+import pickle
+from multiprocessing.reduction import ForkingPickler
 
 import pytest
 from contests import COMMON
@@ -33,6 +35,8 @@ def test_every_shipped_study_and_contest_is_one_record(path):
     assert isinstance(loaded.record, Study) and loaded.study is loaded.record
     assert loaded.kind is not None and isinstance(loaded.record, loaded.kind.record)
     assert loaded.study.folder == path.parent
+    sent = pickle.loads(ForkingPickler.dumps(loaded))  # noqa: S301 - as it is handed to worker processes
+    assert (sent.path, sent.data, sent.record) == (loaded.path, loaded.data, loaded.record)
 
 
 def test_a_study_is_no_scenario_and_a_scenario_no_study(tmp_path):

@@ -29,6 +29,10 @@ class Loaded:
     record: Scenario | Study
     kind: StudyKind | None = None
 
+    def __reduce__(self) -> tuple[Any, ...]:
+        """What goes to a worker process: how a study is run stays here, since it may hold functions without a name."""
+        return Loaded, (self.path, self.data, self.record)
+
     @property
     def scenario(self) -> Scenario:
         """The scenario; InputError for a study."""
