@@ -26,6 +26,7 @@ ORDER = (
     ("compile",),
     ("trains",),
     ("model",),
+    ("tasks",),
     ("files",),
 )
 FLOOR_OF = {room: -floor for floor, rooms in enumerate(ORDER) for room in rooms}

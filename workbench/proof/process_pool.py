@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any, Protocol, TypeVar
 from workbench.errors import WorkbenchError
 from workbench.proof.cache import DecisionCache
 from workbench.proof.messages import Decided, Listing
-from workbench.simulate.process_pool import follow_parent, interruption_held, single_threaded
+from workbench.tasks.processes import follow_parent, interruption_held, single_threaded
 
 if TYPE_CHECKING:
     from workbench.proof.worker import Worker

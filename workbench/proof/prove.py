@@ -19,7 +19,7 @@ from workbench.proof.premises import below, premises_problem
 from workbench.proof.process_pool import worker_pool
 from workbench.proof.selection import NO_PAPER, Target, chosen, files_of
 from workbench.proof.verdict import Decision, Stated
-from workbench.simulate.process_pool import cores
+from workbench.tasks.handing_out import places
 
 Progress = Callable[[int, int], None]
 LIMIT = 60.0  # seconds of processor time for one claim
@@ -61,7 +61,7 @@ def prove(found: Sequence[Target], jobs: int | None = None, use_cache: bool = Tr
     with ExitStack() as stack:
         listings: dict[Path, Listing] = {}
         if missing:
-            workers = stack.enter_context(worker_pool(jobs or cores(), cached, limit))
+            workers = stack.enter_context(worker_pool(places(jobs), cached, limit))
             listings = dict(zip(missing, workers.listings(missing), strict=True))
         stated = {file: listings[file].claims if file in listings else tuple(d.claim for d in entries[file].decisions)
                   for file in files}

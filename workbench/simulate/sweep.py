@@ -19,7 +19,6 @@ from workbench.simulate.controllers import compiled
 from workbench.simulate.draws import Draws, factors_of
 from workbench.simulate.journal import code_digest, laws_digest
 from workbench.simulate.metrics import measure
-from workbench.simulate.process_pool import cores, run_tasks
 from workbench.simulate.row_store import REMEDY, ChunkStore, Part, RowStore
 from workbench.simulate.setting import Setting, setting_of
 from workbench.simulate.stopping import Mean, UntilWidth, looks, metric_of
@@ -34,7 +33,8 @@ from workbench.simulate.sweep_rows import (
     summarised,
     sweep_row,
 )
-from workbench.simulate.versions import versions
+from workbench.tasks.handing_out import places, run_tasks
+from workbench.tasks.versions import versions
 from workbench.trains.scenario import Scenario
 from workbench.trains.track import CurveSection, GradeSection, Track
 
@@ -189,7 +189,7 @@ def _run_missing(shared: Shared, names: Sequence[str], runs: int, asked: Options
 
     if left:
         _compile_kernels(shared[0])
-        workers = min(asked.workers or cores(), left)
+        workers = min(places(asked.workers), left)
         run_tasks(run_part, shared, _parts(gaps, pace, workers), workers, record)
 
 
