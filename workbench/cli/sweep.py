@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 import typer
 
-from workbench.cli.options import PaperOrFile, Workers, load
+from workbench.cli.options import Dask, PaperOrFile, Workers, load, on_cluster
 from workbench.cli.terminal import out_console, progress, result_table, summary_table
 from workbench.errors import InputError
 
@@ -31,7 +31,7 @@ def command(paper: PaperOrFile,
             until_width: Annotated[str | None, typer.Option(
                 metavar="METRIC=WIDTH", help="End before --runs once the 95 % interval of every controller's mean of "
                 "this column is so narrow.")] = None,
-            workers: Workers = None) -> None:
+            workers: Workers = None, dask: Dask = None) -> None:
     """Monte Carlo over the scenario's uncertainty: one row a run, the same bytes for the same seed."""
     from workbench.files.outputs import check_outputs
     from workbench.paper.loading import PLANT
@@ -42,15 +42,17 @@ def command(paper: PaperOrFile,
     until = UntilWidth.parse(until_width) if until_width is not None else None
     loaded = load(paper)
     if sensitivity:
-        _joint(loaded, out, resume, workers)
+        with on_cluster(dask, workers):
+            _joint(loaded, out, resume, workers)
         return
     if loaded.kind is not None and loaded.data.get("kind") == PLANT:
-        _sweep_plant(loaded, out, runs, seed, controller, resume, workers)
+        with on_cluster(dask, workers):
+            _sweep_plant(loaded, out, runs, seed, controller, resume, workers)
         return
     scenario = loaded.scenario
     check_outputs({}, folders={"--out": (out, (CSV_NAME, MANIFEST_NAME, CHUNKS))})
     asked = Options(runs or 100, seed, controller, out, resume, workers, draws, until)
-    with progress() as show:
+    with progress() as show, on_cluster(dask, workers):
         found = monte_carlo(scenario, loaded.path, asked, lambda done, total: show("Monte Carlo", done, total))
     summaries = found.write_csv(out / CSV_NAME)
     out_console.print(summary_table(summaries, found.runs))
