@@ -2,7 +2,8 @@
 
     python benchmarks/faults.py [--kills 20] [--signals 4] [--seed 1] [--job JOB]
 
-A sweep, a contest, a proof and a search for parameters are run whole; then again and again, killed with SIGKILL at
+A sweep (in processes, and on a Dask cluster that it starts), a contest, a proof and a search for parameters are run
+whole; then again and again, killed with SIGKILL at
 instants spread by chance over that time, and resumed. Demanded: the bytes of the whole run, and no process left after
 10 s. Likewise after SIGINT and SIGTERM, which end with 130; a second writer is turned away, and on a small disk (a
 tmpfs, where one can be mounted) each ends with one line and goes on once there is room. Exit code 1 when something
@@ -124,6 +125,10 @@ def jobs(size: int = 1, workers: int = 2) -> dict[str, Job]:
         Job(
             "tune", lambda folder: _study(folder, SEARCH.format(runs=40 * size)), f"{tune} --write",
             f"{tune} --write --resume", lambda folder: (folder / "study.toml").read_bytes(), "tuned",
+        ),
+        Job(
+            "dask", _study, f"{sweep} --dask local", f"{sweep} --resume --dask local",
+            lambda folder: (folder / "mc" / "sweep.csv").read_bytes(), "mc",
         ),
     )
     return {job.name: job for job in made}

@@ -47,7 +47,7 @@ class Child:
         return self.connection.recv_bytes()
 
     def end(self) -> None:
-        """Kill it."""
+        """Kill it, whatever it is doing."""
         self.process.kill()
         self.process.wait()
         self.connection.close()

@@ -20,7 +20,7 @@ from itertools import islice
 from pathlib import Path
 from typing import Any, TypeVar
 
-from workbench.errors import WorkbenchError
+from workbench.errors import InputError, WorkbenchError
 from workbench.files.modules import KnownFolders
 from workbench.files.upload import archive, scratch_folder, temporary_archive
 from workbench.tasks.children import LOST
@@ -30,7 +30,7 @@ from workbench.tasks.serving import ERROR, job_head
 
 LOCAL = "local"
 # How long is waited for a scheduler to answer, for a first worker or another one, and for everything to close.
-ANSWER_S, WORKER_S, CLOSE_S = 10, 60, 5
+ANSWER_S, WORKER_S, CLOSE_S = 8, 60, 5
 LOOK_S = 1.0
 # So many tasks are handed out for each that is run, so that no worker waits for the next one.
 AHEAD = 2
@@ -50,7 +50,7 @@ def cluster(address: str, workers: int | None = None) -> Iterator[DaskCluster]:
         import dask  # noqa: PLC0415 - an extra, which others do without
         from distributed import LocalCluster  # noqa: PLC0415 - as above
     except ImportError:
-        raise WorkbenchError("--dask: Dask is not installed: pip install 'workbench[dask]'") from None
+        raise InputError("", "--dask", "Dask is not installed: pip install 'workbench[dask]'") from None
     _quieten()
     settings = {"distributed.comm.timeouts.connect": f"{ANSWER_S} s", "distributed.comm.retry.count": 0,
                 "distributed.worker.daemon": True}
@@ -86,8 +86,8 @@ def _client(where: Any, name: str) -> Iterator[Any]:
         client = Client(where, timeout=ANSWER_S)
     except (OSError, ValueError, TimeoutError) as trouble:
         why = " ".join(str(trouble).split())
-        raise WorkbenchError(f"--dask: no scheduler answers at {name} ({why[:200]}): check the address, as "
-                             "tcp://host:8786, and that it runs") from None
+        raise InputError("", "--dask", f"no scheduler answers at '{name}' ({why}): check the address, as "
+                         "tcp://host:8786, and that it runs") from None
     try:
         try:
             client.wait_for_workers(1, timeout=WORKER_S)
