@@ -142,7 +142,7 @@ def monte_carlo(scenario: Scenario, scenario_path: Path, asked: Options,
     Raises InputError for unusable options or a folder of another sweep, WorkbenchError when workers die.
     """
     check_controllers(scenario, scenario_path)
-    names = _chosen(scenario, scenario_path, asked.controllers)
+    names = chosen(scenario, scenario_path, asked.controllers)
     seed = scenario.uncertainty.seed if asked.seed is None else asked.seed
     for key, value, least in (("runs", asked.runs, 1), ("seed", seed, 0), ("workers", asked.workers, 1)):
         if value is not None and value < least:
@@ -227,7 +227,8 @@ def inputs_digest(scenario: Scenario) -> str:
     return hashlib.sha256(code_digest(*SIMULATING) + laws_digest(scenario) + text.encode()).hexdigest()[:20]
 
 
-def _chosen(scenario: Scenario, path: Path, controllers: Sequence[str] | None) -> list[str]:
+def chosen(scenario: Scenario, path: Path, controllers: Sequence[str] | None) -> list[str]:
+    """The controllers that were asked for, all unless any; InputError for one that the scenario does not have."""
     names = list(scenario.controllers) if controllers is None else list(dict.fromkeys(controllers))
     for name in names:
         if name not in scenario.controllers:
