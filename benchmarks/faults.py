@@ -2,7 +2,8 @@
 
     python benchmarks/faults.py [--kills 20] [--signals 4] [--seed 1] [--job JOB]
 
-A sweep, a contest, a proof and a search for parameters are run whole; then again and again, killed with SIGKILL at
+A sweep (in processes, and on a Dask cluster that it starts), a contest, a proof and a search for parameters are run
+whole; then again and again, killed with SIGKILL at
 instants spread by chance over that time, and resumed. Demanded: the bytes of the whole run, and no process left after
 10 s. Likewise after SIGINT and SIGTERM, which end with 130; a second writer is turned away, and on a small disk (a
 tmpfs, where one can be mounted) each ends with one line and goes on once there is room. Exit code 1 when something
@@ -85,8 +86,9 @@ def _claims(folder: Path, copies: int) -> None:
         )
 
 
-def _contest_result(folder: Path) -> bytes:
-    document = json.loads((folder / "out.json").read_text(encoding="utf-8"))
+def contest_without_times(path: Path) -> bytes:
+    """The document of a contest without the columns of how long a step took."""
+    document = json.loads(path.read_text(encoding="utf-8"))
     for table in document["tables"]:
         timed = [place for place, heading in enumerate(table["header"]) if "step" in heading or "µs" in heading]
         for row in (*table["rows"], *table["values"]):
@@ -115,13 +117,18 @@ def jobs(size: int = 1, workers: int = 2) -> dict[str, Job]:
             "sweep", _study, sweep, f"{sweep} --resume", lambda folder: (folder / "mc" / "sweep.csv").read_bytes(), "mc"
         ),
         Job(
-            "contest", lambda folder: _contest(folder, 10 * size), contest, f"{contest} --resume", _contest_result,
+            "contest", lambda folder: _contest(folder, 10 * size), contest, f"{contest} --resume",
+            lambda folder: contest_without_times(folder / "out.json"),
             "kept",
         ),
         Job("prove", lambda folder: _claims(folder, 2 * size), prove, prove, _claims_result),
         Job(
             "tune", lambda folder: _study(folder, SEARCH.format(runs=40 * size)), f"{tune} --write",
             f"{tune} --write --resume", lambda folder: (folder / "study.toml").read_bytes(), "tuned",
+        ),
+        Job(
+            "dask", _study, f"{sweep} --dask local", f"{sweep} --resume --dask local",
+            lambda folder: (folder / "mc" / "sweep.csv").read_bytes(), "mc",
         ),
     )
     return {job.name: job for job in made}

@@ -28,7 +28,7 @@ from workbench.errors import ClaimError
 from workbench.files.time_limit import OutOfTime, at_most_seconds
 from workbench.proof.checker import CertificateError, check
 from workbench.proof.decide.obligations import belongs, decide_obligation
-from workbench.simulate.process_pool import single_threaded
+from workbench.tasks.processes import single_threaded
 
 FILE = Path(__file__).parent / "peers" / "ode_invariants.json"
 CONTRARY = {("proved", "sat"), ("refuted", "unsat")}

@@ -20,7 +20,7 @@ import time
 from pathlib import Path
 
 from workbench.files.folders import CERTIFICATES, is_paper, papers_in
-from workbench.simulate.process_pool import cores
+from workbench.tasks.processes import cores
 
 REPEATS_WARM = 5
 

@@ -27,6 +27,7 @@ ORDER = (
     ("compile",),
     ("trains",),
     ("model",),
+    ("tasks",),
     ("files",),
 )
 

@@ -26,6 +26,7 @@ ORDER = (
     ("compile",),
     ("trains",),
     ("model",),
+    ("tasks",),
     ("files",),
 )
 FLOOR_OF = {room: -floor for floor, rooms in enumerate(ORDER) for room in rooms}
@@ -40,8 +41,9 @@ LONGER = {"workbench.proof.checker": 1560, "workbench.optimal.bound_checker": 42
 # Loading a file of Python as a module: the generated kernels, a paper's folder, and the single file of claims that a
 # user names.
 MAY_LOAD_MODULES = {"workbench.compile.code_cache", "workbench.files.modules", "workbench.proof.loading"}
-# numba's compiled code, of this user's own and held against a digest before it is believed.
-MAY_UNPICKLE = {"workbench.compile.code_cache"}
+# numba's compiled code, of this user's own and held against a digest before it is believed; what a process of a cluster
+# is sent and answers.
+MAY_UNPICKLE = {"workbench.compile.code_cache", "workbench.tasks.sent"}
 FORBIDDEN_CALLS = {"eval", "exec", "compile", "__import__", "parse_expr"}
 FORBIDDEN_MODULES = {"pickle", "cPickle", "marshal", "shelve", "dill", "cloudpickle", "joblib"}
 

@@ -10,7 +10,7 @@ from small_folders import small_folder
 
 from workbench.cli.loading import load
 from workbench.simulate import compare as compare_module
-from workbench.simulate.process_pool import LocalProcesses
+from workbench.tasks.processes import LocalProcesses
 
 HEAVY = ("control", "cvxpy", "casadi", "matplotlib", "sympy", "numba", "clarabel", "scipy")
 PAGE = ("jinja2", "plotly", "grandalf", "workbench.report.page", "workbench.contest.matches")

@@ -22,11 +22,11 @@ from workbench.simulate import row_store, stopping
 from workbench.simulate import sweep as sweep_module
 from workbench.simulate.closed_loop import Factors
 from workbench.simulate.draws import draw_factors, factors_of
-from workbench.simulate.process_pool import run_tasks
 from workbench.simulate.row_store import MANIFEST_NAME
 from workbench.simulate.stopping import UntilWidth
 from workbench.simulate.sweep import MonteCarlo, Options, monte_carlo, summarise, sweep
 from workbench.simulate.sweep_rows import SweepRow
+from workbench.tasks.handing_out import run_tasks
 from workbench.trains.scenario import load_scenario
 
 RUNS, SEED = 3, 7

@@ -5,7 +5,7 @@ import time
 
 import pytest
 
-from workbench.simulate.process_pool import results_of
+from workbench.tasks.handing_out import results_of
 
 TASKS = [5, 1, 4, 2]
 

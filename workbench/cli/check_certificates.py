@@ -50,9 +50,9 @@ def _folder(folder: Path, named: list[Path], workers: int | None) -> tuple[list[
     """The rows of a folder, and what its certificates were held against."""
     from workbench.proof.binding import papers_at_hand
     from workbench.proof.checking import check_all
-    from workbench.simulate.process_pool import cores
+    from workbench.tasks.handing_out import places
 
-    rows, bound = check_all(folder, papers_at_hand(folder, named), workers or cores())
+    rows, bound = check_all(folder, papers_at_hand(folder, named), places(workers))
     others = len({path for path, _, _ in rows}) - bound
     whole = f"the goals of their papers' claims: {bound}" if bound else ""
     alone = f"their manifest alone, for no claims are at hand: {others}" if others > 0 else ""

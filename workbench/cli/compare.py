@@ -7,7 +7,7 @@ from typing import Annotated
 
 import typer
 
-from workbench.cli.options import JsonFile, PaperOrFile, Workers, load
+from workbench.cli.options import Dask, JsonFile, PaperOrFile, Workers, load, on_cluster
 from workbench.cli.terminal import metrics_table, out_console, print_failures, print_study, progress
 from workbench.errors import InputError
 
@@ -17,7 +17,7 @@ def command(paper: PaperOrFile, json: JsonFile = None,
             out: Annotated[Path | None, typer.Option(
                 metavar="FOLDER", help="Where a contest keeps its finished runs.")] = None,
             resume: Annotated[bool, typer.Option("--resume", help="Go on with the runs kept in --out.")] = False,
-            workers: Workers = None) -> None:
+            workers: Workers = None, dask: Dask = None) -> None:
     """Run all controllers of a scenario on the same train and line, and compare them; or all runs of a study."""
     loaded = load(paper)  # before what runs is imported: a mistake in the file is said at once
 
@@ -30,7 +30,7 @@ def command(paper: PaperOrFile, json: JsonFile = None,
     if loaded.kind is not None:
         if variants:
             raise InputError("", "--variants", "is for scenarios; a study's file states its own runs: leave it out")
-        with progress() as show:
+        with progress() as show, on_cluster(dask, workers):
             found = run_study(loaded, workers, show, out, resume)
         if json:
             write_json(json, study_document(loaded.study, found))
@@ -38,7 +38,7 @@ def command(paper: PaperOrFile, json: JsonFile = None,
         return
     from workbench.simulate.compare import compare as run_comparison
 
-    with progress() as show:
+    with progress() as show, on_cluster(dask, workers):
         result = run_comparison(loaded.path, loaded.data, loaded.scenario, variants, workers,
                                 lambda done, total, _: show("runs", done, total))
     document = comparison_document(result)

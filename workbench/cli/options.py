@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import os
+from collections.abc import Iterator
+from contextlib import contextmanager
 from difflib import get_close_matches
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
@@ -47,9 +49,27 @@ def _workers(count: int | None) -> int | None:
 
 
 Workers = Annotated[int | None, typer.Option(min=1, callback=_workers, help="Processes; default: one a core.")]
+Dask = Annotated[str | None, typer.Option(
+    "--dask", metavar="ADDRESS", help="Run on the Dask cluster whose scheduler is there; 'local' starts one here.")]
 PaperOrFile = Annotated[str, typer.Argument(
     metavar="PAPER", help="A paper's folder, its name, or the TOML file of a scenario, study or contest")]
 Version = Annotated[bool, typer.Option("--version", callback=_version, is_eager=True, help="Say the version.")]
+
+
+@contextmanager
+def on_cluster(address: str | None, workers: int | None) -> Iterator[None]:
+    """Run what is run in this block on a Dask cluster, where one is named."""
+    if address is None:
+        yield
+        return
+    from workbench.tasks.cluster import LOCAL, cluster
+    from workbench.tasks.executor import on
+
+    if workers is not None and address != LOCAL:
+        raise InputError("", "--workers", "is of processes of this machine, but --dask names a cluster, which has its "
+                         "own: leave it out")
+    with cluster(address, workers) as found, on(found):
+        yield
 
 
 def path_of(argument: str) -> Path:

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from workbench.cli.options import JsonFile, Workers
+from workbench.cli.options import Dask, JsonFile, Workers, on_cluster
 from workbench.cli.terminal import claim_card, err_console, out_console, progress
 from workbench.errors import InputError
 
@@ -32,7 +32,7 @@ def command(paths: Annotated[list[str] | None, typer.Argument(
                 "--quiet", "-q", help="Say nothing but what differs from the record.")] = False,
             verbose: Annotated[bool, typer.Option(
                 "--verbose", "-v", help="Each finding with its printed line and note.")] = False,
-            workers: Workers = None,
+            workers: Workers = None, dask: Dask = None,
             jobs: Annotated[int | None, typer.Option("--jobs", min=1, hidden=True)] = None,
             cache: Annotated[bool, typer.Option(
                 help="Take what has not changed from the cache, and do not search for what the certificates in the "
@@ -57,7 +57,7 @@ def command(paths: Annotated[list[str] | None, typer.Argument(
     found = targets(paths or ["proofs"])
     check_outputs({"--json": json}, [file for target in found for file in target.inputs()])
     check_places([file for target in found for file in target.files], certificates, {"--json": json})
-    with progress() as show:
+    with progress() as show, on_cluster(dask, workers):
         proof = run_prove(found, workers or jobs, cache, lambda done, total: show("claims", done, total), limit)
     single = any(target.pattern is not None for target in found)
     where = places(proof, certificates)

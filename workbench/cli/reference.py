@@ -7,7 +7,7 @@ from typing import Annotated, Literal
 
 import typer
 
-from workbench.cli.options import JsonFile, Workers
+from workbench.cli.options import Dask, JsonFile, Workers, on_cluster
 from workbench.cli.terminal import out_console
 from workbench.errors import InputError
 
@@ -42,7 +42,7 @@ def command(track: Annotated[Path | None, typer.Argument(help="Line: TOML of thi
                 "--etcs", help="Keep below the speeds that ETCS permits; the train must state its braking.")] = False,
             fleet: Annotated[Path | None, typer.Option(
                 metavar="FILE", help="A day's trips (TOML) instead of TRACK and TRAIN; with --json, --csv.")] = None,
-            workers: Workers = None,
+            workers: Workers = None, dask: Dask = None,
             resume: Annotated[bool, typer.Option(
                 "--resume", help="Of --fleet: take the finished trips of --json.")] = False) -> None:
     """The energy-optimal run of a train on a line, a smooth reference, and a proven bound on what could be saved."""
@@ -51,9 +51,12 @@ def command(track: Annotated[Path | None, typer.Argument(help="Line: TOML of thi
             raise InputError("", "--fleet", "names lines, trains and times itself: leave TRACK, TRAIN and times out")
         from workbench.report.fleet_command import FleetRequest, fleet_run
 
-        for line in fleet_run(FleetRequest(fleet, json, csv, workers, resume)):
-            out_console.print(line, soft_wrap=True, highlight=False)
+        with on_cluster(dask, workers):
+            for line in fleet_run(FleetRequest(fleet, json, csv, workers, resume)):
+                out_console.print(line, soft_wrap=True, highlight=False)
         return
+    if dask is not None:
+        raise InputError("", "--dask", "is for the trips of --fleet; one run is computed here: leave it out")
     if track is None or train is None:
         raise InputError("", "TRACK TRAIN", "are missing: name the files of a line and a train, or --fleet FILE")
     from workbench.report.reference_command import reference_run

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from workbench.cli.options import PaperOrFile, Workers, load
+from workbench.cli.options import Dask, PaperOrFile, Workers, load, on_cluster
 from workbench.cli.terminal import (
     metrics_table,
     out_console,
@@ -36,7 +36,7 @@ def command(paper: PaperOrFile,
                 help="Also what is proved of the paper's gains, and better ones.")] = True,
             resume: Annotated[bool, typer.Option(
                 "--resume", help="Go on with the runs of the Monte Carlo, or of a contest, kept in --out.")] = False,
-            workers: Workers = None) -> None:
+            workers: Workers = None, dask: Dask = None) -> None:
     """Check the proof, run and compare the controllers, and put the whole on one page."""
     from workbench.report.build import Asked, build_report, build_study_report
 
@@ -46,11 +46,11 @@ def command(paper: PaperOrFile,
         for option, given in (("--runs", runs), ("--seed", seed)):
             if given is not None:
                 raise InputError("", option, "is for scenarios; a study's file states its own runs: leave it out")
-        with progress() as show:
+        with progress() as show, on_cluster(dask, workers):
             study = build_study_report(asked, show)
         _print_study_report(study)
         return
-    with progress() as show:
+    with progress() as show, on_cluster(dask, workers):
         made = build_report(asked, runs, seed, show)
     _print_report(made)
 

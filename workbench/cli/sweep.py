@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 import typer
 
-from workbench.cli.options import PaperOrFile, Workers, load
+from workbench.cli.options import Dask, PaperOrFile, Workers, load, on_cluster
 from workbench.cli.terminal import out_console, progress, result_table, summary_table
 from workbench.errors import InputError
 
@@ -31,7 +31,10 @@ def command(paper: PaperOrFile,
             until_width: Annotated[str | None, typer.Option(
                 metavar="METRIC=WIDTH", help="End before --runs once the 95 % interval of every controller's mean of "
                 "this column is so narrow.")] = None,
-            workers: Workers = None) -> None:
+            rare: Annotated[str | None, typer.Option(
+                metavar="METRIC>VALUE", help="Instead: how probable that is of a drawn run, however rare."
+                )] = None,
+            workers: Workers = None, dask: Dask = None) -> None:
     """Monte Carlo over the scenario's uncertainty: one row a run, the same bytes for the same seed."""
     from workbench.files.outputs import check_outputs
     from workbench.paper.loading import PLANT
@@ -40,17 +43,25 @@ def command(paper: PaperOrFile,
     from workbench.simulate.sweep import CSV_NAME, Options, monte_carlo
 
     until = UntilWidth.parse(until_width) if until_width is not None else None
+    event = _event(rare, {"--runs": runs, "--resume": resume, "--until-width": until, "--sensitivity": sensitivity,
+                          "--draws": draws != "random"})
     loaded = load(paper)
+    if event is not None:
+        with on_cluster(dask, workers):
+            _rare(loaded, event, out, seed, controller, workers)
+        return
     if sensitivity:
-        _joint(loaded, out, resume, workers)
+        with on_cluster(dask, workers):
+            _joint(loaded, out, resume, workers)
         return
     if loaded.kind is not None and loaded.data.get("kind") == PLANT:
-        _sweep_plant(loaded, out, runs, seed, controller, resume, workers)
+        with on_cluster(dask, workers):
+            _sweep_plant(loaded, out, runs, seed, controller, resume, workers)
         return
     scenario = loaded.scenario
     check_outputs({}, folders={"--out": (out, (CSV_NAME, MANIFEST_NAME, CHUNKS))})
     asked = Options(runs or 100, seed, controller, out, resume, workers, draws, until)
-    with progress() as show:
+    with progress() as show, on_cluster(dask, workers):
         found = monte_carlo(scenario, loaded.path, asked, lambda done, total: show("Monte Carlo", done, total))
     summaries = found.write_csv(out / CSV_NAME)
     out_console.print(summary_table(summaries, found.runs))
@@ -58,6 +69,34 @@ def command(paper: PaperOrFile,
         out_console.print(f"{name}: mean of {until_width} after {found.runs} runs: {mean.mean:g}, an interval of "
                           f"{mean.width:g}", markup=False, highlight=False)
     out_console.print(f"rows: {out / CSV_NAME}", markup=False, highlight=False)
+
+
+def _event(rare: str | None, others: dict[str, Any]) -> Any:
+    """What --rare asks for; InputError where it is not understood, or another option asks for something else."""
+    from workbench.simulate.rare import Event
+
+    if rare is None:
+        return None
+    for option, given in others.items():
+        if given:
+            raise InputError("", "--rare", f"takes as many runs as it needs, by chance: leave {option} out")
+    return Event.parse(rare)
+
+
+def _rare(loaded: Loaded, event: Any, out: Path, seed: int | None, controllers: list[str] | None,
+          workers: int | None) -> None:
+    from workbench.files.outputs import check_outputs
+    from workbench.simulate.rare import CSV_NAME, probabilities
+
+    if loaded.kind is not None:
+        raise InputError("", "--rare", "is for scenarios of trains: name one")
+    check_outputs({}, folders={"--out": (out, (CSV_NAME,))})
+    with progress() as show:
+        found = probabilities(loaded.scenario, loaded.path, event, seed, controllers, workers, out / CSV_NAME,
+                              lambda done, total: show("estimates", done, total))
+    for one in found:
+        out_console.print(one.line(event), markup=False, highlight=False, soft_wrap=True)
+    out_console.print(f"estimates: {out / CSV_NAME}", markup=False, highlight=False)
 
 
 def _sweep_plant(loaded: Loaded, out: Path, runs: int | None, seed: int | None, controllers: list[str] | None,

@@ -7,7 +7,7 @@ from typing import Annotated
 
 import typer
 
-from workbench.cli.options import PaperOrFile, Workers, load
+from workbench.cli.options import Dask, PaperOrFile, Workers, load, on_cluster
 from workbench.cli.terminal import out_console, progress
 
 
@@ -19,7 +19,7 @@ def command(paper: PaperOrFile,
             out: Annotated[Path | None, typer.Option(
                 metavar="FOLDER", help="Where finished restarts of the search are kept.")] = None,
             resume: Annotated[bool, typer.Option("--resume", help="Go on with the restarts kept in --out.")] = False,
-            workers: Workers = None) -> None:
+            workers: Workers = None, dask: Dask = None) -> None:
     """Tune the controllers of a scenario, study or contest: the same budget, optimiser and seeds for every one."""
     from workbench.files.outputs import check_outputs
     from workbench.paper.tune import tune_run
@@ -27,7 +27,7 @@ def command(paper: PaperOrFile,
 
     loaded = load(paper)
     check_outputs({}, folders={"--out": (out, (JOURNAL_NAME,)) if out else None})
-    with progress() as show:
+    with progress() as show, on_cluster(dask, workers):
         lines = list(tune_run(loaded, controller or [], write, workers,
                               lambda done, total, _: show("tuning", done, total), runs, out, resume))
     for line in lines:

@@ -15,7 +15,7 @@ from workbench.contest.record import Condition, Contest
 from workbench.model.events import Failure
 from workbench.simulate.closed_loop import Factors, Run, setting_of
 from workbench.simulate.metrics import measure
-from workbench.simulate.process_pool import run_tasks
+from workbench.tasks.handing_out import run_tasks
 from workbench.trains.scenario import Scenario, with_parameters
 from workbench.trains.track import Track
 

@@ -27,7 +27,7 @@ from workbench.paper.cells import Cell, Phrase
 from workbench.paper.parameter_search import search
 from workbench.paper.results import Curve, Plot, ResultTable
 from workbench.simulate.journal import REMEDY, Journal
-from workbench.simulate.process_pool import results_of
+from workbench.tasks.handing_out import results_of
 from workbench.trains.scenario import Scenario, tunable, with_parameters
 
 JOURNAL_NAME = "pareto.journal.jsonl"

@@ -11,7 +11,7 @@ from workbench.gains.stated import Stated
 from workbench.paper.gain_search import Row, Task, gain_search_of
 from workbench.paper.loading import Loaded
 from workbench.paper.study import Progress
-from workbench.simulate.process_pool import cores, run_tasks
+from workbench.tasks.handing_out import places, run_tasks
 
 
 @dataclass(frozen=True)
@@ -51,7 +51,7 @@ def effects(loaded: Loaded, report: GainReport, workers: int | None = None,
         found[result[0]] = result[1]
         on_progress(len(found), len(tasks), result[1].gains)
 
-    run_tasks(_run, loaded, list(enumerate(tasks)), workers or cores(), record)
+    run_tasks(_run, loaded, list(enumerate(tasks)), places(workers), record)
     return tuple(found[number] for number in range(len(tasks)))
 
 

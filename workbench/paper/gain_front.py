@@ -26,7 +26,7 @@ from workbench.paper.gain_search import FrontSearch, FrontSetting, Values, gain_
 from workbench.paper.loading import Loaded
 from workbench.paper.parameter_search import search
 from workbench.paper.study import Progress
-from workbench.simulate.process_pool import cores, results_of
+from workbench.tasks.handing_out import places, results_of
 
 STATED = "stated"
 # What gains cost in the search that are not stable at a vertex, and those of which nothing is proved.
@@ -91,7 +91,7 @@ def search_fronts(loaded: Loaded, asked: FrontSearch, workers: int | None = None
     """What is found in every setting, each point with its certificate; the same whatever the number of workers."""
     tasks = [(s.id, number) for s in asked.settings for number in range(asked.weights)]
     done: dict[tuple[str, int], list[Tried]] = results_of(
-        _search_one, loaded, tasks, workers or cores(),
+        _search_one, loaded, tasks, places(workers),
         lambda count, task, _: on_progress(count, len(tasks), f"{task[0]}, weight {task[1] + 1}"))
     certificates: dict[str, dict[str, Any]] = {}
     found = {s.id: chosen(loaded, asked, s, [one for task in tasks if task[0] == s.id for one in done[task]],

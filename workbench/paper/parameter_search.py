@@ -15,7 +15,7 @@ from typing import Any
 import numpy as np
 
 from workbench.model.tuning import Range, is_whole
-from workbench.simulate.process_pool import run_tasks
+from workbench.tasks.handing_out import run_tasks
 
 # Of a parameter that was found: within this share of its range (logarithmic) from an end, the end binds.
 BINDING_SHARE = 0.01

@@ -35,7 +35,7 @@ from workbench.paper.gain_front import (
 from workbench.paper.gain_search import FrontSearch, Numbers
 from workbench.paper.loading import Loaded
 from workbench.paper.study import Progress
-from workbench.simulate.process_pool import cores, results_of
+from workbench.tasks.handing_out import places, results_of
 
 FRONT_FILE, FRONT_FOLDER = "front.toml", "front"
 
@@ -148,7 +148,7 @@ def shown_fronts(loaded: Loaded, front: RecordedFront, workers: int | None = Non
     tasks = [(s.id, p.name, tuple(p.gains.items())) for s in asked.settings
              for p in (Found(name=STATED, gains=stated), *record.found.get(s.id, ()))]
     done: dict[Any, FrontPoint] = results_of(
-        _shown, (loaded, front.certificates), tasks, workers or cores(),
+        _shown, (loaded, front.certificates), tasks, places(workers),
         lambda count, task, _: on_progress(count, len(tasks), f"{task[0]}, {task[1]}"))
     return tuple(GainFront(s.title, tuple(done[task] for task in tasks if task[0] == s.id), asked.bounded, asked.unit,
                            record.evaluations) for s in asked.settings)

@@ -30,7 +30,7 @@ from workbench.paper.tuning_journal import SEARCHING
 from workbench.simulate.closed_loop import simulate
 from workbench.simulate.journal import REMEDY, Journal, code_digest
 from workbench.simulate.metrics import measure
-from workbench.simulate.process_pool import cores, run_tasks
+from workbench.tasks.handing_out import places, run_tasks
 from workbench.trains.scenario import Scenario, Variant, changed_scenario
 
 JOURNAL_NAME, CSV_NAME = "joint_sensitivity.journal.jsonl", "joint_sensitivity.csv"
@@ -86,7 +86,7 @@ def sensitivity(loaded: Loaded, out: Path | None = None, resume: bool = False, w
 
         keys = list(stated.ranges)
         tasks = [(i, dict(zip(keys, points[i].tolist(), strict=True))) for i in range(len(points)) if i not in values]
-        run_tasks(_one, (task, shared), tasks, workers or cores(), record_value)
+        run_tasks(_one, (task, shared), tasks, places(workers), record_value)
     failed = sum(value is None for value in values.values())
     if failed and stated.failed is None:
         first = next(i for i in range(len(points)) if values[i] is None)

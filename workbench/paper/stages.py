@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from workbench.paper.study import Progress
-from workbench.simulate.process_pool import results_of
+from workbench.tasks.handing_out import results_of
 
 _Task = tuple[int, Any]  # number of the stage, and its task
 

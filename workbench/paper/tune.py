@@ -16,7 +16,7 @@ from workbench.paper.loading import Loaded
 from workbench.paper.parameter_search import NONE_YET, Name, Tuned, binding, words_of
 from workbench.paper.scenario_tuning import tune_scenario
 from workbench.paper.tuning_journal import kept_in, tuning_journal
-from workbench.simulate.process_pool import cores
+from workbench.tasks.handing_out import places
 
 BEGIN, END = "# --- found by workbench tune: begin ---", "# --- found by workbench tune: end ---"
 
@@ -52,10 +52,10 @@ def tune_run(loaded: Loaded, names: list[str], write: bool, workers: int | None,
         _before_found(path)
     try:
         if out is None:
-            found = tune(record, chosen, workers or cores(), on_progress, NONE_YET)
+            found = tune(record, chosen, places(workers), on_progress, NONE_YET)
         else:
             with tuning_journal(out, loaded, record, resume) as journal:
-                found = tune(record, chosen, workers or cores(), on_progress, kept_in(journal))
+                found = tune(record, chosen, places(workers), on_progress, kept_in(journal))
     except InputError as trouble:
         raise trouble if str(trouble.where) else trouble.within(path) from None
     for searched, tuned in found.items():

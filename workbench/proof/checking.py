@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from workbench.proof.checker import THEOREMS, File, Row, check_file, check_folder
-from workbench.simulate.process_pool import results_of
+from workbench.tasks.handing_out import results_of
 
 WORTH_PROCESSES = 100  # certificates; fewer are checked sooner than another process has started
 

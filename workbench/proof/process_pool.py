@@ -1,4 +1,4 @@
-"""Who lists and decides claims: this process alone, or several others."""
+"""Who lists and decides claims: this process alone, several others, or the executor that the command has named."""
 
 from __future__ import annotations
 
@@ -7,13 +7,17 @@ from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import Future, ProcessPoolExecutor, as_completed
 from concurrent.futures.process import BrokenProcessPool
 from contextlib import contextmanager
+from functools import cache
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Protocol, TypeVar
 
 from workbench.errors import WorkbenchError
+from workbench.files.modules import package_of
 from workbench.proof.cache import DecisionCache
 from workbench.proof.messages import Decided, Listing
-from workbench.simulate.process_pool import follow_parent, interruption_held, single_threaded
+from workbench.tasks.executor import named
+from workbench.tasks.handing_out import results_of
+from workbench.tasks.processes import follow_parent, interruption_held, single_threaded
 
 if TYPE_CHECKING:
     from workbench.proof.worker import Worker
@@ -38,9 +42,12 @@ class WorkerPool(Protocol):
 def worker_pool(jobs: int, cached: DecisionCache | None, limit: float | None = None) -> Iterator[WorkerPool]:
     """As many workers as that; they are gone when the block is left, at once when it is left by an exception.
 
-    limit: of the seconds of processor time for each claim.
+    limit: of the seconds of processor time for each claim. A named executor's processes know no cache of this machine.
     Raises WorkbenchError when one of them dies.
     """
+    if named() is not None:
+        yield _Elsewhere(limit)
+        return
     with single_threaded():
         if jobs == 1:
             yield _Alone(cached, limit)
@@ -91,6 +98,49 @@ class _Several:
         with interruption_held():
             futures = [self.pool.submit(_decided, task) for task in tasks]
         return _in_order(futures, on_progress)
+
+
+class _Elsewhere:
+    """What the named executor's processes list and decide."""
+
+    def __init__(self, limit: float | None) -> None:
+        self.limit = limit
+
+    def listings(self, paths: Sequence[Path]) -> list[Listing]:
+        for path in paths:  # so that it is sent
+            package_of(path if path.is_dir() else path.parent)
+        found = results_of(_listed_there, self.limit, list(paths), 1, lambda *_: None)
+        return [_unless_trouble(found[path]) for path in paths]
+
+    def decided(self, tasks: Sequence[Task], on_progress: Callable[[int], None]) -> list[Decided]:
+        found = results_of(_decided_there, self.limit, list(tasks), 1, lambda done, *_: on_progress(done))
+        return [_unless_trouble(found[task]) for task in tasks]
+
+
+def _unless_trouble(found: Any) -> Any:
+    """The result; an exception is raised here, so that the first in order counts and not the first in time."""
+    if isinstance(found, Exception):
+        raise found
+    return found
+
+
+def _listed_there(limit: float | None, path: Path) -> Listing | Exception:
+    try:
+        return _worker_there(limit).listing(path)
+    except WorkbenchError as trouble:
+        return trouble
+
+
+def _decided_there(limit: float | None, task: Task) -> Decided | Exception:
+    try:
+        return _worker_there(limit).decided(*task)
+    except WorkbenchError as trouble:
+        return trouble
+
+
+@cache
+def _worker_there(limit: float | None) -> Worker:
+    return _worker(None, limit)
 
 
 def _in_order(futures: list[Future[T]], on_progress: Callable[[int], None]) -> list[T]:

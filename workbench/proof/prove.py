@@ -19,7 +19,8 @@ from workbench.proof.premises import below, premises_problem
 from workbench.proof.process_pool import worker_pool
 from workbench.proof.selection import NO_PAPER, Target, chosen, files_of
 from workbench.proof.verdict import Decision, Stated
-from workbench.simulate.process_pool import cores
+from workbench.tasks.executor import named
+from workbench.tasks.handing_out import places
 
 Progress = Callable[[int, int], None]
 LIMIT = 60.0  # seconds of processor time for one claim
@@ -61,7 +62,7 @@ def prove(found: Sequence[Target], jobs: int | None = None, use_cache: bool = Tr
     with ExitStack() as stack:
         listings: dict[Path, Listing] = {}
         if missing:
-            workers = stack.enter_context(worker_pool(jobs or cores(), cached, limit))
+            workers = stack.enter_context(worker_pool(places(jobs), cached, limit))
             listings = dict(zip(missing, workers.listings(missing), strict=True))
         stated = {file: listings[file].claims if file in listings else tuple(d.claim for d in entries[file].decisions)
                   for file in files}
@@ -73,7 +74,7 @@ def prove(found: Sequence[Target], jobs: int | None = None, use_cache: bool = Tr
         on_progress(known, total)
         results = workers.decided(tasks, lambda done: on_progress(known + done, total)) if tasks else []
     decided = {claim_id: result for (_, claim_id), result in zip(tasks, results, strict=True)}
-    if cached:
+    if cached and named() is None:  # what the processes of a cluster have read is not known here
         _keep_files(cached, listings, decided, started_ns)
     every = {d.claim.id: d for entry in entries.values() for d in entry.decisions if d.claim.id in wanted}
     every |= {claim_id: result.decision for claim_id, result in decided.items()}

@@ -40,7 +40,7 @@ def fleet_run(asked: FleetRequest) -> Iterator[str]:
         raise InputError("", "--resume", "needs --json, the file that keeps what is finished: name it")
     fleet = load_record(asked.fleet, FleetFile)
     from workbench.optimal.fleet import COLUMNS, FleetTrip, TripRow, fleet_trips, solved_trip  # noqa: PLC0415 - solvers
-    from workbench.simulate.process_pool import cores, results_of  # noqa: PLC0415 - as above
+    from workbench.tasks.handing_out import places, results_of  # noqa: PLC0415 - as above
 
     trips = fleet_trips(fleet, asked.fleet.parent)
     digests = {trip.trip.id: _digest(trip) for trip in trips}
@@ -61,7 +61,7 @@ def fleet_run(asked: FleetRequest) -> Iterator[str]:
             write_json(asked.json, document())  # an interruption loses nothing
 
     waiting = [trip for trip in trips if trip.trip.id not in rows]
-    results_of(solved_trip, None, waiting, asked.workers or cores(), record)
+    results_of(solved_trip, None, waiting, places(asked.workers), record)
     found = [rows[trip.trip.id] for trip in trips]
     yield f"{'trip':<12} {'km':>8} {'time s':>9} {'least s':>9} {'kWh':>10} {'at least':>10} {'gap %':>7}"
     for row in found:

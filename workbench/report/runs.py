@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from workbench.errors import InputError
-from workbench.simulate.process_pool import cores
+from workbench.tasks.handing_out import places
 
 if TYPE_CHECKING:
     from workbench.paper.loading import Loaded
@@ -44,8 +44,8 @@ def run_study(loaded: Loaded, workers: int | None = None, on_progress: Progress 
         on_progress("runs", done, total)
 
     if kept is not None and kind.run_kept is not None:
-        return kind.run_kept(study, workers or cores(), told, kept, resume)
-    return kind.run(study, workers or cores(), told)
+        return kind.run_kept(study, places(workers), told, kept, resume)
+    return kind.run(study, places(workers), told)
 
 
 def study_document(study: Study, result: StudyResult) -> StudyDocument:

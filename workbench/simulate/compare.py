@@ -11,7 +11,7 @@ from typing import Any
 from workbench.simulate.closed_loop import Run, check_controllers, simulate
 from workbench.simulate.controllers import SAMPLED, compiled
 from workbench.simulate.metrics import Metrics, measure
-from workbench.simulate.process_pool import cores, run_tasks
+from workbench.tasks.handing_out import places, run_tasks
 from workbench.trains.scenario import Scenario, Variant, changed_scenario
 
 Case = tuple[int, str]  # 0 is the scenario as stated, i > 0 its i-th variant
@@ -54,7 +54,7 @@ def compare(path: Path, data: Mapping[str, Any], scenario: Scenario, with_varian
             on_progress(len(found), len(cases), f"{case[1]}: {title}")
 
     rest = _quick_ones_here(scenarios, cases, record)
-    run_tasks(_run_case, scenarios, rest, workers or cores(), record)
+    run_tasks(_run_case, scenarios, rest, places(workers), record)
     nominal = [found[0, name] for name in scenario.controllers]
     return Comparison(
         scenario, tuple(run for run, _ in nominal if run is not None), tuple(metrics for _, metrics in nominal),

@@ -32,12 +32,18 @@ def factors_of(scenario: Scenario, first: int, count: int, seed: int | None = No
 
     Each factor is drawn whether or not the scenario names it, so that naming one more changes no other.
     """
-    uncertainty = scenario.uncertainty
-    seed = uncertainty.seed if seed is None else seed
-    spreads = dict.fromkeys(uncertainty.factors, uncertainty.spread) | {"odometer_scale": uncertainty.odometer_spread}
+    seed = scenario.uncertainty.seed if seed is None else seed
+    spread = spreads(scenario)
     for drawn in _sobol(first, count, seed) if draws == "sobol" else _random(first, count, seed):
-        yield Factors(*(1.0 + spreads[name] * x if spreads.get(name) else 1.0
+        yield Factors(*(1.0 + spread[name] * x if name in spread else 1.0
                         for name, x in zip(_NAMES, drawn.tolist(), strict=True)))
+
+
+def spreads(scenario: Scenario) -> dict[str, float]:
+    """By the name of each factor that is drawn, how far it may lie from 1, in the order of `Factors`."""
+    uncertainty = scenario.uncertainty
+    stated = dict.fromkeys(uncertainty.factors, uncertainty.spread) | {"odometer_scale": uncertainty.odometer_spread}
+    return {name: stated[name] for name in _NAMES if stated.get(name)}
 
 
 def _random(first: int, count: int, seed: int) -> Iterator[NDArray[np.float64]]:

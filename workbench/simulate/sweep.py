@@ -19,7 +19,6 @@ from workbench.simulate.controllers import compiled
 from workbench.simulate.draws import Draws, factors_of
 from workbench.simulate.journal import code_digest, laws_digest
 from workbench.simulate.metrics import measure
-from workbench.simulate.process_pool import cores, run_tasks
 from workbench.simulate.row_store import REMEDY, ChunkStore, Part, RowStore
 from workbench.simulate.setting import Setting, setting_of
 from workbench.simulate.stopping import Mean, UntilWidth, looks, metric_of
@@ -34,7 +33,8 @@ from workbench.simulate.sweep_rows import (
     summarised,
     sweep_row,
 )
-from workbench.simulate.versions import versions
+from workbench.tasks.handing_out import places, run_tasks
+from workbench.tasks.versions import versions
 from workbench.trains.scenario import Scenario
 from workbench.trains.track import CurveSection, GradeSection, Track
 
@@ -142,7 +142,7 @@ def monte_carlo(scenario: Scenario, scenario_path: Path, asked: Options,
     Raises InputError for unusable options or a folder of another sweep, WorkbenchError when workers die.
     """
     check_controllers(scenario, scenario_path)
-    names = _chosen(scenario, scenario_path, asked.controllers)
+    names = chosen(scenario, scenario_path, asked.controllers)
     seed = scenario.uncertainty.seed if asked.seed is None else asked.seed
     for key, value, least in (("runs", asked.runs, 1), ("seed", seed, 0), ("workers", asked.workers, 1)):
         if value is not None and value < least:
@@ -189,7 +189,7 @@ def _run_missing(shared: Shared, names: Sequence[str], runs: int, asked: Options
 
     if left:
         _compile_kernels(shared[0])
-        workers = min(asked.workers or cores(), left)
+        workers = min(places(asked.workers), left)
         run_tasks(run_part, shared, _parts(gaps, pace, workers), workers, record)
 
 
@@ -227,7 +227,8 @@ def inputs_digest(scenario: Scenario) -> str:
     return hashlib.sha256(code_digest(*SIMULATING) + laws_digest(scenario) + text.encode()).hexdigest()[:20]
 
 
-def _chosen(scenario: Scenario, path: Path, controllers: Sequence[str] | None) -> list[str]:
+def chosen(scenario: Scenario, path: Path, controllers: Sequence[str] | None) -> list[str]:
+    """The controllers that were asked for, all unless any; InputError for one that the scenario does not have."""
     names = list(scenario.controllers) if controllers is None else list(dict.fromkeys(controllers))
     for name in names:
         if name not in scenario.controllers:

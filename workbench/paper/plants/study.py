@@ -14,8 +14,8 @@ from workbench.paper.results import Curve, Plot, ResultTable, StudyResult, thinn
 from workbench.paper.study import Progress, StudyKind
 from workbench.simulate.plants.run import PlantRun
 from workbench.simulate.plants.run import run as run_plant
-from workbench.simulate.process_pool import results_of
 from workbench.systems.setting import Setting
+from workbench.tasks.handing_out import results_of
 
 
 def run(study: LocatedPlantStudy, workers: int, on_progress: Progress) -> StudyResult:

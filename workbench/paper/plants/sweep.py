@@ -18,7 +18,7 @@ from workbench.paper.plants.problem import LocatedPlantStudy
 from workbench.paper.results import ResultTable
 from workbench.paper.study import Progress
 from workbench.simulate.plants.run import run as run_plant
-from workbench.simulate.process_pool import cores, results_of
+from workbench.tasks.handing_out import places, results_of
 
 CSV_NAME = "sweep.csv"
 REMEDY = "name another --out"
@@ -85,7 +85,7 @@ def sweep(study: LocatedPlantStudy, runs: int | None = None, seed: int | None = 
     for name in names:  # compiled once here, for all processes
         run_plant(_short(study, name), study.entrants()[name])
     pairs = [(run, name) for run in range(runs) for name in names]
-    found = results_of(_row, (study, seed), pairs, workers or cores(),
+    found = results_of(_row, (study, seed), pairs, places(workers),
                        lambda done, pair, _: on_progress(done, len(pairs), pair[1]))
     result = PlantSweep(study, runs, tuple(found.values()))
     if out is not None:

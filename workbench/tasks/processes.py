@@ -1,4 +1,4 @@
-"""Run many independent tasks in worker processes; what is finished is never lost to an interruption."""
+"""Processes of this machine as an executor; what is finished is never lost to an interruption."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ import multiprocessing
 import os
 import signal
 import threading
-from collections.abc import Callable, Hashable, Iterable, Iterator, Sequence, Sized
+from collections.abc import Callable, Iterable, Iterator
 from concurrent.futures import FIRST_COMPLETED, Future, ProcessPoolExecutor, wait
 from concurrent.futures.process import BrokenProcessPool
 from contextlib import contextmanager
@@ -25,29 +25,12 @@ THREAD_LIMITS = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "
 MOST_LOSSES, GRACE_S = 5, 5.0
 
 T = TypeVar("T")
-K = TypeVar("K", bound=Hashable)
 R = TypeVar("R")
 
 
 def cores() -> int:
     """Processors this process may use."""
     return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
-
-
-def run_tasks(function: Callable[[Any, T], R], shared: Any, tasks: Iterable[T], workers: int,
-              record: Callable[[R], None]) -> None:
-    """Call record(function(shared, task)) for every task, in the order in which they finish.
-
-    With one worker, or one task, they run here, else in processes of this machine. tasks: a sequence, or what makes
-    them as they are needed. Raises as `LocalProcesses.run`.
-    """
-    if isinstance(tasks, Sized):
-        workers = min(workers, len(tasks))
-    if workers <= 1:
-        for task in tasks:
-            record(function(shared, task))
-    else:
-        LocalProcesses(workers).run(function, shared, tasks, record)
 
 
 @dataclass(frozen=True)
@@ -58,11 +41,7 @@ class LocalProcesses:
 
     def run(self, function: Callable[[Any, T], R], shared: Any, tasks: Iterable[T],
             record: Callable[[R], None]) -> None:
-        """Call record(function(shared, task)) in this process for every task, in the order in which they finish.
-
-        An exception of `function` is raised here. When anything interrupts, what has finished is recorded before the
-        interruption goes on. Raises WorkbenchError when processes die again and again.
-        """
+        """As `Executor.run`; raises WorkbenchError when processes die again and again."""
         waiting, unrecorded = iter(tasks), list[T]()
         for _ in range(MOST_LOSSES):
             again, unrecorded = unrecorded, []
@@ -112,28 +91,6 @@ class LocalProcesses:
                     if future.done() and not future.cancelled() and future.exception() is None:
                         taken(future)
                 raise
-
-
-def results_of(function: Callable[[Any, K], R], shared: Any, tasks: Sequence[K], workers: int,
-               on_result: Callable[[int, K, R], None]) -> dict[K, R]:
-    """Task -> function(shared, task), in the order of the tasks; they are run as by `run_tasks`, and raise alike.
-
-    on_result(finished, task, result) is called after each, in the order in which they finish.
-    """
-    found: dict[K, R] = {}
-
-    def record(done: tuple[K, R]) -> None:
-        task, result = done
-        found[task] = result
-        on_result(len(found), task, result)
-
-    run_tasks(_with_task, (function, shared), tasks, workers, record)
-    return {task: found[task] for task in tasks}
-
-
-def _with_task(given: tuple[Callable[[Any, K], R], Any], task: K) -> tuple[K, R]:
-    function, shared = given
-    return task, function(shared, task)
 
 
 @contextmanager

@@ -1,0 +1,121 @@
+"""How probable an event of a drawn run is, however rare: a metric beyond a value, or a run that fails before."""
+
+from __future__ import annotations
+
+import csv
+import io
+import math
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Self
+
+import numpy as np
+
+from workbench.errors import InputError
+from workbench.files.writing import write_text
+from workbench.simulate.closed_loop import prepared
+from workbench.simulate.controllers import compiled
+from workbench.simulate.draws import spreads
+from workbench.simulate.law_values import check_controllers
+from workbench.simulate.metrics import measure
+from workbench.simulate.setting import Factors, setting_of
+from workbench.simulate.splitting import Array, Estimate, Probability, splitting
+from workbench.simulate.sweep import chosen
+from workbench.simulate.sweep_rows import NUMBERS
+from workbench.tasks.handing_out import places, results_of
+from workbench.trains.scenario import Scenario
+
+CSV_NAME = "rare.csv"
+# Independent estimates, of which the interval is made, and the points of each.
+ESTIMATES, SAMPLES = 10, 200
+LARGEST = "largest_position_error"
+
+Task = tuple[str, int]  # controller, number of the estimate
+
+
+@dataclass(frozen=True)
+class Event:
+    """A metric of a run above a value, in the metric's unit; a run that fails counts as beyond every value."""
+
+    metric: str
+    value: float
+
+    @classmethod
+    def parse(cls, text: str) -> Self:
+        """METRIC>VALUE as it is typed; InputError for a metric that is none, and what is no finite number."""
+        metric, _, value = text.partition(">")
+        if metric.strip() not in (LARGEST, *NUMBERS):
+            raise InputError("", "--rare", f"'{metric[:60]}' is no metric of a run: give 'METRIC>VALUE', in quotes, "
+                             f"with one of {', '.join((LARGEST, *NUMBERS))}")
+        try:
+            number = float(value)
+        except ValueError:
+            number = math.nan
+        if not math.isfinite(number):
+            raise InputError("", "--rare", f"'{value[:60]}' is no finite number: give 'METRIC>VALUE', in quotes")
+        return cls(metric.strip(), number)
+
+
+@dataclass(frozen=True)
+class Rare:
+    """The probability of the event under a controller, and the runs of all its estimates."""
+
+    controller: str
+    probability: Probability
+    runs: int
+
+    def line(self, event: Event) -> str:
+        """As people read it."""
+        p = self.probability
+        return (f"{self.controller}: {event.metric} > {event.value:g}, or a run that fails, with probability "
+                f"{p.mean:.3g}, 95 % interval {p.low:.3g} to {p.high:.3g} ({ESTIMATES} estimates, {self.runs} runs)")
+
+
+def probabilities(scenario: Scenario, scenario_path: Path, event: Event, seed: int | None = None,
+                  controllers: Sequence[str] | None = None, workers: int | None = None, out: Path | None = None,
+                  on_progress: Callable[[int, int], None] = lambda done, total: None) -> list[Rare]:
+    """The probability of an event under each controller, over the scenario's uncertainty; the same for the same seed.
+
+    out: a CSV file for the estimates. Raises InputError for unusable options and where nothing is drawn.
+    """
+    check_controllers(scenario, scenario_path)
+    names = chosen(scenario, scenario_path, controllers)
+    if not spreads(scenario):
+        raise InputError(scenario_path, "uncertainty", "nothing is drawn, so nothing is rare: name factors and a "
+                         "spread")
+    seed = scenario.uncertainty.seed if seed is None else seed
+    shared = compiled(scenario.model_copy(update={"controllers": {n: scenario.controllers[n] for n in names}}))
+    tasks = [(name, number) for name in names for number in range(ESTIMATES)]
+    found = results_of(estimate, (shared, event, seed), tasks, places(workers),
+                       lambda done, *_: on_progress(done, len(tasks)))
+    if out is not None:
+        _write(out, found)
+    rows = [[found[name, number] for number in range(ESTIMATES)] for name in names]
+    return [Rare(name, Probability.of(np.array([one.probability for one in row])), sum(one.runs for one in row))
+            for name, row in zip(names, rows, strict=True)]
+
+
+def estimate(shared: tuple[Scenario, Event, int], task: Task) -> Estimate:
+    """One estimate under one controller; every controller's estimates begin with the same draws."""
+    (scenario, event, seed), (name, number) = shared, task
+    drive, nominal, spread = prepared(scenario, name), setting_of(scenario), spreads(scenario)
+
+    def of_run(point: Sequence[float]) -> float:
+        factors = Factors(**{key: 1.0 + spread[key] * x for key, x in zip(spread, point, strict=True)})
+        found = measure(drive(setting_of(scenario, factors, nominal)), scenario)
+        return math.inf if found.failed is not None else float(getattr(found, event.metric))
+
+    def performance(points: Array) -> Array:
+        return np.array([of_run(point) for point in points.tolist()])
+
+    generator = np.random.default_rng(np.random.SeedSequence(seed, spawn_key=(number,)))
+    return splitting(performance, len(spread), event.value, SAMPLES, generator)
+
+
+def _write(path: Path, found: dict[Task, Estimate]) -> None:
+    text = io.StringIO(newline="")
+    writer = csv.writer(text, lineterminator="\n")
+    writer.writerow(("controller", "estimate", "probability", "runs"))
+    writer.writerows((*task, repr(one.probability), one.runs) for task, one in found.items())
+    write_text(path, text.getvalue())
