@@ -20,8 +20,5 @@ from .notation import NOTATION
 
 paper = Paper("liu2020", " ".join((__doc__ or "").split("\n\n")[1].split()), notation=NOTATION)
 
-# What an axiom is that only names something.
-DEFINITION = "definition of the paper"
-
 # What claims hold for.
 EVERY_NETWORK = "every number of neurons and every hidden function (term by term under the sum)"

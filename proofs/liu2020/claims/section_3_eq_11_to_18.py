@@ -27,7 +27,7 @@ from ..laws import (
     v_hat_rate,
 )
 from ..notation import OBSERVED
-from ..paper import DEFINITION, EVERY_NETWORK, paper
+from ..paper import EVERY_NETWORK, paper
 from ..plant import M, acceleration, chi, d, f_d, s, u, v
 
 # (12) with k_3 v_tilde, as the extracted text prints it, and with k_3 s_tilde', as (18) and (25) have it.
@@ -38,8 +38,7 @@ DAMPING = ("The extracted text of (12) and (14) has k_3 v_tilde where (18), (25)
            "both readings are decided.")
 
 
-paper.axiom("11", "The estimation errors", r"\tilde{s} = \hat{s} - s,\ \tilde{v} = \hat{v} - v", DEFINITION, hypotheses=(),
-            severity="cosmetic")
+paper.definition("11", "The estimation errors", r"\tilde{s} = \hat{s} - s,\ \tilde{v} = \hat{v} - v")
 
 
 @paper.claim("12.position", "The observer's estimate of the position", "identity", r"\dot{\hat{s}} = \hat{v} - k_1\tilde{s}",
@@ -124,11 +123,9 @@ paper.axiom("15", "Universal approximation of f by the network",
 
 
 GAUSSIAN = r"%s = \exp\left(\frac{-\|%s^T - %s\|^2}{%s^2}\right)"
-paper.axiom("16", "The hidden functions of the first network", GAUSSIAN % ("h_{f,j}", "z_1", "c_{f,j}", r"\sigma_{f,j}"),
-            DEFINITION, hypotheses=(), severity="cosmetic",
-            note="Its width sigma_{f,j} is called 'the i th hidden layer node'. Proofs use that it lies between 0 and 1.")
-paper.axiom("17", "The network in the place of f", r"\hat{f} = \widehat{W}_f^T h_f(\widehat{z}_1)", DEFINITION, hypotheses=(),
-            severity="cosmetic")
+paper.definition("16", "The hidden functions of the first network", GAUSSIAN % ("h_{f,j}", "z_1", "c_{f,j}", r"\sigma_{f,j}"),
+                 note="Its width sigma_{f,j} is called 'the i th hidden layer node'. Proofs use that it lies between 0 and 1.")
+paper.definition("17", "The network in the place of f", r"\hat{f} = \widehat{W}_f^T h_f(\widehat{z}_1)")
 
 
 @paper.claim("15.function", "f is a function of z_1 = [s, v, u]", "implication",

@@ -41,7 +41,7 @@ from ..laws import (
 )
 from ..lyapunov import V_v
 from ..notation import ERRORS
-from ..paper import DEFINITION, EVERY_NETWORK, paper
+from ..paper import EVERY_NETWORK, paper
 from ..plant import M, acceleration, chi, d, f_d, u, v
 from .section_1 import network_of, others, speed_other, speed_seen
 from .section_3_eq_11_to_18 import GAUSSIAN
@@ -85,8 +85,8 @@ def uncertainty_bounded() -> Goal:
                 (*within(rest_of_f_v, rest_max), at_least(output, 0), at_most(output, 1), at_least(weight_max, 0)))
 
 
-paper.axiom("29", "The hidden functions of the second network", GAUSSIAN % ("h_{v,j}", "z_2", "c_{v,j}", r"\sigma_{v,j}"),
-            DEFINITION, hypotheses=(), severity="cosmetic", note="j runs to m here, though this network has q neurons.")
+paper.definition("29", "The hidden functions of the second network", GAUSSIAN % ("h_{v,j}", "z_2", "c_{v,j}", r"\sigma_{v,j}"),
+                 note="j runs to m here, though this network has q neurons.")
 
 
 @paper.claim("30.measured", "The network (30) needs no speed", "identity", r"\hat f_v = \hat W_v^Th_v(z_2)", "refuted",

@@ -12,12 +12,12 @@ from ..goal_forms import moves_alike
 from ..laws import alpha_1, beta_1, delta_hat, e_v, gamma_1, h_f, indexed, k_1, k_2, k_3, s_tilde, sigma_f, v_tilde
 from ..lyapunov import V_1
 from ..notation import ERRORS
-from ..paper import DEFINITION, EVERY_NETWORK, paper
+from ..paper import EVERY_NETWORK, paper
 from ..stated_values import exactly, stated
 
-paper.axiom("36.definition", "The Lyapunov function V_1",
-            r"V_1 = \frac{1}{2}\tilde{s}^2 + \frac{1}{2}\tilde{v}^2 + \frac{1}{2}\tilde{W}_f^T\Gamma_f^{-1}\tilde{W}_f + "
-            r"\frac{1}{2\alpha_1}\tilde{\delta}^2", DEFINITION, hypotheses=(), severity="cosmetic")
+paper.definition("36.definition", "The Lyapunov function V_1",
+                 r"V_1 = \frac{1}{2}\tilde{s}^2 + \frac{1}{2}\tilde{v}^2 + \frac{1}{2}\tilde{W}_f^T\Gamma_f^{-1}\tilde{W}_f + "
+                 r"\frac{1}{2\alpha_1}\tilde{\delta}^2")
 
 
 @paper.claim("36", "V_1 is not negative", "inequality", r"V_1 \ge 0", "proved", origin="implied", scope=EVERY_NETWORK,

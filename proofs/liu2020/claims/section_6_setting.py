@@ -2,12 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
-from fractions import Fraction
-
 import sympy as sp
 
-from workbench.proof.claim import Goal, at_most, equal, less
+from workbench.proof.claim import Goal, at_most, less
+from workbench.proof.printed_values import as_printed
 
 from ..goal_forms import within
 from ..paper import paper
@@ -16,27 +14,17 @@ from ..stated_values import exactly, stated
 STUDY = "The values that the simulation takes for them, from the study's file."
 
 
-def same(names: Mapping[str, tuple[float, str]]) -> tuple[dict[sp.Expr, Fraction], Callable[[], Goal]]:
-    """Symbols at the study's values, and what makes the goal that each is the number that is printed."""
-    symbols = {sp.Symbol(name, real=True): pair for name, pair in names.items()}
-
-    def goal() -> Goal:
-        return Goal(tuple(equal(symbol - sp.Rational(text), 0) for symbol, (_, text) in symbols.items()))
-
-    return {symbol: exactly(value) for symbol, (value, _) in symbols.items()}, goal
-
-
 train = stated["train"]
-at_train, goal_train = same({"M": (train["mass_kg"], "890000"), "chi": (train["chi"], "0.9")})
+of_train = as_printed({"M": (train["mass_kg"], "890000"), "chi": (train["chi"], "0.9")})
 cruise = sp.Symbol("v_cruise", positive=True)
 
 
 @paper.claim("text.train", "Mass and chi of the train", "condition",
              r"\text{The total nominal mass of the train is}\ M = 890\ \text{tons} \ldots \chi = 0.9", "proved", match="words",
-             at=at_train, reading=STUDY)
+             at=of_train.at, reading=STUDY)
 def mass_and_chi() -> Goal:
     """890 t are 890,000 kg."""
-    return goal_train()
+    return of_train.goal()
 
 
 @paper.claim("text.cruise", "The train runs at 350 km/h, below its largest speed", "condition",
@@ -50,18 +38,18 @@ def cruise_speed() -> Goal:
     return Goal((*within(sp.Rational(36, 10) * cruise - 350, sp.Rational(1, 10**8)), less(sp.Rational(36, 10) * cruise, 380)))
 
 
-at_61, goal_61 = same(dict(zip(("a", "b", "c"), zip(train["davis"], ("0.53", "0.00388", "0.000114"), strict=True), strict=True)))
+of_61 = as_printed(dict(zip(("a", "b", "c"), zip(train["davis"], ("0.53", "0.00388", "0.000114"), strict=True), strict=True)))
 
 
 @paper.claim("61", "The general resistance of the simulated train", "condition", r"f'_b = 0.53 + 0.00388v + 0.000114v^2", "proved",
-             at=at_61, rests_on=(), reading=STUDY + " Neither f_b' nor v has a unit in print.")
+             at=of_61.at, rests_on=(), reading=STUDY + " Neither f_b' nor v has a unit in print.")
 def printed_resistance() -> Goal:
     """The three coefficients."""
-    return goal_61()
+    return of_61.goal()
 
 
 first, second = stated["line"]["sections"]
-at_table, goal_table = same({
+of_table = as_printed({
     "s_1": (first["from_m"], "68300"), "s_2": (first["to_m"], "100800"), "p": (first["slope"], "10"),
     "s_3": (second["from_m"], "108300"), "s_4": (second["to_m"], "127500"), "R": (second["curve_radius_m"], "200"),
     "L_s": (second["tunnel_length_m"], "1000")})
@@ -69,25 +57,25 @@ at_table, goal_table = same({
 
 @paper.claim("table1", "Table 1: slope, curve and tunnel", "condition",
              r"s \in [6.83 \times 10^4, 10.08 \times 10^4]: 10\ \%,\quad s \in [10.83 \times 10^4, 12.75 \times 10^4]: 200\ \text{m}, 1000\ \text{m}",
-             "proved", match="words", at=at_table, reading=STUDY,
+             "proved", match="words", at=of_table.at, reading=STUDY,
              note="No railway for such a train has a slope of 10 % or a curve of 200 m: ten per mille and 2,000 m or more would be "
                   "usual. The runs take what is printed.")
 def line_of_table_1() -> Goal:
     """Seven numbers of Table 1."""
-    return goal_table()
+    return of_table.goal()
 
 
 def _disturbance(equation: str, title: str, printed: str, name: str, numbers: tuple[str, str, str, str]) -> None:
     of_study = stated["disturbances"][name]
     keys = ("from_s", "sine_n", "cosine_n", "omega_rad_s")
     letters = ("t_0", "A_sin", "A_cos", "omega_d")
-    at, goal = same({letter: (of_study[key], number) for letter, key, number in zip(letters, keys, numbers, strict=True)})
+    data = as_printed({letter: (of_study[key], number) for letter, key, number in zip(letters, keys, numbers, strict=True)})
 
-    @paper.claim(equation, title, "condition", printed, "proved", at=at, rests_on=(),
+    @paper.claim(equation, title, "condition", printed, "proved", at=data.at, rests_on=(),
                  reading=STUDY + " Begin, sine and cosine in newtons, and frequency.")
     def simulated() -> Goal:
         """Four numbers."""
-        return goal()
+        return data.goal()
 
 
 _disturbance("69", "No disturbance", "d(t) = 0", "none", ("0", "0", "0", "0"))
