@@ -1,23 +1,28 @@
-"""The numbers of section IV and of Table 1, exactly as they are printed."""
+"""The numbers of section IV and of Table 1, exactly as study.toml states them."""
 
 from __future__ import annotations
 
 from fractions import Fraction
+from pathlib import Path
 
 import sympy as sp
 
+from workbench.files.toml import read_toml
+from workbench.proof.printed_values import exact_decimal
 from workbench.trains.multi_particle import c_0, c_a, c_d, c_k, c_v
 
-from .laws import c_1, c_2, c_3, gamma_a, gamma_v, learning_gains
+from .laws import gains, learning_gains
 
-stated_gains = {c_1: Fraction(1, 100), c_2: Fraction(100), c_3: Fraction(4, 100)}
+stated = read_toml(Path(__file__).with_name("study.toml"))
+train = stated["train"]
+stated_gains = {symbol: exact_decimal(stated["gains"][str(symbol)]) for symbol in gains}
 at_stated = {symbol: sp.Rational(x.numerator, x.denominator) for symbol, x in stated_gains.items()}
-stated_learning = {gamma_v: Fraction(10), gamma_a: Fraction(2, 100),
-                   **dict.fromkeys(learning_gains[2:], Fraction(8000))}
-printed_factors = (Fraction(4, 10), Fraction(8, 10**4), *[Fraction(320)] * 4)  # learning gain times c_3
+stated_learning = {symbol: exact_decimal(stated["gains"][str(symbol)]) for symbol in learning_gains}
 
-
-table_1 = {c_0: Fraction(775, 10**5), c_v: Fraction(228, 10**6), c_a: Fraction(166, 10**7), c_k: Fraction(2 * 10**6),
-           c_d: Fraction(10**5)}
-mass_stated, limit_stated, cruise_stated = Fraction(5 * 10**4), Fraction(4 * 10**4), Fraction(835, 10)
-MOTOR_CARS = (1, 3, 5)
+table_1: dict[sp.Symbol, Fraction] = {symbol: exact_decimal(train[key]) for symbol, key in (
+    (c_0, "c_0_n_per_kg"), (c_v, "c_v_n_s_per_m_kg"), (c_a, "c_a_n_s2_per_m2_kg"), (c_k, "coupler_n_per_m"),
+    (c_d, "coupler_n_s_per_m"))}
+mass_stated, limit_stated = exact_decimal(train["car_mass_kg"]), exact_decimal(train["traction_n"])
+cruise_stated = exact_decimal(stated["reference"]["cruise_mps"])
+pattern = train["motor_pattern"]
+MOTOR_CARS = tuple(car for car in range(1, train["cars"] + 1) if pattern[(car - 1) % len(pattern)] == "1")

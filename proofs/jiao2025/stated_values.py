@@ -4,16 +4,23 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from fractions import Fraction
+from pathlib import Path
 
 import sympy as sp
+
+from workbench.files.toml import read_toml
+from workbench.proof.printed_values import exact_decimal
 
 from .laws import K_d, K_p, epsilon, eta, lamda, mu, rho
 from .plant import M, T_s, b_1k, b_2k, davis_newton
 
+study = read_toml(Path(__file__).with_name("study.toml"))
+learning, trials = study["learning"], study["trials"]
 STATED: dict[sp.Expr, Fraction] = {
-    rho: Fraction("0.245"), lamda: Fraction("0.00005"), mu: Fraction("0.1"), eta: Fraction(1),
-    epsilon: Fraction(1, 100000), K_p: Fraction("4.46"), K_d: Fraction(1000), T_s: Fraction(1, 10), M: Fraction(350000)}
-FIRST_INPUT, LENGTH, TRIALS = 1500, 2000, 150
+    **{symbol: exact_decimal(learning[str(symbol)]) for symbol in (rho, lamda, mu, eta, epsilon, K_p, K_d)},
+    T_s: exact_decimal(study["readings"]["N"]["step_s"]), M: exact_decimal(study["train"]["mass_kg"])}
+FIRST_INPUT = exact_decimal(learning["first_input"])
+LENGTH, TRIALS = trials["desired_length_k"], trials["count"]
 EVERY_LENGTH = "every length of the trial, time-varying train"
 
 

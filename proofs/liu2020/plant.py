@@ -25,6 +25,7 @@ slope_angle, centre_angle = sp.symbols("alpha varphi", real=True)
 curve_length, tunnel_length = sp.symbols("L_r L_s", positive=True)
 slope_force = M * g * sp.sin(slope_angle)  # (2)
 curve_force = sp.Rational("0.1029") * centre_angle / curve_length * M  # (3)
+restricted_tunnel_force = v**2 / 10**9 * tunnel_length * M  # (4), restricted ramps in the tunnel
 tunnel_force = sp.Rational("1.3") / 10**6 * tunnel_length * M  # (4), no restricted ramp in the tunnel
 
 opposing = sp.Symbol("f_opposing", real=True)

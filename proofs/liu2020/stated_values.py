@@ -1,15 +1,12 @@
-"""Tables 2 to 4 as study.toml states them, exactly."""
+"""Section 6 as study.toml states it."""
 
 from __future__ import annotations
 
-from fractions import Fraction
 from pathlib import Path
 
 from workbench.files.toml import read_toml
+from workbench.proof.printed_values import exact_decimal as exactly
 
-stated = read_toml(Path(__file__).with_name("study.toml"))  # Tables 2 to 4
+__all__ = ["exactly", "stated"]
 
-
-def exactly(value: float) -> Fraction:
-    """A stated value as the decimal that it is written as."""
-    return Fraction(str(value))
+stated = read_toml(Path(__file__).with_name("study.toml"))

@@ -37,6 +37,17 @@ def test_derivatives_sums_and_functions_keep_what_belongs_to_them():
         assert read_back(latex(expr)) == expr, latex(expr)
 
 
+def test_products_as_typed_keep_their_signs():
+    """Nested as they are typed, where sympy's own printer wrote y (-x) as y - x."""
+    with sp.evaluate(False):
+        typed = (-x * sp.tanh(x) * theta, theta * (-x * y), -x * y * theta, x * (-y / theta), (-x / y) / theta,
+                 x - (-y * theta), -(-x * y), x - y * (-theta * x), -(x + y) * theta * y, x + (y - (theta + x)),
+                 -sp.Rational(1, 2) * x * y, 2 * (-3) * x, (-x * y) ** 2, x / (-y * theta), y ** (-x * theta))
+    for expr in typed:
+        assert Comparison(FLOW).same(read_back(latex(expr)), expr.doit()), latex(expr)
+    assert latex(typed[0]) == r"- \hat{\theta}_{2} x_{1} \tanh\left(x_{1}\right)"
+
+
 def test_relations_are_written_with_their_sign():
     assert at_most(x, y**2).latex() == r"x_{1} \le y^{2}"
     assert equal(D(x), -x).latex({"x_1": "z"}) == r"\frac{d}{dt}\left[z\right] = - z"

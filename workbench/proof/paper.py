@@ -60,6 +60,11 @@ class Paper:
 
         return collect
 
+    def definition(self, equation: str, title: str, printed: str, *, reading: str = "", note: str = "") -> None:
+        """State a line that gives something its name, of which nothing can be true or false."""
+        self.axiom(equation, title, printed, "definition of the paper", hypotheses=(), severity="cosmetic",
+                   reading=reading, note=note)
+
     def shown(self, equation: str) -> tuple[Relation, ...]:
         """What an earlier claim's goal shows, for the assumptions of a claim that has it among its premises.
 

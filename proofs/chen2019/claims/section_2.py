@@ -29,6 +29,18 @@ def _three_cases(low: sp.Expr, high: sp.Expr) -> tuple[Relation, ...]:
             *both(below * (u - low), sp.S.Zero))
 
 
+paper.axiom("1", "Newton's law for each car",
+            r"\dot{s}_{j}(t) = v_{j}(t),\ m_{j}(t)\dot{v}_{j}(t) = u_{j}(t) + f_{j}^{b}(t, v_{j}(t)) + f_{j}^{c}(t, s(t), v(t)) + "
+            r"f_{j}^{a}(t)", "the paper's [11]", hypotheses=(), severity="data")
+paper.definition("2", "The basic resistance",
+                 r"f_{j}^{b}(t, v_{j}(t)) = \begin{cases} -m_{j}(t)[c_{0}(t) + c_{v}(t)v_{j}(t)] - \sum_{k=1}^{n}m_{k}(t)c_{a}(t)"
+                 r"v_{1}^{2}(t), & j = 1, \\ -m_{j}(t)[c_{0}(t) + c_{v}(t)v_{j}(t)], & j = 2, \dots, n \end{cases}")
+paper.definition("3", "The coupler forces",
+                 r"f_{j}^{c}(t, s(t), v(t)) = c_{k}(t)[s_{j-1}(t) - s_{j}(t)] + c_{d}(t)[v_{j-1}(t) - v_{j}(t)] - c_{k}(t)[s_{j}(t) - "
+                 r"s_{j+1}(t)] - c_{d}(t)[v_{j}(t) - v_{j+1}(t)],\ j = 2, \dots, n - 1",
+                 note="At the ends of the train the half that has no neighbour is left out.")
+
+
 @paper.claim("4", "The saturation of a motor car, case by case", "identity",
              r"u_{j} = \operatorname{sat}(\mu_{j}, u_{j}^{-}, u_{j}^{+}) = \begin{cases} u_{j}^{+}, & \mu_{j} > "
              r"u_{j}^{+}, \\ \mu_{j}, & u_{j}^{-} \le \mu_{j} \le u_{j}^{+}, \\ u_{j}^{-}, & \mu_{j} < u_{j}^{-}. "

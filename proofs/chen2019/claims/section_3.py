@@ -50,6 +50,20 @@ REFERENCES = dict(zip((s_r, v_r, v_r_dot), each_car("s_r v_r v_r_dot"), strict=T
 V_PUT_IN = {**Z_PUT_IN, "V_{1,i}": V_of(errors[z_1]), "V_{2,i}": V_of(errors[z_2])}
 VECTORS = {letter: x.xreplace(REFERENCES) for letter, x in {**NOTATION, **V_PUT_IN}.items()}
 
+paper.definition("8", "The inputs of all cars", r"\boldsymbol{u}_i = \operatorname{sat}(\boldsymbol{\mu}_i, "
+                 r"\underline{\boldsymbol{u}}, \overline{\boldsymbol{u}})")
+paper.definition("9", "The auxiliary system", r"\dot{\boldsymbol{\lambda}}_{1,i} = -c_1\boldsymbol{\lambda}_{1,i} + "
+                 r"\boldsymbol{\lambda}_{2,i},\ \dot{\boldsymbol{\lambda}}_{2,i} = -c_2\boldsymbol{\lambda}_{2,i} + c_3\Delta"
+                 r"\boldsymbol{u}_i")
+paper.definition("10", "The errors of the design", r"z_{1,i} = s_i - s_r - \lambda_{1,i},\ z_{2,i} = v_i - v_r - \alpha_i - "
+                 r"\lambda_{2,i}")
+paper.definition("12", "The virtual controller", r"\boldsymbol{\alpha}_i = -c_1(\boldsymbol{s}_i - \boldsymbol{s}_r)")
+paper.definition("23", "The Lyapunov function of an iteration", r"V_i = V_{1,i} + V_{2,i}")
+paper.definition("25.definition", "The composite energy function",
+                 r"E_{i} = V_{i} + \frac{1}{2\gamma_{\nu}}\int_{0}^{t}\operatorname{tr}(\tilde{\Theta}_{\nu,i}^{2})d\tau + "
+                 r"\frac{1}{2\gamma_{a}}\int_{0}^{t}\tilde{\theta}_{a,i}^{2}d\tau + \dots + \frac{1}{2\gamma_{M}}\int_{0}^{t}"
+                 r"\operatorname{tr}(\tilde{M}_{i}^{2})d\tau")
+
 idle_1, idle_2 = (one_car(x) for x in (lambda_1, lambda_2))
 
 

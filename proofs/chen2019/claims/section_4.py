@@ -7,6 +7,7 @@ from fractions import Fraction
 import sympy as sp
 
 from workbench.proof.claim import Goal, at_least, at_most, equal
+from workbench.proof.printed_values import as_printed
 from workbench.trains.multi_particle import over_cars, s, v
 
 from ..laws import (
@@ -33,8 +34,48 @@ from ..notation import ONE_CAR
 from ..one_car import one_car, u_low
 from ..paper import EACH_CAR, EVERY_TRAIN, paper
 from ..plant import compact_force
-from ..stated_values import cruise_stated, stated_gains, stated_learning
+from ..stated_values import MOTOR_CARS, cruise_stated, stated, stated_gains, stated_learning, train
 from .section_2 import mu_car
+
+TABLE_1 = as_printed({
+    "m": (train["car_mass_kg"], "50000"), "c_0": (train["c_0_n_per_kg"], "7.75e-3"), "c_v": (train["c_v_n_s_per_m_kg"], "2.28e-4"),
+    "c_a": (train["c_a_n_s2_per_m2_kg"], "1.66e-5"), "c_k": (train["coupler_n_per_m"], "2e6"), "c_d": (train["coupler_n_s_per_m"], "1e5")})
+GAINS = as_printed({name: (stated["gains"][name], text) for name, text in (
+    ("c_1", "0.01"), ("c_2", "100"), ("c_3", "0.04"), ("gamma_v", "10"), ("gamma_a", "0.02"), ("gamma_k", "8000"), ("gamma_d", "8000"),
+    ("gamma_eta", "8000"), ("gamma_M", "8000"))})
+STUDY = "The values that the simulation takes for them, from the study's file."
+
+
+@paper.claim("section4.gains", "The stated gains", "condition",
+             r"c_1 = 0.01, c_2 = 100, c_3 = 0.04, \text{ the learning gains as } \gamma_{\nu} = 10, \gamma_a = 0.02, \gamma_k = \gamma_d = "
+             r"\gamma_{\eta} = \gamma_M = 8000", "proved", match="words", severity="data", at=GAINS.at, rests_on=(), reading=STUDY)
+def gains_as_printed() -> Goal:
+    """Nine gains."""
+    return GAINS.goal()
+
+
+@paper.claim("table1", "The train of Table 1", "condition", r"m_1, \ldots, m_6: 5 \times 10^{4};\ c_0: 7.75 \times 10^{-3};\ "
+             r"c_v: 2.28 \times 10^{-4};\ c_a: 1.66 \times 10^{-5};\ c_k: 2 \times 10^{6};\ c_d: 1 \times 10^{5}", "proved", match="words", severity="data",
+             at=TABLE_1.at, rests_on=(), reading=STUDY)
+def train_as_printed() -> Goal:
+    """Six numbers of Table 1."""
+    return TABLE_1.goal()
+
+
+ON_TRACK = as_printed({
+    "n": (train["cars"], "6"), **{f"motor_{k}": (car, str(2 * k - 1)) for k, car in enumerate(MOTOR_CARS, 1)},
+    "u_plus": (train["traction_n"], "40000"), "u_minus": (train["braking_n"], "40000"), "v_cruise": (stated["reference"]["cruise_mps"], "83.5"),
+    "i_last": (stated["trials"]["count"], "30")})
+
+
+@paper.claim("section4.train", "Cars, motors, limits, cruising speed and iterations", "condition",
+             r"\text{six cars [...] the distribution of motor cars is 101010 [...] } \underline{u} = [-4, \ldots, -4]^T \times 10^4,\ \overline{u} = "
+             r"[4, 0, 4, 0, 4, 0]^T \times 10^4 \text{ [...] 83.5 m/s [...] 30 iterations}", "proved", match="words", severity="data",
+             at=ON_TRACK.at, rests_on=(), reading=STUDY)
+def train_and_track_as_printed() -> Goal:
+    """Eight numbers of section IV."""
+    return ON_TRACK.goal()
+
 
 given_gains = tuple(equal(x, value) for x, value in stated_gains.items())
 PRINTED_LAW = (r"\boldsymbol{u}_{i} = \operatorname{sat}\left(-25 \times \left[100 \times (\boldsymbol{v}_{i} - "

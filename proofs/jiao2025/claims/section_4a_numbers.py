@@ -9,12 +9,13 @@ import sympy as sp
 
 from workbench.proof.claim import Goal, Relation, at_least, at_most, equal, greater, less
 from workbench.proof.derive import lie_derivative
+from workbench.proof.printed_values import as_printed
 
 from ..laws import epsilon, eta, lamda, mu, rho
 from ..notation import T_d, T_min
 from ..paper import paper
 from ..plant import M, T_s, b_0k, b_1k, b_2k, basic_resistance, davis_newton, desired_pieces, desired_speed, k, v_i
-from ..stated_values import FIRST_INPUT, LENGTH, MASS, SPEED_MAX, stated
+from ..stated_values import FIRST_INPUT, LENGTH, MASS, SPEED_MAX, learning, stated, study, trials
 
 speed = sp.Symbol("v_dk", real=True)
 # (16): number of the line, borders, the line, its reading, what is printed, and what its values at the borders make of it
@@ -136,6 +137,30 @@ def resistance_of_both() -> Goal:
     in_newton = {s: mean + part * swing for s, (mean, part) in davis_newton.items()}
     both = basic_resistance(v_i)
     return Goal((equal(both.xreplace(per_kg) / M, both.xreplace(in_newton) / M),))
+
+
+TABLE_1 = as_printed({name: (learning[name], text) for name, text in (
+    ("eta", "1"), ("rho", "0.245"), ("lamda", "0.00005"), ("mu", "0.1"), ("epsilon", "0.00001"), ("K_p", "4.46"), ("K_d", "1000"))})
+TRAIN = as_printed({
+    "M": (study["train"]["mass_kg"], "350000"), "T_s": (study["readings"]["N"]["step_s"], "0.1"), "T_d": (trials["desired_length_k"], "2000"),
+    "T_min": (trials["shortest_length_k"], "1900"), "i_last": (trials["count"], "150"), "u_0": (learning["first_input"], "1500")})
+STUDY = "The values that the simulation takes for them, from the study's file."
+
+
+@paper.claim("table1.values", "The parameters of Table 1", "condition",
+             r"\eta = 1, \rho = 0.245, \lambda = 0.00005, \mu = 0.1, \varepsilon = 10^{-5}, K_p = 4.46, K_d = 1000", "proved", match="words",
+             severity="data", at=TABLE_1.at, rests_on=(), reading=STUDY)
+def parameters_as_printed() -> Goal:
+    """Seven numbers of Table 1."""
+    return TABLE_1.goal()
+
+
+@paper.claim("section4.values", "Train, sampling, lengths, trials and the first input", "condition",
+             r"T_s = 0.1\ \text{s}, M = 350\,000\ \text{kg}, T_d = 2000\ \text{s}, T_d - T_{\min} = 100, i = 150, u_f(k, 0) = 1500", "proved",
+             match="words", severity="data", at=TRAIN.at, rests_on=(), reading=STUDY + " T_d = 2000 is taken as samples, see 16.samples.")
+def setting_as_printed() -> Goal:
+    """Six numbers of section 4."""
+    return TRAIN.goal()
 
 
 @paper.claim("table1", "Table 1 meets what section 2 asks of the parameters", "condition",

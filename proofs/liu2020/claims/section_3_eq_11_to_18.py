@@ -28,7 +28,7 @@ from ..laws import (
 )
 from ..notation import OBSERVED
 from ..paper import EVERY_NETWORK, paper
-from ..plant import acceleration, d, s, v
+from ..plant import M, acceleration, chi, d, f_d, s, u, v
 
 # (12) with k_3 v_tilde, as the extracted text prints it, and with k_3 s_tilde', as (18) and (25) have it.
 along_printed = {s: v, v: acceleration, s_hat: s_hat_rate, v_hat: speed_estimate_rate(v_error)}
@@ -38,11 +38,42 @@ DAMPING = ("The extracted text of (12) and (14) has k_3 v_tilde where (18), (25)
            "both readings are decided.")
 
 
+paper.definition("11", "The estimation errors", r"\tilde{s} = \hat{s} - s,\ \tilde{v} = \hat{v} - v")
+
+
+@paper.claim("12.position", "The observer's estimate of the position", "identity", r"\dot{\hat{s}} = \hat{v} - k_1\tilde{s}",
+             "proved", rests_on=(), where=OBSERVED, reading="The rate is that of the estimate in the loop that runs.")
+def position_estimate() -> Goal:
+    """D(s_hat) of the observer."""
+    return Goal((equal(D(s_hat), v_hat - k_1 * s_error),), flow=along_printed)
+
+
+u_rate, resistance_rate, d_rate = sp.symbols("udot f_d_dot ddot_ext", real=True)
+stated_f = chi / M * u - chi / M * f_d + d
+RATE_OF_F = r"\frac{\chi}{M}u(t) - \frac{\chi}{M}f_d(v, t) + d(t)"
+
+
+@paper.claim("12.function", "What f stands for, with the dot of the extracted text", "identity", rf"\dot{{f}} = {RATE_OF_F}",
+             "refuted", severity="cosmetic", rests_on=(), glyph="12.function.glyph", where={"f": acceleration},
+             reading="f is the right side of (9), as (14) and (15) take it.",
+             note="The rate of f would need the rates of u, f_d and d. The text goes on with f, not with its rate.")
+def rate_of_function() -> Goal:
+    """D(f) with free rates of input, resistance and disturbance."""
+    return Goal((equal(D(acceleration), stated_f),), flow={u: u_rate, f_d: resistance_rate, d: d_rate})
+
+
+@paper.claim("12.function.glyph", "What f stands for, without the dot", "identity", rf"f = {RATE_OF_F}", "proved", origin="ours",
+             glyph="12.function", rests_on=("9",), where={"f": D(v)})
+def function_of_observer() -> Goal:
+    """D(v) along (9)."""
+    return Goal((equal(D(v), stated_f),), flow=along_printed)
+
+
 @paper.claim("12", "The observer takes the measured position alone", "identity",
              r"\dot{\hat v} = \hat f - k_2\tilde s - k_3\tilde v + D_1", "refuted", glyph="12.glyph",
              reading="The section is to estimate the speed 'in accordance with the position information': with position "
-                     "and estimates given, the right side is given whatever the speed is. The third line of (12) is read "
-                     "as f, not its rate.",
+                     "and estimates given, the right side is given whatever the speed is. The third line of (12) is "
+                     "12.function.",
              note="With k_3 v_tilde = k_3 (v_hat - v) the observer needs the speed that it estimates. " + DAMPING)
 def observer_from_position() -> Goal:
     """The rate of v_hat at two speeds."""
@@ -89,6 +120,12 @@ paper.axiom("15", "Universal approximation of f by the network",
             r"f = W_f^{*T}h_f(z_1) + \varepsilon_f(z_1),\quad |\varepsilon_f(z_1)| \le \varepsilon_{f,N}", "Park and Sandberg 1991, for f continuous on a compact set",
             hypotheses=("15.function", "15.inside"),
             reading="The function f of the third line of (12), on a compact set Omega.")
+
+
+GAUSSIAN = r"%s = \exp\left(\frac{-\|%s^T - %s\|^2}{%s^2}\right)"
+paper.definition("16", "The hidden functions of the first network", GAUSSIAN % ("h_{f,j}", "z_1", "c_{f,j}", r"\sigma_{f,j}"),
+                 note="Its width sigma_{f,j} is called 'the i th hidden layer node'. Proofs use that it lies between 0 and 1.")
+paper.definition("17", "The network in the place of f", r"\hat{f} = \widehat{W}_f^T h_f(\widehat{z}_1)")
 
 
 @paper.claim("15.function", "f is a function of z_1 = [s, v, u]", "implication",

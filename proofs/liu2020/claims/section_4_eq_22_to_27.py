@@ -47,6 +47,10 @@ TRACKED = OBSERVED | {r"\tilde\varepsilon_f(z_1)": eps_tilde, "e_s": e_s_stated,
                       r"\ddot s_d": sddot_d, r"\dot{\tilde s}": s_error_rate}
 
 
+paper.definition("22.position", "The tracking error of the estimate", r"e_s = s_d - \hat{s}",
+                 note="Of the estimated position, although the position itself is measured.")
+
+
 @paper.claim("22", "Rate of the tracking error", "identity", r"\dot e_s = \dot s_d - \hat v", "refuted",
              severity="cosmetic", where=TRACKED,
              correction=lambda: Goal((equal(D(e_s_stated), sdot_d - v_hat + k_1 * s_error),), flow=along_tracking),
@@ -61,6 +65,10 @@ def tracking_error_rate() -> Goal:
 
 e_s, e_s_0, e_s_rate, drive = sp.symbols("e_s e_s_0 edot_s drive", real=True)
 drive_max = sp.Symbol("B", nonnegative=True)
+
+
+paper.definition("23", "The filtered error", r"e_v = k_4 e_s + \dot{e}_s",
+                 note="The laws take the second line of (22) for the rate of e_s, see 22 and 23.filter.")
 
 
 @paper.claim("23.filter", "The tracking error filters e_v", "identity",

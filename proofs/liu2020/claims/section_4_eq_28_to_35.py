@@ -44,6 +44,7 @@ from ..notation import ERRORS
 from ..paper import EVERY_NETWORK, paper
 from ..plant import M, acceleration, chi, d, f_d, u, v
 from .section_1 import network_of, others, speed_other, speed_seen
+from .section_3_eq_11_to_18 import GAUSSIAN
 from .section_3_eq_19_to_21 import leakage_claim
 from .section_4_eq_22_to_27 import f_v_inside
 
@@ -84,6 +85,10 @@ def uncertainty_bounded() -> Goal:
                 (*within(rest_of_f_v, rest_max), at_least(output, 0), at_most(output, 1), at_least(weight_max, 0)))
 
 
+paper.definition("29", "The hidden functions of the second network", GAUSSIAN % ("h_{v,j}", "z_2", "c_{v,j}", r"\sigma_{v,j}"),
+                 note="j runs to m here, though this network has q neurons.")
+
+
 @paper.claim("30.measured", "The network (30) needs no speed", "identity", r"\hat f_v = \hat W_v^Th_v(z_2)", "refuted",
              rests_on=("28",),
              reading="It is introduced because 'the velocity vector is unknown': with all but the speed given, f_v_hat is "
@@ -95,6 +100,7 @@ def network_without_speed() -> Goal:
 
 
 felt_input = M / chi * (D(v) - d) + f_d  # what (9) says of the input of a moving train
+robust_of_train = felt_input - over_neurons(W_v_hat * h_v) - k_5 * e_v
 
 
 @paper.claim("31", "The control law", "identity", r"u(t) = \hat W_v^Th_v(z_2) + k_5e_v + D_2", "proved", rests_on=(),
@@ -225,6 +231,16 @@ leakage_claim("32", "the weights of the tracking network", over_neurons((W_v_hat
               (r"e_v = 0,\ \dot{\hat W}_v = \Gamma_v\sigma_v(\hat W_v - W_{v0})",
                r"\frac{d}{dt}\|\hat W_v - W_{v0}\|^2 \le 0"),
               r"\dot{\hat W}_v = \Gamma_v(h_v(z_2)e_v - \sigma_v(\hat W_v - W_{v0}))")
+
+
+@paper.claim("34", "The robust term of the controller", "identity", r"D_2 = \gamma(e_v)\hat\theta", "proved", rests_on=(),
+             scope=EVERY_NETWORK, where={"D_2": robust_of_train, r"\gamma(e_v)": gamma_2(e_v)},
+             reading="D_2 is what the input of the train, read back from its acceleration by (9), has besides the first two "
+                     "terms of (31).")
+def robust_term() -> Goal:
+    """The loop that is run, without the network and k_5 e_v."""
+    running = acceleration.xreplace({u: command.xreplace({D_2: robust_2})})
+    return Goal((equal(robust_of_train, gamma_2(e_v) * theta_hat),), flow={v: running})
 
 
 @paper.claim("34.cancels", "(34) and (35) cancel the estimate of theta in the rate of V_2", "identity",

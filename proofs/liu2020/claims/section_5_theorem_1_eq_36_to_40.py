@@ -15,6 +15,10 @@ from ..notation import ERRORS
 from ..paper import EVERY_NETWORK, paper
 from ..stated_values import exactly, stated
 
+paper.definition("36.definition", "The Lyapunov function V_1",
+                 r"V_1 = \frac{1}{2}\tilde{s}^2 + \frac{1}{2}\tilde{v}^2 + \frac{1}{2}\tilde{W}_f^T\Gamma_f^{-1}\tilde{W}_f + "
+                 r"\frac{1}{2\alpha_1}\tilde{\delta}^2")
+
 
 @paper.claim("36", "V_1 is not negative", "inequality", r"V_1 \ge 0", "proved", origin="implied", scope=EVERY_NETWORK,
              note="What makes (36) a Lyapunov function, and the left half of (47).")

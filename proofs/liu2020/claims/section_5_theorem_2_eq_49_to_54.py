@@ -17,6 +17,10 @@ from ..plant import M, chi, d
 from .section_5_theorem_1_eq_36_to_40 import e_rate, free_1, free_2, theta_rate, w_v_rate
 from .section_5_theorem_1_eq_41_to_43 import leak_claims, robust_claims
 
+paper.definition("49.definition", "The Lyapunov function V_2",
+                 r"V_2 = V_1 + \frac{M}{2\chi}e_v^2 + \frac{1}{2}\tilde{W}_v^T\Gamma_v^{-1}\tilde{W}_v + "
+                 r"\frac{1}{2\alpha_2}\tilde{\theta}^2")
+
 
 @paper.claim("49", "V_2 is not negative", "inequality", r"V_2 \ge 0", "proved", origin="implied", premises=("36",),
              scope=EVERY_NETWORK, note="What makes (49) a Lyapunov function, and the left half of (59).")

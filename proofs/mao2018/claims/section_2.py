@@ -8,6 +8,7 @@ from workbench.proof.claim import D, Goal, Relation, at_least, at_most, equal, g
 
 from ..active_mode import REGRESSORS
 from ..error_dynamics import ALL_MODES, NAMES, motor, of_mode, over_modes, over_motors
+from ..felt_force import a_t, b_t, c_t, d_bar, m_t
 from ..notation import in_time
 from ..paper import paper
 from ..plant import D_c, F, M, a_r, b_r, c_r, curvature, d_force, g, slope_ramp, t, vartheta, x_1, x_2
@@ -20,6 +21,13 @@ FORCES = in_time({"M": M, r"\ddot{x}": acceleration, r"\dot{x}": v, "F": F, "a_r
                   "d": d_force, r"\sin\theta": vartheta}) | {r"\dot{x}^2(t)": v**2, "q": g}
 
 
+paper.axiom("1", "Newton's law for the train",
+            r"M(t)\ddot{x}(t) = F(t) - a_r(t) - b_r(t)v(t) - c_r(t)v^2(t) - F_g(t) - F_c(t) + d(t)",
+            "Rochard and Schmid 2000, the paper's [18]", hypotheses=(), severity="cosmetic")
+paper.axiom("2", "The force of a grade", r"F_g(t) = M(t)g\sin\theta(t)", "Garg 1984, the paper's [19]", hypotheses=(), severity="cosmetic")
+paper.axiom("3", "The force of a curve", r"F_c(t) = 0.004D(t)M(t)", "Garg 1984, the paper's [19]", hypotheses=(), severity="cosmetic")
+
+
 @paper.claim("4", "The train with grade and curve", "identity",
              r"M(t)\ddot{x}(t) = F(t) - (a_r(t) + b_r(t)\dot{x}(t) + c_r(t)\dot{x}^2(t)) - M(t)q\sin\theta(t) - "
              r"0.004D(t)M(t) + d(t)", "proved", where=FORCES,
@@ -30,7 +38,6 @@ def with_grade_and_curve() -> Goal:
                        - curvature * D_c * M + d_force),), model_1)
 
 
-m_t, a_t, b_t, c_t, d_bar = sp.symbols("m a b c d_bar", real=True)
 PER_MASS = in_time({"m": m_t, "a": a_t, "b": b_t, "c": c_t, r"\bar{d}": d_bar, "D": D_c, r"\vartheta": vartheta,
                     r"\ddot{x}": acceleration, r"\dot{x}": v, "F": F}) | {r"\dot{x}^{2}(t)": v**2, "q": g}
 
@@ -51,6 +58,10 @@ ramp = slope_ramp(sp.Rational(1, 4), sp.Integer(800))
 
 def _ramp_goal(*begin: Relation) -> Goal:
     return Goal((less(0, ramp), at_most(ramp, 1)), (*begin, at_most(t, 804)))
+
+
+paper.definition("6.definition", "The indicator functions",
+                 r"\chi_{\varrho i}(t) = \begin{cases} \Psi_{\varrho i}(t), & \text{if } (x(t), \dot{x}(t)) \in \Omega_i, \\ 0, & \text{otherwise} \end{cases}")
 
 
 @paper.claim("6", "The ramp of section VIII is an indicator as (6) asks", "inequality",
@@ -90,6 +101,11 @@ def speed_rate() -> Goal:
     """(5) with x_2 = x'."""
     return Goal((equal(D(x_2), m_t * F - a_t - b_t * x_2 - c_t * x_2**2 - g * vartheta - curvature * D_c + d_bar),),
                 (*paper.shown("5"), equal(v, x_2)), flow={x_2: acceleration})
+
+
+paper.definition("9", "The piecewise parameters",
+                 r"m(t) = \sum_{i=1}^{l}m_i\chi_{mi}(t),\ a(t) = \sum_{i=1}^{l}a_i\chi_{ai}(t),\ \ldots,\ \bar{d}(t) = \sum_{i=1}^{l}\bar{d}_i(t)\chi_{\bar{d}i}(t)",
+                 note="(9) and (10), seven sums alike.")
 
 
 @paper.claim("8.modes", "The piecewise model, gathered mode by mode", "identity",
@@ -139,6 +155,12 @@ def _letters(extra: sp.Expr) -> dict[str, sp.Expr]:
             r"\sum_{j=1}^{n-k_\nu}\bar\delta_j(t)": over_motors(failed * delta_j)}
 
 
+paper.axiom("11", "The failure of a motor",
+            r"F_j(t) = \bar{F}_j(t) = \bar{F}_{j0} + \sum_{\rho=1}^{s_j}\bar{F}_{j\rho}f_{j\rho}(t),\ t \ge t_j",
+            "Tao, Chen and Joshi 2002, the paper's [17]", hypotheses=(), severity="cosmetic")
+paper.definition("12", "The force of all motors", r"F(t) = \sum_{j=1}^{n}F_j(t)")
+
+
 @paper.claim("13", "The force with failures", "identity", r"F(t) = k_{\nu}\nu_{0}(t) + \xi^{T}\varpi(t)", "proved",
              scope=EVERY_MOTOR, where=_letters(sp.Integer(0)),
              note="xi_j must be read as 0 for a healthy motor, k_nu counts the healthy ones, and all of them get the "
@@ -148,9 +170,16 @@ def force_with_failures() -> Goal:
     return Goal((equal(force_of_motors(sp.Integer(0)), healthy * nu_0 + known),))
 
 
-F_of_11, F_0_one, F_1_one, f_one = sp.symbols("Fbar_j F_0 F_1 f_1", real=True)
+paper.definition("14", "The parameters of the failures",
+                 r"\xi_j = [\bar{F}_{j0},\ \bar{F}_{j1}, \dots, \bar{F}_{js_j}]^T \in R^{s_j + 1}")
+paper.definition("15", "The basis signals of the failures",
+                 r"\varpi(t) = [1, f_{11}(t), \dots, f_{1s_1}(t), \dots, 1, f_{n1}(t), \dots, f_{ns_n}(t)]^T")
+
+
+F_j, F_of_11, F_0_one, F_1_one, f_one = sp.symbols("F_j Fbar_j F_0 F_1 f_1", real=True)
 model_11 = equal(F_of_11, F_0_one + F_1_one * f_one)
-FORCE_11 = {r"F_j(t)": F_of_11, r"\bar{F}_j(t)": F_of_11, r"\bar{F}_{j0}": F_0_one, r"\bar{F}_{j1}": F_1_one, r"\sin(wt)": f_one}
+fails = equal(F_j, F_of_11)  # of a motor that fails, after t_j
+FORCE_11 = {r"F_j(t)": F_j, r"\bar{F}_j(t)": F_of_11, r"\bar{F}_{j0}": F_0_one, r"\bar{F}_{j1}": F_1_one, r"\sin(wt)": f_one}
 
 
 def _failure_of_11(name: str, title: str, printed: str, shown: tuple[Relation, ...], given: tuple[Relation, ...],
@@ -159,7 +188,7 @@ def _failure_of_11(name: str, title: str, printed: str, shown: tuple[Relation, .
                  reading=reading)
     def special_case() -> Goal:
         """(11), the varying basis signals gathered in one."""
-        return Goal(shown, (model_11, *given))
+        return Goal((fails, *shown), (equal(F_j, F_0_one + F_1_one * f_one), model_11, *given))
 
 
 _failure_of_11("total", "A motor that stops is a failure of (11)", r"F_j(t) = \bar{F}_j(t) = \bar{F}_{j0} = 0",
@@ -193,6 +222,10 @@ def motors_left() -> Goal:
 def force_with_rest() -> Goal:
     """(12) with (16) for failed motors."""
     return Goal((equal(force_of_motors(delta_j), healthy * nu_0 + known + over_motors(failed * delta_j)),))
+
+
+paper.definition("16.definition", "The failure with an unparameterizable term",
+                 r"F_j(t) = \bar{F}_j(t) = \bar{F}_{j0} + \sum_{\rho=1}^{s_j}\bar{F}_{j\rho}f_{j\rho}(t) + \bar{\delta}_j(t),\ t \ge t_j")
 
 
 delta_one = sp.Symbol("deltabar_j", real=True)

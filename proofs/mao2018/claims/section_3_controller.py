@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import sympy as sp
 
-from workbench.proof.claim import D, Goal, Relation, at_least, at_most, equal
+from workbench.proof.claim import D, Goal, Relation, at_least, at_most, differ, equal
 
 from ..active_mode import F_35, chi_d, d, eta, lambda_0, m, nu_healthy, rho_0, rho_hat, wanted, zeta
-from ..error_dynamics import ACTIVE_MODE, disturbed, filippov, healthy_loop, over_modes
+from ..error_dynamics import ACTIVE_MODE, disturbed, filippov, healthy_loop, of_mode, over_modes
+from ..felt_force import driven_by, felt_force, m_t, of_every_mode, summed
 from ..lyapunov import V_healthy, decay
 from ..modes import (
     EVERY_MODE,
@@ -26,6 +27,7 @@ from ..modes import (
     size,
     train,
     wanted_i,
+    zeta_i,
 )
 from ..paper import paper
 from ..plant import r_2, s, z_2
@@ -43,18 +45,42 @@ def controller_in_rate() -> Goal:
     return Goal((equal(z_2 * m * inner, left),), (at_most(chi_d, 1),))
 
 
-chi_1, chi_2, m_1, m_2, F_1, F_2 = sp.symbols("chi_1 chi_2 m_1 m_2 F_1 F_2", real=True)
+chi_one_mode, F_one_mode, F_others = sp.symbols("chi_m F_i F_others", real=True)
+F_i = of_mode("F")
+F_whole = sp.Symbol("F_sum", real=True)
+
+
+@paper.claim("35.mode", "While a mode lasts the controller is that mode's part", "identity",
+             r"\chi_{mi}(t)F(t) = \chi_{mi}(t)F_i(t)\ \text{for}\ F(t) = \sum_{i=1}^{l}\chi_{mi}(t)F_i(t)", "proved",
+             origin="implied", scope="any one of every number of modes",
+             reading="F is the part of mode i with its indicator and the parts of all others with theirs; chi_mi is 0 or 1, and "
+                     "where it is 1 the others' are 0.")
+def part_of_mode() -> Goal:
+    """chi^2 = chi, and chi times the others' parts is zero."""
+    whole = chi_one_mode * F_one_mode + F_others
+    return Goal((equal(chi_one_mode * whole, chi_one_mode * F_one_mode),),
+                (equal(chi_one_mode**2, chi_one_mode), equal(chi_one_mode * F_others, 0)))
 
 
 @paper.claim("35.modes", "Each mode sees its own part of the controller", "identity",
              r"m(t)F(t) = \sum_{i=1}^{l}m_i\chi_{mi}(t)F_i(t)\ \text{for}\ F(t) = \sum_{i=1}^{l}\chi_{mi}(t)F_i(t)", "proved",
-             origin="implied", scope="two modes; with more, each pair of them alike",
-             reading="In m F two sums over the modes are multiplied; one mode is active at a time.")
+             origin="implied", premises=("35.mode",), scope=EVERY_MODE,
+             reading="m(t) is (9). In m F two sums over the modes are multiplied; 35.mode, times m_i, is summed over the modes.")
 def own_controller() -> Goal:
-    """chi^2 = chi, and no two modes are active together."""
-    regions = (equal(chi_1**2, chi_1), equal(chi_2**2, chi_2), equal(chi_1 * chi_2, 0))
-    return Goal((equal((m_1 * chi_1 + m_2 * chi_2) * (chi_1 * F_1 + chi_2 * F_2), m_1 * chi_1 * F_1 + m_2 * chi_2 * F_2),),
-                regions)
+    """Sum of m_i times (chi_mi F - chi_mi F_i), which is zero in every mode."""
+    return Goal((equal(over_modes(m_i * chi_mi) * F_whole, over_modes(m_i * chi_mi * F_i)),),
+                (equal(over_modes(m_i * (chi_mi * F_whole - chi_mi * F_i)), 0),))
+
+
+@paper.claim("35.law", "The controller for healthy motors", "identity",
+             r"F(t) = \sum_{i=1}^{l}\chi_{mi}(t)\bigg(\nu_{di}(t)\chi_{\bar{d}i}(t) + \hat{\rho}_i(t)\zeta_i(t) - \hat{\rho}_i(t)"
+             r"\eta(t) - \hat{\rho}_i(t)r_2z_2(t)\bigg)", "proved", rests_on=(), scope=EVERY_MODE,
+             where={"F(t)": felt_force, r"\nu_{di}(t)": of_every_mode(nu_healthy)},
+             reading="F is the force of the simulated train, read back from its acceleration by (8).")
+def healthy_law() -> Goal:
+    """D(x_2) of (8) with the law that is simulated."""
+    stated = over_modes(chi_mi * (of_every_mode(nu_healthy) * chi_di + rho_hat_i * zeta_i - rho_hat_i * eta - rho_hat_i * r_2 * z_2))
+    return Goal((equal(felt_force, stated),), (differ(m_t, 0),), driven_by(summed(F_35)))
 
 
 epsilon_0 = sp.Symbol("epsilon_0", real=True)

@@ -41,8 +41,9 @@ from ..error_dynamics import (
     rho_k,
     within,
 )
+from ..felt_force import felt_signal, k_nu, of_every_mode, printed_signal, signal_law
 from ..lyapunov import V_40, V_true, lyapunov, m_all
-from ..modes import p, p_hat
+from ..modes import EVERY_MODE, p, p_hat
 from ..paper import paper
 from ..plant import F, r_1, r_2, x_1, x_2, x_m, xddot_m, xdot_m, z_1, z_2
 from .section_2 import acceleration_by_modes, chi_d_of, chi_m_of, d_of, m_of, nu_0, parameters_of_mode
@@ -68,6 +69,12 @@ def speed_error_rate_failed() -> Goal:
 def bounds_errors(V: sp.Expr) -> Goal:
     """V is at least the squared errors' half."""
     return Goal((at_least(V, z_1**2 / 2 + z_2**2 / 2), at_least(V, 0)))
+
+
+paper.definition("40.definition", "The Lyapunov function of section IV",
+                 r"V_2 = V_1 + \frac{1}{2}z_2^2 + \sum_{i=1}^{l}\frac{1}{2}\frac{m_i}{\Gamma_{k\nu}}\tilde{\rho}_{k\nu}^2 + \sum_{i=1}^{l}\frac{m_i}{2}\Gamma_{\xi}^{-1}\tilde{\xi}^T\tilde{\xi} + "
+                 r"\sum_{i=1}^{l}\frac{1}{2}\left(\Gamma_{ai}^{-1}\tilde{a}_i^2 + \dots + \frac{m_i}{\Gamma_{mi}}\tilde{\rho}_i^2\right)",
+                 note="The last sum is that of (25).")
 
 
 @paper.claim("40", "V_2 bounds the errors", "inequality", r"V_2 \ge \tfrac12 z_1^2 + \tfrac12 z_2^2 \ge 0", "proved",
@@ -170,6 +177,17 @@ LEFT = (r"z_2m_ik_\nu(\nu_0 + \rho_{k\nu}\hat\xi^T\varpi - \rho_i\zeta_i + \dots
         r"\varpi - \tilde\rho_i(\zeta_i - \eta - r_2z_2) + %s + \rho_i\bar d_i\chi_{\bar di})")
 
 
+NU_0 = "nu_0 is the signal of the simulated train, read back from its acceleration by (8) and (13); one mode is active. "
+SIGNAL = {r"\nu_0(t)": felt_signal, r"\nu_{0}(t)": felt_signal, r"k_{\nu}": k_nu}
+
+
+@paper.claim("42.law", "The controller with failures", "identity", printed_signal(r"\hat{\xi}^T(t)\varpi(t)"), "proved",
+             rests_on=(), scope=EVERY_MODE, where=SIGNAL | {r"\nu_{di}(t)": of_every_mode(nu_failed)}, reading=NU_0)
+def failure_law() -> Goal:
+    """D(x_2) of (8) with the signal that is simulated."""
+    return signal_law(signal_of(nu_failed), of_every_mode(nu_failed))
+
+
 @paper.claim("42", "What the controller leaves of the rate of V_2", "identity", LEFT % r"\nu_{di}", "proved",
              premises=("39",), origin="implied", scope=ALL_SIGNALS, reading="(42) put into the display before it.")
 def failure_controller_in_rate() -> Goal:
@@ -184,6 +202,11 @@ def outweighed(compensation: sp.Expr, *assume: Relation) -> Goal:
 
 
 OUTWEIGHED = r"m_ik_\nu \ge \rho_i^0,\ %s \Rightarrow z_2(m_ik_\nu\nu_{di} + \bar d_i\chi_{\bar di}) \le 0"
+
+
+paper.definition("43.law", "The signal against the disturbance",
+                 r"\nu_{di}(t) = -\frac{1}{\rho_i^0}\lambda_i^0\operatorname{sgn}[z_2(t)]",
+                 note="What it is for is decided in 43.")
 
 
 @paper.claim("43", "nu_d outweighs the disturbance with failures too", "inequality",

@@ -23,11 +23,13 @@ from ..error_dynamics import (
     size,
     within,
 )
+from ..felt_force import of_every_mode, printed_signal, signal_law
 from ..lyapunov import V_40, V_true, decay, tracks
+from ..modes import EVERY_MODE, p_hat
 from ..paper import paper
 from ..plant import s, z_1, z_2
 from ..steady_state_error import STEADY_STATE_ERROR, epsilon, steady_state_error
-from .section_4_design import LEFT, OUTWEIGHED, left_by, outweighed
+from .section_4_design import LEFT, NU_0, OUTWEIGHED, SIGNAL, left_by, outweighed
 from .section_4_theorem_2 import BOUND, MENDED_45, REPAIR, SQUARE_IN_TIME, THEOREM, TRACKS
 
 delta, delta_1, delta_2 = sp.symbols("delta delta_1 delta_2", real=True)
@@ -46,6 +48,18 @@ def _compensated_51(failures: int) -> Goal:
 
 TERMS_51 = (r"%s\left(m_iz_2\bar\delta_j\chi_{mi} - \tfrac{m_ik_\nu}{\rho_{k\nu}^0}\delta_j^0|z_2|\chi_{mi}%s z_2\bar d_i"
             r"\chi_{\bar di} - \tfrac{m_ik_\nu}{\rho_i^0}\lambda_i^0|z_2|\chi_{%si}%s")
+
+
+@paper.claim("48.law", "The controller with unparameterizable failures", "identity",
+             printed_signal(r"\hat{\xi}(t)\varpi(t)", r"\sum_{j=1}^{n-k_{\nu}}\nu_{sj}(t) + "), "proved",
+             rests_on=(), scope=EVERY_MODE, where=SIGNAL | {
+                 r"\nu_{di}(t)": of_every_mode(nu_failed), r"\hat{\xi}(t)\varpi(t)": p_hat,
+                 r"\sum_{j=1}^{n-k_{\nu}}\nu_{sj}(t)": nu_s_sum}, reading=NU_0
+                     + "xi_hat varpi stands for xi_hat^T varpi, and the sum over j, of (49), for -delta_0 sgn(z_2)/rho_knu^0 with the sum "
+                       "delta_0 of all delta_j^0.")
+def unparameterized_law() -> Goal:
+    """D(x_2) of (8) with the signal that is simulated."""
+    return signal_law(signal_of(nu_failed + nu_s_sum), of_every_mode(nu_failed), before=nu_s_sum)
 
 
 @paper.claim("48", "What the controller leaves of the rate of V_2", "identity",
@@ -77,6 +91,11 @@ def computable() -> Goal:
 rest_bounds = (at_most(delta, delta_0), at_least(delta, -delta_0), at_least(k_v, rho_k0))
 
 
+paper.definition("49.law", "The signal against unparameterizable failures",
+                 r"\nu_{sj}(t) = -\frac{1}{\rho_{k\nu}^0}\delta_j^0\text{sgn}[z_2(t)]",
+                 note="What it is for is decided in 49.")
+
+
 @paper.claim("49", "nu_s outweighs the unparameterizable failures", "inequality",
              r"|\bar\delta_j| \le \delta_j^0,\ k_\nu \ge \rho_{k\nu}^0 \Rightarrow z_2m_i\left(k_\nu\textstyle\sum_j\nu_{sj} + "
              r"\sum_j\bar\delta_j\right) \le 0", "proved", premises=("17",), origin="implied", scope=ACTIVE_MODE,
@@ -85,6 +104,11 @@ rest_bounds = (at_most(delta, delta_0), at_least(delta, -delta_0), at_least(k_v,
 def failures_outweighed() -> Goal:
     """For every value of Filippov's sign at z_2 = 0."""
     return Goal((at_most(z_2 * m * (k_v * nu_s_sum + delta), 0),), (*filippov, *rest_bounds))
+
+
+paper.definition("50.law", "The signal against the disturbance",
+                 r"\nu_{di}(t) = -\frac{1}{\rho_i^0}\lambda_i^0\operatorname{sgn}[z_2(t)]",
+                 note="(43) again.")
 
 
 @paper.claim("50", "nu_d outweighs the disturbance, as in (43)", "inequality",

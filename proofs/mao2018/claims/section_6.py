@@ -34,16 +34,23 @@ from ..error_dynamics import (
     laws_true,
     size,
 )
+from ..felt_force import of_every_mode, printed_signal, signal_law
 from ..lyapunov import V_40, V_53, decay, tracks
+from ..modes import EVERY_MODE, p_hat
 from ..paper import paper
 from ..plant import s, t, z_1, z_2
 from ..steady_state_error import STEADY_STATE_ERROR, epsilon, steady_state_error
-from .section_4_design import LEFT, OUTWEIGHED, bounds_errors, left_by
+from .section_4_design import LEFT, NU_0, OUTWEIGHED, SIGNAL, bounds_errors, left_by
 from .section_4_theorem_2 import BOUND, REPAIR, SQUARE_IN_TIME, THEOREM, TRACKS
 from .section_5 import delta, rest_bounds
 
 bounded_by_unknown = (at_most(d, lambda_0), at_least(d, -lambda_0))
 V_53_printed = V_40 + (lambda_0 - lambda_hat) ** 2 / (2 * Gamma_d)
+
+
+paper.definition("53.definition", "The Lyapunov function of section VI",
+                 r"V_2 = V_1 + \frac{1}{2}z_2^2 + \dots + \sum_{i=1}^{l}\frac{1}{2}\left(\dots + \Gamma_{di}^{-1}(\tilde{\lambda}_i^0)^2 + \dots\right)",
+                 note="(40) with one more square in the sum over the modes. Its gain is called Gamma_{d_i^0} from the next line on.")
 
 
 @paper.claim("53", "V_2 bounds the errors", "inequality", r"V_2 \ge \tfrac12 z_1^2 + \tfrac12 z_2^2 \ge 0", "proved",
@@ -136,12 +143,26 @@ def unknown_bound_step() -> Goal:
 lambda_start = sp.Symbol("lambda_hat_0", nonnegative=True)
 
 
+@paper.claim("55.law", "The controller for unknown bounds", "identity", printed_signal(r"\hat{\xi}(t)\varpi(t)"), "proved",
+             rests_on=(), scope=EVERY_MODE, where=SIGNAL | {
+                 r"\nu_{di}(t)": of_every_mode(nu_unknown), r"\hat{\xi}(t)\varpi(t)": p_hat},
+             reading=NU_0 + "xi_hat varpi stands for xi_hat^T varpi.")
+def unknown_bound_law() -> Goal:
+    """D(x_2) of (8) with the signal that is simulated."""
+    return signal_law(signal_of(nu_unknown), of_every_mode(nu_unknown))
+
+
 @paper.claim("55", "What the controller leaves of the rate of V_2", "identity", LEFT % r"\nu_{di}", "proved",
              premises=("42",), origin="implied", scope=ALL_SIGNALS,
              reading="(55), which is (42) with the nu_di of (56), put into the display before (42).")
 def unknown_bound_controller_in_rate() -> Goal:
     """(55) in the bracket of V_2'."""
     return left_by(signal_of(nu_unknown), nu_unknown)
+
+
+paper.definition("56.law", "The signal with an estimated bound",
+                 r"\nu_{di}(t) = -\frac{1}{\rho_m^0}\hat{\lambda}_i^0(t)\operatorname{sgn}[z_2(t)]\chi_{\bar{d}i}(t)",
+                 note="The next line defines rho_i^0 instead of rho_m^0, see 56.")
 
 
 @paper.claim("56", "nu_d outweighs the disturbance once the estimate reaches its bound", "inequality",

@@ -27,11 +27,13 @@ from ..active_mode import (
 )
 from ..counterexamples import already, at_instant, exact, stopped, unit_gains
 from ..error_dynamics import ALL_SIGNALS, Flow, filippov, k_v, rho_i, size, uncertain_train
+from ..felt_force import of_every_mode, printed_signal, signal_law
 from ..lyapunov import V_40, V_true, decay, m_idle
+from ..modes import EVERY_MODE, rho_hat_i
 from ..paper import paper
 from ..plant import D_c, Delta_b, Delta_c, F, curvature, drag, g, vartheta, x_1, x_2, z_2
 from .section_2 import PER_MASS, a_t, b_t, c_t, d_bar, m_t, v
-from .section_4_design import LEFT, left_by
+from .section_4_design import LEFT, NU_0, SIGNAL, left_by
 
 rate = sp.Symbol("acceleration", real=True)
 rho_rate, nu_one = sp.symbols("rho_hat_rate nu_Delta", real=True)
@@ -60,6 +62,14 @@ def uncertain_per_mass() -> Goal:
         whole.items(), (Delta_b, Delta_c), strict=True))), flow={x_2: rate})
 
 
+@paper.claim("60.law", "The controller with nonlinear damping", "identity", printed_signal(r"\hat{\xi}^T(t)\varpi(t)", within=r"\hat{\rho}_i(t)\nu_{\Delta}(t) + "), "proved",
+             rests_on=(), scope=EVERY_MODE, where=SIGNAL | {r"\nu_{di}(t)": of_every_mode(nu_failed)}, reading=NU_0
+                     + "The extracted text has i for the last mode l.")
+def damped_law() -> Goal:
+    """D(x_2) of (8) with the signal that is simulated."""
+    return signal_law(signal_60, of_every_mode(nu_failed), within=rho_hat_i * nu_damp)
+
+
 @paper.claim("60", "What the controller leaves of the rate of V_2", "identity",
              LEFT % r"\nu_{di} + \rho_i\nu_\Delta - \tilde\rho_i\nu_\Delta", "proved", premises=("42",),
              origin="implied", scope=ALL_SIGNALS, reading="(60) put into the display before (42).",
@@ -67,6 +77,10 @@ def uncertain_per_mass() -> Goal:
 def damped_controller_in_rate() -> Goal:
     """(60) in the bracket of V_2'."""
     return left_by(signal_60, nu_failed, rho_i * nu_damp, -(rho_i - rho_hat) * nu_damp)
+
+
+paper.definition("62.law", "The nonlinear damping", r"\nu_{\Delta}(t) = -k_1z_2(t)x_2^2(t) - k_2z_2(t)x_2^4(t)",
+                 note="What it is for is decided in 62.")
 
 
 @paper.claim("62", "The nonlinear damping damps", "inequality",

@@ -2,30 +2,26 @@
 
 from __future__ import annotations
 
-from fractions import Fraction
-
 import sympy as sp
 
 from workbench.proof.claim import Goal, at_least, at_most, equal, greater, less
+from workbench.proof.printed_values import exact_decimal
 
 from ..paper import paper
 from ..plant import M, t
+from ..stated_values import modes, stated
 from .section_2 import ramp
 
 c_before, c_after, a_stated, a_force = sp.symbols("c_before c_after a_stated a_r", real=True)
 
 
-def decimal(text: str) -> Fraction:
-    """A printed decimal as an exact number."""
-    return Fraction(text)
-
-
+a_1, mass = exact_decimal(modes[0]["a_kn"]), exact_decimal(stated["train"]["mass_t"])
 v_end = sp.Symbol("v_end", real=True)
 
 
 @paper.claim("VIII.stop", "The train does not stop", "condition",
              r"\text{the train does not stop}\ldots\text{to slow down until fully stop. For } 1400 \le t < 2000",
-             "violated", severity="cosmetic", match="words", at={v_end: Fraction(0)},
+             "violated", severity="cosmetic", match="words", at={v_end: exact_decimal(stated["reference"]["speeds_mps"][-1])},
              reading="The speed at the end is held against the sentence before the modes, that the train does not stop.",
              note="The two sentences of section VIII contradict each other. The first is given as the reason for a constant "
                   "mass, which a stop at the very end would not spoil.")
@@ -48,7 +44,7 @@ def ramp_continuous() -> Goal:
              r"\text{the change of the parameters of the train dynamic motion model are not abrupt}\ldots c_1 = 1.12 \times "
              r"10^{-6},\ c_2 = 9.12 \times 10^{-6}", "violated", severity="cosmetic", match="words",
              reading="c on both sides of the tunnel's portal must agree.",
-             at={c_before: decimal("1.12e-6"), c_after: decimal("9.12e-6")},
+             at={c_before: exact_decimal(modes[0]["c_kn_s2_per_m2"]), c_after: exact_decimal(modes[1]["c_kn_s2_per_m2"])},
              note="The introduction motivates the indicators by parameters that do not change abruptly. In section "
                   "VIII all but the slope's are 0-1 functions, and c jumps by a factor of eight at the tunnel. No "
                   "proof needs continuity.")
@@ -61,8 +57,8 @@ def resistance_continuous() -> Goal:
              r"\text{the parameters } a_i \text{ (kN)}\ldots\text{ are defined in equations (9)-(10)}\ldots a_1 = 8.63 "
              r"\times 10^{-3}", "violated", match="words",
              reading="a_1 as a force of 8.63e-3 kN, divided by the 400 t of the train, must be the a_1 of (9).",
-             at={a_stated: decimal("8.63e-3"), a_force: decimal("8.63e-3"), M: Fraction(400)},
-             repair={a_stated: decimal("8.63e-3"), a_force: decimal("3.452"), M: Fraction(400)},
+             at={a_stated: a_1, a_force: a_1, M: mass},
+             repair={a_stated: a_1, a_force: a_1 * mass, M: mass},
              note="(9), (10) take a_i per unit of mass (kN/t = m/s^2); section VIII gives the a_i, b_i, c_i that it "
                   "refers to (9), (10) in kN, a rolling resistance of 8.6 N for the whole train. Read as kN/t the "
                   "value is an ordinary one of 3.45 kN. theta_i is given in degrees likewise, where (9) has its sine.")
@@ -98,8 +94,9 @@ b_stated, c_stated, Delta_b_most, Delta_c_most = sp.symbols("b_1 c_1 Delta_b_max
 
 @paper.claim("VIII.case5", "The uncertain parameters of case 5 exceed the resistance itself", "condition",
              r"\max|\Delta b| > 100\,b_1,\ \max|\Delta c| > 800\,c_1", "proved", origin="ours",
-             at={b_stated: decimal("7.295e-6"), c_stated: decimal("1.12e-6"), Delta_b_most: decimal("0.001"),
-                 Delta_c_most: decimal("0.001")},
+             at={b_stated: exact_decimal(modes[0]["b_kn_s_per_m"]), c_stated: exact_decimal(modes[0]["c_kn_s2_per_m2"]),
+                 Delta_b_most: exact_decimal(stated["drag"][0]["amplitude"]),
+                 Delta_c_most: exact_decimal(stated["drag"][1]["amplitude"])},
              note="The paper sets no limit to them, but b + Delta_b and c + Delta_c are no resistances any more: "
                   "Delta_c is about 900 times c, so that for nearly half of each period the air drives the "
                   "train; at 60 m/s it makes 3.6 in the unit of c v^2, against 0.004 of c v^2 itself.")

@@ -50,6 +50,14 @@ of_width = sp.exp(-squared / (2 * width**2))
 of_center = sp.exp(-((x_i - c_ji) ** 2 + q_rest) / (2 * width**2))
 
 
+paper.definition("5", "The hidden functions of the network",
+                 r"h_j(\mathbf{x}) = \exp\left(-\frac{\|\mathbf{x} - c_j\|^2}{2b_j^2}\right)\quad j = 1, 2, \dots, m")
+paper.definition("6", "The centers of the hidden functions",
+                 r"\mathbf{c} = [c_{j1}, c_{j2}, \dots, c_{ji}, \dots, c_{jn}]^T\quad i = 1, 2, \dots, n")
+paper.definition("9", "The performance index of the network",
+                 r"E = 0.5[f(\mathbf{x}) - \hat{f}(\mathbf{x})]^2")
+
+
 @paper.claim("10", "Gradient step of a weight", "identity",
              r"\Delta w_j(t) = \eta[f(\mathbf{x}) - \hat{f}(\mathbf{x})]h_j", "proved", scope=EVERY_SIZE,
              where=letters(plain) | {r"\Delta w_j(t)": descent(plain)},
@@ -171,6 +179,10 @@ def one_law() -> Goal:
 
 f_network = over_neurons(W_star * h) + epsilon
 f_hat = law.f_hat.xreplace({law.h: h})
+
+
+paper.definition("16", "The output of the network",
+                 r"\hat{f}(\mathbf{x}) = \hat{\mathbf{W}}^T\mathbf{h}(\mathbf{x})")
 
 
 @paper.claim("17", "Approximation error", "identity",

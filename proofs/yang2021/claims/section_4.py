@@ -31,6 +31,13 @@ from ..lyapunov import (
 from ..paper import paper
 from ..stated_values import stated_k
 
+paper.definition("18", "The error system of Lemma 1", r"\dot{e} = f(t, e)")
+paper.definition("19", "The decay that Lemma 1 asks for",
+                 r"\dot{V} = \frac{\partial V}{\partial x}f \leq -\mu V + l",
+                 note="A hypothesis, see lemma1. l is called lambda below (20), and x stands for e.")
+paper.definition("20.definition", "The symmetric barrier function",
+                 r"V_1(e_1) = \frac{1}{2}\log\frac{k^2}{k^2 - e_1^2}")
+
 
 @paper.claim("20", "V_1 is positive away from zero", "inequality", r"V(x) > 0\ (x \neq 0)", "proved",
              reading="V is V_1 of (20) and x its argument e_1, within the constraint.")

@@ -21,6 +21,11 @@ from ..paper import paper
 IN_SPEEDS = {"e_1": law.e_1, "e_2": law.e_2, "r": law.r, "x_1": x_1, "x_2": x_2}
 
 
+paper.definition("22", "The position error", r"e_1 = x_1 - x_d")
+paper.definition("23", "The speed error of the design", r"e_2 = x_2 - r",
+                 note="The sentence before it calls this the derivative of the position error, see 23.derivative.")
+
+
 @paper.claim("23.derivative", "e_2 is the derivative of the position error", "identity",
              r"\text{The position tracking error and its derivative signal are defined as follows}", "refuted",
              severity="cosmetic", match="words", reading="The derivative signal of e_1 of (22) is e_2 of (23): e_2 = D(e_1).",
@@ -68,6 +73,9 @@ def barrier_rate() -> Goal:
                 (inside, equal(e_2, x_2 - virtual)), {e_1: x_2 - xdot_d})
 
 
+paper.definition("27", "The virtual law", r"r = -\alpha e_1 + \dot{x}_d")
+
+
 @paper.claim("28", "Rate of the virtual law", "identity", r"\dot{r} = -\alpha\dot{e}_1 + \ddot{x}_d", "proved",
              premises=("24",), where=IN_SPEEDS)
 def virtual_law_rate() -> Goal:
@@ -80,6 +88,9 @@ def virtual_law_rate() -> Goal:
 def barrier_rate_closed() -> Goal:
     """D(V_1) along the closed loop."""
     return Goal((equal(D(V_1), V_1_rate),), (inside,), {e_1: flow[e_1]})
+
+
+paper.definition("30", "The function of the second step", r"V_2 = V_1 + \frac{1}{2}e_2^2")
 
 
 @paper.claim("31", "Rate of V_2", "identity",

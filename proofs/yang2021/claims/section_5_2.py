@@ -32,6 +32,10 @@ from ..notation import W_hat
 from ..paper import paper
 from .section_5_1 import rdot_errors
 
+paper.definition("38.definition", "The Lyapunov function",
+                 r"V = \frac{1}{2}\log\frac{k^2}{k^2 - e_1^2} + \frac{1}{2}e_2^2 + \frac{1}{2\chi}\tilde{W}^T\tilde{W} + \frac{1}{2\lambda_1}\tilde{a}^2 + "
+                 r"\frac{1}{2\lambda_2}\tilde{b}^2 + \frac{1}{2\lambda_3}\tilde{c}^2")
+
 
 @paper.claim("38", "V is not negative", "inequality", r"V \geq 0", "proved", premises=("20",), origin="implied",
              scope=EVERY_NETWORK, note="Used in (52), which prints 0 <= V(t).")

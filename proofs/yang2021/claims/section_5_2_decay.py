@@ -66,6 +66,10 @@ def minimum_is_positive(*extra: Relation) -> Goal:
     return Goal(tuple(greater(r.right, 0) for r in slowest), extra)
 
 
+paper.definition("49", "The rate mu",
+                 r"\mu = \min[2\alpha, 2\beta - 1, \chi, \lambda_1\sigma_1, \lambda_2\sigma_2, \lambda_3\sigma_3]")
+
+
 @paper.claim("49.positive", "Positive gains make mu positive", "implication",
              r"\alpha, \beta, \chi, \lambda_i, \sigma_i > 0 \Rightarrow \mu = \min[2\alpha, 2\beta-1, \chi, "
              r"\lambda_1\sigma_1, \lambda_2\sigma_2, \lambda_3\sigma_3] > 0", "gap", origin="ours",
@@ -76,6 +80,10 @@ def minimum_is_positive(*extra: Relation) -> Goal:
 def positive_minimum() -> Goal:
     """Every entry of the minimum, for all positive gains."""
     return minimum_is_positive()
+
+
+paper.definition("50.definition", "The bound l",
+                 r"l = \frac{1}{2}\varepsilon^{*2} + \frac{1}{2}\mathbf{W}^{*2} + \frac{1}{2}\sigma_1a^{*2} + \frac{1}{2}\sigma_2b^{*2} + \frac{1}{2}\sigma_3c^{*2}")
 
 
 @paper.claim("50", "l is positive, as Lemma 1 asks", "implication", r"l > 0", "proved", scope=EVERY_NETWORK, origin="implied",

@@ -1,6 +1,7 @@
 """mao2018's rates of V_2 in plain numbers, typed from the paper for four modes: what its claims say of them."""
 
 import random
+from dataclasses import replace
 
 import pytest
 from scenarios import PROOFS
@@ -94,6 +95,19 @@ def test_the_product_of_two_sums_over_modes_keeps_the_active_one_alone(claims):
         chi = [float(i == active) for i in range(MODES)]
         assert dot(q["m"], chi) * dot(chi, q["rho_hat"]) == pytest.approx(
             sum(m * c * part for m, c, part in zip(q["m"], chi, q["rho_hat"], strict=True)))
+
+
+def test_the_printed_signal_is_that_of_the_modes_only_while_one_is_active(claims):
+    """-rho_k xi_hat^T varpi stands before the sum in (42) and within it in the simulation."""
+    assert all(decide(claims[f"{law}.law"]).verdict == "proved" for law in (35, 42, 48, 55, 60))
+    goal = claims["42.law"].build()
+    free = replace(goal, assume=goal.assume[:1])  # without sum chi_mi = 1
+    assert decide(replace(claims["42.law"], build=lambda: free)).verdict == "refuted"
+
+
+def test_every_number_has_a_row(claims):
+    numbers = {int(equation.split(".")[0]) for equation in claims if equation.split(".")[0].isdigit()}
+    assert set(range(1, 68)) <= numbers
 
 
 @pytest.mark.parametrize("law, other", [("54", "54.glyph"), ("61", "61.glyph"), ("44", "44.mended")])

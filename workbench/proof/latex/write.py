@@ -37,6 +37,19 @@ def _names(expr: sp.Expr) -> set[str]:
     return bases | {str(s) for s in expr.atoms(sp.Symbol) if str(s) not in hidden - bases}
 
 
+def _parts(expr: sp.Expr, kind: type[sp.Expr]) -> tuple[sp.Expr, ...]:
+    """The terms of a sum, or factors of a product, those of sums or products within it among them."""
+    return tuple(part for arg in expr.args for part in (_parts(arg, kind) if isinstance(arg, kind) else (arg,)))
+
+
+def _in_one_row(product: sp.Mul) -> sp.Expr:
+    """A product of products as one product, its numbers gathered in front."""
+    parts = _parts(product, sp.Mul)
+    number = sp.prod(part for part in parts if part.is_Rational)
+    others = [part for part in parts if not part.is_Rational]
+    return sp.Mul(*([] if number == 1 and others else [number]), *others, evaluate=False)
+
+
 class _Printer(LatexPrinter):
     """sympy's own LaTeX, with letters by their names and brackets wherever a reader could be in doubt."""
 
@@ -57,6 +70,14 @@ class _Printer(LatexPrinter):
         if stem.endswith("}") and "_{" in stem:
             return f"{stem[:-1]},{index}}}{mark}"
         return f"{stem}_{{{index}}}{mark}"
+
+    def _print_Mul(self, expr: sp.Expr) -> str:
+        """A product as typed in one row: sympy loses a minus that a product within it begins with; or a fraction."""
+        return str(super()._print_Mul(_in_one_row(expr) if isinstance(expr, sp.Mul) else expr))
+
+    def _print_Add(self, expr: sp.Add, order: str | None = None) -> str:
+        terms = tuple(_in_one_row(term) if isinstance(term, sp.Mul) else term for term in _parts(expr, sp.Add))
+        return str(super()._print_Add(sp.Add(*terms, evaluate=False), order))
 
     def _print_D(self, expr: sp.Expr, exp: str | None = None) -> str:
         inner = rf"\frac{{d}}{{dt}}\left[{self._print(expr.args[0])}\right]"

@@ -1,4 +1,4 @@
-"""Section 2: the model (1)-(9) and Assumptions 1 to 5 (10)."""
+"""Section 2: the model (7)-(9) and Assumptions 1 to 5 (10)."""
 
 from __future__ import annotations
 
@@ -43,7 +43,7 @@ def general_resistance() -> Goal:
 
 @paper.claim("9", "The model (9) from (1)", "implication",
              r"\dot v(t) = \frac{\chi}{M}u(t) - \frac{\chi}{M}f_d(v, t) + d(t)", "gap", severity="cosmetic",
-             rests_on=(),
+             rests_on=("1",),
              correction=lambda: Goal((equal(D(v), acceleration.xreplace({chi: sp.Integer(1), d: sp.Integer(0)})),),
                                      flow=NEWTON),
              corrected_statement=r"\chi = 1,\ d = 0:\quad \dot v = \tfrac{\chi}{M}u - \tfrac{\chi}{M}f_d + d",
