@@ -5,7 +5,8 @@ import time
 
 import pytest
 
-from workbench.tasks.handing_out import results_of
+from workbench.errors import WorkbenchError
+from workbench.tasks.handing_out import results_of, run_tasks
 
 TASKS = [5, 1, 4, 2]
 
@@ -36,3 +37,15 @@ def test_a_task_that_fails_is_raised_with_what_it_raised():
 
 def test_nothing_to_do_gives_nothing():
     assert results_of(operator.add, 1, [], 2, pytest.fail) == {}
+
+
+def test_what_has_no_name_is_refused_in_a_line_before_a_process_starts():
+    """As a study that states a function within a function; without other processes it runs."""
+    def nameless(given, task):
+        return given + task
+
+    with pytest.raises(WorkbenchError, match=r"cannot be handed to other processes .*nameless.*--workers 1"):
+        run_tasks(nameless, 1, [1, 2], 2, lambda result: None)
+    found = []
+    run_tasks(nameless, 1, [1, 2], 1, found.append)
+    assert found == [2, 3]

@@ -17,6 +17,7 @@ from typing import Any, TypeVar
 from workbench.errors import WorkbenchError
 from workbench.files.cache_folder import note
 from workbench.files.modules import KnownFolders
+from workbench.tasks.sent import job_bytes, job_of
 
 THREAD_LIMITS = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "NUMBA_NUM_THREADS",
                  "VECLIB_MAXIMUM_THREADS")
@@ -41,7 +42,7 @@ class LocalProcesses:
 
     def run(self, function: Callable[[Any, T], R], shared: Any, tasks: Iterable[T],
             record: Callable[[R], None]) -> None:
-        """As `Executor.run`; raises WorkbenchError when processes die again and again."""
+        """As `Executor.run`; raises WorkbenchError when processes die again and again, and as `job_bytes`."""
         waiting, unrecorded = iter(tasks), list[T]()
         for _ in range(MOST_LOSSES):
             again, unrecorded = unrecorded, []
@@ -57,10 +58,10 @@ class LocalProcesses:
     def _run(self, function: Callable[[Any, T], R], shared: Any, tasks: Iterator[T], record: Callable[[R], None],
              unrecorded: list[T]) -> None:
         """unrecorded: is left with the tasks that were handed out and not recorded, where processes die."""
+        job = job_bytes((function, shared))
         context = multiprocessing.get_context("spawn")
         others, running = set(multiprocessing.active_children()), dict[Future[R], T]()
-        with single_threaded(), ProcessPoolExecutor(self.workers, context, _start,
-                                                    (KnownFolders(), function, shared)) as pool:
+        with single_threaded(), ProcessPoolExecutor(self.workers, context, _start, (KnownFolders(), job)) as pool:
             def submit(count: int) -> None:
                 for task in islice(tasks, count):
                     unrecorded.append(task)
@@ -124,10 +125,10 @@ def interruption_held() -> Iterator[None]:
 _job: list[Any] = []
 
 
-def _start(known: KnownFolders, function: Callable[..., Any], shared: Any) -> None:
-    """known: first, since what follows may be of a module in a user's folder."""
+def _start(known: KnownFolders, job: bytes) -> None:
+    """known: first, since what the job holds may be of a module in a user's folder."""
     follow_parent()
-    _job[:] = [function, shared]
+    _job[:] = job_of(job)
 
 
 def follow_parent() -> None:

@@ -7,9 +7,12 @@ from __future__ import annotations
 
 import io
 import pickle
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
+from workbench.errors import WorkbenchError
 from workbench.files.regular import LARGEST_DATA, contents
 from workbench.files.upload import put_file
 
@@ -62,10 +65,32 @@ class _AnswerReader(pickle.Unpickler):
         return Path(text) if is_path else text
 
 
+@contextmanager
+def named_things_alone() -> Iterator[None]:
+    """WorkbenchError where what is to be sent holds what has no name in its module, as a function within a function."""
+    try:
+        yield
+    except (pickle.PicklingError, AttributeError, TypeError) as trouble:
+        raise WorkbenchError(f"a run cannot be handed to other processes ({trouble}): give functions and classes names "
+                             "at the top level of their module, or run with --workers 1") from trouble
+
+
+def job_bytes(job: Any) -> bytes:
+    """What processes of this machine are given to run; raises WorkbenchError as `named_things_alone`."""
+    with named_things_alone():
+        return pickle.dumps(job, pickle.HIGHEST_PROTOCOL)
+
+
+def job_of(data: bytes) -> Any:
+    """In such a process: what was given."""
+    return pickle.loads(data)  # noqa: S301 - from the process that has started this one
+
+
 def packed(value: Any, roots: frozenset[Path]) -> bytes:
-    """A value for a worker; raises as pickle does for what has no name, as a function within a function."""
+    """A value for a worker; raises WorkbenchError as `named_things_alone`."""
     stream = io.BytesIO()
-    _Sender(stream, roots).dump(value)
+    with named_things_alone():
+        _Sender(stream, roots).dump(value)
     return stream.getvalue()
 
 
