@@ -410,8 +410,8 @@ class Context:
         if argument.den == constant(1) and set(argument.num) <= {()} and (
                 rational := self._of_number(name, argument.num.get((), Fraction(0)))) is not None:
             return number(rational)
-        for atom, (kind, known) in self.functions.items():
-            if kind == name and same(known, argument):
+        for atom, (kind, known) in list(self.functions.items()):
+            if kind == name and self.closed(known + -argument).is_zero():
                 return symbol(atom)
             if kind == name != "sqrt" and same(known, -argument):  # abs and cos are even, sign and sin are odd
                 return symbol(atom) if name in ("abs", "cos") else -symbol(atom)
@@ -617,8 +617,19 @@ class Relations:
     def require_defined(self, text: str) -> None:
         """Every denominator in `text` is non-zero, every argument of log positive, of sqrt non-negative, always."""
         for part, wanted in self.context.partial_operations(text):
-            if not self.fits(self.context.node(part), wanted):
+            if not (wanted == "non-negative" and self.squares(part)) and not self.fits(self.context.node(part), wanted):
                 raise CertificateError(f"not shown {wanted}: {ast.unparse(part)}")
+
+    def squares(self, node: ast.expr) -> bool:
+        """Whether an expression is written as a sum, over an index too, of even powers and of what is not negative."""
+        match node:
+            case ast.BinOp(op=ast.Pow(), right=ast.Constant(value=int(power))):
+                return power % 2 == 0
+            case ast.BinOp(left=left, op=ast.Add(), right=right):
+                return self.squares(left) and self.squares(right)
+            case ast.Call(func=ast.Name(id="Sum"), args=[inner]):
+                return self.squares(inner)
+        return self.fits(self.context.node(node), "non-negative")
 
     def require_defined_value(self, value: Ratio) -> None:
         """The same for a value that is no text."""
