@@ -10,6 +10,7 @@ from workbench.proof.claim import D, Goal, Relation, at_least, at_most, equal, g
 from workbench.proof.decide.combination import find_combination
 from workbench.proof.decide.identity import find_identity
 from workbench.proof.decide.squares import find_squares
+from workbench.proof.decide.tangents import find_by_tangents
 from workbench.proof.decide.totals import find_by_totals
 from workbench.proof.decide.vanishing import vanishes
 from workbench.proof.derive import Side, Size, expand_derivatives, unfold
@@ -47,7 +48,7 @@ def search(goal: Goal, shown: Relation, given: Given, lemmas: Given = (), depth:
             return found
     return (_by_lemmas(goal, shown, given, lemmas) or _by_contradiction(goal, shown, given)
             or _by_growth(goal, _carried(shown, goal), given) or find_by_totals(goal, shown, given, search)
-            or _by_its_square(goal, shown, given))
+            or find_by_tangents(goal, _carried(shown, goal), given) or _by_its_square(goal, shown, given))
 
 
 def _by_contradiction(goal: Goal, shown: Relation, given: Given) -> Found:
@@ -69,7 +70,7 @@ def _by_its_square(goal: Goal, shown: Relation, given: Given) -> Found:
 
     So from (p q)^2 >= r^2 for p q >= 0 follows p q >= r, which no sum of squares says at once.
     """
-    if shown.operator not in ("<=", ">=") or not any(r.operator == "==" for r in given) or shown.margin.has(sp.Sum):
+    if shown.operator not in ("<=", ">=") or shown.margin.has(sp.Sum):
         return None
     opposite = shown.negation
     found = find_squares(goal, at_most(opposite.margin**2, 0), (*given, opposite))
