@@ -1172,11 +1172,25 @@ def check_proved(goal: dict[str, Any], certificate: dict[str, Any]) -> None:
     if not goal["show"] or len(goal["show"]) != len(certificate["proofs"]):
         raise CertificateError("one proof is needed for every relation shown")
     for text, proof in zip(goal["show"], certificate["proofs"], strict=True):
-        given.require_defined(text)
+        _require_shown_defined(text, given, proof)
         prove(*margin(context, text), given, proof)
     sides = [split_relation(text)[::2] for text in goal["show"]]
     if all(ast.dump(parse(left)) == ast.dump(parse(right)) for left, right in sides):
         raise CertificateError("trivial: both sides of every relation shown are the same text")
+
+
+def _require_shown_defined(text: str, given: Relations, proof: dict[str, Any]) -> None:
+    """CertificateError unless a relation is defined where the assumptions hold, with them the lemmas that its proof
+    shows first: log y is, where y >= x > 0, once y > 0 is shown."""
+    while True:
+        try:
+            given.require_defined(text)
+            return
+        except CertificateError:
+            if proof.get("rule") != "cut":
+                raise
+        given = given.with_margins([*given.margins, margin(given.context, proof["lemma"])])
+        proof = proof["then"]
 
 
 def _check_example(goal: dict[str, Any], context: Context, given: Relations, certificate: dict[str, Any]) -> None:

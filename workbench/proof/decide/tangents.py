@@ -40,9 +40,8 @@ def find_by_tangents(goal: Goal, shown: Relation, given: Given) -> Proof | None:
     for places in _least(margin, arguments):
         facts = tuple(turn * (a - q) for a, q in zip(arguments, places, strict=True) for turn in (1, -1))
         near = replace(goal, facts=(*goal.facts, *facts))
-        if denominator.is_number:
-            found = find_combination(near, shown, given, quick=True)
-        else:
+        found = find_combination(near, shown, given, quick=True)
+        if found is None and not denominator.is_number:
             lemma = at_least(sp.expand(numerator), 0)
             first = find_combination(near, lemma, given, quick=True)
             found = None if first is None else _after(
