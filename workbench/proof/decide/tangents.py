@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 from dataclasses import replace
 from fractions import Fraction
-from itertools import permutations
+from itertools import permutations, product
 from typing import Any
 
 import numpy as np
@@ -37,35 +37,39 @@ def find_by_tangents(goal: Goal, shown: Relation, given: Given) -> Proof | None:
     if not 0 < len(arguments) <= 2:
         return None
     numerator, denominator = sp.fraction(sp.together(margin))
-    for places in _least(margin, arguments):
-        facts = tuple(turn * (a - q) for a, q in zip(arguments, places, strict=True) for turn in (1, -1))
+    for places, turn in product(_least(margin, arguments, given), (1, -1)):
+        facts = tuple(turn * (a - q) for a, q in zip(arguments, places, strict=True))
         near = replace(goal, facts=(*goal.facts, *facts))
         found = find_combination(near, shown, given, quick=True)
         if found is None and not denominator.is_number:
             lemma = at_least(sp.expand(numerator), 0)
             first = find_combination(near, lemma, given, quick=True)
             found = None if first is None else _after(
-                [(lemma, first)], find_combination(goal, shown, (*given, lemma), quick=True))
+                [(lemma, first)], find_combination(goal, shown, (*given, lemma)))
         if found is not None:
             return found
     return None
 
 
-def _least(margin: sp.Expr, arguments: list[sp.Expr]) -> Iterator[list[sp.Rational]]:
+def _least(margin: sp.Expr, arguments: list[sp.Expr], given: Given) -> Iterator[list[sp.Rational]]:
     """What the arguments are where the margin is least, each other symbol being 1, to some digits."""
-    for symbol in sorted(margin.free_symbols, key=str):
-        others = dict.fromkeys(margin.free_symbols - {symbol}, sp.S.One)
-        with np.errstate(all="ignore"):
-            values = _on(symbol, margin.xreplace(others))(PLACES) + 0 * PLACES
-        if symbol.is_nonnegative:
-            values = np.where(PLACES < 0, np.inf, values)
-        if not np.isfinite(values).any():
+    for symbol in sorted(margin.free_symbols, key=lambda s: (s.is_positive is True, str(s))):
+        one = dict.fromkeys(margin.free_symbols - {symbol}, sp.S.One)
+        kept = [r.margin for r in given if r.operator != "!=" and r.margin.free_symbols == {symbol}]
+
+        def values(places: np.ndarray, of: sp.Symbol = symbol, bounds: Any = kept, at: Any = one) -> np.ndarray:
+            with np.errstate(all="ignore"):
+                found = _on(of, margin.xreplace(at))(places) + 0 * places
+                for bound in bounds:
+                    found = np.where(_on(of, bound)(places) < 0, np.inf, found)
+            return np.where(np.isfinite(found), found, np.inf)
+
+        coarse = int(np.argmin(values(PLACES)))
+        if not np.isfinite(values(PLACES[coarse:coarse + 1])).all():
             continue
-        best = np.flatnonzero(values == np.nanmin(np.where(np.isfinite(values), values, np.inf)))[0]
-        finer = np.linspace(PLACES[max(best - 1, 0)], PLACES[min(best + 1, len(PLACES) - 1)], 4_001)
-        with np.errstate(all="ignore"):
-            least = finer[np.nanargmin(_on(symbol, margin.xreplace(others))(finer) + 0 * finer)]
-        at = [float(a.xreplace(others).xreplace({symbol: sp.Float(least)})) for a in arguments]
+        finer = np.linspace(PLACES[max(coarse - 1, 0)], PLACES[min(coarse + 1, len(PLACES) - 1)], 4_001)
+        least = one | {symbol: sp.Float(float(finer[np.argmin(values(finer))]))}
+        at = [float(a.xreplace(least)) for a in arguments]
         for digits in DIGITS:
             yield [_shortened(value, digits) for value in at]
 
