@@ -4,7 +4,7 @@
 
 FILE is a JSON list of problems by kind. Lyapunov: `rates` by state, `within` (polynomials that are not negative in the
 region; none: everywhere), `attempts` of [degree, decay rate]. barrier: also `initial` and `unsafe`. feedback: matrices
-`A` and `B` and the decay `rate` that u = K x is asked for, in 1/s. `source` and `peer` say where it comes from and what
+`A` and `B`, the decay `rate` that u = K x is asked for, in 1/s, and the `radius` of each state from which on commands count. `source` and `peer` say where it comes from and what
 is reported there. A row counts as found only with certificates that the checker accepts. Times are of the processor.
 """
 
@@ -22,16 +22,19 @@ from typing import Any
 
 import numpy as np
 import sympy as sp
+from scipy.linalg import solve_continuous_are
 
 from workbench.errors import WorkbenchError
 from workbench.files.time_limit import OutOfTime, at_most_seconds
-from workbench.gains.feedback import decaying
+from workbench.gains.feedback import decaying, proved_decay
 from workbench.gains.linearised import LinearPlants
 from workbench.gains.lyapunov import Certified, barrier_function, lyapunov_function
 from workbench.proof.checker import check
 from workbench.proof.obligation import expression
+from workbench.proof.typed import evaluated
 
 FILE = Path(__file__).parent / "gains_problems" / "problems.json"
+PARTS = (0.9, 0.5, 0.1)  # of a loop's spectral abscissa, asked for as proved decay
 
 
 @dataclass(frozen=True)
@@ -71,10 +74,10 @@ def found(problem: dict[str, Any], limit: float) -> Row:
 def _attempts(problem: dict[str, Any]) -> Iterator[tuple[str, str, list[dict[str, Any]]]]:
     """(what is proved, the function or why there is none, certificates) of each attempt."""
     if problem["kind"] == "feedback":
-        yield _feedback(problem)
+        yield from _feedback(problem)
         return
-    flow = {sp.Symbol(state, real=True): expression(rate) for state, rate in problem["rates"].items()}
-    regions = {part: [expression(text) for text in problem.get(part, [])] for part in ("within", "initial", "unsafe")}
+    flow = {sp.Symbol(state, real=True): evaluated(expression(rate)) for state, rate in problem["rates"].items()}
+    regions = {part: [evaluated(expression(text)) for text in problem.get(part, [])] for part in ("within", "initial", "unsafe")}
     where = "in the region" if regions["within"] else "everywhere"
     for degree, stated in problem["attempts"]:
         rate = Fraction(stated)
@@ -92,19 +95,40 @@ def _attempts(problem: dict[str, Any]) -> Iterator[tuple[str, str, list[dict[str
         yield proved, str(one.function), list(one.certificates.values())
 
 
-def _feedback(problem: dict[str, Any]) -> tuple[str, str, list[dict[str, Any]]]:
-    """u = K x with the least command for a unit ball of states."""
+def _feedback(problem: dict[str, Any]) -> Iterator[tuple[str, str, list[dict[str, Any]]]]:
+    """u = K x with the least command for an ellipsoid of states; else an LQR's, with the decay that is proved of it."""
     A, B = (sp.Matrix([[sp.Rational(entry) for entry in row] for row in problem[name]]) for name in "AB")
     states = tuple(f"x{place + 1}" for place in range(A.rows))
     plants = LinearPlants(states, tuple(f"u{place + 1}" for place in range(B.cols)), ((A, B),))
-    abscissa = float(np.linalg.eigvals(np.array(A.tolist(), dtype=float)).real.max())
+    radius = dict(zip(states, map(Fraction, problem["radius"]), strict=True))
+    a, b = (np.array(matrix.tolist(), dtype=float) for matrix in (A, B))
+    alone = f"plant alone {-_abscissa(a):.3g}"
     try:
-        one = decaying("benchmark:feedback", plants, Fraction(problem["rate"]), dict.fromkeys(states, Fraction(1)))
+        one = decaying("benchmark:feedback", plants, Fraction(problem["rate"]), radius)
     except WorkbenchError as trouble:
-        return "", str(trouble), []
-    gain = ", ".join(f"{float(entry):.4g}" for entry in one.K)
-    return (f"decay {problem['rate']} 1/s (plant alone {-abscissa:.3g}), |u| <= {one.bound:.4g}", f"K = [{gain}]",
-            [one.found.certificate])
+        yield "", str(trouble), []
+    else:
+        yield (f"decay {problem['rate']} 1/s ({alone}), |u| <= {one.bound:.4g}", _listed(one.K),
+               [one.found.certificate])
+    size = np.diag([1 / float(r) ** 2 for r in radius.values()])
+    K = np.round(-b.T @ solve_continuous_are(a, b, size, np.eye(b.shape[1])), 3)
+    for part in PARTS:
+        rate = Fraction(f"{-part * _abscissa(a + b @ K):.3g}")
+        try:
+            held = proved_decay("benchmark:feedback", plants, [[Fraction(str(k)) for k in row] for row in K], rate,
+                                radius)
+        except WorkbenchError as trouble:
+            yield "", str(trouble), []
+        else:
+            yield f"decay {float(rate):.3g} 1/s of an LQR ({alone})", _listed(K.ravel()), [held.certificate]
+
+
+def _abscissa(matrix: np.ndarray) -> float:
+    return float(np.linalg.eigvals(matrix).real.max())
+
+
+def _listed(gains: Any) -> str:
+    return f"K = [{', '.join(f'{float(entry):.4g}' for entry in gains)}]"
 
 
 def main() -> int:
