@@ -4,7 +4,8 @@
 
 FILE is a JSON list of problems by kind. Lyapunov: `rates` by state, `within` (polynomials that are not negative in the
 region; none: everywhere), `attempts` of [degree, decay rate]. barrier: also `initial` and `unsafe`. feedback: matrices
-`A` and `B`, the decay `rate` that u = K x is asked for, in 1/s, and the `radius` of each state from which on commands count. `source` and `peer` say where it comes from and what
+`A` and `B`, the decay `rate` that u = K x is asked for, in 1/s, and the `radius` of each state within which commands
+count. `source` and `peer` say where it comes from and what
 is reported there. A row counts as found only with certificates that the checker accepts. Times are of the processor.
 """
 
@@ -54,21 +55,21 @@ class Row:
 
 def found(problem: dict[str, Any], limit: float) -> Row:
     """The row of one problem; the first attempt that succeeds counts."""
-    started, proved, function, certificates, reason = time.process_time(), "", "", 0, ""
+    started, proved, function, reason, certificates = time.process_time(), "", "", "", 0
     try:
         with at_most_seconds(limit):
-            for proved, function, own in _attempts(problem):
+            for shown, said, own in _attempts(problem):
                 for certificate in own:
                     check(certificate)
-                certificates = len(own)
-                if certificates:
+                if own:
+                    proved, function, certificates = shown, said, len(own)
                     break
-                reason = function
+                reason = said
     except OutOfTime:
         certificates, reason = 0, f"nothing within {limit:g} s"
     seconds = time.process_time() - started
-    return Row(problem["name"], problem["kind"], certificates > 0, proved if certificates else "",
-               function if certificates else reason, certificates, seconds, problem["peer"], problem["source"])
+    return Row(problem["name"], problem["kind"], certificates > 0, proved, function or reason, certificates, seconds,
+               problem["peer"], problem["source"])
 
 
 def _attempts(problem: dict[str, Any]) -> Iterator[tuple[str, str, list[dict[str, Any]]]]:
@@ -77,7 +78,8 @@ def _attempts(problem: dict[str, Any]) -> Iterator[tuple[str, str, list[dict[str
         yield from _feedback(problem)
         return
     flow = {sp.Symbol(state, real=True): evaluated(expression(rate)) for state, rate in problem["rates"].items()}
-    regions = {part: [evaluated(expression(text)) for text in problem.get(part, [])] for part in ("within", "initial", "unsafe")}
+    regions = {part: [evaluated(expression(text)) for text in problem.get(part, [])]
+               for part in ("within", "initial", "unsafe")}
     where = "in the region" if regions["within"] else "everywhere"
     for degree, stated in problem["attempts"]:
         rate = Fraction(stated)

@@ -108,7 +108,8 @@ def forged() -> Iterator[tuple[str, dict[str, Any]]]:
             "Sum(1)**2 == Sum(1)", "Sum(1)*Sum(u) == Sum(u)")):
         yield f"an identity that is none {number}", _proved(show)
     for number, (show, flow) in enumerate((
-            ("Sum(D(x*u)) == Sum(u*v)", {"x": "Sum(v)"}), ("Sum(D(x/(1 + u**2))) == Sum(v/(1 + u**2))", {"x": "Sum(v)"}),
+            ("Sum(D(x*u)) == Sum(u*v)", {"x": "Sum(v)"}),
+            ("Sum(D(x/(1 + u**2))) == Sum(v/(1 + u**2))", {"x": "Sum(v)"}),
             ("D(Sum(u)) == Sum(v)", {"u": "Sum(v)"}), ("D(Sum(u)**2) == 2*Sum(u*v)", {"u": "v"}),
             ("D(Sum(u)*Sum(v)) == Sum(2*u*v)", {"u": "v", "v": "u"}), ("Sum(u*D(x)) == Sum(u*v)", {"x": "Sum(v)"}),
             ("D(Sum(x*u)) == Sum(u*v)", {"x": "Sum(v)"}))):

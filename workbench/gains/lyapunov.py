@@ -51,10 +51,10 @@ def lyapunov_function(name: str, flow: Flow, degree: int = 2, rate: Fraction = F
                       within: Sequence[sp.Expr] = ()) -> Certified:
     """V with V >= |x|^2 / 2, V(0) = 0 and V' <= -rate V, everywhere or where all of `within` are not negative.
 
-    name: `<paper>:<name>`, as certificates are named; flow: a polynomial for each state, or a quotient with a denominator
-    that is a sum of a positive number and even powers; degree: of V, even. Everywhere, V' <= 0 proves the origin stable
-    and every motion bounded, rate > 0 that V decays exponentially. Raises InputError for what is no such problem, and
-    SolverError where no V of that degree is found, or none that can be proved.
+    name: `<paper>:<name>`, as certificates are named; flow: a polynomial for each state, or a quotient with a
+    denominator that is a sum of a positive number and even powers; degree: of V, even. Everywhere, V' <= 0 proves the
+    origin stable and every motion bounded, rate > 0 that V decays exponentially. Raises InputError for what is no such
+    problem, and SolverError where no V of that degree is found, or none that can be proved.
     """
     states = _states(name, flow)
     if degree < 2 or degree % 2:
@@ -170,7 +170,7 @@ def _squares(family: Family, u: cp.Variable, room: cp.Variable) -> Iterator[Any]
 def _states(name: str, flow: Flow) -> tuple[sp.Symbol, ...]:
     states = tuple(flow)
     for state, rate in flow.items():
-        if unknown := sp.sympify(rate).free_symbols - set(states):
+        if unknown := sp.sympify(rate, strict=True).free_symbols - set(states):
             raise InputError(name, str(state), f"its rate mentions {min(map(str, unknown))}, which is no state")
     return states
 
@@ -190,7 +190,7 @@ def _cleared(name: str, flow: Flow, expr: sp.Expr) -> sp.Expr:
     """The expression times a denominator that is positive, so that it is a polynomial."""
     below = sp.Integer(1)
     for rate in flow.values():
-        below = sp.lcm(below, sp.fraction(sp.together(sp.sympify(rate)))[1])
+        below = sp.lcm(below, sp.fraction(sp.together(sp.sympify(rate, strict=True)))[1])
     if below.free_symbols:
         terms = sp.Poly(below, *sorted(below.free_symbols, key=str)).terms()
         if not all(c > 0 and all(n % 2 == 0 for n in e) for e, c in terms) or all(any(e) for e, _ in terms):

@@ -398,7 +398,7 @@ class Context:
             return self.derivative(argument, self.flow)
         if name not in FUNCTIONS:
             raise CertificateError(f"unknown function '{name}'")
-        if name != "sqrt" and any(SUM == atom or self.kind(atom) == TOTAL for atom in atoms_of(argument)):
+        if name != "sqrt" and any(atom == SUM or self.kind(atom) == TOTAL for atom in atoms_of(argument)):
             raise CertificateError(f"{name} of a sum")
         if name == "log":
             return self._log(argument)

@@ -75,7 +75,7 @@ def _least(margin: sp.Expr, arguments: list[sp.Expr], given: Given) -> Iterator[
 
 
 def _on(symbol: sp.Symbol, expr: sp.Expr) -> Callable[[np.ndarray], np.ndarray]:
-    return sp.lambdify(symbol, expr, "numpy")  # type: ignore[no-any-return]
+    return sp.lambdify(symbol, expr, "numpy")
 
 
 def _shortened(value: float, digits: int) -> sp.Rational:

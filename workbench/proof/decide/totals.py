@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Iterator
+from functools import partial
 from itertools import combinations
 from typing import Any
 
@@ -68,14 +69,13 @@ class Totals:
         """
         roots = {root: self.letters[m] for m in self.letters if (root := _root(m)) is not None}
         for root, letter in (roots | self.squares).items():
-            yield at_least(letter, 0), lambda place, of=root: _sum_of_squares(of)  # noqa: ARG005
+            yield at_least(letter, 0), partial(_sum_of_squares, root)
         for one, other in combinations(roots, 2):
             if (mixed := self.letters.get(one * other)) is not None:
-                yield (at_most(mixed**2, roots[one] * roots[other]),
-                       lambda place, p=one, q=other: _cauchy(text(p), text(q), place))
+                yield at_most(mixed**2, roots[one] * roots[other]), partial(_cauchy, text(one), text(other))
                 if of_roots:
                     yield (at_most(mixed, sp.sqrt(roots[one]) * sp.sqrt(roots[other])),
-                           lambda place, p=one, q=other: _cauchy_of_roots(text(p), text(q), place))
+                           partial(_cauchy_of_roots, text(one), text(other)))
 
     def named(self, proof: Any) -> Any:
         """A proof in which letters are the sums that they stand for."""
@@ -132,7 +132,7 @@ def _root(monomial: sp.Expr) -> sp.Expr | None:
     return sp.Mul(*(base ** (power / 2) for base, power in powers.items()))
 
 
-def _sum_of_squares(root: sp.Expr) -> Proof:
+def _sum_of_squares(root: sp.Expr, place: int) -> Proof:  # whatever is assumed
     return {"rule": "combination", "terms": [{"coefficient": "1", "factors": [{"sum_of_squares": text(root)}]}]}
 
 
