@@ -148,7 +148,7 @@ def test_the_examples_are_those_of_the_clone(place):
               if path.is_file() and "__pycache__" not in path.parts}
     shared = {path.relative_to(ROOT) for path in (ROOT / "benchmarks").rglob("*")
               if path.is_file() and path.suffix in (".toml", ".json", ".csv")
-              and not {"peers", "textbook"} & {*path.parts}}
+              and not {"peers", "textbook", "gains_problems"} & {*path.parts}}
     assert given == papers | shared
     assert [path for path in given if (place / "given" / path).read_bytes() != (ROOT / path).read_bytes()] == []
     listed = run(place, "list", "given/proofs")

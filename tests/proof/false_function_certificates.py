@@ -65,7 +65,7 @@ ATTACKS = {
     "a root of a sum is no sum of roots": (
         proved("sqrt(Sum(W**2)) == Sum(sqrt(W**2))", IDENTITY, **W), "sides differ"),
     "the square of a root of a sum is no sum of squares": (
-        proved("sqrt(Sum(W**2)*x)**2 == Sum(W**2*x)**2", IDENTITY, ["x > 0"], AT_ONE, **W), "two sums"),
+        proved("sqrt(Sum(W**2)*x)**2 == Sum(W**2*x)**2", IDENTITY, ["x > 0"], AT_ONE, **W), "two sides differ"),
     "division by what is a sum": (
         proved("Sum(W**2)/sqrt(Sum(W**2))**2 == 1", IDENTITY, example={"W": "1"}, **W), "not shown non-zero"),
     **{f"{name} of a sum": (proved(f"{name}(Sum(W)) == Sum({name}(W))", IDENTITY, **W), f"(of a sum|{name} of a sum)")

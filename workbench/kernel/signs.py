@@ -7,7 +7,7 @@ from fractions import Fraction
 from workbench.kernel.normal import number_text
 from workbench.kernel.syntax import FUNCTIONS, NotExportedError
 from workbench.kernel.writing import Writing
-from workbench.proof.checker import SUM, Poly, Ratio, atoms_of, constant, divide_exactly, same, symbol
+from workbench.proof.checker import SUM, TOTAL, Poly, Ratio, atoms_of, constant, divide_exactly, same, symbol
 
 
 class Signs(Writing):
@@ -34,6 +34,8 @@ class Signs(Writing):
         if name in self.facts.atoms:
             return
         kind, argument = self.context.functions[atom]
+        if kind == TOTAL:
+            raise NotExportedError("a product of sums")
         if SUM in atoms_of(argument):
             raise NotExportedError(f"{kind} of a sum")
         self.prepare(argument)

@@ -94,20 +94,28 @@ def formal_sums(expr: sp.Expr) -> sp.Expr:
     """
     if not expr.has(SUM, sp.Sum, Summed):
         return expr
-    flat = expr.replace(sp.Sum, lambda term, *_: SUM * term).replace(Summed, lambda term: SUM * term)
-    # The root of a sum is one number, like any other factor.
-    outside = flat.xreplace({root: sp.Dummy() for root in flat.atoms(sp.Pow) if not root.exp.is_Integer})
-    if _sums_in(outside) > 1 and sp.Poly(sp.fraction(sp.together(outside))[0], SUM).degree() > 1:
+    if _multiplied(expr):
         raise ClaimError("a product of two sums over neurons cannot be decided for every number of neurons")
-    return flat
+    return expr.replace(sp.Sum, lambda term, *_: SUM * term).replace(Summed, lambda term: SUM * term)
 
 
-def _sums_in(expr: sp.Expr) -> int:
+def _multiplied(expr: sp.Expr) -> bool:
+    """Whether sums are multiplied once terms that are equal are taken together; each sum is one of its own."""
+    letters = {total: sp.Dummy() for total in expr.atoms(sp.Sum, Summed)} | {SUM: sp.Dummy()}
+    # The root of a sum is one number, like any other factor.
+    apart = expr.xreplace(letters)
+    apart = apart.xreplace({root: sp.Dummy() for root in apart.atoms(sp.Pow) if not root.exp.is_Integer})
+    return _sums_in(apart, set(letters.values())) > 1 and any(
+        sp.Poly(part, *letters.values()).total_degree() > most
+        for part, most in zip(sp.fraction(sp.together(apart)), (1, 0), strict=True))
+
+
+def _sums_in(expr: sp.Expr, letters: set[sp.Expr]) -> int:
     """At most how many sums are multiplied in an expression; several for what is too involved to tell."""
-    if expr == SUM:
+    if expr in letters:
         return 1
-    if not expr.args or not expr.has(SUM):
+    if not expr.args or not expr.has(*letters):
         return 0
     if isinstance(expr, sp.Add):
-        return max(map(_sums_in, expr.args))
-    return sum(map(_sums_in, expr.args)) if isinstance(expr, sp.Mul) else 2
+        return max(_sums_in(part, letters) for part in expr.args)
+    return sum(_sums_in(part, letters) for part in expr.args) if isinstance(expr, sp.Mul) else 2

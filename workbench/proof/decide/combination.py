@@ -101,7 +101,7 @@ def _power(generator: sp.Symbol, power: int, atoms: Atoms) -> sp.Expr:
 
 def _expression(exponents: Exponents, atoms: Atoms) -> sp.Expr:
     powers = [_power(g, p, atoms) for g, p in zip(atoms.generators, exponents, strict=False) if p]
-    plain = all(power.is_Symbol or power.args[0].is_Symbol for power in powers)
+    plain = all(power.is_Symbol or (power.args[:1] and power.args[0].is_Symbol) for power in powers)
     return sp.Mul(*powers, evaluate=plain or len(powers) < 2)
 
 

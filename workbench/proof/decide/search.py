@@ -6,10 +6,12 @@ from typing import Any
 
 import sympy as sp
 
-from workbench.proof.claim import D, Goal, Relation, at_least, equal, greater
+from workbench.proof.claim import D, Goal, Relation, at_least, at_most, equal, greater
 from workbench.proof.decide.combination import find_combination
 from workbench.proof.decide.identity import find_identity
 from workbench.proof.decide.squares import find_squares
+from workbench.proof.decide.tangents import find_by_tangents
+from workbench.proof.decide.totals import find_by_totals
 from workbench.proof.decide.vanishing import vanishes
 from workbench.proof.derive import Side, Size, expand_derivatives, unfold
 from workbench.proof.text import assumptions, relation_text, text
@@ -45,7 +47,8 @@ def search(goal: Goal, shown: Relation, given: Given, lemmas: Given = (), depth:
         if found is not None:
             return found
     return (_by_lemmas(goal, shown, given, lemmas) or _by_contradiction(goal, shown, given)
-            or _by_growth(goal, _carried(shown, goal), given))
+            or _by_growth(goal, _carried(shown, goal), given) or find_by_totals(goal, shown, given, search)
+            or find_by_tangents(goal, _carried(shown, goal), given) or _by_its_square(goal, shown, given))
 
 
 def _by_contradiction(goal: Goal, shown: Relation, given: Given) -> Found:
@@ -60,6 +63,22 @@ def _by_contradiction(goal: Goal, shown: Relation, given: Given) -> Found:
     here: Proof = {"rule": "combination", "terms": [{"coefficient": "1", "factors": [{"assume": len(given)}]}]}
     return {"rule": "cases", "of": text(shown.margin), "positive": here, "zero": here,
             "negative": impossible | {"rule": "contradiction"}}
+
+
+def _by_its_square(goal: Goal, shown: Relation, given: Given) -> Found:
+    """Where the relation fails by c > 0, squares show c^2 <= 0, with c among the factors of what is known.
+
+    So from (p q)^2 >= r^2 for p q >= 0 follows p q >= r, which no sum of squares says at once.
+    """
+    if shown.operator not in ("<=", ">=") or shown.margin.has(sp.Sum):
+        return None
+    opposite = shown.negation
+    found = find_squares(goal, at_most(opposite.margin**2, 0), (*given, opposite))
+    if found is None:
+        return None
+    above = {"assume": len(given)}
+    last = {"coefficient": "1", "factors": [*found.get("multiplier", []), above, above]}
+    return {"rule": "contradiction", "terms": [*found["terms"], last]}
 
 
 def _by_growth(goal: Goal, shown: Relation, given: Given, steps: int = MOST_STEPS) -> Found:

@@ -1,0 +1,118 @@
+"""Decide a bound that an exponential meets, or nearly meets, at one place: by its tangent there.
+
+exp(a) >= exp(q) (1 + a - q) for every q; floating point says for which q the margin is least. What is shown is first
+brought over one denominator, of known sign. Logarithms are compared by that of the quotient of their arguments.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from dataclasses import replace
+from fractions import Fraction
+from itertools import permutations, product
+from typing import Any
+
+import numpy as np
+import sympy as sp
+
+from workbench.proof.claim import Goal, Relation, at_least, equal, greater
+from workbench.proof.decide.combination import find_combination
+from workbench.proof.derive import Side, Size
+from workbench.proof.text import relation_text, text
+
+Proof = dict[str, Any]
+Given = tuple[Relation, ...]
+DIGITS = (0, 1, 4)  # after the point, of the places where tangents are taken
+PLACES = np.concatenate([-np.geomspace(50, 1e-3, 1_500), [0.0], np.geomspace(1e-3, 50, 1_500)])
+
+
+def find_by_tangents(goal: Goal, shown: Relation, given: Given) -> Proof | None:
+    """A proof of an inequality from tangents of its exponentials, or of its logarithms; None if none is found."""
+    margin = shown.margin
+    if shown.operator in ("==", "!=") or margin.has(sp.Sum, sp.Indexed, Size, Side):
+        return None
+    if margin.has(sp.log):
+        return _of_logarithms(goal, shown, given)
+    arguments = sorted({e.exp for e in margin.atoms(sp.exp) if e.exp.free_symbols}, key=sp.default_sort_key)
+    if not 0 < len(arguments) <= 2:
+        return None
+    numerator, denominator = sp.fraction(sp.together(margin))
+    for places, turn in product(_least(margin, arguments, given), (1, -1)):
+        facts = tuple(turn * (a - q) for a, q in zip(arguments, places, strict=True))
+        near = replace(goal, facts=(*goal.facts, *facts))
+        found = find_combination(near, shown, given, quick=True)
+        if found is None and not denominator.is_number:
+            lemma = at_least(sp.expand(numerator), 0)
+            first = find_combination(near, lemma, given, quick=True)
+            found = None if first is None else _after(
+                [(lemma, first)], find_combination(goal, shown, (*given, lemma)))
+        if found is not None:
+            return found
+    return None
+
+
+def _least(margin: sp.Expr, arguments: list[sp.Expr], given: Given) -> Iterator[list[sp.Rational]]:
+    """What the arguments are where the margin is least, each other symbol being 1, to some digits."""
+    for symbol in sorted(margin.free_symbols, key=lambda s: (s.is_positive is True, str(s))):
+        one = dict.fromkeys(margin.free_symbols - {symbol}, sp.S.One)
+        kept = [r.margin for r in given if r.operator != "!=" and r.margin.free_symbols == {symbol}]
+
+        def values(places: np.ndarray, of: sp.Symbol = symbol, bounds: Any = kept, at: Any = one) -> np.ndarray:
+            with np.errstate(all="ignore"):
+                found = _on(of, margin.xreplace(at))(places) + 0 * places
+                for bound in bounds:
+                    found = np.where(_on(of, bound)(places) < 0, np.inf, found)
+            return np.where(np.isfinite(found), found, np.inf)
+
+        coarse = int(np.argmin(values(PLACES)))
+        if not np.isfinite(values(PLACES[coarse:coarse + 1])).all():
+            continue
+        finer = np.linspace(PLACES[max(coarse - 1, 0)], PLACES[min(coarse + 1, len(PLACES) - 1)], 4_001)
+        least = one | {symbol: sp.Float(float(finer[np.argmin(values(finer))]))}
+        at = [float(a.xreplace(least)) for a in arguments]
+        for digits in DIGITS:
+            yield [_shortened(value, digits) for value in at]
+
+
+def _on(symbol: sp.Symbol, expr: sp.Expr) -> Callable[[np.ndarray], np.ndarray]:
+    return sp.lambdify(symbol, expr, "numpy")
+
+
+def _shortened(value: float, digits: int) -> sp.Rational:
+    """The number with so many digits after the point: the nearest where there is none, else the next towards zero."""
+    scale = 10**digits
+    found = Fraction(round(value) if not digits else int(value * scale), scale)
+    return sp.Rational(found.numerator, found.denominator)
+
+
+def _of_logarithms(goal: Goal, shown: Relation, given: Given) -> Proof | None:
+    """log a - log b = log(a/b) <= a/b - 1 for logarithms that stand in what is shown."""
+    inside = sorted({log.args[0] for log in shown.margin.atoms(sp.log)}, key=sp.default_sort_key)[:3]
+    for a, b in permutations(inside, 2):
+        steps: list[tuple[Relation, Proof]] = []
+        for positive in (greater(a, 0), greater(b, 0)):
+            known = (*given, *(lemma for lemma, _ in steps))
+            first = find_combination(goal, positive, known)
+            if first is not None:
+                steps.append((positive, first))
+        quotient = sp.log(a / b, evaluate=False)
+        excess = at_least(a / b - 1 - quotient, 0)
+        steps += [(equal(quotient, sp.log(a) - sp.log(b)), _single("log_product", b, a / b)),
+                  (excess, _single("log_tangent", a / b))]
+        found = find_combination(goal, shown, (*given, *(lemma for lemma, _ in steps)))
+        if found is not None:
+            return _after(steps, found)
+    return None
+
+
+def _single(fact: str, one: sp.Expr, other: sp.Expr | None = None) -> Proof:
+    factor = {"fact": fact, "of": text(one)} | ({} if other is None else {"and": text(other)})
+    return {"rule": "combination", "terms": [{"coefficient": "-1" if other is not None else "1", "factors": [factor]}]}
+
+
+def _after(steps: list[tuple[Relation, Proof]], found: Proof | None) -> Proof | None:
+    if found is None:
+        return None
+    for lemma, proof in reversed(steps):
+        found = {"rule": "cut", "lemma": relation_text(lemma), "proof": proof, "then": found}
+    return found
