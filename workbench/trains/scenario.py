@@ -249,10 +249,8 @@ def with_parameters(scenario: Scenario, name: str, parameters: dict[str, float])
 
 
 def load_scenario(path: Path, where: str = "check the path") -> Scenario:
-    """Load a scenario from TOML, its line from the file it names; raises InputError naming file and key.
-
-    where: what to do when there is no such file.
-    """
+    """Load a scenario from TOML, its line from the file it names; where: as for `read_toml`. Raises InputError naming
+    file and key."""
     return build_scenario(path, read_toml(path, where))
 
 
