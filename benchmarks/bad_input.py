@@ -144,7 +144,8 @@ def run(case: Case, folders: Path, place: Path, apart: bool = False) -> Ended:
         name
         for name in changed
         if not any(
-            name == one or name.startswith((f"{one}/", f"{one}.before")) or one.startswith(f"{name}/") for one in wanted
+            one in (".", name) or name.startswith((f"{one}/", f"{one}.before")) or one.startswith(f"{name}/")
+            for one in wanted
         )
         and not name.startswith("__pycache__")
     ]
@@ -159,9 +160,9 @@ def run(case: Case, folders: Path, place: Path, apart: bool = False) -> Ended:
 def _outputs_of(arguments: list[str]) -> list[str]:
     """What options of the command line name as outputs."""
     options = ("--json", "--out", "--csv", "--figure", "--certificate", "--certificates", "--directory")
-    return [
-        os.path.normpath(value) for option, value in pairwise(arguments) if option in options
-    ]
+    named = [os.path.normpath(value) for option, value in pairwise(arguments) if option in options]
+    # A reference writes its curves beside the file that is named, under the same stem.
+    return [*named, *(str(Path(one).with_suffix("")) + end for one in named for end in (".csv", "_certified.csv"))]
 
 
 def pictures_outside(place: Path) -> dict[str, tuple[int, int]]:
@@ -197,7 +198,7 @@ def _ended(number: int, begun: float) -> tuple[int, resource.struct_rusage]:
         done, status, used = os.wait4(number, os.WNOHANG)
         if done:
             return status, used
-        if time.monotonic() - begun > 2 * GRACE:
+        if time.monotonic() - begun > 8 * GRACE:  # of a machine that others use: its processor time is limited
             os.killpg(number, signal.SIGKILL)
         time.sleep(0.002)
 

@@ -45,7 +45,7 @@ SCENARIO_MISTAKES = {
     "boolean for a count": ("runs = 100", "runs = true", "uncertainty.runs", "valid integer"),
     "fraction for a count": ("runs = 100", "runs = 10.5", "uncertainty.runs", "valid integer"),
     "number for text": ('title = "RBFNN', 'title = 3 # "', "title", "valid string"),
-    "a huge number": ("mass_kg = 200000.0", f"mass_kg = 1{'0' * 400}", "train.mass_kg", "valid number"),
+    "a huge number": ("mass_kg = 200000.0", f"mass_kg = 1{'0' * 400}", "train.mass_kg", "finite number that fits"),
     "version 2": ("version = 1", "version = 2", "version", "this workbench reads version = 1"),
     "version true": ("version = 1", "version = true", "version", "this workbench reads version = 1"),
     "version as text": ("version = 1", 'version = "1"', "version", "this workbench reads version = 1"),

@@ -1,7 +1,7 @@
 """A report of a tiny scenario with claims of every verdict, some of them hostile."""
 
 from scenarios import variant_of
-from test_sweep import write_scenario
+from short_sweep import write_scenario
 
 from workbench.report.claims import VERDICTS
 from workbench.report.page import ReportContent

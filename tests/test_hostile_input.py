@@ -1,17 +1,25 @@
 """What somebody could write to keep a command busy for ever, or to have it say nothing of use: each is one line."""
 
 import json
+import sys
 
 import pytest
+import sympy as sp
 from command_line import one_line, run
 from pydantic import ValidationError
 from refusals import changed, changed_copy, refusal
-from scenarios import LINES, SHARED
+from scenarios import LINES, ROOT, SHARED
 from small_folders import small_folder, with_claims
 
-from workbench.errors import InputError
+sys.path.insert(0, str(ROOT / "benchmarks"))
+from bad_input_texts import CONTEST
+
+from workbench.compile.literals import require_short
+from workbench.errors import CompileError, InputError
 from workbench.files import modules, time_limit
+from workbench.files.json_input import read_json
 from workbench.files.modules import module_in
+from workbench.files.toml import read_toml
 from workbench.model.sensitivity import Sensitivity
 from workbench.optimal.fleet import COLUMNS, TripRow
 from workbench.proof import loading
@@ -132,3 +140,44 @@ def test_a_line_that_is_not_there_is_told_with_the_key_that_names_it(tmp_path):
     study.write_text(changed(study.read_text(), 'track = "line.toml"', 'track = "nowhere.toml"'))
     said = one_line(run("compare", study))
     assert "nowhere.toml: no such file: check the path, 'track' in" in said and str(study) in said
+
+
+def test_a_contest_says_so_of_its_scenario(tmp_path):
+    path = tmp_path / "contest.toml"
+    path.write_text(CONTEST)
+    assert f"run.toml: no such file: check the path, 'scenario' in {path}" in one_line(run("compare", path))
+
+
+def test_links_in_a_circle_are_named(tmp_path):
+    path = tmp_path / "loop.json"
+    path.symlink_to(path)
+    assert str(path) in one_line(run("check-certificates", path))
+
+
+@pytest.mark.parametrize("value", ["9223372036854775808", "-0x1" + "f" * 5000, "[{ a = [18446744073709551616] }]"])
+def test_a_whole_number_beyond_64_bits_is_none_of_toml(value, tmp_path):
+    path = tmp_path / "study.toml"
+    path.write_text(f"seed = {value}\n")
+    with pytest.raises(InputError, match=r"seed.*64 bits|is not valid TOML"):
+        read_toml(path)
+    path.write_text("seed = 9223372036854775807\n")
+    assert read_toml(path)["seed"] == 2**63 - 1
+
+
+def test_a_number_that_no_float_holds_is_none_of_json(tmp_path):
+    path = tmp_path / "a.json"
+    path.write_text('{"claims": [1e999]}')
+    with pytest.raises(InputError, match="too large a number"):
+        read_json(path)
+
+
+def test_a_whole_number_that_compiled_code_cannot_hold_is_refused_before_it_is_compiled():
+    x = sp.Symbol("x")
+    require_short([x ** (2**63), x / 3, sp.Rational(1, 2**62)])
+    for expr in (x ** (10**30), x * sp.Rational(1, 10**30), sp.Integer(2**64)):
+        with pytest.raises(CompileError, match="64 bits"):
+            require_short([expr])
+
+
+def test_a_name_of_any_length_is_told_in_a_short_line():
+    assert len(one_line(run("prove", "a." + "y" * 5000))) < 900

@@ -4,7 +4,7 @@ import shutil
 from importlib.resources import files
 
 import pytest
-from test_sweep import write_scenario
+from short_sweep import write_scenario
 
 from workbench.report.charts.files import write_curves
 from workbench.report.page import ReportContent, build_page, scenario_charts

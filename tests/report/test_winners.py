@@ -3,7 +3,7 @@
 from types import SimpleNamespace
 
 import pytest
-from test_sweep import write_scenario
+from short_sweep import write_scenario
 
 from workbench.report.winners import winners
 from workbench.trains.scenario import load_scenario

@@ -19,6 +19,7 @@ from workbench.cli.terminal import err_console
 from workbench.errors import InputError, WorkbenchError, printable
 
 INTERRUPTED = 130  # with which typer ends after Ctrl-C
+LINKS = "Symlink loop"  # what pathlib says of them, before Python 3.13
 
 # The verbs in the order in which the help lists them; each is a module of this room, by its own name or another.
 VERBS = ("prove", "show", "diff", "check", "new-paper", "check-certificates", "compare", "sweep", "tune", "report",
@@ -71,8 +72,13 @@ def main() -> None:
         problem = f"{trouble.format_message().removesuffix('.')}: see '{command} --help'"
         code = _refused(str(InputError(command.removeprefix("workbench").strip(), "", problem)))
     except OSError as trouble:  # of what no room expects to fail, such as a terminal that is gone
-        where = f"{trouble.filename}: " if trouble.filename else ""
-        code = _refused(f"{where}{trouble.strerror or trouble}: check path, permissions and free space")
+        where = str(trouble.filename or "")
+        code = _refused(str(InputError(where, "", f"{trouble.strerror or trouble}: check path, permissions and free "
+                                       "space")))
+    except RuntimeError as trouble:
+        if not str(trouble).startswith(LINKS):
+            raise
+        code = _refused(f"{trouble}: the links lead around in a circle: name a file or folder that is there")
     if code == INTERRUPTED:
         err_console.print("workbench: interrupted; what was finished is kept", style="yellow")
     sys.exit(code)

@@ -14,6 +14,7 @@ import sympy as sp
 from sympy.printing.pycode import PythonCodePrinter
 
 from workbench.compile.code_cache import imported_kernel
+from workbench.compile.literals import require_short
 from workbench.compile.text import module_text, shared_text
 from workbench.errors import CompileError
 from workbench.files.modules import OF_A_KERNEL
@@ -83,6 +84,7 @@ def _assignments(targets: Sequence[str], exprs: Sequence[sp.Expr], prefix: str, 
     # Sums were replaced before; Indexed symbols become plain symbols so that cse treats them as leaves.
     leaves = {i: sp.Symbol(_name(i)) for e in exprs for i in e.atoms(sp.Indexed)}
     shared, reduced = sp.cse([e.xreplace(leaves) for e in exprs], sp.numbered_symbols(prefix))
+    require_short(reduced + [expr for _, expr in shared])
     try:
         lines = [f"{indent}{name} = {_printer.doprint(expr)}" for name, expr in shared]
         return lines + [f"{indent}{t} = {_printer.doprint(e)}" for t, e in zip(targets, reduced, strict=True)]

@@ -12,6 +12,7 @@ import sympy as sp
 from sympy.printing.codeprinter import PrintMethodNotImplementedError
 from sympy.printing.pycode import PythonCodePrinter
 
+from workbench.compile.literals import require_short
 from workbench.errors import CompileError
 from workbench.model.law import time
 
@@ -23,6 +24,7 @@ _INDENT = "    "
 def _printed(expr: sp.Expr) -> str:
     if expr.has(sp.Sum, sp.Product, sp.Integral, sp.Derivative):
         raise CompileError(f"{expr}: sums, products, integrals and derivatives cannot be compiled: carry them out")
+    require_short([expr])
     try:
         return str(_printer.doprint(expr))
     except PrintMethodNotImplementedError as trouble:

@@ -37,7 +37,7 @@ DRAWN = ("position_noise_m", "speed_noise_mps", "measurement_delay_s", "command_
 def located(contest: Contest, path: Path) -> Contest:
     """The contest with its scenario, read; raises InputError where the scenario or a name in it is wrong."""
     scenario_path = path.parent / contest.scenario
-    stated = load_scenario(scenario_path)
+    stated = load_scenario(scenario_path, f"check the path, 'scenario' in {path}")
     for key in DRAWN if stated.sensing else ():
         if getattr(stated.sensing, key):
             raise InputError(scenario_path, f"sensing.{key}", "is a contest's to say, which draws noise and holds "

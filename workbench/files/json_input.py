@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import math
 from pathlib import Path
 from typing import Any
 
@@ -17,7 +18,7 @@ def read_json(path: Path) -> dict[str, Any]:
     """The object in a JSON file; raises InputError when it is missing, unreadable or not one JSON object."""
     text = read_text(path, "JSON")
     try:
-        data = json.loads(text, object_pairs_hook=_unique)
+        data = json.loads(text, object_pairs_hook=_unique, parse_float=_finite)
     except InputError as trouble:
         raise trouble.within(path) from None
     except ValueError as trouble:  # JSONDecodeError, and Python's own limit on the digits of an integer
@@ -33,6 +34,13 @@ def read_json(path: Path) -> dict[str, Any]:
     if level:
         raise InputError(path, "", "is nested too deeply: write flatter lists")
     return data
+
+
+def _finite(text: str) -> float:
+    found = float(text)
+    if math.isinf(found):
+        raise ValueError(f"{text[:60]} is too large a number")
+    return found
 
 
 def _unique(pairs: list[tuple[str, Any]]) -> dict[str, Any]:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import copy
 import difflib
 import tomllib
+from collections.abc import Iterator
 from pathlib import Path
 from typing import Annotated, Any, Self, TypeVar
 
@@ -21,6 +22,8 @@ Text = Annotated[str, Strict(), Field(min_length=1)]
 # Names become file names and columns of tables.
 Name = Annotated[str, Strict(), Field(pattern=r"^[A-Za-z][A-Za-z0-9_.-]*$", max_length=100)]
 
+
+LARGEST_INTEGER = 2**63 - 1  # that TOML asks its readers to know
 
 # The key of a file by which it reproduces a paper, so that every value must have its source.
 REPRODUCTION = "reproduction"
@@ -99,11 +102,27 @@ def _table(path: Path, where: str) -> dict[str, Any]:
     if not text.strip():
         raise InputError(path, "", "is empty: a TOML table is expected")
     try:
-        return tomllib.loads(text)
+        table = tomllib.loads(text)
     except ValueError as trouble:  # TOMLDecodeError, and Python's own limit on the digits of an integer
         raise InputError(path, "", f"is not valid TOML: {trouble}") from None
     except RecursionError:
         raise InputError(path, "", "is nested too deeply: write flatter tables") from None
+    for key, number in _integers(table, ""):
+        if abs(number) > LARGEST_INTEGER:
+            raise InputError(path, key, "is a whole number beyond 64 bits: give a finite number that fits, or a float")
+    return table
+
+
+def _integers(value: Any, key: str) -> Iterator[tuple[str, int]]:
+    """All whole numbers in a table, at any depth, each with its dotted key."""
+    if isinstance(value, int):
+        yield key, value
+    elif isinstance(value, dict):
+        for name, child in value.items():
+            yield from _integers(child, f"{key}.{name}" if key else name)
+    elif isinstance(value, list):
+        for number, child in enumerate(value):
+            yield from _integers(child, f"{key}[{number}]")
 
 
 def load_record(path: Path, model: type[R], reproduction: bool = False, where: str = "check the path") -> R:

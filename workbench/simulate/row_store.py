@@ -169,6 +169,9 @@ class ChunkStore(RowStore):
                     self._places[part] = number, place
         for number in set(range(self._journal.lines)) - whole:
             remove_old(self._path(number))
+        for path in self._files():  # of records that a damaged manifest has lost; others would read their rows twice
+            if int(path.stem) >= self._journal.lines:
+                set_aside(path, REMEDY)
 
     def _digest(self, number: int) -> str:
         try:

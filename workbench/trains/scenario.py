@@ -248,9 +248,10 @@ def with_parameters(scenario: Scenario, name: str, parameters: dict[str, float])
     return scenario.model_copy(update={"controllers": scenario.controllers | {name: changed}})
 
 
-def load_scenario(path: Path) -> Scenario:
-    """Load a scenario from TOML, its line from the file it names; raises InputError naming file and key."""
-    return build_scenario(path, read_toml(path))
+def load_scenario(path: Path, where: str = "check the path") -> Scenario:
+    """Load a scenario from TOML, its line from the file it names; where: as for `read_toml`. Raises InputError naming
+    file and key."""
+    return build_scenario(path, read_toml(path, where))
 
 
 def build_scenario(path: Path, data: dict[str, Any], like: Scenario | None = None) -> Scenario:
