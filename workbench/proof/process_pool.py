@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import multiprocessing
-from collections.abc import Callable, Iterator, Sequence
+import os
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from concurrent.futures import Future, ProcessPoolExecutor, as_completed
 from concurrent.futures.process import BrokenProcessPool
 from contextlib import contextmanager
@@ -17,11 +18,12 @@ from workbench.proof.cache import DecisionCache
 from workbench.proof.messages import Decided, Listing
 from workbench.tasks.executor import named
 from workbench.tasks.handing_out import results_of
-from workbench.tasks.processes import follow_parent, interruption_held, single_threaded
+from workbench.tasks.processes import follow_parent, interruption_held, single_threaded, start_method
 
 if TYPE_CHECKING:
     from workbench.proof.worker import Worker
 
+WORKER = "workbench.proof.worker"  # what workers import; this process does without sympy and the deciders
 WARM_AT_ONCE = 4  # workers that are started before it is known how many claims there are
 
 Task = tuple[Path, str]
@@ -53,7 +55,7 @@ def worker_pool(jobs: int, cached: DecisionCache | None, limit: float | None = N
             yield _Alone(cached, limit)
             return
         others = set(multiprocessing.active_children())
-        pool = ProcessPoolExecutor(jobs, multiprocessing.get_context("spawn"), _start, (cached, limit))
+        pool = ProcessPoolExecutor(jobs, start_method(WORKER), _start, (dict(os.environ), cached, limit))
         try:
             yield _Several(pool, jobs)
         except BaseException as trouble:
@@ -167,8 +169,8 @@ def _worker(cached: DecisionCache | None, limit: float | None) -> Worker:
 _here: list[Any] = []
 
 
-def _start(cached: DecisionCache | None, limit: float | None) -> None:
-    follow_parent()
+def _start(environment: Mapping[str, str], cached: DecisionCache | None, limit: float | None) -> None:
+    follow_parent(environment)
     _here[:] = [_worker(cached, limit)]
 
 

@@ -5,13 +5,16 @@ from __future__ import annotations
 import multiprocessing
 import os
 import signal
+import sys
 import threading
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from concurrent.futures import FIRST_COMPLETED, Future, ProcessPoolExecutor, wait
 from concurrent.futures.process import BrokenProcessPool
 from contextlib import contextmanager
 from dataclasses import dataclass
 from itertools import chain, islice
+from multiprocessing import forkserver
+from multiprocessing.context import BaseContext
 from typing import Any, TypeVar
 
 from workbench.errors import WorkbenchError
@@ -22,6 +25,8 @@ from workbench.tasks.sent import job_bytes, job_of
 THREAD_LIMITS = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "NUMBA_NUM_THREADS",
                  "VECLIB_MAXIMUM_THREADS")
 
+# Rooms that hand tasks out and run none.
+WITHOUT_TASKS = ("cli", "api", "report")
 # Processes that may die in the course of a job; how long tasks that have begun may take after an interruption.
 MOST_LOSSES, GRACE_S = 5, 5.0
 
@@ -59,9 +64,10 @@ class LocalProcesses:
              unrecorded: list[T]) -> None:
         """unrecorded: is left with the tasks that were handed out and not recorded, where processes die."""
         job = job_bytes((function, shared))
-        context = multiprocessing.get_context("spawn")
+        context = start_method()
         others, running = set(multiprocessing.active_children()), dict[Future[R], T]()
-        with single_threaded(), ProcessPoolExecutor(self.workers, context, _start, (KnownFolders(), job)) as pool:
+        with single_threaded(), ProcessPoolExecutor(self.workers, context, _start,
+                                                    (dict(os.environ), KnownFolders(), job)) as pool:
             def submit(count: int) -> None:
                 for task in islice(tasks, count):
                     unrecorded.append(task)
@@ -94,11 +100,29 @@ class LocalProcesses:
                 raise
 
 
+def start_method(*needed: str) -> BaseContext:
+    """How processes are started: from a server that has imported what they need, where the system has such servers.
+
+    needed: modules beside those of this package that this process has imported. The first call of a process decides
+    what its server imports; what else a worker needs it imports itself, as all workers of other systems do.
+    """
+    if "forkserver" not in multiprocessing.get_all_start_methods():
+        return multiprocessing.get_context("spawn")
+    found = multiprocessing.get_context("forkserver")
+    own = {name for name in sys.modules if name.startswith("workbench.") and name.split(".")[1] not in WITHOUT_TASKS}
+    found.set_forkserver_preload(sorted(own.union(needed)))
+    # A module is not looked for in the current folder, whose files are the user's.
+    with single_threaded(PYTHONSAFEPATH="1"), interruption_held():
+        forkserver.ensure_running()
+    return found
+
+
 @contextmanager
-def single_threaded() -> Iterator[None]:
+def single_threaded(**others: str) -> Iterator[None]:
     """Workers inherit the environment: libraries read it on import, before any initializer runs."""
-    before = {name: os.environ.get(name) for name in THREAD_LIMITS}
-    os.environ.update(dict.fromkeys(THREAD_LIMITS, "1"))
+    wanted = dict.fromkeys(THREAD_LIMITS, "1") | others
+    before = {name: os.environ.get(name) for name in wanted}
+    os.environ.update(wanted)
     try:
         yield
     finally:
@@ -125,14 +149,19 @@ def interruption_held() -> Iterator[None]:
 _job: list[Any] = []
 
 
-def _start(known: KnownFolders, job: bytes) -> None:
-    """known: first, since what the job holds may be of a module in a user's folder."""
-    follow_parent()
+def _start(environment: Mapping[str, str], known: KnownFolders, job: bytes) -> None:
+    """known: before the job, which may hold what is of a module in a user's folder."""
+    follow_parent(environment)
     _job[:] = job_of(job)
 
 
-def follow_parent() -> None:
-    """For a worker: an interruption is the parent's to handle, and a parent that was killed takes it along."""
+def follow_parent(environment: Mapping[str, str]) -> None:
+    """For a worker: an interruption is the parent's to handle, and a parent that was killed takes it along.
+
+    environment: the parent's, which may have changed since it started the server that this process comes from.
+    """
+    os.environ.clear()
+    os.environ.update(environment)
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     threading.Thread(target=_leave_with_parent, daemon=True).start()
 
