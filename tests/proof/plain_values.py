@@ -9,7 +9,7 @@ import random
 
 import mpmath
 
-from workbench.proof.checker import SUM, split_relation
+from workbench.proof.checker import SUM, TOTAL, split_relation
 
 COUNT = "neurons"
 LARGEST = 60  # powers and products of such exponentials are far from using up the digits, also where they cancel
@@ -99,6 +99,8 @@ def reading(context, ratio, point, place=None):
     def atom(name, at):
         if name in context.functions:
             kind, argument = context.functions[name]
+            if kind == TOTAL:
+                return mp.fsum(reading(context, argument, point, i) for i in range(point[COUNT]))
             return FUNCTIONS[kind](reading(context, argument, point, at))
         if isinstance(point[name], list):
             return point[name][at] if point[name] else mp.mpf(1)

@@ -5,12 +5,13 @@ from pathlib import Path
 
 import pytest
 
+from workbench.errors import ClaimError
 from workbench.proof.checker import check
 from workbench.proof.decide.obligations import belongs, decide_obligation
 
 FACTS = json.loads((Path(__file__).parents[2] / "benchmarks" / "textbook" / "facts.json").read_text(encoding="utf-8"))
 NEEDED = ("log grows", "abs and tanh, with 0.2785", "Minkowski in two dimensions", "trace bounds the form",
-          "a transient below its supremum")
+          "a transient below its supremum", "Minkowski in every dimension")
 
 
 @pytest.mark.parametrize("name", NEEDED)
@@ -21,6 +22,24 @@ def test_it_is_proved_with_a_certificate_of_its_own(name):
     for certificate in outcome.certificates:
         check(certificate)
     assert belongs(fact, "proved", outcome.certificates)
+
+
+def test_a_certificate_of_other_names_under_the_sums_does_not_belong():
+    fact, = (fact for fact in FACTS if fact["problem"].endswith("Cauchy-Schwarz in every dimension"))
+    outcome = decide_obligation(fact)
+    assert belongs(fact, "proved", outcome.certificates)
+    for other in (["x"], ["x", "z"], ["z"]):  # with x alone, y is a number and the statement another
+        assert not belongs(fact | {"indexed": other}, "proved", outcome.certificates)
+
+
+@pytest.mark.parametrize(("obligation", "said"), [
+    ({"assume": [], "show": ["<=", "Sum(x)", "x"], "indexed": ["x"]}, "no sum binds"),
+    ({"assume": [], "show": ["<=", "Sum(Sum(x))", "1"], "indexed": ["x"]}, "a sum runs from 1"),
+    ({"assume": [], "show": ["<=", "Sum(x)", "1"], "indexed": "x"}, "list of names"),
+    ({"assume": [], "show": ["<=", "Sum(x)", "count_"], "indexed": ["x"]}, "another name")])
+def test_sums_that_have_no_meaning_are_refused_in_a_line(obligation, said):
+    with pytest.raises(ClaimError, match=said):
+        decide_obligation(obligation)
 
 
 def test_what_is_a_little_too_sharp_is_refuted():

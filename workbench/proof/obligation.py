@@ -2,7 +2,8 @@
 
 A statement is a relation [operator, left, right] with = == != < <= > >= between texts of + - * / ** over numbers
 and symbols, or ["and", ...], ["or", ...], ["not", one]. What an `or` assumes becomes a goal for each of its parts;
-of what it shows, all parts but one are assumed not to hold.
+of what it shows, all parts but one are assumed not to hold. Names in `indexed` have a value in each term of Sum(...),
+which runs over any number of terms.
 """
 
 from __future__ import annotations
@@ -26,6 +27,7 @@ ARITHMETIC: dict[type[ast.operator], Callable[[sp.Expr, sp.Expr], sp.Expr]] = {
 FUNCTIONS = {"abs": sp.Abs, "max": sp.Max, "min": sp.Min, "exp": sp.exp, "log": sp.log, "tanh": sp.tanh,
              "sqrt": sp.sqrt, "sign": sp.sign, "sin": sp.sin, "cos": sp.cos}
 MOST_GOALS, LONGEST = 64, 100_000
+INDEX, COUNT = sp.Symbol("index_", integer=True), sp.Symbol("count_", integer=True, positive=True)
 
 Conjunction = tuple[Relation, ...]
 
@@ -33,13 +35,18 @@ Conjunction = tuple[Relation, ...]
 def goals_of(obligation: dict[str, Any]) -> list[Goal]:
     """The goals, of one relation shown each, which together say that all that is assumed implies what is shown.
 
-    obligation: `assume`, a list of statements, and `show`, one statement. Raises ClaimError for what is none.
+    obligation: `assume`, a list of statements, `show`, one statement, and `indexed`, a list of names, where it has one.
+    Raises ClaimError for what is none.
     """
     if not isinstance(obligation.get("assume"), list) or not isinstance(obligation.get("show"), list):
         raise ClaimError("an obligation is a list 'assume' of statements and a statement 'show'")
-    cases = _both([_either(statement) for statement in obligation["assume"]])
+    names = obligation.get("indexed", [])
+    if not isinstance(names, list) or not all(isinstance(name, str) and name.isidentifier() for name in names):
+        raise ClaimError("'indexed' is a list of names: those that differ from term to term of the sums")
+    indexed = frozenset(names)
+    cases = _both([_either(statement, indexed) for statement in obligation["assume"]])
     return [_goal(last.negation, (*case, *others))
-            for *others, last in _either(obligation["show"], holds=False) for case in cases]
+            for *others, last in _either(obligation["show"], indexed, holds=False) for case in cases]
 
 
 def _goal(shown: Relation, assumed: Conjunction) -> Goal:
@@ -50,16 +57,16 @@ def _goal(shown: Relation, assumed: Conjunction) -> Goal:
     return Goal((shown,), assumed)
 
 
-def _either(statement: Any, holds: bool = True) -> list[Conjunction]:
+def _either(statement: Any, indexed: frozenset[str], holds: bool = True) -> list[Conjunction]:
     """A statement, or that it does not hold, as a disjunction of conjunctions of relations."""
     match statement:
         case ["not", part]:
-            return _either(part, not holds)
+            return _either(part, indexed, not holds)
         case ["and" | "or" as word, *parts] if parts:
-            each = [_either(part, holds) for part in parts]
+            each = [_either(part, indexed, holds) for part in parts]
             return _both(each) if (word == "and") == holds else [case for cases in each for case in cases]
         case [str(_), str(_), str(_)]:
-            relation = _relation(statement)
+            relation = _relation(statement, indexed)
             return [(relation if holds else relation.negation,)]
     raise ClaimError(f"'{str(statement)[:80]}' is no statement: write [\"<=\", \"x\", \"y\"], or and, or, not of such")
 
@@ -73,43 +80,46 @@ def _both(parts: list[list[Conjunction]]) -> list[Conjunction]:
     return [tuple(r for conjunction in chosen for r in conjunction) for chosen in product(*parts)]
 
 
-def _relation(statement: list[str]) -> Relation:
+def _relation(statement: list[str], indexed: frozenset[str]) -> Relation:
     operator, left, right = statement
     if operator not in OPERATORS:
         raise ClaimError(f"'{operator[:20]}' is no relation: write one of {' '.join(OPERATORS)}")
-    return Relation(expression(left), OPERATORS[operator], expression(right))
+    return Relation(expression(left, indexed), OPERATORS[operator], expression(right, indexed))
 
 
-def expression(written: str) -> sp.Expr:
+def expression(written: str, indexed: frozenset[str] = frozenset()) -> sp.Expr:
     """An expression as it is typed: its syntax tree is walked, nothing is evaluated; symbols are real numbers.
 
-    Raises ClaimError for anything but + - * / **, numbers, symbols and the functions of certificates.
+    indexed: names of which each term of Sum(...) has its own. Raises ClaimError for anything but + - * / **, numbers,
+    symbols and the functions of certificates.
     """
     if len(written) > LONGEST:
         raise ClaimError(f"an expression is longer than {LONGEST} characters: state it in parts")
     try:
         tree = ast.parse(written.strip(), mode="eval").body
         with as_typed():
-            return _expression(tree)
+            return _expression(tree, indexed)
     except (SyntaxError, ValueError, RecursionError, MemoryError):
         raise ClaimError(f"cannot read '{written[:80]}': write + - * / ** over numbers and symbols") from None
 
 
-def _expression(node: ast.expr) -> sp.Expr:
+def _expression(node: ast.expr, indexed: frozenset[str]) -> sp.Expr:
     result: sp.Expr | None = None
     match node:
         case ast.Constant(value=int(value)) if not isinstance(value, bool):
             result = sp.Integer(value)
         case ast.Name(id=name):
-            result = sp.Symbol(name, real=True)
+            result = sp.IndexedBase(name, real=True)[INDEX] if name in indexed else sp.Symbol(name, real=True)
         case ast.UnaryOp(op=ast.USub(), operand=inner):
-            result = -_expression(inner)
+            result = -_expression(inner, indexed)
         case ast.BinOp(left=ast.Constant(value=int(p)), op=ast.Div(), right=ast.Constant(value=int(q))) if q:
             result = sp.Rational(p, q)
         case ast.BinOp(left=left, op=op, right=right) if type(op) in ARITHMETIC:
-            result = ARITHMETIC[type(op)](_expression(left), _expression(right))
+            result = ARITHMETIC[type(op)](_expression(left, indexed), _expression(right, indexed))
+        case ast.Call(func=ast.Name(id="Sum"), args=[inner], keywords=[]):
+            result = sp.Sum(_expression(inner, indexed), (INDEX, 1, COUNT))
         case ast.Call(func=ast.Name(id=name), args=arguments, keywords=[]) if name.lower() in FUNCTIONS and arguments:
-            result = FUNCTIONS[name.lower()](*map(_expression, arguments))
+            result = FUNCTIONS[name.lower()](*(_expression(argument, indexed) for argument in arguments))
     if result is None:
         raise ClaimError(f"'{ast.unparse(node)[:80]}' is no expression: write + - * / ** over symbols and whole "
                          "numbers, as in 1/10")

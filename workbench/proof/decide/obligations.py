@@ -7,6 +7,7 @@ propositional logic: that fewer assumptions imply what is shown, or that some of
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import Any, cast
@@ -57,8 +58,17 @@ def belongs(obligation: dict[str, Any], verdict: str, certificates: Sequence[Cer
     if verdict == "refuted":
         return len(certificates) == 1 and certificates[0]["goal"] in map(goal_text, goals)
     return len(goals) == len(certificates) and all(
-        c["goal"].keys() == {"assume", "show"} and _excluded(c["goal"]) <= _excluded(goal_text(goal))
-        for goal, c in zip(goals, certificates, strict=True))
+        c["goal"].keys() <= {"assume", "show", "indexed"} and _excluded(c["goal"]) <= _excluded(record)
+        and _indexed(c["goal"]) == _names(c["goal"]) & _indexed(record)
+        for record, c in zip(map(goal_text, goals), certificates, strict=True))
+
+
+def _indexed(record: dict[str, Any]) -> set[str]:
+    return set(record.get("indexed", []))
+
+
+def _names(record: dict[str, Any]) -> set[str]:
+    return {name for text in (*record["assume"], *record["show"]) for name in re.findall(r"[A-Za-z_]\w*", text)}
 
 
 def _excluded(record: dict[str, Any]) -> set[str]:
