@@ -3,11 +3,10 @@
     python benchmarks/faults.py [--kills 20] [--signals 4] [--seed 1] [--job JOB]
 
 A sweep (in processes, and on a Dask cluster that it starts), a contest, a proof and a search for parameters are run
-whole; then again and again, killed with SIGKILL at
-instants spread by chance over that time, and resumed. Demanded: the bytes of the whole run, and no process left after
-10 s. Likewise after SIGINT and SIGTERM, which end with 130; a second writer is turned away, and on a small disk (a
-tmpfs, where one can be mounted) each ends with one line and goes on once there is room. Exit code 1 when something
-differs.
+whole; then again and again, killed with SIGKILL at instants spread by chance over that time, and resumed. Demanded: the
+bytes of the whole run, and no process left after 10 s. Likewise after SIGINT and SIGTERM, which end with 130; a second
+writer is turned away, and on a small disk (a tmpfs, where one can be mounted) each ends with one line and goes on once
+there is room. Exit code 1 when something differs.
 """
 
 from __future__ import annotations

@@ -22,10 +22,11 @@ def test_rows_are_ordered_and_paired(whole, scenario_path):
     assert len({row.factors for row in rows}) == RUNS
 
 
-def test_two_workers_write_the_same_bytes(whole, scenario_path, tmp_path):
+def test_runs_are_counted_as_they_finish_and_leave_the_same_bytes(whole, scenario_path, tmp_path):
+    """What processes and a cluster leave is told by tests/tasks/test_cluster.py."""
     out, _ = whole
     seen = []
-    sweep_of(scenario_path, RUNS, SEED, out=tmp_path, workers=2, on_progress=lambda *step: seen.append(step))
+    sweep_of(scenario_path, RUNS, SEED, out=tmp_path, workers=1, on_progress=lambda *step: seen.append(step))
     assert (tmp_path / "sweep.csv").read_bytes() == (out / "sweep.csv").read_bytes()
     assert seen == sorted(seen) and seen[-1] == (9, 9)
 

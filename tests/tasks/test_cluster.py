@@ -47,6 +47,10 @@ def ends_once(folder, task):
     return task
 
 
+def size(shared, path):
+    return path.stat().st_size
+
+
 def fails(folder, task):
     raise InputError(folder / "study.toml", "key", "is wrong: correct it")
 
@@ -57,7 +61,7 @@ def ends_the_scheduler(number, task):
 '''
 # What a program does with the cluster: the same jobs at every place, and then all that can go wrong there.
 PROGRAM = '''
-import contextlib, io, json, sys, time
+import contextlib, io, json, os, sys, time
 from pathlib import Path
 from workbench.cli.app import main
 from workbench.errors import WorkbenchError
@@ -100,6 +104,10 @@ def losses():
     with cluster(address) as found, on(found):
         said["workers"] = found.workers
         said["where"] = list(results_of(tasks.where, folder, range(4), 1, lambda *_: None).values())
+        os.chdir(folder)
+        paths = [Path("numbers.py"), Path("line.toml")]
+        sizes = results_of(tasks.size, None, paths, 1, lambda *_: None)
+        said["sizes"] = [sizes[path] for path in paths] == [path.stat().st_size for path in paths]
         said["no name"] = tried(lambda shared, task: task, None)
         said["fails"] = tried(tasks.fails, folder)
         said["ends once"] = sorted(results_of(tasks.ends_once, str(out), range(6), 1, lambda *_: None).values())
@@ -209,6 +217,7 @@ def test_workers_know_folders_by_upload_alone(found, paper):
         assert value == task
         assert folder == str(paper), "a path comes back as it was sent"
         assert not Path(code).is_relative_to(ROOT)
+    assert said["sizes"], "a task is known by its own path, relative here and another there"
 
 
 def test_an_error_of_a_task_is_raised_here_and_what_is_sent_has_a_name(found, paper):

@@ -41,15 +41,16 @@ def results_of(function: Callable[[Any, K], R], shared: Any, tasks: Sequence[K],
     """
     found: dict[K, R] = {}
 
-    def record(done: tuple[K, R]) -> None:
-        task, result = done
-        found[task] = result
-        on_result(len(found), task, result)
+    def record(done: tuple[int, R]) -> None:
+        number, result = done
+        found[tasks[number]] = result
+        on_result(len(found), tasks[number], result)
 
-    run_tasks(_with_task, (function, shared), tasks, workers, record)
+    run_tasks(_numbered, (function, shared), list(enumerate(tasks)), workers, record)
     return {task: found[task] for task in tasks}
 
 
-def _with_task(given: tuple[Callable[[Any, K], R], Any], task: K) -> tuple[K, R]:
+def _numbered(given: tuple[Callable[[Any, K], R], Any], task: tuple[int, K]) -> tuple[int, R]:
+    """A task comes back by its number: on its way to another machine its paths may become others."""
     function, shared = given
-    return task, function(shared, task)
+    return task[0], function(shared, task[1])
