@@ -97,9 +97,18 @@ def formal_sums(expr: sp.Expr) -> sp.Expr:
     flat = expr.replace(sp.Sum, lambda term, *_: SUM * term).replace(Summed, lambda term: SUM * term)
     # The root of a sum is one number, like any other factor.
     outside = flat.xreplace({root: sp.Dummy() for root in flat.atoms(sp.Pow) if not root.exp.is_Integer})
-    if _sums_in(outside) > 1 and sp.Poly(sp.fraction(sp.together(outside))[0], SUM).degree() > 1:
+    if _sums_in(outside) > 1 and _degree_in_sums(outside) > 1:
         raise ClaimError("a product of two sums over neurons cannot be decided for every number of neurons")
     return flat
+
+
+def _degree_in_sums(expr: sp.Expr) -> int:
+    """How many sums are multiplied in an expression at most; ClaimError where a function other than a root has one in it."""
+    try:
+        return int(sp.Poly(sp.fraction(sp.together(expr))[0], SUM).degree())
+    except sp.PolynomialError:
+        raise ClaimError("a function of a sum over neurons beside another sum cannot be decided for every number of "
+                         "neurons: give the function a letter of its own") from None
 
 
 def _sums_in(expr: sp.Expr) -> int:
