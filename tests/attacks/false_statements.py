@@ -362,7 +362,8 @@ def functions_beside_sums() -> Family:
     """A function of one sum and another sum, as if functions went under the sum: false at n = 2, W = (1, -1), S = 1."""
     product, squares = total(W[j] * S[j]), total(W[j]**2) * total(S[j]**2)
     yield "size", lambda: Goal((equal(sp.Abs(product), total(sp.Abs(W[j] * S[j]))),))
-    yield "size against norms", lambda: Goal((equal(sp.Abs(product), sp.sqrt(total(W[j]**2)) * sp.sqrt(total(S[j]**2))),))
+    norms = sp.sqrt(total(W[j]**2)) * sp.sqrt(total(S[j]**2))
+    yield "size against norms", lambda: Goal((equal(sp.Abs(product), norms),))
     yield "squared size", lambda: Goal((equal(sp.Abs(product)**2, squares),))
     yield "sine", lambda: Goal((equal(sp.sin(product), total(sp.sin(W[j] * S[j]))),))
     yield "squares of sums", lambda: Goal((equal(total(W[j])**2, total(W[j]**2)),))

@@ -103,7 +103,7 @@ def formal_sums(expr: sp.Expr) -> sp.Expr:
 
 
 def _degree_in_sums(expr: sp.Expr) -> int:
-    """How many sums are multiplied in an expression at most; ClaimError where a function other than a root has one in it."""
+    """How many sums are multiplied in an expression at most; ClaimError where a function has one in it."""
     try:
         return int(sp.Poly(sp.fraction(sp.together(expr))[0], SUM).degree())
     except sp.PolynomialError:
