@@ -90,6 +90,13 @@ def test_what_varies_without_a_rate_is_an_input_and_no_constant(tmp_path):
         answer(line, loaded)
 
 
+@pytest.mark.parametrize("line", [
+    r"\tilde W^Th = h^T\tilde W", r"e_1 + e_1 = 2e_1", r"\|-h\| \le \|h\|", r"10^3 = 1000"])
+def test_a_line_that_is_true_as_it_is_read_says_so(symbols, line):
+    with pytest.raises(WorkbenchError, match="nothing is left to decide"):
+        answer(line, load_symbols(symbols))
+
+
 @pytest.mark.parametrize(("inputs", "why"), [("['v']", "none of the symbols"), ("['x']", "has a rate")])
 def test_an_input_is_a_symbol_without_a_rate(tmp_path, inputs, why):
     path = tmp_path / "symbols.toml"

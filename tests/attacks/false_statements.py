@@ -358,9 +358,20 @@ def numbers() -> Family:
         yield f"order {digits}", lambda d=digits: Goal((less(R(1, 7), R(int("142857142857"[:d]), 10**d)),))
 
 
+def functions_beside_sums() -> Family:
+    """A function of one sum and another sum, as if functions went under the sum: false at n = 2, W = (1, -1), S = 1."""
+    product, squares = total(W[j] * S[j]), total(W[j]**2) * total(S[j]**2)
+    yield "size", lambda: Goal((equal(sp.Abs(product), total(sp.Abs(W[j] * S[j]))),))
+    norms = sp.sqrt(total(W[j]**2)) * sp.sqrt(total(S[j]**2))
+    yield "size against norms", lambda: Goal((equal(sp.Abs(product), norms),))
+    yield "squared size", lambda: Goal((equal(sp.Abs(product)**2, squares),))
+    yield "sine", lambda: Goal((equal(sp.sin(product), total(sp.sin(W[j] * S[j]))),))
+    yield "squares of sums", lambda: Goal((equal(total(W[j])**2, total(W[j]**2)),))
+
+
 FAMILIES = (wrong_coefficients, wrong_signs, young, strictness, domains, roots, sums, sums_in_time, saturations, sizes,
             angles, sums_in_functions, wrong_facts, wrong_lemmas, contradictory_assumptions, never_reached,
-            later_instants, derivatives, eventually, numbers)
+            later_instants, derivatives, eventually, numbers, functions_beside_sums)
 
 
 

@@ -100,14 +100,21 @@ def formal_sums(expr: sp.Expr) -> sp.Expr:
 
 
 def _multiplied(expr: sp.Expr) -> bool:
-    """Whether sums are multiplied once terms that are equal are taken together; each sum is one of its own."""
+    """Whether sums are multiplied once terms that are equal are taken together; each sum is one of its own.
+
+    ClaimError where a function has one in it.
+    """
     letters = {total: sp.Dummy() for total in expr.atoms(sp.Sum, Summed)} | {SUM: sp.Dummy()}
     # The root of a sum is one number, like any other factor.
     apart = expr.xreplace(letters)
     apart = apart.xreplace({root: sp.Dummy() for root in apart.atoms(sp.Pow) if not root.exp.is_Integer})
-    return _sums_in(apart, set(letters.values())) > 1 and any(
-        sp.Poly(part, *letters.values()).total_degree() > most
-        for part, most in zip(sp.fraction(sp.together(apart)), (1, 0), strict=True))
+    try:
+        return _sums_in(apart, set(letters.values())) > 1 and any(
+            sp.Poly(part, *letters.values()).total_degree() > most
+            for part, most in zip(sp.fraction(sp.together(apart)), (1, 0), strict=True))
+    except sp.PolynomialError:
+        raise ClaimError("a function of a sum over neurons beside another sum cannot be decided for every number of "
+                         "neurons: give the function a letter of its own") from None
 
 
 def _sums_in(expr: sp.Expr, letters: set[sp.Expr]) -> int:

@@ -11,6 +11,7 @@ _WORDS = {"theorem": "Theorem", "lemma": "Lemma", "remark": "Remark", "table": "
           "proposition": "Proposition", "contribution": "Contribution", "section": "Section", "A": "Assumption",
           "corollary": "Corollary", "property": "Property", "algorithm": "Algorithm"}
 _TEXT = {"intro": "Introduction", "text": "Text"}
+_PLACED = re.compile(rf"(?:{'|'.join(_WORDS.values())}) \d+[^:]*: ")
 _NAMED = re.compile(r"([A-Za-z]+?)(\d+)((?:\.\w+)*)")
 _NUMBERED = re.compile(r"(\d+)((?:\.\w+)*)")
 
@@ -33,9 +34,13 @@ def place_of(equation: str) -> str:
 
 def _part(suffix: str) -> str:
     """What tells parts of a line apart, in brackets; numbers of parts as they are."""
-    if not suffix:
-        return ""
-    return suffix if re.fullmatch(r"(\.\d+)+", suffix) else f" [{suffix[1:]}]"
+    numbers, rest = re.fullmatch(r"((?:\.\d+(?!\w))*)(.*)", suffix).groups()  # type: ignore[union-attr]
+    return f"{numbers} [{rest[1:]}]" if rest else str(numbers)
+
+
+def subject_of(title: str) -> str:
+    """The title of a line without the name of its place: `Theorem 1, part 2: z converges` is `z converges`."""
+    return _PLACED.sub("", title)
 
 
 def places_of(equations: Sequence[str], parts: bool = False) -> list[str]:

@@ -10,7 +10,7 @@ from urllib.parse import quote
 from markupsafe import Markup, escape
 
 from workbench.proof.checker import CertificateError
-from workbench.proof.places import place_of
+from workbench.proof.places import place_of, subject_of
 from workbench.report.certificate_latex import assignment_latex
 from workbench.report.formulas import formula, in_html
 from workbench.report.worded import worded
@@ -45,6 +45,7 @@ class ClaimView:
     id: str
     anchor: str
     title: Markup
+    subject: Markup
     equation: str
     section: str
     origin: str
@@ -119,6 +120,7 @@ def _view(entry: Mapping[str, Any], known: set[str]) -> ClaimView:
     trust = _text(entry.get("trust"))
     return ClaimView(
         id=_text(entry.get("id")), anchor=anchor(_text(entry.get("id"))), title=in_words(_text(entry.get("title"))),
+        subject=in_words(subject_of(_text(entry.get("title")))),
         equation=_text(entry.get("equation")), section=_text(entry.get("section")), origin=origin, severity=severity,
         kind=_text(entry.get("kind")),
         statement=formula(_text(entry.get("statement"))),

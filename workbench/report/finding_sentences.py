@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import asdict
 from typing import Any
 
-from workbench.proof.places import place_of, places_of
+from workbench.proof.places import place_of, places_of, subject_of
 from workbench.proof.wording import listed
 from workbench.report.counterexample import Counterexample
 from workbench.report.finding import Finding, Gravity
@@ -112,6 +112,7 @@ def findings_document(found: Sequence[Finding]) -> dict[str, Any]:
                           "sentences": [s.replace(INNER, "$") for s in sentences(f)]} for f in found]}
 
 
-def fate_sentence(equation: str, word: str, why: str) -> str:
-    """What becomes of a headline statement, in one sentence."""
-    return f"{place_of(equation)} {word}: {why}."
+def fate_sentence(equation: str, word: str, why: str, title: str = "") -> str:
+    """What becomes of a headline statement, in one sentence; title: what it says, where the reader is to be told."""
+    says = f" ({subject_of(title)})" if title else ""
+    return f"{place_of(equation)}{says} {'is ' if word == 'open' else ''}{word}: {why}."

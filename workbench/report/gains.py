@@ -15,6 +15,8 @@ from workbench.paper.results import ResultTable, StudyResult
 if TYPE_CHECKING:
     from workbench.report.document_format import GainsDocument
 
+KINDS = {"rms": "RMS of", "max": "largest"}
+UNITS = {"m", "mps", "mps2", "mps3", "n", "N", "J", "s"}
 LONG = 12  # characters of a fraction that is shown as it is
 APART = 1.02  # by what factor numbers differ that are said to
 NOT_ERRORS = {"energy_J", "command_max", "bound_used", "mse_0", "reversals"}  # less of these is not better tracking
@@ -129,6 +131,16 @@ def _effects(effects: Sequence[Effect]) -> list[ResultTable]:
     return tables
 
 
+def _spoken(key: str) -> str:
+    """A metric's key in words, without its unit: `s_tilde_m_rms` is `RMS of s_tilde`."""
+    parts = key.split("_")
+    if all(part in KINDS or part in UNITS for part in parts):
+        return key.replace("_", " ")
+    kind = next((KINDS[part] for part in parts if part in KINDS), "")
+    said = [part for part in parts if part not in KINDS and part not in UNITS]
+    return f"{kind} {('_' if said and len(said[0]) == 1 else ' ').join(said)}".strip()
+
+
 def compared(effects: Sequence[Effect]) -> list[str]:
     """For every run with found gains, a sentence in which numbers it is better and worse than with the stated ones."""
     sentences = []
@@ -136,7 +148,7 @@ def compared(effects: Sequence[Effect]) -> list[str]:
         stated = next((o for o in effects if o.gains == "stated" and o.setting == e.setting), None)
         if stated is None or e is stated or e.gains == "stated":
             continue
-        name = f"Simulated, '{e.gains}' against the stated gains, {e.setting}"
+        name = f"Simulated, the gains '{e.gains.replace('_', ' ')}' against the stated ones, {e.setting}"
         if e.failed or stated.failed:
             ends = [which for which, run in (("the found", e), ("the stated", stated)) if run.failed]
             sentences.append(f"{name}: {' and '.join(ends)} gains do not come to the end.")
@@ -147,7 +159,7 @@ def compared(effects: Sequence[Effect]) -> list[str]:
             if key in NOT_ERRORS or not isinstance(value, int | float) or not isinstance(other, int | float):
                 continue
             if abs(value) * APART < abs(other) or abs(other) * APART < abs(value):
-                sides["better" if abs(value) < abs(other) else "worse"].append(key.replace("_", " "))
+                sides["better" if abs(value) < abs(other) else "worse"].append(_spoken(key))
         words = [f"{side} in {', '.join(keys)}" for side, keys in sides.items() if keys]
         if e.numbers.get("outcome") != stated.numbers.get("outcome"):
             words.append(f"outcome '{e.numbers['outcome']}' where the stated gains have "

@@ -1,4 +1,4 @@
-"""chen2019's rows: every number of the paper has one; learning rules have the printed factors at the stated gains."""
+"""chen2019's rows: every number of the paper has one, and its learning rules have the printed factors."""
 
 import sympy as sp
 from papers_import import PROOFS

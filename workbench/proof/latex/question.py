@@ -56,6 +56,8 @@ def asked(line: str, symbols: Symbols) -> Goal:
         else:
             assume.append(relation)
     claimed = relations(stated.claimed)
+    if all(r.left == r.right for r in claimed) and not any(r.left.has(D) for r in claimed):
+        raise LatexError("both sides are the same as soon as the line is read, so that nothing is left to decide")
     rates = {found for r in (*claimed, *assume) for found in r.left.atoms(D) | r.right.atoms(D)}
     for rate in rates:
         if not any(rate.args[0].has(symbol) for symbol in flow):

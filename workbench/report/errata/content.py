@@ -6,7 +6,7 @@ from collections import Counter
 from collections.abc import Sequence
 
 from workbench.proof.checker import goal_digest
-from workbench.proof.places import place_of
+from workbench.proof.places import place_of, subject_of
 from workbench.proof.verdict import VERDICTS, Decision, verdict_words
 from workbench.proof.wording import listed
 from workbench.report.counterexample import Counterexample
@@ -45,7 +45,7 @@ def _counts(decisions: Sequence[Decision]) -> str:
     only = f", {under} of them only where lines hold that are not shown" if under else ""
     return (f"Of {counts.total()} lines, {words}. Proved: true for all values of its domain{only}. Refuted: false as "
             "printed. Violated: a printed condition that the printed numbers break. Gap: it does not follow from what "
-            "the paper uses to get there. Assumed: a cited result, taken as given.")
+            "the paper uses to get there. Assumed: a cited result or a definition, taken as given.")
 
 
 def _verb(verdict: str, count: int) -> str:
@@ -56,7 +56,7 @@ def _verb(verdict: str, count: int) -> str:
 
 
 def _fates(decisions: Sequence[Decision]) -> list[Block]:
-    lines = tuple(Item(worded(fate_sentence(d.claim.equation, d.fate.word, d.fate.why)))
+    lines = tuple(Item(worded(fate_sentence(d.claim.equation, d.fate.word, d.fate.why, d.claim.title)))
                   for d in decisions if d.fate)
     return [Heading(2, "What becomes of the headline statements"), Items(lines)] if lines else []
 
@@ -76,7 +76,7 @@ def _corrections(found: Sequence[Finding]) -> list[Block]:
 
 def _correction(number: int, found: Finding) -> list[Block]:
     where = f" (section {found.section})" if found.section else ""
-    title = found.title.removeprefix(f"{found.place}: ")
+    title = subject_of(found.title)
     blocks: list[Block] = [Heading(3, f"{number}. {found.place}{where}: {worded(title)}"),
                            Formula(found.printed, "Printed")]
     if found.should_read:
