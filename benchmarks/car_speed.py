@@ -81,7 +81,7 @@ def loop(cars: int, horizon: int, samples: int = SAMPLES) -> Loop:
     curve = start_cruise_stop(2500.0, 25.0, 0.3, 0.4, 4.0)
     desired = np.stack(curve.at(np.arange(SAMPLES + horizon + 2) * PERIOD_S), axis=1)
     mpc = MultiCarMpc(train, desired, horizon, PERIOD_S, CarWeights(1.0, 1.0, 0.1), 25.0)
-    heard = _Heard(mpc._program._H)
+    heard = _Heard(mpc._program._H)  # the programs themselves are what is compared
     mpc._program = heard
     state, taken = np.concatenate([np.full(n, -1.0), np.zeros(n)]), np.zeros(samples)
     for k in range(samples):

@@ -2,9 +2,9 @@
 
 A guess of what lies at which bound is solved for the others and mended by the signs that come out, the primal-dual
 active set method (Hintermüller, Ito and Kunisch 2003); when nothing is to be mended, the guess is proved right. Where
-guesses do not come to rest, projected Newton steps (Bertsekas 1982) go on: what is at a bound and pushed against it stays, the
-others take Newton's step, a search along the projected step makes the cost fall. H is inverted once; both ways solve
-for the held unknowns or for the free ones, whichever are fewer.
+guesses do not come to rest, projected Newton steps (Bertsekas 1982) go on: what is at a bound and pushed against it
+stays, the others take Newton's step, a search along the projected step makes the cost fall. H is inverted once; both
+ways solve for the held unknowns or for the free ones, whichever are fewer.
 """
 
 from __future__ import annotations
