@@ -22,6 +22,7 @@ from workbench.optimal.profile import Profile
 from workbench.optimal.refine import refined
 from workbench.optimal.schedule import Miss, leg_times, nearest_legs, require_possible
 from workbench.optimal.socp import NoPlanError, Plan, solve_socp
+from workbench.optimal.tight_grid import tight_grid
 from workbench.optimal.timed_run import TimedRun, not_found, timed_run
 from workbench.optimal.timetable import Timetable, counted, in_time
 from workbench.optimal.vehicle import Vehicle
@@ -30,6 +31,8 @@ from workbench.optimal.verify import Check, check
 Solver = Literal["auto", "socp", "nlp"]
 INTERVALS, STOP_INTERVALS = 500, 100
 ROUNDS, GAP_WANTED = 5, 5e-4
+# Meshes on which no plan was found, before a request is given up; a finer one has so many times the intervals.
+FAILURES, FINER = 3, 4
 # A round that leaves more than this share of a gap above OPTIMAL_GAP is the last. Above the other gap `auto` turns to
 # the nonlinear program.
 NO_GAIN, GAP_OF_CONES = 0.9, 1e-3
@@ -115,7 +118,8 @@ def find_timed_reference(vehicle: Vehicle, course: Course, timetable: Timetable,
     grid = graded_grid(course, intervals or INTERVALS + STOP_INTERVALS * len(course.stops_m))
     if solver != "nlp":
         best = _rounds(asked, _cone_plan, grid, best, 1 if intervals else ROUNDS)
-    if solver == "nlp" or (solver == "auto" and best.gap(vehicle) > GAP_OF_CONES):
+    # Where the cones have no plan on a mesh the nonlinear program, which has all of their limits, has none either.
+    if solver == "nlp" or (solver == "auto" and best.gap(vehicle) > GAP_OF_CONES and not best.tight):
         best = _rounds(asked, _nonlinear_plan, grid, best, 1)
     if best.run is None:
         raise InfeasibleRunError(not_found(timetable, best.miss))
@@ -152,7 +156,8 @@ class _Asked:
 class _Found:
     """The best run so far with what planned it, and the best bound, which need not come from the same mesh.
 
-    run: None as long as none meets the timetable; miss: what the last one missed.
+    run: None as long as none meets the timetable; miss: what the last one missed. tight: whether the first mesh was too
+    coarse for the times.
     """
 
     run: TimedRun | None
@@ -161,6 +166,7 @@ class _Found:
     solve_s: float
     solver: str
     miss: Miss | None = None
+    tight: bool = False
 
     def gap(self, vehicle: Vehicle) -> float:
         return math.inf if self.run is None else _gap(self.run.energy_j(vehicle), self.bound_j)
@@ -190,14 +196,17 @@ def _gap(energy: float, bound: float) -> float:
 def _rounds(asked: _Asked, planner: _Planner, grid: Grid, best: _Found, rounds: int) -> _Found:
     """The best after planning on finer and finer meshes, until the gap is small or finer ones do not help."""
     vehicle, course = asked.vehicle, grid.course
-    for number in range(rounds):
+    number = failures = 0
+    while number < rounds:
         before = best.gap(vehicle)
         found = _planned(asked, planner, grid, best.run.profile if best.run else asked.quickest)
         if found is None:
-            if best.solver != FASTEST:
+            failures += 1
+            if best.solver != FASTEST or failures == FAILURES or rounds == 1:
                 break
             # Every mesh drives a little worse than the line allows: a time near the least one needs a finer mesh.
-            grid = graded_grid(course, 2 * len(grid.limit_mps))
+            best = replace(best, tight=planner is _cone_plan)
+            grid = tight_grid(course, asked.quickest, FINER * len(grid.limit_mps))
             continue
         bound, certificate = max(((lower_bound(vehicle, course, made, asked.timetable, asked.start_mps, asked.end_mps),
                                    made) for made in (certificate_from(vehicle, found.plan, near)
@@ -206,7 +215,8 @@ def _rounds(asked: _Asked, planner: _Planner, grid: Grid, best: _Found, rounds: 
         if best.gap(vehicle) <= GAP_WANTED or (
                 number and best.gap(vehicle) > max(NO_GAIN * before, OPTIMAL_GAP) and best.run):
             break
-        if number + 1 < rounds:
+        number += 1
+        if number < rounds:
             grid = finer_grid(vehicle, found.plan, certificate, found.run)
     return best
 
@@ -256,11 +266,8 @@ def _planned(asked: _Asked, planner: _Planner, grid: Grid, guess: Profile) -> _P
         except NoPlanError:
             break
         spent += plan.solve_s
-        profile = refined(asked.vehicle, plan, PARTS, asked.start_mps, asked.end_mps)
+        profile, legs, off = _driven(asked, plan, least, allowed)
         first = first or (plan, profile, solver)
-        now = leg_times(timetable, profile)
-        legs = nearest_legs(timetable, now, least)
-        off = now - (now if legs is None else legs)
         if float(np.abs(off).sum()) <= allowed:
             break
         extra = extra + off
@@ -269,3 +276,19 @@ def _planned(asked: _Asked, planner: _Planner, grid: Grid, guess: Profile) -> _P
     if legs is not None:
         profile = fitted(asked.vehicle, profile, asked.quickest, timetable, legs, asked.start_mps, asked.end_mps)
     return _Planned(first[0], first[1], timed_run(asked.vehicle, timetable, profile), spent, first[2])
+
+
+def _driven(asked: _Asked, plan: Plan, least_s: Array, allowed_s: float) -> tuple[Profile, Array | None, Array]:
+    """The run of a plan, the legs that its timetable leaves it, s, and by how much its own are longer.
+
+    A run that is late keeps to the limits of speed where the plan is at them, if that is less so.
+    """
+    found: list[tuple[Profile, Array | None, Array]] = []
+    for is_held in (False, True):
+        profile = refined(asked.vehicle, plan, PARTS, asked.start_mps, asked.end_mps, is_held)
+        now = leg_times(asked.timetable, profile)
+        legs = nearest_legs(asked.timetable, now, least_s)
+        found.append((profile, legs, now - (now if legs is None else legs)))
+        if float(found[0][2].sum()) <= allowed_s:
+            break
+    return min(found, key=lambda run: float(np.abs(run[2]).sum()))
