@@ -47,7 +47,7 @@ def refined(vehicle: Vehicle, plan: Plan, parts: int, start_mps: float = 0.0, en
 
 
 def _target(vehicle: Vehicle, plan: Plan, course: Course, is_held: bool) -> Array:
-    """Half the squared speed at a course's borders: cell by cell through all intervals, then drawn to the plan's nodes."""
+    """Half the squared speed at a course's borders: cell by cell on all intervals, then drawn to the plan's nodes."""
     x, line, drag = course.position_m, course.force_n, course.drag
     s, b_plan = plan.grid.position_m, plan.half_square
     owner = np.searchsorted(s, (x[1:] + x[:-1]) / 2) - 1

@@ -9,6 +9,7 @@ from __future__ import annotations
 from itertools import pairwise
 
 import numpy as np
+from numpy.typing import NDArray
 
 from workbench.optimal.course import Array, Course
 from workbench.optimal.grid import LEAST_INTERVALS, Grid, grid_on, kept_borders, with_force_borders
@@ -36,7 +37,7 @@ def tight_grid(course: Course, quickest: Profile, intervals: int) -> Grid:
     return grid_on(course, with_force_borders(course, np.concatenate(nodes), kept))
 
 
-def _before_braking(x: Array, density: Array, brakes: Array) -> Array:
+def _before_braking(x: Array, density: Array, brakes: NDArray[np.bool_]) -> Array:
     """The density of cells, raised on COASTED_M before each braking to what it is where that begins."""
     raised, middle = density.copy(), (x[1:] + x[:-1]) / 2
     starts = np.flatnonzero(brakes & ~np.insert(brakes[:-1], 0, False))
