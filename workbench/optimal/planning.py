@@ -26,6 +26,8 @@ from workbench.optimal.vehicle import Vehicle
 PARTS = 8
 # Share of the trip time by which a drivable run may be off before the plan itself is made again, so many times.
 OFF, PLANS = 2e-5, 3
+# By which a run may be slower at a timing point than asked, m/s.
+SPEED_ERROR_MPS = 1e-6
 
 
 @dataclass(frozen=True)
@@ -45,13 +47,14 @@ Planner = Callable[[Asked, Grid, Array, Profile], tuple[Plan, str]]
 
 @dataclass(frozen=True)
 class Planned:
-    """The plan for the asked times and its run, which may be off; a run in time or its miss; the best bound, J, of the
-    plan's multipliers and what proves it; the solver's seconds and name.
+    """The plan for the asked times and its run, which may be off; a run in time or its miss, None where it passes a
+    timing point below its least speed; the best bound, J, of the plan's multipliers and what proves it; the solver's
+    seconds and name.
     """
 
     plan: Plan
     run: Profile
-    timed: TimedRun | Miss
+    timed: TimedRun | Miss | None
     bound_j: float
     certificate: Certificate
     solve_s: float
@@ -86,8 +89,14 @@ def planned(asked: Asked, planner: Planner, grid: Grid, guess: Profile, near: fl
         return None
     if legs is not None:
         profile = fitted(asked.vehicle, profile, asked.quickest, timetable, legs, asked.start_mps, asked.end_mps)
-    timed = timed_run(asked.vehicle, timetable, profile)
+    timed = None if _too_slow(timetable, profile) else timed_run(asked.vehicle, timetable, profile)
     return Planned(first[0], first[1], timed, first[3], first[4], spent, first[2])
+
+
+def _too_slow(timetable: Timetable, profile: Profile) -> bool:
+    """Whether a run is slower at a timing point than the point asks for."""
+    speed = profile.speed_mps[np.searchsorted(profile.position_m, timetable.position_m)]
+    return any(v < point.slowest_mps - SPEED_ERROR_MPS for v, point in zip(speed, timetable.points, strict=True))
 
 
 def _best_bound(asked: Asked, plan: Plan) -> tuple[float, Certificate]:

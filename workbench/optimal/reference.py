@@ -159,8 +159,8 @@ class _Found:
         proven = max(bound, self.bound_j)
         more = replace(self, bound_j=proven, solve_s=self.solve_s + found.solve_s,
                        certificate=found.certificate if bound > self.bound_j else self.certificate)
-        if isinstance(run, Miss):
-            return replace(more, miss=run)
+        if run is None or isinstance(run, Miss):
+            return replace(more, miss=run or self.miss)
         new, old = run.energy_j(vehicle), math.inf if self.run is None else self.run.energy_j(vehicle)
         # On a coarse mesh a run may pass its limits within cells, and seem to take less than any run can.
         floor = proven - CELLS_ERROR * abs(proven)
