@@ -26,7 +26,7 @@ from workbench.optimal.verify import Check, check
 
 Solver = Literal["auto", "socp", "nlp"]
 INTERVALS, STOP_INTERVALS = 500, 100
-ROUNDS, GAP_WANTED = 5, 4e-4
+ROUNDS, GAP_WANTED = 5, 5e-4
 # Meshes on which no plan was found, before a request is given up; a finer one has so many times the intervals.
 FAILURES, FINER = 3, 4
 # A round that leaves more than this share of a gap above OPTIMAL_GAP is the last. Above the other gap `auto` turns to
