@@ -32,10 +32,8 @@ import numpy as np
 import qp_solvers
 
 from workbench.model.desired_curve import start_cruise_stop
-from workbench.mpc.car_model import CarTrain, train_rates
 from workbench.mpc.linear import LinearMpc
 from workbench.mpc.model import model
-from workbench.mpc.multi_car import CarWeights, MultiCarMpc
 from workbench.mpc.nonlinear import NonlinearMpc
 from workbench.mpc.preview import preview
 from workbench.mpc.problem import Array, Problem, Weights
@@ -150,40 +148,6 @@ def growth(longest: int = 200) -> list[dict[str, float]]:
     return rows
 
 
-def car_growth() -> list[dict[str, float]]:
-    """Median and p99 of a step (us) of chen2019's train for growing numbers of cars and horizons."""
-    rows = []
-    for cars in (6, 8, 12, 16, 24, 32):
-        row: dict[str, float] = {"cars": cars}
-        for horizon in (20, 50):
-            taken = car_steps(cars, horizon)
-            row[f"median_us_{horizon}"], row[f"p99_us_{horizon}"] = np.median(taken), np.percentile(taken, 99)
-        rows.append(row)
-    return rows
-
-
-def car_steps(cars: int, horizon: int, samples: int = 280) -> Array:
-    """What each step of chen2019's train takes (us), with so many cars, as it starts and goes on."""
-    train = CarTrain(np.full(cars, 5e4), np.full(cars, -4e4), np.where(np.arange(cars) % 2 == 0, 4e4, 0.0),
-                     (0.00775, 0.000228, 0.0000166, 2e6, 1e5))
-    of_rates, n = train_rates(train), cars
-    x, u, h = ca.SX.sym("x", 2 * n), ca.SX.sym("u", n), 0.01
-    k1 = of_rates(x, u)
-    k2 = of_rates(x + h / 2 * k1, u)
-    k3 = of_rates(x + h / 2 * k2, u)
-    step = ca.Function("step", [x, u], [x + h / 6 * (k1 + 2 * k2 + 2 * k3 + of_rates(x + h * k3, u))]).fold(50)
-    curve = start_cruise_stop(2500.0, 25.0, 0.3, 0.4, 4.0)
-    desired = np.stack(curve.at(np.arange(280 + horizon + 2) * 0.5), axis=1)
-    mpc = MultiCarMpc(train, desired, horizon, 0.5, CarWeights(1.0, 1.0, 0.1), 25.0)
-    state, taken = np.concatenate([np.full(n, -1.0), np.zeros(n)]), np.zeros(samples)
-    for k in range(samples):
-        before = time.thread_time()
-        forces = mpc.command(k, state[:n], state[n:])
-        taken[k] = (time.thread_time() - before) * 1e6
-        state = np.asarray(step(state, np.tile(forces.reshape(-1, 1), (1, 50)))).ravel()
-    return taken
-
-
 def measured(horizon: int, load: str, peer: bool) -> list[dict[str, Any]]:
     """One row a solver: closed-loop cost against ipopt's, median and p99 of a step."""
     problem, ahead = problem_of(horizon, load)
@@ -259,14 +223,9 @@ def main() -> None:
     for row in grown:
         print(f"{row['horizon']:7.0f} {row['nonlinear_median_us']:12.1f} {row['nonlinear_p99_us']:9.1f}"
               f" {row['linear_median_us']:13.1f} {row['linear_p99_us']:9.1f}")
-    cars = car_growth()
-    print("\ngrowth with the cars, microseconds a step\n   cars  horizon 20 median / p99    horizon 50 median / p99")
-    for row in cars:
-        print(f"{row['cars']:7.0f} {row['median_us_20']:12.1f} {row['p99_us_20']:9.1f}"
-              f" {row['median_us_50']:15.1f} {row['p99_us_50']:9.1f}")
     print("\n" + ("; ".join(short) if short else "every stated ratio, cost and deadline is met"))
     if path:
-        numbers = {"version": 1, "solvers": table, "growth": grown, "cars": cars, "programs": programs, "short": short}
+        numbers = {"version": 1, "solvers": table, "growth": grown, "programs": programs, "short": short}
         path.write_text(json.dumps(numbers, indent=1), encoding="utf-8")
     raise SystemExit(1 if short else 0)
 

@@ -21,6 +21,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
+import car_speed
 import mpc_speed
 import numpy as np
 import simulation_speed
@@ -171,8 +172,8 @@ def runs(bench: Bench) -> None:
 
 def mpc(full: bool) -> None:
     """A step of MPC of one car and of several."""
-    for cars in (6, 64) if full else (6, 16):
-        taken = mpc_speed.car_steps(cars, 20, 40)
+    for cars in (6, 64):
+        taken = car_speed.loop(cars, 20, 40).taken_us
         tell(f"MPC of {cars} cars, 20 samples ahead: median of a step", float(np.median(taken)) / 1e6)
     rows = {row["solver"]: row["median_us"] for row in mpc_speed.measured(20, "easy", full)}
     for solver, median_us in rows.items():

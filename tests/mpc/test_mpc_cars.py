@@ -14,9 +14,10 @@ from scipy.optimize import lsq_linear
 
 from workbench.errors import InputError, SolverError
 from workbench.model.desired_curve import start_cruise_stop
+from workbench.mpc import box_program
 from workbench.mpc.box_program import BoxProgram
 from workbench.mpc.car_model import CarTrain, period, resistance, train_rates
-from workbench.mpc.multi_car import COUNTERS, CarWeights, MultiCarMpc
+from workbench.mpc.multi_car import COUNTERS, CarWeights, MultiCarMpc, patterns
 
 T, N = 0.5, 12
 VALUES = (0.00775, 0.000228, 0.0000166, 2e6, 1e5)  # chen2019, Table 1
@@ -185,17 +186,57 @@ def test_programs_with_bounds_are_solved_as_an_outside_solver_does(n, seed, stif
     aim = draw.normal(size=n + 3) * 3
     low = draw.uniform(-1.0, 0.0, n)
     high = low + draw.choice([0.0, 0.5, 1.5], n)
-    found, _ = BoxProgram(rows.T @ rows).solve(-rows.T @ aim, low, high, draw.uniform(-2, 2, n))
+    program = BoxProgram(rows.T @ rows)
+    best, start = program.unbounded(-rows.T @ aim), draw.uniform(-2, 2, n)
+    found, _ = program.solve(best, low, high, start)
     assert ((found >= low) & (found <= high)).all()
     expected = lsq_linear(rows, aim, (low - 1e-12, high + 1e-12), method="bvls", tol=1e-14).x
     cost, least = (float(np.sum((rows @ x - aim) ** 2)) for x in (found, np.clip(expected, low, high)))
     assert cost <= least * (1 + 1e-9) + 1e-12
+    # The way that is taken where guesses do not come to rest gives the same; so does a guess that is the answer.
+    stepped, _ = program._stepped(best, low, high, start)
+    assert program.solve(best, low, high, stepped)[0] == pytest.approx(found, abs=1e-9)
+    assert float(np.sum((rows @ stepped - aim) ** 2)) <= least * (1 + 1e-9) + 1e-12
 
 
-@pytest.mark.parametrize(("low", "f"), [(2.0, 0.0), (0.0, np.nan), (0.0, np.inf)])
-def test_a_program_without_an_answer_says_so(low, f):
+def test_guesses_that_do_not_come_to_rest_are_left_for_steps(monkeypatch):
+    monkeypatch.setattr(box_program, "MOST_GUESSES", 1)
+    H, best = np.array([[2.0, 1.9], [1.9, 2.0]]), np.array([1.5, 0.2])
+    found, solved = BoxProgram(H).solve(best, -np.ones(2), np.ones(2), np.zeros(2))
+    assert found == pytest.approx([1.0, 0.2 + 0.5 * 1.9 / 2])  # the first at its bound, the second free
+    assert solved > 1
+
+
+@pytest.mark.parametrize(("low", "best"), [(2.0, 0.0), (0.0, np.nan), (0.0, np.inf)])
+def test_a_program_without_an_answer_says_so(low, best):
     with pytest.raises(SolverError, match="has no answer"):
-        BoxProgram(np.eye(2)).solve(np.array([f, 0.0]), np.array([low, 0.0]), np.ones(2), np.zeros(2))
+        BoxProgram(np.eye(2)).solve(np.array([best, 0.0]), np.array([low, 0.0]), np.ones(2), np.zeros(2))
+
+
+@pytest.mark.parametrize("uneven", [False, True])
+def test_the_plan_without_limits_is_that_of_the_program_stage_by_stage(uneven):
+    """The program of a loop is the old one: the same Hessian, and what it is linear in summed up sample by sample."""
+    n, k, draw = 5, 30, np.random.default_rng(3)
+    train = train_of(n) if not uneven else CarTrain(draw.uniform(3e4, 6e4, n), -draw.uniform(3e4, 5e4, n),
+                                                    draw.uniform(0, 4e4, n), VALUES)
+    ours, error = mpc_of(n, train=train), draw.normal(size=2 * n)
+    errors, of, f = [error], ours._of, np.empty((N, n))
+    for i in range(N):
+        errors.append(of.A @ errors[-1] + of.C @ ours._push[k + i])
+    costate = ours.terminal @ errors[N]
+    for i in range(N - 1, -1, -1):
+        f[i] = of.B.T @ costate - WEIGHTS.command * ours._shares[k + i]
+        costate = ours._q * errors[i] + of.A.T @ costate
+    assert ours._best(k, error) == pytest.approx(np.linalg.solve(ours._hessian(), -2 * f.ravel()), abs=1e-9)
+
+
+def test_rows_are_made_of_as_few_patterns_as_they_have():
+    draw = np.random.default_rng(4)
+    rows = draw.normal(size=(40, 2)) @ draw.normal(size=(2, 7))
+    sizes, of = patterns(rows)
+    assert of.shape == (2, 7)
+    assert sizes @ of == pytest.approx(rows, abs=1e-13)
+    assert patterns(np.zeros((3, 7)))[1].shape == (0, 7)
 
 
 def test_a_cost_that_is_not_convex_is_refused():
@@ -237,14 +278,33 @@ class _ByIpopt:
     """A `BoxProgram` of the same Hessian, by ipopt."""
 
     def __init__(self, H):
-        x, f = ca.SX.sym("x", len(H)), ca.SX.sym("f", len(H))
-        self._solver = ca.nlpsol("box", "ipopt", {"x": x, "p": f, "f": ca.bilin(ca.DM(H), x, x) / 2 + ca.dot(f, x)}, {
+        x, best = ca.SX.sym("x", len(H)), ca.SX.sym("best", len(H))
+        self._solver = ca.nlpsol("box", "ipopt", {"x": x, "p": best, "f": ca.bilin(ca.DM(H), x - best, x - best) / 2}, {
             "print_time": False, "ipopt": {"print_level": 0, "sb": "yes", "tol": 1e-10, "bound_relax_factor": 0.0}})
 
-    def solve(self, f, low, high, start):
-        found = self._solver(x0=start, p=f, lbx=low, ubx=high)
+    def solve(self, best, low, high, start):
+        found = self._solver(x0=start, p=best, lbx=low, ubx=high)
         assert self._solver.stats()["success"]
         return np.asarray(found["x"]).ravel(), 0
+
+
+class _ByNewton:
+    """A `BoxProgram` that guesses nothing."""
+
+    def __init__(self, H):
+        self._program = BoxProgram(H)
+
+    def solve(self, *program):
+        return self._program._stepped(*program)
+
+
+@pytest.mark.parametrize("n", [3, 16])
+def test_guessed_sets_close_the_same_loop_as_newtons_steps(n):
+    ours, twin = mpc_of(n), mpc_of(n)
+    twin._program = _ByNewton(ours._hessian())
+    loops = [np.hstack(run(n, mpc, 40)) for mpc in (ours, twin)]
+    assert loops[0] == pytest.approx(loops[1], rel=1e-8, abs=1e-4)  # of forces up to 4e4 N
+    assert loops[0][:, :n] == pytest.approx(loops[1][:, :n], abs=1e-8)
 
 
 @pytest.mark.parametrize("n", [2, 6])

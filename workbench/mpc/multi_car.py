@@ -41,6 +41,7 @@ class MultiCarMpc:
     """Called once a sample with all positions and speeds; answers with all forces, in N and within the limits.
 
     desired: rows of position (m), speed (m/s), acceleration (m/s^2) at every sample of the run and beyond by a horizon.
+    steps: systems of equations that the last program took.
     Never raises once made and never answers NaN: a failed program is answered by the last plan, shifted, then by the
     LQR; a measurement that is none by the plan, then by the desired run's forces. Raises InputError for a horizon that
     does not fit and weights without an LQR.
@@ -69,6 +70,8 @@ class MultiCarMpc:
         low, high = train.lowest_n / train.mass_kg, train.highest_n / train.mass_kg
         self._low, self._high = np.tile(low, N), np.tile(high, N)
         self._push, self._shares = self._along_the_run()
+        (self._pushes, of_push), (self._splits, of_shares) = patterns(self._push), patterns(self._shares)
+        self._by_error, self._by_pattern = self._without_limits(of_push, of_shares)
         self.counters, self.trouble = dict.fromkeys(COUNTERS, 0), Counter[str]()
         self.steps = 0
         self._plan: Array | None = None
@@ -114,7 +117,7 @@ class MultiCarMpc:
         n = self.train.cars
         self.counters["qp"] += 1
         try:
-            plan, self.steps = self._program.solve(self._linear(k, error), self._low, self._high, self._start(k))
+            plan, self.steps = self._program.solve(self._best(k, error), self._low, self._high, self._start(k))
         except SolverError as trouble:
             self.counters["qp_failed"] += 1
             self.trouble[str(trouble)] += 1
@@ -149,15 +152,44 @@ class MultiCarMpc:
             return np.asarray(self._shares[k : k + self.horizon].ravel())
         return np.concatenate([self._plan[age * n :], np.tile(self._plan[-n:], age)])
 
-    def _linear(self, k: int, error: Array) -> Array:
-        """The program's linear part: the errors without forces, forwards; what they cost, backwards."""
-        N, of = self.horizon, self._of
+    def _best(self, k: int, error: Array) -> Array:
+        """The plan that would be best without limits, from an error, shape (2n,), at a sample."""
+        ahead = slice(k, k + self.horizon)
+        along = np.concatenate([self._pushes[ahead].ravel(), self._splits[ahead].ravel()])
+        return np.asarray(self._by_error @ error + self._by_pattern @ along)
+
+    def _without_limits(self, of_push: Array, of_shares: Array) -> tuple[Array, Array]:
+        """What `_best` is linear in: by the error, shape (N n, 2n), and by every pattern's size at every sample."""
+        N, n = self.horizon, self.train.cars
+        from_error = self._linear(np.eye(2 * n), np.zeros((N, n, 2 * n)), np.zeros((N, n, 2 * n)))
+        many = N * (len(of_push) + len(of_shares))
+        push, shares, column = np.zeros((N, n, many)), np.zeros((N, n, many)), iter(range(many))
+        for sizes, rows in ((push, of_push), (shares, of_shares)):
+            for i in range(N):
+                for row in rows:
+                    sizes[i, :, next(column)] = row
+        from_patterns = self._linear(np.zeros((2 * n, many)), push, shares)
+        return self._program.unbounded(from_error), self._program.unbounded(from_patterns)
+
+    def _linear(self, error: Array, push: Array, shares: Array) -> Array:
+        """The program's linear part, shape (N n, c), of c errors, pushes and shares at once, in the last axis.
+
+        The errors without forces, forwards; what they cost, backwards.
+        """
+        N, of, q = self.horizon, self._of, self._q[:, None]
         errors = [error]
         for i in range(N):
-            errors.append(of.A @ errors[-1] + of.C @ self._push[k + i])
-        f = np.empty((N, self.train.cars))
+            errors.append(of.A @ errors[-1] + of.C @ push[i])
+        f = np.empty((N, self.train.cars, error.shape[1]))
         costate = self.terminal @ errors[N]
         for i in range(N - 1, -1, -1):
-            f[i] = of.B.T @ costate - self._r * self._shares[k + i]
-            costate = self._q * errors[i] + of.A.T @ costate
-        return 2 * f.ravel()
+            f[i] = of.B.T @ costate - self._r * shares[i]
+            costate = q * errors[i] + of.A.T @ costate
+        return 2 * f.reshape(N * self.train.cars, -1)
+
+
+def patterns(rows: Array) -> tuple[Array, Array]:
+    """Rows, shape (samples, n), as sizes, shape (samples, p), of as few patterns as they are made of, shape (p, n)."""
+    u, sizes, v = np.linalg.svd(rows, full_matrices=False)
+    kept = sizes > 1e-15 * sizes.max(initial=0.0) * max(rows.shape)
+    return u[:, kept] * sizes[kept], v[kept]

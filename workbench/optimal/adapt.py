@@ -15,6 +15,9 @@ from workbench.trains.resistance import davis_resistance
 
 # Intervals that a finer mesh has more, as a share.
 GROWTH = 0.7
+# Where p changes by more than this share from one interval to the next, none is so many times as long as its neighbour:
+# p falls by what the longer one has, and the bound loses it on the shorter one.
+P_CHANGE, LONGER, GRADINGS = 0.02, 2.5, 8
 # Intervals are not divided into shorter ones: the cone program's numbers would lie too far apart.
 SHORTEST_M = 1e-3
 _GAUSS = (0.5 - np.sqrt(3) / 6, 0.5 + np.sqrt(3) / 6)
@@ -65,6 +68,25 @@ def finer_grid(vehicle: Vehicle, plan: Plan, certificate: Certificate, run: Prof
     # where the last digit of the sum is a little lower.
     parts = 1 + np.diff(np.floor(np.cumsum(GROWTH * count * weight) + 0.5 + 1e-9), prepend=0.0).astype(int)
     parts = np.clip(parts, 1, np.maximum(plan.grid.step_m // SHORTEST_M, 1).astype(int))
-    nodes = [s[:1], *(np.linspace(s[k], s[k + 1], parts[k] + 1)[1:] for k in range(count))]
+    nodes = np.concatenate([s[:1], *(np.linspace(s[k], s[k + 1], parts[k] + 1)[1:] for k in range(count))])
     course = plan.grid.course
-    return grid_on(course, with_force_borders(course, np.concatenate(nodes), kept_borders(course)))
+    return grid_on(course, with_force_borders(course, _graded(plan, nodes), kept_borders(course)))
+
+
+def _graded(plan: Plan, nodes: Array) -> Array:
+    """Nodes with more of them where p changes and a long interval meets a short one, on its side."""
+    p, s = plan.adjoint, plan.grid.position_m
+    turns = np.abs(np.diff(p)) > P_CHANGE * np.maximum(1.0, np.abs(p[1:]))
+    changes = np.append(turns, False) | np.insert(turns, 0, False)
+    for _ in range(GRADINGS):
+        h = np.diff(nodes)
+        owner = np.clip(np.searchsorted(s, (nodes[1:] + nodes[:-1]) / 2) - 1, 0, len(p) - 1)
+        before, after = np.insert(h[:-1], 0, np.inf), np.append(h[1:], np.inf)
+        short = np.minimum(before, after)
+        long = (h > LONGER * short) & (h > SHORTEST_M) & changes[owner]
+        if not long.any():
+            break
+        # The part beside the short interval is half as long again.
+        between = np.where(after < before, nodes[1:] - 1.5 * short, nodes[:-1] + 1.5 * short)
+        nodes = np.union1d(nodes, between[long])
+    return nodes

@@ -19,17 +19,23 @@ RATIO, MOST_PARTS = 1.08, 60
 # From one of these shares of it on a speed is at its limit. Just below it a jump of p costs the bound what a run at the
 # limit would gain by it; and a solver leaves a speed that is at its limit a little below.
 NEAR_LIMIT = (0.995, 1 - 1e-6)
+# Between two middles p is linear in 1/v where half the squared speed changes by more than one of these shares, else in
+# position. Near a stop a line in position is poor. Where a run leaves its limit, or reaches it, all of the change lies
+# on one side of a border, and in 1/v all of p's would lie there too.
+BENT_FROM = (1e-3, 0.15)
 # Cells are no shorter.
 SHORTEST_M = 1e-6
 # Half the squared speed below this share of an interval's is a standstill that rounding has touched.
 STANDSTILL = 1e-12
 
 
-def certificate_from(vehicle: Vehicle, plan: Plan, near_limit: float = NEAR_LIMIT[0]) -> Certificate:
+def certificate_from(vehicle: Vehicle, plan: Plan, near_limit: float = NEAR_LIMIT[0],
+                     bent_from: float = BENT_FROM[0]) -> Certificate:
     """p through the dual values at the middles of the intervals, linear in 1/v between them; jumps at borders.
 
     p may jump at a stop and where the run meets another limit; there it is continued from each side on its own, towards
-    a standstill by the adjoint equation, by which p rises with mu / (inertia acceleration) times 1/v.
+    a standstill by the adjoint equation, by which p rises with mu / (inertia acceleration) times 1/v. near_limit,
+    bent_from: one of NEAR_LIMIT and of BENT_FROM; which proves more is seen from the bound.
     """
     grid = plan.grid
     s, b = grid.position_m, plan.half_square
@@ -39,7 +45,7 @@ def certificate_from(vehicle: Vehicle, plan: Plan, near_limit: float = NEAR_LIMI
     breaks[[0, -1]] = True
     halves = _halves(plan, breaks)
     points, of = _points(halves, plan)
-    values = _values(vehicle, plan, halves, points, of)
+    values = _values(vehicle, plan, halves, points, of, bent_from)
     first = np.insert(np.diff(of) > 0, 0, True)
     drawn = counted(vehicle.auxiliary_w)
     *earlier, last = plan.timetable.fair(plan.prices_w, drawn).tolist()
@@ -110,7 +116,8 @@ def _parts(ends: Array, b: Array) -> Array:
     return np.concatenate(([start], inner, [end]))
 
 
-def _values(vehicle: Vehicle, plan: Plan, halves: _Halves, points: Array, of: NDArray[np.intp]) -> Array:
+def _values(vehicle: Vehicle, plan: Plan, halves: _Halves, points: Array, of: NDArray[np.intp],
+            bent_from: float) -> Array:
     """p at points of halves: by the adjoint equation towards a standstill, else by the line through the middles of its
     interval and of the far one, in 1/v where the speed rises or falls from one to the other, else in position."""
     k, far = halves.k, halves.far
@@ -119,7 +126,7 @@ def _values(vehicle: Vehicle, plan: Plan, halves: _Halves, points: Array, of: ND
     here, there = (_half_square(middle[j], plan, j) for j in (k, far))
     border = b[np.maximum(k, far)]
     rising = (far != k) & (np.minimum(here, there) < border) & (border < np.maximum(here, there)) & (
-        np.abs(here - there) > 1e-3 * np.maximum(here, there))
+        np.abs(here - there) > bent_from * np.maximum(here, there))
     values = p[k[of]]
 
     def on(where: NDArray[np.bool_]) -> tuple[NDArray[np.bool_], NDArray[np.intp]]:

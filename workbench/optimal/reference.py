@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
 from dataclasses import dataclass, replace
 from typing import Literal
 
@@ -11,17 +10,15 @@ import numpy as np
 
 from workbench.errors import InputError
 from workbench.optimal.adapt import finer_grid
-from workbench.optimal.adjoint import NEAR_LIMIT, certificate_from
 from workbench.optimal.bound import lower_bound
 from workbench.optimal.certificate import Certificate
 from workbench.optimal.course import Array, Course
 from workbench.optimal.envelope import InfeasibleRunError, fastest, with_fine_cells
-from workbench.optimal.fit_times import fitted
 from workbench.optimal.grid import Grid, graded_grid, kept_borders
+from workbench.optimal.planning import Asked, Planned, Planner, cone_plan, nonlinear_plan, planned
 from workbench.optimal.profile import Profile
-from workbench.optimal.refine import refined
-from workbench.optimal.schedule import Miss, leg_times, nearest_legs, require_possible
-from workbench.optimal.socp import NoPlanError, Plan, solve_socp
+from workbench.optimal.schedule import Miss, require_possible
+from workbench.optimal.tight_grid import tight_grid
 from workbench.optimal.timed_run import TimedRun, not_found, timed_run
 from workbench.optimal.timetable import Timetable, counted, in_time
 from workbench.optimal.vehicle import Vehicle
@@ -30,15 +27,15 @@ from workbench.optimal.verify import Check, check
 Solver = Literal["auto", "socp", "nlp"]
 INTERVALS, STOP_INTERVALS = 500, 100
 ROUNDS, GAP_WANTED = 5, 5e-4
+# Meshes on which no plan was found, before a request is given up; a finer one has so many times the intervals.
+FAILURES, FINER = 3, 4
 # A round that leaves more than this share of a gap above OPTIMAL_GAP is the last. Above the other gap `auto` turns to
 # the nonlinear program.
 NO_GAIN, GAP_OF_CONES = 0.9, 1e-3
-# Cells of the driven run on each interval of the plan, and of the fastest run in all.
-PARTS, FASTEST_CELLS = 8, 4000
+# Cells of the fastest run.
+FASTEST_CELLS = 4000
 # A run whose energy is proven to lie within this share above the least possible one is called optimal.
 OPTIMAL_GAP = 0.01
-# Share of the trip time by which a drivable run may be off before the plan itself is made again, so many times.
-OFF, PLANS = 2e-5, 3
 # A run that takes less than the bound by more than this share of it is none.
 CELLS_ERROR = 1e-6
 # What is found before any solver has found something.
@@ -108,15 +105,16 @@ def find_timed_reference(vehicle: Vehicle, course: Course, timetable: Timetable,
     borders = kept_borders(course)
     drawn = counted(vehicle.auxiliary_w)
     nothing = Certificate(borders, np.zeros(len(borders) - 1), np.zeros(len(borders) - 1), drawn, auxiliary_w=drawn)
-    asked = _Asked(vehicle, timetable, start_mps, end_mps, quickest)
+    asked = Asked(vehicle, timetable, start_mps, end_mps, quickest)
     run = timed_run(vehicle, timetable, quickest)
     best = _Found(None if isinstance(run, Miss) else run,
                   lower_bound(vehicle, course, nothing, timetable, start_mps, end_mps), nothing, 0.0, FASTEST)
     grid = graded_grid(course, intervals or INTERVALS + STOP_INTERVALS * len(course.stops_m))
     if solver != "nlp":
-        best = _rounds(asked, _cone_plan, grid, best, 1 if intervals else ROUNDS)
-    if solver == "nlp" or (solver == "auto" and best.gap(vehicle) > GAP_OF_CONES):
-        best = _rounds(asked, _nonlinear_plan, grid, best, 1)
+        best = _rounds(asked, cone_plan, grid, best, 1 if intervals else ROUNDS)
+    # Where the cones have no plan on a mesh the nonlinear program, which has all of their limits, has none either.
+    if solver == "nlp" or (solver == "auto" and best.gap(vehicle) > GAP_OF_CONES and not best.tight):
+        best = _rounds(asked, nonlinear_plan, grid, best, 1)
     if best.run is None:
         raise InfeasibleRunError(not_found(timetable, best.miss))
     profile, simulated = best.run.profile, check(vehicle, best.run.profile)
@@ -138,21 +136,11 @@ def _quickest(vehicle: Vehicle, course: Course, start_mps: float, end_mps: float
 
 
 @dataclass(frozen=True)
-class _Asked:
-    """What every plan must meet, and the run that arrives first."""
-
-    vehicle: Vehicle
-    timetable: Timetable
-    start_mps: float
-    end_mps: float
-    quickest: Profile
-
-
-@dataclass(frozen=True)
 class _Found:
     """The best run so far with what planned it, and the best bound, which need not come from the same mesh.
 
-    run: None as long as none meets the timetable; miss: what the last one missed.
+    run: None as long as none meets the timetable; miss: what the last one missed. tight: whether the first mesh was too
+    coarse for the times.
     """
 
     run: TimedRun | None
@@ -161,111 +149,50 @@ class _Found:
     solve_s: float
     solver: str
     miss: Miss | None = None
+    tight: bool = False
 
     def gap(self, vehicle: Vehicle) -> float:
         return math.inf if self.run is None else _gap(self.run.energy_j(vehicle), self.bound_j)
 
-    def improved(self, vehicle: Vehicle, run: TimedRun | Miss, bound: float, certificate: Certificate, solve_s: float,
-                 solver: str) -> _Found:
+    def improved(self, vehicle: Vehicle, found: Planned) -> _Found:
+        run, bound = found.timed, found.bound_j
         proven = max(bound, self.bound_j)
-        more = replace(self, bound_j=proven, solve_s=self.solve_s + solve_s,
-                       certificate=certificate if bound > self.bound_j else self.certificate)
-        if isinstance(run, Miss):
-            return replace(more, miss=run)
+        more = replace(self, bound_j=proven, solve_s=self.solve_s + found.solve_s,
+                       certificate=found.certificate if bound > self.bound_j else self.certificate)
+        if run is None or isinstance(run, Miss):
+            return replace(more, miss=run or self.miss)
         new, old = run.energy_j(vehicle), math.inf if self.run is None else self.run.energy_j(vehicle)
         # On a coarse mesh a run may pass its limits within cells, and seem to take less than any run can.
         floor = proven - CELLS_ERROR * abs(proven)
         less = new < old if (new >= floor) == (old >= floor) else new >= floor
-        return replace(more, run=run, solver=solver) if less or self.run is None else more
-
-
-# Of a request, a mesh, what each leg takes beyond the plan and a first guess: a plan and its solver's name.
-_Planner = Callable[["_Asked", Grid, Array, Profile], tuple[Plan, str]]
+        return replace(more, run=run, solver=found.solver) if less or self.run is None else more
 
 
 def _gap(energy: float, bound: float) -> float:
     return (energy - bound) / abs(energy) if energy else energy - bound
 
 
-def _rounds(asked: _Asked, planner: _Planner, grid: Grid, best: _Found, rounds: int) -> _Found:
+def _rounds(asked: Asked, planner: Planner, grid: Grid, best: _Found, rounds: int) -> _Found:
     """The best after planning on finer and finer meshes, until the gap is small or finer ones do not help."""
     vehicle, course = asked.vehicle, grid.course
-    for number in range(rounds):
+    number = failures = 0
+    while number < rounds:
         before = best.gap(vehicle)
-        found = _planned(asked, planner, grid, best.run.profile if best.run else asked.quickest)
+        found = planned(asked, planner, grid, best.run.profile if best.run else asked.quickest, GAP_OF_CONES,
+                        is_last=number == rounds - 1)
         if found is None:
-            if best.solver != FASTEST:
+            failures += 1
+            if best.solver != FASTEST or failures == FAILURES or rounds == 1:
                 break
             # Every mesh drives a little worse than the line allows: a time near the least one needs a finer mesh.
-            grid = graded_grid(course, 2 * len(grid.limit_mps))
+            best = replace(best, tight=planner is cone_plan)
+            grid = tight_grid(course, asked.quickest, FINER * len(grid.limit_mps))
             continue
-        bound, certificate = max(((lower_bound(vehicle, course, made, asked.timetable, asked.start_mps, asked.end_mps),
-                                   made) for made in (certificate_from(vehicle, found.plan, near)
-                                                      for near in NEAR_LIMIT)), key=lambda pair: pair[0])
-        best = best.improved(vehicle, found.timed, bound, certificate, found.solve_s, found.solver)
-        if best.gap(vehicle) <= GAP_WANTED or (
+        best = best.improved(vehicle, found)
+        if best.gap(vehicle) <= (GAP_OF_CONES if best.tight else GAP_WANTED) or (
                 number and best.gap(vehicle) > max(NO_GAIN * before, OPTIMAL_GAP) and best.run):
             break
-        if number + 1 < rounds:
-            grid = finer_grid(vehicle, found.plan, certificate, found.run)
+        number += 1
+        if number < rounds:
+            grid = finer_grid(vehicle, found.plan, found.certificate, found.run)
     return best
-
-
-def _cone_plan(asked: _Asked, grid: Grid, extra_s: Array, _: Profile) -> tuple[Plan, str]:
-    return solve_socp(asked.vehicle, grid, asked.timetable, asked.start_mps, asked.end_mps, extra_s), "clarabel"
-
-
-def _nonlinear_plan(asked: _Asked, grid: Grid, extra_s: Array, guess: Profile) -> tuple[Plan, str]:
-    from workbench.optimal.nlp import ATTEMPTS, solve_nlp  # noqa: PLC0415 - casadi, which most runs do not need
-
-    trouble = ""
-    for name, from_best in ATTEMPTS:
-        if name == "fatrop" and asked.timetable.trip_time_s is None:
-            continue  # its stages know no waiting
-        run = guess if from_best else asked.quickest
-        start = np.interp(grid.position_m, run.position_m, run.half_square)
-        try:
-            return solve_nlp(asked.vehicle, grid, asked.timetable, start, asked.start_mps, asked.end_mps, name,
-                             extra_s), name
-        except NoPlanError as error:
-            trouble = str(error)
-    raise NoPlanError(trouble)
-
-
-@dataclass(frozen=True)
-class _Planned:
-    """The plan for the asked times and its run, which may be off; a run in time or its miss; the solver's seconds."""
-
-    plan: Plan
-    run: Profile
-    timed: TimedRun | Miss
-    solve_s: float
-    solver: str
-
-
-def _planned(asked: _Asked, planner: _Planner, grid: Grid, guess: Profile) -> _Planned | None:
-    """What comes of planning on a mesh; None where the solver found no plan."""
-    timetable = asked.timetable
-    least = leg_times(timetable, asked.quickest)
-    allowed = OFF * (timetable.points[-1].arrival.latest_s - timetable.origin_s)
-    extra, spent = np.zeros(len(timetable.points) - 1), 0.0
-    first: tuple[Plan, Profile, str] | None = None
-    for _ in range(PLANS):
-        try:
-            plan, solver = planner(asked, grid, extra, guess)
-        except NoPlanError:
-            break
-        spent += plan.solve_s
-        profile = refined(asked.vehicle, plan, PARTS, asked.start_mps, asked.end_mps)
-        first = first or (plan, profile, solver)
-        now = leg_times(timetable, profile)
-        legs = nearest_legs(timetable, now, least)
-        off = now - (now if legs is None else legs)
-        if float(np.abs(off).sum()) <= allowed:
-            break
-        extra = extra + off
-    if first is None:
-        return None
-    if legs is not None:
-        profile = fitted(asked.vehicle, profile, asked.quickest, timetable, legs, asked.start_mps, asked.end_mps)
-    return _Planned(first[0], first[1], timed_run(asked.vehicle, timetable, profile), spent, first[2])

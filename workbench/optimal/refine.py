@@ -10,7 +10,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from workbench.optimal.course import Array
+from workbench.optimal.course import Array, Course
 from workbench.optimal.envelope import drivable, with_fine_cells
 from workbench.optimal.profile import Profile, largest_force
 from workbench.optimal.socp import Plan
@@ -19,12 +19,19 @@ from workbench.trains.resistance import davis_resistance
 
 # From this share of its limit on, a mean force is taken for the limit itself.
 NEAR_LIMIT = 0.96
+# Half the squared speed this share below the limit's is the limit: a solver leaves it a little below.
+AT_LIMIT = 1e-6
 # Points closer than this are one.
 SLIVER_M = 1e-6
 
 
-def refined(vehicle: Vehicle, plan: Plan, parts: int, start_mps: float = 0.0, end_mps: float = 0.0) -> Profile:
-    """The run on `parts` cells an interval; raises InfeasibleRunError when the train cannot drive it."""
+def refined(vehicle: Vehicle, plan: Plan, parts: int, start_mps: float = 0.0, end_mps: float = 0.0,
+            is_held: bool = False) -> Profile:
+    """The run on `parts` cells an interval; raises InfeasibleRunError when the train cannot drive it.
+
+    is_held: where the plan goes at the speed limit and traction alone, or the brakes alone, can hold it there, the run
+    does so, instead of losing time on a climb under the mean force.
+    """
     s, step = plan.grid.position_m, plan.grid.step_m
     inner = np.concatenate([s[:-1] + step * k / parts for k in range(1, parts)])
     # The borders of the line's force are nodes of the split course too; a point beside one would make a sliver.
@@ -32,15 +39,16 @@ def refined(vehicle: Vehicle, plan: Plan, parts: int, start_mps: float = 0.0, en
     after = np.clip(np.searchsorted(borders, inner), 1, len(borders) - 1)
     apart = np.minimum(inner - borders[after - 1], borders[after] - inner) > SLIVER_M
     course = plan.grid.course.split(np.concatenate((s[1:-1], inner[apart])))
-    target = _target(vehicle, plan, course.position_m, course.force_n, course.drag)
+    target = _target(vehicle, plan, course, is_held)
     fine = with_fine_cells(vehicle, course, target)
     if fine is not course:
-        course, target = fine, _target(vehicle, plan, fine.position_m, fine.force_n, fine.drag)
+        course, target = fine, _target(vehicle, plan, fine, is_held)
     return drivable(vehicle, course, target, start_mps, end_mps)
 
 
-def _target(vehicle: Vehicle, plan: Plan, x: Array, line: Array, drag: Array) -> Array:
-    """Half the squared speed at x: cell by cell through all intervals at once, then drawn to the plan's nodes."""
+def _target(vehicle: Vehicle, plan: Plan, course: Course, is_held: bool) -> Array:
+    """Half the squared speed at a course's borders: cell by cell on all intervals, then drawn to the plan's nodes."""
+    x, line, drag = course.position_m, course.force_n, course.drag
     s, b_plan = plan.grid.position_m, plan.half_square
     owner = np.searchsorted(s, (x[1:] + x[:-1]) / 2) - 1
     first = np.searchsorted(x, s)
@@ -66,7 +74,23 @@ def _target(vehicle: Vehicle, plan: Plan, x: Array, line: Array, drag: Array) ->
     # Near a standstill the correction may be as large as b itself: there the plan's straight line serves.
     straight = np.interp(x, s, b_plan)
     poor = np.append(False, (np.abs(missed) > 0.2 * np.maximum(b_plan[1:], b_plan[:-1]))[owner]) | (b <= 0)
+    if is_held:
+        poor[1:] |= _held(vehicle, plan, course, owner)[owner]
     return np.where(poor, straight, b)
+
+
+def _held(vehicle: Vehicle, plan: Plan, course: Course, owner: NDArray[np.intp]) -> NDArray[np.bool_]:
+    """The intervals on which the plan goes at the limit, and what holds it there is traction or braking all along."""
+    grid, b = plan.grid, plan.half_square
+    top = grid.limit_mps**2 / 2
+    at_top = np.minimum(b[1:], b[:-1]) >= (1 - AT_LIMIT) * top
+    a, b_1, c = vehicle.davis_n
+    count = len(top)
+    most, least = np.full(count, -np.inf), np.full(count, np.inf)
+    resisted = davis_resistance(grid.limit_mps[owner, None], a, b_1, c + course.drag) + course.force_n
+    np.maximum.at(most, owner, resisted.max(axis=1))
+    np.minimum.at(least, owner, resisted.min(axis=1))
+    return np.asarray(at_top & ((least >= 0) | (most <= 0)))
 
 
 def _slope(vehicle: Vehicle, plan: Plan, interval: NDArray[np.intp], b: Array, line: Array, drag: Array) -> Array:

@@ -17,8 +17,9 @@ from workbench.optimal.course import Array, Course
 from workbench.optimal.envelope import InfeasibleRunError
 from workbench.optimal.force_reserve import Reserve, force_samples, more_reserves, with_reserves
 from workbench.optimal.planned_ahead import planned_ahead, waits
+from workbench.optimal.planning import PARTS
 from workbench.optimal.profile import Profile
-from workbench.optimal.reference import PARTS, Reference, Solver, find_reference, find_timed_reference
+from workbench.optimal.reference import Reference, Solver, find_reference, find_timed_reference
 from workbench.optimal.smooth_run import SmoothRun
 from workbench.optimal.timetable import Timetable, as_timetable
 from workbench.optimal.vehicle import Vehicle

@@ -154,8 +154,9 @@ def resistance_table(track: Track, length_m: float | None = None) -> ResistanceT
     layers: tuple[Sequence[Section], ...] = (track.grade, track.curve, track.tunnel)
     borders = {edge for layer in layers for s in layer for edge in (s.start_m, s.end_m)}
     starts = np.array(sorted(edge for edge in borders if edge < track.length_m))
-    resistance = sp.lambdify((grade_permille, curvature_per_m, tunnel_n_per_kn),
-                             additional_specific_resistance())
+    # Of plain numbers: by default all of scipy's special functions would be imported first.
+    resistance = sp.lambdify((grade_permille, curvature_per_m, tunnel_n_per_kn), additional_specific_resistance(),
+                             modules="math")
     values = [
         resistance(
             next(s.grade_permille for s in track.grade if s.start_m <= x < s.end_m),

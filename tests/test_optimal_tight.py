@@ -1,0 +1,108 @@
+"""Times near the least one: the mesh, the run that keeps to its limit, and the bound that is near it all the same."""
+
+from dataclasses import replace
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+
+from workbench.optimal.adapt import LONGER, P_CHANGE, _graded
+from workbench.optimal.adjoint import BENT_FROM, NEAR_LIMIT, certificate_from
+from workbench.optimal.bound import lower_bound
+from workbench.optimal.course import Course
+from workbench.optimal.grid import graded_grid, kept_borders
+from workbench.optimal.planning import SPEED_ERROR_MPS, _too_slow
+from workbench.optimal.profile import Profile
+from workbench.optimal.reference import GAP_OF_CONES, find_reference, least_time
+from workbench.optimal.refine import refined
+from workbench.optimal.socp import NoPlanError, solve_socp
+from workbench.optimal.tight_grid import tight_grid
+from workbench.optimal.timetable import as_timetable
+from workbench.optimal.vehicle import ForceLimit, Vehicle
+
+TRAIN = Vehicle("urban", 2e5, (6e4, 800.0, 32.0), ForceLimit(2e5), friction_brake_n=2.4e5)
+LENGTH_M, GRADES, LIMITS = 80e3, 800, 80
+
+
+def broken_line():
+    """Grades of 100 m and limits of 1 km by chance."""
+    draw = np.random.default_rng(5)
+    position = np.linspace(0.0, LENGTH_M, GRADES + 1)
+    limit = np.repeat(draw.choice([25.0, 30.0, 100 / 3], LIMITS), GRADES // LIMITS)
+    force = np.repeat(TRAIN.mass_kg * 9.81e-3 * draw.uniform(-8, 8, GRADES), 2).reshape(-1, 2)
+    return Course(position, limit, force, np.zeros((GRADES, 2)), ())
+
+
+@pytest.fixture(scope="module")
+def line():
+    return broken_line()
+
+
+@pytest.fixture(scope="module")
+def quickest(line):
+    return least_time(TRAIN, line)
+
+
+@pytest.fixture(scope="module")
+def plan(line, quickest):
+    asked = 1.001 * quickest.trip_time_s
+    with pytest.raises(NoPlanError):
+        solve_socp(TRAIN, graded_grid(line, 300), asked)
+    return solve_socp(TRAIN, tight_grid(line, quickest, 1500), asked)
+
+
+def test_the_mesh_is_fine_where_the_fastest_run_changes_its_speed(line, quickest):
+    grid = tight_grid(line, quickest, 1500)
+    assert np.isin(kept_borders(line), grid.position_m).all()
+    assert 1200 < len(grid.limit_mps) < 1900
+    b = np.interp(grid.position_m, quickest.position_m, quickest.half_square)
+    changes = np.abs(np.diff(b)) > 1e-3 * b[1:]
+    assert np.median(grid.step_m[changes]) < np.median(grid.step_m[~changes]) / 3
+
+
+def test_a_run_that_keeps_to_the_limit_loses_less_time_and_passes_no_limit(plan):
+    plain, held = (refined(TRAIN, plan, 4, is_held=is_held) for is_held in (False, True))
+    speed = np.sqrt(2 * plan.half_square)
+    planned_s = float(np.sum(2 * plan.grid.step_m / (speed[1:] + speed[:-1])))
+    assert 0 < held.trip_time_s - planned_s < (plain.trip_time_s - planned_s) / 3
+    middle = (held.position_m[1:] + held.position_m[:-1]) / 2
+    limit = plan.grid.course.limit_mps[np.searchsorted(plan.grid.course.position_m, middle) - 1]
+    fastest = np.maximum(held.speed_mps[1:], held.speed_mps[:-1])
+    assert (fastest <= limit * (1 + 1e-12)).all()
+
+
+def test_p_on_a_line_at_the_limits_proves_more_near_the_least_time(plan, quickest):
+    course, timetable = plan.grid.course, as_timetable(plan.grid.course, 1.001 * quickest.trip_time_s)
+    short = [plan.energy_j - lower_bound(TRAIN, course, certificate_from(TRAIN, plan, NEAR_LIMIT[0], bent), timetable)
+             for bent in BENT_FROM]
+    assert 0 < short[1] < short[0] / 2
+
+
+def test_a_time_near_the_least_one_is_met_with_a_narrow_gap(line, quickest):
+    asked = 1.0005 * quickest.trip_time_s
+    found = find_reference(TRAIN, line, asked)
+    assert found.profile.trip_time_s <= asked
+    assert 0 < found.gap <= GAP_OF_CONES
+    assert found.check.energy_j == pytest.approx(found.energy_j, rel=1e-3)  # simulated on its own
+
+
+def test_where_p_changes_no_interval_is_much_longer_than_its_neighbour():
+    nodes = np.array([0.0, 1000.0, 1010.0, 1020.0, 3000.0])
+    mesh = SimpleNamespace(position_m=nodes)
+    p = np.array([1.0, 0.7, 0.6, 0.6])  # changes on the left of 1,010 m alone
+    made = _graded(SimpleNamespace(adjoint=p, grid=mesh), nodes)
+    assert np.isin(nodes, made).all()
+    h = np.diff(made[made <= 1010.0])
+    assert (np.maximum(h[1:] / h[:-1], h[:-1] / h[1:]) <= LONGER).all()
+    steady = SimpleNamespace(adjoint=np.full(4, 1.0 + P_CHANGE / 4), grid=mesh)
+    assert np.array_equal(_graded(steady, nodes), nodes)
+
+
+def test_a_run_below_the_least_speed_of_a_timing_point_is_none():
+    course = Course(np.array([0.0, 500.0, 1000.0]), np.full(2, 30.0), np.zeros((2, 2)), np.zeros((2, 2)), ())
+    timetable = as_timetable(course, 100.0)
+    points = (timetable.points[0], replace(timetable.points[0], position_m=500.0, slowest_mps=20.0),
+              timetable.points[-1])
+    asked = SimpleNamespace(points=points, position_m=np.array([0.0, 500.0, 1000.0]))
+    for speed, expected in ((20.0, False), (20.0 - 2 * SPEED_ERROR_MPS, True), (25.0, False)):
+        assert _too_slow(asked, Profile(course, np.array([0.0, speed**2 / 2, 0.0]))) == expected

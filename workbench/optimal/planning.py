@@ -1,0 +1,145 @@
+"""A plan on a mesh, the run that is driven by it in the asked times, and the bound that its multipliers prove."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from itertools import product
+
+import numpy as np
+
+from workbench.optimal.adjoint import BENT_FROM, NEAR_LIMIT, certificate_from
+from workbench.optimal.bound import lower_bound
+from workbench.optimal.certificate import Certificate
+from workbench.optimal.course import Array
+from workbench.optimal.fit_times import fitted
+from workbench.optimal.grid import Grid
+from workbench.optimal.profile import Profile
+from workbench.optimal.refine import refined
+from workbench.optimal.schedule import Miss, leg_times, nearest_legs
+from workbench.optimal.socp import NoPlanError, Plan, solve_socp
+from workbench.optimal.timed_run import TimedRun, timed_run
+from workbench.optimal.timetable import Timetable
+from workbench.optimal.vehicle import Vehicle
+
+# Cells of the driven run on each interval of the plan.
+PARTS = 8
+# Share of the trip time by which a drivable run may be off before the plan itself is made again, so many times.
+OFF, PLANS = 2e-5, 3
+# By which a run may be slower at a timing point than asked, m/s.
+SPEED_ERROR_MPS = 1e-6
+
+
+@dataclass(frozen=True)
+class Asked:
+    """What every plan must meet, and the run that arrives first."""
+
+    vehicle: Vehicle
+    timetable: Timetable
+    start_mps: float
+    end_mps: float
+    quickest: Profile
+
+
+# Of a request, a mesh, what each leg takes beyond the plan and a first guess: a plan and its solver's name.
+Planner = Callable[[Asked, Grid, Array, Profile], tuple[Plan, str]]
+
+
+@dataclass(frozen=True)
+class Planned:
+    """The plan for the asked times and its run, which may be off; a run in time or its miss, None where it passes a
+    timing point below its least speed; the best bound, J, of the plan's multipliers and what proves it; the solver's
+    seconds and name.
+    """
+
+    plan: Plan
+    run: Profile
+    timed: TimedRun | Miss | None
+    bound_j: float
+    certificate: Certificate
+    solve_s: float
+    solver: str
+
+
+def planned(asked: Asked, planner: Planner, grid: Grid, guess: Profile, near: float, *,
+            is_last: bool) -> Planned | None:
+    """What comes of planning on a mesh; None where the solver found no plan.
+
+    Where the run is off, the plan is made again with what the run takes longer, unless a finer mesh is to follow,
+    because the plan's energy lies above its bound by more than the share `near`.
+    """
+    timetable = asked.timetable
+    least = leg_times(timetable, asked.quickest)
+    allowed = OFF * (timetable.points[-1].arrival.latest_s - timetable.origin_s)
+    extra, spent = np.zeros(len(timetable.points) - 1), 0.0
+    first: tuple[Plan, Profile, str, float, Certificate] | None = None
+    for _ in range(PLANS):
+        try:
+            plan, solver = planner(asked, grid, extra, guess)
+        except NoPlanError:
+            break
+        spent += plan.solve_s
+        profile, legs, off = _driven(asked, plan, least, allowed)
+        first = first or (plan, profile, solver, *_best_bound(asked, plan))
+        if float(np.abs(off).sum()) <= allowed or not (
+                is_last or first[0].energy_j - first[3] <= near * abs(first[0].energy_j)):
+            break
+        extra = extra + off
+    if first is None:
+        return None
+    if legs is not None:
+        profile = fitted(asked.vehicle, profile, asked.quickest, timetable, legs, asked.start_mps, asked.end_mps)
+    timed = None if _too_slow(timetable, profile) else timed_run(asked.vehicle, timetable, profile)
+    return Planned(first[0], first[1], timed, first[3], first[4], spent, first[2])
+
+
+def _too_slow(timetable: Timetable, profile: Profile) -> bool:
+    """Whether a run is slower at a timing point than the point asks for."""
+    speed = profile.speed_mps[np.searchsorted(profile.position_m, timetable.position_m)]
+    return any(v < point.slowest_mps - SPEED_ERROR_MPS for v, point in zip(speed, timetable.points, strict=True))
+
+
+def _best_bound(asked: Asked, plan: Plan) -> tuple[float, Certificate]:
+    """The highest bound, J, that the plan's multipliers give, and what proves it."""
+    made = (certificate_from(asked.vehicle, plan, near, bent) for bent, near in product(BENT_FROM, NEAR_LIMIT))
+    return max(((lower_bound(asked.vehicle, plan.grid.course, certificate, asked.timetable, asked.start_mps,
+                             asked.end_mps), certificate) for certificate in made), key=lambda pair: pair[0])
+
+
+def _driven(asked: Asked, plan: Plan, least_s: Array, allowed_s: float) -> tuple[Profile, Array | None, Array]:
+    """The run of a plan, the legs that its timetable leaves it, s, and by how much its own are longer.
+
+    A run that is late keeps to the limits of speed where the plan is at them, if that is less so.
+    """
+    found: list[tuple[Profile, Array | None, Array]] = []
+    for is_held in (False, True):
+        profile = refined(asked.vehicle, plan, PARTS, asked.start_mps, asked.end_mps, is_held)
+        now = leg_times(asked.timetable, profile)
+        legs = nearest_legs(asked.timetable, now, least_s)
+        found.append((profile, legs, now - (now if legs is None else legs)))
+        if float(found[0][2].sum()) <= allowed_s:
+            break
+    return min(found, key=lambda run: float(np.abs(run[2]).sum()))
+
+
+def cone_plan(asked: Asked, grid: Grid, extra_s: Array, _: Profile) -> tuple[Plan, str]:
+    """By the cone program."""
+    return solve_socp(asked.vehicle, grid, asked.timetable, asked.start_mps, asked.end_mps, extra_s), "clarabel"
+
+
+def nonlinear_plan(asked: Asked, grid: Grid, extra_s: Array, guess: Profile) -> tuple[Plan, str]:
+    """By the nonlinear program; raises NoPlanError where none of its solvers finds one."""
+    from workbench.optimal.nlp import ATTEMPTS, solve_nlp  # noqa: PLC0415 - casadi, which most runs do not need
+
+    trouble = ""
+    for name, from_best in ATTEMPTS:
+        if name == "fatrop" and asked.timetable.trip_time_s is None:
+            continue  # its stages know no waiting
+        run = guess if from_best else asked.quickest
+        start = np.interp(grid.position_m, run.position_m, run.half_square)
+        try:
+            return solve_nlp(asked.vehicle, grid, asked.timetable, start, asked.start_mps, asked.end_mps, name,
+                             extra_s), name
+        except NoPlanError as error:
+            trouble = str(error)
+    raise NoPlanError(trouble)
