@@ -5,7 +5,9 @@
 
 from __future__ import annotations
 
+import sys
 from importlib import import_module
+from types import ModuleType
 from typing import TYPE_CHECKING, Any
 
 __version__ = "0.1.0"
@@ -27,8 +29,7 @@ if TYPE_CHECKING:
     from workbench.systems.signals import Constant, Ramp, Sine, Spline, Step
 
 _WHERE = {
-    "api.functions": ("check_paper", "closed_loop", "compare", "entrant", "gains", "load", "prove",
-                      "reference", "simulate"),
+    "api.functions": ("check_paper", "compare", "entrant", "gains", "load", "prove", "reference", "simulate"),
     "api.results": ("Comparison", "Proved", "Run"), "api.schemas": ("schema",),
     "model.law": ("LawState", "period", "time"),
     "mpc.plant_tracking": ("PlantMpc",), "proof.paper": ("Paper",), "systems.setting": ("Setting",),
@@ -54,3 +55,18 @@ def __getattr__(name: str) -> Any:
 
 def __dir__() -> list[str]:
     return [*__all__, "__version__"]
+
+
+class _Package(ModuleType):
+    """The package, in which `simulate` and `gains` stay the functions of the API.
+
+    There are rooms of the same names, and the import system would put a room in the function's place as soon as it is
+    imported: the first call would work and the second meet a module.
+    """
+
+    def __setattr__(self, name: str, value: Any) -> None:
+        if not (name in _MODULES and isinstance(value, ModuleType)):
+            super().__setattr__(name, value)
+
+
+sys.modules[__name__].__class__ = _Package

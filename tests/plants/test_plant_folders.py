@@ -117,6 +117,11 @@ run = wb.simulate(mass, law, period_s=0.01, duration_s=8, law_parameters={k: 4.0
 # (1 + 2 t) exp(-2 t) is left of a step, 7 s later.
 assert abs(run.metrics["x_error_final"]) < 1e-4 and run.failed is None
 assert run.to_pandas().index.name == "t_s" and len(run.plot().axes) == 3
+again = wb.simulate(mass, law, period_s=0.01, duration_s=1, law_parameters={k: 4.0, d: 4.0},
+                    references={"r": wb.Constant(value=1.0)})
+assert again.failed is None and callable(wb.gains)
+import workbench.gains.feedback
+assert wb.gains.__module__ == wb.simulate.__module__ == "workbench.api.functions"
 run.to_mat(sys.argv[2])
 from scipy.io import loadmat
 kept = loadmat(sys.argv[2])
