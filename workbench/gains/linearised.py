@@ -13,6 +13,7 @@ import sympy as sp
 from workbench.errors import InputError
 from workbench.gains.enclosure import Interval, enclosed, stated_number
 from workbench.gains.exact import rational
+from workbench.systems.derivatives import smooth_at
 from workbench.systems.plant import Plant
 
 MOST_UNCERTAIN = 6  # entries that differ among the plants; each doubles the number of extreme plants
@@ -77,15 +78,10 @@ def _number(value: Any) -> sp.Expr:
 def _bounds(plant: Plant, entry: sp.Expr, point: Mapping[sp.Basic, sp.Expr],
             box: Mapping[sp.Symbol, Interval]) -> Interval:
     """Bounds of an expression at the point, none where it has no derivative there."""
-    jumps = {one: sp.Dummy() for one in entry.atoms(sp.sign, sp.Heaviside, sp.DiracDelta)
-             if one.args[0].xreplace(point) == 0}
-    borders = {one: sp.Dummy() for one in entry.atoms(sp.Piecewise)
-               if any(side.lhs.xreplace(point) == side.rhs.xreplace(point) for _, when in one.args
-                      for side in when.atoms(sp.core.relational.Relational))}
-    kinks = {**jumps, **borders}
-    here = entry.xreplace(kinks).xreplace(point)
-    if here.free_symbols & set(kinks.values()):
-        raise InputError(plant.id, "", f"has a kink at that point, in {entry}: linearise it elsewhere")
+    try:
+        here = smooth_at(entry, point)
+    except ValueError as trouble:
+        raise InputError(plant.id, "", str(trouble)) from None
     try:
         return enclosed(here, box)
     except ValueError as trouble:

@@ -13,8 +13,18 @@ from numpy.typing import NDArray
 
 from workbench.compile.casadi_tree import casadi_of
 from workbench.compile.vector_code import numeric_vector
+from workbench.model.law import time
+from workbench.systems.derivatives import jacobian_at
 from workbench.systems.event import Event
-from workbench.systems.symbols import expression, interval, require_distinct, require_known, symbols_of
+from workbench.systems.symbols import (
+    expression,
+    interval,
+    named_values,
+    require_distinct,
+    require_known,
+    several,
+    symbols_of,
+)
 
 Limits = tuple[float, float]
 
@@ -87,19 +97,18 @@ class Plant:
         put = object.__setattr__
         for name in ("states", "inputs", "disturbances"):
             put(self, name, symbols_of(getattr(self, name), f"{where}: {name}"))
-        put(self, "parameters", tuple(self.parameters))
+        put(self, "parameters", several(self.parameters, f"{where}: parameters", Parameter, "Parameter(symbol, value)"))
         if not self.states:
             raise ValueError(f"{where} has no state: name at least one")
-        rates = tuple(self.rates)
+        rates = several(self.rates, f"{where}: rates")
         if len(rates) != len(self.states):
             raise ValueError(f"{where} has {len(self.states)} states and {len(rates)} rates: give one rate a state, in "
                              "their order")
         put(self, "rates", tuple(expression(rate, f"{where}: rate of '{state}'")
                                  for state, rate in zip(self.states, rates, strict=True)))
-        symbols_of(self.outputs, f"{where}: outputs")
-        put(self, "outputs", {symbol: expression(value, f"{where}: output '{symbol}'")
-                              for symbol, value in (self.outputs or {s: s for s in self.states}).items()})
-        put(self, "domain", tuple(expression(value, f"{where}: domain") for value in self.domain))
+        put(self, "outputs", self._outputs(where))
+        put(self, "domain", tuple(expression(value, f"{where}: domain")
+                                  for value in several(self.domain, f"{where}: domain")))
         own = {symbol for symbol, value in self.outputs.items() if symbol != value}
         require_distinct({"a state": self.states, "an input": self.inputs, "a disturbance": self.disturbances,
                           "a parameter": self.parameter_symbols, "an output": sorted(own, key=str)}, where)
@@ -111,12 +120,26 @@ class Plant:
         self._check_events(where, known)
         put(self, "input_limits", self._limits(self.input_limits, self.inputs, "input"))
         put(self, "state_limits", self._limits(self.state_limits, self.states, "state"))
+        put(self, "units", named_values(self.units, f"{where}: units", (*known, *self.outputs)))
         for symbol in self.units:
             if symbol not in (*known, *self.outputs):
                 raise ValueError(f"{where}: units name '{symbol}', which the plant does not have: leave it out")
 
+    def _outputs(self, where: str) -> dict[sp.Symbol, sp.Expr]:
+        stated: Any = self.outputs
+        if not isinstance(stated, Mapping):  # a list of the states that are measured
+            stated = {symbol: symbol for symbol in several(stated, f"{where}: outputs")}
+        symbols_of([*stated], f"{where}: outputs")
+        given = {symbol: expression(value, f"{where}: output '{symbol}'") for symbol, value in stated.items()}
+        for symbol, value in given.items():
+            for other in sorted(value.free_symbols & {*self.inputs, *self.disturbances}, key=str):
+                raise ValueError(f"{where}: output '{symbol}' uses '{other}', and an output is of states and parameters "
+                                 "alone: make a state of what is measured")
+        return given or {symbol: symbol for symbol in self.states}
+
     def _check_events(self, where: str, known: Sequence[sp.Symbol]) -> None:
-        object.__setattr__(self, "events", tuple(self.events))
+        object.__setattr__(self, "events", several(self.events, f"{where}: events", Event,
+                                                   "Event(id, expression, {state: value})"))
         names = [event.id for event in self.events]
         for event in self.events:
             if names.count(event.id) > 1:
@@ -130,12 +153,13 @@ class Plant:
 
     def _limits(self, limits: Mapping[sp.Symbol, Limits], symbols: Iterable[sp.Symbol],
                 kind: str) -> dict[sp.Symbol, Limits]:
-        for symbol in limits:
+        found = named_values(limits, f"plant '{self.id}': limits of {kind}s", symbols)
+        for symbol in found:
             if symbol not in symbols:
                 raise ValueError(f"plant '{self.id}': limits of '{symbol}', which is no {kind}: name one of "
-                                 f"{', '.join(map(str, symbols))}")
+                                 f"{', '.join(map(str, symbols)) or 'none'}")
         return {symbol: interval(pair, f"plant '{self.id}': limits of {kind} '{symbol}'")
-                for symbol, pair in limits.items()}
+                for symbol, pair in found.items()}
 
     @property
     def parameter_symbols(self) -> tuple[sp.Symbol, ...]:
@@ -178,23 +202,26 @@ class Plant:
         """The linear plant about a point, states and inputs by their names (zero where none is given), at time zero.
 
         A `control.StateSpace` with the exact derivatives; its inputs are the plant's. Raises ValueError for a name
-        that is no state and no input.
+        that is no state and no input, and a point where there is no derivative.
         """
         import control  # noqa: PLC0415 - takes half a second, which no other user of a plant pays
 
-        point = self._point(at)
-        values = [*point.values(), *([0.0] * len(self.disturbances)), *self.values(parameters).values()]
-        rows = sp.Matrix(self.rates), sp.Matrix(list(self.outputs.values()))
-        x, u = sp.Matrix(self.states), sp.Matrix(self.inputs)
-        parts = [row.jacobian(by) if len(by) else sp.zeros(len(row), 0) for row in rows for by in (x, u)]
-        A, B, C, D = (np.array(self._numeric(list(part))(0.0, *values), dtype=float).reshape(part.shape)
-                      for part in parts)
+        if not self.inputs:
+            raise ValueError(f"plant '{self.id}' has no input, which a StateSpace needs: give it one that does nothing")
+        values = {**self._point(at), **dict.fromkeys(map(str, self.disturbances), 0.0), **self.values(parameters)}
+        known = {str(s): s for s in (*self.states, *self.inputs, *self.disturbances, *self.parameter_symbols)}
+        point = {known[name]: sp.Float(value, 17) for name, value in values.items()} | {time: sp.Integer(0)}
+        try:
+            A, B, C, D = (jacobian_at(rows, by, point) for rows in (self.rates, [*self.outputs.values()])
+                          for by in (self.states, self.inputs))
+        except ValueError as trouble:
+            raise ValueError(f"plant '{self.id}': {trouble}") from None
         return control.ss(A, B, C, D, states=[*map(str, self.states)], inputs=[*map(str, self.inputs)],
                           outputs=[*map(str, self.outputs)])
 
     def _point(self, at: Mapping[str, float] | None) -> dict[str, float]:
         point = {str(symbol): 0.0 for symbol in (*self.states, *self.inputs)}
-        for name, value in (at or {}).items():
+        for name, value in named_values(at or {}, "at").items():
             if str(name) not in point:
                 raise ValueError(f"'{name}' is no state and no input of plant '{self.id}': name one of "
                                  f"{', '.join(point)}")

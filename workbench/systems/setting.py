@@ -14,8 +14,8 @@ from numpy.typing import NDArray
 from workbench.systems.law import Reference
 from workbench.systems.metric import Metric
 from workbench.systems.plant import Plant
-from workbench.systems.signals import AnySignal, Constant
-from workbench.systems.symbols import CLOCK, require_known
+from workbench.systems.signals import AnySignal, Constant, signal_of
+from workbench.systems.symbols import CLOCK, named_values, require_known, several
 
 Array = NDArray[np.float64]
 Integrator = Literal["rk4", "radau", "bdf", "lsoda"]
@@ -60,16 +60,23 @@ class Setting:
         self._check_integrator()
         object.__setattr__(self, "parameters", plant.values(self.parameters))
         outputs, inputs = [*map(str, plant.outputs)], [*map(str, plant.inputs)]
+        for key in ("references", "disturbances"):
+            object.__setattr__(self, key, {_name(name): signal_of(value, f"{key}.{_name(name)}")
+                                           for name, value in named_values(getattr(self, key), key).items()})
+        object.__setattr__(self, "tracks", {name: _name(channel)
+                                            for name, channel in named_values(self.tracks, "tracks").items()})
+        object.__setattr__(self, "metrics", several(self.metrics, "metrics", Metric, "Metric(id, measure, expression)"))
         for key, kind, names in (("initial", "state", [*map(str, plant.states)]),
                                  ("disturbances", "disturbance", [*map(str, plant.disturbances)]),
                                  ("tracks", "output", outputs), ("noise", "output", outputs),
                                  ("late_s", "output", outputs), ("lag_s", "input", inputs),
                                  ("delay_s", "input", inputs)):
-            object.__setattr__(self, key, {str(name): value for name, value in getattr(self, key).items()})
+            object.__setattr__(self, key, {_name(name): value
+                                           for name, value in named_values(getattr(self, key), key).items()})
             self._require_names(key, kind, names)
         for key in ("noise", "late_s", "lag_s", "delay_s", "initial"):
             for name, value in getattr(self, key).items():
-                if not math.isfinite(value) or (key != "initial" and value < 0):
+                if isinstance(value, str | bool) or not math.isfinite(value) or (key != "initial" and value < 0):
                     raise ValueError(f"{key}.{name} = {value}: give a finite number"
                                      f"{'' if key == 'initial' else ' that is not negative'}")
         for name, value in self.delay_s.items():
@@ -152,6 +159,11 @@ class Setting:
     def varied(self, **changes: Any) -> Setting:
         """The same setting with other fields."""
         return replace(self, **changes)
+
+
+def _name(key: object) -> str:
+    """The name of a symbol, of a reference, or what is a name already."""
+    return key.name if isinstance(key, Reference) else str(key)
 
 
 def limits_of(setting: Setting) -> tuple[Array, Array]:
