@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     from workbench.systems.event import Event
     from workbench.systems.law import Reference
     from workbench.systems.law import StateLaw as Law
-    from workbench.systems.lyapunov import Lyapunov, closed_loop
+    from workbench.systems.lyapunov import Lyapunov, closed_loop, next_values
     from workbench.systems.metric import Metric
     from workbench.systems.plant import Parameter, Plant
     from workbench.systems.setting import Setting
@@ -33,7 +33,7 @@ _WHERE = {
     "api.results": ("Comparison", "Proved", "Run"), "api.schemas": ("schema",),
     "model.law": ("LawState", "period", "time"),
     "mpc.plant_tracking": ("PlantMpc",), "proof.paper": ("Paper",), "systems.setting": ("Setting",),
-    "systems.law": ("Reference", "StateLaw"), "systems.lyapunov": ("Lyapunov", "closed_loop"),
+    "systems.law": ("Reference", "StateLaw"), "systems.lyapunov": ("Lyapunov", "closed_loop", "next_values"),
     "systems.event": ("Event",), "systems.metric": ("Metric",), "systems.plant": ("Parameter", "Plant"),
     "systems.signals": ("Constant", "Ramp", "Sine", "Spline", "Step"),
 }
@@ -42,8 +42,8 @@ _RENAMED = {"Law": "StateLaw"}
 
 __all__ = ["Comparison", "Constant", "Event", "Law", "LawState", "Lyapunov", "Metric", "Paper", "Parameter", "Plant",
            "PlantMpc", "Proved", "Ramp", "Reference", "Run", "Setting", "Sine", "Spline", "Step", "check_paper",
-           "closed_loop", "compare", "entrant", "gains", "load", "period", "prove", "reference", "schema", "simulate",
-           "time"]
+           "closed_loop", "compare", "entrant", "gains", "load", "next_values", "period", "prove", "reference",
+           "schema", "simulate", "time"]
 
 
 def __getattr__(name: str) -> Any:

@@ -36,6 +36,9 @@ def linearised(plant: Plant, at: Mapping[str, Any] | None = None) -> LinearPlant
     itself, so that the hull may hold more plants than there are. Raises InputError where the point is no equilibrium
     for some of the parameters, an entry has a kink there or no finite bounds, or too many entries differ.
     """
+    if plant.updates:
+        raise InputError(plant.id, "updates", "make it a plant in discrete time, for which no gains are searched: give "
+                         "rates")
     symbols = {str(symbol): symbol for symbol in (*plant.states, *plant.inputs)}
     for name in at or {}:
         if name not in symbols:

@@ -139,11 +139,11 @@ class StateLaw:
         for what, expr in stated.items():
             for symbol in sorted(expr.free_symbols - set(known), key=str):
                 if symbol in plant.parameter_symbols:
-                    raise ValueError(f"{where}: {what} uses '{symbol}', a parameter of plant '{plant.id}': name it among "
-                                     "the law's parameters too, whose value is what the law believes")
+                    raise ValueError(f"{where}: {what} uses '{symbol}', a parameter of plant '{plant.id}': name it "
+                                     "among the law's parameters too, whose value is what the law believes")
                 if symbol in plant.disturbances:
-                    raise ValueError(f"{where}: {what} uses '{symbol}', a disturbance of plant '{plant.id}', which no law "
-                                     "knows: make it a reference where it is foreseen")
+                    raise ValueError(f"{where}: {what} uses '{symbol}', a disturbance of plant '{plant.id}', which no "
+                                     "law knows: make it a reference where it is foreseen")
                 if str(symbol) in hidden:
                     raise ValueError(f"{where}: {what} uses '{symbol}', a state that plant '{plant.id}' does not "
                                      f"measure: use its outputs {', '.join(map(str, plant.outputs))}")

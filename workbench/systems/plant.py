@@ -16,7 +16,9 @@ from workbench.compile.vector_code import numeric_vector
 from workbench.model.law import time
 from workbench.systems.derivatives import jacobian_at
 from workbench.systems.event import Event
+from workbench.systems.parameter import Parameter, checked_value
 from workbench.systems.symbols import (
+    Limits,
     expression,
     interval,
     named_values,
@@ -26,51 +28,13 @@ from workbench.systems.symbols import (
     symbols_of,
 )
 
-Limits = tuple[float, float]
-
-
-@dataclass(frozen=True)
-class Parameter:
-    """A constant of a plant: its symbol, value and unit; known: the interval in which it is known to lie.
-
-    Raises ValueError for a value that is no finite number or lies outside the interval.
-    """
-
-    symbol: sp.Symbol
-    value: float
-    unit: str = ""
-    known: Limits | None = None
-
-    def __post_init__(self) -> None:
-        symbols_of([self.symbol], "parameter")
-        where = f"parameter '{self.symbol}'"
-        object.__setattr__(self, "value", checked_value(self.symbol, self.value, where))
-        if self.known is not None:
-            low, high = interval(self.known, f"{where}: known")
-            object.__setattr__(self, "known", (low, high))
-            if not low <= self.value <= high:
-                raise ValueError(f"{where} = {self.value:g} lies outside the known interval [{low:g}, {high:g}]: "
-                                 "correct one of them")
-
-
-def checked_value(symbol: sp.Symbol, value: Any, where: str) -> float:
-    """A finite number that agrees with what sympy knows of the symbol's sign; ValueError otherwise."""
-    if isinstance(value, bool | complex | str) or not isinstance(value, int | float | sp.Number | np.number):
-        raise ValueError(f"{where} = {value!r} is no real number: give one")
-    number = float(value)
-    if not math.isfinite(number):
-        raise ValueError(f"{where} = {number} is not finite: give a number")
-    if (symbol.is_positive and number <= 0) or (symbol.is_nonnegative and number < 0):
-        raise ValueError(f"{where} = {number:g}, but the symbol is declared "
-                         f"{'positive' if symbol.is_positive else 'nonnegative'}: correct one of them")
-    return number
-
 
 @dataclass(frozen=True)
 class Plant:
     """x' = rates(t, x, u, d, p), y = outputs(x, p), with n states, m inputs and any number of disturbances.
 
-    rates: one expression a state, in their order; outputs: what can be measured, symbol to expression, the states
+    rates: one expression a state, in their order; of a plant in discrete time instead updates, the states one step
+    later, and step_s, the seconds between two; outputs: what can be measured, symbol to expression, the states
     themselves where none is given; limits of inputs saturate them, limits of states are what MPC keeps and what a run
     is measured against; domain: expressions that must stay positive, a run ends where one is not; events: what resets
     states in a run, where an expression crosses zero; units: of states, inputs, outputs and disturbances. Raises
@@ -79,7 +43,7 @@ class Plant:
 
     id: str
     states: Sequence[sp.Symbol]
-    rates: Sequence[Any]
+    rates: Sequence[Any] = ()
     inputs: Sequence[sp.Symbol] = ()
     disturbances: Sequence[sp.Symbol] = ()
     parameters: Sequence[Parameter] = ()
@@ -91,6 +55,8 @@ class Plant:
     units: Mapping[sp.Symbol, str] = field(default_factory=dict)
     title: str = ""
     source: str = ""
+    updates: Sequence[Any] = ()
+    step_s: float | None = None
 
     def __post_init__(self) -> None:
         where = f"plant '{self.id}'"
@@ -100,12 +66,14 @@ class Plant:
         put(self, "parameters", several(self.parameters, f"{where}: parameters", Parameter, "Parameter(symbol, value)"))
         if not self.states:
             raise ValueError(f"{where} has no state: name at least one")
-        rates = several(self.rates, f"{where}: rates")
-        if len(rates) != len(self.states):
-            raise ValueError(f"{where} has {len(self.states)} states and {len(rates)} rates: give one rate a state, in "
-                             "their order")
-        put(self, "rates", tuple(expression(rate, f"{where}: rate of '{state}'")
-                                 for state, rate in zip(self.states, rates, strict=True)))
+        kind = self._require_one_kind(where)
+        for name in ("rates", "updates"):
+            given = several(getattr(self, name), f"{where}: {name}")
+            if given and len(given) != len(self.states):
+                raise ValueError(f"{where} has {len(self.states)} states and {len(given)} {name}: give one {kind} a "
+                                 "state, in their order")
+            put(self, name, tuple(expression(value, f"{where}: {kind} of '{state}'")
+                                  for state, value in zip(self.states, given, strict=bool(given))))
         put(self, "outputs", self._outputs(where))
         put(self, "domain", tuple(expression(value, f"{where}: domain")
                                   for value in several(self.domain, f"{where}: domain")))
@@ -113,7 +81,7 @@ class Plant:
         require_distinct({"a state": self.states, "an input": self.inputs, "a disturbance": self.disturbances,
                           "a parameter": self.parameter_symbols, "an output": sorted(own, key=str)}, where)
         known = (*self.states, *self.inputs, *self.disturbances, *self.parameter_symbols)
-        require_known({f"the rate of '{s}'": rate for s, rate in self.flow.items()}, known, where)
+        require_known({f"the {kind} of '{s}'": e for s, e in zip(self.states, self.moves, strict=True)}, known, where)
         require_known({f"output '{s}'": value for s, value in self.outputs.items()},
                       (*self.states, *self.parameter_symbols), where)
         require_known({f"domain expression {e}": e for e in self.domain}, known, where)
@@ -125,6 +93,22 @@ class Plant:
             if symbol not in (*known, *self.outputs):
                 raise ValueError(f"{where}: units name '{symbol}', which the plant does not have: leave it out")
 
+    def _require_one_kind(self, where: str) -> str:
+        """"rate" or "update"; ValueError unless it is one of them, with a step for updates alone."""
+        rated, updated = (len(several(values, f"{where}: {name}")) > 0 for values, name in (
+            (self.rates, "rates"), (self.updates, "updates")))
+        if rated == updated:
+            raise ValueError(f"{where} has {'both rates and updates' if rated else 'no rates'}: give rates, or updates "
+                             "with step_s for a plant in discrete time")
+        step = self.step_s
+        if updated and not (isinstance(step, int | float) and not isinstance(step, bool) and 0 < step < math.inf):
+            raise ValueError(f"{where}: step_s = {step}: give the seconds between two updates, a positive number")
+        if rated and step is not None:
+            raise ValueError(f"{where}: step_s is for updates: leave it out, or give these instead of rates")
+        if updated and self.events:
+            raise ValueError(f"{where}: events are crossings in continuous time: state cases in the updates instead")
+        return "rate" if rated else "update"
+
     def _outputs(self, where: str) -> dict[sp.Symbol, sp.Expr]:
         stated: Any = self.outputs
         if not isinstance(stated, Mapping):  # a list of the states that are measured
@@ -133,8 +117,8 @@ class Plant:
         given = {symbol: expression(value, f"{where}: output '{symbol}'") for symbol, value in stated.items()}
         for symbol, value in given.items():
             for other in sorted(value.free_symbols & {*self.inputs, *self.disturbances}, key=str):
-                raise ValueError(f"{where}: output '{symbol}' uses '{other}', and an output is of states and parameters "
-                                 "alone: make a state of what is measured")
+                raise ValueError(f"{where}: output '{symbol}' uses '{other}', and an output is of states and "
+                                 "parameters alone: make a state of what is measured")
         return given or {symbol: symbol for symbol in self.states}
 
     def _check_events(self, where: str, known: Sequence[sp.Symbol]) -> None:
@@ -167,8 +151,18 @@ class Plant:
         return tuple(parameter.symbol for parameter in self.parameters)
 
     @property
+    def moves(self) -> tuple[sp.Expr, ...]:
+        """Rates, or in discrete time updates: one expression a state."""
+        return tuple(self.rates) or tuple(self.updates)
+
+    @property
     def flow(self) -> dict[sp.Expr, sp.Expr]:
-        """State to rate, as a goal of the prover takes it; time runs with rate one where the rates name it."""
+        """State to rate, as a goal of the prover takes it; time runs with rate one where the rates name it.
+
+        Raises ValueError for a plant in discrete time.
+        """
+        if self.updates:
+            raise ValueError(f"plant '{self.id}' moves in steps and has no rates: take next_values(plant, law)")
         return dict(zip(self.states, self.rates, strict=True))
 
     def values(self, given: Mapping[str, Any] | None = None) -> dict[str, float]:
@@ -186,8 +180,8 @@ class Plant:
 
     def rates_at(self, states: Sequence[float], inputs: Sequence[float] = (), *, disturbances: Sequence[float] = (),
                  parameters: Mapping[str, Any] | None = None, t: float = 0.0) -> NDArray[np.float64]:
-        """x' at a point, an array of n numbers."""
-        return np.array(self._numeric(self.rates)(t, *states, *self._all(inputs, self.inputs),
+        """x' at a point, of a plant in discrete time its next state: an array of n numbers."""
+        return np.array(self._numeric(self.moves)(t, *states, *self._all(inputs, self.inputs),
                                                   *self._all(disturbances, self.disturbances),
                                                   *self.values(parameters).values()), dtype=float)
 
@@ -212,12 +206,12 @@ class Plant:
         known = {str(s): s for s in (*self.states, *self.inputs, *self.disturbances, *self.parameter_symbols)}
         point = {known[name]: sp.Float(value, 17) for name, value in values.items()} | {time: sp.Integer(0)}
         try:
-            A, B, C, D = (jacobian_at(rows, by, point) for rows in (self.rates, [*self.outputs.values()])
+            A, B, C, D = (jacobian_at(rows, by, point) for rows in (self.moves, [*self.outputs.values()])
                           for by in (self.states, self.inputs))
         except ValueError as trouble:
             raise ValueError(f"plant '{self.id}': {trouble}") from None
         return control.ss(A, B, C, D, states=[*map(str, self.states)], inputs=[*map(str, self.inputs)],
-                          outputs=[*map(str, self.outputs)])
+                          outputs=[*map(str, self.outputs)], dt=self.step_s or 0)
 
     def _point(self, at: Mapping[str, float] | None) -> dict[str, float]:
         point = {str(symbol): 0.0 for symbol in (*self.states, *self.inputs)}
@@ -232,7 +226,7 @@ class Plant:
         """A `control.NonlinearIOSystem` with the plant's states, inputs and outputs; disturbances are inputs too."""
         import control  # noqa: PLC0415 - as in `linearise`
 
-        rates, outputs = self._numeric(self.rates), self._numeric(list(self.outputs.values()))
+        rates, outputs = self._numeric(self.moves), self._numeric(list(self.outputs.values()))
         values = [*self.values(parameters).values()]
 
         def update(t: float, x: Sequence[float], u: Sequence[float], params: Any) -> NDArray[np.float64]:
@@ -243,10 +237,11 @@ class Plant:
 
         return control.NonlinearIOSystem(
             update, output, name=self.id.replace(".", "_"), states=[*map(str, self.states)],
-            inputs=[*map(str, (*self.inputs, *self.disturbances))], outputs=[*map(str, self.outputs)])
+            inputs=[*map(str, (*self.inputs, *self.disturbances))], outputs=[*map(str, self.outputs)],
+            dt=self.step_s or 0)
 
     def to_casadi(self, parameters: Mapping[str, Any] | None = None) -> Any:
-        """A `casadi.Function` (t, x, u, d) -> x' of the same expressions, parameters put in."""
+        """A `casadi.Function` (t, x, u, d) -> x', in discrete time the next x, parameters put in."""
         import casadi as ca  # noqa: PLC0415 - as in `linearise`
 
         t, x, u, d = (ca.SX.sym(name, size) for name, size in (
@@ -255,5 +250,6 @@ class Plant:
                  **(dict(zip(self.inputs, ca.vertsplit(u), strict=True)) if self.inputs else {}),
                  **(dict(zip(self.disturbances, ca.vertsplit(d), strict=True)) if self.disturbances else {}),
                  **dict(zip(self.parameter_symbols, self.values(parameters).values(), strict=True))}
-        rates = casadi_of(self.rates, known, t)
-        return ca.Function("rates", [t, x, u, d], [ca.vertcat(*rates)], ["t", "x", "u", "d"], ["rates"])
+        name = "updates" if self.updates else "rates"
+        return ca.Function(name, [t, x, u, d], [ca.vertcat(*casadi_of(self.moves, known, t))], ["t", "x", "u", "d"],
+                           [name])

@@ -20,6 +20,7 @@ from workbench.systems.symbols import CLOCK, named_values, require_known, severa
 Array = NDArray[np.float64]
 Integrator = Literal["rk4", "radau", "bdf", "lsoda"]
 MOST_STEPS = 100_000_000
+UNSTATED, A_MILLISECOND = math.nan, 1e-3  # the step where none is given: a plant's own, else a millisecond
 
 
 @dataclass(frozen=True)
@@ -29,13 +30,14 @@ class Setting:
     parameters: true values instead of the plant's own; initial: states that are not zero; references and disturbances:
     a signal each, disturbances zero where none is given; tracks: output to the reference that it shall follow;
     noise: standard deviation of each output's measurement, drawn anew at each sample from `seed`; late_s: how old a
-    measurement is; lag_s: time constant of an input; delay_s: of an input; integrator: classical Runge-Kutta of fixed
+    measurement is; lag_s: time constant of an input; delay_s: of an input; step_s: of the plant, a millisecond unless
+    given, in discrete time its own; integrator: classical Runge-Kutta of fixed
     step, or a solver of scipy for stiff plants. Raises ValueError, one line naming what does not fit.
     """
 
     plant: Plant
     duration_s: float
-    step_s: float = 1e-3
+    step_s: float = UNSTATED
     log_every_s: float | None = None
     parameters: Mapping[str, float] = field(default_factory=dict)
     initial: Mapping[str, float] = field(default_factory=dict)
@@ -52,6 +54,7 @@ class Setting:
 
     def __post_init__(self) -> None:
         plant = self.plant
+        object.__setattr__(self, "step_s", self._step())
         for name in ("duration_s", "step_s"):
             if not (math.isfinite(getattr(self, name)) and getattr(self, name) > 0):
                 raise ValueError(f"{name} = {getattr(self, name)}: give a positive number of seconds")
@@ -89,10 +92,19 @@ class Setting:
             raise ValueError(f"two metrics are called '{max(names, key=names.count)}': rename one")
         require_known({f"metric '{m.id}'": m.expression for m in self.metrics}, self.symbols, f"plant '{plant.id}'")
 
+    def _step(self) -> float:
+        own = self.plant.step_s
+        if own is not None and not math.isnan(self.step_s) and self.step_s != own:
+            raise ValueError(f"step_s = {self.step_s:g}: plant '{self.plant.id}' moves in steps of {own:g} s: leave it "
+                             "out")
+        return (own or A_MILLISECOND) if math.isnan(self.step_s) else self.step_s
+
     def _check_integrator(self) -> None:
         if self.integrator not in get_args(Integrator):
             raise ValueError(f"integrator '{self.integrator}' is not known: it is one of "
                              f"{', '.join(get_args(Integrator))}")
+        if self.plant.updates and self.integrator != "rk4":
+            raise ValueError(f"integrator '{self.integrator}': plant '{self.plant.id}' moves in steps: leave it out")
         if self.plant.events and self.integrator != "rk4":
             raise ValueError(f"integrator '{self.integrator}': plant '{self.plant.id}' has events, which are located "
                              "within Runge-Kutta steps alone: take 'rk4' and a short step_s")

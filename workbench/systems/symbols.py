@@ -11,6 +11,7 @@ import sympy as sp
 
 from workbench.model.law import period, time
 
+Limits = tuple[float, float]
 # What every expression may use, and no plant or law may call its own.
 CLOCK = (time, period)
 
@@ -94,7 +95,7 @@ def require_known(expressions: Mapping[str, sp.Expr], known: Iterable[sp.Symbol]
             raise ValueError(f"{where}: {what} uses '{name}', which {hint}")
 
 
-def interval(limits: Any, where: str) -> tuple[float, float]:
+def interval(limits: Any, where: str) -> Limits:
     """(lower, upper), None or infinite where there is none; ValueError where reversed or no numbers."""
     try:
         low, high = limits

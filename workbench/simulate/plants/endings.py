@@ -12,8 +12,8 @@ from workbench.systems.setting import Setting
 
 STIFF = ": where the plant itself is stable, its fastest pole wants a shorter step_s, or the integrator 'radau'"
 
-UNDEFINED = ("the rates are no finite numbers there: a root, logarithm or quotient left its domain (state it as the plant's "
-             "domain), or step_s is too long for its fastest pole (shorten it, or take the integrator 'radau')")
+UNDEFINED = ("the rates are no finite numbers there: a root, logarithm or quotient left its domain (state it as the "
+             "plant's domain), or step_s is too long for its fastest pole (shorten it, or take the integrator 'radau')")
 
 
 def why(setting: Setting, name: str, law: StateLaw | None, status: int, t: float, a: Arrays) -> str | None:
