@@ -1,18 +1,22 @@
 """A folder with a plant of one's own through every verb, and the same from Python."""
 
+import io
 import json
 import subprocess
 import sys
 from pathlib import Path
 
 import pytest
+from rich.console import Console
 from test_cli import one_line, run
 
 import workbench as wb
+from workbench.cli.terminal import result_table
 from workbench.errors import InputError, WorkbenchError
 from workbench.paper.loading import load
 from workbench.paper.new_paper import TEMPLATES, template_files, write_new_paper
-from workbench.paper.plants.sweep import sweep
+from workbench.paper.plants.sweep import PlantSweep, sweep
+from workbench.systems.metric import Metric
 
 FILES = ["claims/section_2.py", "gains.py", "laws.py", "paper.py", "plant.py", "study.toml"]
 
@@ -68,6 +72,21 @@ def test_a_sweep_is_the_same_for_the_same_seed_and_draws_what_is_known(mine):
     one, same, other = (sweep(study, 2, seed, ["adaptive"], workers=1) for seed in (1, 1, 2))
     assert one.csv == same.csv != other.csv
     assert all(0.2 <= row["drawn_a"] <= 0.8 for row in one.rows)
+
+
+def test_a_sweeps_table_tells_what_is_farthest_from_zero_and_the_least_of_the_smallest(mine):
+    study = load(mine).study
+    study.__dict__["setting"] = study.setting.varied(metrics=(Metric("room", "smallest", study.the_plant.states[0]),))
+    rows = [{"controller": "adaptive", "failed": None, "room": room, **dict.fromkeys(
+        ("x_error_rms", "x_error_largest", "u_rms"), 1.0), "x_error_final": error} for room, error in (
+            (0.5, 0.1), (0.2, -0.3))]
+    table = PlantSweep(study, 2, tuple(rows)).table()
+    told = dict(zip((one.split(" (")[0] for one in table.headings), table.rows[0], strict=True))
+    assert told["room, least"] == 0.2 and told["x error final, largest"] == -0.3
+    shown = io.StringIO()
+    Console(file=shown, width=60).print(result_table(table))
+    lines = shown.getvalue().splitlines()
+    assert ["room,", "least", "0.200"] in [line.split() for line in lines] and len(lines) < 25
 
 
 def test_the_folder_is_checked_and_a_wrong_derivative_is_found(mine, tmp_path):
