@@ -50,7 +50,12 @@ def __getattr__(name: str) -> Any:
     own = _RENAMED.get(name, name)
     if name == "StateLaw" or own not in _MODULES:
         raise AttributeError(f"module 'workbench' has no attribute '{name}'")
-    return getattr(import_module(f"workbench.{_MODULES[own]}"), own)
+    try:
+        return getattr(import_module(f"workbench.{_MODULES[own]}"), own)
+    except ImportError as trouble:
+        from workbench.errors import of_an_extra  # noqa: PLC0415 - as all else, only when it is used
+
+        raise of_an_extra(trouble) or trouble from None
 
 
 def __dir__() -> list[str]:

@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from workbench.api.frames import data_frame, dataset, html_table, write_mat
+from workbench.errors import of_an_extra
 from workbench.simulate.plants.run import PlantRun
 from workbench.systems.setting import Setting
 
@@ -151,7 +152,10 @@ class Proved:
 
 
 def _figure(setting: Setting, runs: Sequence[PlantRun], columns: Sequence[str]) -> Any:
-    from matplotlib.figure import Figure  # noqa: PLC0415 - for plots alone
+    try:
+        from matplotlib.figure import Figure  # noqa: PLC0415 - for plots alone
+    except ImportError as trouble:
+        raise of_an_extra(trouble) or trouble from None
 
     class Drawn(Figure):
         """A figure that a notebook shows without pyplot's help."""
