@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from itertools import product
@@ -39,18 +39,11 @@ def linearised(plant: Plant, at: Mapping[str, Any] | None = None) -> LinearPlant
     if plant.updates:
         raise InputError(plant.id, "updates", "make it a plant in discrete time, for which no gains are searched: give "
                          "rates")
-    symbols = {str(symbol): symbol for symbol in (*plant.states, *plant.inputs)}
+    symbols = [*map(str, (*plant.states, *plant.inputs))]
     for name in at or {}:
         if name not in symbols:
             raise InputError(plant.id, name, f"is no state and no input: name one of {', '.join(symbols)}")
-    point: dict[sp.Basic, sp.Expr] = {symbol: _number((at or {}).get(name, 0)) for name, symbol in symbols.items()}
-    point |= {symbol: sp.Integer(0) for symbol in plant.disturbances}
-    box: dict[sp.Symbol, Interval] = {}
-    for one in plant.parameters:
-        if one.known is None:
-            point[one.symbol] = rational(stated_number(one.value))
-        else:
-            box[one.symbol] = (stated_number(one.known[0]), stated_number(one.known[1]))
+    point, box = _known(plant, at, plant.inputs)
     for state, rate in plant.flow.items():
         low, high = _bounds(plant, rate, point, box)
         if not -AT_REST <= low <= high <= AT_REST:
@@ -72,6 +65,45 @@ def linearised(plant: Plant, at: Mapping[str, Any] | None = None) -> LinearPlant
                                                  for i, pair in enumerate(entries[k])]) for k, part in enumerate(parts))
         extremes.append((A, B))
     return LinearPlants(tuple(map(str, plant.states)), tuple(map(str, plant.inputs)), tuple(extremes))
+
+
+def _known(plant: Plant, at: Mapping[str, Any] | None,
+           inputs: Sequence[sp.Symbol]) -> tuple[dict[sp.Basic, sp.Expr], dict[sp.Symbol, Interval]]:
+    """The point with the parameters that have one value, and the intervals of the others; disturbances are zero."""
+    point: dict[sp.Basic, sp.Expr] = {s: _number((at or {}).get(str(s), 0)) for s in (*plant.states, *inputs)}
+    point |= {symbol: sp.Integer(0) for symbol in plant.disturbances}
+    box: dict[sp.Symbol, Interval] = {}
+    for one in plant.parameters:
+        if one.known is None:
+            point[one.symbol] = rational(stated_number(one.value))
+        else:
+            box[one.symbol] = (stated_number(one.known[0]), stated_number(one.known[1]))
+    return point, box
+
+
+def output_matrix(plant: Plant, at: Mapping[str, Any] | None = None) -> sp.Matrix:
+    """C of y = C x about a point, exact; InputError where an entry depends on a parameter that is not known exactly."""
+    point, box = _known(plant, at, ())
+    return _exact(plant, plant.outputs, plant.states, point, box)
+
+
+def disturbance_matrix(plant: Plant, at: Mapping[str, Any] | None = None) -> sp.Matrix:
+    """E of x' = A x + B u + E w about a point, as `output_matrix`."""
+    point, box = _known(plant, at, plant.inputs)
+    return _exact(plant, plant.flow, plant.disturbances, point, box)
+
+
+def _exact(plant: Plant, rows: Mapping[Any, sp.Expr], by: Sequence[sp.Symbol], point: Mapping[sp.Basic, sp.Expr],
+           box: Mapping[sp.Symbol, Interval]) -> sp.Matrix:
+    """The derivatives of rows by symbols; InputError for one that is not the same for all parameters in the box."""
+    found = sp.Matrix([*rows.values()]).jacobian(by)
+    for (i, symbol), j in product(enumerate(rows), range(found.cols)):
+        low, high = _bounds(plant, found[i, j], point, box)
+        if low < high:
+            raise InputError(plant.id, str(symbol), f"depends on {by[j]} by a factor that is not known exactly: give "
+                             "its parameters without an interval, or another symbol")
+        found[i, j] = rational(low)
+    return found
 
 
 def _number(value: Any) -> sp.Expr:
