@@ -114,9 +114,9 @@ def _best_function(loops: Sequence[Array], low: float, wanted: float) -> tuple[A
     limits = [Q >> np.eye(n), Q << CONDITION * np.eye(n), room <= 1.0]
     limits += [A.T @ Q + Q @ A + 2 * rate * Q << -room * np.eye(n) for A in loops]
     problem, found = cp.Problem(cp.Maximize(room), limits), None
-    high = min(2 * wanted, -max(float(np.linalg.eigvals(A).real.max()) for A in loops))
+    high = min(wanted, -max(float(np.linalg.eigvals(A).real.max()) for A in loops))
     for at in range(HALVINGS):
-        rate.value = low if at == 0 else 0.5 * (low + high)
+        rate.value = low if at == 0 else high if at == 1 else 0.5 * (low + high)
         try:
             _solved(problem)
         except SolverError:
@@ -126,6 +126,8 @@ def _best_function(loops: Sequence[Array], low: float, wanted: float) -> tuple[A
             continue
         if at == 0 or room.value >= 0:
             low, found = rate.value, np.array(Q.value)
+            if low >= high:
+                break
         else:
             high = rate.value
     assert found is not None
