@@ -164,8 +164,10 @@ def margin_sentences(plants: LinearPlants, K: sp.Matrix) -> list[str]:
         least, most = max(one.least for one in own), min(one.most for one in own)
         phase, delay = min(one.phase_deg for one in own), min(one.delay_s for one in own)
         of = "the plant" if len(own) == 1 else f"{len(own)} extreme plants"
-        gain = f"{number(least)} to {number(most)} times its gain" if isfinite(most) else (
-            f"{number(least)} times its gain or more")
+        if isfinite(most):
+            gain = f"{number(least)} to {number(most)} times its gain"
+        else:
+            gain = f"{number(least)} times its gain or more" if least > 0 else "any gain"
         late = f", {number(phase)} degrees of phase and a delay of {number(delay)} s" if isfinite(delay) else (
             " and any delay")
         told.append(f"Opened at {u} the linear loop of {of} stands {gain}{late} (python-control; not proved).")
