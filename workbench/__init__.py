@@ -5,7 +5,9 @@
 
 from __future__ import annotations
 
+import sys
 from importlib import import_module
+from types import ModuleType
 from typing import TYPE_CHECKING, Any
 
 __version__ = "0.1.0"
@@ -20,19 +22,18 @@ if TYPE_CHECKING:
     from workbench.systems.event import Event
     from workbench.systems.law import Reference
     from workbench.systems.law import StateLaw as Law
-    from workbench.systems.lyapunov import Lyapunov, closed_loop
+    from workbench.systems.lyapunov import Lyapunov, closed_loop, next_values
     from workbench.systems.metric import Metric
     from workbench.systems.plant import Parameter, Plant
     from workbench.systems.setting import Setting
     from workbench.systems.signals import Constant, Ramp, Sine, Spline, Step
 
 _WHERE = {
-    "api.functions": ("check_paper", "closed_loop", "compare", "entrant", "gains", "load", "prove",
-                      "reference", "simulate"),
+    "api.functions": ("check_paper", "compare", "entrant", "gains", "load", "prove", "reference", "simulate"),
     "api.results": ("Comparison", "Proved", "Run"), "api.schemas": ("schema",),
     "model.law": ("LawState", "period", "time"),
     "mpc.plant_tracking": ("PlantMpc",), "proof.paper": ("Paper",), "systems.setting": ("Setting",),
-    "systems.law": ("Reference", "StateLaw"), "systems.lyapunov": ("Lyapunov", "closed_loop"),
+    "systems.law": ("Reference", "StateLaw"), "systems.lyapunov": ("Lyapunov", "closed_loop", "next_values"),
     "systems.event": ("Event",), "systems.metric": ("Metric",), "systems.plant": ("Parameter", "Plant"),
     "systems.signals": ("Constant", "Ramp", "Sine", "Spline", "Step"),
 }
@@ -41,16 +42,36 @@ _RENAMED = {"Law": "StateLaw"}
 
 __all__ = ["Comparison", "Constant", "Event", "Law", "LawState", "Lyapunov", "Metric", "Paper", "Parameter", "Plant",
            "PlantMpc", "Proved", "Ramp", "Reference", "Run", "Setting", "Sine", "Spline", "Step", "check_paper",
-           "closed_loop", "compare", "entrant", "gains", "load", "period", "prove", "reference", "schema", "simulate",
-           "time"]
+           "closed_loop", "compare", "entrant", "gains", "load", "next_values", "period", "prove", "reference",
+           "schema", "simulate", "time"]
 
 
 def __getattr__(name: str) -> Any:
     own = _RENAMED.get(name, name)
     if name == "StateLaw" or own not in _MODULES:
         raise AttributeError(f"module 'workbench' has no attribute '{name}'")
-    return getattr(import_module(f"workbench.{_MODULES[own]}"), own)
+    try:
+        return getattr(import_module(f"workbench.{_MODULES[own]}"), own)
+    except ImportError as trouble:
+        from workbench.errors import of_an_extra  # noqa: PLC0415 - as all else, only when it is used
+
+        raise of_an_extra(trouble) or trouble from None
 
 
 def __dir__() -> list[str]:
     return [*__all__, "__version__"]
+
+
+class _Package(ModuleType):
+    """The package, in which `simulate` and `gains` stay the functions of the API.
+
+    There are rooms of the same names, and the import system would put a room in the function's place as soon as it is
+    imported: the first call would work and the second meet a module.
+    """
+
+    def __setattr__(self, name: str, value: Any) -> None:
+        if not (name in _MODULES and isinstance(value, ModuleType)):
+            super().__setattr__(name, value)
+
+
+sys.modules[__name__].__class__ = _Package

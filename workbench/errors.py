@@ -43,6 +43,24 @@ class SolverError(WorkbenchError):
     """A numerical solver returned nothing that may be used: names the solver and its status."""
 
 
+# What a light installation leaves out -> the extra of the package that brings it.
+EXTRAS = {"numba": "simulate", "llvmlite": "simulate", "pyarrow": "simulate", "optuna": "tune", "cmaes": "tune",
+          "jinja2": "report", "plotly": "report", "matplotlib": "report", "grandalf": "report"}
+
+
+class MissingExtraError(WorkbenchError):
+    """A part of the workbench is asked for whose packages are not installed: names the package and its extra."""
+
+
+def of_an_extra(trouble: ImportError) -> MissingExtraError | None:
+    """What is said of a package that is not installed and that an extra brings; None of any other."""
+    name = (trouble.name or "").partition(".")[0]
+    if name not in EXTRAS:
+        return None
+    return MissingExtraError(f"{name} is not installed, which this needs: pip install 'workbench[{EXTRAS[name]}]', or "
+                             "'workbench[all]'")
+
+
 def in_one_line(text: str) -> str:
     """A text that comes from a file, so that it may be of any length, and hold line breaks and control characters."""
     if len(text) > LONGEST_PART:

@@ -1,18 +1,22 @@
 """A folder with a plant of one's own through every verb, and the same from Python."""
 
+import io
 import json
 import subprocess
 import sys
 from pathlib import Path
 
 import pytest
+from rich.console import Console
 from test_cli import one_line, run
 
 import workbench as wb
+from workbench.cli.terminal import result_table
 from workbench.errors import InputError, WorkbenchError
 from workbench.paper.loading import load
 from workbench.paper.new_paper import TEMPLATES, template_files, write_new_paper
-from workbench.paper.plants.sweep import sweep
+from workbench.paper.plants.sweep import PlantSweep, sweep
+from workbench.systems.metric import Metric
 
 FILES = ["claims/section_2.py", "gains.py", "laws.py", "paper.py", "plant.py", "study.toml"]
 
@@ -70,6 +74,21 @@ def test_a_sweep_is_the_same_for_the_same_seed_and_draws_what_is_known(mine):
     assert all(0.2 <= row["drawn_a"] <= 0.8 for row in one.rows)
 
 
+def test_a_sweeps_table_tells_what_is_farthest_from_zero_and_the_least_of_the_smallest(mine):
+    study = load(mine).study
+    study.__dict__["setting"] = study.setting.varied(metrics=(Metric("room", "smallest", study.the_plant.states[0]),))
+    rows = [{"controller": "adaptive", "failed": None, "room": room, **dict.fromkeys(
+        ("x_error_rms", "x_error_largest", "u_rms"), 1.0), "x_error_final": error} for room, error in (
+            (0.5, 0.1), (0.2, -0.3))]
+    table = PlantSweep(study, 2, tuple(rows)).table()
+    told = dict(zip((one.split(" (")[0] for one in table.headings), table.rows[0], strict=True))
+    assert told["room, least"] == 0.2 and told["x error final, largest"] == -0.3
+    shown = io.StringIO()
+    Console(file=shown, width=60).print(result_table(table))
+    lines = shown.getvalue().splitlines()
+    assert ["room,", "least", "0.200"] in [line.split() for line in lines] and len(lines) < 25
+
+
 def test_the_folder_is_checked_and_a_wrong_derivative_is_found(mine, tmp_path):
     assert wb.check_paper(mine).holds, wb.check_paper(mine)
     wrong = write_new_paper("wrong2026", tmp_path, "plant")
@@ -117,6 +136,11 @@ run = wb.simulate(mass, law, period_s=0.01, duration_s=8, law_parameters={k: 4.0
 # (1 + 2 t) exp(-2 t) is left of a step, 7 s later.
 assert abs(run.metrics["x_error_final"]) < 1e-4 and run.failed is None
 assert run.to_pandas().index.name == "t_s" and len(run.plot().axes) == 3
+again = wb.simulate(mass, law, period_s=0.01, duration_s=1, law_parameters={k: 4.0, d: 4.0},
+                    references={"r": wb.Constant(value=1.0)})
+assert again.failed is None and callable(wb.gains)
+import workbench.gains.feedback
+assert wb.gains.__module__ == wb.simulate.__module__ == "workbench.api.functions"
 run.to_mat(sys.argv[2])
 from scipy.io import loadmat
 kept = loadmat(sys.argv[2])

@@ -81,3 +81,25 @@ def test_without_xarray_it_is_said_what_to_install(monkeypatch):
     monkeypatch.setitem(sys.modules, "xarray", None)
     with pytest.raises(WorkbenchError, match="pip install xarray"):
         dataset({"t_s": np.zeros(1)}, {}, {})
+
+
+@pytest.mark.parametrize(("ask", "words"), [
+    (lambda: wb.simulate(MASS, PD, period_s=0.01, duration_s=0.1, durations=3), "did you mean 'duration_s'"),
+    (lambda: wb.simulate(PD, MASS, period_s=0.01, duration_s=0.1), "the first argument is a StateLaw"),
+    (lambda: wb.simulate(MASS, MASS, period_s=0.01, duration_s=0.1), "a Plant is no law"),
+    (lambda: wb.compare(SETTING, []), "entrants is empty"),
+    (lambda: wb.compare(SETTING, [PD]), r"is no Entrant: write wb.entrant\(law, period_s, parameters\)"),
+    (lambda: wb.simulate(wb.Plant("p", (x,), (-x,)), wb.PlantMpc(5, {"x": 1}), period_s=0.01, duration_s=0.1),
+     "nothing to command: plant 'p' has no input")])
+def test_what_a_script_gets_wrong_is_one_line(ask, words):
+    with pytest.raises(ValueError, match=words) as caught:
+        ask()
+    assert "\n" not in str(caught.value)
+
+
+def test_a_plant_without_inputs_or_law_moves_by_itself_and_a_number_is_a_reference(compared):
+    free = wb.simulate(wb.Plant("decay", (x,), (-2 * x,)), None, period_s=0.1, duration_s=1.0, initial={x: 1.0})
+    assert free["x"][-1] == pytest.approx(np.exp(-2.0), abs=1e-9)
+    one = wb.compare(SETTING.varied(references={r: 1}), [wb.entrant(PD, 0.01)])["pd"]
+    assert one["r"].tolist() == [1.0] * len(one["r"]) and one["x"][-1] > 0.1
+    assert str(one).startswith("pd on mass, to 0.5 s\n  x_error_rms = ") and repr(compared).count("\n") < 30

@@ -16,6 +16,7 @@ from workbench.systems.law import Reference, StateLaw
 from workbench.systems.lyapunov import Lyapunov, closed_loop
 from workbench.systems.metric import Metric
 from workbench.systems.plant import Parameter, Plant
+from workbench.systems.setting import Setting
 from workbench.systems.signals import Constant, Ramp, Sine, Spline, Step, read_signal, signals_at, table_of
 
 k = sp.Symbol("k", positive=True)
@@ -46,11 +47,48 @@ def plant(**changes):
     ({"state_limits": {x: 3.0}}, "no pair of numbers"),
     ({"outputs": {z: u}}, "output 'z' uses 'u'"),
     ({"units": {z: "m"}}, "does not have"),
+    ({"states": x, "rates": (0,)}, r"states is x, no list: write \(x,\)"),
+    ({"inputs": u}, r"inputs is u, no list"),
+    ({"parameters": (z,)}, r"z is no Parameter: write Parameter\(symbol, value\)"),
+    ({"input_limits": (u,)}, "no table"),
+    ({"input_limits": {"w": (0, 1)}}, "limits of 'w', which is no input: name one of u"),
+    ({"events": (z,)}, "z is no Event"),
 ])
 def test_what_is_no_plant_is_one_line(changes, words):
     with pytest.raises(ValueError, match=words) as caught:
         plant(**changes)
     assert "\n" not in str(caught.value)
+
+
+def test_symbols_may_be_named_and_measured_states_listed():
+    one = plant(states=sp.Matrix([x, v]), input_limits={"u": (None, 3)}, units={"x": "m"}, outputs=[v])
+    assert one.input_limits == {u: (-math.inf, 3.0)} and one.units == {x: "m"} and one.outputs == {v: v}
+    assert Setting(one, 1, references={Reference("r"): 2}).references == {"r": Constant(value=2.0)}
+
+
+@pytest.mark.parametrize(("changes", "words"), [
+    ({"references": {"r": math.sin}}, "references.r = <.*> is no signal: give a number, Constant"),
+    ({"disturbances": {"d": "1"}}, "disturbances.d = 1 is no signal"),
+    ({"references": {"r": math.inf}}, "is no signal"), ({"initial": [1.0, 0.0]}, "initial is .*, no table"),
+    ({"initial": {"x": "1"}}, "initial.x = 1: give a finite number"), ({"tracks": {"x": "q"}}, "no reference"),
+    ({"metrics": x}, "metrics is x, no list"),
+])
+def test_what_is_no_setting_is_one_line(changes, words):
+    with pytest.raises(ValueError, match=words):
+        Setting(plant(), 1, **changes)
+
+
+@pytest.mark.parametrize(("rate", "words"), [
+    (sp.Abs(x), "kink"), (sp.sign(x), "kink"), (sp.Max(x, 0), "kink"), (sp.Piecewise((0, x < 0), (x, True)), "kink"),
+    (sp.floor(x), "floor has no derivative"), (sp.sqrt(x), "no finite number"), (1 / x, "no finite number")])
+def test_a_plant_without_a_derivative_at_the_point_is_not_linearised(rate, words):
+    with pytest.raises(ValueError, match=words) as caught:
+        plant(rates=(v, u - rate)).linearise()
+    assert "\n" not in str(caught.value)
+    if rate.func is not sp.floor:
+        shift = 1e-6
+        slope = (rate.subs(x, 2 + shift) - rate.subs(x, 2 - shift)) / (2 * shift)
+        assert plant(rates=(v, u - rate)).linearise({"x": 2}).A[1, 0] == pytest.approx(-float(slope), abs=1e-9)
 
 
 @pytest.mark.parametrize(("value", "known", "words"), [
@@ -72,7 +110,7 @@ def test_a_law_is_held_against_its_plant():
     with pytest.raises(ValueError, match="did you mean 'theta'"):
         StateLaw("l", {torque: sp.Symbol("thet", real=True)}).check(PENDULUM)
     with pytest.raises(ValueError, match="commands nothing"):
-        StateLaw("l", {})
+        StateLaw("l", {}).check(CART)
     with pytest.raises(ValueError, match="parameter 'k' of law 'l' has no value"):
         StateLaw("l", {u: -k * x}, parameters=(k,)).values(CART, {}, {})
     with pytest.raises(ValueError, match="no parameter of law"):

@@ -150,3 +150,16 @@ def test_every_part_of_a_goal_is_in_its_text():
     assert goal_text(goal) == {
         "assume": ["x > 0"], "show": ["Sum(W**2) >= -1/2"], "indexed": ["W"], "flow": {"x": "w", "W": "x*W"},
         "always": ["w <= 1"], "initial": {"x": "x_0"}}
+
+
+def test_a_rate_that_a_goal_does_not_need_may_be_beyond_certificates_and_one_that_it_needs_not():
+    """Leaving a rate out would make a constant of its symbol: it is left out only where nothing depends on it."""
+    a, b, c, angle = sp.symbols("a b c angle", real=True)
+    flow = {a: -a, b: a, c: sp.atan(b), angle: sp.atan2(a, b) + c}
+    needs_none = Goal((equal(D(a * b), a**2 - a * b),), flow=flow)
+    assert list(needs_none.flow) == [a, b] and prove_goal(needs_none) is not None
+    for goal in (lambda: Goal((equal(D(c), 0),), flow=flow), lambda: Goal((at_least(c, 0),), flow=flow),
+                 lambda: Goal((equal(D(a), 0),), flow={a: c, c: sp.atan(c)}),
+                 lambda: Goal((equal(D(a), -a),), assume=(at_least(angle, 0),), flow=flow)):
+        with pytest.raises(ClaimError, match="no meaning in certificates"):
+            goal()

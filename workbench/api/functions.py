@@ -7,6 +7,8 @@ With `workers` above one, processes are started that import the script again: it
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from dataclasses import fields
+from difflib import get_close_matches
 from pathlib import Path
 from typing import Any
 
@@ -33,6 +35,7 @@ from workbench.simulate.plants.run import run as run_plant
 from workbench.systems.law import StateLaw
 from workbench.systems.plant import Plant
 from workbench.systems.setting import Setting
+from workbench.systems.symbols import named_values, several
 
 Names = Mapping[sp.Symbol, Any] | Mapping[str, Any]
 
@@ -53,14 +56,25 @@ def prove(path: str | Path, *, workers: int = 1, cache: bool = True) -> Proved:
     return Proved(claims_document(proof.decisions, places(proof, None)))
 
 
-def simulate(plant: Plant, law: StateLaw | Any, *, period_s: float, duration_s: float,
+def simulate(plant: Plant, law: StateLaw | Any | None, *, period_s: float, duration_s: float,
              law_parameters: Names | None = None, law_initial: Names | None = None, **setting: Any) -> Run:
-    """Run one law, or a `PlantMpc`, on a plant; setting: the other fields of `Setting`, by name.
+    """Run one law, or what else `entrant` takes, on a plant; None leaves the inputs at zero.
 
-    `simulate(pendulum, pd, period_s=0.01, duration_s=5, initial={"theta": 0.3}, references={"theta_d": Sine(...)},
-    tracks={"theta": "theta_d"})`. Raises ValueError, one line, for what does not fit.
+    setting: the other fields of `Setting`, by name. `simulate(pendulum, pd, period_s=0.01, duration_s=5,
+    initial={"theta": 0.3}, references={"theta_d": Sine(...)}, tracks={"theta": "theta_d"})`. Raises ValueError, one
+    line, for what does not fit.
     """
+    if not isinstance(plant, Plant):
+        raise ValueError(f"the first argument is a {type(plant).__name__}: give the Plant, then the law")
+    known = [field.name for field in fields(Setting)]
+    for name in setting:
+        if name not in known:
+            near = get_close_matches(name, known, n=1)
+            raise ValueError(f"'{name}' is nothing that a run is made with: " + (
+                f"did you mean '{near[0]}'?" if near else f"it is one of {', '.join(known[2:])}"))
     made = Setting(plant, duration_s, **setting)
+    if law is None:
+        law = StateLaw("none", dict.fromkeys(plant.inputs, 0))
     return Run(made, run_plant(made, entrant(law, period_s, law_parameters, law_initial), plant.values()))
 
 
@@ -76,13 +90,13 @@ def entrant(law: StateLaw | Any, period_s: float, parameters: Names | None = Non
     if guest is not None:
         return Entrant(name or guest.name, period_s, build=guest.build)
     if not callable(getattr(law, "build", None)):
-        raise ValueError(f"{law!r} is no law and builds no controller: give a StateLaw, a PlantMpc, a casadi.Function "
-                         "or a control system")
+        raise ValueError(f"a {type(law).__name__} is no law and builds no controller: give a Law, a PlantMpc, a "
+                         "casadi.Function or a control system")
     return Entrant(name or "mpc", period_s, build=law.build)
 
 
 def _named(values: Names | None) -> dict[str, float]:
-    return {str(name): value for name, value in (values or {}).items()}
+    return {str(name): value for name, value in named_values(values or {}, "a controller's values").items()}
 
 
 def compare(what: str | Path | Loaded | Setting, entrants: Sequence[Entrant] = ()) -> Comparison:
@@ -92,7 +106,10 @@ def compare(what: str | Path | Loaded | Setting, entrants: Sequence[Entrant] = (
     """
     nominal: Mapping[str, float]
     if isinstance(what, Setting):
+        entrants = several(entrants, "entrants", Entrant, "wb.entrant(law, period_s, parameters)")
         names = [one.name for one in entrants]
+        if not names:
+            raise ValueError("entrants is empty: give wb.entrant(law, period_s, parameters) for each controller")
         if len(set(names)) < len(names):
             raise ValueError(f"two entrants are called '{max(names, key=names.count)}': name them apart")
         setting, nominal = what, what.plant.values()

@@ -12,11 +12,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from workbench.api.frames import data_frame, dataset, html_table, write_mat
+from workbench.errors import of_an_extra
 from workbench.simulate.plants.run import PlantRun
 from workbench.systems.setting import Setting
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Run:
     """One run: `run["theta"]` is a column of its log; metrics by name; failed says why it ended early, or is None."""
 
@@ -46,6 +47,13 @@ class Run:
     def __getitem__(self, column: str) -> NDArray[np.float64]:
         return self.found.column(column)
 
+    def __str__(self) -> str:
+        metrics = "\n".join(f"  {name} = {'none' if value is None else format(value, '.6g')}"
+                            for name, value in self.metrics.items())
+        return f"{self.name} on {self.setting.plant.id}, {self.failed or f'to {self.found.reached_s:g} s'}\n{metrics}"
+
+    __repr__ = __str__
+
     def to_pandas(self) -> Any:
         """The log as a DataFrame with the time in seconds as its index; WorkbenchError without pandas."""
         return data_frame(self.found.data, "t_s")
@@ -70,7 +78,7 @@ class Run:
         return _figure(self.setting, [self.found], columns)
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Comparison:
     """Runs of several controllers on the same plant: `comparison["pd"]` is a Run."""
 
@@ -85,6 +93,11 @@ class Comparison:
 
     def __iter__(self) -> Iterator[Run]:
         return iter(self.runs)
+
+    def __str__(self) -> str:
+        return "\n".join(map(str, self.runs))
+
+    __repr__ = __str__
 
     @property
     def rows(self) -> list[dict[str, Any]]:
@@ -104,7 +117,7 @@ class Comparison:
         return _figure(self.setting, [run.found for run in self.runs], columns)
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Proved:
     """Claims decided: a row each, as `workbench prove --json` writes them."""
 
@@ -129,12 +142,20 @@ class Proved:
         """The rows as a DataFrame; WorkbenchError without pandas."""
         return data_frame(self.rows, "id")
 
+    def __str__(self) -> str:
+        return "\n".join(f"{row['verdict']}: {row['id']}: {row['title']}" for row in self.rows)
+
+    __repr__ = __str__
+
     def _repr_html_(self) -> str:
         return html_table([{key: row[key] for key in ("id", "verdict", "title")} for row in self.rows])
 
 
 def _figure(setting: Setting, runs: Sequence[PlantRun], columns: Sequence[str]) -> Any:
-    from matplotlib.figure import Figure  # noqa: PLC0415 - for plots alone
+    try:
+        from matplotlib.figure import Figure  # noqa: PLC0415 - for plots alone
+    except ImportError as trouble:
+        raise of_an_extra(trouble) or trouble from None
 
     class Drawn(Figure):
         """A figure that a notebook shows without pyplot's help."""

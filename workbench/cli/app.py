@@ -16,7 +16,7 @@ from typer.main import get_command
 
 from workbench.cli.options import Version
 from workbench.cli.terminal import err_console
-from workbench.errors import InputError, WorkbenchError, printable
+from workbench.errors import InputError, WorkbenchError, of_an_extra, printable
 
 INTERRUPTED = 130  # with which typer ends after Ctrl-C
 LINKS = "Symlink loop"  # what pathlib says of them, before Python 3.13
@@ -66,6 +66,11 @@ def main() -> None:
         code = _command()(sys.argv[1:] or ["--help"], prog_name="workbench", standalone_mode=False) or 0
     except WorkbenchError as trouble:
         code = _refused(str(trouble))
+    except ImportError as trouble:
+        left_out = of_an_extra(trouble)
+        if left_out is None:
+            raise
+        code = _refused(str(left_out))
     except TyperException as trouble:  # of options and arguments
         context = getattr(trouble, "ctx", None)
         command = context.command_path if context else "workbench"

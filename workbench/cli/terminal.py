@@ -227,13 +227,23 @@ def summary_table(summaries: Sequence[Any], runs: int) -> Table:
 
 
 def result_table(found: ResultTable) -> Table:
-    """A study's table as it is, its source beside its title."""
+    """A study's table, its source beside its title; one that is too wide for the screen with a row a column."""
     table = Table(title=f"{found.title} ({found.source})", title_justify="left", box=SIMPLE_HEAD, pad_edge=False)
-    for heading in found.headings:
+    lines = [tuple(found.headings), *found.text]
+    turned = list(zip(*lines, strict=True))
+    if _width(lines) > out_console.width and _width(turned) < _width(lines):
+        lines = turned
+    for heading in lines[0]:
         table.add_column(heading, overflow="fold")
-    for row in found.text:
+    for row in lines[1:]:
         table.add_row(*row)
     return table
+
+
+def _width(lines: Sequence[Sequence[str]]) -> int:
+    """How wide a table of these lines is where no cell is broken."""
+    columns = zip(*lines, strict=True)
+    return sum(max(len(part) for cell in column for part in cell.split("\n")) + 3 for column in columns)
 
 
 def print_study(result: StudyResult) -> None:

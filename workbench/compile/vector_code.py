@@ -106,6 +106,28 @@ def runge_kutta_step(exprs: Sequence[sp.Expr], states: Sequence[sp.Symbol], arra
     return "\n".join([*source, ""])
 
 
+def jump_step(updates: Sequence[sp.Expr], integrands: Sequence[sp.Expr], states: Sequence[sp.Symbol],
+              arrays: Arrays) -> str:
+    """Source of plant_rates and plant_step of a plant in discrete time, as `runge_kutta_step` of one in continuous.
+
+    plant_rates gives the next states and the integrands; an integral is the sum of its integrand times the step.
+    """
+    count, moving = len(updates) + len(integrands), [name for name in arrays if name != "p"]
+    x = [f"x_{i}" for i in range(count)]
+    lines, values = _body([*updates, *integrands], {"x": states, **arrays}, {"t": time}, unpacked=("x",))
+    given = [f"{name}_{place}" for place in ("begin", "middle", "end") for name in moving]
+    others = ["p" if name == "p" else f"{name}_begin" for name in arrays]
+    found = ", ".join(f"a_{i}" for i in range(count))
+    return "\n".join([
+        f"def plant_rates(t, {', '.join([*x, *arrays])}):", *lines,
+        f"{_INDENT}return ({', '.join(f'1.0 * ({value})' for value in values)},)", "",
+        f"def plant_step(t, h, x, {', '.join([*given, *(['p'] if 'p' in arrays else [])])}):",
+        *(f"{_INDENT}{name} = x[{i}]" for i, name in enumerate(x)),
+        f"{_INDENT}{found}, = plant_rates(t, {', '.join([*x, *others])})",
+        *(f"{_INDENT}x[{i}] = a_{i}" if i < len(updates) else f"{_INDENT}x[{i}] = x_{i} + h * a_{i}"
+          for i in range(count)), ""])
+
+
 def numeric_vector(arguments: Sequence[sp.Symbol], exprs: Sequence[sp.Expr]) -> Callable[..., Any]:
     """A Python function (time, *arguments) -> list of numbers, interpreted: for other libraries and for checks."""
     names = {symbol: sp.Symbol(f"argument_{i}", real=True) for i, symbol in enumerate((time, *arguments))}

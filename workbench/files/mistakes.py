@@ -5,6 +5,8 @@ from __future__ import annotations
 import traceback
 from pathlib import Path
 
+from workbench.errors import of_an_extra
+
 # How the modules of a paper's folder are called.
 OF_A_FOLDER = "workbench_folder_"
 
@@ -23,6 +25,9 @@ REMEDIES: tuple[tuple[str, str], ...] = (
 def mistake(trouble: BaseException, file: str | Path) -> str:
     """An exception that the code of a proof file raised, as one line: place, exception, remedy."""
     kinds = [kind.__name__ for kind in type(trouble).__mro__]
+    left_out = of_an_extra(trouble) if isinstance(trouble, ImportError) else None
+    if left_out is not None:
+        return f"{_place(trouble, Path(file))}{left_out}"
     remedy = next((text for name, text in REMEDIES if name in kinds), "correct the file")
     what = f"{trouble.msg}" if isinstance(trouble, SyntaxError) else f"{trouble}"
     return " ".join(f"{_place(trouble, Path(file))}{kinds[0]}: {what}: {remedy}".split())

@@ -18,8 +18,15 @@ import sympy as sp
 from workbench.gains.exact import fraction
 
 Interval = tuple[Fraction, Fraction]
+
+
+def _tanh(bounds: mpmath.iv.mpf) -> mpmath.iv.mpf:
+    """By one exponential, so that the bounds of its argument enter once."""
+    return 1 - 2 / (mpmath.iv.exp(2 * bounds) + 1)
+
+
 _FUNCTIONS = {sp.sin: mpmath.iv.sin, sp.cos: mpmath.iv.cos, sp.tan: mpmath.iv.tan, sp.exp: mpmath.iv.exp,
-              sp.log: mpmath.iv.log}
+              sp.log: mpmath.iv.log, sp.tanh: _tanh}
 DIGITS = 9  # of the fractions to which a function's bounds are widened
 
 

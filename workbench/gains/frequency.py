@@ -67,3 +67,34 @@ def margins(of: Linear) -> tuple[float, float, float]:
 
     gain, phase, _, crossover = control.margin(system(of))
     return float(gain), float(phase), float(crossover)
+
+
+@dataclass(frozen=True)
+class Margins:
+    """How far a loop opened at one input is from instability: its gain may be from least to most times what it is, its
+    phase may lag by phase_deg more, its command may come delay_s later. Infinite where nothing is too much.
+    """
+
+    least: float
+    most: float
+    phase_deg: float
+    delay_s: float
+
+
+def feedback_margins(A: Array, B: Array, K: Array) -> list[Margins]:
+    """Margins of x' = A x + B u under u = K x, stable, opened at one input after the other with the others closed."""
+    import control  # noqa: PLC0415 - as above
+
+    found = []
+    for k in range(B.shape[1]):
+        others = [j for j in range(B.shape[1]) if j != k]
+        opened = control.ss(A + B[:, others] @ K[others], B[:, [k]], -K[[k]], np.zeros((1, 1)))
+        gains, phases, _, _, crossovers, _ = control.stability_margins(opened, returnall=True)
+        phases = np.mod(np.asarray(phases), 360.0)  # what a lag may be, at each frequency at which the gain is one
+        crossing = np.asarray(crossovers) > 0
+        delays = np.radians(phases[crossing]) / np.asarray(crossovers)[crossing]
+        gains = np.asarray(gains)
+        found.append(Margins(max((g for g in gains if 0 < g < 1), default=0.0),
+                             min((g for g in gains if g > 1), default=np.inf),
+                             min(phases, default=np.inf), min(delays, default=np.inf)))
+    return found

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from itertools import product
@@ -13,6 +13,7 @@ import sympy as sp
 from workbench.errors import InputError
 from workbench.gains.enclosure import Interval, enclosed, stated_number
 from workbench.gains.exact import rational
+from workbench.systems.derivatives import smooth_at
 from workbench.systems.plant import Plant
 
 MOST_UNCERTAIN = 6  # entries that differ among the plants; each doubles the number of extreme plants
@@ -35,18 +36,14 @@ def linearised(plant: Plant, at: Mapping[str, Any] | None = None) -> LinearPlant
     itself, so that the hull may hold more plants than there are. Raises InputError where the point is no equilibrium
     for some of the parameters, an entry has a kink there or no finite bounds, or too many entries differ.
     """
-    symbols = {str(symbol): symbol for symbol in (*plant.states, *plant.inputs)}
+    if plant.updates:
+        raise InputError(plant.id, "updates", "make it a plant in discrete time, for which no gains are searched: give "
+                         "rates")
+    symbols = [*map(str, (*plant.states, *plant.inputs))]
     for name in at or {}:
         if name not in symbols:
             raise InputError(plant.id, name, f"is no state and no input: name one of {', '.join(symbols)}")
-    point: dict[sp.Basic, sp.Expr] = {symbol: _number((at or {}).get(name, 0)) for name, symbol in symbols.items()}
-    point |= {symbol: sp.Integer(0) for symbol in plant.disturbances}
-    box: dict[sp.Symbol, Interval] = {}
-    for one in plant.parameters:
-        if one.known is None:
-            point[one.symbol] = rational(stated_number(one.value))
-        else:
-            box[one.symbol] = (stated_number(one.known[0]), stated_number(one.known[1]))
+    point, box = _known(plant, at, plant.inputs)
     for state, rate in plant.flow.items():
         low, high = _bounds(plant, rate, point, box)
         if not -AT_REST <= low <= high <= AT_REST:
@@ -70,6 +67,45 @@ def linearised(plant: Plant, at: Mapping[str, Any] | None = None) -> LinearPlant
     return LinearPlants(tuple(map(str, plant.states)), tuple(map(str, plant.inputs)), tuple(extremes))
 
 
+def _known(plant: Plant, at: Mapping[str, Any] | None,
+           inputs: Sequence[sp.Symbol]) -> tuple[dict[sp.Basic, sp.Expr], dict[sp.Symbol, Interval]]:
+    """The point with the parameters that have one value, and the intervals of the others; disturbances are zero."""
+    point: dict[sp.Basic, sp.Expr] = {s: _number((at or {}).get(str(s), 0)) for s in (*plant.states, *inputs)}
+    point |= {symbol: sp.Integer(0) for symbol in plant.disturbances}
+    box: dict[sp.Symbol, Interval] = {}
+    for one in plant.parameters:
+        if one.known is None:
+            point[one.symbol] = rational(stated_number(one.value))
+        else:
+            box[one.symbol] = (stated_number(one.known[0]), stated_number(one.known[1]))
+    return point, box
+
+
+def output_matrix(plant: Plant, at: Mapping[str, Any] | None = None) -> sp.Matrix:
+    """C of y = C x about a point, exact; InputError where an entry depends on a parameter that is not known exactly."""
+    point, box = _known(plant, at, ())
+    return _exact(plant, plant.outputs, plant.states, point, box)
+
+
+def disturbance_matrix(plant: Plant, at: Mapping[str, Any] | None = None) -> sp.Matrix:
+    """E of x' = A x + B u + E w about a point, as `output_matrix`."""
+    point, box = _known(plant, at, plant.inputs)
+    return _exact(plant, plant.flow, plant.disturbances, point, box)
+
+
+def _exact(plant: Plant, rows: Mapping[Any, sp.Expr], by: Sequence[sp.Symbol], point: Mapping[sp.Basic, sp.Expr],
+           box: Mapping[sp.Symbol, Interval]) -> sp.Matrix:
+    """The derivatives of rows by symbols; InputError for one that is not the same for all parameters in the box."""
+    found = sp.Matrix([*rows.values()]).jacobian(by)
+    for (i, symbol), j in product(enumerate(rows), range(found.cols)):
+        low, high = _bounds(plant, found[i, j], point, box)
+        if low < high:
+            raise InputError(plant.id, str(symbol), f"depends on {by[j]} by a factor that is not known exactly: give "
+                             "its parameters without an interval, or another symbol")
+        found[i, j] = rational(low)
+    return found
+
+
 def _number(value: Any) -> sp.Expr:
     return rational(stated_number(value)) if isinstance(value, float) else sp.sympify(value, strict=True)
 
@@ -77,15 +113,10 @@ def _number(value: Any) -> sp.Expr:
 def _bounds(plant: Plant, entry: sp.Expr, point: Mapping[sp.Basic, sp.Expr],
             box: Mapping[sp.Symbol, Interval]) -> Interval:
     """Bounds of an expression at the point, none where it has no derivative there."""
-    jumps = {one: sp.Dummy() for one in entry.atoms(sp.sign, sp.Heaviside, sp.DiracDelta)
-             if one.args[0].xreplace(point) == 0}
-    borders = {one: sp.Dummy() for one in entry.atoms(sp.Piecewise)
-               if any(side.lhs.xreplace(point) == side.rhs.xreplace(point) for _, when in one.args
-                      for side in when.atoms(sp.core.relational.Relational))}
-    kinks = {**jumps, **borders}
-    here = entry.xreplace(kinks).xreplace(point)
-    if here.free_symbols & set(kinks.values()):
-        raise InputError(plant.id, "", f"has a kink at that point, in {entry}: linearise it elsewhere")
+    try:
+        here = smooth_at(entry, point)
+    except ValueError as trouble:
+        raise InputError(plant.id, "", str(trouble)) from None
     try:
         return enclosed(here, box)
     except ValueError as trouble:

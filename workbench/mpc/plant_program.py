@@ -123,6 +123,10 @@ def _step(how: PlantMpcValues, setting: Setting, period_s: float) -> Any:
     f = plant.to_casadi(setting.parameters)
     x, u = ca.SX.sym("x", len(plant.states)), ca.SX.sym("u", len(plant.inputs))
     d, h, at = ca.DM.zeros(len(plant.disturbances)), period_s / how.substeps, x
+    if plant.updates:
+        for _ in range(setting.steps_of(period_s, "period_s")):
+            at = f(0, at, u, d)
+        return ca.Function("step", [x, u], [at])
     for _ in range(how.substeps):
         a = f(0, at, u, d)
         b = f(0, at + h / 2 * a, u, d)

@@ -8,6 +8,7 @@ from dataclasses import dataclass, field
 from typing import Literal, get_args
 
 from workbench.systems.setting import Setting
+from workbench.systems.symbols import named_values
 
 Solver = Literal["fatrop", "ipopt"]
 MOST_STAGES = 1000
@@ -41,6 +42,9 @@ class PlantMpcValues:
     one_iteration: bool = False
 
     def __post_init__(self) -> None:
+        for key in ("weights", "input_weights", "change_weights", "input_targets", "rate_limits", "objective"):
+            table = {str(name): value for name, value in named_values(getattr(self, key), key).items()}
+            object.__setattr__(self, key, table)
         if not 1 <= self.horizon <= MOST_STAGES or self.substeps < 1:
             raise ValueError(f"horizon = {self.horizon}, substeps = {self.substeps}: give 1 to {MOST_STAGES} samples "
                              "and at least one step")
@@ -63,6 +67,8 @@ class PlantMpcValues:
     def check(self, setting: Setting) -> None:
         """ValueError unless the plant measures all its states and has what is named."""
         plant = setting.plant
+        if not plant.inputs:
+            raise ValueError(f"MPC has nothing to command: plant '{plant.id}' has no input")
         for state in plant.states:
             if plant.outputs.get(state) != state:
                 raise ValueError(f"MPC needs every state of plant '{plant.id}', and '{state}' is not measured: make it "

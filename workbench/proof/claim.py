@@ -12,7 +12,7 @@ from typing import Any, Literal
 import sympy as sp
 
 from workbench.errors import ClaimError
-from workbench.proof.language import D, Language, name_of, saturation  # noqa: F401 - what goals are stated with
+from workbench.proof.language import FUNCTIONS, D, Language, name_of, saturation  # noqa: F401 - what goals are stated with
 from workbench.proof.latex.write import latex
 from workbench.proof.typed import as_evaluated, evaluated, kept_as_typed
 from workbench.proof.verdict import FAILED, VERDICTS, Decision, Kind, Stated, Verdict  # noqa: F401 - all records here
@@ -117,6 +117,7 @@ class Goal:
         self._require_shape()
         if not self.show:
             raise ClaimError("a goal shows nothing: give at least one relation")
+        self._leave_out_unreached()
         language = Language(self.flow, self.inputs)
         for relation in (*self.relations(), *self.lemmas):
             language.check(relation.left)
@@ -130,6 +131,27 @@ class Goal:
         for symbol in (*self.inputs, *self.named):
             language.check(symbol, symbol.indices[0] if isinstance(symbol, sp.Indexed) else None)
         language.check_whole()
+
+    def _leave_out_unreached(self) -> None:
+        """Take out of the flow what certificates cannot state and the goal does not speak of.
+
+        A plant's flow has all its rates, of which a goal may need a few; a symbol is needed that stands in the goal
+        outside of the flow, or in the rate of one that is needed.
+        """
+        unstated = {s for s, rate in self.flow.items() if any(
+            not isinstance(part, (*FUNCTIONS, D)) for part in rate.atoms(sp.Function, sp.Max, sp.Min, sp.Piecewise))}
+        if not unstated:
+            return
+        sides = [side for r in (*self.relations(), *self.lemmas) for side in (r.left, r.right)]
+        others = (*self.facts, *self.inputs, *self.named, *self.initial, *self.initial.values(), *self.model,
+                  *self.model.values(), sp.Add(self.decreasing or 0), sp.Add(self.eventually or 0))
+        needed = {s for expr in (*sides, *others) for s in expr.free_symbols}
+        rest = dict(self.flow)
+        while reached := [s for s in rest if s.free_symbols & needed]:
+            for symbol in reached:
+                needed |= symbol.free_symbols | rest.pop(symbol).free_symbols
+        kept = {s: rate for s, rate in self.flow.items() if s not in rest or s not in unstated}
+        object.__setattr__(self, "flow", kept)
 
     def _require_shape(self) -> None:
         for part in ("show", "assume", "always", "lemmas"):

@@ -10,7 +10,7 @@ import sympy as sp
 
 from workbench.model.law import LawState, period
 from workbench.systems.plant import Plant, checked_value
-from workbench.systems.symbols import expression, require_distinct, require_known, symbols_of
+from workbench.systems.symbols import expression, named_values, require_distinct, require_known, several, symbols_of
 
 ORDERS = ("", "_dot", "_ddot", "_dddot")
 
@@ -74,17 +74,18 @@ class StateLaw:
 
     def __post_init__(self) -> None:
         where, put = f"law '{self.id}'", object.__setattr__
-        symbols_of(self.commands, f"{where}: commands")
-        if not self.commands:
-            raise ValueError(f"{where} commands nothing: name an input of its plant")
+        symbols_of(named_values(self.commands, f"{where}: commands"), f"{where}: commands")
         put(self, "commands", {symbol: expression(value, f"{where}: command of '{symbol}'")
                                for symbol, value in self.commands.items()})
-        put(self, "states", tuple(self._state(state) for state in self.states))
+        put(self, "states", tuple(self._state(state) for state in several(
+            self.states, f"{where}: states", LawState, "LawState(symbol, rate=...) or LawState(symbol, update=...)")))
         put(self, "parameters", symbols_of(self.parameters, f"{where}: parameters"))
-        put(self, "references", tuple(self.references))
-        put(self, "domain", tuple(expression(value, f"{where}: domain") for value in self.domain))
+        put(self, "references", several(self.references, f"{where}: references", Reference, "Reference('r')"))
+        put(self, "domain", tuple(expression(value, f"{where}: domain")
+                                  for value in several(self.domain, f"{where}: domain")))
         require_distinct({"a state": self.state_symbols, "a parameter": self.parameters, "an input": [*self.commands],
                           "a reference": self.reference_symbols}, where)
+        put(self, "initial", named_values(self.initial, f"{where}: initial", self.state_symbols))
         for symbol, value in self.initial.items():
             if symbol not in self.state_symbols:
                 raise ValueError(f"{where}: initial value of '{symbol}', which is no state of it: leave it out")
@@ -120,6 +121,8 @@ class StateLaw:
     def check(self, plant: Plant) -> None:
         """ValueError unless the law commands inputs of the plant, every one of them, from what can be measured."""
         where = f"law '{self.id}'"
+        if not self.commands and plant.inputs:
+            raise ValueError(f"{where} commands nothing: name an input of its plant")
         for symbol in self.commands:
             if symbol not in plant.inputs:
                 raise ValueError(f"{where} commands '{symbol}', which is no input of plant '{plant.id}': name one of "
@@ -135,10 +138,16 @@ class StateLaw:
                   **{f"domain expression {e}": e for e in self.domain}}
         for what, expr in stated.items():
             for symbol in sorted(expr.free_symbols - set(known), key=str):
+                if symbol in plant.parameter_symbols:
+                    raise ValueError(f"{where}: {what} uses '{symbol}', a parameter of plant '{plant.id}': name it "
+                                     "among the law's parameters too, whose value is what the law believes")
+                if symbol in plant.disturbances:
+                    raise ValueError(f"{where}: {what} uses '{symbol}', a disturbance of plant '{plant.id}', which no "
+                                     "law knows: make it a reference where it is foreseen")
                 if str(symbol) in hidden:
                     raise ValueError(f"{where}: {what} uses '{symbol}', a state that plant '{plant.id}' does not "
                                      f"measure: use its outputs {', '.join(map(str, plant.outputs))}")
-        require_known(stated, known, where)
+        require_known(stated, known, where, "make it a parameter, a state or a reference of the law")
 
     def values(self, plant: Plant, nominal: Mapping[str, float], given: Mapping[str, Any]) -> dict[str, float]:
         """Every parameter's value by its name: as given, else the plant's nominal one.

@@ -7,7 +7,7 @@ from typing import Any
 
 import sympy as sp
 
-from workbench.model.law import time
+from workbench.model.law import period, time
 from workbench.systems.law import StateLaw
 from workbench.systems.plant import Plant
 from workbench.systems.symbols import expression
@@ -18,7 +18,7 @@ def closed_loop(plant: Plant, law: StateLaw) -> dict[sp.Expr, sp.Expr]:
 
     It is what `Goal(flow=...)` takes. Inputs are replaced by the commands, measured outputs by what they measure; input
     limits are left out. The third rate of a reference is an input of the goal. Raises ValueError where the law does not
-    fit the plant, or has a state with an update, which is no flow.
+    fit the plant, or one of the two moves in steps, which is no flow.
     """
     law.check(plant)
     for state in law.states:
@@ -37,6 +37,25 @@ def closed_loop(plant: Plant, law: StateLaw) -> dict[sp.Expr, sp.Expr]:
     return flow
 
 
+def next_values(plant: Plant, law: StateLaw) -> dict[sp.Expr, sp.Expr]:
+    """Every state one step later, of a plant in discrete time under a law that samples at each of its steps.
+
+    The law's states are moved as it says, by an Euler step where it has a rate; inputs are replaced by the commands
+    and input limits left out. References are as they are now. Raises ValueError for a plant in continuous time, and
+    where the law does not fit it.
+    """
+    law.check(plant)
+    if plant.step_s is None:
+        raise ValueError(f"plant '{plant.id}' has rates, not updates: take closed_loop(plant, law)")
+    step = {period: sp.nsimplify(plant.step_s, rational=True)}
+    measured = {symbol: value for symbol, value in plant.outputs.items() if symbol != value}
+    commands = {symbol: value.xreplace(measured | step) for symbol, value in law.commands.items()}
+    found: dict[sp.Expr, sp.Expr] = {state: value.xreplace(commands | step)
+                                     for state, value in zip(plant.states, plant.updates, strict=True)}
+    return found | {state: value.xreplace(measured | step)
+                    for state, value in zip(law.state_symbols, law.next_values, strict=True)}
+
+
 @dataclass(frozen=True)
 class Lyapunov:
     """A function of a closed loop's state, such as a proof's: `check_paper` holds it against runs of its law."""
@@ -49,7 +68,17 @@ class Lyapunov:
         object.__setattr__(self, "value", expression(self.value, f"Lyapunov function '{self.id}'"))
 
     def rate(self, plant: Plant) -> sp.Expr:
-        """Its derivative along the closed loop."""
+        """Its derivative along the closed loop; in discrete time its change in a step.
+
+        Raises ValueError for a function of a reference in discrete time, where what comes next is not known.
+        """
+        if plant.step_s is not None:
+            for symbol in self.law.reference_symbols:
+                if symbol in self.value.free_symbols:
+                    raise ValueError(f"Lyapunov function '{self.id}' uses reference '{symbol}', whose next value is "
+                                     "not known: state it over states alone")
+            ahead = {**next_values(plant, self.law), time: time + sp.nsimplify(plant.step_s, rational=True)}
+            return self.value.xreplace(ahead) - self.value
         flow = closed_loop(plant, self.law)
         terms = (sp.diff(self.value, symbol) * rate for symbol, rate in flow.items())
         explicit = sp.Integer(0) if time in flow else sp.diff(self.value, time)

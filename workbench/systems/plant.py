@@ -13,54 +13,28 @@ from numpy.typing import NDArray
 
 from workbench.compile.casadi_tree import casadi_of
 from workbench.compile.vector_code import numeric_vector
+from workbench.model.law import time
+from workbench.systems.derivatives import jacobian_at
 from workbench.systems.event import Event
-from workbench.systems.symbols import expression, interval, require_distinct, require_known, symbols_of
-
-Limits = tuple[float, float]
-
-
-@dataclass(frozen=True)
-class Parameter:
-    """A constant of a plant: its symbol, value and unit; known: the interval in which it is known to lie.
-
-    Raises ValueError for a value that is no finite number or lies outside the interval.
-    """
-
-    symbol: sp.Symbol
-    value: float
-    unit: str = ""
-    known: Limits | None = None
-
-    def __post_init__(self) -> None:
-        symbols_of([self.symbol], "parameter")
-        where = f"parameter '{self.symbol}'"
-        object.__setattr__(self, "value", checked_value(self.symbol, self.value, where))
-        if self.known is not None:
-            low, high = interval(self.known, f"{where}: known")
-            object.__setattr__(self, "known", (low, high))
-            if not low <= self.value <= high:
-                raise ValueError(f"{where} = {self.value:g} lies outside the known interval [{low:g}, {high:g}]: "
-                                 "correct one of them")
-
-
-def checked_value(symbol: sp.Symbol, value: Any, where: str) -> float:
-    """A finite number that agrees with what sympy knows of the symbol's sign; ValueError otherwise."""
-    if isinstance(value, bool | complex | str) or not isinstance(value, int | float | sp.Number | np.number):
-        raise ValueError(f"{where} = {value!r} is no real number: give one")
-    number = float(value)
-    if not math.isfinite(number):
-        raise ValueError(f"{where} = {number} is not finite: give a number")
-    if (symbol.is_positive and number <= 0) or (symbol.is_nonnegative and number < 0):
-        raise ValueError(f"{where} = {number:g}, but the symbol is declared "
-                         f"{'positive' if symbol.is_positive else 'nonnegative'}: correct one of them")
-    return number
+from workbench.systems.parameter import Parameter, checked_value
+from workbench.systems.symbols import (
+    Limits,
+    expression,
+    interval,
+    named_values,
+    require_distinct,
+    require_known,
+    several,
+    symbols_of,
+)
 
 
 @dataclass(frozen=True)
 class Plant:
     """x' = rates(t, x, u, d, p), y = outputs(x, p), with n states, m inputs and any number of disturbances.
 
-    rates: one expression a state, in their order; outputs: what can be measured, symbol to expression, the states
+    rates: one expression a state, in their order; of a plant in discrete time instead updates, the states one step
+    later, and step_s, the seconds between two; outputs: what can be measured, symbol to expression, the states
     themselves where none is given; limits of inputs saturate them, limits of states are what MPC keeps and what a run
     is measured against; domain: expressions that must stay positive, a run ends where one is not; events: what resets
     states in a run, where an expression crosses zero; units: of states, inputs, outputs and disturbances. Raises
@@ -69,7 +43,7 @@ class Plant:
 
     id: str
     states: Sequence[sp.Symbol]
-    rates: Sequence[Any]
+    rates: Sequence[Any] = ()
     inputs: Sequence[sp.Symbol] = ()
     disturbances: Sequence[sp.Symbol] = ()
     parameters: Sequence[Parameter] = ()
@@ -81,42 +55,75 @@ class Plant:
     units: Mapping[sp.Symbol, str] = field(default_factory=dict)
     title: str = ""
     source: str = ""
+    updates: Sequence[Any] = ()
+    step_s: float | None = None
 
     def __post_init__(self) -> None:
         where = f"plant '{self.id}'"
         put = object.__setattr__
         for name in ("states", "inputs", "disturbances"):
             put(self, name, symbols_of(getattr(self, name), f"{where}: {name}"))
-        put(self, "parameters", tuple(self.parameters))
+        put(self, "parameters", several(self.parameters, f"{where}: parameters", Parameter, "Parameter(symbol, value)"))
         if not self.states:
             raise ValueError(f"{where} has no state: name at least one")
-        rates = tuple(self.rates)
-        if len(rates) != len(self.states):
-            raise ValueError(f"{where} has {len(self.states)} states and {len(rates)} rates: give one rate a state, in "
-                             "their order")
-        put(self, "rates", tuple(expression(rate, f"{where}: rate of '{state}'")
-                                 for state, rate in zip(self.states, rates, strict=True)))
-        symbols_of(self.outputs, f"{where}: outputs")
-        put(self, "outputs", {symbol: expression(value, f"{where}: output '{symbol}'")
-                              for symbol, value in (self.outputs or {s: s for s in self.states}).items()})
-        put(self, "domain", tuple(expression(value, f"{where}: domain") for value in self.domain))
+        kind = self._require_one_kind(where)
+        for name in ("rates", "updates"):
+            given = several(getattr(self, name), f"{where}: {name}")
+            if given and len(given) != len(self.states):
+                raise ValueError(f"{where} has {len(self.states)} states and {len(given)} {name}: give one {kind} a "
+                                 "state, in their order")
+            put(self, name, tuple(expression(value, f"{where}: {kind} of '{state}'")
+                                  for state, value in zip(self.states, given, strict=bool(given))))
+        put(self, "outputs", self._outputs(where))
+        put(self, "domain", tuple(expression(value, f"{where}: domain")
+                                  for value in several(self.domain, f"{where}: domain")))
         own = {symbol for symbol, value in self.outputs.items() if symbol != value}
         require_distinct({"a state": self.states, "an input": self.inputs, "a disturbance": self.disturbances,
                           "a parameter": self.parameter_symbols, "an output": sorted(own, key=str)}, where)
         known = (*self.states, *self.inputs, *self.disturbances, *self.parameter_symbols)
-        require_known({f"the rate of '{s}'": rate for s, rate in self.flow.items()}, known, where)
+        require_known({f"the {kind} of '{s}'": e for s, e in zip(self.states, self.moves, strict=True)}, known, where)
         require_known({f"output '{s}'": value for s, value in self.outputs.items()},
                       (*self.states, *self.parameter_symbols), where)
         require_known({f"domain expression {e}": e for e in self.domain}, known, where)
         self._check_events(where, known)
         put(self, "input_limits", self._limits(self.input_limits, self.inputs, "input"))
         put(self, "state_limits", self._limits(self.state_limits, self.states, "state"))
+        put(self, "units", named_values(self.units, f"{where}: units", (*known, *self.outputs)))
         for symbol in self.units:
             if symbol not in (*known, *self.outputs):
                 raise ValueError(f"{where}: units name '{symbol}', which the plant does not have: leave it out")
 
+    def _require_one_kind(self, where: str) -> str:
+        """"rate" or "update"; ValueError unless it is one of them, with a step for updates alone."""
+        rated, updated = (len(several(values, f"{where}: {name}")) > 0 for values, name in (
+            (self.rates, "rates"), (self.updates, "updates")))
+        if rated == updated:
+            raise ValueError(f"{where} has {'both rates and updates' if rated else 'no rates'}: give rates, or updates "
+                             "with step_s for a plant in discrete time")
+        step = self.step_s
+        if updated and not (isinstance(step, int | float) and not isinstance(step, bool) and 0 < step < math.inf):
+            raise ValueError(f"{where}: step_s = {step}: give the seconds between two updates, a positive number")
+        if rated and step is not None:
+            raise ValueError(f"{where}: step_s is for updates: leave it out, or give these instead of rates")
+        if updated and self.events:
+            raise ValueError(f"{where}: events are crossings in continuous time: state cases in the updates instead")
+        return "rate" if rated else "update"
+
+    def _outputs(self, where: str) -> dict[sp.Symbol, sp.Expr]:
+        stated: Any = self.outputs
+        if not isinstance(stated, Mapping):  # a list of the states that are measured
+            stated = {symbol: symbol for symbol in several(stated, f"{where}: outputs")}
+        symbols_of([*stated], f"{where}: outputs")
+        given = {symbol: expression(value, f"{where}: output '{symbol}'") for symbol, value in stated.items()}
+        for symbol, value in given.items():
+            for other in sorted(value.free_symbols & {*self.inputs, *self.disturbances}, key=str):
+                raise ValueError(f"{where}: output '{symbol}' uses '{other}', and an output is of states and "
+                                 "parameters alone: make a state of what is measured")
+        return given or {symbol: symbol for symbol in self.states}
+
     def _check_events(self, where: str, known: Sequence[sp.Symbol]) -> None:
-        object.__setattr__(self, "events", tuple(self.events))
+        object.__setattr__(self, "events", several(self.events, f"{where}: events", Event,
+                                                   "Event(id, expression, {state: value})"))
         names = [event.id for event in self.events]
         for event in self.events:
             if names.count(event.id) > 1:
@@ -130,12 +137,13 @@ class Plant:
 
     def _limits(self, limits: Mapping[sp.Symbol, Limits], symbols: Iterable[sp.Symbol],
                 kind: str) -> dict[sp.Symbol, Limits]:
-        for symbol in limits:
+        found = named_values(limits, f"plant '{self.id}': limits of {kind}s", symbols)
+        for symbol in found:
             if symbol not in symbols:
                 raise ValueError(f"plant '{self.id}': limits of '{symbol}', which is no {kind}: name one of "
-                                 f"{', '.join(map(str, symbols))}")
+                                 f"{', '.join(map(str, symbols)) or 'none'}")
         return {symbol: interval(pair, f"plant '{self.id}': limits of {kind} '{symbol}'")
-                for symbol, pair in limits.items()}
+                for symbol, pair in found.items()}
 
     @property
     def parameter_symbols(self) -> tuple[sp.Symbol, ...]:
@@ -143,8 +151,18 @@ class Plant:
         return tuple(parameter.symbol for parameter in self.parameters)
 
     @property
+    def moves(self) -> tuple[sp.Expr, ...]:
+        """Rates, or in discrete time updates: one expression a state."""
+        return tuple(self.rates) or tuple(self.updates)
+
+    @property
     def flow(self) -> dict[sp.Expr, sp.Expr]:
-        """State to rate, as a goal of the prover takes it; time runs with rate one where the rates name it."""
+        """State to rate, as a goal of the prover takes it; time runs with rate one where the rates name it.
+
+        Raises ValueError for a plant in discrete time.
+        """
+        if self.updates:
+            raise ValueError(f"plant '{self.id}' moves in steps and has no rates: take next_values(plant, law)")
         return dict(zip(self.states, self.rates, strict=True))
 
     def values(self, given: Mapping[str, Any] | None = None) -> dict[str, float]:
@@ -162,8 +180,8 @@ class Plant:
 
     def rates_at(self, states: Sequence[float], inputs: Sequence[float] = (), *, disturbances: Sequence[float] = (),
                  parameters: Mapping[str, Any] | None = None, t: float = 0.0) -> NDArray[np.float64]:
-        """x' at a point, an array of n numbers."""
-        return np.array(self._numeric(self.rates)(t, *states, *self._all(inputs, self.inputs),
+        """x' at a point, of a plant in discrete time its next state: an array of n numbers."""
+        return np.array(self._numeric(self.moves)(t, *states, *self._all(inputs, self.inputs),
                                                   *self._all(disturbances, self.disturbances),
                                                   *self.values(parameters).values()), dtype=float)
 
@@ -178,23 +196,26 @@ class Plant:
         """The linear plant about a point, states and inputs by their names (zero where none is given), at time zero.
 
         A `control.StateSpace` with the exact derivatives; its inputs are the plant's. Raises ValueError for a name
-        that is no state and no input.
+        that is no state and no input, and a point where there is no derivative.
         """
         import control  # noqa: PLC0415 - takes half a second, which no other user of a plant pays
 
-        point = self._point(at)
-        values = [*point.values(), *([0.0] * len(self.disturbances)), *self.values(parameters).values()]
-        rows = sp.Matrix(self.rates), sp.Matrix(list(self.outputs.values()))
-        x, u = sp.Matrix(self.states), sp.Matrix(self.inputs)
-        parts = [row.jacobian(by) if len(by) else sp.zeros(len(row), 0) for row in rows for by in (x, u)]
-        A, B, C, D = (np.array(self._numeric(list(part))(0.0, *values), dtype=float).reshape(part.shape)
-                      for part in parts)
+        if not self.inputs:
+            raise ValueError(f"plant '{self.id}' has no input, which a StateSpace needs: give it one that does nothing")
+        values = {**self._point(at), **dict.fromkeys(map(str, self.disturbances), 0.0), **self.values(parameters)}
+        known = {str(s): s for s in (*self.states, *self.inputs, *self.disturbances, *self.parameter_symbols)}
+        point = {known[name]: sp.Float(value, 17) for name, value in values.items()} | {time: sp.Integer(0)}
+        try:
+            A, B, C, D = (jacobian_at(rows, by, point) for rows in (self.moves, [*self.outputs.values()])
+                          for by in (self.states, self.inputs))
+        except ValueError as trouble:
+            raise ValueError(f"plant '{self.id}': {trouble}") from None
         return control.ss(A, B, C, D, states=[*map(str, self.states)], inputs=[*map(str, self.inputs)],
-                          outputs=[*map(str, self.outputs)])
+                          outputs=[*map(str, self.outputs)], dt=self.step_s or 0)
 
     def _point(self, at: Mapping[str, float] | None) -> dict[str, float]:
         point = {str(symbol): 0.0 for symbol in (*self.states, *self.inputs)}
-        for name, value in (at or {}).items():
+        for name, value in named_values(at or {}, "at").items():
             if str(name) not in point:
                 raise ValueError(f"'{name}' is no state and no input of plant '{self.id}': name one of "
                                  f"{', '.join(point)}")
@@ -205,7 +226,7 @@ class Plant:
         """A `control.NonlinearIOSystem` with the plant's states, inputs and outputs; disturbances are inputs too."""
         import control  # noqa: PLC0415 - as in `linearise`
 
-        rates, outputs = self._numeric(self.rates), self._numeric(list(self.outputs.values()))
+        rates, outputs = self._numeric(self.moves), self._numeric(list(self.outputs.values()))
         values = [*self.values(parameters).values()]
 
         def update(t: float, x: Sequence[float], u: Sequence[float], params: Any) -> NDArray[np.float64]:
@@ -216,10 +237,11 @@ class Plant:
 
         return control.NonlinearIOSystem(
             update, output, name=self.id.replace(".", "_"), states=[*map(str, self.states)],
-            inputs=[*map(str, (*self.inputs, *self.disturbances))], outputs=[*map(str, self.outputs)])
+            inputs=[*map(str, (*self.inputs, *self.disturbances))], outputs=[*map(str, self.outputs)],
+            dt=self.step_s or 0)
 
     def to_casadi(self, parameters: Mapping[str, Any] | None = None) -> Any:
-        """A `casadi.Function` (t, x, u, d) -> x' of the same expressions, parameters put in."""
+        """A `casadi.Function` (t, x, u, d) -> x', in discrete time the next x, parameters put in."""
         import casadi as ca  # noqa: PLC0415 - as in `linearise`
 
         t, x, u, d = (ca.SX.sym(name, size) for name, size in (
@@ -228,5 +250,6 @@ class Plant:
                  **(dict(zip(self.inputs, ca.vertsplit(u), strict=True)) if self.inputs else {}),
                  **(dict(zip(self.disturbances, ca.vertsplit(d), strict=True)) if self.disturbances else {}),
                  **dict(zip(self.parameter_symbols, self.values(parameters).values(), strict=True))}
-        rates = casadi_of(self.rates, known, t)
-        return ca.Function("rates", [t, x, u, d], [ca.vertcat(*rates)], ["t", "x", "u", "d"], ["rates"])
+        name = "updates" if self.updates else "rates"
+        return ca.Function(name, [t, x, u, d], [ca.vertcat(*casadi_of(self.moves, known, t))], ["t", "x", "u", "d"],
+                           [name])

@@ -14,12 +14,13 @@ from numpy.typing import NDArray
 from workbench.systems.law import Reference
 from workbench.systems.metric import Metric
 from workbench.systems.plant import Plant
-from workbench.systems.signals import AnySignal, Constant
-from workbench.systems.symbols import CLOCK, require_known
+from workbench.systems.signals import AnySignal, Constant, signal_of
+from workbench.systems.symbols import CLOCK, named_values, require_known, several
 
 Array = NDArray[np.float64]
 Integrator = Literal["rk4", "radau", "bdf", "lsoda"]
 MOST_STEPS = 100_000_000
+UNSTATED, A_MILLISECOND = math.nan, 1e-3  # the step where none is given: a plant's own, else a millisecond
 
 
 @dataclass(frozen=True)
@@ -29,13 +30,14 @@ class Setting:
     parameters: true values instead of the plant's own; initial: states that are not zero; references and disturbances:
     a signal each, disturbances zero where none is given; tracks: output to the reference that it shall follow;
     noise: standard deviation of each output's measurement, drawn anew at each sample from `seed`; late_s: how old a
-    measurement is; lag_s: time constant of an input; delay_s: of an input; integrator: classical Runge-Kutta of fixed
+    measurement is; lag_s: time constant of an input; delay_s: of an input; step_s: of the plant, a millisecond unless
+    given, in discrete time its own; integrator: classical Runge-Kutta of fixed
     step, or a solver of scipy for stiff plants. Raises ValueError, one line naming what does not fit.
     """
 
     plant: Plant
     duration_s: float
-    step_s: float = 1e-3
+    step_s: float = UNSTATED
     log_every_s: float | None = None
     parameters: Mapping[str, float] = field(default_factory=dict)
     initial: Mapping[str, float] = field(default_factory=dict)
@@ -52,6 +54,7 @@ class Setting:
 
     def __post_init__(self) -> None:
         plant = self.plant
+        object.__setattr__(self, "step_s", self._step())
         for name in ("duration_s", "step_s"):
             if not (math.isfinite(getattr(self, name)) and getattr(self, name) > 0):
                 raise ValueError(f"{name} = {getattr(self, name)}: give a positive number of seconds")
@@ -60,16 +63,23 @@ class Setting:
         self._check_integrator()
         object.__setattr__(self, "parameters", plant.values(self.parameters))
         outputs, inputs = [*map(str, plant.outputs)], [*map(str, plant.inputs)]
+        for key in ("references", "disturbances"):
+            object.__setattr__(self, key, {_name(name): signal_of(value, f"{key}.{_name(name)}")
+                                           for name, value in named_values(getattr(self, key), key).items()})
+        object.__setattr__(self, "tracks", {name: _name(channel)
+                                            for name, channel in named_values(self.tracks, "tracks").items()})
+        object.__setattr__(self, "metrics", several(self.metrics, "metrics", Metric, "Metric(id, measure, expression)"))
         for key, kind, names in (("initial", "state", [*map(str, plant.states)]),
                                  ("disturbances", "disturbance", [*map(str, plant.disturbances)]),
                                  ("tracks", "output", outputs), ("noise", "output", outputs),
                                  ("late_s", "output", outputs), ("lag_s", "input", inputs),
                                  ("delay_s", "input", inputs)):
-            object.__setattr__(self, key, {str(name): value for name, value in getattr(self, key).items()})
+            object.__setattr__(self, key, {_name(name): value
+                                           for name, value in named_values(getattr(self, key), key).items()})
             self._require_names(key, kind, names)
         for key in ("noise", "late_s", "lag_s", "delay_s", "initial"):
             for name, value in getattr(self, key).items():
-                if not math.isfinite(value) or (key != "initial" and value < 0):
+                if isinstance(value, str | bool) or not math.isfinite(value) or (key != "initial" and value < 0):
                     raise ValueError(f"{key}.{name} = {value}: give a finite number"
                                      f"{'' if key == 'initial' else ' that is not negative'}")
         for name, value in self.delay_s.items():
@@ -82,10 +92,19 @@ class Setting:
             raise ValueError(f"two metrics are called '{max(names, key=names.count)}': rename one")
         require_known({f"metric '{m.id}'": m.expression for m in self.metrics}, self.symbols, f"plant '{plant.id}'")
 
+    def _step(self) -> float:
+        own = self.plant.step_s
+        if own is not None and not math.isnan(self.step_s) and self.step_s != own:
+            raise ValueError(f"step_s = {self.step_s:g}: plant '{self.plant.id}' moves in steps of {own:g} s: leave it "
+                             "out")
+        return (own or A_MILLISECOND) if math.isnan(self.step_s) else self.step_s
+
     def _check_integrator(self) -> None:
         if self.integrator not in get_args(Integrator):
             raise ValueError(f"integrator '{self.integrator}' is not known: it is one of "
                              f"{', '.join(get_args(Integrator))}")
+        if self.plant.updates and self.integrator != "rk4":
+            raise ValueError(f"integrator '{self.integrator}': plant '{self.plant.id}' moves in steps: leave it out")
         if self.plant.events and self.integrator != "rk4":
             raise ValueError(f"integrator '{self.integrator}': plant '{self.plant.id}' has events, which are located "
                              "within Runge-Kutta steps alone: take 'rk4' and a short step_s")
@@ -152,6 +171,11 @@ class Setting:
     def varied(self, **changes: Any) -> Setting:
         """The same setting with other fields."""
         return replace(self, **changes)
+
+
+def _name(key: object) -> str:
+    """The name of a symbol, of a reference, or what is a name already."""
+    return key.name if isinstance(key, Reference) else str(key)
 
 
 def limits_of(setting: Setting) -> tuple[Array, Array]:

@@ -94,6 +94,16 @@ Signal = Annotated[Constant | Step | Ramp | Sine | Spline, Field(discriminator="
 AnySignal = Constant | Step | Ramp | Sine | Spline
 
 
+def signal_of(value: object, where: str) -> AnySignal:
+    """A signal, a number as one that is constant; ValueError naming `where` for anything else."""
+    if isinstance(value, AnySignal):
+        return value
+    if isinstance(value, int | float | np.number) and math.isfinite(value):
+        return Constant(value=float(value))
+    raise ValueError(f"{where} = {value} is no signal: give a number, Constant, Step, Ramp, Sine, or a Spline through "
+                     "points")
+
+
 def read_signal(signal: AnySignal, folder: Path) -> AnySignal:
     """The signal with what its file holds; InputError naming the file, row and remedy."""
     if not isinstance(signal, Spline) or signal.file is None:
@@ -133,7 +143,7 @@ def table_of(signals: Sequence[AnySignal]) -> tuple[Array, Array]:
                 row[:4] = STEP, before, after - before, at
             case Sine(offset=offset, amplitude=amplitude, period_s=period, phase_rad=phase):
                 row[:5] = SINE, offset, amplitude, 2 * math.pi / period, phase
-            case Spline():
+            case _:
                 found = _pieces(signal)
                 row[0], row[5], row[6] = SPLINE, sum(map(len, pieces)), len(found)
                 pieces.append(found)

@@ -11,6 +11,7 @@ import sympy as sp
 
 from workbench.model.law import period, time
 
+Limits = tuple[float, float]
 # What every expression may use, and no plant or law may call its own.
 CLOCK = (time, period)
 
@@ -32,9 +33,32 @@ def expression(value: Any, where: str) -> sp.Expr:
     return found
 
 
-def symbols_of(values: Iterable[Any], where: str) -> tuple[sp.Symbol, ...]:
-    """Real symbols, each with a name of its own; ValueError naming `where`."""
+def several(values: Any, where: str, of: type | None = None, write: str = "") -> tuple[Any, ...]:
+    """What was given as a list or tuple; ValueError naming `where` for a single one, and for what is not `of` a kind.
+
+    write: how one of them is written.
+    """
+    single = isinstance(values, str | sp.Basic) and not isinstance(values, sp.MatrixBase)
+    if single or not isinstance(values, Iterable | sp.MatrixBase):
+        raise ValueError(f"{where} is {values}, no list: write ({write or values},)")
     found = tuple(values)
+    for value in found:
+        if of is not None and not isinstance(value, of):
+            raise ValueError(f"{where}: {value} is no {of.__name__}: write {write}")
+    return found
+
+
+def named_values(values: Any, where: str, symbols: Iterable[sp.Symbol] = ()) -> dict[Any, Any]:
+    """A table whose keys may be symbols or their names, which become the symbols; ValueError for what is no table."""
+    if not isinstance(values, Mapping):
+        raise ValueError(f"{where} is {values}, no table: write {{symbol: value}}")
+    by_name = {str(symbol): symbol for symbol in symbols}
+    return {by_name.get(key, key) if isinstance(key, str) else key: value for key, value in values.items()}
+
+
+def symbols_of(values: Any, where: str) -> tuple[sp.Symbol, ...]:
+    """Real symbols; ValueError naming `where`."""
+    found = several(values, where)
     for value in found:
         if not isinstance(value, sp.Symbol):
             raise ValueError(f"{where}: {value!r} is no symbol: write sympy.Symbol('x', real=True)")
@@ -55,7 +79,8 @@ def require_distinct(groups: Mapping[str, Iterable[sp.Symbol]], where: str) -> N
                 raise ValueError(f"{where}: '{symbol}' is a name of {what}: give each a name of its own")
 
 
-def require_known(expressions: Mapping[str, sp.Expr], known: Iterable[sp.Symbol], where: str) -> None:
+def require_known(expressions: Mapping[str, sp.Expr], known: Iterable[sp.Symbol], where: str,
+                  remedy: str = "make it a state, an input, a disturbance or a parameter") -> None:
     """ValueError for the first symbol without a value; a near name, or the same with other assumptions, is told."""
     allowed = set(known) | set(CLOCK)
     names = {str(symbol): symbol for symbol in allowed}
@@ -66,15 +91,15 @@ def require_known(expressions: Mapping[str, sp.Expr], known: Iterable[sp.Symbol]
                 hint = "has other assumptions than the declared symbol of that name: use the same object"
             else:
                 close = get_close_matches(name, names, n=1)
-                hint = f"is not declared: did you mean '{close[0]}'?" if close else (
-                    "is not declared: make it a state, an input, a disturbance or a parameter")
+                hint = f"is not declared: did you mean '{close[0]}'?" if close else f"is not declared: {remedy}"
             raise ValueError(f"{where}: {what} uses '{name}', which {hint}")
 
 
-def interval(limits: Any, where: str) -> tuple[float, float]:
-    """(lower, upper), infinities allowed; ValueError where reversed or no numbers."""
+def interval(limits: Any, where: str) -> Limits:
+    """(lower, upper), None or infinite where there is none; ValueError where reversed or no numbers."""
     try:
-        low, high = (float(value) for value in limits)
+        low, high = limits
+        low, high = -math.inf if low is None else float(low), math.inf if high is None else float(high)
     except (TypeError, ValueError):
         raise ValueError(f"{where} = {limits!r} is no pair of numbers: write (lower, upper)") from None
     if math.isnan(low) or math.isnan(high):

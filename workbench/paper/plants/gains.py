@@ -11,10 +11,13 @@ import numpy as np
 import sympy as sp
 
 from workbench.errors import InputError
+from workbench.files.numbers import number
 from workbench.gains.enclosure import stated_number
 from workbench.gains.exact import fraction
 from workbench.gains.feedback import decaying
-from workbench.gains.linearised import linearised
+from workbench.gains.frequency import feedback_margins
+from workbench.gains.linearised import LinearPlants, linearised, output_matrix
+from workbench.gains.output_feedback import output_decaying
 from workbench.gains.result import GainReport, GainSet, Quantity
 from workbench.gains.stated import Stated
 from workbench.paper.gain_search import GainSearch, Row, Task
@@ -32,18 +35,20 @@ def feedback_search(paper: str, plant: Plant, rate: str, radius: Mapping[str, st
                     at: Mapping[str, Any] | None = None) -> GainSearch:
     """The least feedback that is proved to decay by `rate` (1/s) from all states within `radius` of a point of rest.
 
-    rate and radius: decimals as text, a radius for each state; at: states and inputs of the point by name, zero where
-    none is given. Proved for every linearisation that the parameters' known intervals allow; the runs are of the plant
-    itself, from the border of these radii, with all uncertain parameters at their least, then at their largest. The
-    search raises InputError for what it cannot take.
+    Where a plant does not measure all its states, an output feedback is sought by iteration, whose commands are not
+    the least. rate and radius: decimals as text, a radius for each state; at: states and inputs of the point by name,
+    zero where none is given. Proved for every linearisation that the parameters' known intervals allow; the runs are
+    of the plant itself, from the border of these radii, with all uncertain parameters at their least, then at their
+    largest. The search raises InputError for what it cannot take.
     """
     name, point = f"{paper}:feedback", dict(at or {})
 
     def report(stated: Stated) -> GainReport:
-        _check_measured(plant)
-        decay, radii = _positive(plant, "rate", rate), _radii(plant, radius)
+        decay, radii = positive(plant, "rate", rate), _radii(plant, radius)
         plants = linearised(plant, point)
         room = _room(plant, point)
+        if not measures_all(plant):
+            return _of_outputs(paper, name, plant, point, plants, decay, radii)
         found = decaying(name, plants, decay, radii, room)
         bounds = ", ".join(f"{u} within {found.bound * float(room.get(u, 1)):.3g}" for u in plants.inputs)
         values = {f"K_{u}_{x}": fraction(found.K[i, j]) for i, u in enumerate(plants.inputs)
@@ -56,7 +61,7 @@ def feedback_search(paper: str, plant: Plant, rate: str, radius: Mapping[str, st
             (GainSet("feedback", "least command among those that decay so fast", values,
                      f"decay {float(decay):.3g} 1/s for every linear plant", name),), (found.found.certificate,),
             ("What is proved is of the plant linearised at the point, without limits; the runs are of the plant "
-             "itself.",
+             "itself.", *margin_sentences(plants, found.K),
              *(f"The limits of {u} are less than its bound: where it saturates, nothing is proved." for u in beyond)),
             {name: found.found.seconds})
 
@@ -70,8 +75,9 @@ def feedback_search(paper: str, plant: Plant, rate: str, radius: Mapping[str, st
     def run(loaded: Loaded, task: Task) -> tuple[Row, str | None]:
         duration, radii = LENGTHS / float(Fraction(rate)), _radii(plant, radius)
         K = {key: sp.Symbol(key, real=True) for key in task.values["K"]}
-        law = StateLaw(name, {u: _at(point, u) + sum((K[f"K_{u}_{x}"] * (x - _at(point, x)) for x in plant.states),
-                                                     sp.Integer(0)) for u in plant.inputs}, parameters=[*K.values()])
+        fed = {y: y - _output_at(plant, point, y) for y in (plant.states if measures_all(plant) else plant.outputs)}
+        law = StateLaw(name, {u: _at(point, u) + sum((K[f"K_{u}_{y}"] * off for y, off in fed.items()), sp.Integer(0))
+                              for u in plant.inputs}, parameters=[*K.values()])
         start = {str(x): float(_at(point, x)) + float(radii[str(x)]) / sqrt(len(radii)) for x in plant.states}
         step = duration / SAMPLES
         done = run_plant(Setting(plant, duration, step, initial=start, parameters=task.values["parameters"]),
@@ -107,7 +113,8 @@ def _room(plant: Plant, point: Mapping[str, Any]) -> dict[str, Fraction]:
     return found
 
 
-def _positive(plant: Plant, key: str, written: str) -> Fraction:
+def positive(plant: Plant, key: str, written: str) -> Fraction:
+    """A positive number written as a decimal; InputError naming plant and key."""
     try:
         value = Fraction(written)
     except (TypeError, ValueError, ZeroDivisionError):
@@ -122,10 +129,51 @@ def _radii(plant: Plant, radius: Mapping[str, str]) -> dict[str, Fraction]:
     for name in {*names} ^ {*radius}:
         raise InputError(plant.id, f"radius.{name}", "is missing: give one for each state" if name in names else
                          f"is no state: name {', '.join(names)}")
-    return {name: _positive(plant, f"radius.{name}", radius[name]) for name in names}
+    return {name: positive(plant, f"radius.{name}", radius[name]) for name in names}
 
 
-def _check_measured(plant: Plant) -> None:
-    for state in plant.states:
-        if plant.outputs.get(state) != state:
-            raise InputError(plant.id, str(state), "is not among the outputs: what is searched feeds back all states")
+def measures_all(plant: Plant) -> bool:
+    """Whether every state is among the outputs."""
+    return all(plant.outputs.get(state) == state for state in plant.states)
+
+
+def _of_outputs(paper: str, name: str, plant: Plant, point: Mapping[str, Any], plants: LinearPlants, decay: Fraction,
+                radii: Mapping[str, Fraction]) -> GainReport:
+    """What is told of an output feedback."""
+    C = output_matrix(plant, point)
+    found = output_decaying(name, plants, C, decay, radii)
+    values = {f"K_{u}_{y}": fraction(found.F[i, j]) for i, u in enumerate(plants.inputs)
+              for j, y in enumerate(plant.outputs)}
+    return GainReport(
+        paper, (), (Quantity("decay rate of the output feedback", "1/s", None, float(decay), name,
+                             note=f"for {len(plants.extremes)} extreme plants, found after {found.turns} turns of the "
+                                  "iteration"),),
+        (GainSet("feedback", "an output feedback that decays so fast, not that of least commands", values,
+                 f"decay {float(decay):.3g} 1/s for every linear plant", name),), (found.found.certificate,),
+        ("What is proved is of the plant linearised at the point, without limits; the runs are of the plant itself.",
+         *margin_sentences(plants, found.F * C)), {name: found.found.seconds})
+
+
+def margin_sentences(plants: LinearPlants, K: sp.Matrix) -> list[str]:
+    """A sentence an input: the least margins among the extreme plants."""
+    A_B = [[np.array(part.tolist(), dtype=float) for part in pair] for pair in plants.extremes]
+    each = [feedback_margins(A, B, np.array(K.tolist(), dtype=float)) for A, B in A_B]
+    told = []
+    for k, u in enumerate(plants.inputs):
+        own = [one[k] for one in each]
+        least, most = max(one.least for one in own), min(one.most for one in own)
+        phase, delay = min(one.phase_deg for one in own), min(one.delay_s for one in own)
+        of = "the plant" if len(own) == 1 else f"{len(own)} extreme plants"
+        if isfinite(most):
+            gain = f"{number(least)} to {number(most)} times its gain"
+        else:
+            gain = f"{number(least)} times its gain or more" if least > 0 else "any gain"
+        late = f", {number(phase)} degrees of phase and a delay of {number(delay)} s" if isfinite(delay) else (
+            " and any delay")
+        told.append(f"Opened at {u} the linear loop of {of} stands {gain}{late} (python-control; not proved).")
+    return told
+
+
+def _output_at(plant: Plant, point: Mapping[str, Any], output: sp.Symbol) -> sp.Expr:
+    known = {state: _at(point, state) for state in plant.states}
+    return plant.outputs[output].xreplace({**known, **{one.symbol: sp.Float(one.value) for one in plant.parameters}})

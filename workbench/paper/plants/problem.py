@@ -18,7 +18,7 @@ from workbench.simulate.plants.run import Entrant
 from workbench.systems.law import StateLaw
 from workbench.systems.metric import Metric
 from workbench.systems.plant import Plant
-from workbench.systems.setting import Setting
+from workbench.systems.setting import UNSTATED, Setting
 from workbench.systems.signals import read_signal
 
 TUNED = " (tuned)"
@@ -48,11 +48,14 @@ class LocatedPlantStudy(PlantStudy):
         metrics = (*held_in(self.folder, "plant", Metric).values(), *held_in(self.folder, "metrics", Metric).values())
         references = {name: read_signal(signal, self.folder) for name, signal in self.reference.items()}
         disturbances = {name: read_signal(signal, self.folder) for name, signal in self.disturbance.items()}
+        if self.plant_step_s is None and self.the_plant.step_s is None:
+            raise InputError(self.file, "plant_step_s", "is missing: give the seconds of an integration step")
         try:
             return Setting(
-                self.the_plant, self.duration_s, self.plant_step_s, self.log_every_s, self.parameters, self.initial,
-                references, disturbances, self.tracks, self.sensing.noise, self.sensing.late_s, self.actuators.lag_s,
-                self.actuators.delay_s, tuple({m.id: m for m in metrics}.values()), self.sensing.seed, self.integrator)
+                self.the_plant, self.duration_s, self.plant_step_s or UNSTATED, self.log_every_s, self.parameters,
+                self.initial, references, disturbances, self.tracks, self.sensing.noise, self.sensing.late_s,
+                self.actuators.lag_s, self.actuators.delay_s, tuple({m.id: m for m in metrics}.values()),
+                self.sensing.seed, self.integrator)
         except ValueError as trouble:
             raise InputError(self.file, "", str(trouble)) from None
 

@@ -99,13 +99,13 @@ class PlantTuning(Searched):
 class PlantStudy(Study):
     """A study of a plant: everything with its unit in the name or in the plant's own declaration.
 
-    plant: its id, needed where the folder has several.
+    plant: its id, needed where the folder has several; plant_step_s: left out where it moves in steps of its own.
     """
 
     kind: Literal["plant"]
     plant: Text | None = None
     duration_s: Positive
-    plant_step_s: Positive
+    plant_step_s: Positive | None = None
     log_every_s: Positive | None = None
     integrator: Integrator = "rk4"
     parameters: Values = Field(default_factory=dict)

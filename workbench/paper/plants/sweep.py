@@ -6,6 +6,7 @@ import csv
 import io
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -44,19 +45,22 @@ class PlantSweep:
         return text.getvalue()
 
     def table(self) -> ResultTable:
-        """Mean and worst of each metric over the runs that did not fail, a row a controller."""
+        """Mean of each metric over the runs that did not fail, and its value farthest from zero, of what is a smallest
+        value the least; a row a controller."""
         metrics = self.study.setting.every_metric
         header = [Column("controller"), Column("failed runs", digits=None)]
         for metric in metrics:
             name = metric.title or metric.id.replace("_", " ")
-            header += [Column(f"{name}, mean", metric.unit), Column("largest", metric.unit)]
+            header += [Column(f"{name}, mean", metric.unit),
+                       Column(f"{name}, {'least' if metric.measure == 'smallest' else 'largest'}", metric.unit)]
         rows = []
         for controller in dict.fromkeys(row["controller"] for row in self.rows):
             own = [row for row in self.rows if row["controller"] == controller]
             cells: list[Any] = [controller, float(sum(row["failed"] is not None for row in own))]
             for metric in metrics:
                 values = [row[metric.id] for row in own if row[metric.id] is not None]
-                cells += [float(np.mean(values)), float(np.max(values))] if values else [None, None]
+                worst = min if metric.measure == "smallest" else partial(max, key=abs)
+                cells += [float(np.mean(values)), float(worst(values))] if values else [None, None]
             rows.append(tuple(cells))
         return ResultTable(f"Monte Carlo, {self.runs} runs", f"plant {self.study.the_plant.id}", tuple(header),
                            tuple(rows), "Every controller meets the same drawn plants; failed runs are left out of the "

@@ -13,7 +13,7 @@ import sympy as sp
 from numpy.typing import NDArray
 
 from workbench.compile.kernel import loop_module
-from workbench.compile.vector_code import into_array, runge_kutta_step, smallest
+from workbench.compile.vector_code import into_array, jump_step, runge_kutta_step, smallest
 from workbench.model.law import period, time
 from workbench.simulate.plants import plant_loop
 from workbench.simulate.plants.event_code import event_functions
@@ -49,8 +49,10 @@ def compiled(setting: Setting, law: StateLaw | None) -> Compiled:
     given = {"u": plant.inputs, "s": setting.signal_symbols, "p": plant.parameter_symbols}
     every = {"x": plant.states, **given}
     held = {"y": (), "s": (), "q": (), "c": ()}
+    step = jump_step(plant.updates, integrands, plant.states, given) if plant.updates else (
+        runge_kutta_step([*plant.rates, *integrands], plant.states, given))
     source = [
-        runge_kutta_step([*plant.rates, *integrands], plant.states, given),
+        step,
         into_array("plant_outputs", list(plant.outputs.values()), {"x": plant.states, "p": plant.parameter_symbols}),
         smallest("plant_margin", plant.domain, every),
         into_array("extreme_values", extremes, every), *event_functions(plant, every)]

@@ -12,12 +12,17 @@ from workbench.systems.setting import Setting
 
 STIFF = ": where the plant itself is stable, its fastest pole wants a shorter step_s, or the integrator 'radau'"
 
+UNDEFINED = ("the rates are no finite numbers there: a root, logarithm or quotient left its domain (state it as the "
+             "plant's domain), or step_s is too long for its fastest pole (shorten it, or take the integrator 'radau')")
+
 
 def why(setting: Setting, name: str, law: StateLaw | None, status: int, t: float, a: Arrays) -> str | None:
     """The line for a status of the loop or the solver; None for a run that came to its end."""
     if status == RUNNING:
         return None
     plant = setting.plant
+    if status == DIVERGED and any(not math.isfinite(value) for value in a.x[:len(plant.states)]):
+        return f"{name} diverged at t = {t:.4g} s, {_last_logged(setting, t, a)}: {UNDEFINED}"
     where = ", ".join(f"{symbol} = {value:.4g}" if math.isfinite(value) else f"{symbol} beyond all numbers"
                       for symbol, value in zip(plant.states, a.x, strict=False))
     domain = ", ".join(f"{e} > 0" for e in (plant.domain if status == OUTSIDE else law.domain if law else ()))
@@ -29,3 +34,10 @@ def why(setting: Setting, name: str, law: StateLaw | None, status: int, t: float
             NO_COMMAND: "gave a command that is no number", LAW_OUTSIDE: f"left its domain ({domain})"}
     remedy = STIFF if status == DIVERGED and setting.integrator == "rk4" else ""
     return f"{name} {what.get(status, 'was given up by the solver')} at t = {t:.4g} s, {where}{remedy}"
+
+
+def _last_logged(setting: Setting, t: float, a: Arrays) -> str:
+    """The last row of the log before t."""
+    row = a.log[max(0, round(t / setting.step_s) - 1) // a.log_every]
+    states = ", ".join(f"{symbol} = {value:.4g}" for symbol, value in zip(setting.plant.states, row[1:], strict=False))
+    return f"after {states} at t = {row[0]:.4g} s"
