@@ -171,7 +171,8 @@ def goal_of(record):
     words = {name: sp.Symbol(name, real=True) for name in names}
     words |= {name: sp.IndexedBase(name, real=True)[index] for name in record.get("indexed", [])}
     words |= {"Sum": lambda term: sp.Sum(term, (index, 1, count)), "D": D, "log": sp.log, "exp": sp.exp, "abs": sp.Abs,
-              "sqrt": sp.sqrt, "sign": sp.sign, "tanh": sp.tanh, "Max": sp.Max, "Min": sp.Min}
+              "sqrt": sp.sqrt, "sign": sp.sign, "tanh": sp.tanh, "sin": sp.sin, "cos": sp.cos, "Max": sp.Max,
+              "Min": sp.Min}
 
     def expr(text):
         return sp.sympify(text, locals=words)

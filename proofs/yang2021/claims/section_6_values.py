@@ -20,10 +20,13 @@ GAINS = as_printed({
 GRADES, CURVES = ("2", "-1.5", "0", "5", "2.5", "-3", "0", "1.2"), ("1000", "1200", "800", "1500", "700", "1300", "1200")
 GRADE_ENDS = ("3800", "9200", "21400", "23900", "29900", "32300", "50000", "53880")
 CURVE_ENDS = ("4600", "18000", "24200", "29300", "34000", "48000", "53880")
-LINE = as_printed({f"{letter}_{i}": (value, text) for letter, values, texts in (
+SECTIONS = {letter: (values, texts) for letter, values, texts in (
     ("p", [s.grade_permille for s in track.grade], GRADES), ("g", [s.end_m for s in track.grade], GRADE_ENDS),
-    ("R", [s.radius_m for s in track.curve], CURVES), ("s", [s.end_m for s in track.curve], CURVE_ENDS))
-    for i, (value, text) in enumerate(zip(values, texts, strict=True), 1)})
+    ("R", [s.radius_m for s in track.curve], CURVES), ("s", [s.end_m for s in track.curve], CURVE_ENDS))}
+LINE = as_printed({  # of another line, too, which may have other numbers of sections
+    **{f"n_{letter}": (len(values), str(len(texts))) for letter, (values, texts) in SECTIONS.items()},
+    **{f"{letter}_{i}": pair for letter, (values, texts) in SECTIONS.items()
+       for i, pair in enumerate(zip(values, texts, strict=False), 1)}})
 
 
 @paper.claim("section6.resistance", "The basic resistance of the simulated train", "condition",
@@ -47,5 +50,5 @@ def gains_as_printed() -> Goal:
              r"800, 1500, 700, 1300, 1200 up to 4600, 18,000, 24,200, 29,300, 34,000, 48,000, 53,880}", "proved", match="words", severity="data",
              at=LINE.at, rests_on=(), reading=STUDY + " Slopes in per mille, the rest in metres.")
 def line_as_printed() -> Goal:
-    """Thirty numbers."""
+    """Thirty numbers, and how many there are of each kind."""
     return LINE.goal()
