@@ -243,7 +243,8 @@ def test_errors_that_alternate_grow_as_the_study_says(study, speed_mps):
 
 def test_sampled_errors_of_the_same_sample_break_the_energy_function_that_those_of_the_next_keep(short):
     """At half the speed of sampling the printed rules learn; at a quarter they do not."""
-    coarse = changed(short, trials__count=12, sampling__acceleration="sampled", gains__gamma_a=0.03)
+    coarse = changed(short, trials__count=7, trials__shown=(1, 7), sampling__acceleration="sampled",
+                     gains__gamma_a=0.03)
     same = run_cars(plan(changed(coarse, sampling__memory="same_sample")))
     fine = run_cars(plan(changed(coarse, sampling__memory="same_sample", sampling__period_s=0.00025)))
     assert same.failed is not None or grows_from(same.difference) is not None
