@@ -92,7 +92,8 @@ def page(told: Told, contest: Contest, fronts: list[Front]) -> Iterator[str]:
         "`benchmarks/common_run.toml` unless the condition says otherwise; where anything is drawn, draws are added "
         "until who tracks best is told apart at each period, or to the most. + marks tuned parameters. Intervals are "
         f"{100 * told.contest.confidence:g} % BCa; ● is the best and all who are not told apart from it by Holm's "
-        "correction over all metrics and conditions of those who sample alike. Who learns shows its last trip.", "")
+        "correction over all metrics and conditions of those who sample alike. Who learns shows the last of its trips, "
+        "which all meet the same train, line and gusts; noise is drawn anew for each.", "")
     if left:
         yield from (f"Stated in the contest's file and not played here: {', '.join(left)}.", "")
     yield from ("## Headline", "", *(f"- {words}" for words in period_findings(told)), "")

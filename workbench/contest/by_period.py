@@ -59,7 +59,7 @@ def period_findings(told: Told) -> Iterator[str]:
         if others:
             behind = f"; told apart from them, the next is {names[others[0]]} {_interval(own, others[0], condition)}"
         learners = sum(learns(own.scenario, own.entries[i].controller) for i in means)
-        words = f", {learners} of them learn from trip to trip" if learners else ""
+        words = f" ({learners} on the last of trips that all meet the same train, line and gusts)" if learners else ""
         where = f"{own.contest.conditions[condition].title}, {own.runs(condition)} draws"
         yield (f"Commands every {1e3 * period:g} ms, {where}, {COLUMNS[TRACKING].heading}, best of {len(means)} who "
                f"arrive{words}: {', '.join(said)}{behind}.")
