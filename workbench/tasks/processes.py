@@ -41,7 +41,7 @@ def cores() -> int:
 
 @dataclass(frozen=True)
 class LocalProcesses:
-    """Spawned processes of this machine that use one thread each. Tasks of a process that dies are run again."""
+    """Processes of this machine that use one thread each. Tasks of a process that dies are run again."""
 
     workers: int
 
