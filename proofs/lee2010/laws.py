@@ -17,9 +17,9 @@ from workbench.systems.lyapunov import Lyapunov
 from .plant import J, M, R, W, down, f, g, hat, inertias, m, v, vee, x
 
 desired = tuple(Reference(f"x_{i}d") for i in (1, 2, 3))
-k_x, k_v, k_R, k_W = sp.symbols("k_x k_v k_R k_W", positive=True)
+k_x, k_v, k_r, k_w = sp.symbols("k_x k_v k_R k_Omega", positive=True)
 c = sp.Symbol("c", positive=True)  # of the cross term in V, of no law
-GAINS, MODEL = (k_x, k_v, k_R, k_W), (m, g, *inertias)
+GAINS, MODEL = (k_x, k_v, k_r, k_w), (m, g, *inertias)
 
 x_d, v_d, a_d, j_d = (sp.Matrix([reference.symbols[order] for reference in desired]) for order in range(4))
 
@@ -86,7 +86,7 @@ def misalignment(relative: sp.Matrix) -> sp.Expr:
 def moment(relative: sp.Matrix, wanted: sp.Matrix, wanted_rate: sp.Matrix) -> sp.Matrix:
     """M for a relative attitude, a desired angular velocity in desired axes, and its rate."""
     seen = relative.T * wanted
-    return (-k_R * attitude_error(relative) - k_W * (W - seen) + W.cross(J * W)
+    return (-k_r * attitude_error(relative) - k_w * (W - seen) + W.cross(J * W)
             - J * (hat(W) * seen - relative.T * wanted_rate))
 
 
@@ -111,7 +111,7 @@ no_feedforward = StateLaw(
 level = StateLaw(
     "lee2010.level", title="levelling alone", information="full state, model known",
     source="the law of the attitude with a desired attitude at rest, under the thrust of hovering",
-    commands=commands(m * g, moment(R, at_rest, at_rest)), parameters=(k_R, k_W, *MODEL))
+    commands=commands(m * g, moment(R, at_rest, at_rest)), parameters=(k_r, k_w, *MODEL))
 
-V = (W.T * J * W)[0] / 2 + k_R * misalignment(R)
+V = (W.T * J * W)[0] / 2 + k_r * misalignment(R)
 lyapunov = Lyapunov("V", V, level)

@@ -14,12 +14,16 @@ rotors = sp.Matrix(sp.symbols("f_1:5", real=True))
 MIXING = sp.Matrix([[1, 1, 1, 1], [0, -arm, 0, arm], [arm, 0, -arm, 0], [-drag, drag, -drag, drag]])
 
 
-@paper.claim("1", "Every thrust and moment is one of four rotors", "identity",
-             r"\det \begin{pmatrix} 1 & 1 & 1 & 1 \\ 0 & -d & 0 & d \\ d & 0 & -d & 0 \\ -c & c & -c & c \end{pmatrix} "
-             r"= 8 c d^2", "proved", reading="c is the paper's c with index tau f.")
+@paper.claim("1", "Thrust and moments by the rotors", "implication",
+             r"\begin{pmatrix} f \\ M_1 \\ M_2 \\ M_3 \end{pmatrix} = \begin{pmatrix} 1 & 1 & 1 & 1 \\ 0 & -d & 0 & d \\ "
+             r"d & 0 & -d & 0 \\ -c & c & -c & c \end{pmatrix} \begin{pmatrix} f_1 \\ f_2 \\ f_3 \\ f_4 \end{pmatrix}",
+             "proved", reading="The conclusion is ours: each rotor's thrust by the four. c is the paper's c with index tau f.")
 def mixing() -> Goal:
-    """So thrust and moments may be taken as inputs, with rotors that may push either way."""
-    return Goal((equal(MIXING.det(), 8 * drag * arm**2),))
+    """Thrust and moments may be taken as inputs, with rotors that may push either way."""
+    made = tuple(equal(one, two) for one, two in zip((f, *M), MIXING * rotors, strict=True))
+    signs = ((0, 1, -1), (-1, 0, 1), (0, -1, -1), (1, 0, 1))
+    return Goal(tuple(equal(rotor, f / 4 + (a * M[0] + b * M[1]) / (2 * arm) + turn * M[2] / (4 * drag))
+                      for rotor, (a, b, turn) in zip(rotors, signs, strict=True)), made)
 
 
 @paper.claim("2", "Position", "identity", r"\dot x = v", "proved")
