@@ -62,8 +62,9 @@ thrust_rate = -force_rate.dot(axis) - force.dot(axis_rate)
 jerk_error = -(thrust_rate * axis + thrust * axis_rate) / m - j_d
 force_second = -k_x * acceleration_error - k_v * jerk_error
 
-third = Moving(-force, -force_rate, -force_second).direction()
-across = third.cross(still(sp.Matrix([1, 0, 0])))
+downward = Moving(-force, -force_rate, -force_second)
+across = downward.cross(still(sp.Matrix([1, 0, 0])))  # whose direction is that of b_3d x b_1d, in fewer terms
+third = downward.direction()
 second = across.direction()
 first = second.cross(third)
 R_d = sp.Matrix.hstack(first.value, second.value, third.value)
@@ -96,7 +97,8 @@ def commands(of_thrust: sp.Expr, of_moment: sp.Matrix) -> dict[sp.Symbol, sp.Exp
 
 
 at_rest = sp.zeros(3, 1)
-DOMAIN = (force.dot(force), across.value.dot(across.value))
+# Where the force has a part across the heading, it does not vanish.
+DOMAIN = (across.value.dot(across.value),)
 
 geometric = StateLaw(
     "lee2010.geometric", title="geometric tracking", information="full state, model known", references=desired,
