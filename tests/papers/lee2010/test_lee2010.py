@@ -1,4 +1,4 @@
-"""lee2010: desired rates against finite differences, and the recovery from upside down against the published example."""
+"""lee2010: desired rates against finite differences, the recovery from upside down against the published example."""
 
 import numpy as np
 import pytest
