@@ -7,6 +7,7 @@ import ast
 from workbench.kernel.derivative import Differentiation
 from workbench.kernel.functions import Functions
 from workbench.kernel.normal import joined
+from workbench.kernel.totals import Closed, Total, total, tree_of, written
 from workbench.kernel.syntax import (
     NAMED,
     RELATIONS,
@@ -39,7 +40,7 @@ class Script(Functions):
                 continue
             each = condition.startswith("forall")
             equation, value = self.evaluate(part, each)
-            shown = self.positive(value, wanted)
+            shown = self._shown(part, value, wanted) if not each else self.positive(value, wanted)
             if wanted != "non-negative":
                 self.sign(value.num, strict=False)
             _, intros = self.every(each)
@@ -47,6 +48,9 @@ class Script(Functions):
             self.facts.conditions[condition] = name
             if each:
                 self.facts.each.append(name)
+
+    def _shown(self, part: ast.expr, value: Ratio, wanted: str) -> str:
+        return self.nonnegative(part) if wanted == "non-negative" else self.positive(value, wanted)
 
     def assumption(self, text: str, hypothesis: str) -> None:
         """An assumption in force, as the checker reads it, from the hypothesis that says it as it is written."""
@@ -75,6 +79,10 @@ class Script(Functions):
         sums: dict[str, tuple[str, str, Ratio]] = {}
 
         def summed(part: ast.expr) -> ast.expr | None:
+            if called(part, "Sum") and isinstance(self.context, Closed):
+                equation, tree = self._total(part.args[0])  # type: ignore[attr-defined]
+                rewrites.append(equation)
+                return tree
             if called(part, "Sum"):
                 found = self._sum(part.args[0])  # type: ignore[attr-defined]
                 sums[f"{NAMED}{found[1]}"] = found
@@ -143,6 +151,48 @@ class Script(Functions):
                           f"rewrite {name}_is. apply bigsum_ext. intros i _. apply {equation}.")
         self.facts.sums[text] = whole, name, term
         return whole, name, term
+
+    def _total(self, inner: ast.expr) -> tuple[str, ast.expr]:
+        """The equation of a sum that is a number of its own, and that number by the names of the totals in it."""
+        text = text_of(inner, self.normal.letters)
+        if text in self.facts.totals:
+            return self.facts.totals[text]
+        equation, term = self.evaluate(inner, each=True)
+        found = self.total(term)
+        tree = tree_of(found.value, self.normal)
+        _, intros = self.every(True)
+        whole = self.show("S", f"(bigsum n (fun i => {text})) = {text_of(tree, self.normal.letters)}",
+                          f"transitivity {found.text}; [|same]. rewrite {found.proof}. apply bigsum_ext. {intros}"
+                          f"intros _. refine (eq_trans ({equation} i) _). cbv beta. same.")
+        self.facts.totals[text] = whole, tree
+        return whole, tree
+
+    def total(self, term: Ratio) -> Total:
+        """The sum of a term over the index, by totals that have their names."""
+        parts = total(term, self.normal)
+        for part in parts:
+            for value in part:
+                self.prepare(value)
+        return written(parts, self.normal)
+
+    def nonnegative(self, node: ast.expr) -> str:
+        """The Coq term that the value of an expression is not negative: by its terms, or since it is written so."""
+        equation, value = self.evaluate(node)
+        try:
+            return self.positive(value, "non-negative")
+        except NotExportedError:
+            return self.show("F", f"0 <= {self.normal.value(value)}", f"rewrite <- {equation}. exact {self.squares(node)}.")
+
+    def squares(self, node: ast.expr) -> str:
+        """The Coq term that what is written as even powers, and sums of them, is not negative."""
+        match node:
+            case ast.BinOp(left=base, op=ast.Pow(), right=ast.Constant(value=int(power))) if power % 2 == 0:
+                return f"(even_power {text_of(base, self.normal.letters)} {power // 2})"
+            case ast.BinOp(left=left, op=ast.Add(), right=right):
+                return f"(Rplus_le_le_0_compat _ _ {self.squares(left)} {self.squares(right)})"
+            case ast.Call(func=ast.Name(id="Sum"), args=[inner]):
+                return f"(bigsum_nonneg n _ (fun i _ => {self.squares(inner)}))"
+        raise NotExportedError("a sign that is not seen as it is written")
 
     def rate(self, node: ast.expr) -> tuple[str, ast.expr]:
         """The equation of a derivative D(...), and its expression."""
