@@ -178,8 +178,8 @@ def found(dask, paper, tmp_path_factory):
     out = tmp_path_factory.mktemp("out")
     (out / "program.py").write_text(PROGRAM)
     done = subprocess.run([sys.executable, out / "program.py", address, str(scheduler.pid), str(paper), str(out)],
-                          env={**os.environ, **OURS, "PYTHONPATH": str(ROOT)}, capture_output=True, text=True, timeout=300,
-                          check=False)
+                          env={**os.environ, **OURS, "PYTHONPATH": str(ROOT)}, capture_output=True, text=True,
+                          timeout=300, check=False)
     assert (done.returncode, done.stderr) == (0, "")
     return json.loads(done.stdout), out
 
@@ -238,8 +238,10 @@ def test_a_scheduler_that_is_lost_or_not_there_is_said_in_a_line_and_nothing_is_
     said, _ = found
     assert said["scheduler"].startswith("WorkbenchError: --dask: the scheduler is gone")
     assert said["nobody"].startswith("--dask: no scheduler answers at 'tcp://127.0.0.1:")
-    assert any("dask_worker" in line for line in commands()), "what was started from here is seen"
     assert left() == []
+    with subprocess.Popen(["sleep", "60"], env=os.environ | OURS) as seen:
+        assert commands() == ["sleep 60 "], "what is started from here is looked at"
+        seen.kill()
 
 
 def test_options_that_do_not_fit_a_cluster_are_refused(found):

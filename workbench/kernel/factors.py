@@ -9,7 +9,7 @@ from typing import Any
 from workbench.kernel.script import Script
 from workbench.kernel.syntax import FUNCTIONS, NotExportedError
 from workbench.kernel.totals import Closed
-from workbench.proof.checker import SUM, Ratio, atoms_of, constant, number, parse, symbol
+from workbench.proof.checker import SUM, Ratio, atoms_of, constant, number, symbol
 
 
 @dataclass(frozen=True)
@@ -128,7 +128,7 @@ def _fact(script: Script, name: str, text: str) -> Factor:
         case "sqrt_square":
             value, sign = worth * worth + -inner, "=="
             bare = f"({call} * {call} - {argument})"
-            lemma = f"apply sqrt_squared. exact {script.nonnegative(parse(text))}."
+            lemma = f"apply sqrt_squared. exact {script.positive(inner, 'non-negative')}."
         case "sqrt_positive":
             value, sign, bare = worth, ">", call
             lemma = f"apply sqrt_lt_R0. exact {script.positive(inner)}."

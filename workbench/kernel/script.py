@@ -7,7 +7,6 @@ import ast
 from workbench.kernel.derivative import Differentiation
 from workbench.kernel.functions import Functions
 from workbench.kernel.normal import joined
-from workbench.kernel.totals import Closed, Total, total, tree_of, written
 from workbench.kernel.syntax import (
     NAMED,
     RELATIONS,
@@ -19,6 +18,7 @@ from workbench.kernel.syntax import (
     split_margin,
     text_of,
 )
+from workbench.kernel.totals import Closed, Total, total, tree_of, written
 from workbench.proof.checker import SUM, Ratio, atoms_of, constant, margin, same, split_relation
 
 MARGINS = {"<=": "le", "<": "lt", ">=": "ge", ">": "gt", "==": "eq", "!=": "ne"}  # names of lemmas
@@ -40,7 +40,7 @@ class Script(Functions):
                 continue
             each = condition.startswith("forall")
             equation, value = self.evaluate(part, each)
-            shown = self._shown(part, value, wanted) if not each else self.positive(value, wanted)
+            shown = self._signed(part, value, wanted, equation)
             if wanted != "non-negative":
                 self.sign(value.num, strict=False)
             _, intros = self.every(each)
@@ -48,9 +48,6 @@ class Script(Functions):
             self.facts.conditions[condition] = name
             if each:
                 self.facts.each.append(name)
-
-    def _shown(self, part: ast.expr, value: Ratio, wanted: str) -> str:
-        return self.nonnegative(part) if wanted == "non-negative" else self.positive(value, wanted)
 
     def assumption(self, text: str, hypothesis: str) -> None:
         """An assumption in force, as the checker reads it, from the hypothesis that says it as it is written."""
@@ -103,6 +100,12 @@ class Script(Functions):
             if not same(linear, self.context.node(node)):
                 raise NotExportedError("an expression reads differently here and in the checker")
             return equation, linear
+        return self._beside_sums(node, equation, linear, sums)
+
+    def _beside_sums(self, node: ast.expr, equation: str, linear: Ratio, sums: dict[str, tuple[str, str, Ratio]],
+                     ) -> tuple[str, Ratio]:
+        """The same where sums have names in `linear`: what stands outside of the sum over the index, and its term."""
+        text = text_of(node, self.normal.letters)
         if linear.den != constant(1) and atoms_of(Ratio(linear.den)) & sums.keys():
             raise NotExportedError("a sum below a fraction bar")
         outside = Ratio({m: c for m, c in linear.num.items() if not {a for a, _ in m} & sums.keys()}, linear.den)
@@ -175,13 +178,15 @@ class Script(Functions):
                 self.prepare(value)
         return written(parts, self.normal)
 
-    def nonnegative(self, node: ast.expr) -> str:
-        """The Coq term that the value of an expression is not negative: by its terms, or since it is written so."""
-        equation, value = self.evaluate(node)
+    def _signed(self, part: ast.expr, value: Ratio, wanted: str, equation: str) -> str:
+        """The Coq term of the sign of an expression's value: by its terms, or as the expression is written."""
         try:
-            return self.positive(value, "non-negative")
+            return self.positive(value, wanted)
         except NotExportedError:
-            return self.show("F", f"0 <= {self.normal.value(value)}", f"rewrite <- {equation}. exact {self.squares(node)}.")
+            if wanted != "non-negative" or not isinstance(self.context, Closed):
+                raise
+            return self.show("F", f"0 <= {self.normal.value(value)}",
+                             f"rewrite <- {equation}. exact {self.squares(part)}.")
 
     def squares(self, node: ast.expr) -> str:
         """The Coq term that what is written as even powers, and sums of them, is not negative."""

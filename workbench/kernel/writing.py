@@ -28,8 +28,8 @@ class Facts:
 
     def copied(self) -> Facts:
         """The same facts, for a subproof."""
-        return Facts(set(self.atoms), dict(self.calls), dict(self.sums), dict(self.totals), dict(self.rates), dict(self.signs),
-                     list(self.nonzero), dict(self.conditions), list(self.each))
+        return Facts(set(self.atoms), dict(self.calls), dict(self.sums), dict(self.totals), dict(self.rates),
+                     dict(self.signs), list(self.nonzero), dict(self.conditions), list(self.each))
 
 
 class Writing:
