@@ -13,10 +13,12 @@ from types import ModuleType
 
 from workbench.errors import ClaimError, InputError
 from workbench.files.folders import CLAIMS_FOLDER, PAPER_FILE
+from workbench.files.memory_limit import limited_memory
 from workbench.files.mistakes import mistake
 from workbench.files.modules import (
     IMPORT_S,
     OF_A_KERNEL,
+    OUT_OF_MEMORY,
     OUT_OF_TIME,
     SourceLoader,
     forget_changed,
@@ -112,10 +114,12 @@ class ProofFile:
         module = importlib.util.module_from_spec(spec)
         sys.modules[name] = module
         try:
-            with at_most_seconds(IMPORT_S):
+            with at_most_seconds(IMPORT_S), limited_memory():
                 spec.loader.exec_module(module)
         except OutOfTime:
             raise InputError(self.path, "", OUT_OF_TIME) from None
+        except MemoryError:
+            raise InputError(self.path, "", OUT_OF_MEMORY) from None
         return module
 
     def reads(self, cache_folder: Path | None = None) -> frozenset[str]:
