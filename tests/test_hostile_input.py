@@ -26,7 +26,9 @@ from workbench.files.toml import read_toml
 from workbench.model.sensitivity import Sensitivity
 from workbench.optimal.fleet import COLUMNS, TripRow
 from workbench.proof import loading
+from workbench.proof.latex.rows import ROWS, state_rows
 from workbench.proof.loading import ProofFile
+from workbench.proof.paper import Paper
 from workbench.report.changes import read_claims
 from workbench.report.formulas import formula
 from workbench.simulate.journal import Journal
@@ -57,7 +59,8 @@ def test_a_module_that_never_ends_is_named(text, tmp_path, little_time):
     assert refusal(ProofFile(single).modules).startswith(f"{single}: cannot be imported: computes for more than")
 
 
-@pytest.mark.parametrize("text", ['with open("/dev/zero") as zero: zero.read()\n', 'kept = []\nwhile True: kept.append("a" * 1000)\n'])
+@pytest.mark.parametrize("text", ['with open("/dev/zero") as zero: zero.read()\n',
+                                  'kept = []\nwhile True: kept.append("a" * 1000)\n'])
 def test_a_module_that_takes_all_memory_is_named(text, tmp_path, monkeypatch):
     monkeypatch.setattr(memory_limit, "FOR_ANY", 2**24)
     monkeypatch.setattr(memory_limit, "FOR_A_CORE", 0)
@@ -69,6 +72,31 @@ def test_a_module_that_takes_all_memory_is_named(text, tmp_path, monkeypatch):
         f"{folder / 'claims' / 'section_2.py'}: {modules.OUT_OF_MEMORY}")
     assert refusal(ProofFile(single).modules) == f"{single}: {modules.OUT_OF_MEMORY}"
     assert resource.getrlimit(resource.RLIMIT_DATA) == before
+
+
+def test_a_module_that_raises_what_is_no_exception_is_named(tmp_path):
+    folder = with_claims(small_folder(tmp_path / "doe2030"), "section_2")
+    (folder / "claims" / "section_2.py").write_text("raise GeneratorExit\n")
+    assert "section_2.py: cannot be imported: line 1: GeneratorExit" in refusal(module_in, folder, "claims.section_2")
+
+
+@pytest.mark.parametrize(("number", "words"), [("2**70", "beyond 64 bits"), ("sp.I", "no real number")])
+def test_a_number_that_a_law_cannot_have_is_told_with_its_file_and_law(number, words, tmp_path):
+    folder = small_folder(tmp_path / "doe2030")
+    (folder / "numbers.py").write_text(f"import sympy as sp\nSHARE = {number}\n")
+    said = one_line(run("compare", folder))
+    assert words in said and "study.toml: controllers.own.law" in said, said
+
+
+def test_a_line_and_a_row_are_refused_with_their_file(tmp_path):
+    letters = tmp_path / "symbols.toml"
+    letters.write_text('[symbols]\nx = "real"\n')
+    assert f"letters of {letters}" in one_line(run("check", "zz <= 1", "--symbols", letters))
+    row = "[[rows]]\nid = '{}'\ntitle = 't'\nrole = 'claim'\nprinted = 'x = 1'\n"
+    letters.write_text('[letters]\nx = { kind = "real" }\n')
+    for text, words in ((row.format("1") * 2, "rows[1].id"), (row.format("../1"), "rows[0]: claim id")):
+        (tmp_path / ROWS).write_text(text)
+        assert f"{tmp_path / ROWS}: {words}" in refusal(state_rows, Paper("doe2030", "nowhere"), tmp_path)
 
 
 def test_a_folder_of_a_whole_disk_is_refused_before_it_is_looked_through(tmp_path, monkeypatch):

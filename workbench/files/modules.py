@@ -107,7 +107,9 @@ def module_in(folder: Path, name: str) -> ModuleType:
         raise InputError(where, "", OUT_OF_TIME) from None
     except MemoryError:
         raise InputError(where, "", OUT_OF_MEMORY) from None
-    except (Exception, SystemExit) as trouble:  # a file that exits would end the run
+    except KeyboardInterrupt:
+        raise
+    except BaseException as trouble:  # a file that exits would end the run
         raise InputError(where, "", f"cannot be imported: {mistake(trouble, where)}") from trouble
 
 

@@ -93,9 +93,9 @@ class ProofFile:
                     self._modules = self._of_folder() if self.path.is_dir() else [self._imported()]
             except ClaimError as trouble:
                 raise InputError(self.path, "", str(trouble)) from None
-            except InputError:
+            except (InputError, KeyboardInterrupt):
                 raise
-            except (Exception, SystemExit) as trouble:  # a file that exits would end the run undecided
+            except BaseException as trouble:  # a file that exits would end the run undecided
                 raise InputError(self.path, "", f"cannot be imported: {mistake(trouble, self.path)}") from trouble
         return self._modules
 
