@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
+from os.path import realpath
 from pathlib import Path
 from typing import Annotated
 
@@ -25,7 +26,7 @@ def command(paper: Annotated[str, typer.Argument(metavar="PAPER", help="A paper'
 
     place = path_of(paper)
     folder = place / "certificates" if (place / "certificates").is_dir() else place
-    if out.resolve().is_relative_to(folder.resolve()) and folder != place:
+    if Path(realpath(out)).is_relative_to(realpath(folder)) and folder != place:
         raise InputError(out, "--out", "holds certificates, for whose checker every JSON file there is one: name "
                          "another folder")
     require_few(folder)
