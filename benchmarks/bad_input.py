@@ -162,7 +162,8 @@ def _outputs_of(arguments: list[str]) -> list[str]:
     options = ("--json", "--out", "--csv", "--figure", "--certificate", "--certificates", "--directory")
     named = [os.path.normpath(value) for option, value in pairwise(arguments) if option in options]
     # A reference writes its curves beside the file that is named, under the same stem.
-    return [*named, *(str(Path(one).with_suffix("")) + end for one in named for end in (".csv", "_certified.csv"))]
+    return [*named, *(str(Path(one).with_suffix("")) + end for one in named
+                      if Path(one).name for end in (".csv", "_certified.csv"))]
 
 
 def pictures_outside(place: Path) -> dict[str, tuple[int, int]]:

@@ -1,6 +1,8 @@
 """What somebody could write to keep a command busy for ever, or to have it say nothing of use: each is one line."""
 
 import json
+import os
+import resource
 import sys
 
 import pytest
@@ -16,14 +18,17 @@ from bad_input_texts import CONTEST
 
 from workbench.compile.literals import require_short
 from workbench.errors import CompileError, InputError
-from workbench.files import modules, time_limit
+from workbench.files import folders, memory_limit, modules, time_limit
 from workbench.files.json_input import read_json
 from workbench.files.modules import module_in
+from workbench.files.outputs import check_outputs
 from workbench.files.toml import read_toml
 from workbench.model.sensitivity import Sensitivity
 from workbench.optimal.fleet import COLUMNS, TripRow
 from workbench.proof import loading
+from workbench.proof.latex.rows import ROWS, state_rows
 from workbench.proof.loading import ProofFile
+from workbench.proof.paper import Paper
 from workbench.report.changes import read_claims
 from workbench.report.formulas import formula
 from workbench.simulate.journal import Journal
@@ -52,6 +57,64 @@ def test_a_module_that_never_ends_is_named(text, tmp_path, little_time):
     single = tmp_path / "single.py"
     single.write_text(text)
     assert refusal(ProofFile(single).modules).startswith(f"{single}: cannot be imported: computes for more than")
+
+
+@pytest.mark.parametrize("text", ['with open("/dev/zero") as zero: zero.read()\n',
+                                  'kept = []\nwhile True: kept.append("a" * 1000)\n'])
+def test_a_module_that_takes_all_memory_is_named(text, tmp_path, monkeypatch):
+    monkeypatch.setattr(memory_limit, "FOR_ANY", 2**24)
+    monkeypatch.setattr(memory_limit, "FOR_A_CORE", 0)
+    folder, single = with_claims(small_folder(tmp_path / "doe2030"), "section_2"), tmp_path / "single.py"
+    (folder / "claims" / "section_2.py").write_text(text)
+    single.write_text(text)
+    before = resource.getrlimit(resource.RLIMIT_DATA)
+    assert refusal(module_in, folder, "claims.section_2") == (
+        f"{folder / 'claims' / 'section_2.py'}: {modules.OUT_OF_MEMORY}")
+    assert refusal(ProofFile(single).modules) == f"{single}: {modules.OUT_OF_MEMORY}"
+    assert resource.getrlimit(resource.RLIMIT_DATA) == before
+
+
+def test_a_module_that_raises_what_is_no_exception_is_named(tmp_path):
+    folder = with_claims(small_folder(tmp_path / "doe2030"), "section_2")
+    (folder / "claims" / "section_2.py").write_text("raise GeneratorExit\n")
+    assert "section_2.py: cannot be imported: line 1: GeneratorExit" in refusal(module_in, folder, "claims.section_2")
+
+
+@pytest.mark.parametrize(("number", "words"), [("2**70", "beyond 64 bits"), ("sp.I", "no real number")])
+def test_a_number_that_a_law_cannot_have_is_told_with_its_file_and_law(number, words, tmp_path):
+    folder = small_folder(tmp_path / "doe2030")
+    (folder / "numbers.py").write_text(f"import sympy as sp\nSHARE = {number}\n")
+    said = one_line(run("compare", folder))
+    assert words in said and "study.toml: controllers.own.law" in said, said
+
+
+def test_a_line_and_a_row_are_refused_with_their_file(tmp_path):
+    letters = tmp_path / "symbols.toml"
+    letters.write_text('[symbols]\nx = "real"\n')
+    assert f"letters of {letters}" in one_line(run("check", "zz <= 1", "--symbols", letters))
+    row = "[[rows]]\nid = '{}'\ntitle = 't'\nrole = 'claim'\nprinted = 'x = 1'\n"
+    letters.write_text('[letters]\nx = { kind = "real" }\n')
+    for text, words in ((row.format("1") * 2, "rows[1].id"), (row.format("../1"), "rows[0]: claim id")):
+        (tmp_path / ROWS).write_text(text)
+        assert f"{tmp_path / ROWS}: {words}" in refusal(state_rows, Paper("doe2030", "nowhere"), tmp_path)
+
+
+def test_a_folder_of_a_whole_disk_is_refused_before_it_is_looked_through(tmp_path, monkeypatch):
+    monkeypatch.setattr(folders, "MOST_ENTRIES", 3)
+    small_folder(tmp_path / "doe2030")
+    for arguments in (("check-certificates", tmp_path), ("export-coq", tmp_path, "--out", tmp_path / "out")):
+        assert f"{tmp_path}: holds more than 3 files and folders" in one_line(run(*arguments))
+    assert not (tmp_path / "out").exists()
+
+
+def test_what_is_no_place_for_outputs_is_refused(tmp_path):
+    (tmp_path / "mc").mkdir()
+    os.mkfifo(tmp_path / "mc" / "rare.csv")
+    assert "is a pipe" in refusal(check_outputs, {}, (), {"--out": (tmp_path / "mc", ("rare.csv",))})
+    inside = tmp_path / "doe2030" / "certificates"
+    inside.mkdir(parents=True)
+    assert "holds certificates" in one_line(run("export-coq", tmp_path / "doe2030", "--out", inside))
+    assert "'--seconds'" in one_line(run("check-coq", tmp_path, "--seconds", "inf"))
 
 
 def test_a_limit_within_another_is_the_outer_one():

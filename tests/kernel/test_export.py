@@ -65,7 +65,19 @@ POINT = {"version": 2, "claim": "mine:3", "verdict": "refuted", "point": {"z": "
          "goal": {"assume": ["z > 0"], "show": ["z**2 >= 1"]}}
 
 
-CERTIFICATES = (PRODUCT, SUMS, POINT, OPPOSITES, ANGLES, PENDULUM, ANGLE, STEADY)
+CAUCHY = {"version": 2, "claim": "mine:11", "verdict": "proved", "example": {"x": "3", "y": "0"},
+          "goal": {"indexed": ["x", "y"], "show": [
+              "Sum(x*y)**2 <= Sum(x**2)*Sum(y**2)", "sqrt(Sum((x + y)**2)) == sqrt(Sum((y + x)**2))",
+              "Sum(x*Sum(y)) == Sum(x)*Sum(y)"]},
+          "proofs": [{"rule": "contradiction", "terms": [{"coefficient": "1", "factors": factors} for factors in (
+              [{"sum_of_squares": "(Sum(y**2)*(Sum(x**2) + 1) + Sum(x*y)**2 - Sum(x**2)*Sum(y**2))*x "
+                                  "- Sum(x*y)*(Sum(x**2) + 1)*y"}],
+              [{"assume": 0}, {"assume": 0}, {"positive": "Sum(x**2) + 2"}],
+              [{"assume": 0}, {"square": "Sum(x**2) + 1"}, {"sum_of_squares": "y"}])]},
+                     IDENTITY, IDENTITY]}
+
+
+CERTIFICATES = (PRODUCT, SUMS, POINT, OPPOSITES, ANGLES, PENDULUM, ANGLE, STEADY, CAUCHY)
 
 
 def digested(certificate: dict[str, Any]) -> dict[str, Any]:
@@ -141,7 +153,8 @@ def test_kernel_accepts_proofs_sums_functions_motions_and_points(exports: Path) 
     (POINT, "z**2 >= 1", "z**2 <= 1"), (ANGLES, "x >= 0", "x >= -1"), (ANGLES, "y > 0", "y != 0"),
     (ANGLES, "exp(x + y) == exp(x)*exp(y)", "exp(x + y) == exp(x) + exp(y)"),
     (PENDULUM, "D(w**2/2 - cos(a)) == 0", "D(w**2/2 + cos(a)) == 0"), (ANGLE, "cos(x) <= 1/2", "cos(x) <= 14/25"),
-    (STEADY, "k > 0", "k < 0"),
+    (STEADY, "k > 0", "k < 0"), (CAUCHY, "Sum(x*y)**2 <= Sum(x**2)*Sum(y**2)", "Sum(x*y)**2 <= Sum(x**2)"),
+    (CAUCHY, "Sum(x*Sum(y)) == Sum(x)*Sum(y)", "Sum(x*Sum(y)) == Sum(x*y)"),
 ])
 def test_kernel_refuses_a_goal_that_is_not_so(exports: Path, certificate: dict[str, Any], old: str, new: str) -> None:
     """A changed goal has no Coq text, or one that coqc refuses: the checker is not asked."""

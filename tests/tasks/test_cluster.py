@@ -22,6 +22,8 @@ from workbench.proof.prove import prove
 from workbench.proof.selection import targets
 from workbench.tasks.executor import ThisProcess, on
 
+# A variable of the environment that every process started from here inherits: others of the machine are not looked at.
+OURS = {"WORKBENCH_TEST_OF": f"cluster {os.getpid()} {time.monotonic_ns()}"}
 TASKS = '''
 import os
 import signal
@@ -133,7 +135,7 @@ if __name__ == "__main__":
 def dask(tmp_path_factory):
     """The scheduler and its address; nothing of this package is where its workers look."""
     place = tmp_path_factory.mktemp("dask")
-    bare = {name: value for name, value in os.environ.items() if name != "PYTHONPATH"}
+    bare = {name: value for name, value in os.environ.items() if name != "PYTHONPATH"} | OURS
 
     def started(what: str, *arguments: str) -> subprocess.Popen:
         return subprocess.Popen([sys.executable, "-m", f"distributed.cli.dask_{what}", *arguments, "--no-dashboard"],
@@ -176,8 +178,8 @@ def found(dask, paper, tmp_path_factory):
     out = tmp_path_factory.mktemp("out")
     (out / "program.py").write_text(PROGRAM)
     done = subprocess.run([sys.executable, out / "program.py", address, str(scheduler.pid), str(paper), str(out)],
-                          env={**os.environ, "PYTHONPATH": str(ROOT)}, capture_output=True, text=True, timeout=300,
-                          check=False)
+                          env={**os.environ, **OURS, "PYTHONPATH": str(ROOT)}, capture_output=True, text=True,
+                          timeout=300, check=False)
     assert (done.returncode, done.stderr) == (0, "")
     return json.loads(done.stdout), out
 
@@ -237,6 +239,9 @@ def test_a_scheduler_that_is_lost_or_not_there_is_said_in_a_line_and_nothing_is_
     assert said["scheduler"].startswith("WorkbenchError: --dask: the scheduler is gone")
     assert said["nobody"].startswith("--dask: no scheduler answers at 'tcp://127.0.0.1:")
     assert left() == []
+    with subprocess.Popen(["sleep", "60"], env=os.environ | OURS) as seen:
+        assert commands() == ["sleep 60 "], "what is started from here is looked at"
+        seen.kill()
 
 
 def test_options_that_do_not_fit_a_cluster_are_refused(found):
@@ -255,7 +260,7 @@ def test_without_dask_the_extra_is_named(paper, tmp_path, monkeypatch):
 
 
 def left() -> list[str]:
-    """Processes that still serve tasks some seconds later."""
+    """Processes of this test that still serve tasks some seconds later."""
     until = time.monotonic() + 10
     while (there := [line for line in commands() if "workbench.tasks.serving" in line]) and time.monotonic() < until:
         time.sleep(0.1)
@@ -263,11 +268,14 @@ def left() -> list[str]:
 
 
 def commands() -> list[str]:
+    """The command lines of all processes that were started from here."""
+    mark = "=".join(*OURS.items()).encode()
     found = []
     for entry in Path("/proc").iterdir():
         if entry.name.isdigit():
             try:
-                found.append((entry / "cmdline").read_bytes().replace(b"\0", b" ").decode(errors="replace"))
+                if mark in (entry / "environ").read_bytes().split(b"\0"):
+                    found.append((entry / "cmdline").read_bytes().replace(b"\0", b" ").decode(errors="replace"))
             except OSError:
                 continue
     return found

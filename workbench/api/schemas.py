@@ -11,6 +11,7 @@ from pydantic import TypeAdapter
 
 from workbench.errors import InputError
 from workbench.files.folders import is_folder
+from workbench.files.modules import has_module
 from workbench.paper.loading import study_file, study_kind
 
 DRAFT = "https://json-schema.org/draft/2020-12/schema"
@@ -72,6 +73,9 @@ def schema(what: str | Path) -> dict[str, Any]:
     path = Path(what)
     if is_folder(path) or path.suffix == ".toml":
         path = study_file(path)
+        if not has_module(path.parent, "study"):
+            raise InputError(path, "", "has no study of a paper's own beside it (study/__init__.py): name its format, "
+                             "such as scenario")
         return _made(study_kind(path).record, f"the study of {path.parent.name} in TOML")
     names = ", ".join(one.name for one in FORMATS)
     raise InputError("", str(what), f"is no format and no study's folder: name a folder, or one of {names}")

@@ -18,13 +18,19 @@ def command(line: Annotated[str, typer.Argument(metavar="LATEX", help="The line,
                 help="TOML file with symbols, definitions, assumptions and flow, or the folder of a paper.")],
             json: JsonFile = None) -> None:
     """Decide a line of LaTeX; exit 0 when it is proved, 1 when it is not, 2 on bad input."""
+    from workbench.errors import ClaimError, InputError
     from workbench.files.json_output import write_json
     from workbench.files.outputs import check_outputs
+    from workbench.proof.latex.error import LatexError
     from workbench.proof.latex.question import answer
     from workbench.proof.latex.symbols import load_symbols
 
     check_outputs({"--json": json}, [symbols])
-    found = answer(line, load_symbols(symbols))
+    letters = load_symbols(symbols)
+    try:
+        found = answer(line, letters)
+    except (ClaimError, LatexError) as trouble:  # of the line, or of the letters that it was read with
+        raise InputError("", "", f"{trouble} (the line was read with the letters of {symbols})") from None
     if json:
         write_json(json, found.document())
     out_console.print(answer_card(found.document()))

@@ -17,7 +17,8 @@ def command(folder: Annotated[Path, typer.Argument(metavar="DIR", help="What exp
             record: Annotated[str | None, typer.Option(
                 metavar="PAPER", help="Also note in this paper's folder which of its certificates the kernel has "
                                       "accepted (kernel.txt): their verdicts then say so.")] = None,
-            seconds: Annotated[float, typer.Option(min=1, help="What coqc may take for one file.")] = 120) -> None:
+            seconds: Annotated[float, typer.Option(
+                min=1, max=86_400, help="What coqc may take for one file.")] = 120) -> None:
     """Run coqc on every file that export-coq wrote; exit 0 when the kernel accepts all of them, 1 when it refuses one.
 
     What was not exported is listed with its reason and refuses nothing."""

@@ -23,6 +23,7 @@ def command(paper: Annotated[str, typer.Argument(metavar="PAPER", help="A paper'
     from workbench.report.errata.write import FILES, write_errata
 
     found = targets([path_of(paper)])
+    check_outputs({}, folders={"--out": None if out is None else (out, ())})  # before anything is decided
     with progress() as show:
         proof = prove(found, workers, on_progress=lambda done, total: show("claims", done, total))
     for name, place in proof.papers.items():

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
+from os.path import realpath
 from pathlib import Path
 from typing import Annotated
 
@@ -17,13 +18,18 @@ def command(paper: Annotated[str, typer.Argument(metavar="PAPER", help="A paper'
             out: Annotated[Path, typer.Option(metavar="DIR", help="Where the Coq files go.")]) -> None:
     """Write one Coq file a certificate, its statement made from the goal and its proof from the certificate's steps,
     with the library that they share; say what has no Coq text, and why."""
-    from workbench.errors import WorkbenchError
+    from workbench.errors import InputError, WorkbenchError
+    from workbench.files.folders import require_few
     from workbench.files.outputs import check_outputs
     from workbench.files.writing import write_text
     from workbench.kernel.export import INDEX, export_folder, files_of
 
     place = path_of(paper)
     folder = place / "certificates" if (place / "certificates").is_dir() else place
+    if Path(realpath(out)).is_relative_to(realpath(folder)) and folder != place:
+        raise InputError(out, "--out", "holds certificates, for whose checker every JSON file there is one: name "
+                         "another folder")
+    require_few(folder)
     exported = list(export_folder(folder))
     if not exported:
         raise WorkbenchError(f"{folder}: holds no certificate (*.json): run 'workbench prove --write' first")

@@ -24,8 +24,8 @@ def command(paper: PaperOrFile,
     from workbench.fmu.unit import unit_of
 
     loaded = load(paper)
-    check_outputs({"--out": out}, [loaded.path])
     unit = unit_of(loaded, controller)
+    check_outputs({"--out": out}, [loaded.path])  # now that its laws have been read
     write_bytes(out, fmu_bytes(unit))
     out_console.print(f"{out}: {unit.name}, every {unit.period_s:g} s, from {', '.join(unit.inputs)} to "
                       f"{', '.join(unit.commands)}", soft_wrap=True, highlight=False, markup=False)

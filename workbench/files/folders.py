@@ -2,14 +2,17 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any, TypeVar
 
+from workbench.errors import InputError
 from workbench.files.modules import has_module, module_in
 
 PAPER_FILE, CLAIMS_FOLDER, STUDY_FILE, PAPERS_FOLDER = "paper.py", "claims", "study.toml", "proofs"
 CERTIFICATES = "certificates"
+MOST_ENTRIES = 100_000
 
 T = TypeVar("T")
 
@@ -26,6 +29,17 @@ def is_paper(folder: Path) -> bool:
     """Whether a folder is a paper's: it has a paper.py, claims, or a study."""
     return is_folder(folder) and ((folder / PAPER_FILE).is_file() or (folder / STUDY_FILE).is_file()
                                 or any((folder / CLAIMS_FOLDER).glob("*.py")))
+
+
+def require_few(folder: Path) -> None:
+    """InputError for a folder with more than MOST_ENTRIES files and folders in it and below it, such as a whole disk,
+    before anybody looks through all of them."""
+    count = 0
+    for _, folders, files in os.walk(folder):
+        count += len(folders) + len(files)
+        if count > MOST_ENTRIES:
+            raise InputError(folder, "", f"holds more than {MOST_ENTRIES} files and folders: name the folder of a "
+                             "paper, or of its certificates")
 
 
 def certificates_folder(path: Path, paper: str) -> Path:

@@ -18,6 +18,7 @@ from types import ModuleType
 from typing import Any
 
 from workbench.errors import InputError
+from workbench.files.memory_limit import limited_memory
 from workbench.files.mistakes import OF_A_FOLDER, mistake
 from workbench.files.text import inputs_read_by, read_source, written_since_read
 from workbench.files.time_limit import OutOfTime, at_most_seconds
@@ -31,6 +32,8 @@ TICK_NS = 50_000_000
 IMPORT_S = 10.0
 OUT_OF_TIME = (f"cannot be imported: computes for more than {IMPORT_S:g} s, or waits: state what takes so long in a "
                "function, which is called when it is needed")
+OUT_OF_MEMORY = ("cannot be imported: takes more memory than a module may: read less, and state large values in a "
+                 "function")
 
 _folders: dict[str, Path] = {}
 _imported_ns: dict[str, int] = {}
@@ -96,13 +99,17 @@ def module_in(folder: Path, name: str) -> ModuleType:
     path = folder.joinpath(*name.split("."))
     where = path / "__init__.py" if (path / "__init__.py").is_file() else path.with_name(f"{path.name}.py")
     try:
-        with at_most_seconds(IMPORT_S):
+        with at_most_seconds(IMPORT_S), limited_memory():
             return importlib.import_module(dotted)
     except InputError:
         raise
     except OutOfTime:
         raise InputError(where, "", OUT_OF_TIME) from None
-    except (Exception, SystemExit) as trouble:  # a file that exits would end the run
+    except MemoryError:
+        raise InputError(where, "", OUT_OF_MEMORY) from None
+    except KeyboardInterrupt:
+        raise
+    except BaseException as trouble:  # a file that exits would end the run
         raise InputError(where, "", f"cannot be imported: {mistake(trouble, where)}") from trouble
 
 

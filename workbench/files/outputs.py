@@ -37,6 +37,9 @@ def check_outputs(files: Mapping[str, Path | None], inputs: Iterable[Path] = (),
         if folder is not None:
             _check_folder(option, folder[0])
             for name in folder[1]:
+                if is_stream(folder[0] / name):  # writing into a pipe would wait for a reader
+                    raise InputError(folder[0] / name, option, "is a pipe, a device or a socket: remove it, or name "
+                                     "another folder")
                 taken.take(option, folder[0] / name)
 
 

@@ -45,6 +45,14 @@ Proof.
   assert (0 <= bigsum n f) by (apply IH; intros; apply H; lia). assert (0 <= f n) by (apply H; lia). lra.
 Qed.
 
+(* a sum as weights times totals, one for each kind of term *)
+Lemma no_terms : forall n, 0 = bigsum n (fun _ => 0).
+Proof. intros. rewrite bigsum_zero by reflexivity. reflexivity. Qed.
+
+Lemma linear_sum : forall n w t f r g, t = bigsum n f -> r = bigsum n g ->
+  w * t + r = bigsum n (fun i => w * f i + g i).
+Proof. intros n w t f r g -> ->. rewrite bigsum_plus, bigsum_scal. reflexivity. Qed.
+
 (* --- relations and their margins --- *)
 
 Lemma le_of : forall a b m, b - a = m -> m >= 0 -> a <= b. Proof. intros; lra. Qed.

@@ -8,6 +8,7 @@ from typing import Any
 
 from workbench.kernel.script import Script
 from workbench.kernel.syntax import FUNCTIONS, NotExportedError
+from workbench.kernel.totals import Closed
 from workbench.proof.checker import SUM, Ratio, atoms_of, constant, number, symbol
 
 
@@ -60,6 +61,8 @@ def factor_of(script: Script, item: dict[str, Any]) -> Factor:  # noqa: PLR0911,
         case {"sum_of_squares": str(text)}:
             root = context.term(text)
             script.prepare(root)
+            if isinstance(context, Closed):
+                return _sum_of_squares(script, root)
             value = root * root * symbol(SUM)
             script.prepare_all(value)
             _, inside = normal.split(value)
@@ -81,6 +84,18 @@ def factor_of(script: Script, item: dict[str, Any]) -> Factor:  # noqa: PLR0911,
         case {"fact": str(name), "of": str(text)}:
             return _fact(script, name, text)
     raise NotExportedError(f"the factor {str(item)[:60]}")
+
+
+def _sum_of_squares(script: Script, root: Ratio) -> Factor:
+    """A sum of squares where sums are numbers of their own."""
+    one, found = script.normal.ratio(root), script.total(root * root)
+    script.prepare(found.value)
+    text = script.normal.value(found.value)
+    _, intros = script.every(True)
+    name = script.show("F", f"0 <= {text}", f"replace {text} with {found.text} by same. rewrite {found.proof}. "
+                       f"apply bigsum_nonneg. {intros}intros _. cbv beta. replace {found.each} with ({one} * {one}) "
+                       "by same. apply square_nonneg.")
+    return Factor(text, ">=", name, found.value)
 
 
 def _fact(script: Script, name: str, text: str) -> Factor:

@@ -6,7 +6,19 @@ from dataclasses import dataclass
 from fractions import Fraction
 
 from workbench.kernel.syntax import Letters, NotExportedError
-from workbench.proof.checker import SUM, Context, Monomial, Poly, Ratio, atoms_of, constant, number, symbol, symbols_of
+from workbench.proof.checker import (
+    SUM,
+    TOTAL,
+    Context,
+    Monomial,
+    Poly,
+    Ratio,
+    atoms_of,
+    constant,
+    number,
+    symbol,
+    symbols_of,
+)
 
 
 def number_text(value: Fraction) -> str:
@@ -28,8 +40,11 @@ class Normal:
         return bool(symbols_of(self.context, symbol(atom)) & self.letters.moving)
 
     def indexed(self, value: Ratio) -> bool:
-        """Whether a value is one of each index."""
-        return bool(symbols_of(self.context, value) & self.letters.indexed)
+        """Whether a value is one of each index; a sum over the index is a number."""
+        functions = self.context.functions
+        return any(atom in self.letters.indexed or (
+            atom in functions and functions[atom][0] != TOTAL and self.indexed(functions[atom][1]))
+            for atom in atoms_of(value))
 
     def name(self, atom: str) -> str:
         """The bare name of a function's value: a number after the letter a, and the instant where it is not t."""

@@ -6,15 +6,27 @@ from typing import Any
 
 from workbench.kernel.rules import prove, stated
 from workbench.kernel.script import MARGINS, Script
-from workbench.kernel.syntax import split_margin
-from workbench.kernel.theorem import Goal
+from workbench.kernel.syntax import NotExportedError, split_margin
+from workbench.kernel.theorem import Goal, texts_of
+from workbench.kernel.totals import read_closed
 from workbench.kernel.writing import conjunction
-from workbench.proof.checker import margin, read_goal, split_relation
+from workbench.proof.checker import Context, Relations, calls, margin, read_goal, split_relation
 
 
 def proof_of(goal: Goal, certificate: dict[str, Any]) -> Script:
-    """The script that proves what `goal.statement()` says, step by step as the certificate does."""
-    context, given = read_goal(goal.stated)
+    """The script that proves what `goal.statement()` says, step by step as the certificate does.
+
+    A sum over the index is told apart from what stands beside it; where sums are multiplied each is a number.
+    """
+    try:
+        return _proof_of(goal, certificate, *read_goal(goal.stated))
+    except NotExportedError:
+        if not any(calls(text, "Sum") for text in texts_of(goal.stated)):
+            raise
+    return _proof_of(goal, certificate, *read_closed(goal.stated))
+
+
+def _proof_of(goal: Goal, certificate: dict[str, Any], context: Context, given: Relations) -> Script:
     script = Script(context, goal)
     script.given = given.with_margins([])
     binders = goal.binders()

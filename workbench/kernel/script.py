@@ -18,6 +18,7 @@ from workbench.kernel.syntax import (
     split_margin,
     text_of,
 )
+from workbench.kernel.totals import Closed, Total, total, tree_of, written
 from workbench.proof.checker import SUM, Ratio, atoms_of, constant, margin, same, split_relation
 
 MARGINS = {"<=": "le", "<": "lt", ">=": "ge", ">": "gt", "==": "eq", "!=": "ne"}  # names of lemmas
@@ -39,7 +40,7 @@ class Script(Functions):
                 continue
             each = condition.startswith("forall")
             equation, value = self.evaluate(part, each)
-            shown = self.positive(value, wanted)
+            shown = self._signed(part, value, wanted, equation)
             if wanted != "non-negative":
                 self.sign(value.num, strict=False)
             _, intros = self.every(each)
@@ -75,6 +76,10 @@ class Script(Functions):
         sums: dict[str, tuple[str, str, Ratio]] = {}
 
         def summed(part: ast.expr) -> ast.expr | None:
+            if called(part, "Sum") and isinstance(self.context, Closed):
+                equation, tree = self._total(part.args[0])  # type: ignore[attr-defined]
+                rewrites.append(equation)
+                return tree
             if called(part, "Sum"):
                 found = self._sum(part.args[0])  # type: ignore[attr-defined]
                 sums[f"{NAMED}{found[1]}"] = found
@@ -95,6 +100,12 @@ class Script(Functions):
             if not same(linear, self.context.node(node)):
                 raise NotExportedError("an expression reads differently here and in the checker")
             return equation, linear
+        return self._beside_sums(node, equation, linear, sums)
+
+    def _beside_sums(self, node: ast.expr, equation: str, linear: Ratio, sums: dict[str, tuple[str, str, Ratio]],
+                     ) -> tuple[str, Ratio]:
+        """The same where sums have names in `linear`: what stands outside of the sum over the index, and its term."""
+        text = text_of(node, self.normal.letters)
         if linear.den != constant(1) and atoms_of(Ratio(linear.den)) & sums.keys():
             raise NotExportedError("a sum below a fraction bar")
         outside = Ratio({m: c for m, c in linear.num.items() if not {a for a, _ in m} & sums.keys()}, linear.den)
@@ -143,6 +154,50 @@ class Script(Functions):
                           f"rewrite {name}_is. apply bigsum_ext. intros i _. apply {equation}.")
         self.facts.sums[text] = whole, name, term
         return whole, name, term
+
+    def _total(self, inner: ast.expr) -> tuple[str, ast.expr]:
+        """The equation of a sum that is a number of its own, and that number by the names of the totals in it."""
+        text = text_of(inner, self.normal.letters)
+        if text in self.facts.totals:
+            return self.facts.totals[text]
+        equation, term = self.evaluate(inner, each=True)
+        found = self.total(term)
+        tree = tree_of(found.value, self.normal)
+        _, intros = self.every(True)
+        whole = self.show("S", f"(bigsum n (fun i => {text})) = {text_of(tree, self.normal.letters)}",
+                          f"transitivity {found.text}; [|same]. rewrite {found.proof}. apply bigsum_ext. {intros}"
+                          f"intros _. refine (eq_trans ({equation} i) _). cbv beta. same.")
+        self.facts.totals[text] = whole, tree
+        return whole, tree
+
+    def total(self, term: Ratio) -> Total:
+        """The sum of a term over the index, by totals that have their names."""
+        parts = total(term, self.normal)
+        for part in parts:
+            for value in part:
+                self.prepare(value)
+        return written(parts, self.normal)
+
+    def _signed(self, part: ast.expr, value: Ratio, wanted: str, equation: str) -> str:
+        """The Coq term of the sign of an expression's value: by its terms, or as the expression is written."""
+        try:
+            return self.positive(value, wanted)
+        except NotExportedError:
+            if wanted != "non-negative" or not isinstance(self.context, Closed):
+                raise
+            return self.show("F", f"0 <= {self.normal.value(value)}",
+                             f"rewrite <- {equation}. exact {self.squares(part)}.")
+
+    def squares(self, node: ast.expr) -> str:
+        """The Coq term that what is written as even powers, and sums of them, is not negative."""
+        match node:
+            case ast.BinOp(left=base, op=ast.Pow(), right=ast.Constant(value=int(power))) if power % 2 == 0:
+                return f"(even_power {text_of(base, self.normal.letters)} {power // 2})"
+            case ast.BinOp(left=left, op=ast.Add(), right=right):
+                return f"(Rplus_le_le_0_compat _ _ {self.squares(left)} {self.squares(right)})"
+            case ast.Call(func=ast.Name(id="Sum"), args=[inner]):
+                return f"(bigsum_nonneg n _ (fun i _ => {self.squares(inner)}))"
+        raise NotExportedError("a sign that is not seen as it is written")
 
     def rate(self, node: ast.expr) -> tuple[str, ast.expr]:
         """The equation of a derivative D(...), and its expression."""

@@ -34,13 +34,12 @@ class Signs(Writing):
         if name in self.facts.atoms:
             return
         kind, argument = self.context.functions[atom]
-        if kind == TOTAL:
-            raise NotExportedError("a product of sums")
         if SUM in atoms_of(argument):
             raise NotExportedError(f"{kind} of a sum")
         self.prepare(argument)
         indexed = self.normal.indexed(symbol(atom))
-        text = f"{FUNCTIONS[kind]} {self.normal.ratio(argument)}"
+        of = self.normal.ratio(argument)
+        text = f"bigsum n (fun i => {of})" if kind == TOTAL else f"{FUNCTIONS[kind]} {of}"
         if indexed:
             self.say(f"destruct (named_each (fun i => {text})) as [{name} {name}_is].")
         else:
@@ -161,6 +160,8 @@ class Signs(Writing):
     def _sign_of(self, atom: str) -> tuple[str, bool] | None:
         if atom in self.context.functions:
             kind = self.context.functions[atom][0]
+            if kind == TOTAL:
+                return self._sign_of_total(atom)
             if kind in ("exp", "abs", "sqrt"):
                 return self._of_index(atom, f"{self.normal.name(atom)}_sign"), kind == "exp"
             return None
@@ -174,6 +175,19 @@ class Signs(Writing):
                         return f"(ltac:(generalize {name}; linear) : 0 < {text})", True
                     weak = f"(ltac:(generalize {name}; linear) : 0 <= {text})", False
         return weak
+
+    def _sign_of_total(self, atom: str) -> tuple[str, bool] | None:
+        """A sum of terms that are not negative, None of others."""
+        term = self.context.functions[atom][1]
+        if term.den != constant(1):
+            return None
+        try:
+            each = self.terms(term.num, strictly=False)
+        except NotExportedError:
+            return None
+        name = self.normal.name(atom)
+        return self.show("F", f"0 <= {name}", f"rewrite {name}_is. apply bigsum_nonneg. intros i _. exact {each}."
+                         ), False
 
     def positive(self, value: Ratio, wanted: str = "positive") -> str:
         """The Coq term that a value is positive, non-zero or not negative, as the checker knows it."""

@@ -19,6 +19,7 @@ class Facts:
     atoms: set[str] = field(default_factory=set)
     calls: dict[str, str] = field(default_factory=dict)  # a call's text -> its equation
     sums: dict[str, tuple[str, str, Ratio]] = field(default_factory=dict)  # text -> (equation, its name, its term)
+    totals: dict[str, tuple[str, ast.expr]] = field(default_factory=dict)  # text -> (equation, the sum by names)
     rates: dict[str, tuple[str, ast.expr]] = field(default_factory=dict)  # text of D(...) -> (equation, derivative)
     signs: dict[tuple[str, bool], str] = field(default_factory=dict)  # (polynomial, strictly positive) -> hypothesis
     nonzero: list[tuple[Poly, str, bool]] = field(default_factory=list)
@@ -27,8 +28,8 @@ class Facts:
 
     def copied(self) -> Facts:
         """The same facts, for a subproof."""
-        return Facts(set(self.atoms), dict(self.calls), dict(self.sums), dict(self.rates), dict(self.signs),
-                     list(self.nonzero), dict(self.conditions), list(self.each))
+        return Facts(set(self.atoms), dict(self.calls), dict(self.sums), dict(self.totals), dict(self.rates),
+                     dict(self.signs), list(self.nonzero), dict(self.conditions), list(self.each))
 
 
 class Writing:

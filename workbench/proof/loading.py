@@ -13,10 +13,12 @@ from types import ModuleType
 
 from workbench.errors import ClaimError, InputError
 from workbench.files.folders import CLAIMS_FOLDER, PAPER_FILE
+from workbench.files.memory_limit import limited_memory
 from workbench.files.mistakes import mistake
 from workbench.files.modules import (
     IMPORT_S,
     OF_A_KERNEL,
+    OUT_OF_MEMORY,
     OUT_OF_TIME,
     SourceLoader,
     forget_changed,
@@ -91,9 +93,9 @@ class ProofFile:
                     self._modules = self._of_folder() if self.path.is_dir() else [self._imported()]
             except ClaimError as trouble:
                 raise InputError(self.path, "", str(trouble)) from None
-            except InputError:
+            except (InputError, KeyboardInterrupt):
                 raise
-            except (Exception, SystemExit) as trouble:  # a file that exits would end the run undecided
+            except BaseException as trouble:  # a file that exits would end the run undecided
                 raise InputError(self.path, "", f"cannot be imported: {mistake(trouble, self.path)}") from trouble
         return self._modules
 
@@ -112,10 +114,12 @@ class ProofFile:
         module = importlib.util.module_from_spec(spec)
         sys.modules[name] = module
         try:
-            with at_most_seconds(IMPORT_S):
+            with at_most_seconds(IMPORT_S), limited_memory():
                 spec.loader.exec_module(module)
         except OutOfTime:
             raise InputError(self.path, "", OUT_OF_TIME) from None
+        except MemoryError:
+            raise InputError(self.path, "", OUT_OF_MEMORY) from None
         return module
 
     def reads(self, cache_folder: Path | None = None) -> frozenset[str]:

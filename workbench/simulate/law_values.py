@@ -9,7 +9,8 @@ import numpy as np
 import sympy as sp
 from numpy.typing import NDArray
 
-from workbench.errors import InputError
+from workbench.compile.literals import require_short
+from workbench.errors import CompileError, InputError
 from workbench.model.law import ControlLaw
 from workbench.simulate.controllers import SAMPLED, compiled_law, known_laws, nearest_law
 from workbench.trains.scenario import ControllerSpec, NeuronGrid, Scenario
@@ -79,6 +80,10 @@ def _check_controller(scenario: Scenario, name: str) -> None:
     law = compiled_law(scenario, spec)
     if law is not None:
         law_values(law, spec, name)
+        try:
+            require_short([law.command, *map(law.next_value, law.states), *law.domain])
+        except CompileError as trouble:
+            raise InputError("", f"controllers.{name}.law", f"'{spec.law}': {trouble}") from None
         return
     for key, given in (("initial", spec.initial), ("neurons", spec.neurons)):
         if given:

@@ -14,7 +14,7 @@ from typing import Any, Literal
 
 from pydantic import Field
 
-from workbench.errors import ClaimError
+from workbench.errors import ClaimError, InputError
 from workbench.files.toml import FileRecord, Record, Text, load_record
 from workbench.proof.claim import D, Goal, Kind
 from workbench.proof.latex.error import LatexError
@@ -73,19 +73,33 @@ class RowsFile(FileRecord):
 def state_rows(paper: Paper, folder: Path) -> None:
     """State a claim for every row of a folder's `rows.toml`; InputError for what the two tables have wrong."""
     rows, table = load_record(folder / ROWS, RowsFile).rows, load_record(folder / SYMBOLS, LettersFile).letters
+    taken: set[str] = set()
+    for at, row in enumerate(rows):
+        if row.id in taken:
+            raise InputError(folder / ROWS, f"rows[{at}].id", f"'{row.id}' is the id of another row too: give each its "
+                             "own")
+        taken.add(row.id)
     known = _Known(folder, rows, table)
-    for row in rows:
-        if row.role in TAKEN:
-            paper.axiom(row.id, row.title, row.printed, TAKEN[row.role], hypotheses=row.rests_on, severity=row.severity)
-            continue
+    for at, row in enumerate(rows):
         try:
-            goal = known.goal(row)
-        except (LatexError, ClaimError) as trouble:
-            paper.unstated(row.id, row.title, row.printed, str(trouble), rests_on=row.rests_on, severity=row.severity)
-            continue
-        paper.claim(row.id, row.title, _kind(goal), row.printed, row.recorded, rests_on=row.rests_on,
-                    severity=row.severity, where=known.symbols.notation,
-                    reading=f"Read as {row.line}." if row.line else "")(_giving(goal))
+            _state(paper, known, row)
+        except ClaimError as trouble:
+            raise InputError(folder / ROWS, f"rows[{at}]", str(trouble)) from None
+
+
+def _state(paper: Paper, known: _Known, row: RowEntry) -> None:
+    """State the claim of one row."""
+    if row.role in TAKEN:
+        paper.axiom(row.id, row.title, row.printed, TAKEN[row.role], hypotheses=row.rests_on, severity=row.severity)
+        return
+    try:
+        goal = known.goal(row)
+    except (LatexError, ClaimError) as trouble:
+        paper.unstated(row.id, row.title, row.printed, str(trouble), rests_on=row.rests_on, severity=row.severity)
+        return
+    paper.claim(row.id, row.title, _kind(goal), row.printed, row.recorded, rests_on=row.rests_on,
+                severity=row.severity, where=known.symbols.notation,
+                reading=f"Read as {row.line}." if row.line else "")(_giving(goal))
 
 
 class _Known:
