@@ -126,11 +126,6 @@ class _Cells:
     most_force: Array
 
 
-def cell_limits(course: Course, certificate: Certificate) -> Array:
-    """The speed limit of each cell in m/s."""
-    return _cells(course, certificate).limit_mps
-
-
 def _cells(course: Course, certificate: Certificate) -> _Cells:
     x, fine = certificate.position_m, course.split(certificate.position_m[1:-1])
     owner, count = owner_of(x, fine.position_m), len(certificate.left)

@@ -1,107 +1,89 @@
-"""Re-checks a bound's certificate in exact rational arithmetic. Standard library only; knows nothing of the optimiser.
+"""Re-checks a bound's certificate in exact arithmetic. Standard library only; knows nothing of the optimiser.
 
-A certificate holds the minimisations that the bound needs (see bound.py): for each end of each cell and each range of
-speeds the value that is claimed to lie below inverse / v + constant + slope v + square v^2 for every v from low to
-high. These coefficients are made here, from the train, the line and p(s); which of the train's limits they take is
-said by each minimisation, the same at both ends of a cell. Times v this is a cubic that must not be negative. Its
-Bernstein coefficients say so on pieces that are halved until they do. The bound is the claimed values, each cell's
-length times the mean of its two ends' least, plus the fixed part, all summed as fractions.
+A certificate holds the run (borders, limits, forces and drag of the line, stops and points, inertia and the speeds at
+both ends), the train (resistance, limits of its forces, efficiencies), the events of the timetable with the price of
+each, and p(s): its borders, and its values at both ends of each cell between them. Nothing else enters: what bound.py
+says is made here. For both ends of each cell and each range of speeds a value is found that lies below inverse / v +
+constant + slope v + square v^2 for every v of the range, whose coefficients come from the train, the line and p(s) with
+one of the train's limits for each force, the same at both ends of a cell. Neighbouring ranges of one formula are one.
+The bound is the sum of each cell's length times the mean of its two ends' least value, the line's part, that of the
+ends, the jumps of p at the worst speed that each place allows, and the windows at their prices; a second costs on a
+cell what the events that lie ahead of it make of it, with what auxiliaries draw from the first departure to the last
+arrival.
 
-The certificate holds the run (borders, limits, forces and drag of the line, stops and points, inertia and the speeds at
-both ends), the train (resistance, limits of its forces, efficiencies) and p(s). The cells must fill the run, with the
-line's limits, and the line's part, the ends' and the jumps must follow from it. Digests say which line, train and times
-these are; whoever has their files can tell whether they are his.
-
-The fixed part is held against what the events of the timetable make of it: no more than the line's and the ends'
-part, the jumps at the worst speed that each place allows, and the windows at their prices; and the price of time in
-every term against the sum of the prices of all events that lie ahead of its cell and of what auxiliaries draw from the
-first departure to the last arrival.
+Where the least value lies is looked for in floating point. That it is none too high is shown in whole numbers: times v
+the formula less the value is a cubic that must not be negative, which is (v - v0)^2 times a line plus another line,
+both not negative at the range's ends; or its Bernstein coefficients say so, on pieces that are halved until they do.
+Numbers of the file count to 2^-60 of their unit and p to 2^-50; what is made of them is rounded towards a lower bound.
+Digests say which line, train and times these are; whoever has their files can tell whether they are his.
 """
 
 from __future__ import annotations
 
 import hashlib
 import json
+import math
 import sys
+from collections.abc import Iterator
 from fractions import Fraction
 from itertools import pairwise
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
-MOST_HALVINGS = 60
-# In bytes: no certificate comes near it.
-LARGEST = 64 * 2**20
+VERSION = 4
+KEYS = {"version", "digests", "run", "train", "p", "origin_s", "auxiliary_w", "events", "lower_bound_J"}
+# In bytes, cells, ranges of speed, and looks at a range or a piece of it: no certificate comes near them.
+LARGEST, MOST_CELLS, MOST_RANGES, MOST_LOOKS, MOST_HALVINGS = 64 * 2**20, 100_000, 2_000, 3_000_000, 60
 DEEPEST, HUGE, FASTEST = 6, 1e18, 200
 TEXTS = ("digests", "kind")
-# Of positions in m, and of sums as a share: what rounding may do.
-NEAR, ROUNDED, DRAG_NEAR = Fraction(1, 10**6), Fraction(1, 10**12), Fraction(1, 10**9)
+# That a tunnel's drag is linear along a cell, as a share.
+DRAG_NEAR = Fraction(1, 10**9)
+# Binary digits behind the point: of numbers of the file, of p, of the formulas' coefficients and values, of energy.
+FINE, OF_P = 60, 50
+OF_VALUE, OF_ENERGY = OF_P + FINE, OF_P + 2 * FINE
+# Ranges of speed on each of which one of several limits of the force is taken.
+SPEED_RANGES = 30
+# A value is claimed this share of what it is the sum of below what was found, or so much more where that is too little.
+SLACKS = (1e-12, 1e-10, 1e-8, 1e-6)
+
+Four = tuple[int, int, int, int]  # of 1 / v, 1, v and v^2, to 2^-OF_VALUE or, of the train's limits, to 2^-FINE
 
 
-def nonnegative(coefficients: tuple[Fraction, ...], low: Fraction, high: Fraction) -> bool:
-    """Whether a cubic c0 + c1 v + c2 v^2 + c3 v^3 is proven not to be negative from low to high."""
-    c0, c1, c2, c3 = coefficients
-    w = high - low
-    # About low, then scaled to [0, 1]: a0 + a1 t + a2 t^2 + a3 t^3.
-    a0 = c0 + low * (c1 + low * (c2 + low * c3))
-    a1 = (c1 + low * (2 * c2 + 3 * low * c3)) * w
-    a2 = (c2 + 3 * low * c3) * w * w
-    a3 = c3 * w * w * w
-    pieces = [((a0, a0 + a1 / 3, a0 + 2 * a1 / 3 + a2 / 3, a0 + a1 + a2 + a3), 0)]
-    while pieces:
-        bernstein, depth = pieces.pop()
-        if min(bernstein) >= 0:
-            continue
-        if min(bernstein[0], bernstein[3]) < 0 or depth == MOST_HALVINGS:
-            return False
-        p0, p1, p2, p3 = bernstein
-        q0, q1, q2 = (p0 + p1) / 2, (p1 + p2) / 2, (p2 + p3) / 2
-        r0, r1 = (q0 + q1) / 2, (q1 + q2) / 2
-        middle = (r0 + r1) / 2
-        pieces += [((p0, q0, r0, middle), depth + 1), ((middle, r1, q2, p3), depth + 1)]
-    return True
+def _near(value: float | Fraction, digits: int = FINE) -> int:
+    """A number as a multiple of 2^-digits that is not above it."""
+    one, two = value.as_integer_ratio()
+    return (one << digits) // two
+
+
+def _above(value: float | Fraction, digits: int = FINE) -> int:
+    return -_near(-value, digits)
 
 
 def checked_bound(certificate: dict[str, Any]) -> Fraction:
     """The bound in J that the certificate proves; raises ValueError with the reason when it proves none."""
-    if certificate.get("version") != 3:
-        raise ValueError("holds no line, no train and no p(s), so that nothing binds it to a run: write it again")
+    if certificate.get("version") != VERSION:
+        raise ValueError(f"is of version {certificate.get('version')!r}, not {VERSION}: write it again")
+    if not set(certificate) <= KEYS:
+        raise ValueError(f"has a part that no certificate has: {min(set(certificate) - KEYS)[:80]!r}")
     _require_plain_numbers(certificate)
     if certificate["digests"] != stated_digests(certificate):
         raise ValueError("its digests are not those of the line, train and times in it")
-    lengths = [Fraction(value) for value in certificate["cell_m"]]
-    if not lengths or any(length <= 0 for length in lengths):
-        raise ValueError("there are no cells, or a cell has no length")
-    _check_run(certificate, lengths)
-    cells = _cells(certificate)
-    ways: list[dict[tuple[int, Fraction, Fraction], tuple[int, int, int]]] = [{}, {}]
-    least: list[list[Fraction | None]] = [[None, None] for _ in lengths]
-    reached: dict[tuple[int, int], Fraction] = {}
-    terms = sorted(zip(*(certificate["terms"][name] for name in (
-        "cell", "end", "low", "high", "value", "pull", "brake", "electric")), strict=True))
-    for number, row in enumerate(terms):
-        cell, end = int(row[0]), int(row[1])
-        low, high, value = (Fraction(x) for x in row[2:5])
-        way = int(row[5]), int(row[6]), int(row[7])
-        if not 0 <= low < high or low != reached.get((cell, end), Fraction(0)):
-            raise ValueError(f"term {number}: its speeds do not go on where those before it end")
-        reached[cell, end] = high
-        ways[end][cell, low, high] = way
-        inverse, constant, slope, square = _coefficients(certificate, cells[cell], end, low, high, way)
-        if not nonnegative((inverse + Fraction(certificate["cell_price_w"][cell]), constant - value, slope, square),
-                           low, high):
-            raise ValueError(f"term {number}: its value is not proven")
-        before = least[cell][end]
-        least[cell][end] = value if before is None else min(before, value)
-    if ways[0] != ways[1]:
-        raise ValueError("the two ends of a cell take different limits of the force")
-    _check_timetable(certificate, lengths)
-    total = Fraction(certificate["fixed_j"])
-    for cell, (length, (left, right)) in enumerate(zip(lengths, least, strict=True)):
-        top = Fraction(certificate["limit_mps"][cell])
-        if left is None or right is None or min(reached[cell, 0], reached[cell, 1]) < top:
-            raise ValueError(f"cell {cell}: not every speed up to its limit is looked at")
-        total += length * (left + right) / 2
-    return total
+    run, p = certificate["run"], certificate["p"]
+    cells = list(_cells(run, p))
+    train = _Train(certificate, max(cell.limit for cell in cells))
+    auxiliary = Fraction(certificate.get("auxiliary_w", 0))
+    if auxiliary > Fraction(certificate["train"]["auxiliary_w"]):
+        raise ValueError("counts more auxiliaries than the train draws")
+    legs, time_part = _legs(certificate["events"], Fraction(certificate["origin_s"]), auxiliary)
+    if not legs or legs[-1][0] != cells[-1].b:
+        raise ValueError("the cells do not end at the last event")
+    total = _near(time_part, OF_ENERGY) + _line_part(run, cells) + _ends_and_jumps(run, train, cells)
+    if len(cells) * len(train.ranges) > MOST_LOOKS:
+        raise ValueError(f"needs more than {MOST_LOOKS} looks at ranges of speed")
+    looks = [0]
+    for cell, price in zip(cells, _prices(legs, cells), strict=True):
+        total += (cell.b - cell.a) * sum(_least(train, cell, price, looks)) // 2
+    return Fraction(total, 2**OF_ENERGY)
 
 
 def _require_plain_numbers(part: Any, name: str = "", depth: int = 0) -> None:
@@ -121,52 +103,6 @@ def _require_plain_numbers(part: Any, name: str = "", depth: int = 0) -> None:
         raise ValueError(f"holds a number that is not between -{HUGE:g} and {HUGE:g}")
 
 
-def _check_run(certificate: dict[str, Any], lengths: list[Fraction]) -> None:
-    """Raises ValueError unless the cells fill the run without gaps, their limits are the line's, and the line's part,
-    that of the ends and the jumps follow from the line's force, the inertia and p(s)."""
-    run, p = certificate["run"], certificate["p"]
-    inertia, start, end = (Fraction(run[name]) for name in ("inertia_kg", "start_mps", "end_mps"))
-    x = [Fraction(value) for value in run["position_m"]]
-    limits = [Fraction(value) for value in run["limit_mps"]]
-    forces = [(Fraction(one), Fraction(two)) for one, two in run["force_n"]]
-    left, right = ([Fraction(value) for value in p[side]] for side in ("left", "right"))
-    if inertia <= 0 or start < 0 or end < 0 or any(b <= a for a, b in pairwise(x)) or not (
-            len(x) - 1 == len(limits) == len(forces) > 0) or not len(left) == len(right) == len(lengths):
-        raise ValueError("line, train and p(s) do not fit each other")
-    if any(not 0 < limit < FASTEST for limit in limits) or max(start, end) >= FASTEST:
-        raise ValueError(f"a limit of speed is not between 0 and {FASTEST} m/s: are they in km/h?")
-    borders = [Fraction(value) for value in p["position_m"]]
-    if len(borders) != len(lengths) + 1 or borders[0] != x[0] or borders[-1] != x[-1] or (
-            Fraction(certificate["start_m"]) != x[0]) or any(
-            abs(b - a - length) > NEAR for (a, b), length in zip(pairwise(borders), lengths, strict=True)):
-        raise ValueError("the cells do not fill the run from its start to its end")
-    line, section = Fraction(0), 0
-    tops: list[Fraction] = []
-    for (a, b), p_a, p_b in zip(pairwise(borders), left, right, strict=True):
-        tops.append(Fraction(0))
-        while x[section + 1] <= a:
-            section += 1
-        here = section
-        while here < len(limits) and x[here] < b:
-            tops[-1] = max(tops[-1], limits[here])
-            one, two = max(a, x[here]), min(b, x[here + 1])
-            p_one, p_two = (p_a + (p_b - p_a) * (at - a) / (b - a) for at in (one, two))
-            g_one, g_two = (forces[here][0] + (forces[here][1] - forces[here][0]) * (at - x[here])
-                            / (x[here + 1] - x[here]) for at in (one, two))
-            line += (two - one) * ((p_one * g_one + p_two * g_two) / 3 + (p_one * g_two + p_two * g_one) / 6)
-            here += 1
-    if any(Fraction(stated) < top for stated, top in zip(certificate["limit_mps"], tops, strict=True)):
-        raise ValueError("a cell's limit of speed is lower than the line's")
-    ends = inertia * (right[-1] * end**2 - left[0] * start**2) / 2
-    for name, found in (("line_j", line), ("ends_j", ends)):
-        if Fraction(certificate[name]) > found + abs(found) * ROUNDED:
-            raise ValueError(f"{name} is more than line and p(s) give")
-    for number, stated in enumerate(certificate["jumps"]["inertia_times_fall"]):
-        found = inertia * (right[number] - left[number + 1])
-        if Fraction(stated) > found + inertia * (abs(right[number]) + abs(left[number + 1])) * ROUNDED:
-            raise ValueError(f"jump {number} is more than p(s) gives")
-
-
 def stated_digests(certificate: dict[str, Any]) -> dict[str, str]:
     """The sha256 of line, train and times as they stand in a certificate: canonical JSON, keys sorted, no spaces."""
     run, events = certificate["run"], certificate["events"]
@@ -179,128 +115,258 @@ def stated_digests(certificate: dict[str, Any]) -> dict[str, str]:
             .hexdigest() for name, part in parts.items()}
 
 
-class _Cell:
-    """p and the tunnels' drag at both ends of a cell, the slope of p, and the extremes of the line's force."""
+class _Range(NamedTuple):
+    """Speeds from low to high, to 2^-FINE, the least limit of traction and of the electric brake in their middle, and
+    for choosing among limits that middle in m/s with both forces there in N."""
 
-    def __init__(self, run: dict[str, Any], a: Fraction, b: Fraction, p: tuple[Fraction, Fraction]) -> None:
-        borders = [Fraction(value) for value in run["position_m"]]
-        forces: list[Fraction] = []
-        drags: list[tuple[Fraction, Fraction]] = []  # place, and drag there
-        for (start, end), force, drag in zip(pairwise(borders), run["force_n"], run["drag"], strict=True):
-            for at in (max(a, start), min(b, end)) if start < b and end > a else ():
-                share = (at - start) / (end - start)
-                forces.append(Fraction(force[0]) + share * (Fraction(force[1]) - Fraction(force[0])))
-                drags.append((at, Fraction(drag[0]) + share * (Fraction(drag[1]) - Fraction(drag[0]))))
-        self.p, self.slope = p, (p[1] - p[0]) / (b - a)
-        self.drag = drags[0][1], drags[-1][1]
-        self.least_force, self.most_force = min(forces), max(forces)
-        if any(found < 0 for _, found in drags):
-            raise ValueError("a tunnel's drag is negative")
-        for at, found in drags:
-            chord = self.drag[0] + (at - a) / (b - a) * (self.drag[1] - self.drag[0])
-            if abs(found - chord) > DRAG_NEAR * (Fraction(1, 1000) + chord):
-                raise ValueError(f"the cell from {float(a):g} m crosses a change of the tunnels' drag")
+    low: int
+    high: int
+    pull: Four
+    electric: Four
+    middle: float
+    pull_n: float
+    electric_n: float
 
 
-def _cells(certificate: dict[str, Any]) -> list[_Cell]:
-    p = certificate["p"]
-    borders = [Fraction(value) for value in p["position_m"]]
-    return [_Cell(certificate["run"], a, b, (Fraction(left), Fraction(right)))
-            for (a, b), left, right in zip(pairwise(borders), p["left"], p["right"], strict=True)]
+class _Train:
+    """Its resistance, limits and prices of force, to 2^-FINE, and ranges of speed up to the line's highest limit."""
+
+    def __init__(self, certificate: dict[str, Any], top: int) -> None:
+        train = certificate["train"]
+        efficiency, returned = train["traction_efficiency"], train["regenerative_efficiency"]
+        inertia_kg = certificate["run"]["inertia_kg"]
+        self.inertia = _near(inertia_kg)
+        self.a, self.b, self.c = (_near(value) for value in train["davis_n"])
+        self.friction = _near(train["friction_brake_n"])
+        if min(self.a, self.b, self.c, self.friction) < 0 or not 0 < efficiency <= 1 or not 0 <= returned <= 1:
+            raise ValueError("the train's resistance, brakes or efficiencies are no train's")
+        if self.inertia <= 0:
+            raise ValueError("line, train and p(s) do not fit each other")
+        self.pull_from, self.returned = _near(1 / Fraction(efficiency), OF_P), _above(returned, OF_P)
+        fastest, hardest = (train[f"max_{name}_mps2"] for name in ("acceleration", "deceleration"))
+        self.fastest = None if fastest is None else _above(Fraction(fastest) * Fraction(inertia_kg))
+        self.hardest = None if hardest is None else _above(Fraction(hardest) * Fraction(inertia_kg))
+        self.ranges = tuple(_ranges(train, top, fastest is not None or hardest is not None))
 
 
-Coefficients = tuple[Fraction, Fraction, Fraction, Fraction]  # of 1 / v, 1, v and v^2
+def _ranges(train: dict[str, Any], top: int, is_limited: bool) -> Iterator[_Range]:
+    fast = top / 2**FINE
+    borders = {0, top, *(top * k // SPEED_RANGES for k in range(1, SPEED_RANGES) if is_limited)}
+    for limit in (train["traction"], train["regenerative"]):
+        borders |= {at for at in _changes(limit, fast) if 0 < at < top}
+    if len(borders) > MOST_RANGES:
+        raise ValueError(f"has more than {MOST_RANGES} ranges of speed")
+    for low, high in pairwise(sorted(borders)):
+        middle = (low + high) / 2**(FINE + 1)
+        (pull, pull_n), (electric, electric_n) = (_limit(train[name], low, high, middle)
+                                                  for name in ("traction", "regenerative"))
+        yield _Range(low, high, pull, electric, middle, pull_n, electric_n)
 
 
-def _coefficients(certificate: dict[str, Any], cell: _Cell, end: int, low: Fraction, high: Fraction,
-                  way: tuple[int, int, int]) -> Coefficients:
-    """What lies below c(u) - p u + p r(v) - p' inertia v^2 / 2 for every force u that the train has at v.
-
-    Each limit of a force is one from above, so that each alone is a bound from below; times what a newton costs at
-    least, which is convex in p, it is concave along the cell where the limit is not negative.
-    """
-    train, inertia, p = certificate["train"], Fraction(certificate["run"]["inertia_kg"]), cell.p[end]
-    a, b, c = (Fraction(value) for value in train["davis_n"])
-    efficiency, returned = Fraction(train["traction_efficiency"]), Fraction(train["regenerative_efficiency"])
-    friction = Fraction(train["friction_brake_n"])
-    if min(a, b, c, friction) < 0 or not 0 < efficiency <= 1 or not 0 <= returned <= 1:
-        raise ValueError("the train's resistance, brakes or efficiencies are no train's")
-    pull, regain, rub = max(p - 1 / efficiency, Fraction(0)), max(returned - p, Fraction(0)), max(-p, Fraction(0))
-    bend = max((cell.p[1] - cell.p[0]) * (cell.drag[1] - cell.drag[0]), Fraction(0)) / 4
-    total = (Fraction(0), p * a, p * b, p * (c + cell.drag[end]) - bend - inertia * cell.slope / 2)
-    if way[0] == 3:
-        top = a + cell.most_force + inertia * Fraction(train["max_acceleration_mps2"])
-        if top < 0:
-            raise ValueError("the acceleration is limited where no force is needed for it")
-        total = _plus(total, (Fraction(0), top, b, c + max(cell.drag)), -pull)
-    else:
-        total = _plus(total, _limit(train["traction"], way[0], low, high), -pull)
-    hardest = (Fraction(0), Fraction(0), Fraction(0), Fraction(0))
-    if way[1] in (1, 2):
-        least = a + cell.least_force - inertia * Fraction(train["max_deceleration_mps2"])
-        square = c + min(cell.drag)
-        if least + b * high + square * high**2 > 0:
-            raise ValueError("the deceleration is limited where no brake is needed for it")
-        hardest = Fraction(0), least, b, square
-    if way[1] == 1:
-        return _plus(total, hardest, regain)
-    electric = _limit(train["regenerative"], way[2], low, high)
-    if way[1] == 2:
-        return _plus(_plus(total, hardest, rub), electric, -returned)
-    if way[1] != 0:
-        raise ValueError("a minimisation takes no limit of the brakes")
-    return _plus(_plus(total, electric, -regain), (Fraction(0), friction, Fraction(0), Fraction(0)), -rub)
-
-
-def _plus(one: Coefficients, two: Coefficients, share: Fraction) -> Coefficients:
-    inverse, constant, slope, square = (x + share * y for x, y in zip(one, two, strict=True))
-    return inverse, constant, slope, square
-
-
-def _limit(limit: dict[str, Any], kind: int, low: Fraction, high: Fraction) -> Coefficients:
-    """A force that is never exceeded at speeds from low to high: the largest one, by the power, or by the table."""
-    zero = Fraction(0)
-    if kind == 0 and Fraction(limit["force_n"]) >= 0:
-        return zero, Fraction(limit["force_n"]), zero, zero
-    if kind == 1 and Fraction(limit["power_w"]) >= 0:
-        return Fraction(limit["power_w"]), zero, zero, zero
-    rows = [(Fraction(speed), Fraction(force)) for speed, force in limit["table"]] if kind == 2 else []
-    if any(force < 0 for _, force in rows):
-        raise ValueError("a force in a table is negative")
-    if rows and high <= rows[0][0]:
-        return zero, rows[0][1], zero, zero
-    if rows and low >= rows[-1][0]:
-        return zero, rows[-1][1], zero, zero
+def _changes(limit: dict[str, Any], fast: float) -> Iterator[int]:
+    """Speeds to 2^-FINE at which a limit may change its formula: the rows of its table exactly, others nearby."""
+    rows, power, force = limit["table"], limit["power_w"], limit["force_n"]
+    lines = [(0.0, fast, float(force), 0.0)]
     for (v_one, one), (v_two, two) in pairwise(rows):
+        slope = (two - one) / (v_two - v_one)
+        lines.append((v_one, v_two, one - slope * v_one, slope))
+        if slope:
+            lines.append((v_one, v_two, force - one + slope * v_one, -slope))  # where the table meets the force
+    yield from (_near(speed) for speed, _ in rows)
+    for number, (low, high, constant, slope) in enumerate([*lines, *((0.0, fast, row[1], 0.0) for row in rows)]):
+        met: list[float] = []
+        if number and slope:
+            met.append((force - constant) / slope)
+        if power is not None and slope:
+            inside = constant**2 + 4 * slope * power
+            met += [(-constant + sign * math.sqrt(inside)) / (2 * slope) for sign in (1, -1)] if inside >= 0 else []
+        elif power is not None and constant > 0:
+            met.append(power / constant)
+        yield from (_near(speed) for speed in met if low < speed < high)
+
+
+def _limit(limit: dict[str, Any], low: int, high: int, middle: float) -> tuple[Four, float]:
+    """A force that is never exceeded at speeds from low to high: the largest one, by the power, or by the table; of
+    these the least at the middle, and it there."""
+    force, power, rows = limit["force_n"], limit["power_w"], limit["table"]
+    if force < 0 or (power is not None and power < 0) or any(row[1] < 0 for row in rows):
+        raise ValueError("a largest force or power is negative")
+    found: list[tuple[float, Four]] = [(float(force), (0, _above(force), 0, 0))]
+    if power is not None:
+        found.append((power / middle, (_above(power), 0, 0, 0)))
+    speeds = [_near(speed) for speed, _ in rows]
+    if any(two <= one for one, two in pairwise(speeds)):
+        raise ValueError("a table's speeds do not increase")
+    for at, row in ((0, high <= speeds[0]), (-1, low >= speeds[-1])) if rows else ():
+        if row:
+            found.append((float(rows[at][1]), (0, _above(rows[at][1]), 0, 0)))
+    for (v_one, v_two), ((_, one), (_, two)) in zip(pairwise(speeds), pairwise(rows), strict=True):
         if v_one <= low and high <= v_two:
-            slope = (two - one) / (v_two - v_one)
-            return zero, one - slope * v_one, slope, zero
-    raise ValueError("a minimisation takes a limit that the train does not have at its speeds")
+            slope = _above((Fraction(two) - Fraction(one)) * 2**FINE / (v_two - v_one))
+            constant = _above(one) - (slope * v_one >> FINE)
+            found.append(((constant + slope * middle) / 2**FINE, (0, constant, slope, 0)))
+    least = min(found)
+    return least[1], least[0]
 
 
-def _check_timetable(certificate: dict[str, Any], lengths: list[Fraction]) -> None:
-    """Raises ValueError unless the prices of time and the fixed part follow from the events and the jumps."""
-    legs, time_part = _legs(certificate["events"], Fraction(certificate["origin_s"]),
-                            Fraction(certificate.get("auxiliary_w", 0)))
-    prices = [Fraction(price) for price in certificate["cell_price_w"]]
-    if len(prices) != len(lengths):
-        raise ValueError("not every cell has a price of time")
-    if Fraction(certificate.get("auxiliary_w", 0)) > Fraction(certificate["train"]["auxiliary_w"]):
-        raise ValueError("counts more auxiliaries than the train draws")
-    _check_prices(legs, Fraction(certificate["start_m"]), lengths, prices)
-    fixed = (Fraction(certificate["line_j"]) + Fraction(certificate["ends_j"]) + time_part
-             + _jumps(certificate, len(lengths) - 1))
-    if Fraction(certificate["fixed_j"]) > fixed:
-        raise ValueError("the fixed part is more than windows, jumps, line and ends give")
+class _Cell(NamedTuple):
+    """A cell from a to b in m and p at both ends; highest limit, tunnels' drag at both ends, and the line's least and
+    largest force on it, all to 2^-FINE, p to 2^-OF_P."""
+
+    a: int
+    b: int
+    p: tuple[int, int]
+    limit: int
+    drag: tuple[int, int]
+    least_force: int
+    most_force: int
+
+
+def _groups(train: _Train, cell: _Cell) -> Iterator[tuple[int, int, Four, Four, Four, bool]]:
+    """Ranges of speed with the limits of the forces taken there: of traction, of the brakes at the price of what they
+    return, and at that of friction; and whether all that is returned counts as gained. Neighbours of the same limits
+    are one. Each limit is one from above, so that each alone is a bound from below; times what a newton costs at
+    least, convex in p, it is concave along the cell where the limit is not negative."""
+    nothing = 0, 0, 0, 0
+    least_p, most_p = min(cell.p), max(cell.p)
+    pulls, regains, rubs = most_p > train.pull_from, least_p < train.returned, least_p < 0
+    top = train.a + cell.most_force + (train.fastest or 0), train.b, train.c + max(cell.drag) + 1
+    low_n = train.a + cell.least_force - (train.hardest or 0), train.b, train.c + min(cell.drag)
+    middle_p = (cell.p[0] + cell.p[1]) / 2**(OF_P + 1)
+    back = train.returned / 2**OF_P
+    regain, rub, friction = max(back - middle_p, 0.0), max(-middle_p, 0.0), train.friction / 2**FINE
+    kept: tuple[Four, Four, Four, bool] | None = None
+    start = 0
+    for one in train.ranges:
+        if one.low >= cell.limit:
+            break
+        v = one.middle
+        pull = one.pull if pulls else nothing
+        if pulls and train.fastest is not None and top[0] >= 0 and (
+                top[0] + top[1] * v + top[2] * v * v) / 2**FINE < one.pull_n:
+            pull = 0, *top
+        is_all = False
+        electric, rubbed = (one.electric if regains else nothing), ((0, train.friction, 0, 0) if rubs else nothing)
+        if regains and train.hardest is not None and (low_n[0] << 2 * FINE) + (low_n[1] * one.high << FINE) + (
+                low_n[2] * one.high**2) <= 0:
+            hard = -(low_n[0] + low_n[1] * v + low_n[2] * v * v) / 2**FINE
+            both, alone = regain * one.electric_n + rub * friction, regain * hard
+            mixed = back * one.electric_n + rub * hard
+            hardest = 0, -low_n[0], -low_n[1], -low_n[2]
+            if alone < min(both, mixed):
+                electric, rubbed = hardest, nothing
+            elif mixed < both:
+                electric, rubbed, is_all = one.electric, hardest, True
+        found = pull, electric, rubbed, is_all
+        if kept is not None and found != kept:
+            yield start, one.low, *kept
+            start = one.low
+        kept = found
+    if kept is not None:
+        yield start, cell.limit, *kept
+
+
+def _cells(run: dict[str, Any], p: dict[str, Any]) -> Iterator[_Cell]:
+    """The cells between the borders of p, which fill the run; raises ValueError where they do not."""
+    x, borders = [_near(value) for value in run["position_m"]], [_near(value) for value in p["position_m"]]
+    limits, forces, drags, left, right = run["limit_mps"], run["force_n"], run["drag"], p["left"], p["right"]
+    if not 0 < len(left) == len(right) == len(borders) - 1 <= MOST_CELLS or not (
+            0 < len(limits) == len(forces) == len(drags) == len(x) - 1) or any(b <= a for a, b in pairwise(x)):
+        raise ValueError("line, train and p(s) do not fit each other")
+    if any(not 0 < limit < FASTEST for limit in limits) or not (
+            0 <= run["start_mps"] < FASTEST and 0 <= run["end_mps"] < FASTEST):
+        raise ValueError(f"a limit of speed is not between 0 and {FASTEST} m/s: are they in km/h?")
+    if any(b <= a for a, b in pairwise(borders)) or (borders[0], borders[-1]) != (x[0], x[-1]):
+        raise ValueError("the cells do not fill the run from its start to its end")
+    if any(min(drag) < 0 for drag in drags):
+        raise ValueError("a tunnel's drag is negative")
+    section = 0
+    for number, (a, b) in enumerate(pairwise(borders)):
+        while x[section + 1] <= a:
+            section += 1
+        last = section
+        while x[last + 1] < b:
+            last += 1
+        inside = range(section, last + 1)
+        ends = [(k, max(a, x[k]), min(b, x[k + 1])) for k in inside]
+        met = [_between(x, forces, k, at) for k, *both in ends for at in both]
+        drag = [(at, _between(x, drags, k, at)) for k, *both in ends for at in both]
+        start, stop = drag[0][1], drag[-1][1]
+        for at, here in drag if start or stop or any(one for _, one in drag) else ():
+            chord = start + (stop - start) * Fraction(at - a, b - a)
+            if abs(here - chord) > DRAG_NEAR * (Fraction(2**FINE, 1000) + chord):
+                raise ValueError(f"the cell from {a / 2**FINE:g} m crosses a change of the tunnels' drag")
+        yield _Cell(a, b, (_near(left[number], OF_P), _near(right[number], OF_P)),
+                    max(_above(limits[k]) for k in inside), (math.floor(start), math.floor(stop)),
+                    math.floor(min(met)), math.ceil(max(met)))
+
+
+def _between(x: list[int], ends: list[list[float]], section: int, at: int) -> Fraction | int:
+    """At a place of a section what is linear on it, in 2^-FINE."""
+    one, two = ends[section]
+    first = _near(one)
+    if one == two:
+        return first
+    return first + Fraction((_near(two) - first) * (at - x[section]), x[section + 1] - x[section])
+
+
+def _line_part(run: dict[str, Any], cells: list[_Cell]) -> int:
+    """The integral of p times the line's force, to 2^-OF_ENERGY."""
+    x, forces, total, section = [_near(value) for value in run["position_m"]], run["force_n"], 0, 0
+    for cell in cells:
+        while x[section + 1] <= cell.a:
+            section += 1
+        here = section
+        while here < len(forces) and x[here] < cell.b:
+            one, two = max(cell.a, x[here]), min(cell.b, x[here + 1])
+            p_one, p_two = cell.p if (one, two) == (cell.a, cell.b) else (
+                cell.p[0] + Fraction((cell.p[1] - cell.p[0]) * (at - cell.a), cell.b - cell.a) for at in (one, two))
+            g_one, g_two = (_between(x, forces, here, at) for at in (one, two))
+            total += (two - one) * (2 * (p_one * g_one + p_two * g_two) + p_one * g_two + p_two * g_one) // 6
+            here += 1
+    return total
+
+
+def _ends_and_jumps(run: dict[str, Any], train: _Train, cells: list[_Cell]) -> int:
+    """What the speeds at both ends and the jumps of p give, these at the worst speed that line, stops and points allow,
+    to 2^-OF_ENERGY."""
+    start, end = _near(run["start_mps"]), _near(run["end_mps"])
+    double = train.inertia * (cells[-1].p[1] * end**2 - cells[0].p[0] * start**2)
+    points = {_near(position): (slowest, fastest) for position, slowest, fastest in run["points"]}
+    stops = {_near(position) for position in run["stops_m"]}
+    x, section = [_near(value) for value in run["position_m"]], 0
+    for one, two in pairwise(cells):
+        fall = one.p[1] - two.p[0]
+        slowest, fastest = points.get(one.b, (0.0, None))
+        while x[section + 1] < one.b:
+            section += 1
+        around = run["limit_mps"][section:section + 1 + (x[section + 1] == one.b)]
+        top = 0.0 if one.b in stops else min(around if fastest is None else [*around, fastest])
+        if not 0 <= slowest <= top:
+            raise ValueError(f"between two speeds: {one.b / 2**FINE:g} m cannot be passed at those that are asked")
+        double += train.inertia * fall * (_above(top) if fall < 0 else _near(slowest))**2
+    return double >> FINE + 1
+
+
+def _prices(legs: list[tuple[int, Fraction]], cells: list[_Cell]) -> Iterator[int]:
+    """What a second costs on each cell at least, to 2^-OF_VALUE: the least of the legs that it lies on."""
+    leg = 0
+    for cell in cells:
+        while leg < len(legs) - 1 and legs[leg][0] <= cell.a:
+            leg += 1
+        last = leg
+        while last < len(legs) - 1 and legs[last][0] < cell.b:
+            last += 1
+        yield _near(min(level for _, level in legs[leg:last + 1]), OF_VALUE)
 
 
 def _legs(events: list[dict[str, Any]], origin: Fraction,
-          auxiliary: Fraction) -> tuple[list[tuple[Fraction, Fraction]], Fraction]:
+          auxiliary: Fraction) -> tuple[list[tuple[int, Fraction]], Fraction]:
     """Where each leg ends with what a second costs on it, and what windows and least waits add to the bound."""
     if auxiliary < 0:
         raise ValueError("auxiliaries draw less than nothing")
     level, time_part = auxiliary, Fraction(0)
-    legs: list[tuple[Fraction, Fraction]] = []
+    legs: list[tuple[int, Fraction]] = []
     for number, event in reversed(list(enumerate(events))):
         price, dwell = Fraction(event["price_w"]), Fraction(event["dwell_s"])
         level += price if number else price - auxiliary  # which do not draw yet before the first departure
@@ -309,48 +375,111 @@ def _legs(events: list[dict[str, Any]], origin: Fraction,
             raise ValueError(f"event {number}: price, dwell and window do not go together")
         time_part += dwell * level - (price * Fraction(limit) if price else 0)
         if not event["waits"]:
-            legs.insert(0, (Fraction(event["position_m"]), level))
+            legs.append((_near(event["position_m"]), level))
+    legs.reverse()
     if not events[0]["waits"] or origin != Fraction(events[0]["earliest_s"]) or any(
             two <= one for (one, _), (two, _) in pairwise(legs)):
         raise ValueError("the events are not in order")
     return legs, time_part + origin * level
 
 
-def _check_prices(legs: list[tuple[Fraction, Fraction]], start: Fraction, lengths: list[Fraction],
-                  prices: list[Fraction]) -> None:
-    """Raises ValueError where a cell takes more for a second than a leg that it lies on."""
-    # Lengths are rounded differences of positions, so that a border may lie beside an event's by a little.
-    near, leg = Fraction(1, 10**6), 0
-    for cell, (length, price) in enumerate(zip(lengths, prices, strict=True)):
-        while leg < len(legs) - 1 and legs[leg][0] <= start + near:
-            leg += 1
-        last = leg
-        while last < len(legs) - 1 and legs[last][0] < start + length - near:
-            last += 1
-        if price > min(level for _, level in legs[leg:last + 1]):
-            raise ValueError(f"cell {cell}: its price of time is more than the events ahead of it give")
-        start += length
-    if abs(start - legs[-1][0]) > near:
-        raise ValueError("the cells do not end at the last event")
+
+def _least(train: _Train, cell: _Cell, price: int, looks: list[int]) -> list[int]:
+    """At both ends of a cell a value, to 2^-OF_VALUE, below c(u) - p u + price / v + p r(v) - p' inertia v^2 / 2 for
+    every speed up to the limit and every force u that the train has there."""
+    (p_a, p_b), (drag_a, drag_b) = cell.p, cell.drag
+    bend = -(-max((p_b - p_a) * (drag_b - drag_a), 0) // 4)
+    turn = -(-(train.inertia * (p_b - p_a) << FINE) // (2 * (cell.b - cell.a)))
+    groups = list(_groups(train, cell))
+    found: list[int] = []
+    for p, drag in zip(cell.p, cell.drag, strict=True):
+        pull, regain, rub = max(p - train.pull_from, 0), max(train.returned - p, 0), max(-p, 0)
+        square = p * (train.c + drag) - abs(p) - bend - turn  # drag was rounded
+        terms = []
+        for low, high, traction, electric, rubbed, is_all in groups:
+            gain = train.returned if is_all else regain
+            terms.append((low, high, price - pull * traction[0] - gain * electric[0] - rub * rubbed[0],
+                          p * train.a - pull * traction[1] - gain * electric[1] - rub * rubbed[1],
+                          p * train.b - pull * traction[2] - gain * electric[2] - rub * rubbed[2],
+                          square - pull * traction[3] - gain * electric[3] - rub * rubbed[3]))
+        found.append(_below_all(terms, looks))
+    return found
 
 
-def _jumps(certificate: dict[str, Any], count: int) -> Fraction:
-    """All jumps at the worst speed each, which line, stops and points give."""
-    jumps, run = certificate["jumps"], certificate["run"]
-    points = {position: (slowest, fastest) for position, slowest, fastest in run["points"]}
-    for border, low, high in zip(certificate["p"]["position_m"][1:-1], jumps["slowest_mps"], jumps["fastest_mps"],
-                                 strict=True):
-        slowest, fastest = points.get(border, (0.0, None))
-        tops = [limit for limit, a, b in zip(run["limit_mps"], run["position_m"], run["position_m"][1:], strict=False)
-                if a <= border <= b]
-        top = 0.0 if border in run["stops_m"] else min(tops if fastest is None else [*tops, fastest])
-        if low > slowest or high < top:
-            raise ValueError(f"the speeds of the jump at {border} m are not those of line, stops and points")
-    rows = list(zip(*(map(Fraction, jumps[name]) for name in ("inertia_times_fall", "slowest_mps", "fastest_mps")),
-                    strict=True))
-    if len(rows) != count or any(not 0 <= slowest <= fastest for _, slowest, fastest in rows):
-        raise ValueError("the jumps are not one at each border, between two speeds")
-    return sum((fall * (fastest if fall < 0 else slowest) ** 2 / 2 for fall, slowest, fastest in rows), Fraction(0))
+def _below_all(terms: list[tuple[int, int, int, int, int, int]], looks: list[int]) -> int:
+    """A value that lies below all of them, nearly the largest one; raises ValueError where none is proven."""
+    unit, fine = 2.0**-OF_VALUE, 2.0**-FINE
+    lowest, size, places = math.inf, 0.0, []
+    for low, high, *whole in terms:
+        one, two = low * fine, high * fine
+        a, b, c, d = (value * unit for value in whole)
+        at = _place(one, two, a, c, d)
+        lowest = min(lowest, (a / at if at else math.inf if a > 0 else 0.0) + b + c * at + d * at * at)
+        size = max(size, abs(a) / max(two, 1e-3) + abs(b) + abs(c) * two + abs(d) * two * two)
+        places.append(min(max(int(at * 2**FINE), low), high))
+    if not math.isfinite(lowest):
+        raise ValueError("a second or a force costs so much that there is no least value")
+    for slack in SLACKS:
+        value = int((lowest - slack * size) * 2.0**60) << OF_VALUE - 60
+        if all(_stays_above(term, value, at, looks) for term, at in zip(terms, places, strict=True)):
+            return value
+    raise ValueError("a least value is not proven")
+
+
+def _place(low: float, high: float, a: float, c: float, d: float) -> float:
+    """About where a / v + c v + d v^2 is least."""
+    def rises(v: float) -> float:  # times v^2
+        return (c + 2 * d * v) * v * v - a
+
+    def worth(v: float) -> float:
+        return (a / v if v else math.inf if a > 0 else -math.inf if a < 0 else 0.0) + c * v + d * v * v
+
+    ends = [low, high]
+    turn = min(max(math.copysign(abs(a / d) ** (1 / 3), -a / d), low), high) if a * d < 0 else low
+    for below, above in ((low, turn), (turn, high)):
+        if above > below and rises(below) < 0 < rises(above):
+            one, two, v = below, above, (below + above) / 2
+            for _ in range(60):
+                now, slope = rises(v), 2 * v * (c + 3 * d * v)
+                one, two = (v, two) if now < 0 else (one, v)
+                new = v - now / slope if slope else (one + two) / 2
+                new = new if one < new < two else (one + two) / 2
+                if abs(new - v) <= 1e-15 * v:
+                    break
+                v = new
+            ends.append(v)
+    return min(ends, key=worth)
+
+
+def _stays_above(term: tuple[int, int, int, int, int, int], value: int, at: int, looks: list[int]) -> bool:
+    """Whether inverse / v + constant + slope v + square v^2 is proven to be no less than the value from low to high."""
+    low, high, inverse, constant, slope, square = term
+    c0, c1, c2, c3 = inverse << 3 * FINE, constant - value << 2 * FINE, slope << FINE, square  # of v in 2^-FINE
+    looks[0] += 1
+    # (v - at)^2 (lead + c3 v) + rest + tilt v
+    lead = c2 + 2 * at * c3
+    tilt, rest = c1 + at * (2 * lead - at * c3), c0 - at * at * lead
+    if min(lead + c3 * low, lead + c3 * high, rest + tilt * low, rest + tilt * high) >= 0:
+        return True
+    width = high - low
+    a0 = c0 + low * (c1 + low * (c2 + low * c3))
+    a1 = (c1 + low * (2 * c2 + 3 * low * c3)) * width
+    a2 = (c2 + 3 * low * c3) * width**2
+    pieces = [((3 * a0, 3 * a0 + a1, 3 * a0 + 2 * a1 + a2, 3 * (a0 + a1 + a2 + c3 * width**3)), 0)]
+    while pieces:
+        (p0, p1, p2, p3), depth = pieces.pop()
+        looks[0] += 1
+        if looks[0] > MOST_LOOKS:
+            raise ValueError(f"needs more than {MOST_LOOKS} looks at ranges of speed")
+        if min(p0, p1, p2, p3) >= 0:
+            continue
+        if min(p0, p3) < 0 or depth == MOST_HALVINGS:
+            return False
+        # Halves, times eight.
+        left, inner, right = p0 + p1, p1 + p2, p2 + p3
+        pieces += [((8 * p0, 4 * left, 2 * (left + inner), left + 2 * inner + right), depth + 1),
+                   ((left + 2 * inner + right, 2 * (inner + right), 4 * right, 8 * p3), depth + 1)]
+    return True
 
 
 def _contents(path: Path) -> bytes:
