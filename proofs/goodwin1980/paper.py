@@ -1,6 +1,7 @@
 """goodwin1980: discrete-time adaptive control by the projection algorithm.
 
-G. C. Goodwin, P. J. Ramadge, P. E. Caines, Discrete-Time Multivariable Adaptive Control, IEEE Transactions on Automatic Control 25(3) (1980) 449-456
+G. C. Goodwin, P. J. Ramadge, P. E. Caines, Discrete-Time Multivariable Adaptive Control, IEEE Transactions on Automatic Control 25(3) (1980) 449-456. Stated in
+its common form: the text was not at hand.
 
 The paper's text was not at hand: its lines stand here as the result is commonly stated, for one input and one output with
 two unknown parameters, so rows have names instead of equation numbers, and `printed` is that common form. A step from one

@@ -1,6 +1,7 @@
 """krstic1992: adaptive backstepping with tuning functions, one estimate for a parameter that enters three steps off.
 
-M. Krstic, I. Kanellakopoulos, P. V. Kokotovic, Adaptive nonlinear control without overparametrization, Systems & Control Letters 19(3) (1992) 177-185
+M. Krstic, I. Kanellakopoulos, P. V. Kokotovic, Adaptive nonlinear control without overparametrization, Systems & Control Letters 19(3) (1992) 177-185. Stated in
+its common form: the text was not at hand.
 
 The paper's text was not at hand: its lines stand here as the design is commonly stated, for the chain of three states
 that the same authors' textbook uses (Nonlinear and Adaptive Control Design, 1995, chapter 4), so rows have names instead

@@ -1,6 +1,7 @@
 """lavretsky2009: model reference adaptive control, and its composite form that learns from a prediction error too.
 
-E. Lavretsky, Combined/Composite Model Reference Adaptive Control, IEEE Transactions on Automatic Control 54(11) (2009) 2692-2697
+E. Lavretsky, Combined/Composite Model Reference Adaptive Control, IEEE Transactions on Automatic Control 54(11) (2009) 2692-2697. Stated in
+its common form: the text was not at hand.
 
 The paper's text was not at hand: its lines stand here as the result is commonly stated, for a plant of two states with
 known input gain, so rows have names instead of equation numbers, and `printed` is that common form. The rows hold for

@@ -1,6 +1,7 @@
 """moreno2012: the super-twisting algorithm by a strict Lyapunov function, without and with perturbations.
 
-J. A. Moreno, M. Osorio, Strict Lyapunov Functions for the Super-Twisting Algorithm, IEEE Transactions on Automatic Control 57(4) (2012) 1035-1040
+J. A. Moreno, M. Osorio, Strict Lyapunov Functions for the Super-Twisting Algorithm, IEEE Transactions on Automatic Control 57(4) (2012) 1035-1040. Stated in
+its common form: the text was not at hand.
 
 The paper's text was not at hand: its lines stand here as the result is commonly stated, with the perturbed case in the
 form that goes back to the same authors' conference paper of 2008 (A Lyapunov Approach to Second-Order Sliding Mode

@@ -1,7 +1,8 @@
 """slotine1987: the adaptive controller of a robot arm that needs no accelerations, on an arm of two links.
 
 J.-J. E. Slotine, W. Li, On the Adaptive Control of Robot Manipulators, The International Journal of Robotics Research
-6(3) (1987) 49-59.
+6(3) (1987) 49-59. Stated in
+its common form: the text was not at hand.
 
 The paper's text was not at hand: its lines stand here as the result is commonly stated, so rows have names instead of
 equation numbers, and `printed` is that common form. The arm, its parameters, gains and desired motion are those of the

@@ -24,7 +24,7 @@ from workbench.report.worded import math, worded
 
 MOST_STEPS = 120  # lines of a proof beyond which a reader is sent to the certificate
 CHECKER = "checker.py"
-ABOUT = """Every line of the paper was stated as mathematics, as it is printed, and decided by a machine. Each verdict \
+ABOUT = """Every line was stated as mathematics, as it stands here, and decided by a machine. Each verdict \
 below comes with a certificate, a proof or a counterexample in exact arithmetic, that one short program, checker.py, \
 re-checks with Python's standard library alone. Numbers in brackets are those of the paper; a word in square brackets \
 tells parts of one line apart."""
