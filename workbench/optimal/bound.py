@@ -39,7 +39,7 @@ from workbench.errors import WorkbenchError
 from workbench.optimal.bound_fixed import fixed_part, owner_of
 from workbench.optimal.certificate import Certificate
 from workbench.optimal.course import Array, Course
-from workbench.optimal.speed_ranges import PULL_BY, Pieces, Ranges, speed_ranges
+from workbench.optimal.speed_ranges import Pieces, Ranges, speed_ranges
 from workbench.optimal.timetable import Timetable, as_timetable
 from workbench.optimal.vehicle import Vehicle
 
@@ -47,8 +47,6 @@ from workbench.optimal.vehicle import Vehicle
 Coefficients = tuple[Array, Array, Array, Array]
 # A tunnel's drag is linear along a cell up to this share.
 DRAG_TOLERANCE = 1e-9
-# What limits a braking force: by its place in this list, as in PULL_BY, a limit stands in certificates.
-BRAKE_BY = ("brakes", "deceleration", "mixed")
 
 
 @dataclass(frozen=True)
@@ -56,8 +54,6 @@ class Terms:
     """One minimisation: of inverse / v + constant + slope v + square v^2 for v from low to high, each shape (m,).
 
     cell: which cell it belongs to; its value is the least over all terms of a cell's end. end: 0 left, 1 right.
-    pull, brake: which limit of the force each takes, where it is known: PULL_BY, BRAKE_BY. electric: what limits the
-    electric brake, as PULL_BY.
     """
 
     cell: Array
@@ -68,9 +64,6 @@ class Terms:
     constant: Array
     slope: Array
     square: Array
-    pull: Array | None = None
-    brake: Array | None = None
-    electric: Array | None = None
 
 
 def lower_bound(vehicle: Vehicle, course: Course, certificate: Certificate, asked: Timetable | float,
@@ -112,7 +105,7 @@ def bound_terms(vehicle: Vehicle, course: Course, certificate: Certificate, time
     inside = np.broadcast_to(cells.limit_mps > ranges.low, shape)
     every = (np.arange(p.shape[1], dtype=float), np.array([[0.0], [1.0]]), ranges.low,
              np.minimum(ranges.high, cells.limit_mps), price + way[0],
-             p * a + way[1], p * b_1 + way[2], square, *way[4:])
+             p * a + way[1], p * b_1 + way[2], square)
     return Terms(*(np.broadcast_to(values, shape)[inside] for values in every))
 
 
@@ -145,9 +138,9 @@ def _cells(course: Course, certificate: Certificate) -> _Cells:
     return _Cells(limit, drag, least, most)
 
 
-def _cheapest(vehicle: Vehicle, cells: _Cells, p: Array, middle: Array, ranges: Ranges) -> tuple[Array, ...]:
+def _cheapest(vehicle: Vehicle, cells: _Cells, p: Array, middle: Array, ranges: Ranges) -> Coefficients:
     """The least of c(u) - p u from below, as (inverse, constant, slope, square) of the speed, on each range of speeds
-    and cell, followed by the numbers of the limits it takes: of traction, of braking, of the electric brake.
+    and cell.
 
     p: shape (2, n), at both ends of the cells; all that is returned can be broadcast to (ranges, 2, n). Each of several
     limits alone gives a bound; the one taken on a cell is the best in its middle, the same for both of its ends.
@@ -160,7 +153,6 @@ def _cheapest(vehicle: Vehicle, cells: _Cells, p: Array, middle: Array, ranges: 
     a, b_1, c = vehicle.davis_n
     speed, speed_square, traction, brake = ranges.middle, ranges.middle_square, ranges.traction, ranges.brake
     drag = cells.drag.min(axis=0), cells.drag.max(axis=0)
-    pulls, brakes_by = traction.kind, zero
     most: Coefficients = (zero - pull * traction.inverse_w, zero - pull * traction.constant_n,
                           zero - pull * traction.slope_n_s_per_m, zero)
     least: Coefficients = (zero - regain * brake.inverse_w,
@@ -170,7 +162,6 @@ def _cheapest(vehicle: Vehicle, cells: _Cells, p: Array, middle: Array, ranges: 
         top = (vehicle.inertia_kg * vehicle.max_acceleration_mps2 + a + cells.most_force, b_1, c + drag[1])
         # Where the force for it is traction's at every speed, so that the product with `pull` is concave.
         lower = (top[0] >= 0) & (top[0] + top[1] * speed + top[2] * speed_square < traction.middle_n)
-        pulls = np.where(lower, PULL_BY.index("acceleration"), pulls)
         most = _choose(lower, (zero, -pull * top[0], -pull * top[1], -pull * top[2]), most)
     if np.isfinite(vehicle.max_deceleration_mps2):
         low = (a + cells.least_force - vehicle.inertia_kg * vehicle.max_deceleration_mps2, b_1, c + drag[0])
@@ -185,11 +176,9 @@ def _cheapest(vehicle: Vehicle, cells: _Cells, p: Array, middle: Array, ranges: 
                   vehicle.regenerative_efficiency * electric + mid_rub * hardest)
         alone = brakes & (losses[1] < np.minimum(losses[0], losses[2]))
         mixed = brakes & (losses[2] < losses[0])
-        brakes_by = np.where(alone, BRAKE_BY.index("deceleration"), np.where(mixed, BRAKE_BY.index("mixed"), zero))
         least = _choose(alone, (zero, regain * low[0], regain * low[1], regain * low[2]),
                         _choose(mixed, _mixed(vehicle, brake, rub, low), least))
-    return (most[0] + least[0], most[1] + least[1], most[2] + least[2], most[3] + least[3], pulls, brakes_by,
-            brake.kind)
+    return most[0] + least[0], most[1] + least[1], most[2] + least[2], most[3] + least[3]
 
 
 def _mixed(vehicle: Vehicle, brake: Pieces, rub: Array, low: tuple[Array, float, Array]) -> Coefficients:

@@ -383,7 +383,6 @@ def _legs(events: list[dict[str, Any]], origin: Fraction,
     return legs, time_part + origin * level
 
 
-
 def _least(train: _Train, cell: _Cell, price: int, looks: list[int]) -> list[int]:
     """At both ends of a cell a value, to 2^-OF_VALUE, below c(u) - p u + price / v + p r(v) - p' inertia v^2 / 2 for
     every speed up to the limit and every force u that the train has there."""
@@ -428,8 +427,8 @@ def _below_all(terms: list[tuple[int, int, int, int, int, int]], looks: list[int
 
 def _place(low: float, high: float, a: float, c: float, d: float) -> float:
     """About where a / v + c v + d v^2 is least."""
-    def rises(v: float) -> float:  # times v^2
-        return (c + 2 * d * v) * v * v - a
+    def rises(v: float) -> float:  # times v^2, which would hide the sign at standstill where there is no a / v
+        return (c + 2 * d * v) * v * v - a if a else c + 2 * d * v
 
     def worth(v: float) -> float:
         return (a / v if v else math.inf if a > 0 else -math.inf if a < 0 else 0.0) + c * v + d * v * v
@@ -440,7 +439,7 @@ def _place(low: float, high: float, a: float, c: float, d: float) -> float:
         if above > below and rises(below) < 0 < rises(above):
             one, two, v = below, above, (below + above) / 2
             for _ in range(60):
-                now, slope = rises(v), 2 * v * (c + 3 * d * v)
+                now, slope = rises(v), 2 * v * (c + 3 * d * v) if a else 2 * d
                 one, two = (v, two) if now < 0 else (one, v)
                 new = v - now / slope if slope else (one + two) / 2
                 new = new if one < new < two else (one + two) / 2

@@ -10,24 +10,21 @@ import numpy as np
 
 from workbench.optimal.course import Array
 from workbench.optimal.force_pieces import ForcePiece, force_pieces
-from workbench.optimal.vehicle import ForceLimit, Vehicle
+from workbench.optimal.vehicle import Vehicle
 
 # Ranges of speed on each of which one of several limits of the force is used.
 ACCELERATION_RANGES = 30
-# What limits a force: by its place in this list a limit stands in certificates.
-PULL_BY = ("force", "power", "table", "acceleration")
 
 
 @dataclass(frozen=True)
 class Pieces:
-    """The piece of a force limit on each range of speeds, each shape (ranges, 1, 1): its coefficients, its force in the
-    middle of the range, and which part of the limit it is, as PULL_BY."""
+    """The piece of a force limit on each range of speeds, each shape (ranges, 1, 1): its coefficients, and its force
+    in the middle of the range."""
 
     inverse_w: Array
     constant_n: Array
     slope_n_s_per_m: Array
     middle_n: Array
-    kind: Array
 
 
 @dataclass(frozen=True)
@@ -50,27 +47,17 @@ def speed_ranges(vehicle: Vehicle, top_mps: float) -> Ranges:
         edges |= set(np.linspace(0.0, top_mps, ACCELERATION_RANGES + 1).tolist())
     ranges = list(pairwise(sorted(edges)))
     middles = [(low + high) / 2 for low, high in ranges]
-    traction, brake = (_pieces(limit, of, middles)
-                       for limit, of in zip((vehicle.traction, vehicle.regenerative), pieces, strict=True))
+    traction, brake = (_pieces(of, middles) for of in pieces)
     return Ranges(_column([low for low, _ in ranges]), _column([high for _, high in ranges]), _column(middles),
                   _column([middle**2 for middle in middles]), traction, brake)
 
 
-def _pieces(limit: ForceLimit, pieces: tuple[ForcePiece, ...], middles_mps: list[float]) -> Pieces:
+def _pieces(pieces: tuple[ForcePiece, ...], middles_mps: list[float]) -> Pieces:
     chosen = [next(p for p in pieces if p.low_mps <= middle <= p.high_mps) for middle in middles_mps]
     return Pieces(_column([p.inverse_w for p in chosen]), _column([p.constant_n for p in chosen]),
                   _column([p.slope_n_s_per_m for p in chosen]),
-                  _column([p.at(middle) for p, middle in zip(chosen, middles_mps, strict=True)]),
-                  _column([_kind(limit, p) for p in chosen]))
+                  _column([p.at(middle) for p, middle in zip(chosen, middles_mps, strict=True)]))
 
 
 def _column(values: Sequence[float]) -> Array:
     return np.array(values, dtype=float)[:, None, None]
-
-
-def _kind(limit: ForceLimit, piece: ForcePiece) -> int:
-    """Which part of a limit a piece of it is, as PULL_BY."""
-    if piece.inverse_w:
-        return PULL_BY.index("power")
-    constant = piece.slope_n_s_per_m == 0 and piece.constant_n == limit.force_n
-    return PULL_BY.index("force" if constant else "table")
