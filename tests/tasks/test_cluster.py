@@ -240,7 +240,10 @@ def test_a_scheduler_that_is_lost_or_not_there_is_said_in_a_line_and_nothing_is_
     assert said["nobody"].startswith("--dask: no scheduler answers at 'tcp://127.0.0.1:")
     assert left() == []
     with subprocess.Popen(["sleep", "60"], env=os.environ | OURS) as seen:
-        assert commands() == ["sleep 60 "], "what is started from here is looked at"
+        until = time.monotonic() + 10  # a process may be seen before its command line is
+        while not (there := commands()) and time.monotonic() < until:
+            time.sleep(0.02)
+        assert there == ["sleep 60 "], "what is started from here is looked at"
         seen.kill()
 
 
