@@ -93,6 +93,12 @@ def graded_grid(course: Course, intervals: int) -> Grid:
         density += np.where(np.abs(middle - change) < CHANGE_REACH_M, CHANGE_WEIGHT / CHANGE_REACH_M, 0.0)
     share = np.insert(np.cumsum(density * np.diff(sample)), 0, 0.0)
     share *= intervals / share[-1]
+    return shared_out(course, kept, sample, share)
+
+
+def shared_out(course: Course, kept: Array, sample: Array, share: Array) -> Grid:
+    """A mesh between the borders that are kept, whose intervals begin where `share`, the count of them up to each
+    place of `sample`, is a whole number from one kept border on."""
     nodes = [kept[:1]]
     for low, high in pairwise(kept):
         first, last = np.interp([low, high], sample, share)

@@ -6,13 +6,11 @@ mesh misses of its time, the constant acceleration of its intervals, then costs 
 
 from __future__ import annotations
 
-from itertools import pairwise
-
 import numpy as np
 from numpy.typing import NDArray
 
 from workbench.optimal.course import Array, Course
-from workbench.optimal.grid import LEAST_INTERVALS, Grid, grid_on, kept_borders, with_force_borders
+from workbench.optimal.grid import Grid, kept_borders, shared_out
 from workbench.optimal.profile import Profile
 
 # The share of the intervals that are spread evenly; the length before a braking that is as fine as its beginning.
@@ -29,12 +27,7 @@ def tight_grid(course: Course, quickest: Profile, intervals: int) -> Grid:
     density = _before_braking(x, np.abs(change) / h, change < -NO_CHANGE)
     density = density * (1 - EVENLY) / max(float(density @ h), 1e-300) + EVENLY / (x[-1] - x[0])
     share = np.insert(np.cumsum(density * h), 0, 0.0) * intervals
-    nodes = [kept[:1]]
-    for low, high in pairwise(kept):
-        first, last = np.interp([low, high], x, share)
-        count = max(LEAST_INTERVALS, round(last - first))
-        nodes.append(np.append(np.interp(np.linspace(first, last, count + 1)[1:-1], share, x), high))
-    return grid_on(course, with_force_borders(course, np.concatenate(nodes), kept))
+    return shared_out(course, kept, x, share)
 
 
 def _before_braking(x: Array, density: Array, brakes: NDArray[np.bool_]) -> Array:
