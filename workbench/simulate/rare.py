@@ -18,6 +18,7 @@ from workbench.simulate.closed_loop import prepared
 from workbench.simulate.controllers import compiled
 from workbench.simulate.draws import spreads
 from workbench.simulate.law_values import check_controllers
+from workbench.simulate.metric_option import metric_and_number
 from workbench.simulate.metrics import measure
 from workbench.simulate.setting import Factors, setting_of
 from workbench.simulate.splitting import Array, Estimate, Probability, splitting
@@ -44,17 +45,11 @@ class Event:
     @classmethod
     def parse(cls, text: str) -> Self:
         """METRIC>VALUE as it is typed; InputError for a metric that is none, and what is no finite number."""
-        metric, _, value = text.partition(">")
-        if metric.strip() not in (LARGEST, *NUMBERS):
-            raise InputError("", "--rare", f"'{metric[:60]}' is no metric of a run: give 'METRIC>VALUE', in quotes, "
-                             f"with one of {', '.join((LARGEST, *NUMBERS))}")
-        try:
-            number = float(value)
-        except ValueError:
-            number = math.nan
+        metric, number = metric_and_number("--rare", text, ">", (LARGEST, *NUMBERS), "'METRIC>VALUE', in quotes,")
         if not math.isfinite(number):
-            raise InputError("", "--rare", f"'{value[:60]}' is no finite number: give 'METRIC>VALUE', in quotes")
-        return cls(metric.strip(), number)
+            raise InputError("", "--rare", f"'{text.partition('>')[2][:60]}' is no finite number: give 'METRIC>VALUE', "
+                             "in quotes")
+        return cls(metric, number)
 
 
 @dataclass(frozen=True)

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from typing import Self
 
 from workbench.errors import InputError
+from workbench.simulate.metric_option import metric_and_number
 from workbench.simulate.sweep_rows import NUMBERS, Values, numbers
 
 # The intervals are looked at after these runs, and then after twice as many each time: at numbers of runs that
@@ -26,17 +27,10 @@ class UntilWidth:
     @classmethod
     def parse(cls, text: str) -> Self:
         """METRIC=WIDTH as it is typed; InputError for a metric that is none, and a width that is not positive."""
-        metric, _, width = text.partition("=")
-        if metric not in NUMBERS:
-            raise InputError("", "--until-width", f"'{metric[:60]}' is no metric of a run: give METRIC=WIDTH with one "
-                             f"of {', '.join(NUMBERS)}")
-        try:
-            value = float(width)
-        except ValueError:
-            value = math.nan
+        metric, value = metric_and_number("--until-width", text, "=", NUMBERS, "METRIC=WIDTH")
         if not 0 < value < math.inf:
-            raise InputError("", "--until-width", f"'{width[:60]}' is no positive number: give a width in the unit of "
-                             f"{metric}")
+            raise InputError("", "--until-width", f"'{text.partition('=')[2][:60]}' is no positive number: give a "
+                             f"width in the unit of {metric}")
         return cls(metric, value)
 
 
