@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import sys
 import threading
 import time
 from collections.abc import Iterator, Mapping, Sequence
@@ -12,13 +13,7 @@ from typing import TYPE_CHECKING, Any
 
 from rich.box import SIMPLE_HEAD
 from rich.console import Console, Group
-from rich.progress import (
-    BarColumn,
-    MofNCompleteColumn,
-    Progress,
-    TextColumn,
-    TimeElapsedColumn,
-)
+from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn
 from rich.table import Table
 from rich.text import Text
 
@@ -30,8 +25,9 @@ if TYPE_CHECKING:
 
 # Names, paths and messages come from files: brackets and colons in them are what they are, no markup.
 # Nor is anything looked for in them to be coloured, which takes a minute where a name has 200,000 letters.
-out_console = Console(markup=False, emoji=False, highlight=False)
-err_console = Console(stderr=True, markup=False, emoji=False, highlight=False)
+# Lines are wrapped between words for a reader; what another program reads stays one line.
+out_console = Console(markup=False, emoji=False, highlight=False, soft_wrap=not sys.stdout.isatty())
+err_console = Console(stderr=True, markup=False, emoji=False, highlight=False, soft_wrap=not sys.stderr.isatty())
 LINE_EVERY_S = 30.0
 COLOURS = {"proved": "green", "refuted": "red", "violated": "red", "gap": "yellow", "assumed": "cyan",
            "undecided": "magenta"}
@@ -279,16 +275,14 @@ def _range(low: float | None, high: float | None, scale: float = 1e3) -> str:
 
 
 def papers_table(papers: Sequence[Contents]) -> Table:
-    """The papers found, and what each has, its title below; folders as seen from the current one."""
+    """The papers found, the title of each, and below it what it has; folders as seen from the current one."""
     table = Table(box=SIMPLE_HEAD, pad_edge=False)
     table.add_column("paper", no_wrap=True, style="bold")
-    table.add_column("has")
-    table.add_column("certificates", justify="right", no_wrap=True)
-    table.add_column("folder", overflow="fold")
+    table.add_column("what it has", overflow="fold")
     for paper in papers:
-        title = [Text(paper.title, "dim", no_wrap=True, overflow="ellipsis")] if paper.title else []
-        has = Group(Text(", ".join(paper.parts) or "nothing yet"), *title)
-        table.add_row(paper.name, has, str(paper.certificates or "none"), Text(_from_here(paper.folder)))
+        has = [", ".join(paper.parts) or "nothing yet", f"{paper.certificates or 'no'} certificates",
+               _from_here(paper.folder)]
+        table.add_row(paper.name, Group(*filter(None, [paper.title]), Text("; ".join(has), "dim", overflow="fold")))
     return table
 
 
