@@ -10,7 +10,13 @@ from workbench.proof.places import place_of, places_of
 from workbench.report.counterexample import counterexample_of
 from workbench.report.errata.proof_steps import proof_steps
 from workbench.report.finding import findings
-from workbench.report.finding_sentences import consequence_sentence, findings_document, sentences, verdict_sentence
+from workbench.report.finding_sentences import (
+    breaks_at,
+    consequence_sentence,
+    findings_document,
+    sentences,
+    verdict_sentence,
+)
 from workbench.report.plain_formulas import plain_formula
 from workbench.report.worded import math, show, worded
 
@@ -94,6 +100,10 @@ def test_a_motion_is_told_as_functions_of_time():
             "eventually": "t"}
     point = counterexample_of({"verdict": "refuted", "goal": goal, "functions": {"x": "2 + t"}, "point": {}})
     assert point.motion and point.left == "2 + t" and point.right == "1" and point.values == ("x = 2 + t",)
+    assert breaks_at(point).endswith("would say $2 + t \\le 1$")
+    goal["show"] = ["x <= t"]
+    point = counterexample_of({"verdict": "refuted", "goal": goal, "functions": {"x": "2 + t"}, "point": {}})
+    assert breaks_at(point).endswith("$x$ stays greater than the time itself, so that it is not bounded")
     theorem = found_by_equation()["theorem1"]
     assert "motion" not in verdict_sentence(theorem)
 

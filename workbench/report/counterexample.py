@@ -46,7 +46,8 @@ class Counterexample:
     value of all letters of `values` that are not named in it, where they are many; left, right: the sides there, None
     where they are no numbers; everything: all that the certificate names, letter by letter; motion: whether the values
     are functions of time, with which the relation fails at all times; put_in: both sides with the numbers in place of
-    the letters, where they are formulas without rates and sums.
+    the letters, where they are formulas without rates and sums; unbounded: what is greater than the time at all times
+    of a motion, where the relation denies that.
     """
 
     relation: str
@@ -58,6 +59,7 @@ class Counterexample:
     everything: tuple[tuple[str, str], ...]
     motion: bool
     put_in: tuple[str, str] | None = None
+    unbounded: str | None = None
 
 
 def counterexample_of(certificate: Mapping[str, Any]) -> Counterexample | None:
@@ -110,8 +112,10 @@ def _motion(certificate: Mapping[str, Any], context: Context, point: dict[str, R
     fixed = {name: value_latex(Fraction(text)) for name, text in sorted(certificate["point"].items())}
     named = {name: value for name, value in (moving | fixed).items() if name in deciding or name in moving}
     values, others = _grouped(named)
+    grows = operator in ("<=", "<") and right.strip() == goal["eventually"]
     return Counterexample(relation_latex(goal["show"][0]), SIGNS[operator], values, others, along[0], along[1],
-                          tuple((name_latex(name), value) for name, value in (moving | fixed).items()), True)
+                          tuple((name_latex(name), value) for name, value in (moving | fixed).items()), True,
+                          unbounded=expression_latex(left) if grows else None)
 
 
 def _symbols(context: Context, text: str) -> set[str]:

@@ -49,7 +49,9 @@ def breaks_at(point: Counterexample) -> str:
     named = ", ".join(f"${value}$" for value in point.values)
     others = f"{'and ' if named else ''}{'all other letters' if named else 'all letters'} ${point.others}$"
     at = " ".join(filter(None, (named, others if point.others is not None else "")))
-    if point.left is None or point.right is None:
+    if point.unbounded is not None:
+        says = f"${point.unbounded}$ stays greater than the time itself, so that it is not bounded"
+    elif point.left is None or point.right is None:
         says = f"${point.relation}$ fails"
     else:
         line = f"${point.relation}$" if len(point.relation) <= SHORT else "the line"
@@ -57,7 +59,7 @@ def breaks_at(point: Counterexample) -> str:
         sides = f"{point.left} {point.operator} {point.right}".replace(r"\approx ", "")
         says = f"{line} would say ${sides}${rounded}"
     if point.motion:
-        return f"with {at} at all times everything assumed holds, but {says}"
+        return f"with {at}, everything assumed holds at all times, but {says}"
     return f"with {at}, {says}" if at else says
 
 
