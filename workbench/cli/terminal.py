@@ -45,8 +45,8 @@ def progress() -> Iterator[Any]:
 
     def tell() -> None:
         while not ended.wait(LINE_EVERY_S):
-            if stages:
-                _plain(next(reversed(stages.values())).line())
+            for stage in [stage for stage in stages.values() if stage.done < stage.total][-1:]:
+                _plain(stage.line())
 
     with Progress(*columns, console=err_console, disable=not terminal) as bar:
         tasks: dict[str, Any] = {}
@@ -260,9 +260,10 @@ def print_failures(rows: Sequence[dict[str, Any]]) -> None:
 
 
 def _columns(table: Table, *headings: str) -> None:
-    table.add_column("controller", no_wrap=True)
+    table.collapse_padding = True  # seven columns on a screen of 80 characters
+    table.add_column("controller", overflow="fold")
     for heading in headings:
-        table.add_column(heading, justify="right", no_wrap=True)
+        table.add_column(heading, justify="right", overflow="fold")
 
 
 def _number(value: float | None, scale: float = 1.0, digits: int = 3) -> str:
