@@ -1,4 +1,4 @@
-# make install | demo | test | lint | docs | prove | kernel | clean        PYTHON=python3.12 chooses the interpreter
+# make install | ready | demo | test | lint | docs | prove | kernel | clean        PYTHON=python3.12 chooses the interpreter
 PYTHON ?= python3
 VENV := .venv
 BIN := $(VENV)/bin
@@ -6,38 +6,48 @@ STAMP := $(VENV)/.installed
 TOOLS := $(VENV)/.installed-tools
 PAGES := $(VENV)/.installed-docs
 
-.PHONY: install demo test lint docs prove kernel clean
+.PHONY: install ready demo test lint docs prove kernel clean
 
 install: $(TOOLS)
 
-# A stamp is newer than the two files that say what to install, so that a second call does nothing. What the package
-# needs to run comes first: the demo waits for no tool that only tests and style need.
-$(STAMP): pyproject.toml constraints.txt
+$(BIN)/pip:
 	@$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11))' 2>/dev/null || \
 		{ echo "$(PYTHON) is missing or older than 3.11: install Python 3.11 or newer, or name one: make install PYTHON=python3.12" >&2; exit 1; }
 	@$(PYTHON) -c 'import ensurepip, venv' 2>/dev/null || \
 		{ echo "$(PYTHON) has no venv module: install it (on Debian or Ubuntu: apt install python3-venv)" >&2; exit 1; }
 	@$(PYTHON) -m venv $(VENV)
-	@$(BIN)/python -m pip install -qq --disable-pip-version-check -c constraints.txt -e ".[all]"
-	@touch $@
 
-$(TOOLS): $(STAMP)
-	@$(BIN)/python -m pip install -qq --disable-pip-version-check -c constraints.txt -e ".[all,test]"
-	@touch $@
+# pip compiles on one core, the tests of all packages too; some files of packages are no Python of this version.
+define INSTALL
+@$(BIN)/python -m pip install -qq --no-compile --disable-pip-version-check -c constraints.txt -e ".[$(EXTRAS)]"
+@$(BIN)/python -m compileall -qq -j 0 -x '/tests?/' $(VENV)/lib || true
+endef
+
+# A stamp is newer than the two files that say what to install, so that a second call does nothing. The demo waits for
+# no tool that only tests, style or pages need.
+$(STAMP): EXTRAS := all
+$(TOOLS): EXTRAS := all,test
+$(PAGES): EXTRAS := all,docs
+$(STAMP) $(TOOLS) $(PAGES): pyproject.toml constraints.txt | $(BIN)/pip
+	$(INSTALL)
+	@touch $(STAMP) $@
+
+# All of it by one call of pip, which takes its time to find out what is there already.
+ready: EXTRAS := all,docs,test
+ready: | $(BIN)/pip
+	$(INSTALL)
+	@touch $(STAMP) $(TOOLS) $(PAGES)
 
 demo: $(STAMP)
 	@$(BIN)/workbench report proofs/yang2021 --out out/ --runs 5
 
+# Strings are hashed alike in every run: what is found must not depend on it, but a test that fails fails again.
 test: install
-	@$(BIN)/python -m pytest -n 2
+	@PYTHONHASHSEED=0 $(BIN)/python -m pytest -n 2
 
 lint: install
 	@$(BIN)/ruff check
 	@$(BIN)/mypy
-
-$(PAGES): $(STAMP)
-	@$(BIN)/python -m pip install -qq --disable-pip-version-check -c constraints.txt -e ".[all,docs]"
-	@touch $@
 
 # Every notebook is run and every warning is an error; out/docs/index.html is where to begin.
 docs: $(PAGES)

@@ -135,10 +135,11 @@ def jobs(size: int = 1, workers: int = 2) -> dict[str, Job]:
 
 @dataclass(frozen=True)
 class Bench:
-    """Where jobs are run; by_fork: without a start of Python."""
+    """Where jobs are run; by_fork: without a start of Python; left_s: how long what was stopped may take to end."""
 
     place: Path
     by_fork: bool = False
+    left_s: float = LEFT_S
 
     def fresh(self, job: Job) -> Path:
         """A new folder with the job's inputs."""
@@ -180,10 +181,10 @@ class Bench:
         number = self.start(job, job.begin, folder)
         time.sleep(after_s)
         os.kill(number, how)
-        code = ended(number, LEFT_S)
+        code = ended(number, self.left_s)
         if code not in (0, 130, -how):  # by the signal itself where it comes before or after all work
             return f"ends with {code}: {self.said(job).read_text()[-300:]}"
-        if left := left_after(number, LEFT_S):
+        if left := left_after(number, self.left_s):
             return f"leaves processes {left}"
         return "" if code == 0 else self.resumed(job, folder)
 

@@ -1,5 +1,5 @@
-"""What every test starts from: one thread, a kernel cache beside the code, hypothesis without chance or clock; and what
-each module leaves behind."""
+"""What every test starts from: one thread, a kernel cache beside the code, hypothesis without chance, clock or a look
+at what is imported; and what each module leaves behind."""
 
 import gc
 import os
@@ -10,6 +10,7 @@ import one_thread  # noqa: F401 - before anything imports numpy
 import papers_import  # noqa: F401 - tests import from proofs
 import pytest
 from hypothesis import settings
+from hypothesis.internal.conjecture import providers
 from shared_work import scheduler_of_files
 
 READ = {"workbench.files.text": ("_read", "_sources", "_digests"), "workbench.proof.dependencies": ("_data",)}
@@ -18,6 +19,10 @@ os.environ.setdefault("WORKBENCH_CACHE", str(Path(__file__).parent.parent / ".ca
 # The same examples in every run, so that more of them find nothing that these have not found.
 settings.register_profile("fixed", derandomize=True, deadline=None, max_examples=50)
 settings.load_profile("fixed")
+# Some examples are constants of the modules imported so far, which are others where other tests have run before.
+providers._get_local_constants = lambda: providers._local_constants
+# Nothing that collection imports is garbage: to look for some again and again takes a quarter of its time.
+gc.disable()
 
 
 @pytest.hookimpl(optionalhook=True)  # where xdist is not installed there is one process
@@ -29,12 +34,15 @@ def pytest_collection_finish():
     """What was imported stays until the end, so that the collector need not go through it again and again."""
     gc.collect()
     gc.freeze()
+    gc.set_threshold(50_000, 20, 20)
+    gc.enable()
 
 
 @pytest.fixture(scope="module", autouse=True)
 def nothing_kept(request):
     """What the functions of a test's module have cached goes with it: a test process runs a hundred modules. What it
-    has read is forgotten, too: decisions that are kept depend on everything that a process has read."""
+    has read is forgotten, too: decisions that are kept depend on everything that a process has read. What is left then
+    stays, and is looked through no more."""
     for module, names in READ.items():
         for name in names if module in sys.modules else ():
             getattr(sys.modules[module], name).clear()
@@ -43,6 +51,7 @@ def nothing_kept(request):
         if getattr(value, "__module__", None) == request.module.__name__ and hasattr(value, "cache_clear"):
             value.cache_clear()
     gc.collect()
+    gc.freeze()
 
 
 @pytest.fixture(scope="session")

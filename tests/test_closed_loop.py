@@ -1,6 +1,7 @@
 """The compiled closed loop, against a plain Python loop and against what its own full log says."""
 
 import re
+import time
 
 import law_alone
 import numpy as np
@@ -229,9 +230,10 @@ def test_timing_counts_steps_and_not_the_compiler(monkeypatch, tmp_path):
                      (desired_position - position) / 8)
     monkeypatch.setitem(GENERAL, law.id, law)
     monkeypatch.setenv("WORKBENCH_CACHE", str(tmp_path))  # so that this kernel must be compiled here and now
+    monkeypatch.setattr(time, "perf_counter", time.process_time)  # what else the machine does is no matter
     run = simulate(with_law(short_scenario(), law, 0.01), "only")
     assert run.failed is None
-    # Compiling a kernel takes about a second; a thousand steps of it take less than a millisecond.
+    # Compiling a kernel takes some tenths of a second; a thousand steps of it take less than a millisecond.
     assert run.step_us.max() < 100.0
     assert len(run.step_us) == np.ceil(run.totals["commands"] / 1000)
 

@@ -20,7 +20,7 @@ JOBS = jobs(workers=1)
 @pytest.fixture(scope="module")
 def bench(tmp_path_factory):
     """Its processes are forks of this one, after it has imported and compiled what they need."""
-    made = Bench(tmp_path_factory.mktemp("faults"), by_fork=True)
+    made = Bench(tmp_path_factory.mktemp("faults"), by_fork=True, left_s=300.0)  # a busy machine may take long
     folder = made.fresh(JOBS["sweep"])
     assert run("sweep", ".", "--runs", 1, "--out", "once", "--workers", 1, folder=folder).returncode == 0
     return made

@@ -59,8 +59,9 @@ def test_no_output_is_a_file_that_only_inputs_are(suffix, tmp_path):
 
 
 @given(st.lists(st.sampled_from(["a", "b", "./a", "sub/../b", "c"]), min_size=2, max_size=4))
-def test_two_outputs_are_never_one_file(names):
-    files = {f"--{n}": Path("/tmp") / name for n, name in enumerate(names)}
+def test_two_outputs_are_never_one_file(tmp_path_factory, names):
+    folder = tmp_path_factory.getbasetemp()
+    files = {f"--{n}": folder / name for n, name in enumerate(names)}
     distinct = len({os.path.realpath(path) for path in files.values()}) == len(names)
     try:
         check_outputs(files)

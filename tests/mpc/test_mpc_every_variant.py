@@ -118,7 +118,7 @@ def test_missed_samples_and_measurements_are_borne(law):
 @pytest.mark.parametrize("law", [law for law in VARIANTS if law in KINDS])
 def test_a_deadline_that_no_solver_meets_is_counted_and_explained(law):
     assert "deadline_s" in OPTIONAL
-    ours, scenario = made(law, {"deadline_s": 1e-6})
+    ours, scenario = made(law, {"deadline_s": 1e-9})
     _, errors, _ = driven(ours, scenario, 200)
     assert ours.counters["late"] == ours.counters["qp"] == 200
     assert ours.counters["lqr"] == 200

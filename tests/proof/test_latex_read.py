@@ -79,6 +79,9 @@ def test_what_cannot_be_read_is_refused_with_its_place(text, place):
     assert "\n" not in message and ": " in message.partition(": ")[2]
 
 
+LONGEST_S = 5.0  # of this process; the slowest takes some hundredths
+
+
 @pytest.mark.parametrize("text", [
     "x" * 100_000, "{" * 100_000, "(" * 100_000, "{" * 50_000 + "}" * 50_000, "{" * 2000 + "}" * 2000,
     "(" * 2000 + "x" + ")" * 2000, "|" * 4000, r"\|" * 2000, "x^" * 2000, "x^{" * 1000 + "}" * 1000, "x_" * 2000,
@@ -90,12 +93,12 @@ def test_what_cannot_be_read_is_refused_with_its_place(text, place):
     "x+" * 1999 + "x", "\\", "\x00", "$" * 4000, "", " ", "x" + "\n" * 3000 + "y", "|x" * 2000, "(|" * 2000,
 ])
 def test_no_line_takes_long(text):
-    started = time.perf_counter()
+    started = time.process_time()
     try:
         read_line(text)
     except LatexError as refused:
         assert "\n" not in str(refused) and len(str(refused)) < 300
-    assert time.perf_counter() - started < 2
+    assert time.process_time() - started < LONGEST_S
 
 
 PIECES = ["x", "y_1", r"\hat", r"\dot", "{", "}", "(", ")", "|", r"\|", "^", "_", "T", "*", "2", "0.5", "+", "-", "=",

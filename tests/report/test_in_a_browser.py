@@ -90,13 +90,14 @@ def test_filters_show_what_is_chosen_and_live_in_the_address(view, address):
     assert shown_claims(view) == ["proved", "proved"]
     view.select_option("select[name=section]", "3")
     assert shown_claims(view) == ["proved"]
-    assert view.url == address + "#show?verdict=proved&section=3"
+    kept = view.evaluate("location.href")
+    assert kept == address + "#show?verdict=proved&section=3"
     assert view.inner_text("#shown") == "1 of 4 claims"
-    kept = view.url
     view.goto(address + "#proof")
     view.reload(wait_until="domcontentloaded")
     assert len(shown_claims(view)) == 4
     view.goto(kept)
+    wait_until(view, "document.getElementById('shown').textContent === '1 of 4 claims'")
     assert shown_claims(view) == ["proved"]
 
 
@@ -105,16 +106,16 @@ def test_search_finds_text_and_a_link_shows_what_was_filtered_away(view):
     wait_until(view, "document.getElementById('shown').textContent === '1 of 4 claims'")
     view.evaluate("location.hash = '#claim-p:theorem1'")
     wait_until(view, "document.getElementById('shown').textContent === '4 of 4 claims'")
-    assert view.is_visible("[id='claim-p:theorem1']")
+    view.wait_for_selector("[id='claim-p:theorem1']")
 
 
 def test_a_finding_opens_and_leads_to_its_claim_in_its_folded_section(view):
     assert not view.is_visible(".finding .correction")
     view.click(".finding summary")
-    assert view.is_visible(".finding .correction")
+    view.wait_for_selector(".finding .correction")
     view.eval_on_selector_all("details.paper-section", "found => found.forEach(fold => { fold.open = false; })")
     view.click(".finding a[href='#claim-p:2']")
-    assert view.is_visible("[id='claim-p:2']")
+    view.wait_for_selector("[id='claim-p:2']")
 
 
 def test_graph_shows_the_broken_path_and_leads_to_its_lines(view):
@@ -124,15 +125,15 @@ def test_graph_shows_the_broken_path_and_leads_to_its_lines(view):
     view.locator("#graph details", has_text="in words").first.locator("summary").click()
     assert "(2), refuted: (3) rests on it." in view.inner_text("#graph")
     first.locator("a").nth(1).click()
-    assert view.url.endswith("#claim-p:3")
-    assert view.is_visible("[id='claim-p:3']")
+    wait_until(view, "location.hash === '#claim-p:3'")
+    view.wait_for_selector("[id='claim-p:3']")
 
 
 def test_plots_zoom_tell_values_and_have_their_table_and_file(view):
     figure = view.locator("#line")
     figure.scroll_into_view_if_needed()
     view.wait_for_selector("#line .chart .nsewdrag")
-    assert not figure.locator(".plot svg").is_visible()
+    figure.locator(".plot svg").wait_for(state="hidden")
     span = "document.querySelector('#line .chart').layout.xaxis.range"
     before = view.evaluate(span)
     area = figure.locator(".nsewdrag").first
@@ -156,8 +157,8 @@ def test_plots_zoom_tell_values_and_have_their_table_and_file(view):
 
 def test_in_print_the_drawn_figures_stand(view):
     view.emulate_media(media="print")
-    assert view.locator("#line .plot svg").is_visible()
-    assert not view.locator("#line .chart").is_visible()
+    view.locator("#line .plot svg").wait_for()
+    view.locator("#line .chart").wait_for(state="hidden")
     view.emulate_media(media="screen")
 
 
