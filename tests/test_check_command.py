@@ -116,7 +116,7 @@ def test_a_counterexample_is_named_by_the_letters_of_the_file(symbols):
     (r"\mu = 1", "letter '\\mu' is not in the notation"), (r"\dot\lambda = 0", "does not move"),
     (r"\frac{e_1}{e_1} = 1", "cancels"), (r"\lambda \to 0", "relations"), (r"\lambda", "no relation"), ("", "empty"),
     (r"\lambda =", "ends where"), ("x" * 100_000, "at most"), (r"\forall k: k > 0", "quantifies"),
-    (r"\sum_{i=1}^n h_ih_j \ge 0", "the index 'j' too"), (r"\|e_1\| \le k", "no vector"), (r"\tilde W \le k", "vector"),
+    (r"\sum_{i=1}^n h_ih_j \ge 0", "the index 'j' too"), (r"\tilde W \le k", "vector"),
 ])
 def test_a_line_that_is_no_goal_is_refused_in_one_line(symbols, line, why):
     with pytest.raises(WorkbenchError) as refused:
@@ -146,7 +146,7 @@ def test_words_of_python_and_of_certificates_may_be_letters(tmp_path):
     letters = (r"\lambda", "D", r"\lambda_1", "x_1", "x^1")
     path.write_text("[symbols]\n" + "".join(f"'{typed}' = 'real'\n" for typed in letters))
     loaded = load_symbols(path)
-    names = [str(symbol) for symbol in loaded.notation.values()]
+    names = [str(symbol) for symbol in loaded.notation.values() if symbol.is_Symbol]
     assert len(set(names)) == 5
     assert answer(r"\lambda^2 + D^2 + \lambda_1^2 \ge 0", loaded).decision.verdict == "proved"
 

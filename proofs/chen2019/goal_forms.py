@@ -36,13 +36,13 @@ def integrated(rates: dict[sp.Expr, sp.Expr], bound: Relation, always: tuple[Rel
                 inputs=varying(flow))
 
 
-def varying(flow: dict[sp.Expr, sp.Expr]) -> tuple[sp.Symbol, ...]:
-    """The symbols that the rates of `flow` mention and that have no rate; not those with a value a car."""
-    found: set[sp.Symbol] = set()
+def varying(flow: dict[sp.Expr, sp.Expr]) -> tuple[sp.Symbol | sp.Indexed, ...]:
+    """The symbols that the rates of `flow` mention and that have no rate, those with a value a car among them."""
+    found: set[sp.Symbol | sp.Indexed] = set()
     for rate in flow.values():
         of_cars = {x for indexed in rate.atoms(sp.Indexed) for x in (indexed.base.label, *indexed.indices)}
         limits = {x for total in rate.atoms(sp.Sum) for limit in total.limits for part in limit for x in part.free_symbols}
-        found |= rate.atoms(sp.Symbol) - of_cars - limits - flow.keys()
+        found |= (rate.atoms(sp.Symbol) - of_cars - limits | rate.atoms(sp.Indexed)) - flow.keys()
     return tuple(sorted(found, key=str))
 
 

@@ -40,7 +40,7 @@ def test_ways_of_typing_one_piece_give_one_tree(same):
 
 
 @pytest.mark.parametrize("pair", [
-    ("x_1", "x^1"), ("x_{12}", "x_12"), ("x^23", "x^{23}"), (r"\hat x", "x"), (r"\dot{\hat x}", r"\hat{\dot x}"),
+    ("x_1", "x^1"), ("x_{12}", "x_1 2"), ("x^2 3", "x^{23}"), (r"\hat x", "x"), (r"\dot{\hat x}", r"\hat{\dot x}"),
     ("x < y", r"x \le y"), ("x = y", r"x \ne y"), ("x + y", "x - y"), ("x_1", "x_{1,1}"), (r"W^T h", r"W h"),
     ("|x|", r"\|x\|"), (r"\Delta u", r"\delta u"), ("x^*", "x"), ("x^*", "x^2"), (r"\rho_i^0", r"\rho_i"),
     ("a(b)", "ab"), (r"a \Rightarrow b = c", "a, b = c"), ("f(x)", "f(y)"), ("[0, 1]", "(0, 1]"),

@@ -115,7 +115,8 @@ def corrupted_path(**changes):
     {"path": {"t": "time", "V": "time", "mu": "time"}},
     {"point": {"V": "12345"}}, {"point": {"t": "12345"}}, {"point": {"rate": "12345"}},
     {"goal": {"flow": {"t": "1", "V": "rate*V"}}}, {"goal": {"flow": {"t": "1", "V": "rate*t"}}},
-    {"goal": {"initial": {"t": "0"}}}, {"goal": {"always": ["rate <= bound", "t >= 0", "V <= V_0 + 1000000"]}},
+    {"goal": {"initial": {"t": "1", "V": "V_0"}}},
+    {"goal": {"always": ["rate <= bound", "t >= 0", "V <= V_0 + 1000000"]}},
     {"goal": {"always": ["rate <= 0", "t >= 0"]}}, {"goal": {"indexed": ["V"]}}], ids=str)
 def test_a_path_that_the_flow_does_not_take_is_refused(changes):
     check(corrupted_path())

@@ -1271,9 +1271,13 @@ def check_false(goal: dict[str, Any], certificate: dict[str, Any]) -> None:
         if terms is not None:
             raise CertificateError("a path leads to no point at which sums have several terms")
         _check_reached(context, given, point, certificate)
-    else:
-        for name, value in given.initial.items():  # a point alone can only be the first of all instants
-            if not same(point[name], start_at(context, value, point, terms)):
+    else:  # a point alone can only be the first of all instants
+        for text in given.always:
+            if symbols_of(context, margin(context, text)[0]) & (context.moving() - context.inputs):
+                raise CertificateError(f"no path says that a motion from the point on keeps what always holds: {text}")
+        for name, value in given.initial.items():
+            here = terms if terms is not None and name in context.indexed else [point]
+            if not all(same(values[name], start_at(context, value, point, terms)) for values in here):
                 raise CertificateError(f"nothing says that the flow reaches the point: {name} is not where it starts")
     outcomes = [holds(context, text, point, terms, between) for text in goal["show"]]  # each must be defined
     if all(outcomes):
@@ -1284,22 +1288,23 @@ def _check_reached(context: Context, given: Relations, point: dict[str, Ratio], 
     """Functions of time obey the flow from its initial values, keep what always holds for ever, and meet the point."""
     time, duration = read_name(certificate["time"]), read_rational(certificate["duration"])
     path = {name: context.read(text) for name, text in certificate["path"].items()}
-    if given.initial.keys() != context.flow.keys() or context.indexed or time in point or duration < 0:
-        raise CertificateError("a point is reached by a flow whose initial values are known, in a time of its own name")
+    if context.indexed & context.moving() or time in point or duration < 0:
+        raise CertificateError("a point is reached by a flow of numbers, no vectors, in a time of its own name")
     moving, inputs = context.moving(), context.inputs
     if not moving - inputs <= path.keys() <= moving or any(symbols_of(context, f) - {time} for f in path.values()):
         raise CertificateError("the path must give all that moves, and nothing but inputs beside, as functions of time")
-    later, line = Relations(context, [f"{time} >= 0"]), point | path
+    later, line = Relations(context, [f"{time} >= 0"]), point | path | {SUM: number(1)}  # of sums with one term
     for text in (*certificate["path"].values(), *context.rates.values(), *given.always):
         for part, wanted in context.partial_operations(text):
             if not later.fits(substitute(context, context.node(part), line), wanted):
                 raise CertificateError(f"not shown defined at all times: {ast.unparse(part)}")
     if not all(same(substitute(context, f, {time: number(duration)}), point[name]) for name, f in path.items()):
         raise CertificateError("the path does not meet the point after that time")
-    for name, start in given.initial.items():
+    for name in context.flow:  # without an initial value it may start anywhere
         rate = context.derivative(line[name], {time: number(1)})
-        if not same(rate, substitute(context, context.flow[name], line)) or not same(
-                substitute(context, line[name], {time: number(0)}), substitute(context, start, point)):
+        start = substitute(context, line[name], {time: number(0)})
+        if not same(rate, substitute(context, context.flow[name], line)) or (
+                name in given.initial and not same(start, start_at(context, given.initial[name], point, None))):
             raise CertificateError(f"the path does not obey the flow from its initial values: {name}")
     for text, proof in zip(given.always, certificate["always"], strict=True):
         value, operator = margin(context, text)
@@ -1447,6 +1452,9 @@ def _check_composition(theorem: dict[str, Any], parts: dict[str, Any]) -> None:
                 text, "D") or names & {*one.get("indexed", [])} != names & {*other.get("indexed", [])}:
             raise CertificateError(f"{name}: what it assumes is not shown by {premise}: {text[:80]}")
         open_ones[name].remove(place)
+    below = {name: {link["by"] for link in parts["links"] if link["of"] == name} for name in whole}
+    for name in whole:
+        _require_one_motion([whole[part]["goal"] for part in sorted(_reached(name, below))])
     if parts["assumes"] != {name: [whole[name]["goal"]["assume"][i] for i in open_ones[name]] for name in whole}:
         raise CertificateError("what it assumes is not what its links leave open")
 
@@ -1456,13 +1464,39 @@ def _require_tree(top: str, uses: dict[str, dict[str, Any]]) -> None:
     free = {name for name, premises in uses.items() if not premises}
     while more := {name for name, premises in uses.items() if name not in free and premises.keys() <= free}:
         free |= more
+    if free != uses.keys() or _reached(top, {name: set(premises) for name, premises in uses.items()}) != uses.keys():
+        raise CertificateError("it uses itself through its premises, or holds what it does not use")
+
+
+def _reached(top: str, below: dict[str, set[str]]) -> set[str]:
+    """What lies below a name, directly or not, and itself."""
     reached, waiting = {top}, [top]
     while waiting:
-        new = uses[waiting.pop()].keys() - reached
+        new = below[waiting.pop()] - reached
         reached |= new
         waiting += new
-    if free != uses.keys() or reached != uses.keys():
-        raise CertificateError("it uses itself through its premises, or holds what it does not use")
+    return reached
+
+
+def _require_one_motion(goals: list[dict[str, Any]]) -> None:
+    """CertificateError where a symbol moves in one of these goals otherwise than in another: no motion obeys both."""
+    rates: dict[str, str] = {}
+    starts: dict[str, str] = {}
+    constants: set[str] = set()
+    inputs: set[str] = set()
+    for goal in goals:
+        flow, free = goal.get("flow", {}), goal.get("inputs", [])
+        if not flow and not free:  # of one instant, whatever moves
+            continue
+        for known, more in ((rates, flow), (starts, goal.get("initial", {}))):
+            if different := [name for name, text in more.items() if known.setdefault(name, text) != text]:
+                raise CertificateError(f"linked certificates have different rates or initial values of {different[0]}")
+        texts = [*goal.get("assume", []), *goal["show"], *goal.get("always", []), *flow.values()]
+        constants |= {node.id for text in texts for node in nodes(text) if isinstance(node, ast.Name)} - {
+            *flow, *free, *FUNCTIONS, "Sum", "D", "Max", "Min"}
+        inputs.update(free)
+    if moved := sorted(constants & (inputs | {name for name, rate in rates.items() if rate != "0"})):
+        raise CertificateError(f"{moved[0]} moves in one of two linked certificates and is constant in the other")
 
 
 # --- which claim a certificate is for ----------------------------------------------------------------------

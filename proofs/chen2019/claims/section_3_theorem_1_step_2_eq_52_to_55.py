@@ -7,13 +7,13 @@ from dataclasses import replace
 import sympy as sp
 
 from workbench.proof.claim import Goal, Relation, at_least, at_most, equal, greater
-from workbench.trains.multi_particle import s, v
+from workbench.trains.multi_particle import over_cars, s, v
 
 from ..energy_function import Z_1, Z_2, E_before, E_now
 from ..goal_forms import integrated
-from ..laws import any_gains, c_1, c_3, errors, s_r, v_r
+from ..laws import any_gains, auxiliary, c_1, c_3, errors, lambda_1, lambda_2, s_r, v_r, z_1, z_2
 from ..one_car import one_car
-from ..paper import EACH_CAR, paper
+from ..paper import EACH_CAR, EVERY_TRAIN, paper
 from ..stated_values import at_stated, stated_gains
 from .section_3_theorem_1_step_2_eq_49_to_51 import (
     INT_LAMBDA,
@@ -94,12 +94,17 @@ def errors_against_z() -> Goal:
 
 
 @paper.claim("53.glyph", "(53) with 1 + c_1^2", "inequality", _line_53("1+c_{1}^2"), "proved", origin="ours", glyph="53",
-             scope=EACH_CAR, where=IN_53,
+             scope=EVERY_TRAIN, where=IN_53, reading="By (10) e_s = z_1 + lambda_1 and e_v = z_2 + lambda_2 - c_1 e_s; so "
+             "that e_s' = e_v, z_1 and lambda_1 obey (23) and (9).",
              note="Later claims rest on this one. It needs e_s(0) = 0 (Assumption 3): the cross term of e_s and e_v "
                   "integrates to c_1 |e_s(T)|^2.")
 def errors_against_z_squared() -> Goal:
-    """For every path, by a function that does not increase."""
-    return _integrals_of_errors(1 + c_1**2)
+    """For every path, summed over the cars, by a function that does not increase."""
+    position, speed = z_1 + lambda_1, z_2 + lambda_2 - c_1 * (z_1 + lambda_1)
+    rates = {z_1: -c_1 * z_1 + z_2, lambda_1: auxiliary[lambda_1], S_e: over_cars(position**2), W_e: over_cars(speed**2),
+             Z_1: over_cars(z_1**2), Z_2: over_cars(z_2**2), X: over_cars(lambda_1**2 + lambda_2**2)}
+    bound = at_most((1 + c_1**2) * S_e + W_e, 2 * (Z_1 + Z_2) + 2 * X)
+    return integrated(rates, bound, (), (c_1,), decreasing=c_1 * over_cars(position**2) - bound.margin)
 
 
 def _tracking(of_lambda: str, bound: sp.Expr, *more: Relation) -> Goal:

@@ -42,5 +42,6 @@ def _written_out(goal: Goal, terms: list[dict[sp.Expr, sp.Expr]]) -> Goal:
         return tuple(Relation(put(r.left), r.operator, put(r.right)) for r in relations)
 
     plain = tuple(s for s in goal.symbols() if isinstance(s, sp.Symbol))
-    return Goal(each(goal.show), (*each(goal.assume), *each(goal.always), *(
-        equal(s, put(value)) for s, value in goal.initial.items())), named=plain)
+    starts = [equal(here.get(s, s), put(value)) for s, value in goal.initial.items()
+              for here in (terms if isinstance(s, sp.Indexed) else [{}])]
+    return Goal(each(goal.show), (*each(goal.assume), *each(goal.always), *starts), named=plain)

@@ -23,7 +23,8 @@ from workbench.proof.derive import expand_derivatives
 from workbench.proof.text import assumptions, text
 
 LOOKS = 30
-SAMPLES = (sp.Integer(0), sp.Rational(1, 2), sp.Integer(1), sp.Integer(100))  # of the duration; `always` goes on
+# Parts of the duration at which `always` is looked at; it goes on after the end.
+SAMPLES = (sp.Integer(0), sp.Rational(1, 2), sp.Integer(1), sp.Integer(100), sp.Integer(10**9))
 DEGREES = ((1, 2), (2, 3), (3, 4))  # powers of time that a curve starts with: slow starts keep several values at zero
 MOST_TERMS = 80
 
@@ -48,7 +49,7 @@ def find_path(goal: Goal, record: dict[str, Any], verdict: Verdict, seed: int,
 
 def reached_points(goal: Goal, seed: int, break_shown: bool, quick: bool = False) -> Iterator[dict[str, Any]]:
     """Points that meet the assumptions, and where wanted break what is shown, with the paths that lead to them."""
-    if not goal.flow or set(goal.initial) != set(goal.flow) or any(isinstance(s, sp.Indexed) for s in goal.symbols()):
+    if not goal.flow or not (goal.initial or goal.always) or any(isinstance(s, sp.Indexed) for s in goal.symbols()):
         return
     taken = {name_of(s) for s in goal.symbols()}
     duration, time = (sp.Symbol(next(n for n in (name, f"{name}_", f"{name}__") if n not in taken), **sign)
@@ -89,7 +90,7 @@ def _way(goal: Goal, time: sp.Symbol, inputs: list[sp.Symbol], varied: Way, degr
             if s in settled:
                 continue
             if s not in way and not unknown and not curved:
-                way[s] = goal.initial[s] + sp.Poly(rate, time).integrate().as_expr()
+                way[s] = _start(goal, s) + sp.Poly(rate, time).integrate().as_expr()
             elif s in way:  # its curve is chosen: something in its rate has to follow
                 follower = _follower(rate, unknown or [u for u in inputs if u not in way], time)
                 if follower is None or len(unknown) > 1:
@@ -102,11 +103,16 @@ def _way(goal: Goal, time: sp.Symbol, inputs: list[sp.Symbol], varied: Way, degr
         if len(settled) == before:
             stuck = next(s for s in moving if s not in way)
             curve = (sp.Symbol(f"curve_{power}_of_{stuck}", real=True) * time**power for power in degrees)
-            way[stuck] = goal.initial[stuck] + sp.Add(*curve)
+            way[stuck] = _start(goal, stuck) + sp.Add(*curve)
     right = all(sp.expand(sp.diff(way[s], time) - goal.flow[s].xreplace(way)) == 0
-                and sp.expand(way[s].xreplace({time: sp.Integer(0)}) - goal.initial[s]) == 0 for s in moving)
+                and sp.expand(way[s].xreplace({time: sp.Integer(0)}) - _start(goal, s)) == 0 for s in moving)
     short = all(len(sp.Add.make_args(sp.expand(f))) <= MOST_TERMS for f in way.values())
     return way if right and short else None
+
+
+def _start(goal: Goal, symbol: sp.Expr) -> sp.Expr:
+    """The initial value, free where the goal names none."""
+    return goal.initial.get(symbol, sp.Symbol(f"start_of_{symbol}", real=True))
 
 
 def _follower(rate: sp.Expr, candidates: list[sp.Symbol], time: sp.Symbol) -> sp.Symbol | None:

@@ -146,7 +146,7 @@ def sample_points(goal: Goal, seed: int) -> Iterator[Point]:
                  and not r.right.has(r.left)]
     # Only the first instant is known to be reached, so a counterexample stands there.
     equations += [equal(s, value) for s, value in goal.initial.items()]
-    follow = [(str(r.left), exact_function(r.right)) for r in equations]
+    follow = [(name_of(r.left), exact_function(r.right)) for r in equations]
     for attempt in count():
         point: Point = {}
         for name, positive, nonnegative in symbols:

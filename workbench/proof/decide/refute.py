@@ -29,6 +29,7 @@ from workbench.proof.claim import Goal, Verdict
 from workbench.proof.decide.counts import counted_points
 from workbench.proof.decide.exact_look import Exact
 from workbench.proof.decide.model import find_model
+from workbench.proof.decide.onward import needs_path, onward
 from workbench.proof.decide.path import find_path, reached_points
 from workbench.proof.decide.proposals import Point, descents, proposals
 from workbench.proof.decide.roots import Root, roots_near
@@ -43,6 +44,7 @@ class Place:
     roots: dict[str, list[Root]]
 
 
+MOTIONS = 10  # points from which a motion is looked for that keeps what always holds
 EXAMPLES = 4  # of each kind, when the checker wants another
 SIMPLE = (Fraction(0), Fraction(1), Fraction(-1), Fraction(2), Fraction(1, 2), Fraction(-2), Fraction(3))
 
@@ -58,12 +60,14 @@ def find_counterexample(goal: Goal, verdict: Verdict, seed: int = 1, quick: bool
         usual = goal.evaluated()
         if goal.eventually is not None:
             return None if quick else find_model(usual, record, verdict)
-        for point in proposals(usual, seed, True, quick):
-            if exact.breaks(point):
-                for shown in (_simplest(exact, point), point):
-                    certificate = {"version": 1, "verdict": verdict, "goal": record, "point": texts(shown)}
-                    if _accepted(certificate):
-                        return certificate
+        further = MOTIONS if needs_path(usual) else None
+        for point in islice((p for p in proposals(usual, seed, True, quick) if exact.breaks(p)), further):
+            for shown in (_simplest(exact, point), point):
+                certificate = {"version": 1, "verdict": verdict, "goal": record, "point": texts(shown)}
+                if further is not None:
+                    certificate |= onward(usual, shown) or {}
+                if _accepted(certificate):
+                    return certificate
         if not quick and (found := _at_other_counts(usual, record, verdict, seed)) is not None:
             return found
     except (CertificateError, ClaimError):  # nothing that the checker would accept can be said of such a goal

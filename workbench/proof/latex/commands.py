@@ -46,6 +46,7 @@ DROPPED = frozenset((
     "scriptstyle", "limits", "nolimits", "mathstrut", "strut", "nonumber", "notag", " ",
 ))
 TEXTS = frozenset(["text", "textrm", "textit", "mbox", "textnormal", "textup"])
+SILENT = frozenset(("label", "tag", "tag*"))  # with what stands in their braces
 STAR = frozenset(("*", "star", "ast"))
 # All that may stand in an index.
 KNOWN = (GREEK | ACCENTS | FONTS | UPRIGHT | FUNCTIONS | FRACTIONS | BIG | RELATIONS.keys() | ELLIPSES | TIMES

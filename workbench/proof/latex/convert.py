@@ -7,9 +7,17 @@ from functools import singledispatchmethod
 
 import sympy as sp
 
-from workbench.proof.claim import D
+from workbench.proof.latex.brackets import (
+    ends_behind_letter,
+    inside,
+    inside_all,
+    is_next,
+    require_factor,
+    says_nothing,
+)
+from workbench.proof.latex.derivatives import Derivative, derivative, partial, rate
 from workbench.proof.latex.error import LatexError
-from workbench.proof.latex.functions import Condition, applied, divided, power, require_kept
+from workbench.proof.latex.functions import Condition, applied, divided, power, require_kept, require_usual
 from workbench.proof.latex.notation import Notation, without_dot
 from workbench.proof.latex.sums import big
 from workbench.proof.latex.tree import (
@@ -31,20 +39,21 @@ from workbench.proof.latex.tree import (
     Transposed,
     Words,
 )
-from workbench.proof.latex.vectors import is_vector, multiplied, norm, trace
+from workbench.proof.latex.vectors import NORMS, is_vector, multiplied, norm, trace
 
-PAIRS = {"(": ")", "[": "]", "{": "}"}
-_DERIVED = (Letter("d"), Product((Letter("d"), Letter("t"))))
+_EULER = (Letter("e"), Letter(r"\mathrm{e}"))
 
 
 @dataclass(frozen=True)
 class Converter:
     """Turns nodes into expressions: `limits` are those of the goal's sums, `index` the letter of the sum within which
-    the nodes stand, if they do; `conditions` gathers what must hold for the pieces read to be numbers."""
+    the nodes stand, if they do; `conditions` gathers what must hold for the pieces read to be numbers. `declared` says
+    that each letter is known to be a number or a column, so that the norm of a number is its size."""
 
     notation: Notation
     limits: sp.Tuple | None = None
     index: str | None = None
+    declared: bool = False
     conditions: list[Condition] = field(default_factory=list, compare=False)
 
     def side(self, node: Node) -> sp.Expr:
@@ -99,7 +108,7 @@ class Converter:
 
     @_value.register
     def _(self, node: Group) -> sp.Expr:
-        return self.expression(self.inside(node))
+        return self.expression(inside(node))
 
     def product(self, factors: tuple[Node, ...]) -> sp.Expr:
         """The product of factors, functions and sum signs applied to what follows them."""
@@ -110,13 +119,20 @@ class Converter:
             if isinstance(node, Dot):
                 at += 1
                 continue
+            require_factor(self.notation, factors, at)
             value, transposed, length = self._factor(factors, at)
+            behind = factors[at + length] if at + length < len(factors) else None
+            # x(t)^2 is (x(t))^2
+            if isinstance(behind, (Power, Transposed)) and says_nothing(self.notation, behind.base):
+                if isinstance(behind, Power):
+                    value = self._power(value, self.number(behind.exponent), behind.position)
+                transposed, length = transposed or isinstance(behind, Transposed), length + 1
             values.append((value, transposed))
             at += length
         position = factors[0].position
         if self.index is not None and any(transposed for _, transposed in values):
             raise LatexError("a product of vectors within a sum: give the product in the notation", position)
-        return multiplied(values, self.limits, position)
+        return multiplied(values, self.limits, position, self.declared)
 
     def _factor(self, factors: tuple[Node, ...], at: int) -> tuple[sp.Expr, bool, int]:
         """The value of the factor at a place, whether it is transposed, and how many factors it takes."""
@@ -137,10 +153,11 @@ class Converter:
             return value, False, 1 + taken
         if isinstance(node, Big) and self.notation.meaning(node) is None:
             return big(self, node, rest), False, 1 + len(rest)
-        if isinstance(node, Quotient) and (node.top, node.bottom) == _DERIVED and rest:
+        operator = derivative(node)
+        if operator is not None and not operator.of and rest and self.notation.meaning(node) is None:
             if isinstance(rest[0], Group) and len(rest) > 1:
                 raise LatexError("what the derivative applies to is open: put all of it in brackets", node.position)
-            return D(self.product(rest)), False, 1 + len(rest)
+            return self._derived(replace(operator, of=rest), node.position), False, 1 + len(rest)
         applies = rest and isinstance(rest[0], Group) and self.notation.meaning(rest[0]) is None
         if isinstance(node, Letter) and applies and node in self.notation.applied:
             raise LatexError(f"this value of '{node.name}' is not in the notation, other values are: add it, or write "
@@ -161,12 +178,14 @@ class Converter:
             raise LatexError(f"the power may belong to '{name.name}' or to its argument: put brackets around it",
                              first.position)
         if isinstance(first, Group):
-            arguments = [self.expression(side) for side in self.inside_all(first)]
+            arguments = [self.expression(side) for side in inside_all(first)]
         else:
             piece = self.notation.piece(rest, 0)
             taken = piece[0] if piece is not None else 1
+            if isinstance(first, Number) and ends_behind_letter(rest):
+                taken = 2  # sin 2x
             bare = isinstance(first, (Letter, Number, Power, Named))
-            if bare and len(rest) > taken and not isinstance(rest[taken], Dot):
+            if bare and len(rest) > taken and not is_next(rest[taken]):
                 raise LatexError(f"the argument of '{name.name}' is open: write it in brackets", name.position)
             arguments = [self.product(rest[:taken])]
         if name.name == "tr" and len(arguments) == 1:
@@ -196,9 +215,7 @@ class Converter:
         if meaning is None and without_dot(inner) is None:
             raise self.notation.unknown(letter)
         value = self._of_sum(inner, meaning) if meaning is not None else self._letter(inner)
-        for _ in range(count):
-            value = D(value)
-        return value
+        return rate(value, count)
 
     def _of_sum(self, node: Node, meaning: sp.Expr) -> sp.Expr:
         """The meaning, which within a sum has an index only where it is printed with the sum's own."""
@@ -220,8 +237,9 @@ class Converter:
     @_value.register
     def _(self, node: Quotient) -> sp.Expr:
         top, bottom = node.top, node.bottom
-        if (isinstance(top, Product) and top.factors[0] == _DERIVED[0] and bottom == _DERIVED[1]):
-            return D(self.product(top.factors[1:]))
+        found = derivative(node)
+        if found is not None and found.of:
+            return self._derived(found, node.position)
         below = self.expression(bottom)
         if is_vector(below) and self.index is None:
             raise LatexError("a division by a vector: correct the line", bottom.position)
@@ -229,15 +247,24 @@ class Converter:
             self.conditions.append(Condition("denominator", below, bottom.position))
         return divided(self.expression(top), below, node.position)
 
+    def _derived(self, found: Derivative, position: int) -> sp.Expr:
+        """A derivative in time, or of an expression by one of its letters."""
+        value = self.product(found.of)
+        if found.in_time:
+            return rate(value, found.order)
+        return partial(value, self.product(found.by), found.order, position)
+
     @_value.register
     def _(self, node: Power) -> sp.Expr:
-        if node.base == Letter("e") and self.notation.meaning(node.base) is None:
+        if node.base in _EULER and self.notation.meaning(node.base) is None:
             return sp.exp(self.number(node.exponent))
         if isinstance(node.base, Named):
             return self.product((node,))
         return self._power(self.expression(node.base), self.number(node.exponent), node.position)
 
     def _power(self, base: sp.Expr, exponent: sp.Expr, position: int) -> sp.Expr:
+        if self.declared:
+            require_usual(exponent, position)
         if exponent.is_Rational and not base.is_Rational:
             if exponent < 0:
                 self.conditions.append(Condition("denominator", base, position))
@@ -250,10 +277,7 @@ class Converter:
         count = {"dot": 1, "ddot": 2, "dddot": 3}.get(node.accent)
         if count is None:
             raise LatexError(f"\\{node.accent} over more than a letter: give the piece in the notation", node.position)
-        value = self.expression(node.body)
-        for _ in range(count):
-            value = D(value)
-        return value
+        return rate(self.expression(node.body), count)
 
     @_value.register
     def _(self, node: Size) -> sp.Expr:
@@ -261,34 +285,12 @@ class Converter:
         if len(parts) != 1:
             raise LatexError("several values between bars: give the piece in the notation", position)
         value = self.expression(parts[0])
-        if bars in ("||", "||_2"):
-            return norm(value, self.limits, position)
-        if bars != "|":
-            raise LatexError(f"the norm '{bars}' has no meaning in goals: give the piece in the notation", position)
-        if is_vector(value) and self.index is None:
+        if bars == "|" and is_vector(value) and self.index is None:
             raise LatexError("the absolute value of a vector: write a norm", position)
-        return sp.Abs(value)
-
-    def inside(self, group: Group) -> Node:
-        """The one expression between brackets."""
-        sides = self.inside_all(group)
-        if len(sides) != 1:
-            raise LatexError("several values between brackets: give the piece in the notation", group.position)
-        return sides[0]
-
-    def inside_all(self, group: Group) -> list[Node]:
-        """The expressions between brackets, which commas part."""
-        if PAIRS[group.opening] != group.closing:
-            raise LatexError(f"'{group.opening}' is closed by '{group.closing}': write the same brackets",
-                             group.position)
-        line = group.line
-        if any(s != (",",) for s in line.separators[1:-1]) or line.separators[0] or line.separators[-1]:
-            raise LatexError("words or arrows between brackets: give the piece in the notation", group.position)
-        if any(chain.signs for chain in line.chains):
-            raise LatexError("a relation between brackets: write it after a comma", group.position)
-        return [chain.sides[0] for chain in line.chains]
+        if bars == "|" or (self.declared and bars in NORMS and not is_vector(value)):
+            return sp.Abs(value)
+        return norm(bars, value, self.limits, position)
 
     def within(self, index: str | None) -> Converter:
         """The same, within a sum over an index."""
         return replace(self, index=index)
-

@@ -52,6 +52,15 @@ def power(base: sp.Expr, exponent: sp.Expr, position: int) -> sp.Expr:
     return base**exponent
 
 
+def require_usual(exponent: sp.Expr, position: int) -> None:
+    """Raise LatexError for the exponent of a power that goals do not have."""
+    if not exponent.is_Rational:
+        raise LatexError(r"a power with letters in its exponent has no meaning in goals: write \exp(...), or give the "
+                         "piece in the notation", position)
+    if exponent.q > 2:
+        raise LatexError(f"the power {exponent} has no meaning in goals: only whole and half ones have", position)
+
+
 def divided(top: sp.Expr, bottom: sp.Expr, position: int) -> sp.Expr:
     """top/bottom."""
     if bottom == 0:

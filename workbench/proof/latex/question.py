@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, fields, is_dataclass, replace
+from typing import Any
 
 import sympy as sp
 
@@ -16,6 +17,7 @@ from workbench.proof.latex.notation import Notation
 from workbench.proof.latex.read import read_line
 from workbench.proof.latex.statement import relations, statement
 from workbench.proof.latex.symbols import Symbols
+from workbench.proof.latex.tree import Chain, Letter, Line, Number, Terms
 from workbench.proof.latex.write import latex
 
 
@@ -46,7 +48,11 @@ class Answer:
 
 def asked(line: str, symbols: Symbols) -> Goal:
     """The goal that a line states; raises LatexError where it cannot be read."""
-    stated = statement(read_line(line), Converter(Notation(symbols.notation), symbols.limits))
+    converter = Converter(Notation(symbols.notation), symbols.limits, declared=symbols.declared)
+    tree = read_line(line)
+    if not {"=>", ":"} & {word for words in tree.separators for word in words}:
+        _require_told_apart(tree)
+    stated = statement(tree, converter)
     flow = dict(symbols.flow)
     assume = list(symbols.assume)
     for relation in relations(stated.conditions):
@@ -55,7 +61,8 @@ def asked(line: str, symbols: Symbols) -> Goal:
             flow[moving] = relation.right
         else:
             assume.append(relation)
-    claimed = relations(stated.claimed)
+    claimed = tuple(_counted(r, symbols.limits) for r in relations(stated.claimed))
+    assume = [_counted(r, symbols.limits) for r in assume]
     if all(r.left == r.right for r in claimed) and not any(r.left.has(D) for r in claimed):
         raise LatexError("both sides are the same as soon as the line is read, so that nothing is left to decide")
     rates = {found for r in (*claimed, *assume) for found in r.left.atoms(D) | r.right.atoms(D)}
@@ -65,6 +72,41 @@ def asked(line: str, symbols: Symbols) -> Goal:
                              "of its letters under [flow], or before an arrow")
     return Goal(claimed, tuple(assume), flow if rates else {},
                 inputs=tuple(symbol for symbol in symbols.inputs if symbol not in flow) if rates else ())
+
+
+def _require_told_apart(line: Line) -> None:
+    """Raise LatexError for a line such as `1/x <= x, x >= 1`: whether its end is claimed too, or a condition."""
+    for number, (chain, words) in enumerate(zip(line.chains, line.separators, strict=False)):
+        if number and words == (",",) and _is_bound(chain) and any(
+                earlier.signs and not _is_bound(earlier) and _letters(chain) & _letters(earlier)
+                for earlier in line.chains[:number]):
+            raise LatexError(r"whether what stands behind the comma is claimed or a condition is open: write \text{for} "
+                             r"or \text{and} before it, or the condition and \Rightarrow first", chain.position)
+
+
+def _counted(relation: Relation, limits: sp.Tuple | None) -> Relation:
+    """The relation with the number of a vector's components as the sum of as many ones."""
+    def put(expr: sp.Expr) -> sp.Expr:
+        if limits is None or not expr.has(limits[2]):
+            return expr
+        if isinstance(expr, sp.Sum):
+            return sp.Sum(put(expr.function), limits)
+        return sp.Sum(1, limits) if expr == limits[2] else expr.func(*map(put, expr.args))
+
+    return Relation(put(relation.left), relation.operator, put(relation.right))
+
+
+def _is_bound(chain: Chain) -> bool:
+    """Whether a chain bounds one letter by numbers."""
+    return bool(chain.signs) and len(_letters(chain)) == 1 and all(
+        isinstance(side, (Letter, Number, Terms)) for side in chain.sides)
+
+
+def _letters(node: Any) -> set[Letter]:
+    if isinstance(node, Letter):
+        return {node}
+    parts = node if isinstance(node, tuple) else [getattr(node, f.name) for f in fields(node)] if is_dataclass(node) else ()
+    return set().union(*map(_letters, parts))
 
 
 def answer(line: str, symbols: Symbols) -> Answer:

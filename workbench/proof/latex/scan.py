@@ -11,7 +11,9 @@ from workbench.proof.latex.commands import (
     ENVIRONMENTS,
     FONTS,
     FRACTIONS,
+    FUNCTIONS,
     KNOWN,
+    SILENT,
     TEXTS,
     UPRIGHT,
 )
@@ -21,7 +23,8 @@ from workbench.proof.latex.limits import DEEPEST_NESTING, LONGEST_LINE
 _NAME = re.compile(r"\s*\{(?P<name>[a-z]+\*?)\}")
 _GOES_ON = re.compile(r"[\s&]*([=<>+\-/.]|"
                       r"\\(end|le|leq|ge|geq|lt|gt|ne|neq|cdot|times|to|in|pm|Rightarrow)(?![A-Za-z]))")
-_PIECE = re.compile(r"\\[A-Za-z]+|\\.|\s+|.", re.DOTALL)
+_PIECE = re.compile(r"\\tag\*|\\[A-Za-z]+|\\.|\s+|.", re.DOTALL)
+_NUMBERED = re.compile(r"\\q?quad[\s\\,;~]*\((\d+[a-z]?|[A-Z]\.?\d+)\)[\s.,]*$")  # an equation's number, at its end
 
 
 @dataclass(frozen=True)
@@ -37,6 +40,7 @@ def scan(line: str) -> list[Piece]:
     """The pieces of a line, spaces left out; raises LatexError for one too long, too deep or without its braces."""
     if len(line) > LONGEST_LINE:
         raise LatexError(f"the line has {len(line)} characters: write at most {LONGEST_LINE}")
+    line = _NUMBERED.sub("", line)
     pieces: list[Piece] = []
     environments: list[str] = []
     depth, at = 0, 0
@@ -46,9 +50,10 @@ def scan(line: str) -> list[Piece]:
         text, start, at = found.group(), at, found.end()
         if text.isspace() or text in ("~", "$"):
             continue
-        if text.startswith("\\") and text[1:] in TEXTS:
+        if text.startswith("\\") and text[1:] in TEXTS | SILENT:
             content, at = _text(line, at)
-            pieces.append(Piece("text", content, start))
+            if text[1:] in TEXTS:  # \text{sgn} is \operatorname{sgn}
+                pieces.append(Piece("command" if content in FUNCTIONS else "text", content, start))
             continue
         if text in ("\\begin", "\\end", "&", "\\\\"):
             at = _layout(line, text, start, at, environments, pieces)
@@ -108,7 +113,7 @@ def _text(line: str, at: int) -> tuple[str, int]:
     """What stands between the braces after \text, and where it ends; formulas within are words too."""
     opened = re.compile(r"\s*\{").match(line, at)
     if opened is None:
-        raise LatexError(r"\text without braces: write \text{...}", at)
+        raise LatexError(r"\text, \label or \tag without braces: write \text{...}", at)
     depth, end = 1, opened.end()
     while end < len(line) and depth:
         depth += {"{": 1, "}": -1}.get(line[end], 0)

@@ -9,11 +9,14 @@ import sympy as sp
 from workbench.proof.claim import Operator, Relation
 from workbench.proof.latex.convert import Converter
 from workbench.proof.latex.error import LatexError
-from workbench.proof.latex.tree import Chain, Group, Letter, Line, Node, Product, Terms
+from workbench.proof.latex.tree import Chain, Group, Letter, Line, Node, Power, Product, Terms
 
 OPERATORS: dict[str, Operator] = {"=": "==", "<=": "<=", ">=": ">=", "<": "<", ">": ">", "!=": "!="}
 _AND = frozenset(("and", ",", "", "as well as"))
-_UNDER = ("for", "if", "when", "with", "where", "under", "at", "whenever", "provided that", "such that", "for all")
+_ALL = ("for all", "for every", "for any", "for each")
+_UNDER = ("for", "if", "when", "with", "where", "under", "at", "whenever", "provided that", "such that", *_ALL)
+_THEN = ("then", "we have", "then we have", "it holds that", "it follows that", "one has")
+_IMPLIES = ("implies", "imply", "implies that", "imply that")
 
 
 class ProseError(LatexError):
@@ -40,7 +43,7 @@ def statement(line: Line, converter: Converter) -> Statement:
     """The statement of a line; raises ProseError where words carry part of it, LatexError for what cannot be read."""
     claimed, conditions = parted(line)
     if not claimed:
-        raise LatexError("the line claims nothing: write a relation")
+        raise LatexError("the line claims nothing: write a relation, behind a colon where 'for all' or 'for' stands first")
     return Statement(_related(claimed, converter), _related(conditions, converter))
 
 
@@ -51,11 +54,11 @@ def relations(related: tuple[Related, ...]) -> tuple[Relation, ...]:
 
 
 def parted(line: Line) -> tuple[list[Chain], list[Chain]]:
-    """The chains that a line claims, and those that are its conditions: before an arrow or a colon, after `for` or
-    `if`, in brackets after a relation."""
+    """The chains that a line claims, and those that are its conditions: before an arrow or a colon, after `for`, `if` or
+    a quantifier, in brackets after a relation."""
     flat = [word for words in line.separators for word in words]
-    if any(word in ("\\forall", "\\exists") for word in flat):
-        raise ProseError("the line quantifies over what stands behind 'for all' or 'exists': it is read by a person")
+    if "\\exists" in flat:
+        raise ProseError("the line says that something exists: it is read by a person")
     if "<=>" in flat:
         raise ProseError("the line claims that two statements are equivalent: state each of them")
     if flat.count("=>") > 1:
@@ -65,14 +68,19 @@ def parted(line: Line) -> tuple[list[Chain], list[Chain]]:
     into = claimed
     for words, chain in zip(line.separators, line.chains, strict=False):
         for word in words:
-            if word in ("=>", ":"):
-                conditions, claimed = conditions + claimed, []
+            if word in ("=>", ":") or _said_of(word) in _IMPLIES:
+                conditions, claimed = [*(c for c in conditions if c.signs), *claimed], []
                 into = claimed
+            elif word == "\\forall":
+                into = conditions
             elif word.startswith("text "):
                 into = _after_words(word.removeprefix("text "), into, claimed, conditions)
         kept, bracketed = _unbracketed(chain)
         into.append(kept)
         conditions += bracketed
+    if any(word == "\\forall" or _said_of(word) in _ALL for word in flat):
+        while conditions and not conditions[-1].signs and isinstance(conditions[-1].sides[0], Letter):
+            conditions.pop()  # `for all x`: everything is said of all values
     for word in line.separators[-1]:
         if word.startswith("text ") and word.removeprefix("text ").strip(" .,") not in _AND:
             raise _said(word.removeprefix("text "))
@@ -82,12 +90,19 @@ def parted(line: Line) -> tuple[list[Chain], list[Chain]]:
 
 
 def _after_words(text: str, into: list[Chain], claimed: list[Chain], conditions: list[Chain]) -> list[Chain]:
-    said = text.strip(" .,").lower()
+    said = _said_of(f"text {text}")
     if said in _AND:
         return into
-    if said in _UNDER and claimed:
+    if said in _UNDER:
         return conditions
+    if said in _THEN and into is conditions and not claimed:
+        return claimed
     raise _said(text)
+
+
+def _said_of(word: str) -> str:
+    """What a separator says in words; nothing where it is none."""
+    return word.removeprefix("text ").strip(" .,").lower() if word.startswith("text ") else "-"
 
 
 def _said(text: str) -> ProseError:
@@ -136,6 +151,8 @@ def _chain(chain: Chain, converter: Converter) -> list[Related]:
 def _interval(chain: Chain, converter: Converter) -> list[Related]:
     """`x \\in [a, b)` as a <= x, x < b, and the chain before it."""
     place, interval = chain.signs.index("in"), chain.sides[-1]
+    if place == len(chain.signs) - 1 and _is_all_numbers(interval):
+        return _chain(Chain(chain.sides[:-1], chain.signs[:-1]), converter) if place else []
     if place != len(chain.signs) - 1 or not isinstance(interval, Group):
         raise ProseError("a set other than an interval: the line is read by a person")
     line = interval.line
@@ -155,3 +172,8 @@ def _infinite(node: Node, sign: int) -> bool:
     """Whether an end is infinity with this sign."""
     terms = node.terms if isinstance(node, Terms) else ((1, node),)
     return terms == ((sign, Letter("\\infty")),)
+
+
+def _is_all_numbers(node: Node) -> bool:
+    """Whether a set is that of the real numbers or of columns of them: of a letter no more is said by that."""
+    return (node.base if isinstance(node, Power) else node) in (Letter(r"\mathbb{R}"), Letter(r"\Re"))

@@ -66,10 +66,12 @@ def _sum(converter: Reading, sign: Big, rest: tuple[Node, ...]) -> sp.Expr:
     ends = _ends(converter, found["first"], sign)
     if ends is not None and all(end.is_Integer for end in ends):
         return _written_out(converter, letter, ends, rest, sign.position)
+    printed = letter
     letter, rest = _with_known_index(converter, letter, rest, sign.position)
     body = converter.within(letter).product(rest)
     if not is_vector(body):
-        raise LatexError(f"nothing behind the sum has the index '{letter}': correct the notation", sign.position)
+        raise LatexError(f"nothing behind the sum has the index '{printed}': write it with one, or give "
+                         "the sum in the notation", sign.position)
     indices = {index for symbol in body.atoms(sp.Indexed) for index in symbol.indices}
     if len(indices) != 1:
         raise LatexError("the summand has several indices: give the sum in the notation", sign.position)

@@ -54,6 +54,7 @@ class Symbols:
     flow: Mapping[sp.Expr, sp.Expr] = field(default_factory=dict)
     limits: sp.Tuple | None = None
     inputs: tuple[sp.Symbol | sp.Indexed, ...] = ()
+    declared: bool = False  # whether each letter is known to be a number or a column
 
 
 def load_symbols(path: Path) -> Symbols:
@@ -92,6 +93,8 @@ def symbols_in(record: SymbolsFile, path: Path) -> Symbols:
     limits = sp.Tuple(INDEX, 1, COUNT) if vectors else None
     if vectors:
         notation["n"] = COUNT
+    if "t" not in record.symbols:
+        notation["(t)"] = sp.S.One  # all is said of one instant
     _checked(path, "symbols", notation)
     for typed, formula in record.definitions.items():
         meaning = _expression(path, f"definitions.{typed}", formula, notation, limits)
@@ -110,13 +113,13 @@ def symbols_in(record: SymbolsFile, path: Path) -> Symbols:
     assume: list[Relation] = []
     for number, formula in enumerate(record.assumptions):
         try:
-            stated = statement(read_line(formula), Converter(Notation(notation), limits))
+            stated = statement(read_line(formula), Converter(Notation(notation), limits, declared=True))
         except LatexError as trouble:
             raise InputError(path, f"assumptions[{number}]", str(trouble)) from None
         if stated.conditions:
             raise InputError(path, f"assumptions[{number}]", "has a condition of its own: state relations only")
         assume += relations(stated.claimed)
-    return Symbols(notation, letters, tuple(assume), flow, limits, inputs)
+    return Symbols(notation, letters, tuple(assume), flow, limits, inputs, declared=True)
 
 
 def _inputs(path: Path, record: SymbolsFile, notation: Mapping[str, sp.Expr],
@@ -140,7 +143,7 @@ def _expression(path: Path, key: str, formula: str, notation: Mapping[str, sp.Ex
         line = read_line(formula)
         if len(line.chains) != 1 or line.chains[0].signs:
             raise LatexError("a relation where an expression is expected: write its right side alone")
-        converter = Converter(Notation(notation), limits)
+        converter = Converter(Notation(notation), limits, declared=True)
         side = line.chains[0].sides[0]
         return converter.expression(side) if vector else converter.side(side)
     except LatexError as trouble:

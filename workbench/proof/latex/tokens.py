@@ -43,6 +43,7 @@ _COMMANDS: dict[str, dict[str, str] | frozenset[str]] = {
     "ELLIPSIS": ELLIPSES, "CDOT": TIMES, "PLUS_MINUS": frozenset(("pm", "mp")), "MARK": dict.fromkeys(STAR, "*"),
     "COLON": frozenset(("mid", "colon")),
 }
+TYPED = {"<=": "<=", ">=": ">=", "!=": "!=", ":=": "=", "<<": "<<", ">>": ">>"}
 _MARK = re.compile(r"\*|\+|-|0|\\pm|\\prime|'+|\(\d+\)|\\infty")
 _STARRED = re.compile(r"(\*)(T|2|\\top)")
 
@@ -77,8 +78,11 @@ class _Words:
             elif piece.text == "%" and out and out[-1].type == "NUMBER" and "e" not in out[-1]:
                 out[-1] = out[-1].update(value=f"{out[-1]}e-2")
                 at += 1
-            elif piece.kind == "digit":
+            elif piece.kind == "digit" or self._starts_with_point(at, end):
                 at = self._number(out, at, end)
+            elif (sign := self._typed_sign(at, end)) is not None:
+                out.append(_token("RELATION", sign, piece))
+                at += 2
             elif piece.kind == "sign" and piece.text in "_^":
                 at = (self._index if piece.text == "_" else self._above)(out, at, end, depth)
             elif arguments(piece):
@@ -134,11 +138,31 @@ class _Words:
         if out and out[-1].type == "NUMBER":
             raise LatexError(f"the numbers {out[-1].value} and {text} stand side by side: write a sign between them",
                              self.pieces[start].position)
+        if self._exponent(start, at, end):
+            raise LatexError(f"{text}e with digits behind it may be a power of ten or a product: write 10^{{-3}}, or a "
+                             "space before e", self.pieces[start].position)
         if self._thousands(start, at, end):
             raise LatexError(f"{text} and a comma before three digits: write one number without the comma, or two with "
                              "a space after it", self.pieces[start].position)
-        out.append(_token("NUMBER", text, self.pieces[start]))
+        out.append(_token("NUMBER", f"0{text}" if text.startswith(".") else text, self.pieces[start]))
         return at
+
+    def _starts_with_point(self, at: int, end: int) -> bool:
+        """Whether a point stands here that no digit stands before and one stands right behind, as in `.5`."""
+        return self.pieces[at].text == "." and self.pieces[at].kind == "sign" and at + 1 < end and (
+            self.pieces[at + 1].kind == "digit" and self._adjacent(at, at + 1))
+
+    def _typed_sign(self, at: int, end: int) -> str | None:
+        """A relation of two signs side by side, as programs write it."""
+        if at + 1 < end and self._adjacent(at, at + 1) and self.pieces[at].kind == self.pieces[at + 1].kind == "sign":
+            return TYPED.get(self.pieces[at].text + self.pieces[at + 1].text)
+        return None
+
+    def _exponent(self, start: int, at: int, end: int) -> bool:
+        """Whether an `e` and digits stand right behind a number, as programs write powers of ten."""
+        behind = at + 1 + (at + 1 < end and self.pieces[at + 1].text in "+-")
+        return behind < end and self.pieces[at].text == "e" and self.pieces[behind].kind == "digit" and (
+            self._adjacent(start, behind))
 
     def _thousands(self, start: int, at: int, end: int) -> bool:
         """Whether a comma and three digits, no more, stand right behind a number."""
@@ -150,14 +174,23 @@ class _Words:
     def _adjacent(self, start: int, at: int) -> bool:
         return self.pieces[at].position - self.pieces[start].position == at - start
 
-    def _index(self, out: list[Token], at: int, end: int, depth: int) -> int:
+    def _script(self, at: int, end: int) -> tuple[int, int, int]:
+        """The argument of the ^ or _ at a piece."""
         first, last, after = argument(self.pieces, at + 1, end)
+        if first == at + 1 and self.pieces[first].kind == "digit" and after < end and (
+                self.pieces[after].kind == "digit" and self._adjacent(first, after)):
+            raise LatexError("of digits behind ^ or _ without braces TeX takes the first alone: write x^{23}",
+                             self.pieces[at].position)
+        return first, last, after
+
+    def _index(self, out: list[Token], at: int, end: int, depth: int) -> int:
+        first, last, after = self._script(at, end)
         out.append(_token("SUB", plain(self.pieces[first:last]), self.pieces[at]))
         return after
 
     def _above(self, out: list[Token], at: int, end: int, depth: int) -> int:
         piece = self.pieces[at]
-        first, last, after = argument(self.pieces, at + 1, end)
+        first, last, after = self._script(at, end)
         text = plain(self.pieces[first:last]).replace("\\star", "*").replace("\\ast", "*").replace(" ", "")
         of_big = bool(out) and (out[-1].type == "BIG" or (
             out[-1].type == "SUB" and len(out) > 1 and out[-2].type == "BIG"))
@@ -188,8 +221,8 @@ class _Words:
                 out.append(_token("LETTER", f"\\{word}{{{text}}}", piece))
             elif text in FUNCTIONS:
                 out.append(_token("NAMED", SAME_FUNCTION.get(text, text), piece))
-            else:
-                out.append(_token("LETTER", f"\\mathrm{{{text}}}", piece))
+            else:  # an upright d is that of derivatives and integrals
+                out.append(_token("LETTER", "d" if text == "d" else f"\\mathrm{{{text}}}", piece))
             return after
         kind = "FRAC" if word in FRACTIONS else "SQRT" if word == "sqrt" else "ACCENT"
         if kind == "SQRT" and at + 1 < end and self.pieces[at + 1].text == "[":

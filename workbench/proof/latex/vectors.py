@@ -27,14 +27,21 @@ def summed(summand: sp.Expr, limits: sp.Tuple | None, position: int) -> sp.Expr:
     return sp.Sum(summand, limits)
 
 
-def multiplied(factors: Sequence[tuple[sp.Expr, bool]], limits: sp.Tuple | None, position: int) -> sp.Expr:
-    """The product of factors, each with whether it is transposed: a row and the columns after it make a sum."""
+def multiplied(factors: Sequence[tuple[sp.Expr, bool]], limits: sp.Tuple | None, position: int,
+               columns: bool = False) -> sp.Expr:
+    """The product of factors, each with whether it is transposed: a row and the columns after it make a sum.
+
+    columns: whether all vectors are columns, so that a row takes one of them; else all but the last are diagonal.
+    """
     outside: list[sp.Expr] = []
     row: list[sp.Expr] | None = None
 
     def close() -> None:
         if row is not None and len(row) == 1:
             raise LatexError("a transposed vector stands without a vector after it: correct the line", position)
+        if row is not None and len(row) > 2 and columns:
+            raise LatexError("a row and two columns side by side: put brackets around the product that is a number",
+                             position)
         if row is not None:
             outside.append(summed(sp.Mul(*row), limits, position))
 
@@ -53,12 +60,17 @@ def multiplied(factors: Sequence[tuple[sp.Expr, bool]], limits: sp.Tuple | None,
     return sp.Mul(*outside)
 
 
-def norm(value: sp.Expr, limits: sp.Tuple | None, position: int) -> sp.Expr:
-    """The Euclidean norm of a vector."""
+NORMS = ("||", "||_2", "||_1")
+
+
+def norm(bars: str, value: sp.Expr, limits: sp.Tuple | None, position: int) -> sp.Expr:
+    """A norm of a vector: the Euclidean one, or with the index 1 the sum of its components' sizes."""
+    if bars not in NORMS:
+        raise LatexError(f"the norm '{bars}' has no meaning in goals: give the piece in the notation", position)
     if not is_vector(value):
         raise LatexError(f"the norm of {value}, which is no vector: give the norm in the notation, or an indexed "
                          "symbol", position)
-    return sp.sqrt(summed(value**2, limits, position))
+    return summed(sp.Abs(value), limits, position) if bars == "||_1" else sp.sqrt(summed(value**2, limits, position))
 
 
 def trace(value: sp.Expr, limits: sp.Tuple | None, position: int) -> sp.Expr:

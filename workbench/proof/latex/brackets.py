@@ -1,0 +1,61 @@
+"""What stands in brackets, and which brackets and functions go on with a product."""
+
+from __future__ import annotations
+
+from workbench.proof.latex.error import LatexError
+from workbench.proof.latex.notation import Notation
+from workbench.proof.latex.tree import Dot, Group, Letter, Named, Node, Number, Power, Transposed
+
+PAIRS = {"(": ")", "[": "]", "{": "}"}
+
+
+def inside(group: Group) -> Node:
+    """The one expression between brackets."""
+    sides = inside_all(group)
+    if len(sides) != 1:
+        raise LatexError("several values between brackets: give the piece in the notation", group.position)
+    return sides[0]
+
+
+def inside_all(group: Group) -> list[Node]:
+    """The expressions between brackets, which commas part."""
+    if PAIRS[group.opening] != group.closing:
+        raise LatexError(f"'{group.opening}' is closed by '{group.closing}': write the same brackets", group.position)
+    line = group.line
+    if any(s != (",",) for s in line.separators[1:-1]) or line.separators[0] or line.separators[-1]:
+        raise LatexError("words or arrows between brackets: give the piece in the notation", group.position)
+    if any(chain.signs for chain in line.chains):
+        raise LatexError("a relation between brackets: write it after a comma", group.position)
+    return [chain.sides[0] for chain in line.chains]
+
+
+def says_nothing(notation: Notation, node: Node) -> bool:
+    """Whether a node is an argument that letters are printed with, and no factor: `(t)` with the meaning 1."""
+    return isinstance(node, Group) and notation.meaning(node) == 1
+
+
+def require_factor(notation: Notation, factors: tuple[Node, ...], at: int) -> None:
+    """Raise LatexError for brackets that a reader would not take for a factor: `x(t)`, `V(0)`, `= 1 (3)`."""
+    group, before = _base(factors[at]), factors[at - 1] if at else Dot()
+    if not isinstance(group, Group) or isinstance(before, (Dot, Group)) or notation.meaning(group) is not None:
+        return
+    chains = group.line.chains
+    lone = chains[0].sides[0] if len(chains) == 1 and not chains[0].signs else None
+    if isinstance(lone, Number) or (isinstance(lone, Letter) and isinstance(_base(before), Letter)):
+        raise LatexError("what stands in these brackets may be an argument, a factor or the number of an equation: "
+                         r"write \cdot before them for a product, or add the piece with its letter to the notation",
+                         group.position)
+
+
+def ends_behind_letter(rest: tuple[Node, ...]) -> bool:
+    """Whether a number is followed by a letter, and that by what does not belong to the argument: 2 x in `sin 2x`."""
+    return len(rest) > 1 and isinstance(_base(rest[1]), Letter) and (len(rest) == 2 or is_next(rest[2]))
+
+
+def is_next(node: Node) -> bool:
+    """Whether the argument of a function ends before a node: at another function or a sign."""
+    return isinstance(_base(node), (Named, Dot))
+
+
+def _base(node: Node) -> Node:
+    return node.base if isinstance(node, (Power, Transposed)) else node

@@ -1,0 +1,68 @@
+"""Fractions that stand for derivatives: in time, and of a known expression by one of its letters."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from fractions import Fraction
+
+import sympy as sp
+
+from workbench.proof.claim import D
+from workbench.proof.latex.error import LatexError
+from workbench.proof.latex.tree import Letter, Node, Number, Power, Product, Quotient
+
+D_LETTERS = (Letter("d"), Letter("\\partial"))
+TIME = Letter("t")
+
+
+@dataclass(frozen=True)
+class Derivative:
+    """How often, of what (nothing where it stands behind the fraction), and by what."""
+
+    order: int
+    of: tuple[Node, ...]
+    by: tuple[Node, ...]
+
+    @property
+    def in_time(self) -> bool:
+        """Whether it is one along the motion."""
+        return self.by == (TIME,)
+
+
+def derivative(node: Node) -> Derivative | None:
+    """A fraction as a derivative; None where it is none, that is, where no d stands first above and below."""
+    if not isinstance(node, Quotient):
+        return None
+    top, bottom = _factors(node.top), _factors(node.bottom)
+    order, letter = _power_of(top[0])
+    if letter not in D_LETTERS or bottom[0] != letter or len(bottom) < 2:
+        return None
+    last, base = _power_of(bottom[-1])
+    return Derivative(order, top[1:], (*bottom[1:-1], base if last == order else bottom[-1]))
+
+
+def _factors(node: Node) -> tuple[Node, ...]:
+    return node.factors if isinstance(node, Product) else (node,)
+
+
+def _power_of(node: Node) -> tuple[int, Node]:
+    """The exponent 2 or 3 of a node and its base, else 1 and the node."""
+    if isinstance(node, Power) and node.exponent in (Number(Fraction(2)), Number(Fraction(3))):
+        return int(node.exponent.value), node.base
+    return 1, node
+
+
+def rate(value: sp.Expr, order: int) -> sp.Expr:
+    """The derivative of an expression along the motion."""
+    for _ in range(order):
+        value = D(value)
+    return value
+
+
+def partial(value: sp.Expr, by: sp.Expr, order: int, position: int) -> sp.Expr:
+    """The derivative of an expression by one of its letters."""
+    if not isinstance(by, sp.Symbol) or not value.has(by) or value == by or value.has(
+            D, sp.Abs, sp.sign, sp.Max, sp.Min):
+        raise LatexError("a derivative other than one by t, or of a smooth function that is defined by its letter: "
+                         "write it out", position)
+    return sp.diff(value, by, order)
