@@ -8,10 +8,12 @@ import sympy as sp
 
 from workbench.proof.claim import D, Goal, Relation, at_least, at_most, equal, greater
 from workbench.proof.decide.combination import find_combination
+from workbench.proof.decide.first_lemmas import first_lemmas
 from workbench.proof.decide.identity import find_identity
 from workbench.proof.decide.squares import find_squares
 from workbench.proof.decide.tangents import find_by_tangents
 from workbench.proof.decide.totals import find_by_totals
+from workbench.proof.decide.two_sides import find_by_two_sides, pinched
 from workbench.proof.decide.vanishing import vanishes
 from workbench.proof.derive import Side, Size, expand_derivatives, unfold
 from workbench.proof.text import assumptions, relation_text, text
@@ -28,8 +30,19 @@ EMPTY = at_least(0, 0)
 def prove_relation(goal: Goal, shown: Relation) -> Found:
     """A proof of one relation of the goal, to be checked; None when none was found."""
     if goal.decreasing is None or find_identity(goal, shown):
-        return search(goal, shown, assumptions(goal), goal.lemmas)
+        given = assumptions(goal)
+        first = pinched(given)
+        first += first_lemmas(goal, shown, (*given, *(lemma for lemma, _ in first)))
+        found = search(goal, shown, (*given, *(lemma for lemma, _ in first)), goal.lemmas)
+        return None if found is None else _cut(first, found)
     return _by_decrease(goal, shown)
+
+
+def _cut(lemmas: list[tuple[Relation, Proof]], final: Proof) -> Proof:
+    """A proof that uses lemmas, each shown from what is known before it."""
+    for lemma, proof in reversed(lemmas):
+        final = {"rule": "cut", "lemma": relation_text(lemma), "proof": proof, "then": final}
+    return final
 
 
 def search(goal: Goal, shown: Relation, given: Given, lemmas: Given = (), depth: int = 0) -> Found:
@@ -48,7 +61,8 @@ def search(goal: Goal, shown: Relation, given: Given, lemmas: Given = (), depth:
             return found
     return (_by_lemmas(goal, shown, given, lemmas) or _by_contradiction(goal, shown, given)
             or _by_growth(goal, _carried(shown, goal), given) or find_by_totals(goal, shown, given, search)
-            or find_by_tangents(goal, _carried(shown, goal), given) or _by_its_square(goal, shown, given))
+            or find_by_tangents(goal, _carried(shown, goal), given) or _by_its_square(goal, shown, given)
+            or find_by_two_sides(goal, shown, given))
 
 
 def _by_contradiction(goal: Goal, shown: Relation, given: Given) -> Found:
@@ -179,7 +193,9 @@ def _search_case(goal: Goal, shown: Relation, given: Given, lemmas: Given, depth
     impossible = find_combination(goal, greater(0, 0), given, quick=True)
     if impossible is not None:
         return impossible | {"rule": "contradiction"}
-    return search(goal, shown, given, lemmas, depth)
+    zero = pinched(given)
+    found = search(goal, shown, (*given, *(lemma for lemma, _ in zero)), lemmas, depth)
+    return None if found is None else _cut(zero, found)
 
 
 def _by_lemmas(goal: Goal, shown: Relation, given: Given, lemmas: Given) -> Found:
@@ -199,9 +215,7 @@ def _by_lemmas(goal: Goal, shown: Relation, given: Given, lemmas: Given) -> Foun
         final = find_squares(goal, shown, given)
     if final is None:
         return None
-    for lemma, proof in reversed(steps):
-        final = {"rule": "cut", "lemma": relation_text(lemma), "proof": proof, "then": final}
-    return final
+    return _cut(steps, final)
 
 
 def _signs_of_logs(relations: Given) -> list[Relation]:

@@ -150,6 +150,10 @@ def _multipliers(situation: Situation, constrained: bool) -> list[Multiplier]:
     if not any(situation.signs.get(i, ({}, False))[1] for i in own):
         spread += ring.one
     positive: list[Multiplier] = [(({"positive": situation.text(spread)},), spread)]
+    strict = [i for i in own if situation.signs.get(i, ({}, False))[1]]
+    if constrained and len(strict) > 1:
+        weight = sum((ring.gens[i] for i in strict), ring.zero)
+        positive.append((({"positive": situation.text(weight)},), weight))
     if constrained:  # a symbol alone helps to trade terms, but makes no sum of squares of what is none
         positive += [((item,), ring.gens[i]) for i, (item, strict) in situation.signs.items() if strict and i in own]
         positive += [(k.items, k.value) for k in situation.known
