@@ -78,6 +78,10 @@ def test_what_is_no_obligation_is_refused_in_one_line(statement):
     (stated(["=", "y**2 - 4*cos(x)", "-1"], ["=", "x", "0"], ["=", "y**2", "3"]), "proved"),  # two inequalities
     (stated(["<=", "y**2 - 4*cos(x)", "-1"], ["=", "x", "0"], ["=", "y**2", "3"]), "proved"),
     (stated(["=", "x*z", "y"], ["=", "x", "1"], ["=", "y**2", "-1"]), "proved"),  # nothing meets what is assumed
+    (stated(["=", "y**3", "2*y"], ["=", "x**2", "2"], ["=", "x*y", "2"]), "proved"),  # two coupled roots meet it
+    (stated(["=", "y", "x"], ["=", "x**2", "2"], ["=", "y**2", "2"]), "refuted"),
+    (stated(["=", "x", "y"], ["=", "x**2 + y**2", "1"], ["=", "x*y", "1/2"]), "proved"),  # by its square alone
+    (stated(["=", "2*(x**4 + y**4 + z**4)", "1"], ["=", "x + y + z", "0"], ["=", "x**2 + y**2 + z**2", "1"]), "proved"),
     (stated(["<=", "y", "2"], ["=", "y**2 - 4*cos(x)", "-1"]), "proved"),  # beside points that are no roots
     (stated(["and", [">=", "x**2", "0"], ["<=", "x", "x**2"]]), "refuted"),
 ])

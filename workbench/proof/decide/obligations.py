@@ -151,7 +151,7 @@ def _forms(goal: Goal, proof: Proof) -> Iterator[tuple[Goal, Proof]]:
     """
     whole = exclusion_of(goal)
     last = len(whole.relations) - 1
-    terms = contradictory(proof, last, goal.show[0].operator)
+    terms = contradictory(proof, last, goal.show[0])
     if terms is None:  # the assumptions alone may exclude each other
         alone = find_combination(goal.evaluated(), greater(0, 0), assumptions(goal.evaluated()), quick=True)
         if alone is None:

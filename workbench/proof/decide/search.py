@@ -10,6 +10,7 @@ from workbench.proof.claim import D, Goal, Relation, at_least, at_most, equal, g
 from workbench.proof.decide.combination import find_combination
 from workbench.proof.decide.first_lemmas import first_lemmas
 from workbench.proof.decide.identity import find_identity
+from workbench.proof.decide.pivots import find_by_pivots
 from workbench.proof.decide.squares import find_squares
 from workbench.proof.decide.tangents import find_by_tangents
 from workbench.proof.decide.totals import find_by_totals
@@ -62,7 +63,7 @@ def search(goal: Goal, shown: Relation, given: Given, lemmas: Given = (), depth:
     return (_by_lemmas(goal, shown, given, lemmas) or _by_contradiction(goal, shown, given)
             or _by_growth(goal, _carried(shown, goal), given) or find_by_totals(goal, shown, given, search)
             or find_by_tangents(goal, _carried(shown, goal), given) or _by_its_square(goal, shown, given)
-            or find_by_two_sides(goal, shown, given))
+            or find_by_two_sides(goal, shown, given) or find_by_pivots(goal, shown, given))
 
 
 def _by_contradiction(goal: Goal, shown: Relation, given: Given) -> Found:
@@ -80,19 +81,20 @@ def _by_contradiction(goal: Goal, shown: Relation, given: Given) -> Found:
 
 
 def _by_its_square(goal: Goal, shown: Relation, given: Given) -> Found:
-    """Where the relation fails by c > 0, squares show c^2 <= 0, with c among the factors of what is known.
+    """Where the relation fails by c > 0, or c != 0, squares show c^2 <= 0, with c among the factors of what is known.
 
-    So from (p q)^2 >= r^2 for p q >= 0 follows p q >= r, which no sum of squares says at once.
+    So from (p q)^2 >= r^2 for p q >= 0 follows p q >= r, which no sum of squares says at once; and x == y where
+    x**2 + y**2 == 2 x y.
     """
-    if shown.operator not in ("<=", ">=") or shown.margin.has(sp.Sum):
+    if shown.operator not in ("<=", ">=", "==") or shown.margin.has(sp.Sum):
         return None
-    opposite = shown.negation
+    opposite, last = shown.negation, {"assume": len(given)}
     found = find_squares(goal, at_most(opposite.margin**2, 0), (*given, opposite))
     if found is None:
         return None
-    above = {"assume": len(given)}
-    last = {"coefficient": "1", "factors": [*found.get("multiplier", []), above, above]}
-    return {"rule": "contradiction", "terms": [*found["terms"], last]}
+    square = [{"square_of": len(given)}] if shown.operator == "==" else [last, last]
+    term = {"coefficient": "1", "factors": [*found.get("multiplier", []), *square]}
+    return {"rule": "contradiction", "terms": [*found["terms"], term]}
 
 
 def _by_growth(goal: Goal, shown: Relation, given: Given, steps: int = MOST_STEPS) -> Found:

@@ -78,6 +78,8 @@ def _programs(situation: Situation) -> Iterator[tuple[Multiplier, Program]]:
     constrained = bool(signed or zeros)
     for multiplier, level in _order(_multipliers(situation, constrained), constrained):
         factors = [one, *signed, *several] if level >= 3 else [one, *signed]
+        if multiplier[0] and level == 1:  # what it takes to make the target a square is often wanted beside others too
+            factors += [_product((Signed(*multiplier, ">"), factor), ring) for factor in signed]
         weights = [_weight(situation, f) for f in factors]
         target = situation.rooted(situation.substituted(multiplier[1] * situation.target))
         if len(target) > MOST_TERMS:
