@@ -89,9 +89,12 @@ def z3_answer(obligation: dict[str, Any], limit: float) -> tuple[str, float]:
                 z3.main_ctx().interrupt()
 
     solver = z3.Solver()
-    for statement in obligation["assume"]:
-        solver.add(_z3_statement(z3, statement))
-    solver.add(z3.Not(_z3_statement(z3, obligation["show"])))
+    try:
+        for statement in obligation["assume"]:
+            solver.add(_z3_statement(z3, statement))
+        solver.add(z3.Not(_z3_statement(z3, obligation["show"])))
+    except ValueError:  # functions, of which it knows nothing
+        return "unknown", time.process_time() - started
     watch = threading.Thread(target=interrupt, daemon=True)
     watch.start()
     try:

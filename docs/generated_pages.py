@@ -11,8 +11,9 @@ from pathlib import Path
 from typing import Any
 
 from workbench.api.schemas import FORMATS, schema
-from workbench.files.folders import papers_in
+from workbench.files.folders import CERTIFICATES, papers_in
 from workbench.paper.contents import contents_of
+from workbench.proof.kernel_record import read_record
 
 HERE = Path(__file__).resolve().parent
 ROOT = HERE.parent
@@ -46,7 +47,8 @@ def commands() -> str:
 def gallery() -> str:
     """What was decided of each paper, taken from its errata, which are made from the decisions."""
     parts = ["# Gallery\n\nThe papers in `proofs/`: what is decided of each, and what becomes of its headline "
-             "statements. All of it is made from the decisions, as are the errata.\n"]
+             "statements. All of it is made from the decisions, as are the errata, and from what `check-coq` "
+             "recorded.\n"]
     for folder in papers_in(ROOT / "proofs"):
         text = (HERE / "errata" / folder.name / "errata.md").read_text(encoding="utf-8")
         citation = _between(text, "**Paper.** ", "\n")
@@ -54,10 +56,20 @@ def gallery() -> str:
         fates = _between(text, "## What becomes of the headline statements\n\n", "\n\n## ")
         has = contents_of(folder)
         parts.append(f"## {folder.name}\n\n{citation}\n\n"
-                     f"Of {counts}. In its folder: {', '.join(has.parts)}; {has.certificates} certificates.\n\n"
+                     f"Of {counts}. In its folder: {', '.join(has.parts)}; {has.certificates} certificates. "
+                     f"{_by_the_kernel(folder)}\n\n"
                      f"{fates}\n\n[Corrections](../errata/{folder.name}/errata.md), "
                      f"{{download}}`as PDF <../errata/{folder.name}/errata.pdf>`\n")
     return "\n".join(parts)
+
+
+def _by_the_kernel(folder: Path) -> str:
+    """How many of a paper's decided goals its record says that Coq's kernel has accepted."""
+    manifest = json.loads((folder / CERTIFICATES / "manifest.json").read_text(encoding="utf-8"))
+    goals = {name: one["goal_digest"] for name, one in manifest["claims"].items() if one["goal_digest"]}
+    record = read_record(folder)
+    accepted = sum(record.get(name) == digest for name, digest in goals.items())
+    return f"Coq's kernel has accepted {accepted} of {len(goals)} decided claims too."
 
 
 def _between(text: str, start: str, end: str) -> str:

@@ -54,6 +54,21 @@ def test_a_barrier_stands_between_the_initial_and_the_unsafe_set():
     assert (values(rate, points) <= 1e-9).all()
 
 
+def test_coefficients_that_cancel_are_rounded_together():
+    flow = {x: y*z/2 - x, y: -x*z - y, z: x*y/3 - z}  # a x^2 + b y^2 + c z^2 falls where a/2 + c/3 = b alone
+    V = accepted(lyapunov_function("doe2026:V", flow, rate=Fraction(1)))
+    a, b, c = (V.coeff(s, 2) for s in (x, y, z))
+    assert a / 2 + c / 3 == b
+
+
+def test_a_region_around_a_point_of_rest_leaves_no_constant_to_squares():
+    inside = sp.Rational(1, 4) - x**2 - y**2
+    V = accepted(lyapunov_function("doe2026:V", {x: -y - 3*x**2/2 - x**3/2, y: 3*x - y}, within=[inside]))
+    points = np.random.default_rng(3).uniform(-0.35, 0.35, size=(3, 2_000))
+    rate = sp.diff(V, x) * (-y - 3*x**2/2 - x**3/2) + sp.diff(V, y) * (3*x - y)
+    assert (values(rate, points) <= 1e-9).all()
+
+
 def test_nothing_is_found_where_there_is_nothing():
     with pytest.raises(SolverError, match="no function of this degree"):
         lyapunov_function("doe2026:V", {x: x})

@@ -6,6 +6,7 @@ from dataclasses import replace
 import pytest
 from command_line import run
 
+from workbench.kernel import coqc, record
 from workbench.kernel.coqc import Checked
 from workbench.kernel.record import accepted_goals, exported_texts
 from workbench.proof.document import places, write_certificates
@@ -79,6 +80,29 @@ def test_a_verdict_says_so_until_its_goal_is_another_one(paper):
     assert "1 of them accepted by Coq's kernel too" in " ".join(run("prove", paper).stdout.split())
     (paper / "paper.py").write_text(CLAIMS.replace("at_least(x**2, 0)", "at_least(x**4, 0)"))
     assert trusts(paper) == {"1": "exact", "2": "exact"}
+
+
+def test_what_was_noted_is_not_run_again_and_stays_noted(paper, tmp_path, monkeypatch):
+    found, out, ran = rows(paper), tmp_path / "coq", []
+    assert run("export-coq", paper, "--out", out).returncode == 0
+    monkeypatch.setattr(coqc, "missing", lambda: None)
+    monkeypatch.setattr(coqc, "_coqc", lambda folder, name, seconds: (ran.append(name), ("", "no coqc here"))[1]
+                        if name.startswith("doe2031") else ("", ""))
+    write_record(paper, "8.16.1", accepted_goals(found, exported_texts(paper)))
+    monkeypatch.setattr(record, "missing", lambda: None)
+    for version, again in (("8.16.1", 1), ("8.17.0", 2)):
+        monkeypatch.setattr(record, "version", lambda version=version: version)
+        noted = record.noted_before(paper, exported_texts(paper))
+        ran.clear()
+        outcomes = [row.outcome for row in coqc.check_folder(out, 1, 5, noted=noted)]
+        assert (len(ran), outcomes) == (again, ["noted" if again == 1 else "refused", "refused"])
+        assert len(accepted_goals(coqc.check_folder(out, 1, 5, noted=noted), exported_texts(paper))) == 2 - again
+
+
+def test_what_is_new_is_said_by_a_record(tmp_path):
+    done = run("check-coq", tmp_path, "--only-new")
+    assert done.returncode == 2
+    assert "--record" in done.stderr
 
 
 @pytest.mark.parametrize("text", ["", "{", f"{'0' * 64} 1", "accepted by Coq 8.16.1\nyes 1",

@@ -1,4 +1,5 @@
-"""Facts of textbooks that need a tangent at the right place, a quotient of logarithms, or the square of a margin."""
+"""Facts of textbooks that need a tangent at the right place, a quotient of logarithms, the square of a margin, or the
+sign of what is divided by shown first."""
 
 import json
 from pathlib import Path
@@ -11,7 +12,9 @@ from workbench.proof.decide.obligations import belongs, decide_obligation
 
 FACTS = json.loads((Path(__file__).parents[2] / "benchmarks" / "textbook" / "facts.json").read_text(encoding="utf-8"))
 NEEDED = ("log grows", "abs and tanh, with 0.2785", "Minkowski in two dimensions", "trace bounds the form",
-          "a transient below its supremum", "Minkowski in every dimension")
+          "a transient below its supremum", "Minkowski in every dimension",
+          "class K: a root grows", "class K: x/(1+x) grows", "interconnection: a composite function",
+          "convexity: the inverse", "Lipschitz: sizes", "boundary layer: rate outside")
 
 
 @pytest.mark.parametrize("name", NEEDED)

@@ -17,30 +17,39 @@ def command(folder: Annotated[Path, typer.Argument(metavar="DIR", help="What exp
             record: Annotated[str | None, typer.Option(
                 metavar="PAPER", help="Also note in this paper's folder which of its certificates the kernel has "
                                       "accepted (kernel.txt): their verdicts then say so.")] = None,
+            only_new: Annotated[bool, typer.Option(
+                "--only-new", help="With --record: leave out the goals that it has already, of the same version of Coq."
+            )] = False,
             seconds: Annotated[float, typer.Option(
                 min=1, max=86_400, help="What coqc may take for one file.")] = 120) -> None:
     """Run coqc on every file that export-coq wrote; exit 0 when the kernel accepts all of them, 1 when it refuses one.
 
     What was not exported is listed with its reason and refuses nothing."""
+    from workbench.errors import InputError
     from workbench.files.json_output import write_json
     from workbench.files.outputs import check_outputs
     from workbench.kernel.coqc import check_folder, cpu_seconds, version
-    from workbench.kernel.record import accepted_goals, exported_texts
+    from workbench.kernel.record import accepted_goals, exported_texts, noted_before
     from workbench.proof.kernel_record import record_path, write_record
 
     paper = None if record is None else path_of(record)
     texts = {} if paper is None else exported_texts(paper)
     check_outputs({"--json": json, "--record": None if paper is None else record_path(paper)})
+    if only_new and paper is None:
+        raise InputError("", "--only-new", "goes with --record PAPER, whose record says what is not new")
+    noted = noted_before(paper, texts) if only_new and paper is not None else set()
     with progress() as show:
         rows = list(check_folder(folder, workers or os.cpu_count() or 1, seconds,
-                                 lambda done, total: show("coqc", done, total)))
-    count = {name: sum(row.outcome == name for row in rows) for name in ("accepted", "refused", "not exported")}
+                                 lambda done, total: show("coqc", done, total), noted))
+    count = {name: sum(row.outcome == name for row in rows)
+             for name in ("accepted", "noted", "refused", "not exported")}
     for row in rows:
-        if row.outcome != "accepted":
+        if row.reason:
             err_console.print(f"{row.claim}: {row.outcome}: {row.reason}", soft_wrap=True, markup=False)
-    out_console.print(f"{count['accepted']} of {len(rows)} certificates accepted by Coq's kernel, {count['refused']} "
-                      f"refused, {count['not exported']} not exported; coqc took {cpu_seconds():.0f} s of processor "
-                      "time", soft_wrap=True)
+    before = f", {count['noted']} noted before" if only_new else ""
+    out_console.print(f"{count['accepted']} of {len(rows)} certificates accepted by Coq's kernel{before}, "
+                      f"{count['refused']} refused, {count['not exported']} not exported; coqc took "
+                      f"{cpu_seconds():.0f} s of processor time", soft_wrap=True)
     if json is not None:
         write_json(json, {"version": 1, "seconds": round(cpu_seconds(), 1), "certificates": [
             {"claim": row.claim, "outcome": row.outcome, "reason": row.reason, "goal_digest": row.goal_digest,

@@ -20,7 +20,7 @@ import sympy as sp
 
 from workbench.errors import InputError, SolverError
 from workbench.gains.exact import rational
-from workbench.gains.problem import Family, Problem, families_of
+from workbench.gains.problem import Family, Problem, families_of, without_spare
 from workbench.proof.claim import D, Goal, Relation, at_least, at_most
 from workbench.proof.decide.engine import prove_goal
 
@@ -87,11 +87,15 @@ def _certified(name: str, function: sp.Expr, unknowns: list[sp.Symbol], flow: Fl
                conditions: dict[str, _Condition]) -> Certified:
     tried: set[tuple[sp.Rational, ...]] = set()
     missing = ""
-    for numbers in _proposals(name, unknowns, conditions):
+    families = [without_spare(family) for part, condition in conditions.items() for family in families_of(Problem(
+        name, tuple(unknowns), {part: at_least(condition.polynomial, 0)},
+        where=tuple(at_least(g, 0) for g in condition.bounds)))]
+    bound = _bound(families, len(unknowns))
+    for numbers in _proposals(len(unknowns), families):
         top = float(np.abs(numbers).max())
         kept = np.where(np.abs(numbers) < NOTHING * top, 0.0, numbers)
         for digits in DIGITS:
-            values = tuple(sp.Rational(round(float(u) * 10**digits), 10**digits) for u in kept)
+            values = _rounded(kept, digits, *bound)
             if values in tried or not any(values):
                 continue
             tried.add(values)
@@ -107,6 +111,13 @@ def _certified(name: str, function: sp.Expr, unknowns: list[sp.Symbol], flow: Fl
                 found[part] = {"claim": f"{name}.{part}", **proof}
             if len(found) == len(conditions):
                 return Certified(sp.expand(function.xreplace(put)), found)
+    if spare := {u for u, number in zip(unknowns, kept, strict=True) if not number} if tried else set():
+        # Without them fewer monomials are needed, and more is seen to cancel.
+        nothing = dict.fromkeys(spare, sp.S.Zero)
+        return _certified(name, function.xreplace(nothing), [u for u in unknowns if u not in spare], flow, {
+            part: _Condition(Relation(one.relation.left.xreplace(nothing), one.relation.operator,
+                                      one.relation.right.xreplace(nothing)),
+                             one.polynomial.xreplace(nothing), one.bounds) for part, one in conditions.items()})
     raise SolverError(f"{name}: no function of this degree is found" + (
         f" whose condition '{missing}' can be proved" if missing else "") + ": raise its degree or shrink its region")
 
@@ -126,12 +137,34 @@ def _seems_true(condition: _Condition, put: dict[sp.Symbol, sp.Rational]) -> boo
     return not np.any(values[inside] < -1e-9 * (1 + np.abs(values[inside])))
 
 
-def _proposals(name: str, unknowns: list[sp.Symbol], conditions: dict[str, _Condition]) -> Iterator[np.ndarray]:
+def _bound(families: list[Family], count: int) -> tuple[sp.Matrix, tuple[int, ...]]:
+    """Equations of the unknowns in reduced echelon form, the constant last, and their pivots.
+
+    A term that no square makes must vanish: rounded one by one, unknowns that cancel each other would not.
+    """
+    rows = []
+    for family in families:
+        made = {tuple(map(sum, zip(one, two, e, strict=True)))
+                for block in family.blocks for one in block.basis for two in block.basis for e in block.weight}
+        rows += [[*slopes, -constant] for e, (constant, *slopes) in family.terms.items() if e not in made]
+    exact = [[rational(entry) for entry in row] for row in rows]
+    reduced, pivots = sp.Matrix(len(exact), count + 1, [entry for row in exact for entry in row]).rref()
+    return reduced, tuple(int(pivot) for pivot in pivots)
+
+
+def _rounded(numbers: np.ndarray, digits: int, reduced: sp.Matrix, pivots: tuple[int, ...]) -> tuple[sp.Rational, ...]:
+    """The numbers to so many digits, those that equations bind from the others."""
+    values = [sp.Rational(round(float(u) * 10**digits), 10**digits) for u in numbers]
+    for row, pivot in enumerate(pivots):
+        if pivot < len(values):
+            values[pivot] = reduced[row, len(values)] - sum(
+                (reduced[row, k] * values[k] for k in range(pivot + 1, len(values)) if k not in pivots), sp.S.Zero)
+    return tuple(values)
+
+
+def _proposals(count: int, families: list[Family]) -> Iterator[np.ndarray]:
     """Numbers for the unknowns: those farthest inside of all cones where that is far, and the least ones."""
-    families = [family for part, condition in conditions.items() for family in families_of(Problem(
-        name, tuple(unknowns), {part: at_least(condition.polynomial, 0)},
-        where=tuple(at_least(g, 0) for g in condition.bounds)))]
-    u, room = cp.Variable(len(unknowns)), cp.Variable()
+    u, room = cp.Variable(count), cp.Variable()
     constraints = [row for family in families for row in _squares(family, u, room)]
     found: list[tuple[float, np.ndarray]] = []
     for objective, bounds in ((cp.Maximize(room - cp.norm1(u) / 1000), [room <= 1, room >= 0]),

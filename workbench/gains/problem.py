@@ -7,7 +7,7 @@ quadratic forms that is a linear matrix inequality, for polynomials a sum-of-squ
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from itertools import combinations_with_replacement, product
 
@@ -165,3 +165,24 @@ def _halves(problem: Problem, name: str, support: set[Exponents]) -> tuple[Expon
         raise InputError(problem.id, name, f"needs a Gram matrix of {len(basis)} rows, more than {MOST_BASIS}: split "
                                            "the problem")
     return tuple(basis)
+
+
+def without_spare(family: Family) -> Family:
+    """The family without monomials whose squares, all with one sign, would be a term that it does not have."""
+    blocks = family.blocks
+    while True:
+        single: dict[Exponents, set[tuple[int, Exponents]]] = {}
+        other = set(family.terms)
+        for place, block in enumerate(blocks):
+            for one, two in combinations_with_replacement(block.basis, 2):
+                for e, number in block.weight.items():
+                    whole = _plus(_plus(one, two), e)
+                    if one == two and number > 0:
+                        single.setdefault(whole, set()).add((place, one))
+                    else:
+                        other.add(whole)
+        spare = {part for whole, parts in single.items() if whole not in other for part in parts}
+        if not spare:
+            return replace(family, blocks=blocks)
+        blocks = tuple(replace(block, basis=tuple(e for e in block.basis if (place, e) not in spare))
+                       for place, block in enumerate(blocks))

@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 import resource
 import subprocess
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Collection, Iterator
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from pathlib import Path
@@ -30,7 +30,8 @@ REMEDY = "on Debian or Ubuntu: apt install coq libcoq-interval libcoq-coquelicot
 
 @dataclass(frozen=True)
 class Checked:
-    """One certificate: 'accepted', 'refused' (with what coqc says) or 'not exported' (with the reason)."""
+    """One certificate: 'accepted', 'refused' (with what coqc says), 'not exported' (with the reason), or 'noted', which
+    was accepted before."""
 
     claim: str
     outcome: str
@@ -57,9 +58,13 @@ def missing() -> str | None:
 
 
 def check_folder(folder: Path, workers: int, seconds: float,
-                 on_progress: Callable[[int, int], None] = lambda done, total: None) -> Iterator[Checked]:
+                 on_progress: Callable[[int, int], None] = lambda done, total: None,
+                 noted: Collection[tuple[str, str]] = ()) -> Iterator[Checked]:
     """Every certificate of a folder that `export-coq` wrote, as coqc finds it; InputError where Coq is missing, the
-    library is not this package's, or the folder is none of exports. A file may take `seconds`."""
+    library is not this package's, or the folder is none of exports. A file may take `seconds`.
+
+    noted: (claim, goal digest) of what is not run again.
+    """
     if (trouble := missing()) is not None:
         raise InputError("", "", trouble)
     index = read_index(folder)
@@ -70,12 +75,13 @@ def check_folder(folder: Path, workers: int, seconds: float,
             raise InputError(str(folder / name), "", f"coqc refuses the library: {trouble}")
     rows = index["certificates"]
     # The file of a whole theorem is that of its claim: one run answers for both.
-    files = dict.fromkeys((row["file"], row["sha256"]) for row in rows if "file" in row)
+    files = dict.fromkeys((row["file"], row["sha256"]) for row in rows
+                          if "file" in row and (row["claim"], row["goal_digest"]) not in noted)
     with ThreadPoolExecutor(workers) as pool:
         troubles = {file: pool.submit(_trouble, folder, *file, seconds) for file in files}
         for done, row in enumerate(rows):
             on_progress(done, len(rows))
-            yield _checked(row, lambda file: troubles[file].result())
+            yield _checked(row, lambda file: troubles[file].result() if file in troubles else None)
     on_progress(len(rows), len(rows))
 
 
@@ -99,13 +105,15 @@ def cpu_seconds() -> float:
     return spent.ru_utime + spent.ru_stime
 
 
-def _checked(row: dict[str, Any], trouble_of: Callable[[tuple[str, str]], str]) -> Checked:
-    """What became of a row of the index, given what is wrong with a file."""
+def _checked(row: dict[str, Any], trouble_of: Callable[[tuple[str, str]], str | None]) -> Checked:
+    """What became of a row of the index, given what is wrong with a file, None of one that was not run."""
     known = {"claim": row["claim"], "goal_digest": row["goal_digest"], "certificate": row["certificate"],
              "motion": row["motion"]}
     if "not_exported" in row:
         return Checked(outcome="not exported", reason=row["not_exported"], **known)
     trouble = trouble_of((row["file"], row["sha256"]))
+    if trouble is None:
+        return Checked(outcome="noted", text=row["sha256"], **known)
     return Checked(outcome="refused" if trouble else "accepted", reason=trouble, text=row["sha256"], **known)
 
 

@@ -8,8 +8,9 @@ from pathlib import Path
 from workbench.errors import InputError
 from workbench.files.folders import CERTIFICATES
 from workbench.files.own_files import sha256
-from workbench.kernel.coqc import Checked
+from workbench.kernel.coqc import Checked, missing, version
 from workbench.kernel.export import export_folder
+from workbench.proof.kernel_record import read_record, recorded_version
 
 
 def exported_texts(paper: Path) -> dict[str, str]:
@@ -21,7 +22,15 @@ def exported_texts(paper: Path) -> dict[str, str]:
 
 
 def accepted_goals(rows: Iterable[Checked], texts: Mapping[str, str]) -> dict[str, str]:
-    """By equation the goal's digest of every certificate of the paper that was accepted: a file that is another one
-    than its certificate gives now says nothing of it."""
+    """By equation the goal's digest of every certificate of the paper that was accepted, now or before: a file that is
+    another one than its certificate gives now says nothing of it."""
     return {row.claim.partition(":")[2]: row.goal_digest for row in rows
-            if row.outcome == "accepted" and row.text and texts.get(row.claim) == row.text}
+            if row.outcome in ("accepted", "noted") and row.text and texts.get(row.claim) == row.text}
+
+
+def noted_before(paper: Path, texts: Mapping[str, str]) -> set[tuple[str, str]]:
+    """(claim, goal digest) of what a paper's record has, of this version of Coq; texts: as `exported_texts` says."""
+    record = read_record(paper)
+    if not record or missing() is not None or recorded_version(paper) != version():
+        return set()
+    return {(claim, record[equation]) for claim in texts if (equation := claim.partition(":")[2]) in record}

@@ -47,6 +47,12 @@ def read_record(path: Path) -> dict[str, str]:
     return {name: digest for digest, _, name in rows}
 
 
+def recorded_version(path: Path) -> str:
+    """The version of Coq that a paper's record names, empty where there is no record."""
+    place = record_path(path)
+    return read_text(place, "record").partition("\n")[0].removeprefix(FIRST) if place.exists() else ""
+
+
 def with_kernel(decisions: Sequence[Decision], records: Mapping[str, Mapping[str, str]]) -> list[Decision]:
     """The decisions, their trust `kernel` where Coq's kernel has accepted the goal; records: by the papers' names."""
     return [replace(d, trust="kernel") if d.certificate and records.get(d.claim.paper, {}).get(

@@ -99,8 +99,9 @@ def _evaluated(expr: sp.Expr, functions: bool) -> sp.Expr:
         return expr
     if isinstance(expr, sp.Sum):
         return sp.Sum(_evaluated(expr.function, functions), *expr.limits)
-    parts = (_evaluated(part, functions) for part in expr.args)
-    if functions or isinstance(expr, (sp.Add, sp.Mul, sp.Pow)):
+    parts = [_evaluated(part, functions) for part in expr.args]
+    size_raised = isinstance(expr, sp.Pow) and isinstance(parts[0], sp.Abs)  # sympy makes x**2 of abs(x)**2
+    if functions or (isinstance(expr, (sp.Add, sp.Mul, sp.Pow)) and not size_raised):
         return expr.func(*parts)
     return expr.func(*parts, evaluate=False)
 

@@ -61,6 +61,8 @@ def find_combination(goal: Goal, shown: Relation, relations: tuple[Relation, ...
         return None
     for rounds, pairs, hidden in ATTEMPTS[:1] if quick else ATTEMPTS:
         terms = _candidates(target, known, atoms, rounds, pairs, hidden)
+        if shown.operator == "==":
+            terms = [term for term in terms if term.sign == "=="]
         if len(terms) <= MAX_COLUMNS:
             chosen = _solve(target, terms, shown.strict)
             if chosen is not None:
@@ -203,7 +205,10 @@ def _binomial_squares(target: Laurent, support: set[Exponents], atoms: Atoms,
         cross = tuple(a + b + x for a, b, x in zip(p, q, c, strict=True))
         for ratio in _ratios(target, ratio_of(one, ()), ratio_of(two, ()), ratio_of(cross, ())):
             weight = sp.Rational(ratio.numerator, ratio.denominator)
-            root = _expression(p, atoms) + weight * _expression(q, atoms)
+            first, second = _expression(p, atoms), _expression(q, atoms)
+            root = first + weight * second
+            if second.has(sp.exp):  # sympy would make one exponential of two
+                root = sp.Add(first, sp.Mul(weight, second, evaluate=False), evaluate=False)
             square: Item = {"sum_of_squares" if over_neurons else "square": text(root)}
             key = tuple(sorted(map(str, (square, *items))))
             if key in seen:

@@ -43,7 +43,8 @@ def _coefficients(margin: sp.Expr, values: dict[sp.Expr, sp.Expr], symbol: sp.Ex
     curve = sp.expand(margin.xreplace({s: v for s, v in values.items() if s != symbol}))
     if not curve.is_polynomial(symbol) or curve.free_symbols != {symbol}:
         return []
-    return [Fraction(int(c.p), int(c.q)) for c in sp.Poly(curve, symbol).all_coeffs()]
+    numbers = sp.Poly(curve, symbol).all_coeffs()
+    return [Fraction(int(c.p), int(c.q)) for c in numbers] if all(c.is_Rational for c in numbers) else []
 
 
 def _change_of_sign(curve: list[Fraction], near: Fraction, step: Fraction) -> tuple[Fraction, Fraction] | None:

@@ -8,10 +8,13 @@ import sympy as sp
 
 from workbench.proof.claim import D, Goal, Relation, at_least, at_most, equal, greater
 from workbench.proof.decide.combination import find_combination
+from workbench.proof.decide.first_lemmas import first_lemmas
 from workbench.proof.decide.identity import find_identity
+from workbench.proof.decide.pivots import find_by_pivots
 from workbench.proof.decide.squares import find_squares
 from workbench.proof.decide.tangents import find_by_tangents
 from workbench.proof.decide.totals import find_by_totals
+from workbench.proof.decide.two_sides import find_by_two_sides, pinched
 from workbench.proof.decide.vanishing import vanishes
 from workbench.proof.derive import Side, Size, expand_derivatives, unfold
 from workbench.proof.text import assumptions, relation_text, text
@@ -28,8 +31,19 @@ EMPTY = at_least(0, 0)
 def prove_relation(goal: Goal, shown: Relation) -> Found:
     """A proof of one relation of the goal, to be checked; None when none was found."""
     if goal.decreasing is None or find_identity(goal, shown):
-        return search(goal, shown, assumptions(goal), goal.lemmas)
+        given = assumptions(goal)
+        first = pinched(given)
+        first += first_lemmas(goal, shown, (*given, *(lemma for lemma, _ in first)))
+        found = search(goal, shown, (*given, *(lemma for lemma, _ in first)), goal.lemmas)
+        return None if found is None else _cut(first, found)
     return _by_decrease(goal, shown)
+
+
+def _cut(lemmas: list[tuple[Relation, Proof]], final: Proof) -> Proof:
+    """A proof that uses lemmas, each shown from what is known before it."""
+    for lemma, proof in reversed(lemmas):
+        final = {"rule": "cut", "lemma": relation_text(lemma), "proof": proof, "then": final}
+    return final
 
 
 def search(goal: Goal, shown: Relation, given: Given, lemmas: Given = (), depth: int = 0) -> Found:
@@ -48,7 +62,8 @@ def search(goal: Goal, shown: Relation, given: Given, lemmas: Given = (), depth:
             return found
     return (_by_lemmas(goal, shown, given, lemmas) or _by_contradiction(goal, shown, given)
             or _by_growth(goal, _carried(shown, goal), given) or find_by_totals(goal, shown, given, search)
-            or find_by_tangents(goal, _carried(shown, goal), given) or _by_its_square(goal, shown, given))
+            or find_by_tangents(goal, _carried(shown, goal), given) or _by_its_square(goal, shown, given)
+            or find_by_two_sides(goal, shown, given) or find_by_pivots(goal, shown, given))
 
 
 def _by_contradiction(goal: Goal, shown: Relation, given: Given) -> Found:
@@ -66,19 +81,20 @@ def _by_contradiction(goal: Goal, shown: Relation, given: Given) -> Found:
 
 
 def _by_its_square(goal: Goal, shown: Relation, given: Given) -> Found:
-    """Where the relation fails by c > 0, squares show c^2 <= 0, with c among the factors of what is known.
+    """Where the relation fails by c > 0, or c != 0, squares show c^2 <= 0, with c among the factors of what is known.
 
-    So from (p q)^2 >= r^2 for p q >= 0 follows p q >= r, which no sum of squares says at once.
+    So from (p q)^2 >= r^2 for p q >= 0 follows p q >= r, which no sum of squares says at once; and x == y where
+    x**2 + y**2 == 2 x y.
     """
-    if shown.operator not in ("<=", ">=") or shown.margin.has(sp.Sum):
+    if shown.operator not in ("<=", ">=", "==") or shown.margin.has(sp.Sum):
         return None
-    opposite = shown.negation
+    opposite, last = shown.negation, {"assume": len(given)}
     found = find_squares(goal, at_most(opposite.margin**2, 0), (*given, opposite))
     if found is None:
         return None
-    above = {"assume": len(given)}
-    last = {"coefficient": "1", "factors": [*found.get("multiplier", []), above, above]}
-    return {"rule": "contradiction", "terms": [*found["terms"], last]}
+    square = [{"square_of": len(given)}] if shown.operator == "==" else [last, last]
+    term = {"coefficient": "1", "factors": [*found.get("multiplier", []), *square]}
+    return {"rule": "contradiction", "terms": [*found["terms"], term]}
 
 
 def _by_growth(goal: Goal, shown: Relation, given: Given, steps: int = MOST_STEPS) -> Found:
@@ -179,7 +195,9 @@ def _search_case(goal: Goal, shown: Relation, given: Given, lemmas: Given, depth
     impossible = find_combination(goal, greater(0, 0), given, quick=True)
     if impossible is not None:
         return impossible | {"rule": "contradiction"}
-    return search(goal, shown, given, lemmas, depth)
+    zero = pinched(given)
+    found = search(goal, shown, (*given, *(lemma for lemma, _ in zero)), lemmas, depth)
+    return None if found is None else _cut(zero, found)
 
 
 def _by_lemmas(goal: Goal, shown: Relation, given: Given, lemmas: Given) -> Found:
@@ -199,9 +217,7 @@ def _by_lemmas(goal: Goal, shown: Relation, given: Given, lemmas: Given) -> Foun
         final = find_squares(goal, shown, given)
     if final is None:
         return None
-    for lemma, proof in reversed(steps):
-        final = {"rule": "cut", "lemma": relation_text(lemma), "proof": proof, "then": final}
-    return final
+    return _cut(steps, final)
 
 
 def _signs_of_logs(relations: Given) -> list[Relation]:

@@ -17,7 +17,7 @@ from workbench.proof.claim import Goal, Relation
 from workbench.proof.decide.atoms import Atoms, Item, flatten
 from workbench.proof.decide.facts import additions, circles, tangents
 from workbench.proof.decide.laurent import as_fraction, goal_atoms, positive_by_terms
-from workbench.proof.decide.situation import Signed, Situation, Substitution
+from workbench.proof.decide.situation import Polynomial, Signed, Situation, Substitution
 from workbench.proof.derive import SUM, Size
 from workbench.proof.text import text
 
@@ -128,13 +128,14 @@ def _assumptions(goal: Goal, relations: tuple[Relation, ...], atoms: Atoms) -> I
 
 
 def _facts(goal: Goal, relations: tuple[Relation, ...], atoms: Atoms) -> Iterator[Stated]:
-    """(items, polynomial, sign) of tangents of functions, of angles' circles, and of squares of roots and sizes."""
-    for fact, argument, excess in tangents(goal, atoms):
+    """(items, polynomial, sign) of angles' circles, squares of roots and sizes, and then of tangents of functions."""
+    bounds: list[Stated] = []
+    for fact, argument, excess in tangents(goal, atoms):  # these may add functions, of which the others speak too
         try:
             value, cleared = _cleared(flatten(excess, atoms, {}), atoms, relations)
         except ClaimError:
             continue
-        yield ({"fact": fact, "of": text(argument)}, *cleared), value, ">="
+        bounds.append((({"fact": fact, "of": text(argument)}, *cleared), value, ">="))
     for item, zero in (*circles(atoms), *additions(atoms)):
         try:
             value, cleared = _cleared(zero, atoms, relations)
@@ -150,6 +151,7 @@ def _facts(goal: Goal, relations: tuple[Relation, ...], atoms: Atoms) -> Iterato
         except ClaimError:
             continue
         yield (square, *cleared), value, "=="
+    yield from bounds
 
 
 def _related(symbols: set[sp.Symbol], given: list[Stated]) -> tuple[set[sp.Symbol], list[Stated]]:
@@ -177,8 +179,9 @@ def _with_substitutions(situation: Situation) -> Situation:
     situation, used = replace(situation, zeros=zeros), []
     for zero in zeros:
         current = situation.substituted(zero.value)
-        place = next((i for i, g in enumerate(ring.gens) if i not in situation.signs
-                      and current.degree(g) == 1 and current.diff(g).is_ground), None)
+        place = next((i for i, g in enumerate(ring.gens) if current.degree(g) == 1 and current.diff(g).is_ground
+                      and (i not in situation.signs or _seen_positive(g - current / current.diff(g).LC, situation))),
+                     None)
         if place is None:
             continue
         # current = zero - (what the substitutions so far contribute), which is a combination of equalities as well.
@@ -194,3 +197,9 @@ def _with_substitutions(situation: Situation) -> Situation:
         situation = replace(situation, substitutions=(*situation.substitutions, substitution))
         used.append(zero)
     return replace(situation, known=tuple(k for k in situation.known if k not in used))
+
+
+def _seen_positive(value: Polynomial, situation: Situation) -> bool:
+    """Whether a polynomial is one term whose sign is seen, so that a generator of known sign may make way for it."""
+    return len(value) == 1 and value.LC > 0 and all(
+        n % 2 == 0 or situation.signs.get(i, ({}, False))[1] for i, n in enumerate(next(iter(value))))

@@ -78,6 +78,8 @@ def _programs(situation: Situation) -> Iterator[tuple[Multiplier, Program]]:
     constrained = bool(signed or zeros)
     for multiplier, level in _order(_multipliers(situation, constrained), constrained):
         factors = [one, *signed, *several] if level >= 3 else [one, *signed]
+        if multiplier[0] and level == 1:  # what it takes to make the target a square is often wanted beside others too
+            factors += [_product((Signed(*multiplier, ">"), factor), ring) for factor in signed]
         weights = [_weight(situation, f) for f in factors]
         target = situation.rooted(situation.substituted(multiplier[1] * situation.target))
         if len(target) > MOST_TERMS:
@@ -150,6 +152,10 @@ def _multipliers(situation: Situation, constrained: bool) -> list[Multiplier]:
     if not any(situation.signs.get(i, ({}, False))[1] for i in own):
         spread += ring.one
     positive: list[Multiplier] = [(({"positive": situation.text(spread)},), spread)]
+    strict = [i for i in own if situation.signs.get(i, ({}, False))[1]]
+    if constrained and len(strict) > 1:
+        weight = sum((ring.gens[i] for i in strict), ring.zero)
+        positive.append((({"positive": situation.text(weight)},), weight))
     if constrained:  # a symbol alone helps to trade terms, but makes no sum of squares of what is none
         positive += [((item,), ring.gens[i]) for i, (item, strict) in situation.signs.items() if strict and i in own]
         positive += [(k.items, k.value) for k in situation.known

@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 from dataclasses import replace
 from fractions import Fraction
-from itertools import permutations, product
+from itertools import islice, permutations, product
 from typing import Any
 
 import numpy as np
@@ -22,6 +22,7 @@ from workbench.proof.text import relation_text, text
 
 Proof = dict[str, Any]
 Given = tuple[Relation, ...]
+MOST_EXPONENTS = 3
 DIGITS = (0, 1, 4)  # after the point, of the places where tangents are taken
 PLACES = np.concatenate([-np.geomspace(50, 1e-3, 1_500), [0.0], np.geomspace(1e-3, 50, 1_500)])
 
@@ -34,8 +35,9 @@ def find_by_tangents(goal: Goal, shown: Relation, given: Given) -> Proof | None:
     if margin.has(sp.log):
         return _of_logarithms(goal, shown, given)
     arguments = sorted({e.exp for e in margin.atoms(sp.exp) if e.exp.free_symbols}, key=sp.default_sort_key)
-    if not 0 < len(arguments) <= 2:
-        return None
+    found = _at_each_other(goal, shown, given, arguments[:MOST_EXPONENTS])
+    if found is not None or not 0 < len(arguments) <= 2:
+        return found
     numerator, denominator = sp.fraction(sp.together(margin))
     for places, turn in product(_least(margin, arguments, given), (1, -1)):
         facts = tuple(turn * (a - q) for a, q in zip(arguments, places, strict=True))
@@ -48,6 +50,34 @@ def find_by_tangents(goal: Goal, shown: Relation, given: Given) -> Proof | None:
                 [(lemma, first)], find_combination(goal, shown, (*given, lemma)))
         if found is not None:
             return found
+    return _by_halves(goal, shown, given, arguments)
+
+
+def _by_halves(goal: Goal, shown: Relation, given: Given, arguments: list[sp.Expr]) -> Proof | None:
+    """A proof from tangents of exp(a/2), whose square exp(a) is: squares of an argument are no match for others."""
+    for places in islice(_least(shown.margin, arguments, given), len(DIGITS)):
+        facts = tuple((a - q) / 2 for a, q in zip(arguments, places, strict=True))
+        for turn in (1, -1):
+            near = replace(goal, facts=(*goal.facts, *(turn * fact for fact in facts)))
+            found = find_combination(near, shown, given)
+            if found is not None:
+                return found
+    return None
+
+
+def _at_each_other(goal: Goal, shown: Relation, given: Given, arguments: list[sp.Expr]) -> Proof | None:
+    """A proof from tangents at one of the exponents, b: exp(a) >= exp(b) (1 + a - b) of every other one, and of 0."""
+    for b in arguments:
+        at_b, steps = sp.exp(b), list[tuple[Relation, Proof]]()
+        for a in (sp.S.Zero, *(a for a in arguments if a != b)):
+            tangent = [{"fact": "exp_positive", "of": text(b)}, {"fact": "exp_tangent", "of": text(a - b)}]
+            terms: list[dict[str, Any]] = [{"coefficient": "1", "factors": tangent}]
+            if a != 0:
+                terms.append({"coefficient": "1", "factors": [{"fact": "exp_sum", "of": text(b), "and": text(a - b)}]})
+            steps.append((at_least(sp.exp(a), at_b * (1 + a - b)), {"rule": "combination", "terms": terms}))
+        found = find_combination(replace(goal, facts=()), shown, (*given, *(lemma for lemma, _ in steps)))
+        if found is not None:
+            return _after(steps, found)
     return None
 
 

@@ -18,7 +18,7 @@ import sympy as sp
 from workbench.proof.claim import Goal, Relation, name_of
 from workbench.proof.decide.combination import find_combination
 from workbench.proof.decide.squares import find_squares
-from workbench.proof.text import assumptions
+from workbench.proof.text import assumptions, text
 from workbench.proof.typed import evaluated
 
 Proof = dict[str, Any]
@@ -46,16 +46,21 @@ def exclusion_of(goal: Goal) -> Exclusion:
     return Exclusion((*assumptions(goal), goal.show[0].negation))
 
 
-def contradictory(proof: Proof, negation: int, operator: str) -> list[Term] | None:
+def contradictory(proof: Proof, negation: int, shown: Relation) -> list[Term] | None:
     """The terms by which the assumptions and the goal's opposite, at its place, add up to 0 > 0; None if not known."""
     if proof["rule"] == "cases" and proof.get("negative", proof)["rule"] == "contradiction":
         proof = proof["negative"]
     if proof["rule"] == "contradiction":
         return list(proof["terms"])
-    if proof["rule"] not in ("combination", "identity") or operator == "==":
+    if proof["rule"] not in ("combination", "identity"):
         return None
-    last = {"coefficient": "1", "factors": [*proof.get("multiplier", []), {"assume": negation}]}
-    return [*proof.get("terms", []), last]
+    scale = proof.get("multiplier", [])
+    if shown.operator == "==":  # m v is a sum of zeros: were v not zero, m v**2 - v (sum of zeros) = 0 > 0
+        value = {"any": text(sp.Add(shown.left, sp.Mul(-1, shown.right, evaluate=False), evaluate=False))}
+        return [{"coefficient": "1", "factors": [*scale, {"square_of": negation}]},
+                *({"coefficient": str(-Fraction(term["coefficient"])), "factors": [*term["factors"], value]}
+                  for term in proof.get("terms", []))]
+    return [*proof.get("terms", []), {"coefficient": "1", "factors": [*scale, {"assume": negation}]}]
 
 
 def renumbered(terms: list[Term], new: dict[int, int]) -> list[Term]:
@@ -81,7 +86,7 @@ def find_turned(goal: Goal, stated: bool = False) -> Proof | None:
             continue
         form, order = whole.without(turned, list(range(last + 1)))
         found = _sought(_shifted(form, centre))
-        terms = None if found is None else contradictory(found, last, form.show[0].operator)
+        terms = None if found is None else contradictory(found, last, form.show[0])
         if terms is not None:
             return {"rule": "contradiction",
                     "terms": renumbered(_shifted_back(terms, centre), dict(enumerate(order)))}

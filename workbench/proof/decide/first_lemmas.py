@@ -1,0 +1,100 @@
+"""What is shown before a search begins: that what a relation divides by, or takes a root or logarithm of, has its sign.
+
+The checker sees the sign of a denominator that is assumed, or whose terms all have one. Of others it wants a lemma:
+1 + y > 0 where y >= x >= 0, x**2 - x + 1 > 0. Likewise x**2 + y**2 > 0 where it is assumed not to be zero.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import sympy as sp
+
+from workbench.errors import ClaimError
+from workbench.proof.claim import Goal, Relation, at_least, greater
+from workbench.proof.decide.combination import find_combination
+from workbench.proof.decide.laurent import goal_atoms, positive_by_terms
+from workbench.proof.decide.squares import find_squares
+from workbench.proof.decide.vanishing import vanishes
+from workbench.proof.text import text
+
+Lemma = tuple[Relation, dict[str, Any]]
+Given = tuple[Relation, ...]
+OTHERS = (sp.Sum, sp.Indexed, sp.Abs, sp.sign, sp.Max, sp.Min, sp.Derivative, sp.core.function.AppliedUndef)
+
+
+def first_lemmas(goal: Goal, shown: Relation, given: Given) -> list[Lemma]:
+    """Lemmas with their proofs, each from what is given and the lemmas before it."""
+    found: list[Lemma] = []
+    for place, relation in enumerate(given):
+        squares = _squares_in(relation.margin) if relation.operator == "!=" else None
+        if squares is not None:
+            proof = _positive_if_not_zero(squares, place, len(given) + len(found))
+            found.append((greater(relation.margin, 0), proof))
+    for wanted in _partial(shown):
+        known = (*given, *(lemma for lemma, _ in found))
+        if not _seen_at_once(wanted, known):
+            lemma = _signed(goal, wanted, known)
+            found += [] if lemma is None else [lemma]
+    return found
+
+
+def _partial(shown: Relation) -> list[Relation]:
+    """What must hold for a relation to be defined; of a denominator that it is positive."""
+    found: list[Relation] = []
+    for side in (shown.left, shown.right):
+        for power in sorted(side.atoms(sp.Pow), key=sp.default_sort_key):
+            if power.exp.is_Rational and power.exp < 0:
+                found.append(greater(power.base, 0))
+            elif power.exp.is_Rational and not power.exp.is_Integer:
+                found.append(at_least(power.base, 0))
+        found += [greater(log.args[0], 0) for log in sorted(side.atoms(sp.log), key=sp.default_sort_key)]
+    found = [r for r in dict.fromkeys(found) if r.left.free_symbols and not r.left.has(*OTHERS)]
+    return sorted(found, key=lambda r: int(r.left.count_ops()))
+
+
+def _seen_at_once(wanted: Relation, given: Given) -> bool:
+    """Whether the checker sees it without a lemma, or sees at least that a denominator is not zero."""
+    if any(r.operator != "==" and (vanishes(r.margin - wanted.left) or vanishes(r.margin + wanted.left))
+           for r in given):
+        return True
+    try:
+        atoms, base = goal_atoms(given), sp.factor(wanted.left)
+        return all(positive_by_terms(part, atoms) or positive_by_terms(-part, atoms)
+                   or any(r.operator not in ("==", ">=", "<=") and vanishes(sp.cancel(r.margin / part) ** 2 - 1)
+                          for r in given)
+                   for part in (factor.as_base_exp()[0] for factor in sp.Mul.make_args(base)) if part.free_symbols)
+    except ClaimError:  # functions: what is known of them is the deciders' own business
+        return True
+
+
+def _signed(goal: Goal, wanted: Relation, given: Given) -> Lemma | None:
+    """What is wanted, or of a denominator that it is negative, with a proof; None where there is none."""
+    for turn in (1, -1) if wanted.operator == ">" else (1,):
+        lemma = Relation(sp.expand(turn * wanted.left), wanted.operator, sp.S.Zero)
+        proof = find_combination(goal, lemma, given, quick=True) or find_squares(goal, lemma, given)
+        if proof is not None:
+            return lemma, proof
+    return None
+
+
+def _squares_in(margin: sp.Expr) -> list[tuple[sp.Expr, sp.Expr]] | None:
+    """(number, root) with margin the sum of number * root**2, every number positive, or None."""
+    found = []
+    for term in sp.Add.make_args(margin):
+        number, powers = term.as_coeff_Mul()
+        if not number.is_Rational or number < 0 or any(
+                not base.is_Symbol or not power.is_Integer or power < 0 or power % 2
+                for base, power in powers.as_powers_dict().items() if base != 1):
+            return None
+        found.append((number, sp.Mul(*(base ** (power / 2) for base, power in powers.as_powers_dict().items()))))
+    return found
+
+
+def _positive_if_not_zero(squares: list[tuple[sp.Expr, sp.Expr]], place: int, last: int) -> dict[str, Any]:
+    """A proof of v > 0 for a sum v of squares that is not zero: were v <= 0, then v**2 + v (-v) = 0 > 0."""
+    terms: list[dict[str, Any]] = [{"coefficient": "1", "factors": [{"square_of": place}]}]
+    for number, root in squares:
+        factors: list[dict[str, Any]] = [{"assume": last}, *([] if root == 1 else [{"square": text(root)}])]
+        terms.append({"coefficient": str(number), "factors": factors})
+    return {"rule": "contradiction", "terms": terms}
