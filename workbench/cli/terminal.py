@@ -11,17 +11,12 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from rich.box import SIMPLE_HEAD
-from rich.console import Console, Group
-from rich.progress import (
-    BarColumn,
-    MofNCompleteColumn,
-    Progress,
-    TextColumn,
-    TimeElapsedColumn,
-)
+from rich.console import Group
+from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn
 from rich.table import Table
 from rich.text import Text
 
+from workbench.cli.console import QuietConsole
 from workbench.proof.verdict import VERDICTS, verdict_words
 
 if TYPE_CHECKING:
@@ -30,8 +25,8 @@ if TYPE_CHECKING:
 
 # Names, paths and messages come from files: brackets and colons in them are what they are, no markup.
 # Nor is anything looked for in them to be coloured, which takes a minute where a name has 200,000 letters.
-out_console = Console(markup=False, emoji=False, highlight=False)
-err_console = Console(stderr=True, markup=False, emoji=False, highlight=False)
+out_console = QuietConsole(markup=False, emoji=False, highlight=False)
+err_console = QuietConsole(stderr=True, markup=False, emoji=False, highlight=False)
 LINE_EVERY_S = 30.0
 COLOURS = {"proved": "green", "refuted": "red", "violated": "red", "gap": "yellow", "assumed": "cyan",
            "undecided": "magenta"}
