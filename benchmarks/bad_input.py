@@ -1,6 +1,7 @@
 """Bad input for every verb and kind of file: each case ends well or is refused in one clear line.
 
-    python benchmarks/bad_input.py [--cases 20000] [--seed 1] [--apart 200] [--verb VERB] [--faults FOLDER] [--only NUMBER]
+    python benchmarks/bad_input.py [--cases 20000] [--seed 1] [--apart 200] [--verb VERB] [--only NUMBER]
+                                   [--faults FOLDER]
 
 A case is a folder of small valid inputs in which one file or argument is spoiled (`bad_files`, `bad_input_folders`),
 and a command that reads it. Demanded: exit code 0, or 1 where the verb says by it what it found, or 2 with one line
@@ -43,7 +44,7 @@ BOUNDS = (
     "--fleet", "--time", "--intervals", "--window", "--dwell", "--every", "--from", "--to-m", "--max-jerk", "--runs",
     "--seed", "--workers", "--limit", "--seconds", "--until-width", "--draws", "--bogus", "--json", "--out", "--csv",
     "--figure", "--controller", "--claim-digest", "--paper", "--certificates", "--solver", "--directory", "--help",
-    "--version", "--plant",
+    "--version", "--plant", "--record", "--rare", "--search", "--symbols", "--etcs", "--full", "--write", "--resume",
 )
 
 
@@ -90,7 +91,8 @@ def spoiled_arguments(rng: random.Random, command: Command) -> list[str]:
     value = rng.choice(
         (
             *HOSTILE_TEXTS, *map(str, HOSTILE_NUMBERS), *command.reads, "1e9", "100000", "-5", "9" * 400, "study.toml",
-            ".", "/", "/proc/self/mem", "/dev/full", "nowhere", "out\nfile", "a" * 300,
+            ".", "/", "/proc/self/mem", "/dev/full", "nowhere", "out\nfile", "a" * 300, "-",
+            "tcp://127.0.0.1:1", "position_rms>1e-300", "position_rms=1e-300",
         )
     )
     match rng.choice(("replace", "replace", "drop", "twice", "add", "add", "option")):

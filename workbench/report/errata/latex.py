@@ -19,7 +19,8 @@ HEAD = r"""\documentclass[a4paper,11pt]{article}
 \begin{document}
 """
 SPECIAL = {"\\": r"\textbackslash{}", "&": r"\&", "%": r"\%", "#": r"\#", "_": r"\_", "{": r"\{", "}": r"\}",
-           "$": r"\$", "~": r"\textasciitilde{}", "^": r"\textasciicircum{}", "≤": r"$\le$", "≥": r"$\ge$", "≠": r"$\ne$",
+           "$": r"\$",
+           "~": r"\textasciitilde{}", "^": r"\textasciicircum{}", "≤": r"$\le$", "≥": r"$\ge$", "≠": r"$\ne$",
            "→": r"$\to$", "±": r"$\pm$", "×": r"$\times$", "…": r"\ldots{}", "µ": r"$\mu$", "²": r"\textsuperscript{2}"}
 LEVELS = {1: "section*", 2: "subsection*", 3: "subsubsection*"}
 

@@ -1,4 +1,4 @@
-"""Which formulas may stand in a document of TeX: those of mathematics alone, for TeX reads and writes files when told."""
+"""Which formulas may stand in a document of TeX: mathematics alone, because TeX reads and writes files."""
 
 from __future__ import annotations
 
