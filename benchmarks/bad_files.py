@@ -10,6 +10,7 @@ import socket
 import tomllib
 from collections.abc import Callable, Iterator
 from datetime import date, time
+from itertools import pairwise
 from pathlib import Path
 from typing import Any
 
@@ -258,8 +259,27 @@ def no_file(rng: random.Random, path: Path) -> str:
     return what
 
 
+MACROS = (
+    r"\def\a{\a\a}\a", r"\newcommand{\a}[1]{\a{#1}\a{#1}}\a{x}", r"\input{paper}", r"\input{paper.tex}",
+    r"\include{/dev/zero}", r"\input{/etc/passwd}", r"\def\a{" + "x" * 20_000 + "}" + r"\a" * 400,
+    "".join(rf"\def\{b}{{\{a}\{a}\{a}\{a}}}" for a, b in pairwise("abcdefghijklmnop")) + r"\p",
+    r"\begin{equation}" * 300, r"\end{document}", r"\newcommand{\alpha}{\beta}\newcommand{\beta}{\alpha}",
+    r"\begin{equation}" + "{" * DEEP + r"\end{equation}", r"\begin{equation}" + r"\frac{x}" * DEEP + r"\end{equation}",
+    r"\begin{theorem}" + "x = y. " * 20_000 + r"\end{theorem}", r"\label{" + "9" * 5000 + "}", r"\ref{\ref{\ref{}}}",
+    "%" * 10_000, r"\catcode`\{=12", r"\verb|\end{equation}|", r"\begin{equation} x = 1 \tag{../../x} \end{equation}",
+)
+
+
+def spoiled_tex(rng: random.Random, data: bytes) -> bytes:
+    """A LaTeX source with macros or inclusions that never end, or are of another kind, in it."""
+    text = data.decode()
+    place = rng.randrange(len(text) + 1)
+    return (text[:place] + rng.choice(MACROS) + text[place:]).encode()
+
+
 # By the kind of a file how it is spoiled beside by `spoiled_bytes` and `no_file`.
-SPOILS: dict[str, Spoil] = {"toml": spoiled_toml, "json": spoiled_json, "jsonl": spoiled_lines}
+SPOILS: dict[str, Spoil] = {"toml": spoiled_toml, "json": spoiled_json, "jsonl": spoiled_lines,
+                           "tex": spoiled_tex}
 
 
 def spoil(rng: random.Random, path: Path) -> str:

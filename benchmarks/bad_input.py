@@ -1,6 +1,7 @@
 """Bad input for every verb and kind of file: each case ends well or is refused in one clear line.
 
-    python benchmarks/bad_input.py [--cases 20000] [--seed 1] [--apart 200] [--verb VERB] [--faults FOLDER]
+    python benchmarks/bad_input.py [--cases 20000] [--seed 1] [--apart 200] [--verb VERB] [--only NUMBER]
+                                   [--faults FOLDER]
 
 A case is a folder of small valid inputs in which one file or argument is spoiled (`bad_files`, `bad_input_folders`),
 and a command that reads it. Demanded: exit code 0, or 1 where the verb says by it what it found, or 2 with one line
@@ -43,7 +44,7 @@ BOUNDS = (
     "--fleet", "--time", "--intervals", "--window", "--dwell", "--every", "--from", "--to-m", "--max-jerk", "--runs",
     "--seed", "--workers", "--limit", "--seconds", "--until-width", "--draws", "--bogus", "--json", "--out", "--csv",
     "--figure", "--controller", "--claim-digest", "--paper", "--certificates", "--solver", "--directory", "--help",
-    "--version", "--plant",
+    "--version", "--plant", "--record", "--rare", "--search", "--symbols", "--etcs", "--full", "--write", "--resume",
 )
 
 
@@ -90,7 +91,8 @@ def spoiled_arguments(rng: random.Random, command: Command) -> list[str]:
     value = rng.choice(
         (
             *HOSTILE_TEXTS, *map(str, HOSTILE_NUMBERS), *command.reads, "1e9", "100000", "-5", "9" * 400, "study.toml",
-            ".", "/", "/proc/self/mem", "/dev/full", "nowhere", "out\nfile", "a" * 300,
+            ".", "/", "/proc/self/mem", "/dev/full", "nowhere", "out\nfile", "a" * 300, "-",
+            "tcp://127.0.0.1:1", "position_rms>1e-300", "position_rms=1e-300",
         )
     )
     match rng.choice(("replace", "replace", "drop", "twice", "add", "add", "option")):
@@ -104,7 +106,13 @@ def spoiled_arguments(rng: random.Random, command: Command) -> list[str]:
             found += [rng.choice(BOUNDS), value]
         case _:
             found.insert(place, rng.choice(BOUNDS))
-    return [one.replace("\0", "").encode("utf-8", "replace").decode()[:100_000] for one in found]
+    found = [one.replace("\0", "").encode("utf-8", "replace").decode()[:100_000] for one in found]
+    return [_few_runs(option, one) for option, one in pairwise(["", *found])]
+
+
+def _few_runs(option: str, value: str) -> str:
+    """A number of runs that may be asked for, and would take hours, as one that takes seconds."""
+    return "3" if option == "--runs" and value.isascii() and value.isdigit() and 3 < int(value[:10]) < 10**9 else value
 
 
 def prepared(case: Case, folders: Path, place: Path) -> tuple[str, list[str]]:
@@ -237,7 +245,8 @@ def faults(case: Case, ended: Ended) -> list[str]:
 
 def _names(case: Case) -> set[str]:
     """What a refusal may name: any file of the command, since what is spoiled in one may show in another."""
-    return {Path(name).name for name in case.command.reads} | {f"{one}: " for one in case.command.arguments}
+    named = {Path(name).name for name in case.command.reads} | {f"{one}: " for one in case.command.arguments}
+    return named | {"claim small2030:"}
 
 
 @dataclass
@@ -268,6 +277,7 @@ def main() -> None:
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--apart", type=int, default=200, help="of them by a process of their own")
     parser.add_argument("--verb", help="only of this one")
+    parser.add_argument("--only", type=int, help="of all these the one case whose line begins with this number")
     parser.add_argument("--faults", type=Path, help="a folder for the folders of cases with faults")
     parser.add_argument("--folders", type=Path, help="a folder for the valid inputs, made where it is missing")
     asked = parser.parse_args()
@@ -283,6 +293,10 @@ def main() -> None:
         place = Path(work) / "case" / "here"
         place.parent.mkdir()
         for number, case in enumerate(cases(asked.cases, asked.seed, commands)):
+            if asked.only not in (None, case.seed):
+                continue
+            if number % 500 == 499:
+                print(f"{number + 1} of {asked.cases}", file=sys.stderr, flush=True)
             apart = asked.apart > 0 and number % max(1, asked.cases // asked.apart) == 0
             ended = run(case, folders, place, apart)
             wrong = faults(case, ended)

@@ -26,6 +26,8 @@ from bad_input_texts import (
     PAPER,
     PID,
     RUN,
+    STORE,
+    STORE_STUDY,
     SYMBOLS,
     TRACK,
     TRAIN,
@@ -116,7 +118,7 @@ COMMANDS = (
         "", True,
     ),
     _command("claims", "check-certificates certificates/2.json", "certificates/2.json", "", True),
-    _command("claims", "check-coq coq --workers 1", "coq/index.json", "coq", True, 0.02),
+    _command("claims", "check-coq coq --workers 1 --record .", "coq/index.json", "kernel.txt", True, 0.02),
     _command("claims", f"report study.toml --runs 1 --out page {ALONE}", "claims/section_1.py", "page", weight=0.1),
     _command("rows", f"prove . --limit 2 {ALONE}", "rows.toml symbols.toml", "", True, weight=0.4),
     _command("rows", "show .::*", "rows.toml symbols.toml", weight=0.04),
@@ -153,6 +155,20 @@ COMMANDS = (
         "reference", f"reference --fleet fleet.toml --json day.json --csv day.csv --resume {ALONE}",
         "fleet.toml line.toml day.json", "day.json day.csv", weight=0.4,
     ),
+    _command(
+        "run", f"sweep . --rare position_rms>1000 --out rare {ALONE}", "study.toml line.toml", "rare", weight=0.1
+    ),
+    _command("run", f"sweep . --runs 2 --until-width position_rms=1 --draws sobol --out m {ALONE}", "study.toml", "m"),
+    _command("run", "sweep . --runs 1 --out mc --dask nonsense", "study.toml", "mc", weight=0.1),
+    _command("law", "export-fmu . good --out law.fmu", "study.toml laws.py line.toml", "law.fmu"),
+    _command("store", f"compare . {ALONE}", "study.toml plant.py laws.py"),
+    _command("store", f"sweep . --runs 2 --out mc {ALONE}", "study.toml plant.py", "mc"),
+    _command("store", "export-fmu . up_to --out law.fmu", "study.toml plant.py laws.py", "law.fmu", weight=0.3),
+    _command(
+        "rows", r"check '\dot V \le 0' --symbols . --json -", "rows.toml symbols.toml paper.py", "", True, weight=0.5
+    ),
+    _command("claims", "examples claims", "paper.py", weight=0.1),
+    _command("plant", "gains . --search --no-runs", "study.toml gains.py plant.py", weight=0.1),
     _command("gains", "gains . --no-runs --json out.json", "study.toml gains.py", "out.json", weight=0.05),
 )
 
@@ -233,6 +249,11 @@ def _plant(place: Path) -> None:
     study.write_text(text, encoding="utf-8")
 
 
+def _store(place: Path) -> None:
+    plant, _, _ = STORE.partition("up_to = ")
+    put(place / "store", plant_DOT_py=plant, laws_DOT_py=STORE, study_DOT_toml=STORE_STUDY)
+
+
 def _claims(place: Path) -> None:
     folder = put(
         place / "claims", paper_DOT_py=PAPER, claims__section_1_DOT_py=CLAIMS, values_DOT_toml="bound = 1\n",
@@ -263,7 +284,8 @@ def _gains(place: Path) -> None:
 
 # In this order, for some take what others have made.
 FOLDERS: dict[str, Callable[[Path], None]] = {
-    "reference": _reference, "run": _run, "law": _law, "contest": _contest, "plant": _plant, "claims": _claims,
+    "reference": _reference, "run": _run, "law": _law, "contest": _contest, "plant": _plant, "store": _store,
+    "claims": _claims,
     "source": _source, "rows": _rows, "gains": _gains,
 }
 

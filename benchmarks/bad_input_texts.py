@@ -149,6 +149,34 @@ K_p, K_d = sp.symbols("K_p K_d", positive=True)
 pd = ControlLaw(id="law.pd", title="PD", source="none", information="full state, model unknown",
                 command=K_p * (desired_position - position) + K_d * (desired_speed - speed), parameters=(K_p, K_d))
 '''
+STORE = '''\
+"""A store in discrete time."""
+import sympy as sp
+from workbench.systems.law import StateLaw
+from workbench.systems.plant import Parameter, Plant
+
+x, p, o, d = sp.symbols("x p o d", real=True)
+S, r = sp.symbols("S r", positive=True)
+plant = Plant("store.store", (x, p), updates=(x + r * p - d, o), step_s=0.5, inputs=(o,), disturbances=(d,),
+              parameters=(Parameter(r, 1.0, "1"),), input_limits={o: (0.0, 50.0)})
+up_to = StateLaw("store.up_to", title="order up to", source="none", commands={o: S - x - p}, parameters=(S,))
+'''
+STORE_STUDY = """\
+version = 1
+kind = "plant"
+name = "store"
+title = "A store"
+paper = "store"
+citation = "none"
+duration_s = 20.0
+initial = { x = 3.0 }
+disturbance.d = { kind = "sine", offset = 8.0, amplitude = 4.0, period_s = 6.0 }
+uncertainty = { runs = 2, seed = 1, factors = ["r"] }
+[controllers.up_to]
+law = "up_to"
+period_s = 0.5
+parameters = { S = 30.0 }
+"""
 PAPER = '''\
 """A paper."""
 from workbench.proof.paper import Paper

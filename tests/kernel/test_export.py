@@ -8,10 +8,12 @@ from typing import Any
 
 import pytest
 
-from workbench.kernel.coqc import _coqc, _trouble, axioms_in, check_folder, missing
-from workbench.kernel.export import LIBRARY, document, export, files_of
+from workbench.files.own_files import sha256
+from workbench.kernel.coqc import _coqc, _trouble, axioms_in, check_folder, compile_library, missing
+from workbench.kernel.export import document, export, files_of
 from workbench.kernel.syntax import NotExportedError
 from workbench.kernel.theorem import read
+from workbench.kernel.vernacular import strange_sentence
 from workbench.proof.checker import goal_digest
 
 with_coq = pytest.mark.skipif(missing() is not None, reason=missing() or "")
@@ -130,8 +132,9 @@ def test_what_has_no_coq_text_is_listed_with_its_reason() -> None:
 
 @pytest.fixture(scope="module")
 def exports(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """A folder of exports with the library, compiled."""
+    """A folder of exports, and beside them what Coq would take for a module of its own."""
     folder = tmp_path_factory.mktemp("exports")
+    (folder / "Lra.vo").write_bytes(b"nothing")
     for name, text in files_of([export(digested(one)) for one in CERTIFICATES]).items():
         (folder / name).write_text(text)
     return folder
@@ -143,7 +146,29 @@ def test_kernel_accepts_proofs_sums_functions_motions_and_points(exports: Path) 
     assert [row.claim for row in check_folder(exports, 1, 120) if row.outcome == "accepted"] == [
         one["claim"] for one in CERTIFICATES]
     one = next(exports.glob("mine_3*.v")).name
-    assert _trouble(exports, one, "0" * 64, 120) == "the file is not the one that was exported"
+    assert _trouble(exports, exports, one, "0" * 64, 120) == "the file is not the one that was exported"
+
+
+@pytest.fixture(scope="module")
+def library(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A folder with the library, compiled."""
+    folder = tmp_path_factory.mktemp("library")
+    compile_library(folder, 120)
+    return folder
+
+
+@pytest.mark.parametrize("sentence", [
+    "Axiom mine : False.", 'Redirect "here" Print nat.', "Declare ML Module \"x\".", "Load mine.", "Cd \"/\".",
+    "Require Import Mine.", "#[local] Axiom mine : False.", "Time Qed.", "Extraction \"mine\" nat.", "(* a comment",
+    "Proof. { Unset Guard Checking. }", "Module Lra.", "Definition x := 1.(* *) Axiom mine : False."])
+def test_a_file_with_a_sentence_that_no_export_has_is_not_shown_to_coq(sentence: str, tmp_path: Path) -> None:
+    """Coq's commands load programs and write files: what is called an export may be anybody's."""
+    text = document(digested(PRODUCT))
+    assert strange_sentence(text) is None
+    for spoiled in (text + sentence, text.replace("\nProof.\n", f"\nProof.\n{sentence}\n")):
+        (tmp_path / "mine.v").write_text(spoiled)
+        said = _trouble(tmp_path, tmp_path / "nowhere", "mine.v", sha256(spoiled), 120)
+        assert said.startswith("holds what no export does")
 
 
 @with_coq
@@ -156,7 +181,7 @@ def test_kernel_accepts_proofs_sums_functions_motions_and_points(exports: Path) 
     (STEADY, "k > 0", "k < 0"), (CAUCHY, "Sum(x*y)**2 <= Sum(x**2)*Sum(y**2)", "Sum(x*y)**2 <= Sum(x**2)"),
     (CAUCHY, "Sum(x*Sum(y)) == Sum(x)*Sum(y)", "Sum(x*Sum(y)) == Sum(x*y)"),
 ])
-def test_kernel_refuses_a_goal_that_is_not_so(exports: Path, certificate: dict[str, Any], old: str, new: str) -> None:
+def test_kernel_refuses_a_goal_that_is_not_so(library: Path, certificate: dict[str, Any], old: str, new: str) -> None:
     """A changed goal has no Coq text, or one that coqc refuses: the checker is not asked."""
     mutant = copy.deepcopy(certificate)
     for key in ("assume", "show"):
@@ -166,10 +191,8 @@ def test_kernel_refuses_a_goal_that_is_not_so(exports: Path, certificate: dict[s
         text = document(mutant)
     except NotExportedError:
         return
-    for name in LIBRARY:
-        assert (exports / name).is_file()
-    (exports / "Mutant.v").write_text(text)
-    assert _coqc(exports, "Mutant.v", 120)[1]
+    (library / "Mutant.v").write_text(text)
+    assert _coqc(library, "Mutant.v", 120)[1]
 
 
 def test_axioms_are_read_from_what_coq_prints() -> None:

@@ -38,9 +38,13 @@ def command(paper: PaperOrFile,
                 "--resume", help="Go on with the runs of the Monte Carlo, or of a contest, kept in --out.")] = False,
             workers: Workers = None, dask: Dask = None) -> None:
     """Check the proof, run and compare the controllers, and put the whole on one page."""
-    from workbench.report.build import Asked, build_report, build_study_report
+    from workbench.files.outputs import check_outputs
 
     loaded = load(paper)
+    check_outputs({}, folders={"--out": (out, ())})
+    # After what was asked has been read: a mistake need not wait for it.
+    from workbench.report.build import Asked, build_report, build_study_report
+
     asked = Asked.of(loaded, proofs or [], out, gains, resume, workers, full)
     if loaded.kind is not None:
         for option, given in (("--runs", runs), ("--seed", seed)):

@@ -12,11 +12,12 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from rich.box import SIMPLE_HEAD
-from rich.console import Console, Group
+from rich.console import Group
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn
 from rich.table import Table
 from rich.text import Text
 
+from workbench.cli.console import QuietConsole
 from workbench.proof.verdict import VERDICTS, verdict_words
 
 if TYPE_CHECKING:
@@ -26,8 +27,8 @@ if TYPE_CHECKING:
 # Names, paths and messages come from files: brackets and colons in them are what they are, no markup.
 # Nor is anything looked for in them to be coloured, which takes a minute where a name has 200,000 letters.
 # Lines are wrapped between words for a reader; what another program reads stays one line.
-out_console = Console(markup=False, emoji=False, highlight=False, soft_wrap=not sys.stdout.isatty())
-err_console = Console(stderr=True, markup=False, emoji=False, highlight=False, soft_wrap=not sys.stderr.isatty())
+out_console = QuietConsole(markup=False, emoji=False, highlight=False, soft_wrap=not sys.stdout.isatty())
+err_console = QuietConsole(stderr=True, markup=False, emoji=False, highlight=False, soft_wrap=not sys.stderr.isatty())
 LINE_EVERY_S = 30.0
 COLOURS = {"proved": "green", "refuted": "red", "violated": "red", "gap": "yellow", "assumed": "cyan",
            "undecided": "magenta"}

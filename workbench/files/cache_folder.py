@@ -19,6 +19,7 @@ from pathlib import Path
 
 import platformdirs
 
+from workbench.errors import printable
 from workbench.files.regular import belongs_to_us, contents
 from workbench.files.writing import write_whole
 
@@ -83,7 +84,7 @@ def drop(path: Path) -> None:
 @cache
 def note(text: str) -> None:
     """Say something on stderr, once in this process, that costs time and no result."""
-    sys.stderr.write(f"workbench: note: {text}\n")
+    sys.stderr.write(f"workbench: note: {printable(text)}\n")
 
 
 def _problem(folder: Path) -> str | None:

@@ -18,7 +18,7 @@ def read_json(path: Path) -> dict[str, Any]:
     """The object in a JSON file; raises InputError when it is missing, unreadable or not one JSON object."""
     text = read_text(path, "JSON")
     try:
-        data = json.loads(text, object_pairs_hook=_unique, parse_float=_finite)
+        data = json.loads(text, object_pairs_hook=_unique, parse_float=_finite, parse_constant=_no_number)
     except InputError as trouble:
         raise trouble.within(path) from None
     except ValueError as trouble:  # JSONDecodeError, and Python's own limit on the digits of an integer
@@ -41,6 +41,10 @@ def _finite(text: str) -> float:
     if math.isinf(found):
         raise ValueError(f"{text[:60]} is too large a number")
     return found
+
+
+def _no_number(text: str) -> float:
+    raise ValueError(f"{text} is no number of JSON")
 
 
 def _unique(pairs: list[tuple[str, Any]]) -> dict[str, Any]:

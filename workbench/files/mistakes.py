@@ -39,9 +39,10 @@ def _place(trouble: BaseException, file: Path) -> str:
         other = "" if Path(trouble.filename).name == file.name else f"{Path(trouble.filename).name}, "
         return f"{other}line {trouble.lineno}: "
     frames = [(Path(frame.f_code.co_filename), str(frame.f_globals.get("__name__", "")), line)
-              for frame, line in traceback.walk_tb(trouble.__traceback__)]
+              for frame, line in traceback.walk_tb(trouble.__traceback__)
+              if not frame.f_code.co_filename.startswith("<")]  # of the import system, no file
     beside = [(path, line) for path, module, line in frames
-              if path.parent == file.parent or module.startswith(OF_A_FOLDER)]
+              if path.parent == file.absolute().parent or module.startswith(OF_A_FOLDER)]
     own = beside or [(path, line) for path, _, line in frames if path.name == file.name]
     if not own:
         return ""

@@ -29,7 +29,7 @@ OF_A_KERNEL = "workbench_kernel_"  # begins the names of modules that are genera
 # Files are stamped by a clock that is behind by up to a few milliseconds.
 TICK_NS = 50_000_000
 # Processor time that the import of a module, with all that it imports, may take.
-IMPORT_S = 10.0
+IMPORT_S = 4.0
 OUT_OF_TIME = (f"cannot be imported: computes for more than {IMPORT_S:g} s, or waits: state what takes so long in a "
                "function, which is called when it is needed")
 OUT_OF_MEMORY = ("cannot be imported: takes more memory than a module may: read less, and state large values in a "

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import errno
 import hashlib
 import sys
 import time
@@ -10,6 +11,8 @@ from pathlib import Path
 from workbench.errors import InputError
 from workbench.files.regular import LARGEST_DATA, LARGEST_TEXT, NotRegularError, TooLargeError, contents, size_words
 
+# What a name is that no file can bear, and one that links lead around with.
+NO_NAME = (errno.ENAMETOOLONG, errno.ELOOP, errno.ENOTDIR)
 # What is not named here is data.
 _LIMITS = {"TOML": LARGEST_TEXT}
 
@@ -106,6 +109,7 @@ def _contents(path: Path, kind: str, where: str) -> bytes:
         raise InputError(path, "", f"is larger than {size_words(limit)}, the most that is read of {kind}: name "
                          "another file, or make it smaller") from None
     except OSError as trouble:
-        raise InputError(path, "", f"cannot be read ({trouble.strerror}): check its permissions") from None
+        remedy = where if trouble.errno in NO_NAME else "check its permissions"
+        raise InputError(path, "", f"cannot be read ({trouble.strerror}): {remedy}") from None
     except ValueError as trouble:  # a null character in the path
         raise InputError(path, "", f"is no path ({trouble}): correct the name") from None

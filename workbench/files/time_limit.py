@@ -12,6 +12,8 @@ from contextlib import contextmanager
 from types import FrameType
 
 AGAIN = 0.5  # seconds after which the interruption comes again, should a library have swallowed it
+# So many calls are looked at: of a function that calls itself without end there may be millions.
+LOOKED_AT = 2000
 SOON = 0.001  # the same where an exception would be dropped
 # Who has computed for less than IDLE_S in so many seconds waits for what may never come, such as somebody to write into
 # a pipe; a machine that is merely busy gives every process more than that.
@@ -72,7 +74,9 @@ def _drops_exceptions(frame: FrameType | None) -> bool:
     Python reports what these raise and goes on, so that an exception raised there ends nothing.
     """
     collecting = {getattr(callback, "__code__", None) for callback in gc.callbacks}
-    while frame is not None:
+    for _ in range(LOOKED_AT):
+        if frame is None:
+            return False
         code = frame.f_code
         if code in collecting or code.co_name == "__del__" or code.co_filename in WEAK_REFERENCES:
             return True

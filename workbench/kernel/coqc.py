@@ -15,12 +15,16 @@ from typing import Any
 from workbench.errors import InputError
 from workbench.files.json_input import read_json
 from workbench.files.own_files import sha256
+from workbench.files.scratch import scratch_folder
 from workbench.files.text import read_text
+from workbench.files.writing import write_text
 from workbench.kernel.export import HERE, INDEX, LIBRARY
+from workbench.kernel.vernacular import strange_sentence
 
 # The axioms of Coq's classical reals, and the machine integers and floats that interval arithmetic computes with.
 OF_THE_REALS = ("ClassicalDedekindReals.", "FunctionalExtensionality.", "Classical_Prop.classic")
 OF_THE_MACHINE = ("PrimInt63.", "Uint63.", "PrimFloat.", "FloatAxioms.", "Uint63Axioms.", "Sint63.")
+FILE = re.compile(r"[A-Za-z0-9_]+\.v")
 AXIOM = re.compile(r"^([A-Za-z_][A-Za-z0-9_.']*)\s*:", re.M)
 # What the index says of every certificate, and of one that has a file.
 FIELDS: dict[str, type] = {"claim": str, "goal_digest": str, "certificate": str, "motion": bool}
@@ -67,22 +71,30 @@ def check_folder(folder: Path, workers: int, seconds: float,
     """
     if (trouble := missing()) is not None:
         raise InputError("", "", trouble)
-    index = read_index(folder)
+    rows = read_index(folder)["certificates"]
     for name in LIBRARY:
         if read_text(folder / name, "library") != read_text(HERE / name, "library"):
             raise InputError(str(folder / name), "", "is not this package's library: run 'workbench export-coq' again")
-        if trouble := _coqc(folder, name, seconds)[1]:
-            raise InputError(str(folder / name), "", f"coqc refuses the library: {trouble}")
-    rows = index["certificates"]
     # The file of a whole theorem is that of its claim: one run answers for both.
     files = dict.fromkeys((row["file"], row["sha256"]) for row in rows
                           if "file" in row and (row["claim"], row["goal_digest"]) not in noted)
-    with ThreadPoolExecutor(workers) as pool:
-        troubles = {file: pool.submit(_trouble, folder, *file, seconds) for file in files}
-        for done, row in enumerate(rows):
-            on_progress(done, len(rows))
-            yield _checked(row, lambda file: troubles[file].result() if file in troubles else None)
+    # Elsewhere, because Coq would take a compiled module, or a program, that lies beside a file for one of its own.
+    with scratch_folder() as place:
+        compile_library(place, seconds)
+        with ThreadPoolExecutor(workers) as pool:
+            troubles = {file: pool.submit(_trouble, folder, place, *file, seconds) for file in files}
+            for done, row in enumerate(rows):
+                on_progress(done, len(rows))
+                yield _checked(row, lambda file: troubles[file].result() if file in troubles else None)
     on_progress(len(rows), len(rows))
+
+
+def compile_library(place: Path, seconds: float) -> None:
+    """This package's library in a folder, compiled; InputError where coqc refuses it."""
+    for name in LIBRARY:
+        write_text(place / name, read_text(HERE / name, "library"))
+        if trouble := _coqc(place, name, seconds)[1]:
+            raise InputError(HERE / name, "", f"coqc refuses the library: {trouble}")
 
 
 def read_index(folder: Path) -> dict[str, Any]:
@@ -117,11 +129,15 @@ def _checked(row: dict[str, Any], trouble_of: Callable[[tuple[str, str]], str | 
     return Checked(outcome="refused" if trouble else "accepted", reason=trouble, text=row["sha256"], **known)
 
 
-def _trouble(folder: Path, name: str, digest: str, seconds: float) -> str:
-    """Why a file is refused; empty where Coq accepts it on the axioms of the reals."""
-    if Path(name).name != name or sha256(text := read_text(folder / name, "Coq file")) != digest:
+def _trouble(folder: Path, place: Path, name: str, digest: str, seconds: float) -> str:
+    """Why a file is refused; empty where Coq, in the place of the compiled library, accepts it on the axioms of the
+    reals."""
+    if not FILE.fullmatch(name) or name in LIBRARY or sha256(text := read_text(folder / name, "Coq file")) != digest:
         return "the file is not the one that was exported"
-    said, trouble = _coqc(folder, name, seconds)
+    if (strange := strange_sentence(text)) is not None:
+        return f"holds what no export does: {strange}"
+    write_text(place / name, text)
+    said, trouble = _coqc(place, name, seconds)
     if trouble:
         return trouble
     strange = [axiom for axiom in axioms_in(said) if not axiom.startswith(OF_THE_REALS + OF_THE_MACHINE)]

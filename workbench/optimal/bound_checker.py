@@ -528,10 +528,12 @@ def main(arguments: list[str]) -> int:
             certificate = read_certificate(Path(name))
             bound = proven_bound(certificate)
             of = ", ".join(f"{part} {digest[:12]}" for part, digest in certificate["digests"].items())
-            sys.stdout.write(f"{name}: proves {float(bound):.9g} J ({of})\n")
+            line = f"{name}: proves {float(bound):.9g} J ({of})"
         except REFUSALS as trouble:
-            sys.stdout.write(f"{name}: INVALID: {trouble}\n")
+            line = f"{name}: INVALID: {trouble}"
             wrong += 1
+        # A stranger's file says what it is: nothing in it may steer the terminal.
+        sys.stdout.write("".join(c if c.isprintable() else " " for c in line) + "\n")
     return 1 if wrong or not arguments else 0
 
 

@@ -1703,8 +1703,9 @@ def main() -> int:
     path = Path(place)
     results = [check_file(path, None, option[1] if option else None)] if path.is_file() else check_folder(path)
     for path, verdict, reason in results:
-        sys.stdout.write(f"{'ok     ' if reason is None else 'INVALID'} {verdict:9s} {path}"
-                         f"{': ' + reason if reason else ''}\n")
+        line = f"{'ok     ' if reason is None else 'INVALID'} {verdict:9s} {path}{': ' + reason if reason else ''}"
+        # A stranger's file says what it is: nothing in it may steer the terminal.
+        sys.stdout.write("".join(c if c.isprintable() else " " for c in line) + "\n")
     return 2 if not results else int(any(reason for _, _, reason in results))
 
 

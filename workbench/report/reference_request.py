@@ -40,19 +40,24 @@ class Request:
 
 def table_file(asked: Request) -> Path | None:
     """Where the smooth reference goes: by default beside the JSON."""
-    return asked.csv or (asked.json.with_suffix(".csv") if asked.json else None)
+    return asked.csv or (_beside(asked.json, ".csv") if asked.json else None)
 
 
 def of_cars_file(table: Path) -> Path:
     """Where what the cars do goes: beside the smooth reference."""
-    return table.with_name(f"{table.stem}_cars.csv")
+    return _beside(table, "_cars.csv")
 
 
 def certified_file(table: Path | None) -> Path | None:
     """Where the run goes that the bound is proved for: beside the smooth reference where that is a file."""
-    return None if table is None or is_stream(table) else table.with_name(f"{table.stem}_certified.csv")
+    return None if table is None or is_stream(table) else _beside(table, "_certified.csv")
 
 
 def couplers_file(figure: Path) -> Path:
     """Where the couplers are drawn: beside the figure of the run."""
-    return figure.with_name(f"{figure.stem}_couplers{figure.suffix}")
+    return _beside(figure, f"_couplers{figure.suffix}")
+
+
+def _beside(path: Path, end: str) -> Path:
+    """Another end of a file's name; of what is no file, such as `.`, a name that is refused with it."""
+    return path.parent / f"{path.stem}{end}"

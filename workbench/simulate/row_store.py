@@ -22,16 +22,17 @@ from typing import Any, NamedTuple, Self
 
 from workbench.errors import InputError
 from workbench.files.cache_folder import note
+from workbench.files.memory_limit import limited_memory
 from workbench.files.regular import contents
-from workbench.files.writing import remove_old, set_aside, write_bytes
+from workbench.files.writing import remove_old, require_inside, set_aside, write_bytes
 from workbench.simulate.journal import Journal
 from workbench.simulate.sweep_rows import BLOCK, COLUMNS, Values
 
 MANIFEST_NAME, CHUNKS = "sweep.manifest.jsonl", "sweep"
-REMEDY = "name another --out"
+REMEDY, WITHOUT = "name another --out", "start anew without --resume, or name another --out"
 # A chunk is written after so many seconds, which is what a kill can cost, or rows, which is what memory holds.
 CHUNK_S, CHUNK_ROWS = 5.0, 32_768
-CHUNKS_OPEN = 3
+CHUNKS_OPEN, LARGEST_PART = 3, 2 * CHUNK_ROWS
 
 
 class Part(NamedTuple):
@@ -108,6 +109,7 @@ class ChunkStore(RowStore):
     def __init__(self, folder: Path, settings: dict[str, Any], resume: bool) -> None:
         super().__init__()
         self._folder = folder / CHUNKS
+        require_inside(self._folder, folder, REMEDY)
         self._places: dict[Part, tuple[int, int]] = {}  # chunk and row group
         self._open: OrderedDict[int, Any] = OrderedDict()
         self._written_s = time.monotonic()
@@ -156,7 +158,7 @@ class ChunkStore(RowStore):
         """Take the chunks that are what the manifest names; the others, and those of damaged records, are removed."""
         whole = set()
         for record in self._journal.records:
-            number, parts = record["chunk"], [Part(*part) for part in record["parts"]]
+            number, parts = self._read_record(record)
             if number in whole or any(map(self._overlaps, parts)):
                 note(f"{self._journal.path}: names chunk {number} twice")
             elif self._digest(number) != record["sha256"]:
@@ -173,6 +175,20 @@ class ChunkStore(RowStore):
             if int(path.stem) >= self._journal.lines:
                 set_aside(path, REMEDY)
 
+    def _read_record(self, record: dict[str, Any]) -> tuple[int, list[Part]]:
+        """The number and the parts of a chunk; InputError for a record that this program would not have written, of
+        which a forged digest says nothing."""
+        try:
+            number, parts = record["chunk"], [Part(*part) for part in record["parts"]]
+            fits = isinstance(number, int) and all(
+                isinstance(part.controller, str) and isinstance(part.first, int) and isinstance(part.runs, int)
+                and part.first >= 0 and 0 < part.runs <= LARGEST_PART for part in parts)
+        except (KeyError, TypeError):
+            fits = False
+        if not fits or not isinstance(record.get("sha256"), str):
+            raise InputError(self._journal.path, "", f"holds a record that is no chunk of a sweep: {WITHOUT}")
+        return number, parts
+
     def _digest(self, number: int) -> str:
         try:
             return hashlib.sha256(contents(self._path(number))).hexdigest()
@@ -186,6 +202,15 @@ class ChunkStore(RowStore):
         if part in self._rows:
             return self._rows[part]
         number, place = self._places[part]
+        try:
+            with limited_memory():  # a small file may say that it holds any number of rows
+                return _rows_of(self._chunk(number), place, part.runs)
+        except (ValueError, IndexError, OSError, MemoryError) as trouble:  # those of pyarrow are of these kinds
+            raise InputError(self._path(number), "", f"is no chunk of a sweep ({str(trouble)[:80] or 'too large'}): "
+                             f"{WITHOUT}") from None
+
+    def _chunk(self, number: int) -> Any:
+        """An open chunk; of all of them a few are held open."""
         if number not in self._open:
             from pyarrow import BufferReader, py_buffer  # noqa: PLC0415 - sweeps into a folder alone need it
             from pyarrow.parquet import ParquetFile  # noqa: PLC0415 - as above
@@ -194,8 +219,7 @@ class ChunkStore(RowStore):
             if len(self._open) > CHUNKS_OPEN:
                 self._open.popitem(last=False)
         self._open.move_to_end(number)
-        columns = self._open[number].read_row_group(place).to_pydict().values()
-        return list(zip(*columns, strict=True))
+        return self._open[number]
 
     def _files(self) -> Iterator[Path]:
         """The chunks of whoever wrote here before."""
@@ -221,13 +245,27 @@ def _joined(parts: list[Part]) -> Part:
     return Part(parts[0].controller, parts[0].first, sum(part.runs for part in parts))
 
 
+def _rows_of(chunk: Any, place: int, count: int) -> list[Values]:
+    """The rows of a group, so many; ValueError where it has others, or other columns."""
+    if chunk.schema_arrow != _schema() or chunk.metadata.row_group(place).num_rows != count:
+        raise ValueError("its rows or columns are others")
+    return list(zip(*chunk.read_row_group(place).to_pydict().values(), strict=True))
+
+
+def _schema() -> Any:
+    """The columns of a chunk and their types."""
+    import pyarrow as pa  # noqa: PLC0415 - as above
+
+    types = {"int": pa.int64(), "str": pa.string(), "float": pa.float64()}
+    return pa.schema([(name, types[kind.partition(" ")[0]]) for name, kind in COLUMNS.items()])
+
+
 def _parquet(groups: Sequence[Sequence[Values]]) -> bytes:
     """The bytes of a Parquet file with a row group for each of the groups."""
     import pyarrow as pa  # noqa: PLC0415 - as above
     from pyarrow.parquet import ParquetWriter  # noqa: PLC0415 - as above
 
-    types = {"int": pa.int64(), "str": pa.string(), "float": pa.float64()}
-    schema = pa.schema([(name, types[kind.partition(" ")[0]]) for name, kind in COLUMNS.items()])
+    schema = _schema()
     stream = io.BytesIO()
     with ParquetWriter(stream, schema, compression="zstd") as writer:
         for rows in groups:

@@ -80,14 +80,7 @@ def _quieten() -> None:
 @contextmanager
 def _client(where: Any, name: str) -> Iterator[Any]:
     """A connection to a scheduler; closed at the end of the block, however that goes."""
-    from distributed import Client  # noqa: PLC0415 - as above
-
-    try:
-        client = Client(where, timeout=ANSWER_S)
-    except (OSError, ValueError, TimeoutError) as trouble:
-        why = " ".join(str(trouble).split())
-        raise InputError("", "--dask", f"no scheduler answers at '{name}' ({why}): check the address, as "
-                         "tcp://host:8786, and that it runs") from None
+    client = _connected(where, name)
     try:
         try:
             client.wait_for_workers(1, timeout=WORKER_S)
@@ -98,15 +91,34 @@ def _client(where: Any, name: str) -> Iterator[Any]:
         _within(CLOSE_S, lambda: client.close(timeout=CLOSE_S))
 
 
-def _within(seconds: float, end: Callable[[], Any]) -> None:
-    """Call what ends something, and wait so long for it: what others do not answer must not hold this process."""
+def _connected(where: Any, name: str) -> Any:
+    """A client of the scheduler at an address; InputError where none answers there, or something else does, which Dask
+    takes for a scheduler with whatever follows."""
+    from distributed import Client  # noqa: PLC0415 - as above
+
+    found: list[Any] = []
+    trouble = _within(ANSWER_S + CLOSE_S, lambda: found.append(Client(where, timeout=ANSWER_S)))
+    if found:
+        return found[0]
+    why = "it is silent" if trouble is None else " ".join(str(trouble).split()) or type(trouble).__name__
+    raise InputError("", "--dask", f"no scheduler answers at '{name}' ({why}): check the address, as tcp://host:8786, "
+                     "and that it runs")
+
+
+def _within(seconds: float, action: Callable[[], Any]) -> Exception | None:
+    """Do something, and wait so long for it: what others do not answer must not hold this process. What it raised."""
+    trouble: list[Exception] = []
+
     def quietly() -> None:
-        with suppress(Exception):
-            end()
+        try:
+            action()
+        except Exception as found:
+            trouble.append(found)
 
     thread = threading.Thread(target=quietly, daemon=True)
     thread.start()
     thread.join(seconds)
+    return trouble[0] if trouble else None
 
 
 def _no_worker() -> WorkbenchError:

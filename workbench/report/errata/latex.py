@@ -6,6 +6,7 @@ import re
 from collections.abc import Sequence
 
 from workbench.report.errata.blocks import Block, Item, Medium, written
+from workbench.report.errata.tex_formula import is_mathematics
 from workbench.report.worded import show
 
 HEAD = r"""\documentclass[a4paper,11pt]{article}
@@ -18,6 +19,7 @@ HEAD = r"""\documentclass[a4paper,11pt]{article}
 \begin{document}
 """
 SPECIAL = {"\\": r"\textbackslash{}", "&": r"\&", "%": r"\%", "#": r"\#", "_": r"\_", "{": r"\{", "}": r"\}",
+           "$": r"\$",
            "~": r"\textasciitilde{}", "^": r"\textasciicircum{}", "≤": r"$\le$", "≥": r"$\ge$", "≠": r"$\ne$",
            "→": r"$\to$", "±": r"$\pm$", "×": r"$\times$", "…": r"\ldots{}", "µ": r"$\mu$", "²": r"\textsuperscript{2}"}
 LEVELS = {1: "section*", 2: "subsection*", 3: "subsubsection*"}
@@ -41,11 +43,16 @@ def _code(text: str) -> str:
 
 def _formula(latex: str, label: str) -> str:
     """Inline and in display style, so that long lines break between operators."""
-    return (rf"\textbf{{{_words(label)}:}} " if label else "") + rf"$\displaystyle {latex}$"
+    return (rf"\textbf{{{_words(label)}:}} " if label else "") + _between_dollars(latex, r"\displaystyle ")
+
+
+def _between_dollars(latex: str, style: str = "") -> str:
+    """A formula; one that holds more than mathematics as it is written, letter by letter."""
+    return f"${style}{latex}$" if is_mathematics(latex) else rf"\texttt{{{_words(latex)}}}"
 
 
 def _text(text: str) -> str:
-    return show(text, lambda latex: f"${latex}$", _words)
+    return show(text, _between_dollars, _words)
 
 
 def _words(text: str) -> str:

@@ -2,10 +2,15 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Sequence
 
 from workbench.report.errata.blocks import Block, Item, Medium, written
+from workbench.report.errata.tex_formula import is_mathematics
 from workbench.report.worded import show
+
+# Where a tag, or an address, would begin.
+_TAG = re.compile(r"<(?=[A-Za-z/!?])")
 
 
 def markdown(blocks: Sequence[Block]) -> str:
@@ -19,12 +24,21 @@ def nested(items: Sequence[Item], text: Callable[[str], str]) -> str:
 
 
 def _text(text: str) -> str:
-    return show(text, lambda latex: f"${latex}$", lambda words: words.replace("*", r"\*").replace("_", r"\_"))
+    return show(text, lambda latex: f"${_TAG.sub('< ', latex)}$" if is_mathematics(latex) else _words(latex), _words)
+
+
+def _words(text: str) -> str:
+    """Words as they are: no emphasis, no tag of HTML, no link."""
+    return _TAG.sub("&lt;", text.replace("*", r"\*").replace("_", r"\_")).replace("](", r"]\(")
+
+
+def _formula(latex: str, label: str) -> str:
+    shown = f"$$\n{_TAG.sub('< ', latex)}\n$$" if is_mathematics(latex) else _words(latex)
+    return (f"**{label}:**\n\n" if label else "") + shown
 
 
 MARKDOWN = Medium(
     heading=lambda level, text: f"{'#' * level} {_text(text)}",
     paragraph=lambda text, label: (f"**{label}.** " if label else "") + _text(text),
-    formula=lambda latex, label: (f"**{label}:**\n\n" if label else "") + f"$$\n{latex}\n$$",
-    items=lambda items: nested(items, _text),
+    formula=_formula, items=lambda items: nested(items, _text),
     code=lambda text: f"```\n{text}\n```")

@@ -1,0 +1,21 @@
+"""A console on which what comes from files steers no terminal: escape sequences are shown as letters."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+from rich.console import Console, ConsoleOptions, RenderableType
+from rich.segment import Segment
+
+# Of what a terminal obeys, line breaks alone; the signs of Unicode that turn the direction of writing are left out too.
+_TURNING = "\u061c\u200e\u200f\u202a\u202b\u202c\u202d\u202e\u2066\u2067\u2068\u2069\u2028\u2029"
+_STEERING = {code: "�" for code in (*range(0x20), *range(0x7F, 0xA0), *map(ord, _TURNING)) if code != ord("\n")}
+
+
+class QuietConsole(Console):
+    """As rich's, for texts that nobody has looked at: what is printed cannot colour, move or rename anything."""
+
+    def render(self, renderable: RenderableType, options: ConsoleOptions | None = None) -> Iterable[Segment]:
+        """The pieces of what is printed, rich's own codes among them."""
+        for segment in super().render(renderable, options):
+            yield segment if segment.control else Segment(segment.text.translate(_STEERING), segment.style)
