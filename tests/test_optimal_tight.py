@@ -60,11 +60,11 @@ def test_the_mesh_is_fine_where_the_fastest_run_changes_its_speed(line, quickest
     assert np.median(grid.step_m[changes]) < np.median(grid.step_m[~changes]) / 3
 
 
-def test_a_run_that_keeps_to_the_limit_loses_less_time_and_passes_no_limit(plan):
-    plain, held = (refined(TRAIN, plan, 4, is_held=is_held) for is_held in (False, True))
+def test_a_run_keeps_to_the_limit_on_climbs_and_passes_none(plan):
+    held = refined(TRAIN, plan, 4)
     speed = np.sqrt(2 * plan.half_square)
     planned_s = float(np.sum(2 * plan.grid.step_m / (speed[1:] + speed[:-1])))
-    assert 0 < held.trip_time_s - planned_s < (plain.trip_time_s - planned_s) / 3
+    assert abs(held.trip_time_s - planned_s) < 1e-5 * planned_s
     middle = (held.position_m[1:] + held.position_m[:-1]) / 2
     limit = plan.grid.course.limit_mps[np.searchsorted(plan.grid.course.position_m, middle) - 1]
     fastest = np.maximum(held.speed_mps[1:], held.speed_mps[:-1])

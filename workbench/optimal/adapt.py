@@ -18,8 +18,9 @@ GROWTH = 0.7
 # Where p changes by more than this share from one interval to the next, none is so many times as long as its neighbour:
 # p falls by what the longer one has, and the bound loses it on the shorter one.
 P_CHANGE, LONGER, GRADINGS = 0.02, 2.5, 8
-# Intervals are not divided into shorter ones: the cone program's numbers would lie too far apart.
-SHORTEST_M = 1e-3
+# Intervals are not divided into shorter ones, or where the speed stays below this share of the fastest: the cone
+# program's numbers would lie too far apart, and next to a standstill its dual gives p on an interval of any length.
+SHORTEST_M, SLOW = 1e-3, 0.02
 _GAUSS = (0.5 - np.sqrt(3) / 6, 0.5 + np.sqrt(3) / 6)
 
 
@@ -62,7 +63,9 @@ def driven_apart(vehicle: Vehicle, plan: Plan, run: Profile) -> Array:
 def finer_grid(vehicle: Vehicle, plan: Plan, certificate: Certificate, run: Profile) -> Grid:
     """The plan's mesh with intervals divided in proportion to the root of what is apart, GROWTH more in all."""
     s, count = plan.grid.position_m, len(plan.force_n)
-    weight = np.sqrt(slack(vehicle, plan, certificate) + driven_apart(vehicle, plan, run))
+    b = plan.half_square
+    divisible = np.maximum(b[1:], b[:-1]) > SLOW**2 * b.max()
+    weight = np.sqrt(slack(vehicle, plan, certificate) + driven_apart(vehicle, plan, run)) * divisible
     weight /= max(float(weight.sum()), 1e-300)
     # What rounding leaves is carried on, so that slack that is spread evenly makes a finer mesh too. Halves go up, also
     # where the last digit of the sum is a little lower.

@@ -14,8 +14,9 @@ from workbench.optimal.socp import Plan
 from workbench.optimal.timetable import counted
 from workbench.optimal.vehicle import Vehicle
 
-# Speeds of neighbouring cells: p goes like 1/v near a stop, and is nearly linear in between.
-RATIO, MOST_PARTS = 1.08, 60
+# Cells are as many as leave this share of the energy, since p is a line on each instead of 1/v; so many a half interval
+# at most, below a speed of zero too.
+CELLS_SHARE, MOST_PARTS = 5e-5, 150
 # From one of these shares of it on a speed is at its limit. Just below it a jump of p costs the bound what a run at the
 # limit would gain by it; and a solver leaves a speed that is at its limit a little below.
 NEAR_LIMIT = (0.995, 1 - 1e-6)
@@ -24,7 +25,7 @@ NEAR_LIMIT = (0.995, 1 - 1e-6)
 # on one side of a border, and in 1/v all of p's would lie there too.
 BENT_FROM = (1e-3, 0.15)
 # Cells are no shorter.
-SHORTEST_M = 1e-6
+SHORTEST_M = 1e-9
 # Half the squared speed below this share of an interval's is a standstill that rounding has touched.
 STANDSTILL = 1e-12
 
@@ -71,7 +72,7 @@ class _Halves:
 def _halves(plan: Plan, breaks: NDArray[np.bool_]) -> _Halves:
     s, count = plan.grid.position_m, len(plan.adjoint)
     k, later = np.repeat(np.arange(count), 2), np.tile([False, True], count)
-    middle = _middles(plan)[k]
+    middle = middles(plan)[k]
     near, behind = np.where(later, k + 1, k), np.where(later, k, k + 1)
     next_one, one_behind = np.where(later, k + 1, k - 1), np.where(later, k - 1, k + 1)
     inside = (one_behind >= 0) & (one_behind < count) & ~breaks[behind]
@@ -80,9 +81,11 @@ def _halves(plan: Plan, breaks: NDArray[np.bool_]) -> _Halves:
                    breaks[near] & (plan.half_square[near] == 0.0))
 
 
-def _middles(plan: Plan) -> Array:
-    s = plan.grid.position_m
-    return np.asarray((s[1:] + s[:-1]) / 2)
+def middles(plan: Plan) -> Array:
+    """Where each interval's dual is the value of p: in the middle of its time, at the mean of its ends' speeds."""
+    v = np.sqrt(2 * plan.half_square)
+    share = (3 * v[:-1] + v[1:]) / (4 * (v[:-1] + v[1:]))
+    return np.asarray(plan.grid.position_m[:-1] + share * plan.grid.step_m)
 
 
 def _half_square(points: Array, plan: Plan, k: NDArray[np.intp]) -> Array:
@@ -97,21 +100,35 @@ def _points(halves: _Halves, plan: Plan) -> tuple[Array, NDArray[np.intp]]:
     ends = np.stack((halves.start_m, halves.end_m), axis=1)
     b = _half_square(ends, plan, halves.k[:, None])
     found = list(ends)
-    for half in np.flatnonzero((b.max(axis=1) > b.min(axis=1) * RATIO**2) & (b.max(axis=1) > 0)):
-        found[half] = _parts(ends[half], b[half])
+    parts = _parts(plan, halves, b)
+    for half in np.flatnonzero(parts > 1):
+        found[half] = _divided(ends[half], b[half], int(parts[half]))
     return np.concatenate(found), np.repeat(np.arange(len(found)), [len(points) for points in found])
 
 
-def _parts(ends: Array, b: Array) -> Array:
-    """Positions between two ends with about equal ratios of speed, and a short last cell at a standstill."""
-    (start, end), low, high = ends, float(b.min()), float(b.max())
-    floor = max(low, high * RATIO ** (-2 * MOST_PARTS))
-    count = int(np.ceil(np.log(high / floor) / (2 * np.log(RATIO))))
-    levels = np.geomspace(floor, high, count + 1)
-    levels[0], levels[-1] = floor, high
-    if floor > low:
-        levels = np.insert(levels, 0, low)
-    points = start + np.sort((levels - b[0]) / (b[1] - b[0])) * (end - start)
+def _parts(plan: Plan, halves: _Halves, b: Array) -> NDArray[np.intp]:
+    """Of how many cells each half is.
+
+    Where the acceleration is constant p is mu / (inertia acceleration) times 1/v. On a cell that takes t, on which v
+    changes by the factor exp(d), the line instead costs the bound d^2/8 mu t. Summed over cells of equal differences of
+    the cube root of v, of which a given number costs least, that is loss / number^2.
+    """
+    v = np.sqrt(2 * b)
+    root = np.abs(np.diff(np.cbrt(v), axis=1)[:, 0])
+    second = 2 * (halves.end_m - halves.start_m) / v.sum(axis=1)
+    change = np.abs(np.diff(v, axis=1)[:, 0])
+    loss = 27 / 8 * plan.interval_prices_w[halves.k] * second * root**3 / np.maximum(change, 1e-300)
+    # With so many cells that one more is worth the same on all halves.
+    cubic = np.cbrt(loss)
+    worth = (CELLS_SHARE * abs(plan.energy_j) / max(float(cubic.sum()), 1e-300)) ** 0.5
+    return np.asarray(np.clip(np.ceil(cubic / max(worth, 1e-300)), 1, MOST_PARTS), dtype=np.intp)
+
+
+def _divided(ends: Array, b: Array, count: int) -> Array:
+    """Positions between two ends with equal differences of the cube root of the speed."""
+    start, end = ends
+    levels = np.linspace(*np.cbrt(b) ** 0.5, count + 1) ** 6
+    points = start + (levels - b[0]) / (b[1] - b[0]) * (end - start)
     inner = points[(points > start + SHORTEST_M) & (points < end - SHORTEST_M)]
     return np.concatenate(([start], inner, [end]))
 
@@ -121,7 +138,7 @@ def _values(vehicle: Vehicle, plan: Plan, halves: _Halves, points: Array, of: ND
     """p at points of halves: by the adjoint equation towards a standstill, else by the line through the middles of its
     interval and of the far one, in 1/v where the speed rises or falls from one to the other, else in position."""
     k, far = halves.k, halves.far
-    p, b, middle = plan.adjoint, plan.half_square, _middles(plan)
+    p, b, middle = plan.adjoint, plan.half_square, middles(plan)
     inverse = _inverse_speeds(points, of, plan, halves)
     here, there = (_half_square(middle[j], plan, j) for j in (k, far))
     border = b[np.maximum(k, far)]
@@ -136,7 +153,7 @@ def _values(vehicle: Vehicle, plan: Plan, halves: _Halves, points: Array, of: ND
     chosen, half = on(halves.stands)
     acceleration = (b[k + 1] - b[k])[half] / plan.grid.step_m[k[half]]
     rise = plan.interval_prices_w[k[half]] / (vehicle.inertia_kg * acceleration)
-    values[chosen] += rise * (inverse[chosen] - 1 / np.sqrt(2 * ((b[k] + b[k + 1]) / 2)[half]))
+    values[chosen] += rise * (inverse[chosen] - 1 / np.sqrt(2 * here[half]))
     change = p[far] - p[k]
     chosen, half = on(rising & ~halves.stands)
     one, two = 1 / np.sqrt(2 * here[half]), 1 / np.sqrt(2 * there[half])

@@ -165,7 +165,7 @@ def _cheapest(vehicle: Vehicle, cells: _Cells, p: Array, middle: Array, ranges: 
         most = _choose(lower, (zero, -pull * top[0], -pull * top[1], -pull * top[2]), most)
     if np.isfinite(vehicle.max_deceleration_mps2):
         low = (a + cells.least_force - vehicle.inertia_kg * vehicle.max_deceleration_mps2, b_1, c + drag[0])
-        # Holds where the force for the hardest braking is a brake's on all of the range, so that the product is concave.
+        # Holds where the force for the hardest braking is a brake's on all of the range: the product is concave then.
         brakes = low[0] + low[1] * ranges.high + low[2] * ranges.high**2 <= 0
         hardest = -(low[0] + low[1] * speed + low[2] * speed_square)
         mid_regain = np.maximum(vehicle.regenerative_efficiency - middle, 0.0)

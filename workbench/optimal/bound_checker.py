@@ -43,7 +43,7 @@ FINE, OF_P = 60, 50
 OF_VALUE, OF_ENERGY = OF_P + FINE, OF_P + 2 * FINE
 # Ranges of speed on each of which one of several limits of the force is taken.
 SPEED_RANGES = 30
-# A value is claimed this share of what it is the sum of below what was found, or so much more where that is too little.
+# A value is claimed one of these shares below what was found: of what it is the sum of there, or at the highest speed.
 SLACKS = (1e-12, 1e-10, 1e-8, 1e-6)
 
 Four = tuple[int, int, int, int]  # of 1 / v, 1, v and v^2, to 2^-OF_VALUE or, of the train's limits, to 2^-FINE
@@ -408,18 +408,20 @@ def _least(train: _Train, cell: _Cell, price: int, looks: list[int]) -> list[int
 def _below_all(terms: list[tuple[int, int, int, int, int, int]], looks: list[int]) -> int:
     """A value that lies below all of them, nearly the largest one; raises ValueError where none is proven."""
     unit, fine = 2.0**-OF_VALUE, 2.0**-FINE
-    lowest, size, places = math.inf, 0.0, []
+    lowest, size, near, places = math.inf, 0.0, 0.0, []
     for low, high, *whole in terms:
         one, two = low * fine, high * fine
         a, b, c, d = (value * unit for value in whole)
         at = _place(one, two, a, c, d)
-        lowest = min(lowest, (a / at if at else math.inf if a > 0 else 0.0) + b + c * at + d * at * at)
+        value = (a / at if at else math.inf if a > 0 else 0.0) + b + c * at + d * at * at
+        if value < lowest:
+            lowest, near = value, (abs(a) / at if at else 0.0) + abs(b) + abs(c) * at + abs(d) * at * at
         size = max(size, abs(a) / max(two, 1e-3) + abs(b) + abs(c) * two + abs(d) * two * two)
         places.append(min(max(int(at * 2**FINE), low), high))
     if not math.isfinite(lowest):
         raise ValueError("a second or a force costs so much that there is no least value")
-    for slack in SLACKS:
-        value = int((lowest - slack * size) * 2.0**60) << OF_VALUE - 60
+    for less in sorted(slack * of for of in (near, size) for slack in SLACKS):
+        value = int((lowest - less) * 2.0**60) << OF_VALUE - 60
         if all(_stays_above(term, value, at, looks) for term, at in zip(terms, places, strict=True)):
             return value
     raise ValueError("a least value is not proven")

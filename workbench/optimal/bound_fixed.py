@@ -15,29 +15,19 @@ from workbench.optimal.vehicle import Vehicle
 
 @dataclass(frozen=True)
 class FixedPart:
-    """Parts in J: line_j of the line's force, ends_j of the speeds at both ends, time_j of the windows of time.
-
-    jump: shape (n - 1,), inertia times the fall of p at each inner border, J per m^2/s^2. slowest_mps, fastest_mps:
-    shape (n - 1,), the speeds between which every run passes there.
+    """Parts in J: line_j of the line's force on each cell, shape (n,), ends_j of the speeds at start and end, shape
+    (2,), jumps_j of the jumps of p at the worst speed each, shape (n - 1,), time_j of the windows of time.
     """
 
-    line_j: float
-    ends_j: float
+    line_j: Array
+    ends_j: Array
+    jumps_j: Array
     time_j: float
-    jump: Array
-    slowest_mps: Array
-    fastest_mps: Array
-
-    @property
-    def jumps_j(self) -> float:
-        """All jumps at the worst speed each."""
-        return float(np.minimum(self.jump, 0.0) @ self.fastest_mps**2 + np.maximum(self.jump, 0.0) @ self.slowest_mps**2
-                     ) / 2
 
     @property
     def total_j(self) -> float:
         """The sum of all parts, J."""
-        return self.line_j + self.jumps_j + self.ends_j + self.time_j
+        return float(self.line_j.sum() + self.jumps_j.sum() + self.ends_j.sum()) + self.time_j
 
 
 def fixed_part(vehicle: Vehicle, course: Course, certificate: Certificate, timetable: Timetable, start_mps: float,
@@ -50,13 +40,14 @@ def fixed_part(vehicle: Vehicle, course: Course, certificate: Certificate, timet
     p = [p_left[owner] + (p_right - p_left)[owner] * (ends - x[owner]) / width
          for ends in (fine.position_m[:-1], fine.position_m[1:])]
     g, step = fine.force_n, np.diff(fine.position_m)
-    line = step @ ((p[0] * g[:, 0] + p[1] * g[:, 1]) / 3 + (p[0] * g[:, 1] + p[1] * g[:, 0]) / 6)
+    line = step * ((p[0] * g[:, 0] + p[1] * g[:, 1]) / 3 + (p[0] * g[:, 1] + p[1] * g[:, 0]) / 6)
     jump = np.searchsorted(fine.position_m, x[1:-1])
     least, most = course.speed_windows_mps(x[1:-1])
     most = np.minimum(most, np.minimum(fine.limit_mps[jump], fine.limit_mps[jump - 1]))
-    ends_j = inertia * (p_right[-1] * end_mps**2 / 2 - p_left[0] * start_mps**2 / 2)
-    return FixedPart(float(line), float(ends_j), certificate.time_part_j(timetable),
-                     inertia * (p_right[:-1] - p_left[1:]), least, most)
+    ends = inertia / 2 * np.array([-p_left[0] * start_mps**2, p_right[-1] * end_mps**2])
+    fall = inertia / 2 * (p_right[:-1] - p_left[1:])
+    jumps = np.minimum(fall, 0.0) * most**2 + np.maximum(fall, 0.0) * least**2
+    return FixedPart(np.bincount(owner, line, len(p_left)), ends, jumps, certificate.time_part_j(timetable))
 
 
 def owner_of(x: Array, fine: Array) -> NDArray[np.intp]:

@@ -24,7 +24,7 @@ PART_M, MOST_PARTS = 20.0, 100_000
 # Times a cell's acceleration is lowered until every point of the cell allows it, and what rounding may add to b.
 STRICT_ROUNDS, ROUNDING = 12, 5e-16
 # A cell on which the limit of the force changes by more than this share is divided, into so many at most.
-FINE, MOST_PARTS, SHORTEST_CELL_M = 4e-3, 16, 1e-2
+FINE, MOST_PARTS, SHORTEST_CELL_M = 1e-3, 16, 1e-2
 NO_TABLE = np.zeros((0, 2))
 compiled_resistance = njit(cache=True)(davis_resistance)
 

@@ -8,7 +8,8 @@ from itertools import product
 
 import numpy as np
 
-from workbench.optimal.adjoint import BENT_FROM, NEAR_LIMIT, certificate_from
+from workbench.optimal.adjoint import BENT_FROM, NEAR_LIMIT, certificate_from, middles
+from workbench.optimal.best_forms import best_forms
 from workbench.optimal.bound import lower_bound
 from workbench.optimal.certificate import Certificate
 from workbench.optimal.course import Array
@@ -79,7 +80,7 @@ def planned(asked: Asked, planner: Planner, grid: Grid, guess: Profile, near: fl
         except NoPlanError:
             break
         spent += plan.solve_s
-        profile, legs, off = _driven(asked, plan, least, allowed)
+        profile, legs, off = _driven(asked, plan, least)
         first = first or (plan, profile, solver, *_best_bound(asked, plan))
         if float(np.abs(off).sum()) <= allowed or not (
                 is_last or first[0].energy_j - first[3] <= near * abs(first[0].energy_j)):
@@ -101,25 +102,18 @@ def _too_slow(timetable: Timetable, profile: Profile) -> bool:
 
 def _best_bound(asked: Asked, plan: Plan) -> tuple[float, Certificate]:
     """The highest bound, J, that the plan's multipliers give, and what proves it."""
-    made = (certificate_from(asked.vehicle, plan, near, bent) for bent, near in product(BENT_FROM, NEAR_LIMIT))
-    return max(((lower_bound(asked.vehicle, plan.grid.course, certificate, asked.timetable, asked.start_mps,
-                             asked.end_mps), certificate) for certificate in made), key=lambda pair: pair[0])
+    forms = [certificate_from(asked.vehicle, plan, near, bent) for bent, near in product(BENT_FROM, NEAR_LIMIT)]
+    given = asked.timetable, asked.start_mps, asked.end_mps
+    best = best_forms(asked.vehicle, plan.grid.course, forms, middles(plan), *given)
+    return lower_bound(asked.vehicle, plan.grid.course, best, *given), best
 
 
-def _driven(asked: Asked, plan: Plan, least_s: Array, allowed_s: float) -> tuple[Profile, Array | None, Array]:
-    """The run of a plan, the legs that its timetable leaves it, s, and by how much its own are longer.
-
-    A run that is late keeps to the limits of speed where the plan is at them, if that is less so.
-    """
-    found: list[tuple[Profile, Array | None, Array]] = []
-    for is_held in (False, True):
-        profile = refined(asked.vehicle, plan, PARTS, asked.start_mps, asked.end_mps, is_held)
-        now = leg_times(asked.timetable, profile)
-        legs = nearest_legs(asked.timetable, now, least_s)
-        found.append((profile, legs, now - (now if legs is None else legs)))
-        if float(found[0][2].sum()) <= allowed_s:
-            break
-    return min(found, key=lambda run: float(np.abs(run[2]).sum()))
+def _driven(asked: Asked, plan: Plan, least_s: Array) -> tuple[Profile, Array | None, Array]:
+    """The run of a plan, the legs that its timetable leaves it, s, and by how much its own are longer."""
+    profile = refined(asked.vehicle, plan, PARTS, asked.start_mps, asked.end_mps)
+    now = leg_times(asked.timetable, profile)
+    legs = nearest_legs(asked.timetable, now, least_s)
+    return profile, legs, now - (now if legs is None else legs)
 
 
 def cone_plan(asked: Asked, grid: Grid, extra_s: Array, _: Profile) -> tuple[Plan, str]:

@@ -28,9 +28,9 @@ Solver = Literal["auto", "socp", "nlp"]
 INTERVALS, STOP_INTERVALS = 500, 100
 ROUNDS, GAP_WANTED = 5, 5e-4
 # Meshes on which no plan was found, before a request is given up; a finer one has so many times the intervals.
-FAILURES, FINER = 3, 4
-# A round that leaves more than this share of a gap above OPTIMAL_GAP is the last. Above the other gap `auto` turns to
-# the nonlinear program.
+FAILURES, FINER = 4, 2
+# A round that leaves more than this share of a gap is the last. Above the other gap `auto` turns to the nonlinear
+# program.
 NO_GAIN, GAP_OF_CONES = 0.9, 1e-3
 # Cells of the fastest run.
 FASTEST_CELLS = 4000
@@ -190,7 +190,7 @@ def _rounds(asked: Asked, planner: Planner, grid: Grid, best: _Found, rounds: in
             continue
         best = best.improved(vehicle, found)
         if best.gap(vehicle) <= (GAP_OF_CONES if best.tight else GAP_WANTED) or (
-                number and best.gap(vehicle) > max(NO_GAIN * before, OPTIMAL_GAP) and best.run):
+                number and best.gap(vehicle) > NO_GAIN * before and best.run):
             break
         number += 1
         if number < rounds:

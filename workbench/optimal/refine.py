@@ -21,32 +21,35 @@ from workbench.trains.resistance import davis_resistance
 NEAR_LIMIT = 0.96
 # Half the squared speed this share below the limit's is the limit: a solver leaves it a little below.
 AT_LIMIT = 1e-6
+# An interval at the limit of a force has so many times the cells: each gives up what its worst point asks for.
+AT_LIMIT_PARTS = 4
 # Points closer than this are one.
 SLIVER_M = 1e-6
 
 
-def refined(vehicle: Vehicle, plan: Plan, parts: int, start_mps: float = 0.0, end_mps: float = 0.0,
-            is_held: bool = False) -> Profile:
-    """The run on `parts` cells an interval; raises InfeasibleRunError when the train cannot drive it.
+def refined(vehicle: Vehicle, plan: Plan, parts: int, start_mps: float = 0.0, end_mps: float = 0.0) -> Profile:
+    """The run on `parts` cells an interval or more; raises InfeasibleRunError when the train cannot drive it.
 
-    is_held: where the plan goes at the speed limit and traction alone, or the brakes alone, can hold it there, the run
-    does so, instead of losing time on a climb under the mean force.
+    Where the plan goes at the speed limit and traction alone, or the brakes alone, can hold it there, the run does so,
+    instead of losing time on a climb under the mean force.
     """
     s, step = plan.grid.position_m, plan.grid.step_m
-    inner = np.concatenate([s[:-1] + step * k / parts for k in range(1, parts)])
+    count = np.where(_at_limit(vehicle, plan), AT_LIMIT_PARTS, 1) * parts
+    number = np.arange(count.sum()) - np.repeat(np.cumsum(count) - count, count)
+    inner = (np.repeat(s[:-1], count) + np.repeat(step / count, count) * number)[number > 0]
     # The borders of the line's force are nodes of the split course too; a point beside one would make a sliver.
     borders = plan.grid.course.position_m
     after = np.clip(np.searchsorted(borders, inner), 1, len(borders) - 1)
     apart = np.minimum(inner - borders[after - 1], borders[after] - inner) > SLIVER_M
     course = plan.grid.course.split(np.concatenate((s[1:-1], inner[apart])))
-    target = _target(vehicle, plan, course, is_held)
+    target = _target(vehicle, plan, course)
     fine = with_fine_cells(vehicle, course, target)
     if fine is not course:
-        course, target = fine, _target(vehicle, plan, fine, is_held)
+        course, target = fine, _target(vehicle, plan, fine)
     return drivable(vehicle, course, target, start_mps, end_mps)
 
 
-def _target(vehicle: Vehicle, plan: Plan, course: Course, is_held: bool) -> Array:
+def _target(vehicle: Vehicle, plan: Plan, course: Course) -> Array:
     """Half the squared speed at a course's borders: cell by cell on all intervals, then drawn to the plan's nodes."""
     x, line, drag = course.position_m, course.force_n, course.drag
     s, b_plan = plan.grid.position_m, plan.half_square
@@ -74,9 +77,17 @@ def _target(vehicle: Vehicle, plan: Plan, course: Course, is_held: bool) -> Arra
     # Near a standstill the correction may be as large as b itself: there the plan's straight line serves.
     straight = np.interp(x, s, b_plan)
     poor = np.append(False, (np.abs(missed) > 0.2 * np.maximum(b_plan[1:], b_plan[:-1]))[owner]) | (b <= 0)
-    if is_held:
-        poor[1:] |= _held(vehicle, plan, course, owner)[owner]
+    poor[1:] |= _held(vehicle, plan, course, owner)[owner]
     return np.where(poor, straight, b)
+
+
+def _at_limit(vehicle: Vehicle, plan: Plan) -> NDArray[np.bool_]:
+    """The intervals on which the plan is at full traction or full brakes."""
+    speed = np.sqrt(2 * plan.half_square)
+    mean = (speed[1:] + speed[:-1]) / 2
+    brake = largest_force(vehicle.regenerative, mean) + vehicle.friction_brake_n
+    return np.asarray((plan.force_n > NEAR_LIMIT * largest_force(vehicle.traction, mean))
+                      | (plan.force_n < -NEAR_LIMIT * brake))
 
 
 def _held(vehicle: Vehicle, plan: Plan, course: Course, owner: NDArray[np.intp]) -> NDArray[np.bool_]:
