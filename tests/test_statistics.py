@@ -38,15 +38,41 @@ def test_intervals_of_a_skewed_sample_cover_nearly_as_often_and_more_than_percen
     assert share >= plain
 
 
-def test_the_p_value_is_where_the_interval_meets_zero() -> None:
+def test_p_is_that_of_scipys_randomisation_test() -> None:
+    """All 2^n sign flips of few draws; as many by chance of more."""
     generator = np.random.default_rng(3)
-    for shift in (0.15, 0.25, -0.2):
-        values = generator.exponential(1.0, 40)
-        values += shift - values.mean()
-        p = mean_interval(values, Bootstrap(20_000, 1, 0.95)).p
-        wide, narrow = (mean_interval(values, Bootstrap(20_000, 1, 1 - p * share)) for share in (0.8, 1.25))
-        assert wide.low < 0 < wide.high
-        assert not narrow.low < 0 < narrow.high
+    for count, shift in ((7, 0.4), (10, 0.8), (10, -0.1)):
+        values = generator.exponential(1.0, count) - 1 + shift
+        known = stats.permutation_test((values,), np.mean, permutation_type="samples", n_resamples=np.inf)
+        assert mean_interval(values, Bootstrap(2000, 1, 0.95)).p == pytest.approx(known.pvalue, abs=1e-12)
+    values = generator.normal(0.5, 1.0, 25)
+    known = stats.permutation_test((values,), np.mean, permutation_type="samples", n_resamples=20_000, rng=generator)
+    assert mean_interval(values, Bootstrap(20_000, 1, 0.95)).p == pytest.approx(known.pvalue, rel=0.2)
+
+
+@pytest.mark.parametrize("count", [8, 16])
+def test_among_equals_nobody_is_called_alone_best_more_often_than_is_said(count: int) -> None:
+    """Two equal controllers in 60 tables with few draws: by a bootstrap's p every third contest would name one."""
+    generator, contests, wrong = np.random.default_rng(12), 60, 0
+    for _ in range(contests):
+        tables = {k: list(generator.normal(0, 1, (2, count))) for k in range(60)}
+        wrong += any(ranking.separated for ranking in rankings(tables, HOW).values())
+    assert wrong <= stats.binom.ppf(0.999, contests, 0.05)
+
+
+def test_claims_of_a_lone_winner_are_one_family_whoever_is_the_nearest() -> None:
+    """Ten tables that one wins by far, each with another rival that is level: each rival's own family would leave
+    it one comparison at the whole level, and all tables together would name somebody in most contests."""
+    generator, contests, wrong = np.random.default_rng(13), 40, 0
+    for _ in range(contests):
+        tables = {}
+        for k in range(10):
+            rows = [generator.normal(0, 1, 12) + 50.0 for _ in range(11)]
+            rows[0] -= 50.0
+            rows[1 + k] -= 50.0
+            tables[k] = rows
+        wrong += any(ranking.separated for ranking in rankings(tables, Bootstrap(2000, 1, 0.95)).values())
+    assert wrong <= stats.binom.ppf(0.999, contests, 0.05)
 
 
 def test_p_values_agree_with_students_test_on_a_normal_sample_and_are_level_under_the_null() -> None:

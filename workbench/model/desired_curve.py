@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import lru_cache
 from itertools import pairwise
 from typing import Annotated, Literal, Self
 
@@ -104,11 +105,12 @@ def _speed_change(change_mps: float, rate_mps2: float, ramp_s: float) -> list[tu
     return [(ramp_s, up), *middle, (ramp_s, down)]
 
 
+@lru_cache(maxsize=64)
 def start_cruise_stop(length_m: float, cruise_mps: float, acceleration_mps2: float, braking_mps2: float,
                       ramp_s: float) -> DesiredCurve:
     """Accelerate, cruise, brake to a stop after length_m; acceleration itself is continuously differentiable.
 
-    Raises WorkbenchError when the line is too short to reach the cruise speed.
+    Kept for the next run along it: its arrays are not to be written to. Raises WorkbenchError when the line is too short to reach the cruise speed.
     """
     start = _speed_change(cruise_mps, acceleration_mps2, ramp_s)
     stop = _speed_change(-cruise_mps, braking_mps2, ramp_s)

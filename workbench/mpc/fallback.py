@@ -63,7 +63,9 @@ class Fallback:
             self.counters["feedforward"] += 1
             return self._within(feedforward)
         self.counters["lqr"] += 1
-        return self._within(feedforward - float(self.lqr.gain @ (state - desired[:3] + [0.0, 0.0, disturbance])))
+        gain, off = self.lqr.gain.tolist(), (state - desired[:3]).tolist()
+        pull = gain[0] * off[0] + gain[1] * off[1] + gain[2] * (off[2] + disturbance)
+        return self._within(feedforward - pull)
 
     def explain(self) -> list[str]:
         """A line for everything that went otherwise than planned."""

@@ -1,4 +1,9 @@
-"""Paired bootstrap: which differences between controllers are more than chance, also where many are looked at."""
+"""Paired differences: intervals by bootstrap, and which of them are more than chance, also where many are looked at.
+
+Intervals are BCa. What is said to be more than chance is decided by sign flips (Fisher's randomisation test): under
+chance alone each draw's difference might as well have had the other sign. Their p is exact for any number of draws; that
+of a bootstrap is too small for few draws, by a factor of ten and more where Holm's correction asks for p of 1e-4.
+"""
 
 from __future__ import annotations
 
@@ -6,6 +11,7 @@ import math
 import warnings
 from collections.abc import Hashable, Mapping, Sequence
 from dataclasses import dataclass, replace
+from functools import lru_cache
 from typing import Any, TypeVar
 
 import numpy as np
@@ -22,7 +28,7 @@ ROUNDING = 1e-9
 
 @dataclass(frozen=True)
 class Interval:
-    """A mean with its interval; p: how probable so large a mean is where the true one is zero, two-sided."""
+    """A mean with its interval; p: how probable so large a mean is by chance, two-sided, by `p_values`."""
 
     mean: float
     low: float
@@ -49,34 +55,28 @@ class Bootstrap:
 
 
 def mean_interval(values: Array, how: Bootstrap) -> Interval:
-    """The mean over the draws with its BCa interval (Efron 1987, by scipy), and the p at which it meets zero.
+    """The mean over the draws with its BCa interval (Efron 1987, by scipy), and its p.
 
     One draw, and draws that are all alike, have no width.
     """
-    mean = float(values.mean())
+    mean, p = float(values.mean()), p_values([values], how)[0]
     if _constant(values):
-        return Interval(mean, mean, mean, _exact(values, how))
+        return Interval(mean, mean, mean, p)
     from scipy.stats import bootstrap  # noqa: PLC0415 - takes a second, which only a table with draws has to spare
 
     with warnings.catch_warnings():  # of draws that differ in their last bits alone it says that they are degenerate
         warnings.simplefilter("ignore")
         found = bootstrap((values,), np.mean, n_resamples=how.resamples, confidence_level=how.confidence, method="BCa",
                           axis=-1, vectorized=True, rng=np.random.default_rng(how.seed))
-    means = found.bootstrap_distribution
     low, high = found.confidence_interval
     if not (math.isfinite(low) and math.isfinite(high)):
-        low, high = np.quantile(means, [(1 - how.confidence) / 2, (1 + how.confidence) / 2])
-    return Interval(mean, float(low), float(high), _level(values, _below(means, 0.0), _below(means, mean), len(means)))
+        low, high = np.quantile(found.bootstrap_distribution, [(1 - how.confidence) / 2, (1 + how.confidence) / 2])
+    return Interval(mean, float(low), float(high), p)
 
 
 def _constant(values: Array) -> bool:
     """Whether draws are all alike: what differs in its last digits has the skewness of rounding."""
     return float(np.ptp(values)) <= ROUNDING * float(np.abs(values).max())
-
-
-def _below(means: Array, limit: float | Array) -> Any:
-    """Share of the resampled means below a limit, those at it by half."""
-    return ((means < limit).mean(axis=0) + (means <= limit).mean(axis=0)) / 2
 
 
 def _exact(values: Array, how: Bootstrap) -> float:
@@ -85,40 +85,32 @@ def _exact(values: Array, how: Bootstrap) -> float:
     return 1.0 if not values[0] else 0.0 if count == 1 else max(2.0 ** (1 - count), 1 / (how.resamples + 1))
 
 
-def _level(values: Array, below_zero: float, below_mean: float, resamples: int) -> float:
-    """The level at which the BCa interval ends at zero: its formulas, solved for the level.
-
-    No smaller than that of a sign test, 2^(1-n), below which n draws say nothing, whatever they are.
-    """
-    from scipy.special import ndtr, ndtri  # noqa: PLC0415 - as above
-
-    off = values - values.mean()
-    floor = max(2.0 ** (1 - len(values)), 1 / (resamples + 1))
-    skew = float(np.sum(off**3) / (6 * np.sum(off**2) ** 1.5))
-    within = 0.5 / (resamples + 1)  # a share that resamples did not meet is no zero
-    bias, at = (float(ndtri(min(max(share, within), 1 - within))) for share in (below_mean, below_zero))
-    if 1 + skew * (at - bias) <= 0:
-        return floor
-    level = float(ndtr((at - bias) / (1 + skew * (at - bias)) - bias))
-    return min(1.0, max(2 * min(level, 1 - level), floor))
+@lru_cache(maxsize=4)
+def _signs(count: int, resamples: int, seed: int) -> NDArray[np.int8]:
+    """Ways to choose the signs of so many draws, a row each: all that differ by more than all signs at once where they
+    are no more than the resamples, else so many by chance."""
+    if count - 1 <= math.log2(resamples):
+        numbers = np.arange(2 ** (count - 1))[:, np.newaxis] >> np.arange(count)
+        return (1 - 2 * (numbers & 1)).astype(np.int8)
+    return np.random.default_rng(seed).choice(np.array([-1, 1], dtype=np.int8), (resamples, count))
 
 
 def p_values(rows: Sequence[Array], how: Bootstrap) -> list[float]:
-    """The p of `mean_interval` of many rows of draws, by resamples that rows of the same length share."""
+    """How probable so large a mean is of each row of draws if their signs are chance, two-sided; exact for few draws.
+
+    No smaller than 2^(1-n), below which n draws say nothing. Rows of the same length share their signs.
+    """
     found = [_exact(row, how) for row in rows]
-    lengths = {len(row) for row in rows if not _constant(row)}
-    for count in sorted(lengths):
+    for count in sorted({len(row) for row in rows if not _constant(row)}):
         numbers = [i for i, row in enumerate(rows) if len(row) == count and not _constant(row)]
-        columns = np.array([rows[i] for i in numbers]).T
-        means, generator = columns.mean(axis=0), np.random.default_rng(how.seed)
-        below = np.zeros((2, len(numbers)))
-        for start in range(0, how.resamples, BATCH):
-            size = min(BATCH, how.resamples - start)
-            resampled = generator.multinomial(count, np.full(count, 1 / count), size) @ columns / count
-            below += size * np.array([_below(resampled, 0.0), _below(resampled, means)])
-        below /= how.resamples
-        for place, i in enumerate(numbers):
-            found[i] = _level(rows[i], below[0, place], below[1, place], how.resamples)
+        columns, signs = np.array([rows[i] for i in numbers]).T, _signs(count, how.resamples, how.seed)
+        least = np.abs(columns.sum(axis=0)) - ROUNDING * np.abs(columns).sum(axis=0)
+        met = np.zeros(len(numbers))
+        for start in range(0, len(signs), BATCH):
+            met += (np.abs(signs[start : start + BATCH] @ columns) >= least).sum(axis=0)
+        share = met / len(signs) if len(signs) == 2 ** (count - 1) else (1 + met) / (len(signs) + 1)
+        for i, p in zip(numbers, share.tolist(), strict=True):
+            found[i] = max(p, 2.0 ** (1 - count))
     return found
 
 
@@ -153,6 +145,10 @@ def rankings(tables: Mapping[Key, Sequence[Array | None]], how: Bootstrap, alike
     against the best by its paired differences; each controller's differences, over all tables, are one family. A
     difference counts where its adjusted p is at most 1 - confidence and the means differ by more than the share
     `alike`; of a single draw, where nothing is chance, by the latter alone.
+    That one alone is best says that everyone else is worse, so its p is the largest of theirs, and these claims, one a
+    table, are one family too: where theirs does not hold, the nearest other stays. So no claim that one is alone best
+    is made by chance in more than 1 - confidence of all contests, however many take part; who of many is not told
+    apart from the best is a looser word, since the best is chosen by the same draws.
     """
     best: dict[Key, int] = {}
     pairs: dict[int, list[tuple[Key, Array]]] = {}
@@ -180,8 +176,22 @@ def rankings(tables: Mapping[Key, Sequence[Array | None]], how: Bootstrap, alike
             near = float(row.mean()) <= alike * abs(float(np.mean(reference)))
             if near or chance.get(key, 0.0) > 1 - how.confidence:
                 tied[key].append(i)
+    nearest = _nearest(every, p)
+    alone = holm([1.0 if tied[key] else p[i, key] for key, i in nearest.items()])
+    for (key, i), chance_of in zip(nearest.items(), alone, strict=True):
+        if not tied[key] and chance_of > 1 - how.confidence:
+            tied[key].append(i)
     return {key: Ranking((best[key], *sorted(tied[key])) if key in best else (),
                          sum(value is not None for value in tables[key])) for key in tables}
+
+
+def _nearest(every: Sequence[tuple[int, Key, Array]], p: Mapping[tuple[int, Key], float]) -> dict[Key, int]:
+    """By table the controller whose difference from the best is most probable by chance, of those with several draws."""
+    found: dict[Key, int] = {}
+    for i, key, row in every:
+        if len(row) > 1 and (key not in found or p[i, key] > p[found[key], key]):
+            found[key] = i
+    return found
 
 
 def overtakes(trials: NDArray[np.float64], rival: NDArray[np.float64], resamples: int, seed: int,

@@ -15,15 +15,16 @@ from workbench.compile.kernel import Estimates
 from workbench.errors import WorkbenchError
 from workbench.model.law import ControlLaw
 from workbench.model.sensing import PERFECT
+from workbench.mpc.whole_run import WholeRun, whole_run
 from workbench.simulate import sensing_loop
 from workbench.simulate.controllers import SAMPLED, SampledController, compiled_law, held_command
 from workbench.simulate.kernel_loop import ACCUMULATORS, DIVERGED, LEFT_DOMAIN, LOG_COLUMNS, RUNNING
-from workbench.simulate.law_loop import LawLoop, law_loop
+from workbench.simulate.law_loop import LawLoop, law_loop, mpc_loop
 from workbench.simulate.law_values import check_controllers, controller_spec, law_values
 from workbench.simulate.ride import Ride, ride
 from workbench.simulate.setting import LEVEL, NOMINAL, UNLIMITED, Factors, Setting, setting_of
 from workbench.trains.actuator import Known, drive, drive_totals
-from workbench.trains.scenario import Scenario
+from workbench.trains.scenario import ControllerSpec, Scenario
 from workbench.trains.train import Plant
 
 TIMED_BLOCK = 1000
@@ -115,15 +116,28 @@ def simulate_in(scenario: Scenario, name: str, setting: Setting, plant: Plant | 
     if law is not None:
         return run_law(law, law_values(law, spec, name), setting, spec.period_s, spec.estimates, name,
                        spec.title or law.title, plant, predictor=spec.predictor)
+    sampled, plan = sampled or SAMPLED[spec.law](scenario, spec, name), setting.plan(spec.period_s)
+    title = spec.title or sampled.title
+    if plant is None and (whole := whole_run(sampled)) is not None:
+        return _run_whole(whole, setting, spec, name, title)
     # The kernel holds what it is told; noise and delays lie between it and the controller.
-    plan = setting.plan(spec.period_s)
     arrays, sensing = _arrays(replace(setting, sensing=PERFECT), spec.period_s, held_command), setting.sensing
-    sampled = sampled or SAMPLED[spec.law](scenario, spec, name)
     between = sensing.arrays(-(-plan[0] // plan[1]), spec.period_s)
     status, reached, step_us = _run_sampled(law_loop(held_command, plant=plant).closed_loop, arrays, sampled,
                                             _fixed(setting), plan, between)
-    return _run(name, spec.title or sampled.title, held_command, arrays, plan, (status, reached, step_us),
+    return _run(name, title, held_command, arrays, plan, (status, reached, step_us),
                 _why(status, reached * plan[2], arrays.state, held_command, spec.law), sampled.counters)
+
+
+def _run_whole(whole: WholeRun, setting: Setting, spec: ControllerSpec, name: str, title: str) -> Run:
+    """A run of MPC that the compiled loop calls itself; every sample is timed all the same."""
+    arrays, plan = _arrays(setting, spec.period_s, held_command), setting.plan(spec.period_s)
+    values = whole.parameters, np.zeros(0), np.zeros((0, 0)), whole.numbers
+    kernel = mpc_loop(whole.controller.problem.actuator).closed_loop
+    status, reached, _ = _run_compiled(kernel, arrays, values, _fixed(setting), plan)
+    whole.take_over()
+    return _run(name, title, held_command, arrays, plan, (status, reached, whole.taken_us(-(-reached // plan[1]))),
+                _why(status, reached * plan[2], arrays.state, held_command, spec.law), whole.controller.counters)
 
 
 def run_law(law: ControlLaw, values: tuple[Array, Array, Array, Array], setting: Setting, period_s: float,

@@ -7,13 +7,15 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from functools import partial
+from functools import cache, partial
 from types import ModuleType
 from typing import Any
 
 from workbench.compile.code_cache import c_function
 from workbench.compile.kernel import Estimates, law_source, loop_module, plant_source
 from workbench.model.law import ControlLaw
+from workbench.mpc.model import Actuator
+from workbench.mpc.whole_run import source
 from workbench.simulate import kernel_loop, law_call
 from workbench.trains.train import Plant, single_particle
 
@@ -53,3 +55,7 @@ def written_loop(source: str, functions: Sequence[str], plant: Plant | None = No
     return LawLoop(partial(driven.closed_loop, c_function(law, "answer", law_call.ANSWER)), driven, law)
 
 
+@cache
+def mpc_loop(actuator: Actuator) -> LawLoop:
+    """The single particle's closed loop under MPC of the train with an actuator; see `mpc/whole_run.py`."""
+    return written_loop(f"MPC of train.py with its actuator ({actuator})", source(actuator))

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from functools import cache
 from itertools import pairwise
 from pathlib import Path
 from typing import Annotated, Self
@@ -142,21 +143,10 @@ def resistance_table(track: Track, length_m: float | None = None) -> ResistanceT
 
     length_m: of a train with its front at a position, over which it is averaged, in pieces of at most PIECE_M.
     """
-    import sympy as sp  # noqa: PLC0415 - lines are read by commands that need no expressions
-
-    from workbench.trains.line_resistance import (  # noqa: PLC0415 - as above
-        additional_specific_resistance,
-        curvature_per_m,
-        grade_permille,
-        tunnel_n_per_kn,
-    )
-
     layers: tuple[Sequence[Section], ...] = (track.grade, track.curve, track.tunnel)
     borders = {edge for layer in layers for s in layer for edge in (s.start_m, s.end_m)}
     starts = np.array(sorted(edge for edge in borders if edge < track.length_m))
-    # Of plain numbers: by default all of scipy's special functions would be imported first.
-    resistance = sp.lambdify((grade_permille, curvature_per_m, tunnel_n_per_kn), additional_specific_resistance(),
-                             modules="math")
+    resistance = _resistance()
     values = [
         resistance(
             next(s.grade_permille for s in track.grade if s.start_m <= x < s.end_m),
@@ -166,6 +156,25 @@ def resistance_table(track: Track, length_m: float | None = None) -> ResistanceT
         for x in starts
     ]
     return over_length(ResistanceTable(starts, np.array(values, dtype=float)), length_m)
+
+
+@cache
+def _resistance() -> Callable[[float, float, float], float]:
+    """Of a grade (per mille), a curvature (1/m) and a tunnel's resistance (N/kN); made once, which takes longer than
+    a line."""
+    import sympy as sp  # noqa: PLC0415 - lines are read by commands that need no expressions
+
+    from workbench.trains.line_resistance import (  # noqa: PLC0415 - as above
+        additional_specific_resistance,
+        curvature_per_m,
+        grade_permille,
+        tunnel_n_per_kn,
+    )
+
+    # Of plain numbers: by default all of scipy's special functions would be imported first.
+    found: Callable[[float, float, float], float] = sp.lambdify(
+        (grade_permille, curvature_per_m, tunnel_n_per_kn), additional_specific_resistance(), modules="math")
+    return found
 
 
 def over_length(table: ResistanceTable, length_m: float | None) -> ResistanceTable:

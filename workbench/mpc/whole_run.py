@@ -1,0 +1,177 @@
+"""An `MpcController` in a form that a compiled loop drives through a whole run, instead of a call of Python a sample.
+
+All that it works on lies in one array of numbers, which the loop hands to its laws: matrices of the problem, warm
+starts, estimates and counters, in the order of BLOCKS. The code that finds them there is made from the same list.
+"""
+
+from __future__ import annotations
+
+import math
+import time
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from workbench.compile.text import loop_text
+from workbench.mpc import whole_run_kernel
+from workbench.mpc.controller import MpcController
+from workbench.mpc.kernels import base, kernels, memory, workspace
+from workbench.mpc.learning import STANDING_MPS, RecordingMpc
+from workbench.mpc.linear import LinearMpc
+from workbench.mpc.model import SOFT, Actuator
+from workbench.mpc.nonlinear import MOST_INTERIOR, MOST_PASSES, NonlinearMpc
+from workbench.mpc.problem import Array
+
+# Sizes: of the horizon N, of what lies ahead S, of it where the model is linearised once L, of the soft rows R, of
+# the commands under way W, of programs and what comes after the last of them C, of what is taken down F.
+DIMENSIONS = ("N", "S", "L", "R", "W", "C", "F")
+WHOLE = "whole numbers"
+BLOCKS: tuple[tuple[str, str, tuple[str, ...]], ...] = (
+    ("kind", WHOLE, ("6",)), ("state", WHOLE, ("5",)), ("own", "", ("14",)), ("counts", WHOLE, ("7",)),
+    ("ahead", "", ("S", "6")), ("told", "", ("S",)),
+    ("along_x", "", ("L", "3")), ("along_u", "", ("L",)), ("along_jac", "", ("L", "12")), ("along_gap", "", ("L", "3")),
+    ("along_h", "", ("L", "4")), ("along_g", "", ("L", "4", "3")), ("along_answer", "", ("L", "3")),
+    ("parameters", "", ("5",)), ("rest", "", ("5",)), ("left", "", ("5",)), ("weights", "", ("5",)),
+    ("terminal", "", ("6",)), ("limits", "", ("4",)), ("rows", WHOLE, ("R",)), ("price", "", ("4", "2")),
+    ("gain", "", ("3",)),
+    ("fixed", WHOLE, ("N",)), ("soft", WHOLE, ("N + 1", "4")), ("pull", "", ("N + 1", "4")),
+    ("Q0", "", ("N + 1", "6")), ("q0", "", ("N + 1", "3")), ("R", "", ("N",)), ("r", "", ("N",)), ("low", "", ("N",)),
+    ("high", "", ("N",)), ("bound", "", ("N",)), ("slope", "", ("N",)), ("Q", "", ("N + 1", "6")),
+    ("q", "", ("N + 1", "3")), ("kept", "", ("N", "5")), ("dx", "", ("N + 1", "3")), ("du", "", ("N",)),
+    ("base_x", "", ("N + 1", "3")), ("tried_x", "", ("N + 1", "3")), ("tried", "", ("N",)), ("jac", "", ("N", "12")),
+    ("base_gap", "", ("N", "3")), ("h", "", ("N + 1", "4")), ("g", "", ("N + 1", "4", "3")),
+    ("window", "", ("N + 1", "6")), ("gap", "", ("N", "3")), ("plan", "", ("N",)), ("kept_plan", "", ("N",)),
+    ("under_way", "", ("W",)), ("unconverged", WHOLE, ("C",)), ("foreseen", "", ("F",)), ("pushed", "", ("F",)),
+    ("x", "", ("3",)),
+)
+COUNTED = ("qp", "qp_failed", "unconverged", "shifted_plan", "lqr", "feedforward", "bad_measurement")
+"""Of `fallback.COUNTERS`, in the order of the kernel; without a deadline nothing is late."""
+
+
+@dataclass(frozen=True)
+class WholeRun:
+    """What a compiled loop needs of a controller: the law's source, its parameters, and its numbers, shape (1, n).
+
+    parameters: DIMENSIONS, and the clock; the numbers are written to as the run goes on.
+    """
+
+    controller: MpcController
+    parameters: Array
+    numbers: Array
+
+    def taken_us(self, samples: int) -> Array:
+        """What each of the first samples took."""
+        ahead = int(self.parameters[DIMENSIONS.index("S")])
+        return self.numbers[0, -ahead:][:samples] * 1e6
+
+    def take_over(self) -> None:
+        """Give the controller what the run has counted and taken down."""
+        found = self._blocks()
+        of, fallback = self.controller, self.controller._fallback
+        of.counters.update(zip(COUNTED, found["counts"].tolist(), strict=True))
+        for programs, times in enumerate(found["unconverged"].tolist()):
+            if times:
+                fallback.trouble[f"no convergence in {programs} programs"] += times
+        if failed := of.counters["qp_failed"]:
+            fallback.trouble["the program was not solved" if found["kind"][0] else "a program was not solved"] += failed
+        if isinstance(of, RecordingMpc):
+            of.pushed[:] = found["pushed"]
+
+    def _blocks(self) -> dict[str, NDArray[Any]]:
+        sizes = dict(zip(DIMENSIONS, self.parameters[: len(DIMENSIONS)].astype(int).tolist(), strict=True))
+        found, at = {}, 0
+        for name, kind, shape in BLOCKS:
+            lengths = [_length(text, sizes) for text in shape]
+            numbers = self.numbers[0, at : at + math.prod(lengths)]
+            found[name] = (numbers.view(np.int64) if kind == WHOLE else numbers).reshape(lengths)
+            at += math.prod(lengths)
+        return found
+
+
+def whole_run(controller: object) -> WholeRun | None:
+    """The compiled form of a controller that has not been called yet; None for one that has none.
+
+    None has what is more than its solver: a tube, an estimator, a program of casadi's, a deadline, commands that are
+    held for several samples; and no machine without the clock that every sample is timed by.
+    """
+    if type(controller) not in (MpcController, RecordingMpc) or not hasattr(time, "clock_gettime"):
+        return None
+    assert isinstance(controller, MpcController)
+    tracker, fallback = controller.tracker, controller._fallback
+    if type(tracker) not in (LinearMpc, NonlinearMpc) or controller._held_samples != 1 or controller._sample >= 0 or \
+            math.isfinite(fallback._deadline_s):
+        return None
+    assert isinstance(tracker, LinearMpc | NonlinearMpc)
+    given = _given(controller, tracker)
+    sizes = {"N": tracker.horizon, "S": len(tracker.ahead), "L": len(given["along_x"]), "R": len(given["rows"]),
+             "W": len(given["under_way"]), "C": len(given["unconverged"]), "F": len(given["pushed"])}
+    parts = []
+    for name, kind, shape in BLOCKS:
+        array = np.ascontiguousarray(given[name], dtype=np.int64 if kind == WHOLE else np.float64)
+        assert array.shape == tuple(_length(text, sizes) for text in shape), name
+        parts.append(array.ravel().view(np.float64))
+    clock = np.zeros(2 + sizes["S"])  # two whole numbers, and what each sample took
+    parameters = np.array([*(float(sizes[name]) for name in DIMENSIONS), float(time.CLOCK_MONOTONIC)])
+    return WholeRun(controller, parameters, np.concatenate([*parts, clock])[np.newaxis])
+
+
+def _given(controller: MpcController, tracker: LinearMpc | NonlinearMpc) -> dict[str, Any]:
+    """The blocks by name, as they are before the first sample."""
+    observer, predictor, problem = controller._observer, controller._predictor, controller.problem
+    once = isinstance(tracker, LinearMpc)
+    programs, close = (1, 0.0) if isinstance(tracker, LinearMpc) else (tracker.most_programs, tracker._close)
+    rest_s = predictor.rest_s if predictor else 0.0
+    N, low, high = tracker.horizon, problem.lowest_command_mps2, problem.highest_command_mps2
+    found: dict[str, Any] = {
+        "kind": [once, controller._last_sample, programs, MOST_PASSES, MOST_INTERIOR, predictor is not None],
+        "state": [-1, 0, 0, 0, -1],
+        "own": [observer._gain, observer._largest, 0.0, observer.force, 0.0, 0.0, problem.period_s, rest_s, low, high,
+                close, 0.0, 0.0, STANDING_MPS],
+        "counts": np.zeros(len(COUNTED)), "ahead": tracker.ahead, "told": observer._ahead[:, 5],
+        "parameters": problem.parameters, "rest": problem.parameters_over(rest_s),
+        "left": problem.parameters_over(problem.period_s - rest_s), "weights": problem.weights.array(),
+        "terminal": tracker.lqr.upper(), "limits": problem.limits(), "rows": problem.rows(tracker.ahead),
+        "price": problem.price, "gain": tracker.lqr.gain, "window": np.zeros((N + 1, 6)), "gap": np.zeros((N, 3)),
+        "plan": np.zeros(N), "kept_plan": np.zeros(N), "unconverged": np.zeros(programs + 1), "x": np.zeros(3),
+        "under_way": predictor._under_way if predictor else np.zeros(1),
+        "foreseen": controller._foreseen if isinstance(controller, RecordingMpc) else np.zeros(0),
+        "pushed": controller.pushed if isinstance(controller, RecordingMpc) else np.zeros(0)}
+    for name in ("x", "u", "jac", "gap", "h", "g", "answer"):
+        shape = {"jac": (0, 12), "h": (0, len(SOFT)), "g": (0, len(SOFT), 3), "u": (0,)}.get(name, (0, 3))
+        found[f"along_{name}"] = getattr(tracker.along, name) if isinstance(tracker, LinearMpc) else np.zeros(shape)
+    for names, arrays in (("fixed soft pull", memory(N)), ("Q0 q0 R r low high bound slope Q q kept dx du",
+                          workspace(N)), ("base_x tried_x tried jac base_gap h g", base(N))):
+        found |= dict(zip(names.split(), arrays, strict=True))
+    return found
+
+
+def _length(text: str, sizes: dict[str, int]) -> int:
+    name, plus, more = text.partition(" + ")
+    return (int(name) if name.isdigit() else sizes[name]) + int(more if plus else 0)
+
+
+def source(actuator: Actuator) -> tuple[str, ...]:
+    """Python source of the law of a whole run, as `written_loop` takes it, for the model with one actuator."""
+    names = "follow, shift, solve_linear, solve_nonlinear"
+    lines = [f"    {name} = int(parameters[{i}])" for i, name in enumerate(f"_{name}" for name in DIMENSIONS)]
+    lines += ["    _numbers = neuron_data[0]", "    _at = 0"]
+    for name, kind, shape in BLOCKS:
+        sizes = [text if text.isdigit() else f"(_{text})" for text in shape]
+        view = f"_numbers[_at:_at + {' * '.join(sizes)}]" + (".view(int64)" if kind == WHOLE else "")
+        lines += [f"    {name} = {view}" + (f".reshape(({', '.join(sizes)}))" if len(sizes) > 1 else ""),
+                  f"    _at += {' * '.join(sizes)}"]
+    law = ["def control_step(_t, _p, _v, _x_d, _v_d, _a_d, _period, parameters, scalars, neurons, neuron_data):",
+           *lines,
+           "    _clock = _numbers[_at:_at + 2].view(int64)", "    _sample = int(round(_t / _period))",
+           f"    _which = int(parameters[{len(DIMENSIONS)}])", "    _started = seconds_now(_which, _clock)",
+           f"    _command = command_of(_sample, _p, _v, {', '.join(name for name, _, _ in BLOCKS)})",
+           "    _numbers[_at + 2 + min(_sample, _S - 1)] = seconds_now(_which, _clock) - _started",
+           "    return _command", "", ""]
+    domain = ["def domain_margin(_t, _p, _v, _x_d, _v_d, _a_d, _period, parameters):", "    return math.inf", ""]
+    imports = ["from numba import types", "from numpy import int64",
+               f"from {kernels(actuator).__name__} import {names}",
+               "clock_gettime = types.ExternalFunction('clock_gettime', types.intc(types.intc, "
+               "types.CPointer(types.int64)))", "", ""]
+    return "\n".join(imports), loop_text(whole_run_kernel), "\n".join([*law, *domain])
