@@ -8,7 +8,7 @@ import pytest
 from scenarios import PROOFS, SHARED, TRAIN_PAPERS, YANG, variant_of
 
 from proofs.chen2019.simulation import plans as chen2019_plans
-from proofs.chen2019.simulation.cars_trials import run_cars
+from proofs.chen2019.simulation.cars_runs import run_cars
 from workbench.cli.loading import load
 from workbench.errors import InputError
 from workbench.model.curve_table import curve_through, read_rows

@@ -29,7 +29,7 @@ from workbench.proof.claim import D, Goal, at_least, at_most
 from . import laws as law
 from .laws import c_1, c_2, c_3
 from .one_car import one_car
-from .simulation.cars_trials import run_cars
+from .simulation.cars_runs import run_cars
 from .simulation.plans import plan
 from .study.record import ChenStudy
 from .study.runs import outcome

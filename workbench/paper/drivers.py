@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -36,7 +36,8 @@ class Drivers:
     resistance differ by the factors from what controllers know, as a row with the keys of a comparison and, of laws
     that learn, `trials`: an error of every trial, by the metric's name.
     variants(study, name): which studies drive a controller as stated, by the words that follow its title there.
-    first_trial: the number of a learning law's first trial.
+    first_trial: the number of a learning law's first trial. drive_together(study, name, place, factors): the rows of
+    `drive` for several trains, where making them at once takes less time.
     """
 
     titles: Mapping[str, str]
@@ -45,6 +46,7 @@ class Drivers:
     drive: Callable[[Any, str, str, Factors], dict[str, Any]]
     variants: Callable[[Any, str], Mapping[str, Any]] = _as_the_file_says
     first_trial: int = 1
+    drive_together: Callable[[Any, str, str, Sequence[Factors]], Sequence[Mapping[str, Any]]] | None = None
 
     def parameters(self, study: Any, name: str) -> dict[str, float]:
         """What can be tuned of a controller, with its stated values."""

@@ -12,7 +12,7 @@ from workbench.paper.cells import Cell, Column, Phrase
 from workbench.paper.drivers import Drivers, entries
 from workbench.paper.mpc_comparison import FOLLOWS_MPS, JERK
 from workbench.paper.results import ResultTable
-from workbench.paper.stages import Stage
+from workbench.paper.stages import Stage, Together
 from workbench.paper.statistics import Bootstrap, Interval, holm, mean_interval, overtakes
 from workbench.paper.study import varied
 from workbench.paper.tuning_record import Pairs
@@ -20,6 +20,8 @@ from workbench.simulate.closed_loop import Factors
 
 METRIC_NAMES = {"position_rms": ("position RMS", "m"), "speed_rms": ("speed RMS", "m/s"),
                 "jerk_rms": ("jerk RMS", "m/s³"), "logged_jerk_rms": ("jerk RMS of the log", "m/s³")}
+# So many draws of a controller are run at once, where they can be.
+DRAWS_TOGETHER = 4
 STATES = {False: "as stated", True: "tuned"}
 
 # (place, controller, whether it is tuned) -> a row a draw
@@ -86,12 +88,29 @@ def pair_stage(drivers: Drivers, study: Any) -> Stage:
     """The runs of `pair_tasks` as a stage of the study; no task where the file states no pairs."""
     tasks = pair_tasks(drivers, study)
     shared = (drivers, varied(study, study.pairs.set, "pairs.set")) if tasks else None
-    return Stage(_drive, shared, tasks, lambda task, _: f"drawn train {task[0] + 1}")
+    return Stage(_drive, shared, tasks, lambda task, _: f"drawn train {task[0] + 1}",
+                 together=Together(_drive_together, _groups) if drivers.drive_together else None)
 
 
 def _drive(shared: tuple[Drivers, Any], task: Task) -> Mapping[str, Any]:
     (drivers, study), (draw, place, name, tuned) = shared, task
     return drivers.drive(drivers.tuned(study, name) if tuned else study, name, place, factors_of(study.pairs, draw))
+
+
+def _drive_together(shared: tuple[Drivers, Any], tasks: Sequence[Task]) -> Sequence[Mapping[str, Any]]:
+    """The rows of tasks that differ in their draw alone."""
+    (drivers, study), (_, place, name, tuned) = shared, tasks[0]
+    assert drivers.drive_together is not None
+    return drivers.drive_together(drivers.tuned(study, name) if tuned else study, name, place,
+                                  [factors_of(study.pairs, draw) for draw, _, _, _ in tasks])
+
+
+def _groups(shared: tuple[Drivers, Any], tasks: Sequence[Task]) -> list[list[Task]]:
+    """So many draws of each controller."""
+    found: dict[Task, list[Task]] = {}
+    for draw, place, name, tuned in tasks:
+        found.setdefault((draw // DRAWS_TOGETHER, place, name, tuned), []).append((draw, place, name, tuned))
+    return list(found.values())
 
 
 def compared_pairs(drivers: Drivers, study: Any, results: Mapping[Task, Mapping[str, Any]]) -> tuple[Pair, ...]:

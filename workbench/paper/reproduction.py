@@ -13,7 +13,7 @@ from workbench.paper.findings import found
 from workbench.paper.pairs import compared_pairs, pair_findings, pair_stage, pair_table
 from workbench.paper.reproduced import ReproducedStudy
 from workbench.paper.results import Plot, ResultTable, Shown, StudyResult
-from workbench.paper.stages import Stage, run_stages
+from workbench.paper.stages import Stage, Together, run_stages
 from workbench.paper.study import Progress, StudyKind
 from workbench.paper.tracked import Tracked
 
@@ -52,8 +52,9 @@ class Reproduction:
     run): a run as data; results(study, runs, *of_stages): what the makers of tables, figures and findings are given,
     `reproduced.Results` or more. A maker gives one or several, in the order of the page; a finding that
     lacks its runs is left out.
-    beside: law and MPC; track: see `StudyKind`; work: how long a run takes, see `Stage`; stages(study): runs of other
-    kinds; told(case): whether the report says that a run failed, which for a sweep's it need not.
+    beside: law and MPC; track: see `StudyKind`; work: how long a run takes, together: how several are made at once, see
+    `Stage`; stages(study): runs of other kinds; told(case): whether the report says that a run failed, which for a
+    sweep's it need not.
     """
 
     record: type[ReproducedStudy]
@@ -70,6 +71,7 @@ class Reproduction:
     work: Callable[[Any, Any], float] | None = None
     stages: Callable[[Any], Sequence[Stage]] = _nothing_more
     told: Callable[[Any], bool] = _every
+    together: Together | None = None
 
     @property
     def kind(self) -> StudyKind:
@@ -80,7 +82,7 @@ class Reproduction:
     def own_stage(self, study: Any) -> Stage:
         """The runs of all cases."""
         return Stage(self.run, study, self.cases(study), lambda case, _: self.title(study, case),
-                     partial(self.work, study) if self.work else None)
+                     partial(self.work, study) if self.work else None, self.together)
 
     def shown(self, results: Any) -> Shown:
         """The paper's own tables, figures and findings."""

@@ -9,7 +9,19 @@ from typing import Any
 from workbench.paper.study import Progress
 from workbench.tasks.handing_out import results_of
 
-_Task = tuple[int, Any]  # number of the stage, and its task
+_Task = tuple[int, tuple[Any, ...]]  # number of the stage, and its tasks that one process runs together
+
+
+@dataclass(frozen=True)
+class Together:
+    """How a process makes several runs of a stage at once: with the results of each alone, in less time.
+
+    run(shared, tasks) -> their results, in their order; groups(shared, tasks): the tasks, each in one of some groups
+    that are worth it.
+    """
+
+    run: Callable[[Any, Sequence[Any]], Sequence[Any]]
+    groups: Callable[[Any, Sequence[Any]], Sequence[Sequence[Any]]]
 
 
 @dataclass(frozen=True)
@@ -19,6 +31,7 @@ class Stage:
     function: of a module's top level, since workers import it; shared, tasks, results: what can be sent to a process;
     tasks: hashable and each there once; title(task, result): what was run, in words, for the progress; work(task): how
     long a run takes, in any unit: the longest is begun first, so that no process is left alone with one at the end.
+    together: how several are run at once, where they can be.
     A stage of one task runs in this process after all others, with nothing beside it, as measuring times wants it.
     """
 
@@ -27,6 +40,16 @@ class Stage:
     tasks: Sequence[Hashable]
     title: Callable[[Any, Any], str]
     work: Callable[[Any], float] | None = None
+    together: Together | None = None
+
+    def handed_out(self) -> list[tuple[Any, ...]]:
+        """The tasks as processes get them: the longest first, alone or in groups."""
+        if self.together is None:
+            tasks = sorted(self.tasks, key=self.work, reverse=True) if self.work else self.tasks
+            return [(task,) for task in tasks]
+        groups = [tuple(group) for group in self.together.groups(self.shared, self.tasks)]
+        work = self.work
+        return sorted(groups, key=lambda group: sum(map(work, group)), reverse=True) if work else groups
 
 
 def run_stages(stages: Sequence[Stage], workers: int, on_progress: Progress) -> tuple[Mapping[Any, Any], ...]:
@@ -44,24 +67,23 @@ def run_stages(stages: Sequence[Stage], workers: int, on_progress: Progress) -> 
     """
     pooled = [number for number, stage in enumerate(stages) if len(stage.tasks) > 1]
     alone = [number for number, stage in enumerate(stages) if len(stage.tasks) == 1]
-    total = sum(len(stage.tasks) for stage in stages)
+    total, found = sum(len(stage.tasks) for stage in stages), dict[tuple[int, Any], Any]()
 
-    def tell(before: int) -> Callable[[int, _Task, Any], None]:
-        return lambda done, task, result: on_progress(before + done, total, stages[task[0]].title(task[1], result))
+    def keep(_: int, of: _Task, results: Sequence[Any]) -> None:
+        for task, result in zip(of[1], results, strict=True):
+            found[of[0], task] = result
+            on_progress(len(found), total, stages[of[0]].title(task, result))
 
-    shared = [(stage.function, stage.shared) for stage in stages]
-    found = results_of(_run, shared, [task for number in pooled for task in _in_order(number, stages[number])], workers,
-                       tell(0))
+    shared = [(stage.function, stage.shared, stage.together) for stage in stages]
+    results_of(_run, shared, [(number, tasks) for number in pooled for tasks in stages[number].handed_out()], workers,
+               keep)
     for number in alone:
-        found |= results_of(_run, shared, _in_order(number, stages[number]), 1, tell(len(found)))
+        results_of(_run, shared, [(number, tuple(stages[number].tasks))], 1, keep)
     return tuple({task: found[number, task] for task in stage.tasks} for number, stage in enumerate(stages))
 
 
-def _in_order(number: int, stage: Stage) -> list[_Task]:
-    tasks = sorted(stage.tasks, key=stage.work, reverse=True) if stage.work else stage.tasks
-    return [(number, task) for task in tasks]
-
-
-def _run(shared: Sequence[tuple[Callable[[Any, Any], Any], Any]], task: _Task) -> Any:
-    function, of_stage = shared[task[0]]
-    return function(of_stage, task[1])
+def _run(shared: Sequence[tuple[Callable[[Any, Any], Any], Any, Together | None]], of: _Task) -> Sequence[Any]:
+    function, of_stage, together = shared[of[0]]
+    if together is not None and len(of[1]) > 1:
+        return together.run(of_stage, of[1])
+    return [function(of_stage, task) for task in of[1]]

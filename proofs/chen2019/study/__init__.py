@@ -3,13 +3,24 @@
 from __future__ import annotations
 
 from workbench.paper.reproduction import Reproduction
-from workbench.paper.stages import Stage
+from workbench.paper.stages import Stage, Together
 
 from .comparison import COMPARISON, mpc_findings, mpc_tables
 from .findings import FINDINGS
 from .plots import PLOTS
 from .record import ChenStudy
-from .runs import MEASURING, ChenResults, measure, run_case, run_cases, run_row, title, track
+from .runs import (
+    MEASURING,
+    ChenResults,
+    groups,
+    measure,
+    run_case,
+    run_cases,
+    run_cases_together,
+    run_row,
+    title,
+    track,
+)
 from .tables import TABLES
 
 
@@ -20,4 +31,5 @@ def measuring(study: ChenStudy) -> tuple[Stage, ...]:
 
 KIND = Reproduction(
     ChenStudy, run_cases, run_case, title, run_row, ChenResults, (*TABLES, mpc_tables), PLOTS,
-    (*FINDINGS, mpc_findings), COMPARISON, track, stages=measuring).kind
+    (*FINDINGS, mpc_findings), COMPARISON, track, stages=measuring,
+    together=Together(run_cases_together, groups)).kind

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 from typing import Any
 
@@ -21,7 +21,8 @@ from workbench.paper.statistics import ahead_from
 from workbench.simulate.closed_loop import NOMINAL, Factors
 
 from .. import laws
-from ..simulation.cars_trials import CarsRun, run_cars
+from ..simulation.cars_runs import run_together
+from ..simulation.cars_trials import CarsRun
 from ..simulation.mpc_trip import MpcTrip, run_mpc
 from ..simulation.plans import plan
 from .record import ChenStudy
@@ -48,19 +49,27 @@ def keys(study: ChenStudy, name: str) -> dict[str, str]:
     return keys_in("gains", gains) if name == LAW else keys_in("mpc", WEIGHTS)
 
 
-def drive(study: ChenStudy, name: str, place: str, factors: Factors = NOMINAL) -> dict[str, Any]:
-    """MPC's only trip, or all trials of the law, of which the last is measured.
-
-    factors: by which masses and coefficients of resistance of the train differ; bounds stay as they are.
-    """
+def driven(study: ChenStudy, factors: Factors) -> ChenStudy:
+    """The study whose train's masses and coefficients of resistance differ by factors; bounds stay as they are."""
     train = study.train
-    true = study.model_copy(update={"train": train.model_copy(update={
+    return study.model_copy(update={"train": train.model_copy(update={
         "car_mass_kg": train.car_mass_kg * factors.mass, "c_0_n_per_kg": train.c_0_n_per_kg * factors.davis_a,
         "c_v_n_s_per_m_kg": train.c_v_n_s_per_m_kg * factors.davis_b,
         "c_a_n_s2_per_m2_kg": train.c_a_n_s2_per_m2_kg * factors.davis_c})})
+
+
+def drive(study: ChenStudy, name: str, place: str, factors: Factors = NOMINAL) -> dict[str, Any]:
+    """MPC's only trip, or all trials of the law, of which the last is measured, on the train of `driven`."""
+    return drive_together(study, name, place, (factors,))[0]
+
+
+def drive_together(study: ChenStudy, name: str, place: str, factors: Sequence[Factors]) -> list[dict[str, Any]]:
+    """The same on several trains."""
+    trains = [driven(study, of) for of in factors]
     if name == MPC:
-        return mpc_row(study, run_mpc(true, known=study))
-    return law_row(true, run_cars(replace(plan(true), kept=(true.trials.count,))))
+        return [mpc_row(study, run_mpc(train, known=study)) for train in trains]
+    runs = run_together([replace(plan(train), kept=(train.trials.count,)) for train in trains])
+    return [law_row(train, run) for train, run in zip(trains, runs, strict=True)]
 
 
 def mpc_row(study: ChenStudy, trip: MpcTrip) -> dict[str, Any]:
@@ -77,6 +86,11 @@ def law_row(study: ChenStudy, run: CarsRun) -> dict[str, Any]:
         "trials": {f"{name}_rms": run.rms(name, whole) for name in ("position", "speed")}}
 
 
+def _step(results: ChenResults) -> dict[str, float | None]:
+    """The time of a sample with nothing beside it; None for a train whose is not measured."""
+    return {"step_s": results.measured.sample_s.get(results.study.train.cars)}
+
+
 def stated_tasks(study: ChenStudy) -> list[Task]:
     """What the comparison need not run again: the law as stated where its last trial is logged, and MPC's trip."""
     logged = study.trials.count in study.trials.shown
@@ -86,11 +100,11 @@ def stated_tasks(study: ChenStudy) -> list[Task]:
 def stated_rows(results: ChenResults) -> dict[Task, Mapping[str, Any]]:
     """The rows of `stated_tasks`."""
     study, trip = results.study, results.measured.trip
-    law: dict[Task, Mapping[str, Any]] = {(PLACE, LAW, False): law_row(study, results.stated)}
+    law: dict[Task, Mapping[str, Any]] = {(PLACE, LAW, False): law_row(study, results.stated) | _step(results)}
     return law | ({(PLACE, MPC, False): mpc_row(study, trip)} if trip else {})
 
 
-DRIVERS = Drivers({LAW: "the law", MPC: MultiCarMpc.title}, places, keys, drive)
+DRIVERS = Drivers({LAW: "the law", MPC: MultiCarMpc.title}, places, keys, drive, drive_together=drive_together)
 COMPARISON = LearningComparison(DRIVERS, COLUMNS, ("position_rms", "speed_rms"), own_tasks=stated_tasks,
                                 own_rows=stated_rows)
 
@@ -103,7 +117,8 @@ def mpc_tables(results: ChenResults) -> Iterator[ResultTable]:
     trials = sorted({1, *study.trials.shown} & set(range(1, len(run.totals) + 1)))
     yield ResultTable(
         "Beside MPC", "comparison", ("controller", *COLUMNS.values()),
-        (*((f"the law, trial {trial}", *row_cells(trial_row(study, run, trial), COLUMNS)) for trial in trials),
+        (*((f"the law, trial {trial}", *row_cells(trial_row(study, run, trial) | _step(results), COLUMNS))
+           for trial in trials),
          (MultiCarMpc.title, *row_cells(mpc_row(study, measured.trip), COLUMNS))),
         f"All {study.train.cars} cars, with the same limits of every car. MPC every {study.mpc.period_s:g} s, "
         f"{study.mpc.horizon} samples ahead: {MultiCarMpc.information}; the law every {study.sampling.period_s:g} s: "

@@ -161,10 +161,11 @@ def _assumed(results: ChenResults) -> str:
 
 def _speed(results: ChenResults) -> str:
     run, measured = results.stated, results.measured
-    return (f"A million samples of {results.study.train.cars} cars take {number(float(run.step_us.min()))} s in the "
-            "fastest trial of the stated run, train and law together; its learned estimates, one set per sample, take "
-            f"{number(run.memory_bytes / 1e6)} MB. From {min(measured.sample_s)} to {max(measured.sample_s)} cars the "
-            f"time of a sample grows as the number of cars to the power {fixed(measured.exponent, 2)}.")
+    fewest = min(measured.sample_s)
+    return (f"A million samples of {fewest} cars take {number(1e6 * measured.sample_s[fewest])} s, train and law "
+            f"together; the stated run's learned estimates, one set per sample, take {number(run.memory_bytes / 1e6)} "
+            f"MB. From {fewest} to {max(measured.sample_s)} cars the time of a sample grows as the number of cars to "
+            f"the power {fixed(measured.exponent, 2)}.")
 
 
 FINDINGS = (_learning, _further, _sampling, _acceleration, _gains, _masses, _trailers, _energy, _place, _assumed,

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -15,7 +15,8 @@ from workbench.paper.reproduced import STATED, Results
 from workbench.paper.tracked import Tracked
 
 from ..simulation.cars_loop import TRIAL_COLUMNS
-from ..simulation.cars_trials import Array, CarsRun, run_cars
+from ..simulation.cars_runs import LANES, run_cars, run_together
+from ..simulation.cars_trials import Array, CarsPlan, CarsRun
 from ..simulation.mpc_trip import MpcTrip, run_mpc
 from ..simulation.plans import plan
 from .record import ChenChange, ChenStudy
@@ -98,11 +99,30 @@ def title(study: ChenStudy, case: RunCase) -> str:
     return study.change_title(case.change) or "as stated"
 
 
-def run_case(study: ChenStudy, case: RunCase) -> CarsRun:
-    """Run the stated study or one of its changes; those about what else is assumed leave no log."""
+def plan_of(study: ChenStudy, case: RunCase) -> CarsPlan:
+    """The stated study or one of its changes; those about what else is assumed leave no log."""
     made = plan(study.changed(case.change))
     logged = case.change == STATED or study.changes[case.change].group == "rules"
-    return run_cars(made if logged else replace(made, kept=()))
+    return made if logged else replace(made, kept=())
+
+
+def run_case(study: ChenStudy, case: RunCase) -> CarsRun:
+    """Run the stated study or one of its changes."""
+    return run_cars(plan_of(study, case))
+
+
+def run_cases_together(study: ChenStudy, cases: Sequence[RunCase]) -> list[CarsRun]:
+    """The same for several."""
+    return run_together([plan_of(study, case) for case in cases])
+
+
+def groups(study: ChenStudy, cases: Sequence[RunCase]) -> list[list[RunCase]]:
+    """Cases whose loops are alike, twice as many as run side by side; what is one run but for its length together."""
+    alike: dict[tuple[object, ...], list[RunCase]] = {}
+    for case in sorted(cases, key=lambda case: (-study.changed(case.change).trials.count, case.change)):
+        of = study.changed(case.change)
+        alike.setdefault((of.sampling.acceleration, of.sampling.memory, of.line.seen_by, of.samples), []).append(case)
+    return [among[first : first + 2 * LANES] for among in alike.values() for first in range(0, len(among), 2 * LANES)]
 
 
 def measure(study: ChenStudy, _: object) -> Measured:

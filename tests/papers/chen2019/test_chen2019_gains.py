@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 
 from proofs.chen2019 import gains as chen2019
 from proofs.chen2019.laws import c_1, c_2, c_3, gains
-from proofs.chen2019.simulation.cars_trials import run_cars
+from proofs.chen2019.simulation.cars_runs import run_cars
 from proofs.chen2019.simulation.plans import plan
 from proofs.chen2019.study.record import ChenStudy
 from workbench.files.toml import read_toml

@@ -14,7 +14,7 @@ import sympy as sp
 from test_report import without_scripts
 
 from proofs.chen2019 import laws as law
-from proofs.chen2019.simulation.cars_trials import run_cars
+from proofs.chen2019.simulation.cars_runs import LANES, run_cars, run_together
 from proofs.chen2019.simulation.formulas import (
     allowed_change,
     alternating_growth,
@@ -25,7 +25,16 @@ from proofs.chen2019.simulation.formulas import (
 from proofs.chen2019.simulation.plans import plan
 from proofs.chen2019.study import KIND
 from proofs.chen2019.study.record import ChenStudy
-from proofs.chen2019.study.runs import grows_from, outcome, run_case, run_cases, title
+from proofs.chen2019.study.runs import (
+    STATED,
+    RunCase,
+    groups,
+    grows_from,
+    outcome,
+    run_cases,
+    run_cases_together,
+    title,
+)
 from workbench.cli import app as cli
 from workbench.cli.loading import load
 from workbench.compile.kernel import cars_source
@@ -74,10 +83,8 @@ def short(study):
 @pytest.fixture(scope="module")
 def runs(short):
     """Of every change by its title, and the stated one."""
-    found = {}
-    for case in run_cases(short):
-        found[title(short, case)] = run_case(short, case)
-    return found
+    return {title(short, case): run for among in groups(short, run_cases(short))
+            for case, run in zip(among, run_cases_together(short, among), strict=True)}
 
 
 # --- the compiled trips ---------------------------------------------------------------------------------------------
@@ -122,6 +129,34 @@ def test_compiled_trips_are_those_of_plain_vectors(study, values):
     if not values:
         energies = [plain_cars.energy(made, x) for x in (before, estimates)]
         assert done.total("cef_change")[-1] == pytest.approx(energies[1] - energies[0], rel=1e-4)
+
+
+def same_run(one, other):
+    """Whether two runs left the same bits."""
+    return (np.array_equal(one.totals, other.totals) and np.array_equal(one.by_car, other.by_car)
+            and one.failed == other.failed and len(one.step_us) == len(other.step_us)
+            and one.logs.keys() == other.logs.keys()
+            and all(np.array_equal(log, other.logs[trial]) for trial, log in one.logs.items()))
+
+
+def test_runs_side_by_side_have_the_bits_of_each_alone(study):
+    """One fails, one goes on from another, one waits for a lane, and one cannot share the others' loop."""
+    made = fast_plan(study)
+    heavy = made.cars.copy()
+    heavy[4], heavy[5] = heavy[0] + 10.0, heavy[0] + 80.0
+    plans = [made, replace(made, cars=heavy, trials=9), replace(made, trials=4, kept=(4,)),
+             *(replace(made, start=(0.1 * i, 0.0)) for i in range(1, LANES)), replace(made, memory="same_sample")]
+    alone = [run_cars(plan) for plan in plans]
+    assert [run.failed is None for run in alone] == [True, False, *([True] * (len(plans) - 2))]
+    assert all(map(same_run, run_together(plans), alone))
+    assert len({run.totals[-1].tobytes() for run in alone}) == len(plans)
+
+
+def test_every_case_is_in_one_group_and_what_is_one_run_in_the_same(study):
+    found = groups(study, run_cases(study))
+    assert sorted(case.change for among in found for case in among) == list(range(STATED, len(study.changes)))
+    longer = next(n for n, change in enumerate(study.changes) if set(change.set) == {"trials.count"})
+    assert any({RunCase(), RunCase(longer)} <= set(among) for among in found)
 
 
 def test_a_step_of_half_the_length_gives_the_same_trip(short):
