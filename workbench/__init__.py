@@ -51,11 +51,15 @@ def __getattr__(name: str) -> Any:
     if name == "StateLaw" or own not in _MODULES:
         raise AttributeError(f"module 'workbench' has no attribute '{name}'")
     try:
-        return getattr(import_module(f"workbench.{_MODULES[own]}"), own)
+        found = getattr(import_module(f"workbench.{_MODULES[own]}"), own)
     except ImportError as trouble:
         from workbench.errors import of_an_extra  # noqa: PLC0415 - as all else, only when it is used
 
         raise of_an_extra(trouble) or trouble from None
+    room = sys.modules.get(f"workbench.{name}")
+    if room is not None:  # `import workbench.gains.lmi as lmi` looks for `lmi` in what is found here
+        found.__dict__ = room.__dict__
+    return found
 
 
 def __dir__() -> list[str]:
@@ -66,7 +70,7 @@ class _Package(ModuleType):
     """The package, in which `simulate` and `gains` stay the functions of the API.
 
     There are rooms of the same names, and the import system would put a room in the function's place as soon as it is
-    imported: the first call would work and the second meet a module.
+    imported: the first call would work and the second meet a module. What is in the room is found in the function too.
     """
 
     def __setattr__(self, name: str, value: Any) -> None:

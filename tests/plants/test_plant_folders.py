@@ -139,7 +139,9 @@ assert run.to_pandas().index.name == "t_s" and len(run.plot().axes) == 3
 again = wb.simulate(mass, law, period_s=0.01, duration_s=1, law_parameters={k: 4.0, d: 4.0},
                     references={"r": wb.Constant(value=1.0)})
 assert again.failed is None and callable(wb.gains)
-import workbench.gains.feedback
+import workbench.gains.feedback as feedback
+import workbench.simulate.compare
+assert wb.gains.feedback is feedback and callable(workbench.simulate.compare.compare)
 assert wb.gains.__module__ == wb.simulate.__module__ == "workbench.api.functions"
 run.to_mat(sys.argv[2])
 from scipy.io import loadmat

@@ -104,13 +104,13 @@ def test_it_believes_the_nominal_plant_whatever_the_truth():
     (PlantMpc(5, {"theta": 1.0}, {"F": 1.0}), "no such input")])
 def test_names_that_the_plant_does_not_have_are_one_line(how, words):
     with pytest.raises(ValueError, match=words):
-        how.check(Setting(PENDULUM, 1.0, references={"r": Constant(value=0.0)}, tracks={"theta": "r"}))
+        how.check(Setting(PENDULUM, 1.0, references={"r": Constant(value=0.0)}, tracks={"theta": "r"}), 0.1)
 
 
 def test_a_plant_that_hides_a_state_is_refused():
     hidden = Plant("hidden", CART.states, CART.rates, CART.inputs, outputs={x: x})
     with pytest.raises(ValueError, match="'v' is not measured"):
-        PlantMpc(5, {"x": 1.0}).check(Setting(hidden, 1.0, **AT_REST))
+        PlantMpc(5, {"x": 1.0}).check(Setting(hidden, 1.0, **AT_REST), 0.1)
     for wrong in ({"horizon": 0}, {"solver": "newton"}, {"weights": {"x": -1.0}}):
         with pytest.raises(ValueError, match=r"horizon|solver|weights"):
             PlantMpc(**({"horizon": 5, "weights": {"x": 1.0}} | wrong))
@@ -191,4 +191,4 @@ def test_economic_mpc_trades_by_its_price_within_limits_and_beats_tracking_on_it
 def test_what_contradicts_itself_is_one_line(how, words):
     with pytest.raises(ValueError, match=words):
         PlantMpc(**({"horizon": 5, "weights": {"theta": 1.0}} | how)).check(
-            Setting(PENDULUM, 1.0, references={"r": Constant(value=0.0)}, tracks={"theta": "r"}))
+            Setting(PENDULUM, 1.0, references={"r": Constant(value=0.0)}, tracks={"theta": "r"}), 0.1)

@@ -265,8 +265,9 @@ def test_options_that_do_not_fit_a_cluster_are_refused(found):
 
 def test_without_dask_the_extra_is_named(paper, tmp_path, monkeypatch):
     monkeypatch.setitem(sys.modules, "distributed", None)
-    line = one_line(run("sweep", paper, "--out", tmp_path, "--dask", "local"))
-    assert line == "workbench: --dask: Dask is not installed: pip install 'workbench[dask]'"
+    for command in (("sweep", paper, "--out", tmp_path), ("gains", paper)):
+        line = one_line(run(*command, "--dask", "local"))
+        assert line == "workbench: --dask: Dask is not installed: pip install 'workbench[dask]'"
     assert not list(tmp_path.iterdir())
 
 

@@ -7,7 +7,7 @@ from typing import Annotated
 
 import typer
 
-from workbench.cli.options import JsonFile, PaperOrFile, Workers, load
+from workbench.cli.options import Dask, JsonFile, PaperOrFile, Workers, load, on_cluster
 from workbench.cli.terminal import print_study, progress
 
 
@@ -20,7 +20,7 @@ def command(paper: PaperOrFile, json: JsonFile = None,
             search: Annotated[bool, typer.Option(
                 "--search", help="Search anew the gains whose runs cost least for what is proved of them, some minutes "
                 "long; --write keeps them.")] = False,
-            workers: Workers = None) -> None:
+            workers: Workers = None, dask: Dask = None) -> None:
     """Which conditions the stated gains meet, what can be proved of them, and gains that are proved to do better."""
     from workbench.files.folders import CERTIFICATES
     from workbench.files.json_output import write_json
@@ -35,19 +35,17 @@ def command(paper: PaperOrFile, json: JsonFile = None,
     check_outputs({"--json": json})
     check_places([], certificates, {"--json": json})
     check_places([loaded.folder] if write else [], None, {"--json": json})
-    found = gains_of(loaded)
-    with progress() as show:
+    with progress() as show, on_cluster(dask, workers):
+        found = gains_of(loaded)
         front = searched_or_recorded(loaded, search, workers, lambda at, total, _: show("searches", at, total))
-    if certificates:
-        write_certificates(found.certificates, certificates / found.paper, certificates)
-        write_certificates(front.certificates.values(), certificates / found.paper / FRONT_FOLDER, certificates)
-    if write:
-        write_certificates(found.certificates, loaded.folder / CERTIFICATES / "gains", loaded.folder)
-        if search:
-            write_front(loaded.folder, front)
-    with progress() as show:
+        if certificates:
+            write_certificates(found.certificates, certificates / found.paper, certificates)
+            write_certificates(front.certificates.values(), certificates / found.paper / FRONT_FOLDER, certificates)
+        if write:
+            write_certificates(found.certificates, loaded.folder / CERTIFICATES / "gains", loaded.folder)
+            if search:
+                write_front(loaded.folder, front)
         done = effects(loaded, found, workers, lambda at, total, _: show("runs", at, total)) if runs else ()
-    with progress() as show:
         fronts = shown_fronts(loaded, front, workers, lambda at, total, _: show("fronts", at, total)) if runs else ()
     if json:
         write_json(json, gains_document(found, done, fronts))

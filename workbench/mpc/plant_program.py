@@ -2,7 +2,8 @@
 
 minimise   sum_k |y_k - r_k|^2_Q + |u_k - u_target|^2_R + |u_k - u_(k-1)|^2_S + weighted metrics
            + terminal weight + price of excess
-subject to x_(k+1) = d + one or more Runge-Kutta steps of the plant with its nominal parameters, disturbances at zero
+subject to x_(k+1) = d + one or more Runge-Kutta steps of the plant with its nominal parameters, disturbances at zero or
+           as estimated
            input limits, |u_k - u_(k-1)| <= rate limit * period, state limits that may be exceeded at a price
 The problem has a stage a sample, [x, u_before], [u, excess], which fatrop's Riccati recursion makes use of; d is the
 same over the horizon.
@@ -20,6 +21,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from workbench.compile.casadi_tree import casadi_of
+from workbench.mpc.plant_motion import PlantMotion
 from workbench.mpc.plant_values import PlantMpcValues
 from workbench.systems.setting import Setting, limits_of
 
@@ -30,29 +32,30 @@ Array = NDArray[np.float64]
 class Program:
     """A problem as a solver takes it: its arguments are x0, p and bounds.
 
-    step: (x, u) -> x one sample later without d; p is [state, input before, d, desired outputs by stage, times and all
-    references' values by stage], the last two only where metrics are minimised; limited: the states with limits.
+    p is [state, input before, d, estimated disturbances, desired outputs by stage, times and all references' values by
+    stage], the last two only where metrics are minimised; limited: the states with limits.
     """
 
     solve: Any
-    step: Any
     bounds: Mapping[str, Array]
     limited: tuple[int, ...]
 
 
-def program(how: PlantMpcValues, setting: Setting, period_s: float, tracked: list[str]) -> Program:
+def program(how: PlantMpcValues, setting: Setting, period_s: float, tracked: list[str],
+            motion: PlantMotion) -> Program:
     """The problem of an MPC in a setting, whose parameters are what it believes."""
     plant = setting.plant
     n, m, N = len(plant.states), len(plant.inputs), how.horizon
     inputs = [*map(str, plant.inputs)]
     limited = tuple(i for i, symbol in enumerate(plant.states) if symbol in plant.state_limits)
     e = len(limited)
-    step, outputs = _step(how, setting, period_s), _outputs(setting, tracked)
+    step, outputs = motion.function(period_s), _outputs(setting, tracked, motion)
     Q, R, S = (_vector(how.weights, tracked), _vector(how.input_weights, inputs), _vector(how.change_weights, inputs))
     target = _vector(how.input_targets, inputs)
     start, push = ca.SX.sym("start", n + m), ca.SX.sym("push", n if how.disturbance_gain else 0)
+    estimated = ca.SX.sym("estimated", len(motion.estimated))
     desired = ca.SX.sym("desired", len(tracked), N + 1)
-    running, terminal, rows_ahead = _metrics(how, setting, period_s)
+    running, terminal, rows_ahead = _metrics(how, setting, period_s, motion)
     ahead = ca.SX.sym("ahead", rows_ahead, N + 1)
     low, high = (np.array(side) for side in zip(*(plant.state_limits[plant.states[i]] for i in limited), strict=True)) \
         if e else (np.zeros(0), np.zeros(0))
@@ -63,7 +66,7 @@ def program(how: PlantMpcValues, setting: Setting, period_s: float, tracked: lis
     cost, rows = ca.SX(0), _Rows()
     for k in range(N):
         x, before, u, excess = z[k][:n], z[k][n:], v[k][:m], v[k][m:]
-        moved = step(x, u) + push if how.disturbance_gain else step(x, u)
+        moved = step(x, u, estimated) + push if how.disturbance_gain else step(x, u, estimated)
         rows.add(z[k + 1] - ca.vertcat(moved, u), np.zeros(n + m), np.zeros(n + m))
         if k == 0:
             rows.add(z[0] - start, np.zeros(n + m), np.zeros(n + m))
@@ -93,8 +96,8 @@ def program(how: PlantMpcValues, setting: Setting, period_s: float, tracked: lis
               "ubx": np.concatenate([*[np.concatenate([free, u_high, np.full(e, math.inf)])] * N, free]),
               "lbg": np.concatenate(rows.lower), "ubg": np.concatenate(rows.upper)}
     nlp = {"x": variables, "f": cost, "g": ca.vertcat(*rows.values),
-           "p": ca.vertcat(start, push, ca.vec(desired), ca.vec(ahead))}
-    return Program(_solver(how, nlp, rows.equal), step, bounds, limited)
+           "p": ca.vertcat(start, push, estimated, ca.vec(desired), ca.vec(ahead))}
+    return Program(_solver(how, nlp, rows.equal), bounds, limited)
 
 
 class _Rows:
@@ -117,38 +120,14 @@ def _vector(table: Mapping[str, float], names: list[str]) -> Any:
     return ca.DM([table.get(name, 0.0) for name in names])
 
 
-def _step(how: PlantMpcValues, setting: Setting, period_s: float) -> Any:
-    """(x, u) -> x one sample later."""
-    plant = setting.plant
-    f = plant.to_casadi(setting.parameters)
-    x, u = ca.SX.sym("x", len(plant.states)), ca.SX.sym("u", len(plant.inputs))
-    d, h, at = ca.DM.zeros(len(plant.disturbances)), period_s / how.substeps, x
-    if plant.updates:
-        for _ in range(setting.steps_of(period_s, "period_s")):
-            at = f(0, at, u, d)
-        return ca.Function("step", [x, u], [at])
-    for _ in range(how.substeps):
-        a = f(0, at, u, d)
-        b = f(0, at + h / 2 * a, u, d)
-        c = f(0, at + h / 2 * b, u, d)
-        e = f(0, at + h * c, u, d)
-        at = at + h / 6 * (a + 2 * b + 2 * c + e)
-    return ca.Function("step", [x, u], [at])
-
-
-def _outputs(setting: Setting, tracked: list[str]) -> Any:
+def _outputs(setting: Setting, tracked: list[str], motion: PlantMotion) -> Any:
     x = ca.SX.sym("x", len(setting.plant.states))
     stated = {str(symbol): value for symbol, value in setting.plant.outputs.items()}
-    return ca.Function("outputs", [x], [ca.vertcat(*casadi_of([stated[name] for name in tracked], _known(setting, x)))])
+    return ca.Function("outputs", [x], [ca.vertcat(*casadi_of([stated[name] for name in tracked], motion.known(x)))])
 
 
-def _known(setting: Setting, x: Any) -> dict[Any, Any]:
-    plant = setting.plant
-    return {**dict(zip(plant.states, ca.vertsplit(x), strict=True)),
-            **{symbol: setting.parameters[str(symbol)] for symbol in plant.parameter_symbols}}
-
-
-def _metrics(how: PlantMpcValues, setting: Setting, period_s: float) -> tuple[Any, Any, int]:
+def _metrics(how: PlantMpcValues, setting: Setting, period_s: float,
+             motion: PlantMotion) -> tuple[Any, Any, int]:
     """The stage's and the end's weighted metrics as functions of x, u and [t, all references' values]; rows of that."""
     if not how.objective:
         return None, None, 0
@@ -156,7 +135,7 @@ def _metrics(how: PlantMpcValues, setting: Setting, period_s: float) -> tuple[An
     symbols = [symbol for channel in setting.channels for symbol in channel.symbols]
     x, u, ahead = (ca.SX.sym(name, size) for name, size in (
         ("x", len(plant.states)), ("u", len(plant.inputs)), ("ahead", 1 + len(symbols))))
-    known = {**_known(setting, x), **dict(zip(plant.inputs, ca.vertsplit(u), strict=True)),
+    known = {**motion.known(x), **dict(zip(plant.inputs, ca.vertsplit(u), strict=True)),
              **dict.fromkeys(plant.disturbances, 0.0),
              **(dict(zip(symbols, ca.vertsplit(ahead[1:]), strict=True)) if symbols else {})}
     stage, end = ca.SX(0), ca.SX(0)
@@ -170,7 +149,9 @@ def _metrics(how: PlantMpcValues, setting: Setting, period_s: float) -> tuple[An
 
 
 def _solver(how: PlantMpcValues, nlp: dict[str, Any], equal: list[bool]) -> Any:
-    common: dict[str, Any] = {"expand": True, "print_time": False, "error_on_fail": False}
+    # An iterate beyond a function's domain is the solver's to step back from, and no warning to the user.
+    common: dict[str, Any] = {"expand": True, "print_time": False, "error_on_fail": False,
+                              "show_eval_warnings": False}
     structured: dict[str, Any] = {"structure_detection": "auto", "equality": equal}
     if how.one_iteration:
         gamma, rows = ca.SX.sym("gamma"), ca.SX.sym("rows", nlp["g"].shape)

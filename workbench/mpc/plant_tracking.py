@@ -1,8 +1,7 @@
 """MPC of any plant, tracking or economic: what it is made with, and the controller that is called once a sample.
 
-The problem itself is `plant_program.py`. With a disturbance gain a filter estimates, for each measured state, the
-constant push a sample that the model does not foresee: d <- d + gain (measured - predicted), the disturbance model of
-offset-free MPC (Pannocchia and Rawlings, AIChE Journal 49, 2003) where every state is measured.
+The problem itself is `plant_program.py`, what is taken for the state `plant_observer.py`. An MPC that is told of the
+actuators plans from where the plant will be when its command arrives.
 """
 
 from __future__ import annotations
@@ -14,9 +13,12 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from workbench.mpc.plant_actuators import Underway, moved, with_lags
+from workbench.mpc.plant_motion import PlantMotion
+from workbench.mpc.plant_observer import KalmanState, MeasuredState
 from workbench.mpc.plant_program import program
 from workbench.mpc.plant_values import PlantMpcValues
-from workbench.systems.setting import Setting, limits_of
+from workbench.systems.setting import Setting, first_inputs, limits_of
 from workbench.systems.signals import signals_at
 
 Array = NDArray[np.float64]
@@ -35,38 +37,45 @@ class PlantMpc(PlantMpcValues):
 class TrackingMpc:
     """A sampled controller: one optimal control problem a sample, warm-started from the one before.
 
-    fallbacks counts the samples at which the solver gave nothing usable; its last plan goes on there. disturbance: the
-    estimate, per state and sample.
+    fallbacks counts the samples at which the solver gave nothing usable; its last plan goes on there. state: what is
+    taken for the plant's state, `MeasuredState` or `KalmanState`.
     """
 
     title = "tracking MPC"
-    information = "full state, nominal model"
+    information = "nominal model"
 
     def __init__(self, how: PlantMpc, setting: Setting, period_s: float) -> None:
-        how.check(setting)
+        how.check(setting, period_s)
+        self._before = first_inputs(setting)
+        self._delay = max(setting.delay_s.values(), default=0.0) if how.predictor else 0.0
+        own = {*map(str, setting.plant.states)}
+        setting = with_lags(setting) if how.predictor else setting
         self._how, self._setting, self._period = how, setting, period_s
         self._n, self._m = len(setting.plant.states), len(setting.plant.inputs)
         self._tracked = [name for name in setting.tracks if name in how.weights]
-        self._program = program(how, setting, period_s, self._tracked)
+        self._motion = PlantMotion(how, setting)
+        self._program = program(how, setting, period_s, self._tracked, self._motion)
+        self._underway = Underway(self._before, period_s, self._delay)
+        if how.observer:
+            first = {str(x): setting.initial[str(x)] for x in setting.plant.states if str(x) not in own}
+            self.state: MeasuredState | KalmanState = KalmanState(how, setting, self._motion, first)
+        else:
+            self.state = MeasuredState(how, setting, period_s, self._motion)
+        self._called = False
         self._excess = len(self._program.limited)
         self._stage = self._n + 2 * self._m + self._excess
         self._plan: Array | None = None
         self._multipliers: tuple[Any, Any] | None = None
-        self._before = np.zeros(self._m)
-        self._predicted: Array | None = None
-        self.disturbance = np.zeros(self._n)
         self.fallbacks = 0
 
     def command(self, t: float, measured: Array) -> Any:
-        """The first input of the plan from the state as measured at t."""
-        n, m = self._n, self._m
-        names = [*map(str, self._setting.plant.outputs)]
-        x = np.array([measured[names.index(str(symbol))] for symbol in self._setting.plant.states])
-        if self._predicted is not None:
-            self.disturbance += self._how.disturbance_gain * (x - self._predicted)
+        """The first input of the plan from what was measured at t."""
+        n, m, state = self._n, self._m, self.state
+        x = state.now(measured, self._underway.arrived if self._called else ())
+        x = moved(self._motion, x, self._underway.ahead, state.disturbances, state.push / self._period)
         start = np.concatenate([x, self._before])
-        cold, guess = self._plan is None, self._shifted(start)
-        given = self._given(t, start)
+        cold, guess, self._called = self._plan is None, self._shifted(start), True
+        given = self._given(t + self._delay, start)
         usable = self._solved(guess, given)
         if not usable:
             self.fallbacks += 1
@@ -77,8 +86,7 @@ class TrackingMpc:
         assert self._plan is not None
         u = self._plan[n + m:n + 2 * m].copy()
         self._before = np.clip(u, *limits_of(self._setting))
-        if self._how.disturbance_gain:
-            self._predicted = np.asarray(self._program.step(x, self._before)).ravel() + self.disturbance
+        self._underway.send(self._before)
         return u
 
     def _solved(self, guess: Array, given: Array) -> bool:
@@ -103,7 +111,8 @@ class TrackingMpc:
         tracks, references = self._setting.tracks, self._setting.references
         ahead = signals_at({name: references[tracks[name]] for name in self._tracked}, times)
         desired = np.array([ahead[name][0] for name in self._tracked]).reshape(len(self._tracked), len(times))
-        parts = [start, self.disturbance if self._how.disturbance_gain else np.zeros(0), desired.T.ravel()]
+        parts = [start, self.state.push if self._how.disturbance_gain else np.zeros(0), self.state.disturbances,
+                 desired.T.ravel()]
         if self._how.objective:
             every = signals_at(references, times)
             parts.append(np.vstack([times, *(np.array(every[name]) for name in references)]).T.ravel())

@@ -7,11 +7,13 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Literal, get_args
 
+from workbench.model.law import time
 from workbench.systems.setting import Setting
 from workbench.systems.symbols import named_values
 
 Solver = Literal["fatrop", "ipopt"]
 MOST_STAGES = 1000
+NOT_NEGATIVE = ("weights", "input_weights", "change_weights", "rate_limits", "observer", "first_spread")
 
 
 @dataclass(frozen=True)
@@ -24,7 +26,11 @@ class PlantMpcValues:
     rate_limits: of an input, per second; excess_price: of a limited state's excess, per unit and per unit squared;
     disturbance_gain: of the filter that makes constant errors vanish, at most 1, none where 0; substeps: Runge-Kutta
     steps a sample. solver: fatrop, or ipopt, which knows no structure; both to convergence. one_iteration: one
-    quadratic program a sample, along the last plan, instead, and some at the first one.
+    quadratic program a sample, along the last plan, instead, and some at the first one. observer: of states and
+    disturbances, the standard deviation of what moves them beyond the model in a second; an extended Kalman filter then
+    estimates the state, and the named disturbances, from the outputs. It begins at first_estimate (zero where none is
+    given) with the standard deviation first_spread (that of a second where none is given). predictor: it is told of
+    the inputs' lags and delays.
     """
 
     horizon: int
@@ -40,9 +46,13 @@ class PlantMpcValues:
     objective: Mapping[str, float] = field(default_factory=dict)
     disturbance_gain: float = 0.0
     one_iteration: bool = False
+    observer: Mapping[str, float] = field(default_factory=dict)
+    first_estimate: Mapping[str, float] = field(default_factory=dict)
+    first_spread: Mapping[str, float] = field(default_factory=dict)
+    predictor: bool = False
 
     def __post_init__(self) -> None:
-        for key in ("weights", "input_weights", "change_weights", "input_targets", "rate_limits", "objective"):
+        for key in (*NOT_NEGATIVE, "input_targets", "objective", "first_estimate"):
             table = {str(name): value for name, value in named_values(getattr(self, key), key).items()}
             object.__setattr__(self, key, table)
         if not 1 <= self.horizon <= MOST_STAGES or self.substeps < 1:
@@ -50,7 +60,7 @@ class PlantMpcValues:
                              "and at least one step")
         if self.solver not in get_args(Solver):
             raise ValueError(f"solver '{self.solver}' is not known: it is one of {', '.join(get_args(Solver))}")
-        for key in ("weights", "input_weights", "change_weights", "rate_limits"):
+        for key in NOT_NEGATIVE:
             for name, value in getattr(self, key).items():
                 if not (math.isfinite(value) and value >= 0):
                     raise ValueError(f"{key}.{name} = {value}: give a number that is not negative")
@@ -58,21 +68,36 @@ class PlantMpcValues:
             raise ValueError("weights and objective are empty: state weights of tracked outputs, or of metrics")
         if not 0 <= self.disturbance_gain <= 1:
             raise ValueError(f"disturbance_gain = {self.disturbance_gain}: give a number from 0 to 1")
+        self._check_observer()
         for name in self.input_weights if self.disturbance_gain else ():
             raise ValueError(f"input_weights.{name}: pulls away from the desired output, which disturbance_gain is to "
                              "reach exactly: take change_weights")
         if self.one_iteration and (self.objective or self.solver != "fatrop"):
             raise ValueError("one_iteration needs a sum of squares and fatrop: leave out objective and solver")
 
-    def check(self, setting: Setting) -> None:
-        """ValueError unless the plant measures all its states and has what is named."""
+    def _check_observer(self) -> None:
+        if self.disturbance_gain and self.observer:
+            raise ValueError("disturbance_gain is for plants all of whose states are measured: name disturbances in "
+                             "observer instead")
+        for key in ("first_estimate", "first_spread") if not self.observer else ():
+            if getattr(self, key):
+                raise ValueError(f"{key} is for an observer: state observer, or leave it out")
+
+    def check(self, setting: Setting, period_s: float) -> None:
+        """ValueError unless the plant has what is named and, without an observer, measures all its states."""
         plant = setting.plant
         if not plant.inputs:
             raise ValueError(f"MPC has nothing to command: plant '{plant.id}' has no input")
-        for state in plant.states:
+        for state, move in zip(plant.states, plant.moves, strict=True):
+            if move.has(time):
+                raise ValueError(f"MPC plans with a plant that does not change with time, and '{state}' of plant "
+                                 f"'{plant.id}' moves by the clock: make what depends on it a disturbance")
+        for state in () if self.observer else plant.states:
             if plant.outputs.get(state) != state:
                 raise ValueError(f"MPC needs every state of plant '{plant.id}', and '{state}' is not measured: make it "
-                                 "an output")
+                                 f"an output, or state observer, as {{ {state} = 1.0 }}, to estimate it")
+        self._check_estimates(setting)
+        self._check_actuators(setting, period_s)
         for name in self.weights:
             if name not in setting.tracks:
                 raise ValueError(f"weights.{name}: no reference is tracked by that output: state tracks.{name}")
@@ -88,3 +113,31 @@ class PlantMpcValues:
                 known = [one for one, measure in metrics.items() if measure not in ("largest", "smallest")]
                 raise ValueError(f"objective.{name} = {weight}: give a number for a metric that is integrated or taken "
                                  f"at the end: {', '.join(known) or 'none is stated'}")
+
+    def _check_estimates(self, setting: Setting) -> None:
+        """ValueError for what is no state and no disturbance of the plant."""
+        plant = setting.plant
+        states, disturbances = [*map(str, plant.states)], [*map(str, plant.disturbances)]
+        for key in ("observer", "first_estimate", "first_spread"):
+            for name, value in getattr(self, key).items():
+                if name not in (*states, *disturbances):
+                    raise ValueError(f"{key}.{name}: plant '{plant.id}' has no such state and no such disturbance: "
+                                     f"name one of {', '.join((*states, *disturbances))}")
+                if not math.isfinite(value):
+                    raise ValueError(f"{key}.{name} = {value}: give a finite number")
+                if name in disturbances and name not in self.observer:
+                    raise ValueError(f"{key}.{name}: the disturbance is not estimated: state observer.{name}")
+
+    def _check_actuators(self, setting: Setting, period_s: float) -> None:
+        """ValueError for actuators that the predictor cannot be told of."""
+        if not self.predictor:
+            return
+        delays = {str(u): setting.delay_s.get(str(u), 0.0) for u in setting.plant.inputs}
+        if len(set(delays.values())) > 1:
+            told = ", ".join(f"{u} {delay:g} s" for u, delay in delays.items())
+            raise ValueError(f"predictor: the inputs' delays differ, {told}: make them equal, or leave predictor out")
+        for name, lag in setting.lag_s.items() if not setting.plant.updates else ():
+            least = math.ceil(period_s / (2 * lag)) if lag else 1  # beyond, Runge-Kutta steps of the lag grow
+            if self.substeps < least:
+                raise ValueError(f"predictor: the lag of {name}, {lag:g} s, is too short for {self.substeps} Runge-"
+                                 f"Kutta steps in {period_s:g} s: give {least} substeps or more")

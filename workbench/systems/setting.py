@@ -27,12 +27,13 @@ UNSTATED, A_MILLISECOND = math.nan, 1e-3  # the step where none is given: a plan
 class Setting:
     """Everything but the controller; names are those of the plant's symbols, times are in seconds.
 
-    parameters: true values instead of the plant's own; initial: states that are not zero; references and disturbances:
-    a signal each, disturbances zero where none is given; tracks: output to the reference that it shall follow;
-    noise: standard deviation of each output's measurement, drawn anew at each sample from `seed`; late_s: how old a
-    measurement is; lag_s: time constant of an input; delay_s: of an input; step_s: of the plant, a millisecond unless
-    given, in discrete time its own; integrator: classical Runge-Kutta of fixed
-    step, or a solver of scipy for stiff plants. Raises ValueError, one line naming what does not fit.
+    parameters: true values instead of the plant's own; initial: states that are not zero, and inputs before the first
+    command, which lags and delays begin with and MPC changes from; references and disturbances: a signal each,
+    disturbances zero where none is given; tracks: output to the reference that it shall follow; noise: standard
+    deviation of each output's measurement, drawn anew at each sample from `seed`; late_s: how old a measurement is;
+    lag_s: time constant of an input; delay_s: of an input; step_s: of the plant, a millisecond unless given, in
+    discrete time its own; integrator: classical Runge-Kutta of fixed step, or a solver of scipy for stiff plants.
+    Raises ValueError, one line naming what does not fit.
     """
 
     plant: Plant
@@ -69,7 +70,7 @@ class Setting:
         object.__setattr__(self, "tracks", {name: _name(channel)
                                             for name, channel in named_values(self.tracks, "tracks").items()})
         object.__setattr__(self, "metrics", several(self.metrics, "metrics", Metric, "Metric(id, measure, expression)"))
-        for key, kind, names in (("initial", "state", [*map(str, plant.states)]),
+        for key, kind, names in (("initial", "state or input", [*map(str, plant.states), *inputs]),
                                  ("disturbances", "disturbance", [*map(str, plant.disturbances)]),
                                  ("tracks", "output", outputs), ("noise", "output", outputs),
                                  ("late_s", "output", outputs), ("lag_s", "input", inputs),
@@ -156,14 +157,15 @@ class Setting:
         for name, reference in self.tracks.items():
             symbol, value = outputs[name]
             error, unit = value - channel[reference], plant.units.get(symbol, "")
-            found += [Metric(f"{name}_error_rms", "root mean square", error, unit),
-                      Metric(f"{name}_error_largest", "largest", sp.Abs(error), unit),
-                      Metric(f"{name}_error_final", "terminal", error, unit)]
-        found += [Metric(f"{symbol}_rms", "root mean square", symbol, plant.units.get(symbol, ""))
+            found += [Metric(f"{name}_error_rms", "root mean square", error, unit, f"{name} error rms"),
+                      Metric(f"{name}_error_largest", "largest", sp.Abs(error), unit, f"{name} error largest"),
+                      Metric(f"{name}_error_final", "terminal", error, unit, f"{name} error final")]
+        found += [Metric(f"{symbol}_rms", "root mean square", symbol, plant.units.get(symbol, ""), f"{symbol} rms")
                   for symbol in plant.inputs]
         for symbol, (low, high) in plant.state_limits.items():
             sides = [side for bound, side in ((low, low - symbol), (high, symbol - high)) if math.isfinite(bound)]
-            found.append(Metric(f"{symbol}_limit_excess", "largest", sp.Max(0, *sides), plant.units.get(symbol, "")))
+            found.append(Metric(f"{symbol}_limit_excess", "largest", sp.Max(0, *sides), plant.units.get(symbol, ""),
+                                f"{symbol} limit excess"))
         stated = {metric.id for metric in self.metrics}
         return tuple(metric for number, metric in enumerate(found)
                      if number < len(self.metrics) or metric.id not in stated)
@@ -183,3 +185,9 @@ def limits_of(setting: Setting) -> tuple[Array, Array]:
     plant = setting.plant
     pairs = [plant.input_limits.get(symbol, (-math.inf, math.inf)) for symbol in plant.inputs]
     return np.array([low for low, _ in pairs], dtype=float), np.array([high for _, high in pairs], dtype=float)
+
+
+def first_inputs(setting: Setting) -> Array:
+    """The inputs before the first command: as the setting says, else the number nearest to zero within their limits."""
+    stated = [setting.initial.get(str(u), 0.0) for u in setting.plant.inputs]
+    return np.clip(np.array(stated, dtype=float), *limits_of(setting))

@@ -82,7 +82,7 @@ class LocatedPlantStudy(PlantStudy):
                                entry.parameters | dict(changed or {}), entry.initial)
             else:
                 how = _mpc(entry, changed or {})
-                how.check(self.setting)
+                how.check(self.setting, entry.period_s)
                 made = Entrant(shown or name, entry.period_s, build=how.build)
             made.check(self.setting)
         except ValueError as trouble:
@@ -101,7 +101,7 @@ class LocatedPlantStudy(PlantStudy):
         entry = self.controllers[name]
         if isinstance(entry, LawEntry):
             return dict(entry.parameters)
-        tables = ("weights", "input_weights", "change_weights", "objective")
+        tables = ("weights", "input_weights", "change_weights", "objective", "observer")
         return {"terminal_weight": entry.terminal_weight,
                 **{f"{table}.{key}": value for table in tables for key, value in getattr(entry, table).items()}}
 

@@ -44,6 +44,10 @@ class MpcEntry(SourcedRecord):
     solver: Literal["fatrop", "ipopt"] = "fatrop"
     disturbance_gain: Annotated[float, Strict(), Field(ge=0, le=1)] = 0.0
     one_iteration: bool = False
+    observer: Weights = Field(default_factory=dict)
+    first_estimate: Values = Field(default_factory=dict)
+    first_spread: Weights = Field(default_factory=dict)
+    predictor: bool = False
 
     @model_validator(mode="after")
     def _minimises_something(self) -> Self:

@@ -84,8 +84,8 @@ def _findings(setting: Setting, runs: Sequence[PlantRun]) -> Iterator[str]:
         if run.failed:
             yield f"{run.failed}."
         if run.fallbacks:
-            yield (f"The solver of {run.name} gave nothing usable at {run.fallbacks} samples; its last plan went on "
-                   "there.")
+            yield (f"The solver of {run.name} gave nothing usable at {run.fallbacks} "
+                   f"sample{'s' * (run.fallbacks > 1)}; its last plan went on there.")
 
 
 def tune(study: LocatedPlantStudy, names: list[str], workers: int, on_progress: Progress,

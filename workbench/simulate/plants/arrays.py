@@ -20,7 +20,7 @@ from workbench.simulate.plants.event_code import event_functions
 from workbench.simulate.plants.event_loop import MOST_IN_A_RUN
 from workbench.systems.law import StateLaw
 from workbench.systems.plant import Plant
-from workbench.systems.setting import Setting
+from workbench.systems.setting import Setting, first_inputs
 from workbench.systems.signals import table_of
 
 Array = NDArray[np.float64]
@@ -120,8 +120,8 @@ class Arrays:
 
 
 def arrays_of(setting: Setting, found: Compiled, law_states: Array) -> Arrays:
-    """The arrays at time zero; the inputs are where the first command will be, or at zero where they lag."""
-    plant, m = setting.plant, len(setting.plant.inputs)
+    """The arrays at time zero; inputs that lag or are delayed begin as the setting says."""
+    plant, m, first = setting.plant, len(setting.plant.inputs), first_inputs(setting)
     x = np.zeros(len(plant.states) + len(found.integrands))
     x[:len(plant.states)] = [setting.initial.get(str(s), 0.0) for s in plant.states]
     delays = np.array([setting.steps_of(setting.delay_s.get(str(s), 0.0), "delay_s") for s in plant.inputs], np.int64)
@@ -135,8 +135,9 @@ def arrays_of(setting: Setting, found: Compiled, law_states: Array) -> Arrays:
     size, count = 4 * len(table), len(plant.events)
     sides = np.array([(0.0, *event.sides, 0.0) for event in plant.events]).reshape(count, 4)
     return Arrays(
-        x=x, wanted=np.zeros(m), u=np.zeros(m), u_middle=np.zeros(m), u_end=np.zeros(m), delays=delays,
-        ring=np.zeros((int(delays.max(initial=0)) + 1, m)), fade_half=half, fade_full=full, table=table, pieces=pieces,
+        x=x, wanted=np.zeros(m), u=first.copy(), u_middle=np.zeros(m), u_end=np.zeros(m), delays=delays,
+        ring=np.tile(first, (int(delays.max(initial=0)) + 1, 1)), fade_half=half, fade_full=full, table=table,
+        pieces=pieces,
         s=np.zeros(size), s_middle=np.zeros(size), s_end=np.zeros(size),
         p=np.array([*setting.parameters.values()], dtype=float), extremes=np.full(len(found.extremes), -math.inf),
         values=np.zeros(len(found.extremes)), sides=sides, crossing=np.zeros(count), slopes=np.zeros(count),
