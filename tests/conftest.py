@@ -6,6 +6,7 @@ import os
 import sys
 from pathlib import Path
 
+import compiled_apart
 import one_thread  # noqa: F401 - before anything imports numpy
 import papers_import  # noqa: F401 - tests import from proofs
 import pytest
@@ -19,6 +20,7 @@ os.environ.setdefault("WORKBENCH_CACHE", str(Path(__file__).parent.parent / ".ca
 # The same examples in every run, so that more of them find nothing that these have not found.
 settings.register_profile("fixed", derandomize=True, deadline=None, max_examples=50)
 settings.load_profile("fixed")
+compiled_apart.install()
 # Some examples are constants of the modules imported so far, which are others where other tests have run before.
 providers._get_local_constants = lambda: providers._local_constants
 # Nothing that collection imports is garbage: to look for some again and again takes a quarter of its time.

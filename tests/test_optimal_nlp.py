@@ -163,7 +163,7 @@ def test_where_the_gap_is_wide_it_is_the_bound_that_is_loose(vehicle, factor):
     asked = factor * least_time(vehicle, course).trip_time_s
     # A coarse mesh where the curve is not concave: finer ones cost the nonlinear solvers minutes and leave the gap.
     found = find_reference(vehicle, course, asked, intervals=None if vehicle is TRAIN else 150)
-    prices = found.certificate.time_price_w * np.array([0.9, 1.0, 1.1, 1.2])
+    prices = found.certificate.time_price_w * np.array([1.0, 1.2])  # the best of more prices is one of these
     dual = max(least_cost(vehicle, course, price, 400, 1500) - price * asked for price in prices)
     assert dual == pytest.approx(found.energy_j, rel=8e-3)
     if found.gap > 0.01:

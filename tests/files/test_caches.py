@@ -6,6 +6,7 @@ import stat
 import sys
 from pathlib import Path
 
+import compiled_apart
 import pytest
 
 from workbench.compile import code_cache
@@ -112,6 +113,7 @@ def run(tmp_path, monkeypatch, capsys):
     """Imports a kernel as if for the first time: what it computes, how often from the cache, where it lies, notes."""
     monkeypatch.setenv("WORKBENCH_CACHE", str(tmp_path))
     monkeypatch.delitem(sys.modules, NAME, raising=False)
+    monkeypatch.setattr(compiled_apart, "kept", lambda *_: True)  # it is compiled in this process
 
     def imported() -> tuple[float, int, Path, str]:
         folders.note.cache_clear()

@@ -1,0 +1,52 @@
+"""Kernels are compiled in a fork that ends, and loaded from where they are kept: a compiler leaves some 20 MB for each
+kernel in its process, and a test process needs a hundred."""
+
+import contextlib
+import os
+import warnings
+
+import one_thread  # noqa: F401 - before numba imports numpy
+from numba.core import sigutils
+from numba.core.ccallback import CFunc
+from numba.core.dispatcher import Dispatcher
+
+compile_here, compile_function_here = Dispatcher.compile, CFunc.compile
+
+
+def kept(cache, signature, target) -> bool:
+    """Whether code need not be compiled, or could not be loaded by another process."""
+    file = getattr(cache, "_cache_file", None)
+    return file is None or cache._index_key(signature, target.codegen()) in file._load_index()
+
+
+def in_a_fork(work, *arguments) -> None:
+    """What fails there fails here again, where it is seen."""
+    try:
+        with warnings.catch_warnings(action="ignore", category=DeprecationWarning):  # there is a thread that only reads
+            number = os.fork()
+    except OSError:
+        return
+    if number:
+        os.waitpid(number, 0)
+        return
+    with contextlib.suppress(BaseException):
+        Dispatcher.compile, CFunc.compile = compile_here, compile_function_here
+        work(*arguments)
+    os._exit(0)
+
+
+def compiled(dispatcher, signature):
+    arguments, _ = sigutils.normalize_signature(signature)
+    if arguments not in dispatcher.overloads and not kept(dispatcher._cache, signature, dispatcher.targetctx):
+        in_a_fork(compile_here, dispatcher, signature)
+    return compile_here(dispatcher, signature)
+
+
+def compiled_function(function):
+    if not kept(function._cache, function._sig, function._targetdescr.target_context):
+        in_a_fork(compile_function_here, function)
+    return compile_function_here(function)
+
+
+def install() -> None:
+    Dispatcher.compile, CFunc.compile = compiled, compiled_function
