@@ -3,6 +3,8 @@ kernel in its process, and a test process needs a hundred."""
 
 import contextlib
 import os
+import select
+import signal
 import warnings
 
 import one_thread  # noqa: F401 - before numba imports numpy
@@ -10,6 +12,7 @@ from numba.core import sigutils
 from numba.core.ccallback import CFunc
 from numba.core.dispatcher import Dispatcher
 
+PATIENCE_S = 120.0  # after which a fork hangs on what a thread held, and the kernel is compiled here
 compile_here, compile_function_here = Dispatcher.compile, CFunc.compile
 
 
@@ -27,6 +30,10 @@ def in_a_fork(work, *arguments) -> None:
     except OSError:
         return
     if number:
+        handle = os.pidfd_open(number)
+        if not select.select([handle], [], [], PATIENCE_S)[0]:
+            os.kill(number, signal.SIGKILL)
+        os.close(handle)
         os.waitpid(number, 0)
         return
     with contextlib.suppress(BaseException):
@@ -49,4 +56,6 @@ def compiled_function(function):
 
 
 def install() -> None:
+    if not hasattr(os, "pidfd_open"):  # another system than Linux
+        return
     Dispatcher.compile, CFunc.compile = compiled, compiled_function
