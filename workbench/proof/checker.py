@@ -398,7 +398,9 @@ class Context:
             return self.derivative(argument, self.flow)
         if name not in FUNCTIONS:
             raise CertificateError(f"unknown function '{name}'")
-        if name != "sqrt" and any(atom == SUM or self.kind(atom) == TOTAL for atom in atoms_of(argument)):
+        if name == "abs":  # of a sum: of a number, its total
+            argument = self.closed(argument)
+        elif name != "sqrt" and any(atom == SUM or self.kind(atom) == TOTAL for atom in atoms_of(argument)):
             raise CertificateError(f"{name} of a sum")
         if name == "log":
             return self._log(argument)
@@ -753,7 +755,7 @@ def _cases(value: Ratio, operator: str, given: Relations, proof: dict[str, Any])
     if names not in CASES:
         raise CertificateError(f"{', '.join(names)} are not all the cases")
     given.require_defined(proof["of"])
-    inspected = context.read(proof["of"])
+    inspected = context.closed(context.read(proof["of"]))
     for name, (direction, relation, sign) in zip(names, CASES[names], strict=True):
         size = number(direction) * inspected
         known: dict[str, Ratio] = {}
@@ -860,7 +862,7 @@ def _factor(given: Relations, item: dict[str, Any]) -> Sign:
                 raise CertificateError(f"not a number that is enclosed above zero: {text}")
             return value, ">="
         case {"fact": "abs_square", "of": str(text)}:
-            size, inner = context.call("abs", _argument(given, text)), context.read(text)
+            size, inner = context.call("abs", _argument(given, text)), context.closed(context.read(text))
             return size * size + -(inner * inner), "=="
         case {"fact": "abs_nonnegative", "of": str(text)}:
             return context.call("abs", _argument(given, text)), ">="

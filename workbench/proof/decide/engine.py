@@ -14,6 +14,7 @@ from workbench.errors import ClaimError
 from workbench.proof.building import built
 from workbench.proof.checker import CertificateError, check, roots_of
 from workbench.proof.claim import Claim, Decision, Goal, Relation, Verdict, latex, name_of
+from workbench.proof.decide.defined import defined_first
 from workbench.proof.decide.method import method_of
 from workbench.proof.decide.nearest import smallest_margin
 from workbench.proof.decide.refute import examples, find_counterexample, shown_point, value_at
@@ -185,6 +186,8 @@ def proofs_of(goal: Goal) -> list[dict[str, Any]] | str:
     proofs = []
     for place, shown in enumerate(goal.show):
         found = prove_relation(goal, shown)
+        if goal.decreasing is None:
+            found = defined_first(goal, shown, found)
         if found is None:
             of = f" (relation {place + 1} of {len(goal.show)})" if len(goal.show) > 1 else ""
             return f"not shown{of}: {_shortened(relation_text(shown))}"

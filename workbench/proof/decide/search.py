@@ -48,7 +48,8 @@ def search(goal: Goal, shown: Relation, given: Given, lemmas: Given = (), depth:
             return found
     return (_by_lemmas(goal, shown, given, lemmas) or _by_contradiction(goal, shown, given)
             or _by_growth(goal, _carried(shown, goal), given) or find_by_totals(goal, shown, given, search)
-            or find_by_tangents(goal, _carried(shown, goal), given) or _by_its_square(goal, shown, given))
+            or find_by_tangents(goal, _carried(shown, goal), given) or _by_its_square(goal, shown, given)
+            or _by_both_bounds(goal, shown, given, lemmas, depth))
 
 
 def _by_contradiction(goal: Goal, shown: Relation, given: Given) -> Found:
@@ -79,6 +80,23 @@ def _by_its_square(goal: Goal, shown: Relation, given: Given) -> Found:
     above = {"assume": len(given)}
     last = {"coefficient": "1", "factors": [*found.get("multiplier", []), above, above]}
     return {"rule": "contradiction", "terms": [*found["terms"], last]}
+
+
+def _by_both_bounds(goal: Goal, shown: Relation, given: Given, lemmas: Given, depth: int) -> Found:
+    """An equality of sizes from both inequalities: were the sides different, the square of what is between them would
+    be positive, and it is the opposite of the product of the two margins."""
+    if shown.operator != "==" or depth or not _carried(shown, goal).margin.has(Size):
+        return None
+    lower, upper = (Relation(shown.left, operator, shown.right) for operator in ("<=", ">="))
+    first = search(goal, lower, given, lemmas, depth)
+    second = first and search(goal, upper, (*given, lower), lemmas, depth)
+    if first is None or second is None:
+        return None
+    place = len(given)
+    last = {"rule": "contradiction", "terms": [{"coefficient": "1", "factors": [{"square_of": place + 2}]}, {
+        "coefficient": "1", "factors": [{"assume": place}, {"assume": place + 1}]}]}
+    return {"rule": "cut", "lemma": relation_text(lower), "proof": first, "then": {
+        "rule": "cut", "lemma": relation_text(upper), "proof": second, "then": last}}
 
 
 def _by_growth(goal: Goal, shown: Relation, given: Given, steps: int = MOST_STEPS) -> Found:
