@@ -1482,23 +1482,21 @@ def _reached(top: str, below: dict[str, set[str]]) -> set[str]:
 
 def _require_one_motion(goals: list[dict[str, Any]]) -> None:
     """CertificateError where a symbol moves in one of these goals otherwise than in another: no motion obeys both."""
-    rates: dict[str, str] = {}
-    starts: dict[str, str] = {}
-    constants: set[str] = set()
+    known: dict[tuple[str, str], str] = {}
     inputs: set[str] = set()
     for goal in goals:
         flow, free = goal.get("flow", {}), goal.get("inputs", [])
-        if not flow and not free:  # of one instant, whatever moves
-            continue
-        for known, more in ((rates, flow), (starts, goal.get("initial", {}))):
-            if different := [name for name, text in more.items() if known.setdefault(name, text) != text]:
-                raise CertificateError(f"linked certificates have different rates or initial values of {different[0]}")
         texts = [*goal.get("assume", []), *goal["show"], *goal.get("always", []), *flow.values()]
-        constants |= {node.id for text in texts for node in nodes(text) if isinstance(node, ast.Name)} - {
-            *flow, *free, *FUNCTIONS, "Sum", "D", "Max", "Min"}
-        inputs.update(free)
-    if moved := sorted(constants & (inputs | {name for name, rate in rates.items() if rate != "0"})):
-        raise CertificateError(f"{moved[0]} moves in one of two linked certificates and is constant in the other")
+        if flow or free:  # else it is of one instant, whatever moves
+            names = {node.id for text in texts for node in nodes(text) if isinstance(node, ast.Name)} - {*free}
+            moves = {("rate", name): flow.get(name, "0") for name in names | flow.keys()}
+            moves |= {("start", name): start for name, start in goal.get("initial", {}).items()}
+            for place, text in moves.items():
+                if known.setdefault(place, text) != text:
+                    raise CertificateError(f"linked certificates have different rates or initial values of {place[1]}")
+            inputs.update(free)
+    if moved := sorted(name for name in inputs if known.get(("rate", name)) == "0"):
+        raise CertificateError(f"{moved[0]} is an input of one of two linked certificates and constant in the other")
 
 
 # --- which claim a certificate is for ----------------------------------------------------------------------
