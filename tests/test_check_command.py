@@ -115,7 +115,7 @@ def test_a_counterexample_is_named_by_the_letters_of_the_file(symbols):
 @pytest.mark.parametrize(("line", "why"), [
     (r"\mu = 1", "letter '\\mu' is not in the notation"), (r"\dot\lambda = 0", "does not move"),
     (r"\frac{e_1}{e_1} = 1", "cancels"), (r"\lambda \to 0", "relations"), (r"\lambda", "no relation"), ("", "empty"),
-    (r"\lambda =", "ends where"), ("x" * 100_000, "at most"), (r"\forall k: k > 0", "quantifies"),
+    (r"\lambda =", "ends where"), ("x" * 100_000, "at most"), (r"\exists k: k > 0", "exists"),
     (r"\sum_{i=1}^n h_ih_j \ge 0", "the index 'j' too"), (r"\tilde W \le k", "vector"),
 ])
 def test_a_line_that_is_no_goal_is_refused_in_one_line(symbols, line, why):

@@ -398,7 +398,9 @@ class Context:
             return self.derivative(argument, self.flow)
         if name not in FUNCTIONS:
             raise CertificateError(f"unknown function '{name}'")
-        if name != "sqrt" and any(atom == SUM or self.kind(atom) == TOTAL for atom in atoms_of(argument)):
+        if name == "abs":  # of a sum: of a number, its total
+            argument = self.closed(argument)
+        elif name != "sqrt" and any(atom == SUM or self.kind(atom) == TOTAL for atom in atoms_of(argument)):
             raise CertificateError(f"{name} of a sum")
         if name == "log":
             return self._log(argument)
@@ -753,7 +755,7 @@ def _cases(value: Ratio, operator: str, given: Relations, proof: dict[str, Any])
     if names not in CASES:
         raise CertificateError(f"{', '.join(names)} are not all the cases")
     given.require_defined(proof["of"])
-    inspected = context.read(proof["of"])
+    inspected = context.closed(context.read(proof["of"]))
     for name, (direction, relation, sign) in zip(names, CASES[names], strict=True):
         size = number(direction) * inspected
         known: dict[str, Ratio] = {}
@@ -860,7 +862,7 @@ def _factor(given: Relations, item: dict[str, Any]) -> Sign:
                 raise CertificateError(f"not a number that is enclosed above zero: {text}")
             return value, ">="
         case {"fact": "abs_square", "of": str(text)}:
-            size, inner = context.call("abs", _argument(given, text)), context.read(text)
+            size, inner = context.call("abs", _argument(given, text)), context.closed(context.read(text))
             return size * size + -(inner * inner), "=="
         case {"fact": "abs_nonnegative", "of": str(text)}:
             return context.call("abs", _argument(given, text)), ">="
@@ -1480,23 +1482,21 @@ def _reached(top: str, below: dict[str, set[str]]) -> set[str]:
 
 def _require_one_motion(goals: list[dict[str, Any]]) -> None:
     """CertificateError where a symbol moves in one of these goals otherwise than in another: no motion obeys both."""
-    rates: dict[str, str] = {}
-    starts: dict[str, str] = {}
-    constants: set[str] = set()
+    known: dict[tuple[str, str], str] = {}
     inputs: set[str] = set()
     for goal in goals:
         flow, free = goal.get("flow", {}), goal.get("inputs", [])
-        if not flow and not free:  # of one instant, whatever moves
-            continue
-        for known, more in ((rates, flow), (starts, goal.get("initial", {}))):
-            if different := [name for name, text in more.items() if known.setdefault(name, text) != text]:
-                raise CertificateError(f"linked certificates have different rates or initial values of {different[0]}")
         texts = [*goal.get("assume", []), *goal["show"], *goal.get("always", []), *flow.values()]
-        constants |= {node.id for text in texts for node in nodes(text) if isinstance(node, ast.Name)} - {
-            *flow, *free, *FUNCTIONS, "Sum", "D", "Max", "Min"}
-        inputs.update(free)
-    if moved := sorted(constants & (inputs | {name for name, rate in rates.items() if rate != "0"})):
-        raise CertificateError(f"{moved[0]} moves in one of two linked certificates and is constant in the other")
+        if flow or free:  # else it is of one instant, whatever moves
+            names = {node.id for text in texts for node in nodes(text) if isinstance(node, ast.Name)} - {*free}
+            moves = {("rate", name): flow.get(name, "0") for name in names | flow.keys()}
+            moves |= {("start", name): start for name, start in goal.get("initial", {}).items()}
+            for place, text in moves.items():
+                if known.setdefault(place, text) != text:
+                    raise CertificateError(f"linked certificates have different rates or initial values of {place[1]}")
+            inputs.update(free)
+    if moved := sorted(name for name in inputs if known.get(("rate", name)) == "0"):
+        raise CertificateError(f"{moved[0]} is an input of one of two linked certificates and constant in the other")
 
 
 # --- which claim a certificate is for ----------------------------------------------------------------------

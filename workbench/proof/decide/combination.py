@@ -61,7 +61,7 @@ def find_combination(goal: Goal, shown: Relation, relations: tuple[Relation, ...
         return None
     for rounds, pairs, hidden in ATTEMPTS[:1] if quick else ATTEMPTS:
         terms = _candidates(target, known, atoms, rounds, pairs, hidden)
-        if shown.operator == "==":
+        if shown.operator == "==":  # what is not negative would show no more than that
             terms = [term for term in terms if term.sign == "=="]
         if len(terms) <= MAX_COLUMNS:
             chosen = _solve(target, terms, shown.strict)

@@ -14,7 +14,7 @@ from workbench.proof.decide.pivots import find_by_pivots
 from workbench.proof.decide.squares import find_squares
 from workbench.proof.decide.tangents import find_by_tangents
 from workbench.proof.decide.totals import find_by_totals
-from workbench.proof.decide.two_sides import find_by_two_sides, pinched
+from workbench.proof.decide.two_sides import between, find_by_two_sides, pinched
 from workbench.proof.decide.vanishing import vanishes
 from workbench.proof.derive import Side, Size, expand_derivatives, unfold
 from workbench.proof.text import assumptions, relation_text, text
@@ -63,7 +63,8 @@ def search(goal: Goal, shown: Relation, given: Given, lemmas: Given = (), depth:
     return (_by_lemmas(goal, shown, given, lemmas) or _by_contradiction(goal, shown, given)
             or _by_growth(goal, _carried(shown, goal), given) or find_by_totals(goal, shown, given, search)
             or find_by_tangents(goal, _carried(shown, goal), given) or _by_its_square(goal, shown, given)
-            or find_by_two_sides(goal, shown, given) or find_by_pivots(goal, shown, given))
+            or find_by_two_sides(goal, shown, given) or find_by_pivots(goal, shown, given)
+            or _by_both_bounds(goal, shown, given, lemmas, depth))
 
 
 def _by_contradiction(goal: Goal, shown: Relation, given: Given) -> Found:
@@ -95,6 +96,18 @@ def _by_its_square(goal: Goal, shown: Relation, given: Given) -> Found:
     square = [{"square_of": len(given)}] if shown.operator == "==" else [last, last]
     term = {"coefficient": "1", "factors": [*found.get("multiplier", []), *square]}
     return {"rule": "contradiction", "terms": [*found["terms"], term]}
+
+
+def _by_both_bounds(goal: Goal, shown: Relation, given: Given, lemmas: Given, depth: int) -> Found:
+    """An equality of sizes from both inequalities, each by a search of its own."""
+    if shown.operator != "==" or depth or not _carried(shown, goal).margin.has(Size):
+        return None
+    lower, upper = (Relation(shown.left, operator, shown.right) for operator in ("<=", ">="))
+    first = search(goal, lower, given, lemmas, depth)
+    second = first and search(goal, upper, (*given, lower), lemmas, depth)
+    if first is None or second is None:
+        return None
+    return _cut([(lower, first), (upper, second)], between(len(given), len(given) + 1, len(given) + 2))
 
 
 def _by_growth(goal: Goal, shown: Relation, given: Given, steps: int = MOST_STEPS) -> Found:

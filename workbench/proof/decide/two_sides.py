@@ -28,7 +28,7 @@ def find_by_two_sides(goal: Goal, shown: Relation, given: Given) -> Proof | None
         if proof is None:
             return None
         steps.append((side, proof))
-    final = _between(len(given), len(given) + 1, len(given) + 2, [])
+    final = between(len(given), len(given) + 1, len(given) + 2)
     for lemma, proof in reversed(steps):
         final = {"rule": "cut", "lemma": relation_text(lemma), "proof": proof, "then": final}
     return final
@@ -54,18 +54,19 @@ def pinched(given: Given) -> list[tuple[Relation, Proof]]:
             other, weight = seen[sp.expand(-whole)]
             spare: list[dict[str, Any]] = [{"positive": text(b)} for b in (below, weight) if b.free_symbols]
             scale = sp.Mul(*(b for b in (below, weight) if not b.free_symbols))
-            proof = _between(place, other, len(given) + len(found), spare, scale)
+            proof = between(place, other, len(given) + len(found), spare, scale)
             found.append((equal(whole, 0), proof))
         else:
             seen[whole] = place, below
     return found
 
 
-def _between(one: int, other: int, negation: int, spare: list[dict[str, Any]], scale: sp.Expr = sp.S.One) -> Proof:
+def between(one: int, other: int, negation: int, spare: list[dict[str, Any]] | None = None,
+            scale: sp.Expr = sp.S.One) -> Proof:
     """A proof of v == 0 where two assumptions say v >= 0 and v <= 0: were v not zero, v**2 + v (-v) = 0 > 0.
 
     spare: the positive factors that the two have below, times the number scale.
     """
     return {"rule": "contradiction", "terms": [
         {"coefficient": "1", "factors": [{"square_of": negation}]},
-        {"coefficient": str(scale), "factors": [{"assume": one}, {"assume": other}, *spare]}]}
+        {"coefficient": str(scale), "factors": [{"assume": one}, {"assume": other}, *(spare or [])]}]}

@@ -80,8 +80,8 @@ def _require_told_apart(line: Line) -> None:
         if number and words == (",",) and _is_bound(chain) and any(
                 earlier.signs and not _is_bound(earlier) and _letters(chain) & _letters(earlier)
                 for earlier in line.chains[:number]):
-            raise LatexError(r"whether what stands behind the comma is claimed or a condition is open: write \text{for} "
-                             r"or \text{and} before it, or the condition and \Rightarrow first", chain.position)
+            raise LatexError(r"what stands behind the comma may be claimed or a condition: write \text{for} or "
+                             r"\text{and} before it, or the condition and \Rightarrow first", chain.position)
 
 
 def _counted(relation: Relation, limits: sp.Tuple | None) -> Relation:
@@ -105,8 +105,8 @@ def _is_bound(chain: Chain) -> bool:
 def _letters(node: Any) -> set[Letter]:
     if isinstance(node, Letter):
         return {node}
-    parts = node if isinstance(node, tuple) else [getattr(node, f.name) for f in fields(node)] if is_dataclass(node) else ()
-    return set().union(*map(_letters, parts))
+    parts = [getattr(node, f.name) for f in fields(node)] if is_dataclass(node) else node
+    return set().union(*map(_letters, parts)) if isinstance(parts, (list, tuple)) else set()
 
 
 def answer(line: str, symbols: Symbols) -> Answer:

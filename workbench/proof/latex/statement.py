@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from fractions import Fraction
 
 import sympy as sp
 
 from workbench.proof.claim import Operator, Relation
 from workbench.proof.latex.convert import Converter
 from workbench.proof.latex.error import LatexError
-from workbench.proof.latex.tree import Chain, Group, Letter, Line, Node, Power, Product, Terms
+from workbench.proof.latex.tree import Chain, Group, Letter, Line, Node, Number, Power, Product, Terms
 
 OPERATORS: dict[str, Operator] = {"=": "==", "<=": "<=", ">=": ">=", "<": "<", ">": ">", "!=": "!="}
 _AND = frozenset(("and", ",", "", "as well as"))
@@ -17,6 +18,9 @@ _ALL = ("for all", "for every", "for any", "for each")
 _UNDER = ("for", "if", "when", "with", "where", "under", "at", "whenever", "provided that", "such that", *_ALL)
 _THEN = ("then", "we have", "then we have", "it holds that", "it follows that", "one has")
 _IMPLIES = ("implies", "imply", "implies that", "imply that")
+
+
+_AT_ALL_TIMES = tuple(Chain((Letter("t"), Number(Fraction(0))), (sign,)) for sign in (">=", ">"))
 
 
 class ProseError(LatexError):
@@ -41,9 +45,11 @@ class Statement:
 
 def statement(line: Line, converter: Converter) -> Statement:
     """The statement of a line; raises ProseError where words carry part of it, LatexError for what cannot be read."""
+    if not converter.declared and any("\\forall" in words for words in line.separators):
+        raise ProseError("the line quantifies over what stands behind 'for all': it is read by a person")
     claimed, conditions = parted(line)
     if not claimed:
-        raise LatexError("the line claims nothing: write a relation, behind a colon where 'for all' or 'for' stands first")
+        raise LatexError("the line claims nothing: write a relation, behind a colon where 'for all' stands first")
     return Statement(_related(claimed, converter), _related(conditions, converter))
 
 
@@ -54,8 +60,8 @@ def relations(related: tuple[Related, ...]) -> tuple[Relation, ...]:
 
 
 def parted(line: Line) -> tuple[list[Chain], list[Chain]]:
-    """The chains that a line claims, and those that are its conditions: before an arrow or a colon, after `for`, `if` or
-    a quantifier, in brackets after a relation."""
+    """The chains that a line claims, and those that are its conditions: before an arrow or a colon, after `for`, `if`
+    or a quantifier, in brackets after a relation."""
     flat = [word for words in line.separators for word in words]
     if "\\exists" in flat:
         raise ProseError("the line says that something exists: it is read by a person")
@@ -81,12 +87,17 @@ def parted(line: Line) -> tuple[list[Chain], list[Chain]]:
     if any(word == "\\forall" or _said_of(word) in _ALL for word in flat):
         while conditions and not conditions[-1].signs and isinstance(conditions[-1].sides[0], Letter):
             conditions.pop()  # `for all x`: everything is said of all values
-    for word in line.separators[-1]:
+    _require_end(line.separators[-1])
+    return claimed, conditions
+
+
+def _require_end(words: tuple[str, ...]) -> None:
+    """Raise LatexError for what ends a line and says something."""
+    for word in words:
         if word.startswith("text ") and word.removeprefix("text ").strip(" .,") not in _AND:
             raise _said(word.removeprefix("text "))
         if word in ("=>", ":"):
             raise LatexError("nothing stands behind the arrow or colon: complete the line")
-    return claimed, conditions
 
 
 def _after_words(text: str, into: list[Chain], claimed: list[Chain], conditions: list[Chain]) -> list[Chain]:
@@ -139,6 +150,8 @@ def _related(chains: list[Chain], converter: Converter) -> tuple[Related, ...]:
 
 
 def _chain(chain: Chain, converter: Converter) -> list[Related]:
+    if converter.declared and chain in _AT_ALL_TIMES and converter.notation.meaning(chain.sides[0]) is None:
+        return []  # what is said of an instant is said of all
     if "in" in chain.signs:
         return _interval(chain, converter)
     for sign in chain.signs:
