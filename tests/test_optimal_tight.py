@@ -7,7 +7,8 @@ import numpy as np
 import pytest
 
 from workbench.optimal.adapt import LONGER, P_CHANGE, _graded
-from workbench.optimal.adjoint import BENT_FROM, NEAR_LIMIT, certificate_from
+from workbench.optimal.adjoint import BENT_FROM, NEAR_LIMIT, certificate_from, middles
+from workbench.optimal.best_forms import best_forms
 from workbench.optimal.bound import lower_bound
 from workbench.optimal.course import Course
 from workbench.optimal.grid import graded_grid, kept_borders
@@ -76,6 +77,38 @@ def test_p_on_a_line_at_the_limits_proves_more_near_the_least_time(plan, quickes
     short = [plan.energy_j - lower_bound(TRAIN, course, certificate_from(TRAIN, plan, NEAR_LIMIT[0], bent), timetable)
              for bent in BENT_FROM]
     assert 0 < short[1] < short[0] / 2
+
+
+def test_forms_of_p_joined_piece_by_piece_prove_more_than_each(plan, quickest):
+    course, timetable = plan.grid.course, as_timetable(plan.grid.course, 1.001 * quickest.trip_time_s)
+    forms = [certificate_from(TRAIN, plan, near, bent) for near in NEAR_LIMIT for bent in BENT_FROM]
+    joined = best_forms(TRAIN, course, forms, middles(plan), timetable, 0.0, 0.0)
+    alone = [lower_bound(TRAIN, course, form, timetable) for form in forms]
+    assert max(alone) < lower_bound(TRAIN, course, joined, timetable) < plan.energy_j
+    # Pieces are chosen, nothing is mixed.
+    assert np.any([form.left == joined.left for form in forms], axis=0).all()
+
+
+def test_an_intervals_dual_is_p_in_the_middle_of_its_time():
+    """Under constant acceleration a from a standstill v^2 = 2 a s, and p' = -mu / (inertia v^3) has the solution
+    p = mu / (inertia a v) and a constant: only there do the duals lie on it, in the middle of the length none does."""
+    level = Course(np.array([0.0, 400.0]), np.array([30.0]), np.zeros((1, 2)), np.zeros((1, 2)), ())
+    train = Vehicle("steady", 2e5, (6e3, 0.0, 0.0), ForceLimit(2e5), friction_brake_n=2.4e5)
+    plan = solve_socp(train, graded_grid(level, 40), 1.01 * least_time(train, level).trip_time_s)
+    acceleration = (2e5 - 6e3) / 2e5
+    speed = np.sqrt(2 * acceleration * middles(plan)[:12])
+    fall = -np.diff(plan.adjoint[:12])
+    assert fall == pytest.approx(-np.diff(plan.time_price_w / (2e5 * acceleration * speed)), rel=2e-4)
+
+
+@pytest.mark.parametrize(("length_m", "share"), [(250.0, 1.0005), (1200.0, 1.001), (4000.0, 1.01)])
+def test_short_runs_near_the_least_time_have_narrow_gaps(length_m, share):
+    position = np.array([0.0, 0.3, 0.6, 1.0]) * length_m
+    force = np.repeat(TRAIN.mass_kg * 9.81e-3 * np.array([4.0, -8.0, 12.0]), 2).reshape(-1, 2)
+    line = Course(position, np.array([15.0, 12.0, 15.0]), force, np.zeros((3, 2)), ())
+    found = find_reference(TRAIN, line, share * least_time(TRAIN, line).trip_time_s)
+    assert 0 < found.gap <= GAP_OF_CONES
+    assert found.check.energy_j == pytest.approx(found.energy_j, rel=1e-4)
 
 
 def test_a_time_near_the_least_one_is_met_with_a_narrow_gap(line, quickest):

@@ -126,8 +126,8 @@ def _parts(plan: Plan, halves: _Halves, b: Array) -> NDArray[np.intp]:
 
 def _divided(ends: Array, b: Array, count: int) -> Array:
     """Positions between two ends with equal differences of the cube root of the speed."""
-    start, end = ends
-    levels = np.linspace(*np.cbrt(b) ** 0.5, count + 1) ** 6
+    (start, end), (one, two) = ends, np.cbrt(b) ** 0.5
+    levels = np.linspace(one, two, count + 1) ** 6
     points = start + (levels - b[0]) / (b[1] - b[0]) * (end - start)
     inner = points[(points > start + SHORTEST_M) & (points < end - SHORTEST_M)]
     return np.concatenate(([start], inner, [end]))

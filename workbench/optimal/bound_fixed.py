@@ -47,7 +47,8 @@ def fixed_part(vehicle: Vehicle, course: Course, certificate: Certificate, timet
     ends = inertia / 2 * np.array([-p_left[0] * start_mps**2, p_right[-1] * end_mps**2])
     fall = inertia / 2 * (p_right[:-1] - p_left[1:])
     jumps = np.minimum(fall, 0.0) * most**2 + np.maximum(fall, 0.0) * least**2
-    return FixedPart(np.bincount(owner, line, len(p_left)), ends, jumps, certificate.time_part_j(timetable))
+    return FixedPart(np.asarray(np.bincount(owner, line, len(p_left)), dtype=float), ends, jumps,
+                     certificate.time_part_j(timetable))
 
 
 def owner_of(x: Array, fine: Array) -> NDArray[np.intp]:

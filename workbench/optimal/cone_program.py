@@ -143,7 +143,7 @@ class ConeProgram:
             apart = abs(answer.obj_val - answer.obj_val_dual)
             if status == "Solved" or (status == "AlmostSolved" and apart <= NEAR * abs(answer.obj_val)):
                 return found
-            almost = found if status == "AlmostSolved" else None
+            almost = found if status == "AlmostSolved" else almost
             trouble = f"clarabel says '{status}' of {what}: allow more time or other intervals"
         # An inaccurate solution may serve: nothing that follows takes the solver's word for it.
         if almost is None:

@@ -25,8 +25,9 @@ from workbench.optimal.vehicle import Vehicle
 
 # Cells of the driven run on each interval of the plan.
 PARTS = 8
-# Share of the trip time by which a drivable run may be off before the plan itself is made again, so many times.
-OFF, PLANS = 2e-5, 3
+# Shares of the trip time, and of the energy at the price of time, by which a drivable run may be off before the plan
+# itself is made again, so many times: to mix it with the fastest run costs more than its price.
+OFF, LATE, PLANS = 2e-5, 2e-4, 3
 # By which a run may be slower at a timing point than asked, m/s.
 SPEED_ERROR_MPS = 1e-6
 
@@ -67,7 +68,7 @@ def planned(asked: Asked, planner: Planner, grid: Grid, guess: Profile, near: fl
     """What comes of planning on a mesh; None where the solver found no plan.
 
     Where the run is off, the plan is made again with what the run takes longer, unless a finer mesh is to follow,
-    because the plan's energy lies above its bound by more than the share `near`.
+    because the plan's energy lies apart from its bound by more than the share `near`.
     """
     timetable = asked.timetable
     least = leg_times(timetable, asked.quickest)
@@ -82,8 +83,9 @@ def planned(asked: Asked, planner: Planner, grid: Grid, guess: Profile, near: fl
         spent += plan.solve_s
         profile, legs, off = _driven(asked, plan, least)
         first = first or (plan, profile, solver, *_best_bound(asked, plan))
-        if float(np.abs(off).sum()) <= allowed or not (
-                is_last or first[0].energy_j - first[3] <= near * abs(first[0].energy_j)):
+        priced = LATE * abs(plan.energy_j) / max(float(plan.interval_prices_w.max()), 1e-300)
+        if float(np.abs(off).sum()) <= min(allowed, priced) or not (
+                is_last or abs(first[0].energy_j - first[3]) <= near * abs(first[0].energy_j)):
             break
         extra = extra + off
     if first is None:

@@ -26,6 +26,7 @@ from workbench.optimal.verify import Check, check
 
 Solver = Literal["auto", "socp", "nlp"]
 INTERVALS, STOP_INTERVALS = 500, 100
+# Of the first mesh; of finer ones GAP_OF_CONES is enough.
 ROUNDS, GAP_WANTED = 5, 5e-4
 # Meshes on which no plan was found, before a request is given up; a finer one has so many times the intervals.
 FAILURES, FINER = 4, 2
@@ -79,8 +80,8 @@ def find_reference(vehicle: Vehicle, course: Course, trip_time_s: float, start_m
                    intervals: int | None = None, solver: Solver = "auto") -> Reference:
     """The run of least energy that arrives within trip_time_s, on about so many intervals.
 
-    Where no number is given the mesh is refined, up to ROUNDS times, until the gap is at most GAP_WANTED. `auto` plans
-    by the cone program, and by the nonlinear one too where that leaves more than GAP_OF_CONES.
+    Where no number is given the mesh is refined, up to ROUNDS times, until the gap is at most GAP_OF_CONES, unless the
+    first mesh leaves GAP_WANTED. `auto` plans by the cone program, and by the nonlinear one too where more is left.
 
     Raises InputError for a time that is no time, InfeasibleRunError where no run meets the request.
     """
@@ -189,7 +190,9 @@ def _rounds(asked: Asked, planner: Planner, grid: Grid, best: _Found, rounds: in
             grid = tight_grid(course, asked.quickest, FINER * len(grid.limit_mps))
             continue
         best = best.improved(vehicle, found)
-        if best.gap(vehicle) <= (GAP_OF_CONES if best.tight else GAP_WANTED) or (
+        # A plan that takes less than is proven of every run is one that cones allow and the train does not.
+        loose = found.bound_j - found.plan.energy_j > GAP_OF_CONES * abs(found.plan.energy_j)
+        if best.gap(vehicle) <= (GAP_OF_CONES if best.tight or number else GAP_WANTED) or loose or (
                 number and best.gap(vehicle) > NO_GAIN * before and best.run):
             break
         number += 1
