@@ -1,7 +1,8 @@
 """What the common contest found, as a page of Markdown: of every condition that has been played to its end.
 
     workbench report benchmarks/common.toml --out DIR          # plays, tunes nothing; --resume goes on
-    python benchmarks/contest_summary.py DIR docs/contest.md
+    workbench report benchmarks/minimax.toml --out WORST
+    python benchmarks/contest_summary.py DIR docs/contest.md [WORST]
 """
 
 from __future__ import annotations
@@ -19,16 +20,16 @@ from workbench.contest.by_period import at_each_period, period_findings
 from workbench.contest.entrants import information
 from workbench.contest.journal import JOURNAL_NAME
 from workbench.contest.matches import Match, entries, rounds
+from workbench.contest.objective_table import objective_table
 from workbench.contest.pareto import JOURNAL_NAME as FRONTS_NAME
 from workbench.contest.pareto import Front, front_tables
 from workbench.contest.record import Contest
-from workbench.contest.tables import COLUMNS, Told
+from workbench.contest.told import COLUMNS, Told
 from workbench.contest.tuning_table import tuning_table
 from workbench.files.numbers import number
 from workbench.paper.results import ResultTable
-from workbench.paper.statistics import mean_interval
 
-CONTEST = Path(__file__).with_name("common.toml")
+CONTEST, MINIMAX = (Path(__file__).with_name(f"{name}.toml") for name in ("common", "minimax"))
 SHOWN = ("position_rms", "speed_rms", "stopping_error", "energy_J", "jerk_rms", "comfort_rms", "switchings_per_s")
 
 
@@ -76,9 +77,10 @@ def of_period(own: Told, condition: str) -> Iterator[str]:
             if value is None:
                 cells.append("—")
                 continue
-            found, si = mean_interval(value, own.how), COLUMNS[metric].si
+            found, si = own.interval(value), COLUMNS[metric].si
             best = " ●" if names[i].name in own.winners(condition, metric) else ""
-            cells.append(f"{number(found.mean / si)} [{number(found.low / si)}, {number(found.high / si)}]{best}")
+            between = f" [{number(found.low / si)}, {number(found.high / si)}]" if found else ""
+            cells.append(f"{number(float(value.mean()) / si)}{between}{best}")
         rows.append([*cells, f"{failed} of {own.runs(condition)}"])
     yield from table(["controller", *(COLUMNS[metric].heading for metric in SHOWN), "failed"], rows)
 
@@ -116,6 +118,18 @@ def page(told: Told, contest: Contest, fronts: list[Front]) -> Iterator[str]:
                                                  for name in told.scenario.controllers])
 
 
+def worst(told: Told) -> Iterator[str]:
+    """The contest in which everyone is tuned for the worst of several conditions."""
+    yield from (
+        "## Tuned for the worst of several conditions", "",
+        f"`benchmarks/minimax.toml`, a contest of its own with {told.contest.seeds} draws a condition: + is tuned "
+        "for the worst of several conditions, _ten is the same controller with what the common contest found in one. "
+        f"Searches are short here, {told.contest.evaluations('')} evaluations of {told.contest.tuning.draws} run in "
+        "each condition, and nothing is ranked: the table says what the objective comes to, and where it is worst.", "")
+    for found in (*objective_table(told), *tuning_table(told)):
+        yield from (f"### {found.title}", "", *shown(found))
+
+
 def shown(found: ResultTable) -> Iterator[str]:
     """A table of the report."""
     yield from table(list(found.headings), [list(row) for row in found.text])
@@ -125,12 +139,14 @@ def shown(found: ResultTable) -> Iterator[str]:
 
 def main() -> None:
     """Write the page."""
-    folder, out = map(Path, sys.argv[1:3])
-    contest = load(CONTEST).record
-    assert isinstance(contest, Contest)
+    folder, out, *others = map(Path, sys.argv[1:])
+    contest, minimax = (load(path).record for path in (CONTEST, MINIMAX))
+    assert isinstance(contest, Contest) and isinstance(minimax, Contest)
     read = TypeAdapter(tuple[Front, ...])
     fronts = [front for record in records(folder / FRONTS_NAME) for front in read.validate_python(record["fronts"])]
-    out.write_text("\n".join(page(played(folder, contest), contest, fronts)).rstrip() + "\n", encoding="utf-8")
+    lines = [*page(played(folder, contest), contest, fronts),
+             *(line for other in others for line in worst(played(other, minimax)))]
+    out.write_text("\n".join(lines).rstrip() + "\n", encoding="utf-8")
 
 
 if __name__ == "__main__":

@@ -14,7 +14,8 @@ from __future__ import annotations
 import sys
 import time
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from contextlib import ExitStack, contextmanager
+from itertools import product
 from pathlib import Path
 from typing import Any
 from unittest.mock import patch
@@ -61,11 +62,13 @@ def counted() -> Iterator[Inside]:
     inside, module = Inside(), sys.modules[LOOP]
     for actuator in ACTUATORS:
         mpc_loop(actuator)  # made of the solvers themselves, and not of what times them
-    with (patch.object(module, "_run_compiled", _driving(module._run_compiled, inside)),
-          patch.object(module, "_run_sampled", _driving(module._run_sampled, inside)),
-          patch.object(CasadiMpc, "_solve_from", inside.of(CasadiMpc._solve_from)),
-          patch.multiple(kernels("direct"), **{n: inside.of(getattr(kernels("direct"), n)) for n in SOLVERS}),
-          patch.multiple(kernels("lag"), **{n: inside.of(getattr(kernels("lag"), n)) for n in SOLVERS})):
+    with ExitStack() as patches:
+        for name in ("_run_compiled", "_run_sampled"):
+            patches.enter_context(patch.object(module, name, _driving(getattr(module, name), inside)))
+        patches.enter_context(patch.object(CasadiMpc, "_solve_from", inside.of(CasadiMpc._solve_from)))
+        for actuator, name in product(ACTUATORS, SOLVERS):
+            compiled = kernels(actuator)
+            patches.enter_context(patch.object(compiled, name, inside.of(getattr(compiled, name))))
         yield inside
 
 

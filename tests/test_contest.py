@@ -16,7 +16,8 @@ from workbench.contest.energy import best_run
 from workbench.contest.matches import METRICS, Entry, Match, all_matches, entries, looks, match_values, run_match
 from workbench.contest.record import Contest, Racing
 from workbench.contest.study import KIND, undecided
-from workbench.contest.tables import Told, condition_table, look
+from workbench.contest.tables import condition_table
+from workbench.contest.told import Told, look
 from workbench.contest.tune import DRAWS_FROM, tune_all
 from workbench.errors import InputError, WorkbenchError
 from workbench.paper.statistics import Bootstrap, rankings
@@ -222,7 +223,7 @@ def test_a_small_contest_is_told_whole(contest: Contest, scenario: Scenario) -> 
         assert (row["failed"] is None) == (row["position_rms"] is not None)
         assert row.keys() >= set(METRICS)
     titles = [table.title for table in result.tables]
-    assert titles[:2] == ["Who wins where", "The contestants"]
+    assert titles[:2] == ["Who wins where; commands every 5 to 100 ms", "The contestants"]
     # POCRAC's barrier is left when commands are late: told as failed, ranked nowhere.
     late = [row for row in result.rows if row["condition"] == "late_command" and row["controller"] == "pocrac"]
     assert late[0]["failed"] is not None and late[0]["position_rms"] is None

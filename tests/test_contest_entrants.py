@@ -18,7 +18,8 @@ from workbench.contest.learning import learners, learning_tables
 from workbench.contest.matches import all_matches, draws_of, play_match, with_parameters
 from workbench.contest.record import Condition, Contest
 from workbench.contest.study import KIND
-from workbench.contest.tables import ARRIVED_M, Told, energy_table
+from workbench.contest.tables import energy_table
+from workbench.contest.told import ARRIVED_M, Told
 from workbench.files.folders import held_in
 from workbench.model.sensing import Sensing
 from workbench.paper.statistics import Bootstrap, overtakes, rankings

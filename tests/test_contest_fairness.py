@@ -8,7 +8,7 @@ from workbench.contest.matches import Match, all_matches, draws_of, entries, run
 from workbench.contest.premises import premises_findings, premises_table, words_of
 from workbench.contest.record import Condition, Contest
 from workbench.contest.study import located
-from workbench.contest.tables import Told
+from workbench.contest.told import Told
 from workbench.errors import InputError
 from workbench.paper.statistics import Bootstrap, rankings
 

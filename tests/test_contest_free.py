@@ -26,7 +26,8 @@ from workbench.contest.matches import (
 )
 from workbench.contest.record import Contest, WithoutCurve
 from workbench.contest.study import KIND, located
-from workbench.contest.tables import Told, condition_table, winners_table
+from workbench.contest.tables import condition_table, winners_table
+from workbench.contest.told import LATE_S, Told
 from workbench.contest.tune import tune_all
 from workbench.errors import InputError
 from workbench.mpc import linear, terminal, transcription, tube
@@ -102,13 +103,17 @@ def test_who_follows_no_curve_is_not_ranked_by_errors_from_it(
     small = few(contest, "nominal", seeds=1).with_world(of)
     told = Told(small, of, all_matches(small, of, 1, lambda *_: None), None)
     assert [follows_curve(of, name) for name in of.controllers] == [True, False, True, True]
-    # Errors from the curve made the least of all, it would still not be their winner; energy is its own.
+    # Errors from the curve made the least of all, it would still not be their winner; energy would be its own, did it
+    # not come too late to be held against who is on time.
     favoured = tuple(replace(m, values=m.values | dict.fromkeys(OF_CURVE, 0.0)) if m.entry == FREE else m
                      for m in told.matches)
     flattered = replace(told, matches=favoured)
     for metric in told.metrics:
         assert (FREE in flattered.winners("nominal", metric)) <= (metric not in OF_CURVE)
-    assert told.winners("nominal", "energy_J") == [FREE]
+    late, = (m.values["late_s"] for m in told.matches if m.entry == FREE)
+    assert late is not None and late > LATE_S and FREE not in told.winners("nominal", "energy_J")
+    punctual = tuple(replace(m, values=m.values | {"late_s": 0.0}) for m in told.matches)
+    assert replace(told, matches=punctual).winners("nominal", "energy_J") == [FREE]
     row = next(row for row in condition_table(told, "nominal").text if row[0] == FREE)
     marked = [metric for metric, cell in zip(told.metrics, row[1:-1], strict=True) if "follows no curve" in cell]
     assert tuple(marked) == tuple(m for m in told.metrics if m in OF_CURVE)

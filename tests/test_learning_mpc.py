@@ -11,7 +11,7 @@ from workbench.contest.entrants import check_entrants, information, learns, play
 from workbench.contest.learning import learners, mpc_rivals
 from workbench.contest.matches import play_match
 from workbench.contest.record import Contest
-from workbench.contest.tables import Told
+from workbench.contest.told import Told
 from workbench.errors import InputError
 from workbench.model.sensing import Sensing
 from workbench.mpc.learning import learned_from

@@ -8,10 +8,11 @@ import sympy as sp
 from scenarios import short_scenario
 from scipy import signal
 
-from workbench.model.law import ControlLaw, LawState
+from workbench.model.law import ControlLaw, LawState, time
 from workbench.simulate.closed_loop import run_law, setting_of, simulate
 from workbench.simulate.metrics import measure, measure_run
 from workbench.simulate.ride import SUMS, SpeedLimits, ride, weighting
+from workbench.trains.actuator import Actuator
 
 AMPLITUDE, MIDDLE = 0.3, 0.5
 up = sp.Symbol("up", real=True)
@@ -49,6 +50,33 @@ def test_a_train_that_is_pushed_evenly_has_no_jerk():
     found = measure_run(driven(replace(alternating, command=sp.Rational(1, 2) + 0 * up)), 0.0)
     assert found.jerk_max < 1e-6 and found.jerk_p95 <= found.jerk_max
     assert found.comfort_rms < 0.5
+
+
+def test_a_constant_jerk_is_that_in_every_one_of_its_metrics():
+    found = measure_run(driven(replace(alternating, command=sp.Rational(1, 5) * time + 0 * up)), 0.0)
+    assert (found.jerk_rms, found.jerk_max) == pytest.approx((0.2, 0.2), rel=1e-6)
+    assert 0.2 <= found.jerk_p95 * (1 + 1e-9) <= 0.2 * 1.017
+    assert found.command_variation == pytest.approx(0.2, rel=2e-3)
+
+
+def test_a_late_and_lagging_command_is_felt_as_the_force_it_makes():
+    """A step of a, late by d, behind a lag tau: jerk a/tau exp(-(t - d)/tau), of which the squares' sum is known."""
+    a, lag, late, end_s = 0.5, 0.3, 0.1, 6.0
+    steady = replace(alternating, command=sp.Float(a) + 0 * up)
+    run = driven(steady, end_s=end_s, log_every_s=0.005, actuator=Actuator(lag_s=lag, delay_s=late))
+    found = measure_run(run, 0.0)
+    assert found.jerk_rms == pytest.approx(a / np.sqrt(2 * lag * end_s), rel=0.02)
+    assert found.jerk_max == pytest.approx(a / lag, rel=0.02)
+    assert found.command_variation == 0.0 and found.switchings == 0.0
+    assert np.all(run.column("v_mps")[: round(late / 0.005) + 1] == 0.0) and run.column("v_mps")[-1] > 0
+
+
+@pytest.mark.parametrize(("frequency", "printed"), [(0.5, 853), (1.0, 1011), (4.0, 512)])
+def test_a_shaking_train_is_weighted_as_the_standard_prints(frequency, printed):
+    """A whole run, shaken at one frequency: W_d of ISO 2631-1:1997, table 3, in thousandths."""
+    shaken = replace(alternating, command=sp.Float(AMPLITUDE) * sp.sin(2 * sp.pi * sp.Float(frequency) * time) + 0 * up)
+    found = measure_run(driven(shaken, end_s=60.0), 0.0)
+    assert found.comfort_rms == pytest.approx(AMPLITUDE / np.sqrt(2) * printed / 1000, rel=0.02)
 
 
 def test_changes_between_traction_and_braking_are_counted_where_they_happen():

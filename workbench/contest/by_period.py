@@ -5,14 +5,12 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import replace
 
-import numpy as np
-
 from workbench.contest.entrants import learns
 from workbench.contest.sampling import period_of
-from workbench.contest.tables import COLUMNS, Told, winners_table
+from workbench.contest.tables import winners_table
+from workbench.contest.told import COLUMNS, Told
 from workbench.files.numbers import number
 from workbench.paper.results import ResultTable
-from workbench.paper.statistics import mean_interval
 
 TRACKING = "position_rms"
 
@@ -36,8 +34,8 @@ def at_each_period(told: Told) -> Iterator[tuple[float, Told]]:
 
 def period_tables(told: Told) -> Iterator[ResultTable]:
     """Who wins where, a table for each period."""
-    for period, own in at_each_period(told):
-        yield replace(winners_table(own), title=f"Who wins where; commands every {1e3 * period:g} ms")
+    for _, own in at_each_period(told):
+        yield winners_table(own)
 
 
 def period_findings(told: Told) -> Iterator[str]:
@@ -68,5 +66,5 @@ def period_findings(told: Told) -> Iterator[str]:
 def _interval(told: Told, i: int, condition: str) -> str:
     values = told.values(condition, TRACKING)[i]
     assert values is not None
-    found = mean_interval(np.asarray(values), told.how)
-    return f"{number(found.mean)} [{number(found.low)}, {number(found.high)}]"
+    found = told.interval(values)
+    return number(float(values.mean())) + (f" [{number(found.low)}, {number(found.high)}]" if found else "")

@@ -9,7 +9,8 @@ from numpy.typing import NDArray
 
 from workbench.contest.entrants import follows_curve, learns
 from workbench.contest.matches import of
-from workbench.contest.tables import Told
+from workbench.contest.sampling import labelled
+from workbench.contest.told import Told
 from workbench.paper.cells import Cell, Column, Phrase
 from workbench.paper.results import Curve, Plot, ResultTable
 from workbench.paper.statistics import overtakes
@@ -59,18 +60,30 @@ def learning_tables(told: Told) -> Iterator[ResultTable]:
         yield ResultTable(
             f"When learning overtakes MPC: {heading}", "the learners' trips",
             ("learner", "condition", Column("first → last trip", unit), *rivals), tuple(rows),
-            "The trip from which on the learner is ahead by more than chance; no: not within its trips, and how many "
-            "times MPC's error its last trip has. All trips of a run have the same train, line and disturbance.")
+            "The trip from which on the learner is ahead by more than chance, all pairings of a learner corrected "
+            "together; no: not within its trips, and how many times MPC's error its last trip has. All trips of a run "
+            f"have the same train, line and disturbance.{_periods(told, (*learners(told), *rivals))}")
+
+
+def _periods(told: Told, entries: tuple[str, ...]) -> str:
+    """Who samples how often, where not all sample alike."""
+    labels = [labelled(told.scenario, entry) for entry in entries]
+    return f" They command every: {'; '.join(labels)}." if labels != list(entries) else ""
 
 
 def _cell(told: Told, trials: NDArray[np.float64], rival: NDArray[np.float64] | None) -> Cell:
     if rival is None:
         return "MPC fails"
     contest = told.contest
-    found = overtakes(trials, rival, contest.resamples, contest.seed, contest.confidence)
+    found = overtakes(trials, rival, contest.resamples, contest.seed, contest.confidence, comparisons=_pairings(told))
     if found is not None:
         return Phrase("trip {}", (found,))
     return Phrase("no, {}×", (float(trials[:, -1].mean() / rival[: len(trials)].mean()),))
+
+
+def _pairings(told: Told) -> int:
+    """How many questions are asked of one learner: each rival, condition and error."""
+    return len(mpc_rivals(told)) * len(told.contest.conditions) * len(ERRORS)
 
 
 def learning_findings(told: Told) -> Iterator[str]:
@@ -92,7 +105,7 @@ def learning_findings(told: Told) -> Iterator[str]:
                     if value is not None:
                         met += 1
                         trips.append(overtakes(trials, value, told.contest.resamples, told.contest.seed,
-                                               told.contest.confidence))
+                                               told.contest.confidence, comparisons=_pairings(told)))
             ahead = sorted(trip for trip in trips if trip is not None)
             words = f"is ahead of an MPC in {len(ahead)} of {met} pairings" if ahead else (
                 f"overtakes no MPC within its trips in any of {met} pairings")
@@ -110,14 +123,15 @@ def learning_plot(told: Told) -> Iterator[Plot]:
     for learner in learners(told):
         trials = _trials(told, condition, learner, 0)
         if trials is not None:
-            curves.append(Curve(learner, np.arange(1.0, trials.shape[1] + 1), trials.mean(axis=0)))
+            curves.append(Curve(labelled(told.scenario, learner), np.arange(1.0, trials.shape[1] + 1),
+                                trials.mean(axis=0)))
     names = [entry.name for entry in told.entries]
     values = dict(zip(names, told.values(condition, "position_rms"), strict=True))
     means = {name: float(value.mean()) for name in mpc_rivals(told) if (value := values[name]) is not None}
     if curves and means:
         last = max(float(curve.x[-1]) for curve in curves)
         for name in sorted({min(means, key=lambda n: means[n]), max(means, key=lambda n: means[n])}):
-            curves.append(Curve(name, np.array([1.0, last]), np.full(2, means[name])))
+            curves.append(Curve(labelled(told.scenario, name), np.array([1.0, last]), np.full(2, means[name])))
     if curves:
         yield Plot("Learning from trip to trip", f"condition: {told.contest.conditions[condition].title}", "trip",
                    "position RMS (m)", tuple(curves), log_y=True)

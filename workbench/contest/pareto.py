@@ -19,7 +19,8 @@ from pydantic import TypeAdapter, ValidationError
 from workbench.contest.entrants import follows_curve
 from workbench.contest.matches import match_values, run_match
 from workbench.contest.record import Contest, Pareto
-from workbench.contest.tables import ARRIVED_M, COLUMNS
+from workbench.contest.sampling import labelled, with_periods
+from workbench.contest.told import ARRIVED_M, COLUMNS
 from workbench.contest.tune import DRAWS_FROM
 from workbench.errors import InputError
 from workbench.model.tuning import Range, is_whole
@@ -237,19 +238,23 @@ def front_tables(contest: Contest, fronts: Sequence[Front]) -> Iterator[ResultTa
             for front in fronts if front.against == against for one in front.points]
         if rows and contest.pareto:
             stated = contest.pareto
-            yield ResultTable(
+            draws = stated.draws if contest.conditions[stated.condition].random else 1
+            yield with_periods(ResultTable(
                 f"What tracking costs in {COLUMNS[against].title}", _source(contest), (
                     "controller", COLUMNS[TRACKING], COLUMNS["energy_J"], COLUMNS["comfort_rms"], COLUMNS["late_s"],
                     "parameters"), tuple(rows),
                 f"Points of a controller that none of its others beats in both, from searches for {stated.weights} "
-                f"weights of {stated.evaluations} evaluations each, driven again on the contest's own draws. All stand "
-                f"at most {stated.late_s:g} s after the arrival time, so that energies are those of equal arrival.")
+                f"weights of {stated.evaluations} evaluations each, driven again on the first "
+                f"{f'{draws} of the' if draws > 1 else 'of the'} contest's own draws, without intervals. All stand at "
+                f"most {stated.late_s:g} s after the arrival time, so that energies are those of equal arrival."),
+                contest.world, contest.conditions[stated.condition])
 
 
 def front_plots(contest: Contest, fronts: Sequence[Front]) -> Iterator[Plot]:
     """A figure for each front, a curve a controller."""
     for against in AGAINST:
-        curves = tuple(Curve(front.controller, np.array([one.position_rms for one in front.points]),
+        curves = tuple(Curve(labelled(contest.world, front.controller),
+                             np.array([one.position_rms for one in front.points]),
                              np.array([getattr(one, against) for one in front.points]) / COLUMNS[against].si)
                        for front in fronts if front.against == against and front.points)
         if curves:

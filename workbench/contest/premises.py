@@ -10,7 +10,7 @@ import numpy as np
 
 from workbench.contest.matches import Entry, of, world_of
 from workbench.contest.record import Condition
-from workbench.contest.tables import Told
+from workbench.contest.told import Told
 from workbench.mpc.controller import MpcController
 from workbench.mpc.disturbance import Unknown, largest_bound, needed_bound
 from workbench.mpc.tube import Tube, TubeMpc

@@ -12,7 +12,7 @@ from workbench.model.sensing import SpeedFrom
 from workbench.model.tuning import Searched, SearchResult, Seed
 from workbench.paper.study import Study
 from workbench.trains.actuator import Actuator
-from workbench.trains.periods import at_periods, for_all_periods, period_name
+from workbench.trains.periods import at_periods, for_all_periods, period_name, without_period
 from workbench.trains.scenario import ControllerSpec, Interval, Scenario
 
 Spread = Annotated[float, Strict(), Field(ge=0, lt=1, allow_inf_nan=False)]
@@ -184,10 +184,11 @@ class Pareto(SourcedRecord):
 class Contest(Study):
     """A contest: its scenario's file (relative to this one), seeds, conditions and tuning.
 
-    seeds: draws of every condition in which anything is drawn; with racing the most. entrants: who takes part beside
-    the scenario's controllers; absent: laws that do not, and why. periods_s: name of who takes part at other periods
-    too -> these, each a controller of its own, called by its period (`pid_20ms`) and tuned apart. as_stated: who takes
-    part with the stated parameters too, where others were found; all without it.
+    seeds: draws of every condition in which anything is drawn; with racing the most. controllers: those of the
+    scenario that take part, all without it; entrants: who does beside them; absent: laws that do not, and why.
+    periods_s: name of who takes part at other periods too -> these, each a controller of its own, called by its period
+    (`pid_20ms`) and tuned apart. as_stated: who takes part with the stated parameters too, where others were found; all
+    without it.
     """
 
     scenario: Text
@@ -198,6 +199,7 @@ class Contest(Study):
     source: dict[str, Text]
     conditions: dict[Name, Condition]
     tuning: Tuning
+    controllers: tuple[Name, ...] = ()
     entrants: dict[Name, ControllerSpec] = Field(default_factory=dict)
     absent: dict[Name, Text] = Field(default_factory=dict)
     periods_s: dict[Name, tuple[Interval, ...]] = Field(default_factory=dict)
@@ -217,14 +219,17 @@ class Contest(Study):
     @classmethod
     def _ranges_hold_at_other_periods(cls, data: Any) -> Any:
         tuning, periods = (data.get(key) for key in ("tuning", "periods_s")) if isinstance(data, dict) else (None, None)
-        if not (isinstance(tuning, dict) and isinstance(periods, dict) and isinstance(tuning.get("ranges"), dict)):
+        if not (isinstance(tuning, dict) and isinstance(tuning.get("ranges"), dict)):
             return data
-        ranges = dict(tuning["ranges"])
-        for name, own in periods.items():
-            for period in own if name in ranges and isinstance(own, list | tuple) else ():
-                if isinstance(period, int | float):
-                    ranges.setdefault(period_name(name, period), ranges[name])
-        return data | {"tuning": tuning | {"ranges": ranges}}
+        copies = [period_name(name, period) for name, own in (periods if isinstance(periods, dict) else {}).items()
+                  for period in (own if isinstance(own, list | tuple) else ()) if isinstance(period, int | float)]
+        # What was found is of controllers that the scenario, which is not read yet, may have at several periods.
+        by_condition = tuning.get("found_in")
+        found = [tuning.get("found"), *(by_condition.values() if isinstance(by_condition, dict) else ())]
+        copies += [name for table in found if isinstance(table, dict) for name in table]
+        ranges = tuning["ranges"]
+        more = {name: ranges[without_period(name)] for name in copies if without_period(name) in ranges}
+        return data | {"tuning": tuning | {"ranges": more | ranges}}
 
     @property
     def world(self) -> Scenario:

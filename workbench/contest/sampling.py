@@ -33,5 +33,18 @@ def with_periods(table: ResultTable, scenario: Scenario, condition: Condition | 
     return replace(table, title=title, header=(table.header[0], PERIOD, *table.header[1:]), rows=tuple(rows))
 
 
+def commands_every(scenario: Scenario) -> str:
+    """How often who takes part commands, for a title."""
+    found = [period_of(scenario, name) for name in scenario.controllers]
+    low, high = (f"{1e3 * end(found, default=0.0):g}" for end in (min, max))
+    return f"commands every {low if low == high else f'{low} to {high}'} ms"
+
+
+def labelled(scenario: Scenario, entry: str) -> str:
+    """An entry's name as curves are called: with its period where not all sample alike."""
+    periods = {period_of(scenario, name) for name in scenario.controllers}
+    return f"{entry}, {1e3 * period_of(scenario, _controller(entry)):g} ms" if len(periods) > 1 else entry
+
+
 def _controller(entry: str) -> str:
     return entry.removesuffix("+")

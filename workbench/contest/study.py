@@ -16,10 +16,13 @@ from workbench.contest.entrants import check_entrants, check_names, entered, fol
 from workbench.contest.journal import contest_digest, matches_journal, matches_of, world_digest
 from workbench.contest.learning import learning_findings, learning_plot, learning_tables
 from workbench.contest.matches import METRICS, Match, all_matches, of, overspeed, run_match
+from workbench.contest.objective_table import objective_table
 from workbench.contest.pareto import all_fronts, front_plots, front_tables, who
 from workbench.contest.premises import premises_findings, premises_table, words_of
 from workbench.contest.record import Contest
-from workbench.contest.tables import COLUMNS, Told, all_tables
+from workbench.contest.sampling import labelled
+from workbench.contest.tables import all_tables
+from workbench.contest.told import COLUMNS, Told
 from workbench.contest.tune import tune_all
 from workbench.contest.tuning_table import convergence_plot, tuning_findings, tuning_table
 from workbench.errors import InputError
@@ -38,6 +41,7 @@ def located(contest: Contest, path: Path) -> Contest:
     """The contest with its scenario, read; raises InputError where the scenario or a name in it is wrong."""
     scenario_path = path.parent / contest.scenario
     stated = load_scenario(scenario_path, f"check the path, 'scenario' in {path}")
+    stated = _taking_part(contest, stated, path)
     for key in DRAWN if stated.sensing else ():
         if getattr(stated.sensing, key):
             raise InputError(scenario_path, f"sensing.{key}", "is a contest's to say, which draws noise and holds "
@@ -68,6 +72,16 @@ def located(contest: Contest, path: Path) -> Contest:
             raise InputError(path, "racing.metrics", f"'{metric}' is none of this line's: choose among "
                              f"{', '.join(METRICS)}")
     return contest
+
+
+def _taking_part(contest: Contest, scenario: Scenario, path: Path) -> Scenario:
+    """The scenario with the controllers that the contest names; InputError for one that it has not."""
+    for name in contest.controllers:
+        if name not in scenario.controllers:
+            raise InputError(path, "controllers", f"'{name}' is no controller of the scenario: choose among "
+                             f"{', '.join(scenario.controllers)}")
+    return scenario.model_copy(update={"controllers": {
+        name: spec for name, spec in scenario.controllers.items() if name in (contest.controllers or (name,))}})
 
 
 def undecided(told: Told) -> list[str]:
@@ -135,7 +149,7 @@ def _run(contest: Contest, workers: int, on_progress: Progress, played: Sequence
     failures, words = tuple(first.items()), tuple(words_of(told))
     return StudyResult(rows=tuple(_rows(told)),
                        tables=(*all_tables(told), *period_tables(told), *premises_table(told, words),
-                               *tuning_table(told),
+                               *objective_table(told), *tuning_table(told),
                                *front_tables(contest, fronts), *learning_tables(told)),
                        plots=(*_plots(told), *learning_plot(told), *convergence_plot(told),
                               *front_plots(contest, fronts)),
@@ -155,7 +169,7 @@ def _rows(told: Told) -> Iterator[dict[str, Any]]:
                 row[metric] = float(np.mean(np.array(values, dtype=float))) if len(values) == len(matches) else None
             failed = [match.failed for match in matches if match.failed is not None]
             yield row | {"failed_runs": len(failed), "failed": failed[0] if failed else None,
-                         "lower_bound_J": told.lower_bound_j}
+                         "lower_bound_J": told.lower_bound_j if name in told.bounded else None}
 
 
 def _plots(told: Told) -> Iterator[Plot]:
@@ -170,9 +184,9 @@ def _plots(told: Told) -> Iterator[Plot]:
             time, error = done.column("t_s"), done.column("s_m") - done.column("s_desired_m")
             keep = slice(None, None, max(1, len(time) // 1500))
             if follows_curve(told.scenario, name):
-                curves.append(Curve(name, time[keep], error[keep]))
+                curves.append(Curve(labelled(told.scenario, name), time[keep], error[keep]))
             else:
-                speeds.append(Curve(name, time[keep], done.column("v_mps")[keep]))
+                speeds.append(Curve(labelled(told.scenario, name), time[keep], done.column("v_mps")[keep]))
     if curves:
         yield Plot("Position errors", f"condition: {told.contest.conditions[first].title}", "time (s)",
                    "position error (m)", tuple(curves))
@@ -188,7 +202,8 @@ def _plots(told: Told) -> Iterator[Plot]:
         means = [told.values(name, "position_rms")[i] for name in told.contest.conditions]
         able = [(place, float(value.mean())) for place, value in zip(places, means, strict=True) if value is not None]
         if able:
-            lines.append(Curve(entry.name, np.array([x for x, _ in able]), np.array([y for _, y in able])))
+            lines.append(Curve(labelled(told.scenario, entry.name), np.array([x for x, _ in able]),
+                               np.array([y for _, y in able])))
     if lines:
         names = ", ".join(f"{k} {condition.title}" for k, condition in enumerate(told.contest.conditions.values()))
         yield Plot("Position RMS by condition", "all runs", f"condition ({names})", "position RMS (m)", tuple(lines),
@@ -197,34 +212,34 @@ def _plots(told: Told) -> Iterator[Plot]:
 
 def _findings(told: Told) -> Iterator[str]:
     """Plainly who wins where, from the tables."""
-    wins: dict[str, Counter[str]] = {metric: Counter() for metric in told.metrics}
-    for condition in told.contest.conditions:
-        for metric in told.metrics:
-            found = told.best(condition, metric)
-            wins[metric].update(found if len(found) == 1 else ())
+    groups = [(f"every {1e3 * period:g} ms ", own) for period, own in at_each_period(told)] or [("", told)]
     count = len(told.contest.conditions)
     for metric in told.metrics:
-        if wins[metric]:
-            words = ", ".join(f"{name} in {n}" for name, n in wins[metric].most_common())
-            yield f"{COLUMNS[metric].heading}, alone best of {count} conditions: {words}."
-        else:
-            yield f"{COLUMNS[metric].heading}: no controller is alone best in any condition."
+        said = []
+        for when, own in groups:
+            best = [own.best(condition, metric) for condition in told.contest.conditions]
+            alone = Counter(found[0] for found in best if len(found) == 1)
+            if alone:
+                said.append(when + ", ".join(f"{name} in {n}" for name, n in alone.most_common()))
+        yield (f"{COLUMNS[metric].heading}, alone best of {count} conditions: {'; '.join(said)}." if said else
+               f"{COLUMNS[metric].heading}: no controller is alone best in any condition.")
     for name, stated in told.contest.conditions.items():
         failed = Counter(match.entry for match in told.matches if match.condition == name and match.failed)
         if failed:
             words = ", ".join(f"{entry} {n}" for entry, n in failed.most_common())
             runs = told.runs(name)
             yield f"Runs that fail, {stated.title}: {words}, of {runs} run{'s' if runs > 1 else ''} of each law."
-    if told.lower_bound_j:
-        first = next(iter(told.contest.conditions))
+    if told.lower_bound_j and told.bounded:
+        first = told.bounded[0]
         energies = [(entry.name, value.mean()) for entry, value, arrived in zip(
-            told.entries, told.values(first, "energy_J"), told.arrives(first), strict=True)
+            told.entries, told.values(first, "energy_J"), told.on_time(first), strict=True)
             if value is not None and arrived]
         if energies:
             name, least = min(energies, key=lambda pair: pair[1])
             yield (f"The least energy of any run of the nominal train in the same time is "
-                   f"{number(told.lower_bound_j / KWH_J)} kWh; the least of the contestants, {name}, takes "
-                   f"{number(least / KWH_J)} kWh, {number(100 * (least / told.lower_bound_j - 1))} % more.")
+                   f"{number(told.lower_bound_j / KWH_J)} kWh; the least of the contestants who arrive on time, "
+                   f"{name}, takes {number(least / KWH_J)} kWh, "
+                   f"{number(100 * (least / told.lower_bound_j - 1))} % more.")
     yield from _without_curve(told)
     yield from _limits_of_the_curve(told)
     yield from tuning_findings(told)
@@ -242,7 +257,7 @@ def _without_curve(told: Told) -> Iterator[str]:
         within, ahead, counted = 0, 0, len(told.contest.conditions)
         for name in told.contest.conditions:
             energy, miss, arrived = (told.values(name, "energy_J"), told.values(name, "stopping_error")[i],
-                                     told.arrives(name))
+                                     told.on_time(name))
             within += miss is not None and bool(miss.max() <= band)
             others = [float(value.mean()) for other, value, comes in zip(told.entries, energy, arrived, strict=True)
                       if value is not None and comes and told.judged(other, "position_rms")]
@@ -250,9 +265,9 @@ def _without_curve(told: Told) -> Iterator[str]:
             ahead += own is not None and arrived[i] and all(float(own.mean()) < value for value in others)
         late = [value for name in told.contest.conditions if (value := told.values(name, "late_s")[i]) is not None]
         worst = f", at most {number(max(float(value.max()) for value in late))} s late" if late else ""
-        yield (f"{entry.name}, which follows no curve, takes on average less energy than everyone who follows it to "
-               f"the end in {ahead} of {counted} conditions; all its runs end within {band:g} m of the stop in "
-               f"{within} of {counted}{worst}.")
+        yield (f"{entry.name}, which follows no curve, comes on time and takes less energy on average than all who "
+               f"follow it and do so too in {ahead} of {counted} conditions; all its runs end within {band:g} m of "
+               f"the stop in {within} of {counted}{worst}.")
 
 
 def _limits_of_the_curve(told: Told) -> Iterator[str]:

@@ -7,7 +7,8 @@ from collections.abc import Iterator
 import numpy as np
 
 from workbench.contest.entrants import follows_curve
-from workbench.contest.tables import COLUMNS, Told
+from workbench.contest.sampling import with_periods
+from workbench.contest.told import COLUMNS, Told
 from workbench.files.numbers import number
 from workbench.model.tuning import SearchResult
 from workbench.paper.cells import Cell, Phrase
@@ -28,6 +29,24 @@ def searches(told: Told) -> Iterator[tuple[str, str, dict[str, float], SearchRes
                 yield name, condition, found[name], tuning.results_in.get(condition, {}).get(name)
 
 
+def _worst_of(told: Told) -> str:
+    """Of which conditions the worst is minimised."""
+    contest = told.contest
+    titles = ", ".join(contest.conditions[name].title for name in contest.tuned_in(""))
+    return f" The worst is of the objective's means in {titles}." if contest.tuning.mode == "minimax" else ""
+
+
+def _same_runs(told: Told) -> str:
+    """Where nothing is drawn, the search met the very run that counts."""
+    tuning = told.contest.tuning
+    conditions = {name for condition in (told.contest.conditions if tuning.mode == "per condition" else [""])
+                  for name in told.contest.tuned_in(condition)}
+    exact = [stated.title for name, stated in told.contest.conditions.items() if name in conditions
+             and not stated.random]
+    return f" Nothing is drawn in {', '.join(exact)}, so that what counts there was tuned on that very run." if exact \
+        else ""
+
+
 def tuning_table(told: Told) -> Iterator[ResultTable]:
     """A row per search; none where nothing was tuned."""
     contest, rows = told.contest, list[tuple[Cell, ...]]()
@@ -42,20 +61,21 @@ def tuning_table(told: Told) -> Iterator[ResultTable]:
         rows.append((name, where, result.stated_cost, result.cost, result.evaluations,
                      Phrase(", ".join("{}" for _ in last), last), binds))
     if rows:
-        yield ResultTable(
+        yield with_periods(ResultTable(
             "What tuning found", "the contest's file, as workbench tune wrote it", (
                 "controller", "tuned in", "objective, as stated", "objective, tuned", "evaluations",
                 "objective by restart", "ranges that bind"), tuple(rows),
-            "The objective on the draws of the search, which are none of the contest's. A range binds where what was "
-            "found lies within 1 % of its end, on the logarithmic scale on which it is searched: a wider one may do "
-            "better. Restarts that end far apart say that the search has not come to rest.")
+            f"The objective on the draws of the search, which are none of the contest's; line, curve and gusts are the "
+            f"same.{_worst_of(told)}{_same_runs(told)} A range binds where what was found lies within 1 % of its end, "
+            "on the logarithmic scale on which it is searched: a wider one may do better. Restarts that end far "
+            "apart say that the search has not come to rest."), told.scenario)
 
 
 def _where(told: Told) -> str:
     contest = told.contest
     if contest.tuning.mode != "minimax":
         return contest.conditions[contest.tuning.condition].title
-    return f"the worst of {', '.join(contest.conditions[name].title for name in contest.tuned_in(''))}"
+    return f"the worst of {len(contest.tuned_in(''))}"
 
 
 def convergence_plot(told: Told) -> Iterator[Plot]:

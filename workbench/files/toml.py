@@ -27,6 +27,8 @@ LARGEST_INTEGER = 2**63 - 1  # that TOML asks its readers to know
 
 # The key of a file by which it reproduces a paper, so that every value must have its source.
 REPRODUCTION = "reproduction"
+# So many further mistakes are named beside the first.
+MOST_NAMED = 3
 
 
 class Record(BaseModel):
@@ -141,7 +143,9 @@ def validate_record(data: dict[str, Any], model: type[R], where: Path | str, rep
         errors = trouble.errors()
         # A mistyped key shows up twice, as unknown and as missing: the unknown one is what to mend.
         first = next((e for e in errors if e["type"] == "extra_forbidden"), errors[0])
-        more = f" (and {len(errors) - 1} more)" if len(errors) > 1 else ""
+        others = list(dict.fromkeys(_key(dict(error), data) for error in errors if error is not first))
+        more = f" (and {len(errors) - 1} more: {', '.join(others[:MOST_NAMED])}" + (
+            ", ...)" if len(others) > MOST_NAMED else ")") if others else ""
         raise InputError(where, _key(dict(first), data), _explain(dict(first), errors) + more) from None
 
 
@@ -181,7 +185,8 @@ def _unknown_key(error: dict[str, Any], errors: list[Any]) -> str:
     close = close or [other for other in missing if other.split("_", 1)[0] == stem]
     if close:
         return f"unknown key; did you mean '{close[0]}' (the unit is part of the name)?"
-    return "unknown key: remove it or correct its spelling"
+    lacking = f"; {', '.join(missing)} {'is' if len(missing) == 1 else 'are'} missing" if missing else ""
+    return f"unknown key: remove it or correct its spelling{lacking}"
 
 
 def _explain(error: dict[str, Any], errors: list[Any]) -> str:

@@ -110,7 +110,8 @@ def start_cruise_stop(length_m: float, cruise_mps: float, acceleration_mps2: flo
                       ramp_s: float) -> DesiredCurve:
     """Accelerate, cruise, brake to a stop after length_m; acceleration itself is continuously differentiable.
 
-    Kept for the next run along it: its arrays are not to be written to. Raises WorkbenchError when the line is too short to reach the cruise speed.
+    Kept for the next run along it: its arrays are not to be written to. Raises WorkbenchError when the line is too
+    short to reach the cruise speed.
     """
     start = _speed_change(cruise_mps, acceleration_mps2, ramp_s)
     stop = _speed_change(-cruise_mps, braking_mps2, ramp_s)

@@ -12,7 +12,6 @@ trip's plans. Within a trip the disturbance observer answers what does not repea
 from __future__ import annotations
 
 import numpy as np
-from scipy.ndimage import gaussian_filter1d
 
 from workbench.errors import InputError
 from workbench.mpc.controller import MpcController
@@ -58,6 +57,8 @@ def learned_from(foreseen: Array, pushed: Array, share: float, smoothing_samples
         raise InputError("", "learning_gain", f"{share:g} is outside 0 to 1: choose what share of a trip is believed")
     if not smoothing_samples >= 0:
         raise InputError("", "smoothing_s", f"{smoothing_samples:g} is below 0: choose how long pushes are averaged")
+    from scipy.ndimage import gaussian_filter1d  # noqa: PLC0415 - which no run needs that learns nothing
+
     known = np.flatnonzero(np.isfinite(pushed))
     if not known.size:
         return foreseen.copy()

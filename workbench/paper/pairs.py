@@ -131,7 +131,8 @@ def pairs_of(study: Any, drawn: Drawn, first_trial: int = 1) -> tuple[Pair, ...]
     metrics = tuple("jerk_rms" if metric in JERK and "jerk_rms" in of_runs else metric
                     for metric in study.tuning.objective.units)
     how = Bootstrap(stated.resamples, stated.seed, stated.confidence)
-    how = how.for_comparisons(len(metrics) * len({place for place, _, _ in drawn}))
+    comparisons = len(metrics) * len({place for place, _, _ in drawn})
+    how = how.for_comparisons(comparisons)
     found = []
     for place, law, tuned in drawn:
         for other, rival, state in drawn:
@@ -153,7 +154,7 @@ def pairs_of(study: Any, drawn: Drawn, first_trial: int = 1) -> tuple[Pair, ...]
                 if metric in ended[0][0].get("trials", {}):
                     trials = np.array([ours["trials"][metric] for ours, _ in ended])
                     ahead[metric] = overtakes(trials, b, stated.resamples, stated.seed, stated.confidence,
-                                              first_trial)
+                                              first_trial, comparisons)
             found.append(Pair(place, law, rival, tuned, means, differences, (failed[0], failed[1]), ahead))
     return _corrected(found, 1 - stated.confidence)
 

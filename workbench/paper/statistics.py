@@ -1,8 +1,8 @@
 """Paired differences: intervals by bootstrap, and which of them are more than chance, also where many are looked at.
 
 Intervals are BCa. What is said to be more than chance is decided by sign flips (Fisher's randomisation test): under
-chance alone each draw's difference might as well have had the other sign. Their p is exact for any number of draws; that
-of a bootstrap is too small for few draws, by a factor of ten and more where Holm's correction asks for p of 1e-4.
+chance alone each draw's difference might as well have had the other sign. Their p is exact for any number of draws,
+while a bootstrap's is too small for few draws, by a factor of ten and more where Holm's correction asks for 1e-4.
 """
 
 from __future__ import annotations
@@ -12,7 +12,7 @@ import warnings
 from collections.abc import Hashable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import lru_cache
-from typing import Any, TypeVar
+from typing import TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -48,10 +48,6 @@ class Bootstrap:
         """With enough resamples to tell the probabilities that so many comparisons need."""
         least = math.ceil(RESAMPLES_A_TAIL * count / (1 - self.confidence))
         return replace(self, resamples=max(self.resamples, least))
-
-    def tells(self, found: Interval, less: bool = False) -> bool:
-        """Whether a mean difference is more than chance; less: and below zero."""
-        return found.p <= 1 - self.confidence and not (less and found.mean >= 0)
 
 
 def mean_interval(values: Array, how: Bootstrap) -> Interval:
@@ -186,7 +182,7 @@ def rankings(tables: Mapping[Key, Sequence[Array | None]], how: Bootstrap, alike
 
 
 def _nearest(every: Sequence[tuple[int, Key, Array]], p: Mapping[tuple[int, Key], float]) -> dict[Key, int]:
-    """By table the controller whose difference from the best is most probable by chance, of those with several draws."""
+    """By table the controller whose difference from the best is most probable by chance, of several draws."""
     found: dict[Key, int] = {}
     for i, key, row in every:
         if len(row) > 1 and (key not in found or p[i, key] > p[found[key], key]):
@@ -195,16 +191,19 @@ def _nearest(every: Sequence[tuple[int, Key, Array]], p: Mapping[tuple[int, Key]
 
 
 def overtakes(trials: NDArray[np.float64], rival: NDArray[np.float64], resamples: int, seed: int,
-              confidence: float, first_trial: int = 1) -> int | None:
+              confidence: float, first_trial: int = 1, comparisons: int = 1) -> int | None:
     """The first trip from which on a learner's error is below a rival's by more than chance, else None.
 
     trials: of the learner, shape (draws, trips); rival: by draw, of which the first ones are compared; first_trial: the
-    number of the first trip.
+    number of the first trip; comparisons: how many such questions are asked together, which share 1 - confidence. Trips
+    are asked from the last one back, and only while each is ahead, so that they need no correction of their own.
     """
     draws, found = min(len(trials), len(rival)), None
-    sure = Bootstrap(resamples, seed, confidence)
+    how = Bootstrap(resamples, seed, confidence).for_comparisons(comparisons)
+    differences = trials[:draws] - rival[:draws, np.newaxis]
+    chance = p_values(list(differences.T), how)
     for trip in range(trials.shape[1] - 1, -1, -1):
-        if not sure.tells(mean_interval(trials[:draws, trip] - rival[:draws], sure), less=True):
+        if comparisons * chance[trip] > 1 - confidence or differences[:, trip].mean() >= 0:
             break
         found = first_trial + trip
     return found

@@ -15,6 +15,11 @@ def period_name(name: str, period_s: float) -> str:
     return f"{name}_{1000 * period_s:g}ms"
 
 
+def without_period(name: str) -> str:
+    """A controller's name without the period that it is called by: `pid` of `pid_5ms`."""
+    return re.sub(f"{_NAMED.pattern}$", "", name)
+
+
 def at_periods(table: Any, where: str) -> Any:
     """A table of controllers as it stands in a file, each that states `periods_s` once for every one of them.
 

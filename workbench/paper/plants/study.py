@@ -38,15 +38,17 @@ def told(study: LocatedPlantStudy, runs: Sequence[PlantRun]) -> StudyResult:
 
 def row_of(run: PlantRun) -> dict[str, object]:
     """A run as plain data."""
-    return {"controller": run.name, **run.metrics, "step_us_median": run.step_us, "step_us_p99": run.step_us_p99,
-            "fallbacks": run.fallbacks, "reached_s": run.reached_s, "failed": run.failed}
+    return {"controller": run.name, "period_s": run.period_s, **run.metrics, "step_us_median": run.step_us,
+            "step_us_p99": run.step_us_p99, "fallbacks": run.fallbacks, "reached_s": run.reached_s,
+            "failed": run.failed}
 
 
 def comparison_table(setting: Setting, runs: Sequence[PlantRun]) -> ResultTable:
     """The controllers beside each other, a column a metric."""
-    header = (Column("controller"), *(Column(m.title or m.id.replace("_", " "), m.unit) for m in setting.every_metric),
-              Column("step", "µs"))
-    rows = tuple((run.name, *(run.metrics[m.id] for m in setting.every_metric), run.step_us) for run in runs)
+    metrics = setting.every_metric
+    header = (Column("controller"), Column("period", "ms", 1e-3, None),
+              *(Column(m.title or m.id.replace("_", " "), m.unit) for m in metrics), Column("step", "µs"))
+    rows = tuple((run.name, run.period_s, *(run.metrics[m.id] for m in metrics), run.step_us) for run in runs)
     return ResultTable("Controllers on the same plant", f"plant {setting.plant.id}", header, rows,
                        "A law's step is timed with the plant's integration, MPC's call by call without it.")
 

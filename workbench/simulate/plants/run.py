@@ -90,10 +90,11 @@ class PlantRun:
     columns: t_s, states, inputs as they act, commands (`<input>_wanted`), signals by name, the law's states. step_us:
     microseconds of a control step; of a law with the plant's integration, of a sampled controller alone, the 99th
     percentile of which is step_us_p99. fallbacks: samples at which a sampled controller had to do without its solver.
-    events: in the order in which they happened.
+    events: in the order in which they happened. period_s: how often it commands.
     """
 
     name: str
+    period_s: float
     columns: tuple[str, ...]
     log: Array
     metrics: Mapping[str, float | None]
@@ -247,7 +248,7 @@ def _told(setting: Setting, entrant: Entrant, found: Compiled, a: Arrays, status
     plant, law = setting.plant, entrant.law
     columns = ("t_s", *map(str, plant.states), *map(str, plant.inputs), *(f"{u}_wanted" for u in plant.inputs),
                *setting.signals, *(map(str, law.state_symbols) if law else ()))
-    return PlantRun(entrant.name, columns, a.log[:rows], _metrics(setting, a, t, status == RUNNING),
+    return PlantRun(entrant.name, entrant.period_s, columns, a.log[:rows], _metrics(setting, a, t, status == RUNNING),
                     why(setting, entrant.name, law, status, t, a), t, float(np.median(taken)),
                     float(np.percentile(taken, 99)), events=_events(setting, a))
 
