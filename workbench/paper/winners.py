@@ -68,8 +68,8 @@ def winners_table(study: Any, drivers: Drivers, pairs: Sequence[Pair], results: 
     kept = len(header) if energy else -1
     return ResultTable(
         "Who wins, and at what price", "comparison", header[:kept], tuple(row[:kept] for row in rows),
-        f"By the mean {name} over {draws} drawn trains, the least wins; = is not told apart from the winner. Time of a "
-        "control step and energy at the wheel are the winner's.") if rows else None
+        f"By the mean {name} over {draws} drawn trains, the least wins. Time of a control step and "
+        "energy at the wheel are the winner's.") if rows else None
 
 
 def _entrant(name: str, rows: Sequence[Mapping[str, Any]], metric: str) -> _Entrant:
@@ -81,13 +81,13 @@ def _entrant(name: str, rows: Sequence[Mapping[str, Any]], metric: str) -> _Entr
 
 
 def _others(drivers: Drivers, of: Sequence[_Entrant], told: Mapping[str, bool], draws: int) -> Cell:
-    """Some controllers, the best first; those that the pairs do not tell from the winner with an equals sign."""
+    """Some controllers, the best first, and which of them the pairs do not tell from the winner."""
     words, numbers = list[str](), list[float]()
     for one in sorted(of, key=lambda one: one.rank):
-        level = "= " if told.get(one.name) is False else ""
+        level = " (not told apart)" if told.get(one.name) is False else ""
         if one.failed:
             words.append(f"{drivers.titles[one.name]} fails in {one.failed} of {draws}")
         else:
-            words.append(f"{level}{drivers.titles[one.name]} {{}}")
+            words.append(f"{drivers.titles[one.name]} {{}}{level}")
             numbers.append(one.mean)
     return Phrase("; ".join(words), tuple(numbers)) if words else None
