@@ -57,7 +57,8 @@ def test_learners_are_ahead_from_the_same_trial_in_table_and_sentence(first, tri
     assert [row[-1] for row in table.rows] == [Phrase("trial {}", (trial,)), None]
     assert table.text[1] == ("linear MPC", "0.400", "0.200", "50.0", "—")
     (sentence,) = compared.findings(STUDY, rows)
-    assert sentence.startswith("As stated: the learner has the smallest speed RMS, 0.100, then linear MPC with 0.400")
+    assert sentence.startswith("As stated: the learner has the smallest speed RMS, 0.100 m/s, then linear MPC with "
+                               "0.400")
     assert sentence.endswith(f"the learner is ahead of linear MPC from trial {trial} on.")
     (plot,) = compared.plots(STUDY, rows)
     assert [curve.x[0] for curve in plot.curves] == [first, first]

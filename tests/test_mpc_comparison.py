@@ -101,7 +101,7 @@ def test_the_table_holds_numbers_and_who_is_told_what(study):
 
 def test_sentences_say_who_is_nearest_as_stated_and_as_tuned(study):
     stated, tuned, on_hill, _, steps = comparison_findings(DRIVERS, study, compared(study))
-    assert stated.startswith("Beside MPC, run flat, as stated: linear MPC has the smallest position RMS, 0.100, then "
+    assert stated.startswith("Beside MPC, run flat, as stated: linear MPC has the smallest position RMS, 0.100 m, then "
                              "the law, low with 0.200 m; ")
     assert tuned.startswith("Beside MPC, run flat, tuned: the law has the smallest position RMS, 0.0500 m; ")
     assert "run hill" in on_hill and steps == "A step of MPC takes 12.0 to 12.0 µs here."

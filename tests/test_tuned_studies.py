@@ -30,6 +30,7 @@ from workbench.paper.results import ResultTable
 from workbench.paper.stages import run_stages
 from workbench.paper.study import StudyKind, varied
 from workbench.paper.tune import BEGIN, tune_run
+from workbench.paper.winners import winners_table
 from workbench.simulate.closed_loop import NOMINAL, Factors
 
 # Short enough for a test: each paper's train over the first part of what its file states.
@@ -225,7 +226,33 @@ def test_who_fails_or_stands_still_wins_nothing() -> None:
     rows: list[tuple[str, Mapping[str, Any]]] = [
         ("still", {"failed": None, "speed_rms": 20.0, "jerk_rms": 0.0, "position_rms": 9.0}),
         ("good", {"failed": None, "speed_rms": 0.1, "jerk_rms": 0.2, "position_rms": 0.1})]
-    assert best_words(rows, "jerk_rms", "jerk").startswith("good")
+    assert best_words(rows, "jerk_rms", "jerk", "m/s³").startswith("good")
+
+
+def test_the_winner_of_the_drawn_trains_has_the_least_error_and_its_price_is_told() -> None:
+    of, drivers = study("liu2020"), DRIVERS["liu2020"]
+    few = of.model_copy(update={"pairs": of.pairs.model_copy(update={"draws": 12})})
+    draw, results = np.random.default_rng(5), {}
+    near, share = draw.normal(0, 1e-3, 12), draw.uniform(0.1, 0.5, 12)
+    errors = {"corrected": share + 0.2, "position_only": share + 0.1, "mpc_linear": share + 0.1 + near,
+              "mpc_offset_free": share + 0.4}
+    for name, tuned in entries(few, drivers):
+        rows = rows_of(errors[name], share, share, failed=1 if tuned or name == "corrected" else 0)
+        results |= {(i, "fast", name, tuned): row | {"step_us_median": 2.0 + i, "energy_J": 3.6e6 * (4 + i)}
+                    for i, row in enumerate(rows)}
+    table = winners_table(few, drivers, compared_pairs(drivers, few, results), results)
+    assert table is not None
+    (condition, winner, mean, _, step_s, energy), nobody = table.rows
+    assert condition.endswith("as stated")
+    best = "position_only" if errors["position_only"].mean() < errors["mpc_linear"].mean() else "mpc_linear"
+    assert (winner, mean) == (drivers.titles[best], pytest.approx(errors[best].mean()))
+    assert (step_s, energy) == (pytest.approx(7.5e-6), pytest.approx(3.6e6 * 9.5))
+    second, third, last = table.text[0][3].split("; ")
+    assert second.endswith(" (not told apart)")
+    assert third.startswith(drivers.titles["mpc_offset_free"])
+    assert last == f"{drivers.titles['corrected']} fails in 1 of 12"
+    assert nobody[1] == "nobody" and table.text[1][3].count("fails in 1 of 12") == 4
+    assert winners_table(few, drivers, (), {}) is None
 
 
 def test_draws_depend_on_seed_and_number_alone() -> None:

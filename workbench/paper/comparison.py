@@ -186,9 +186,9 @@ def comparison_findings(drivers: Drivers, study: Any, runs: Sequence[ComparedRun
         for tuned, state in ((False, "as stated"), (True, "tuned")):
             rows = [(run.title, run.row) for run in runs if (run.task.place, run.task.tuned) == (place, tuned)]
             if rows:
-                yield (f"Beside MPC, {where}, {state}: {best_words(rows, 'position_rms', 'position RMS')} m; "
-                       f"{best_words(rows, 'speed_rms', 'speed RMS')} m/s; "
-                       f"{best_words(rows, 'jerk_rms', 'jerk RMS')} m/s³.")
+                yield (f"Beside MPC, {where}, {state}: {best_words(rows, 'position_rms', 'position RMS', 'm')}; "
+                       f"{best_words(rows, 'speed_rms', 'speed RMS', 'm/s')}; "
+                       f"{best_words(rows, 'jerk_rms', 'jerk RMS', 'm/s³')}.")
     steps = [run.row["step_us_median"] for run in runs if run.task.name in MPC_NAMES]
     if steps:
         yield f"A step of MPC takes {number(min(steps))} to {number(max(steps))} µs here."

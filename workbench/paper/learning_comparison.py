@@ -129,7 +129,7 @@ class LearningComparison:
                 here = [(self.drivers.titles[name], row) for (at, name, of), row in rows.items()
                         if (at, of) == (place, tuned)]
                 if here:
-                    best = (f"{best_words(here, metric, METRIC_NAMES[metric][0])} {METRIC_NAMES[metric][1]}"
+                    best = (best_words(here, metric, *METRIC_NAMES[metric])
                             for metric in (*self.metrics, *(name for name in JERK if name in self.columns)))
                     where = f"{self.place_word} {place}, {state}" if self.place_word else state
                     words = "; ".join((*best, *self._learned(here, study.trials.count)))

@@ -102,7 +102,7 @@ def follows(row: Mapping[str, Any]) -> bool:
     return row["failed"] is None and row["speed_rms"] <= FOLLOWS_MPS
 
 
-def best_words(rows: Sequence[tuple[str, Mapping[str, Any]]], metric: str, what: str) -> str:
+def best_words(rows: Sequence[tuple[str, Mapping[str, Any]]], metric: str, what: str, unit: str) -> str:
     """Who has the smallest of a metric among (name, row), and the next one behind it, in a sentence's words.
 
     In jerk those that do not follow the desired curve are left out.
@@ -111,8 +111,8 @@ def best_words(rows: Sequence[tuple[str, Mapping[str, Any]]], metric: str, what:
                   if row["failed"] is None and (metric not in JERK or follows(row)))
     if not able:
         return f"no run that ends and follows has a {what}" if metric in JERK else "no run ends"
-    words = f"{able[0][1]} has the smallest {what}, {number(able[0][0])}"
-    return words + (f", then {able[1][1]} with {number(able[1][0])}" if len(able) > 1 else "")
+    words = f"{able[0][1]} has the smallest {what}, {number(able[0][0])} {unit}"
+    return words + (f", then {able[1][1]} with {number(able[1][0])} {unit}" if len(able) > 1 else "")
 
 
 def counters_words(counters: Sequence[Mapping[str, int]]) -> str:

@@ -230,5 +230,5 @@ def pair_findings(study: Any, drivers: Drivers, pairs: Sequence[Pair]) -> Iterat
                 parts.append(f"{METRIC_NAMES[metric][0]} {STATES[tuned]}: {', '.join(words)}")
             if of and of[0].failed[0]:
                 parts.append(f"{STATES[tuned]} it fails on {of[0].failed[0]} of them")
-        yield (f"{drivers.titles[law]} on {study.pairs.draws} drawn trains, {places[place]}, "
-               f"±{100 * study.pairs.spread:g} %: {'; '.join(parts)}.")
+        yield (f"On {study.pairs.draws} drawn trains, {places[place]}, ±{100 * study.pairs.spread:g} %, "
+               f"{drivers.titles[law]}: {'; '.join(parts)}.")

@@ -16,6 +16,7 @@ from workbench.paper.results import Plot, ResultTable, Shown, StudyResult
 from workbench.paper.stages import Stage, Together, run_stages
 from workbench.paper.study import Progress, StudyKind
 from workbench.paper.tracked import Tracked
+from workbench.paper.winners import winners_table
 
 
 class Beside(Protocol):
@@ -103,10 +104,14 @@ def _run(of: Reproduction, study: Any, workers: int, on_progress: Progress) -> S
     results, pairs = of.results(study, runs, *others), compared_pairs(drivers, study, drawn)
     parts = (of.shown(results), of.beside.shown(results, compared),
              Shown(pair_table(study, drivers, pairs), (), pair_findings(study, drivers, pairs)))
+    plots = [tuple(part.plots) for part in parts]
     return StudyResult(
         rows=tuple(of.row(study, case, run) for case, run in runs.items()),
         tables=tuple(table for part in parts for table in part.tables),
-        plots=tuple(plot for part in parts for plot in part.plots),
+        plots=tuple(plot for of_part in plots for plot in of_part),
         findings=tuple(finding for part in parts for finding in part.findings),
         failures=tuple((of.title(study, case), run.failed) for case, run in runs.items()
-                       if run.failed is not None and of.told(case)))
+                       if run.failed is not None and of.told(case)),
+        winners=winners_table(study, drivers, pairs, drawn),
+        # The first that shows law and MPC together, else the paper's own first one.
+        first_plot=len(plots[0]) if plots[1] else 0 if plots[0] else None)

@@ -120,7 +120,8 @@ class StudyResult:
 
     rows: one a run, with the keys of `workbench compare` where they make sense, and more; plain data, None for
     a number that a failed run does not have. findings: what a reader should know, a sentence each, every number
-    in it taken from the runs. failures: (run, why) of runs that ended early.
+    in it taken from the runs. failures: (run, why) of runs that ended early. winners, first_plot: what the first screen
+    shows, a table and the number of one of the plots; None where nobody is compared.
     """
 
     rows: tuple[dict[str, Any], ...]
@@ -128,6 +129,8 @@ class StudyResult:
     plots: tuple[Plot, ...]
     findings: tuple[str, ...]
     failures: tuple[tuple[str, str], ...] = ()
+    winners: ResultTable | None = None
+    first_plot: int | None = None
 
     def __post_init__(self) -> None:
         for row in self.rows:

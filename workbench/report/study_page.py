@@ -36,14 +36,17 @@ def build_study_page(content: StudyContent) -> str:
     """The page as HTML: styles, figures and formulas within it, no reference to anything outside."""
     study, result = content.study, content.result
     sources = sourced_values(study)
-    lines = [headline.proof_line(claim_views(content.claims)), *result.findings, headline.sources_line(sources)]
+    lines = [headline.proof_line(claim_views(content.claims)), headline.sources_line(sources)]
+    figures = _figures(result.plots)
+    first = None if result.first_plot is None else figures.pop(result.first_plot)
     return render(
         "study.html.j2", content.claims, sources, subject=study, headline=[line for line in lines if line],
+        sentences=result.findings,
         settings={"study": study.name} | ({"drawn trains": content.draws} if content.draws else {}),
         commands=content.commands, timings=content.timings,
         tables=table_views(result.tables), gains=gains_view(content.gains),
-        figures=_figures(result.plots),
-        failures=result.failures, winners=None)
+        figures=figures, first_figure=first, failures=result.failures,
+        standings=table_views([result.winners] if result.winners else [], "winners"), winners=None)
 
 
 def _figures(plots: Sequence[Plot]) -> list[PageFigure]:

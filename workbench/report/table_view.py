@@ -19,7 +19,6 @@ class TableView:
 
     anchor: str
     table: ResultTable
-    caption: str
     kinds: tuple[str, ...]
 
 
@@ -42,13 +41,13 @@ def gains_view(result: StudyResult | None) -> GainsView | None:
 
 
 def caption(title: str, source: str, note: str) -> str:
-    """A caption of a table or figure."""
+    """A caption of a figure."""
     return f"{title} ({source}). {note}".strip()
 
 
 def _view(anchor: str, table: ResultTable) -> TableView:
     columns = list(zip(*table.text, strict=True)) if table.rows else [() for _ in table.header]
-    return TableView(anchor, table, caption(table.title, table.source, table.note), tuple(map(_kind, columns)))
+    return TableView(anchor, table, tuple(map(_kind, columns)))
 
 
 def _kind(cells: Sequence[str]) -> str:

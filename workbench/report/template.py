@@ -53,7 +53,7 @@ def render(template: str, document: Mapping[str, Any], sources: Sequence[Sourced
     """
     folder = Path(__file__).parent
     claims = claim_views(document)
-    scripts = _scripts(folder, bool(values.get("figures")))
+    scripts = _scripts(folder, bool(values.get("figures") or values.get("first_figure")))
     environment = Environment(loader=FileSystemLoader(folder), autoescape=True, undefined=StrictUndefined,
                               trim_blocks=True, lstrip_blocks=True)
     environment.filters |= {"number": number, "stated": stated, "breakable": _breakable, "in_words": in_words}

@@ -191,7 +191,7 @@ def _trial(lanes: Sequence[_Lane | None], arrays: _Arrays) -> None:
     seconds = time.perf_counter() - started
     reached = samples if (ended[0] == cars_loop.RUNNING).any() else int(ended[1].max())
     for place, lane in here:
-        lane.step_us.append(seconds * 1e6 / max(reached, 1) / len(here))
+        lane.step_us.append(seconds * 1e6 / max(reached, 1))
         if ended[0, place] != cars_loop.RUNNING:
             lane.failed = _why(lane.plan, lane.trial, ended[:, place], met[:, place])
             continue

@@ -61,8 +61,8 @@ class CarsRun:
 
     totals: (finished trials, TRIAL_COLUMNS); by_car: (finished trials, CAR_COLUMNS, cars); logs: by trial, shape
     (rows, LOG_COLUMNS, cars). failed: why it ended early, else None. step_us: time of a sample of all cars, train and
-    law together, in every trial that began, compiling left out, of runs side by side each one's share; memory_bytes:
-    what the learned estimates take.
+    law together, in every trial that began, compiling left out, of runs side by side that of all; memory_bytes: what
+    the learned estimates take.
     """
 
     totals: Array

@@ -32,7 +32,7 @@ function layout(chart) {
     hoverlabel: { bgcolor: hue("--panel"), bordercolor: line, font: { color: ink }, namelength: narrow.matches ? 14 : 40 },
     hovermode: chart.panels.some(panel => panel.curves.length > 10) ? "closest" : "x unified",
     dragmode: matchMedia("(pointer: coarse)").matches ? false : "zoom", modebar: { orientation: "h" },
-    legend: { orientation: "h", y: 1, yanchor: "bottom", x: 0, font: { size: 11 } },
+    legend: { orientation: "h", y: 1, yanchor: "bottom", x: 0, font: { size: 12 } },
     xaxis: { ...axis, title: { text: chart.x }, type: chart.log ? "log" : "linear",
              anchor: panels > 1 ? "y" + panels : "y" },
     annotations: chart.panels.filter(panel => panel.title).map(panel => ({
@@ -42,7 +42,7 @@ function layout(chart) {
   chart.panels.forEach((panel, at) => {
     const top = 1 - at / panels, gap = panels > 1 ? (titled ? 0.24 : 0.12) / panels : 0;
     found[at ? "yaxis" + (at + 1) : "yaxis"] = {
-      ...axis, title: { text: panel.y, font: { size: 11 }, standoff: 6 }, type: panel.log ? "log" : "linear",
+      ...axis, title: { text: panel.y, font: { size: 12 }, standoff: 6 }, type: panel.log ? "log" : "linear",
       domain: [top - 1 / panels + (titled ? 0.02 / panels : gap), titled ? top - gap : top], 
       nticks: panels > 1 ? 4 : 8, ...(panel.log ? { minor: { showgrid: false, ticks: "" }, dtick: 1 } : {}) };
   });
