@@ -46,7 +46,7 @@ def test_so_does_a_proof_that_is_killed(bench):
 
 
 def test_a_sweep_on_a_full_disk_ends_in_a_line_and_goes_on_once_there_is_room(bench, whole):
-    found = full_disk(bench, JOBS["sweep"], whole[0], 48)
+    found = full_disk(bench, JOBS["sweep"], whole[0])
     if found is None:
         pytest.skip("no tmpfs can be mounted here")
     assert found == ""

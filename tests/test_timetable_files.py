@@ -71,6 +71,7 @@ REFUSED = {
     "not in order": ({"rows": changed(1, [2.5, 1, 90, 36, None])}, r"values\[2\]: 2000 m does not come 1 m or more"),
     "times that contradict": ({"rows": changed(1, [1.0, 2, 90, 36, None])}, "120 to 90 s contradict each other"),
     "speeds that contradict": ({"rows": changed(1, [1.0, 1, 90, 72, 10])}, "20 to 10 m/s are no range"),
+    "a creep": ({"rows": changed(1, [1.0, 1, 90, 0, 1e-4])}, r"values\[1\]: a passing at no more than"),
     "negative speed": ({"rows": changed(1, [1.0, 1, 90, -1, 10])}, "are no range"),
     "no departure": ({"rows": changed(0, [0, None, 0, 0, 0])}, r"values\[0\]: has no earliest time"),
     "no arrival": ({"rows": changed(4, [3.0, 6, None, 0, 0])}, r"values\[4\]: has no latest time"),

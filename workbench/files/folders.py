@@ -59,17 +59,29 @@ def paper_named(name: str, near: Path) -> Path | None:
     if here.name == name and is_paper(here):
         return here
     places = [here.parent, *(place / PAPERS_FOLDER for place in (here, *here.parents)), Path.cwd() / PAPERS_FOLDER]
-    return next((place / name for place in places if is_paper(place / name)), None)
+    found = (place / name for place in places)
+    return next((folder for folder in found if is_paper(folder) and not _strange(folder, here)), None)
 
 
 def papers_near(near: Path) -> list[Path]:
     """All paper folders that `paper_named` would find from a folder, each name once."""
     here = near.resolve()
     places = [here.parent, *(place / PAPERS_FOLDER for place in (here, *here.parents)), Path.cwd() / PAPERS_FOLDER]
-    found = {path.name: path for place in reversed(places) for path in papers_in(place)}
+    found = {path.name: path for place in reversed(places) for path in papers_in(place) if not _strange(path, here)}
     if is_paper(here):
         found[here.name] = here
     return [found[name] for name in sorted(found)]
+
+
+def _strange(folder: Path, near: Path) -> bool:
+    """Whether a folder that was found, and not named, belongs to somebody else than this user, the system or whoever
+    owns the place from where it was looked for: its modules would be run, and anybody may lay folders into `/tmp`."""
+    return hasattr(os, "geteuid") and owner(folder) not in (os.geteuid(), 0, owner(near))
+
+
+def owner(path: Path) -> int:
+    """The number of the user to whom a file or folder belongs."""
+    return path.stat().st_uid
 
 
 def held_in(folder: Path, module: str, kind: type[T]) -> dict[str, T]:

@@ -12,6 +12,7 @@ from concurrent.futures import FIRST_COMPLETED, Future, ProcessPoolExecutor, wai
 from concurrent.futures.process import BrokenProcessPool
 from contextlib import contextmanager
 from dataclasses import dataclass
+from functools import cache
 from itertools import chain, islice
 from multiprocessing import forkserver
 from multiprocessing.context import BaseContext
@@ -114,7 +115,24 @@ def start_method(*needed: str) -> BaseContext:
     # A module is not looked for in the current folder, whose files are the user's.
     with single_threaded(PYTHONSAFEPATH="1"), interruption_held():
         forkserver.ensure_running()
+    _wait_for_server(found)
     return found
+
+
+@cache
+def _wait_for_server(context: BaseContext) -> None:
+    """Wait until the server has imported what it shall, by its first process: here, where an interruption ends the
+    waiting, for others are started while interruptions are held back."""
+    process = context.Process(target=os.getpid, daemon=True)  # type: ignore[attr-defined]
+    try:
+        process.start()
+        process.join()
+    except BaseException:
+        # It would see that it is alone only after all its imports; the standard library has no public way to end it.
+        number = getattr(getattr(forkserver, "_forkserver", None), "_forkserver_pid", None)
+        if number is not None:
+            os.kill(number, signal.SIGKILL)
+        raise
 
 
 @contextmanager

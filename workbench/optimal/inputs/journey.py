@@ -143,6 +143,9 @@ def _row(key: str, position_m: float | None, earliest_s: float | None, latest_s:
     if not 0 <= low <= high:
         raise InputError("", key, f"speeds from {low:g} to {high:g} m/s are no range: let the lower one be 0 or more "
                          "and not above the upper one")
+    if 0 < high < SLOWEST_PASSING_MPS:
+        raise InputError("", key, f"a passing at no more than {high:g} m/s is none: state 0 where the train stops, "
+                         f"{SLOWEST_PASSING_MPS:g} m/s or more where it does not")
     if time.earliest_s > time.latest_s:
         raise InputError("", key, f"times from {time.earliest_s:g} to {time.latest_s:g} s contradict each other: let "
                          "the earliest not be after the latest")
@@ -151,8 +154,8 @@ def _row(key: str, position_m: float | None, earliest_s: float | None, latest_s:
     return _Row(key, position_m, time, low, high)
 
 
-# Ten days.
-LATEST_S = 864000.0
+# Ten days; and a speed that plans tell from standing still.
+LATEST_S, SLOWEST_PASSING_MPS = 864000.0, 0.1
 
 
 def _asked(name: str, key: str, rows: list[_Row], length_m: float, dwell_s: float) -> Asked:

@@ -24,7 +24,7 @@ def nested(items: Sequence[Item], text: Callable[[str], str]) -> str:
 
 
 def _text(text: str) -> str:
-    return show(text, lambda latex: f"${_TAG.sub('< ', latex)}$" if is_mathematics(latex) else _words(latex), _words)
+    return show(text, lambda latex: f"${_spaced(latex)}$" if is_mathematics(latex) else _words(latex), _words)
 
 
 def _words(text: str) -> str:
@@ -32,8 +32,13 @@ def _words(text: str) -> str:
     return _TAG.sub("&lt;", text.replace("*", r"\*").replace("_", r"\_")).replace("](", r"]\(")
 
 
+def _spaced(latex: str) -> str:
+    """A formula in which nothing is a tag or a link to a reader who knows no formulas: a blank means nothing in it."""
+    return _TAG.sub("< ", latex).replace("](", "] (")
+
+
 def _formula(latex: str, label: str) -> str:
-    shown = f"$$\n{_TAG.sub('< ', latex)}\n$$" if is_mathematics(latex) else _words(latex)
+    shown = f"$$\n{_spaced(latex)}\n$$" if is_mathematics(latex) else _words(latex)
     return (f"**{label}:**\n\n" if label else "") + shown
 
 
