@@ -6,6 +6,7 @@ from pathlib import Path
 import pytest
 from test_cli import one_line, run
 
+from workbench.errors import InputError
 from workbench.paper.source.document import read_source
 from workbench.paper.source.folder import write_from_source
 from workbench.paper.source.macros import SourceError, expanded
@@ -130,3 +131,41 @@ def test_macros(text, plain):
 def test_a_source_that_cannot_be_read_is_one_line(text, words):
     with pytest.raises(SourceError, match=words):
         read_source(text)
+
+
+PARTS = r"""\documentclass{article}\newtheorem{assumption}{Assumption}
+\begin{document}
+\input{body}
+% \input{gone}
+\begin{align}
+x d &\le \tfrac12 x^2 + \tfrac12 d^2, \\
+|x| &= x \operatorname{sgn}(x) \notag \\
+x^2 &\ge 0 , \\
+a &\le b \notag \\
+  &\le c
+\end{align}
+\end{document}
+"""
+BODY = r"""\begin{assumption} The gain satisfies $k > 0$. \end{assumption}
+\begin{subequations} \begin{align} \dot x &= -k x \\ \dot y &= x \end{align} \end{subequations}
+"""
+
+
+def test_what_is_put_into_other_files_is_read_and_a_line_without_a_number_stands_alone(tmp_path):
+    (tmp_path / "body.tex").write_text(BODY)
+    (tmp_path / "main.tex").write_text(PARTS)
+    rows = rows_of(write_from_source("noe2029", tmp_path, tmp_path / "main.tex").folder)
+    assert list(rows) == ["assumption1", "1a", "1b", "2", "3", "4"]
+    assert (rows["3"].printed, rows["4"].printed) == (r"x^2 \ge 0", r"a \le b \le c")
+
+
+@pytest.mark.parametrize(("named", "why"), [("gone", "no file of its folder"), ("../body", "no file of its folder"),
+                                            ("main", "inputs itself")])
+def test_a_file_that_is_not_there_is_named(tmp_path, named, why):
+    (tmp_path / "body.tex").write_text(BODY)
+    (tmp_path / "sub").mkdir()
+    source = tmp_path / "sub" / "main.tex"
+    source.write_text(PARTS.replace("{body}", f"{{{named}}}"))
+    with pytest.raises(InputError, match=why):
+        write_from_source("noe2029", tmp_path, source)
+    assert not (tmp_path / "noe2029").exists()

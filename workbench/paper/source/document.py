@@ -6,6 +6,7 @@ import re
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 
+from workbench.paper.source.lines import goes_on
 from workbench.paper.source.macros import SourceError, expanded, group, optional, without_comments
 
 DISPLAYS = ("equation", "align", "gather", "multline", "eqnarray", "flalign", "alignat")
@@ -176,6 +177,8 @@ class _Reader:
         for line in lines:
             if not line.strip():
                 continue
+            if carried and not goes_on(carried, _clean(line)):
+                carried, self.unnumbered = "", self.unnumbered + 1
             printed = _joined(carried, _clean(line))
             tag = _TAG.search(line)
             if tag is None and _UNNUMBERED.search(line):
@@ -186,7 +189,7 @@ class _Reader:
             self._add(Row(_id(number), "Equation", number, printed, tuple(_LABEL.findall(line)), within=within,
                           referred=self.pending + _references(line)))
             self.pending = []
-        if carried and len(self.rows) > before:
+        if carried and len(self.rows) > before and goes_on(self.rows[-1].printed, carried):
             self.rows[-1].printed = _joined(self.rows[-1].printed, carried)
         elif carried:
             self.unnumbered += 1

@@ -14,7 +14,7 @@ from workbench.files.writing import write_text, write_tree
 from workbench.paper.new_paper import new_folder
 from workbench.paper.source.document import Row, Source, read_source
 from workbench.paper.source.letters import table_of
-from workbench.paper.source.macros import SourceError
+from workbench.paper.source.macros import SourceError, without_comments
 from workbench.proof.latex.error import LatexError
 from workbench.proof.latex.read import read_line
 from workbench.proof.latex.rows import ROWS, SYMBOLS, LetterEntry, Role, RowEntry, moving_sides, sides_of
@@ -22,6 +22,8 @@ from workbench.proof.latex.statement import parted
 from workbench.proof.prove import prove
 from workbench.proof.selection import targets
 
+MOST_INPUTS = 10  # files, one in the other
+_INPUT = re.compile(r"\\(?:input|include)\s*\{([^{}]*)\}")
 REMEDY = "name another --directory"
 _CASES = re.compile(r"(?P<before>.*?)(?:\\left)?\s*(?:\\\{|\\lbrace)?\s*\\begin\s*\{cases\}"
                     r"(?P<lines>.*?)\\end\s*\{cases\}(?:\s*\\right\s*\.)?\s*", re.DOTALL)
@@ -64,7 +66,7 @@ def write_from_source(name: str, directory: Path, source: Path) -> FromSource:
     """
     folder = new_folder(name, directory)
     try:
-        found = read_source(read_text(source, "LaTeX"))
+        found = read_source(_with_inputs(read_text(source, "LaTeX"), source))
     except SourceError as trouble:
         raise InputError(source, "", str(trouble)) from None
     rows = [entry for row in found.rows for entry in entries(row, found)]
@@ -80,6 +82,21 @@ def write_from_source(name: str, directory: Path, source: Path) -> FromSource:
     write_text(folder / ROWS, rows_text(recorded), REMEDY)
     return FromSource(folder, verdicts, {d.claim.equation: d.method for d in decided.decisions
                                          if d.verdict == "undecided"}, found.unnumbered)
+
+
+def _with_inputs(text: str, source: Path, depth: int = 0) -> str:
+    """A source with the files that it inputs put in, from its own folder; InputError for one that is not there."""
+    if depth > MOST_INPUTS:
+        raise InputError(source, "", f"inputs itself, or files more than {MOST_INPUTS} deep: put in what they hold")
+
+    def put(found: re.Match[str]) -> str:
+        named = found[1].strip()
+        path = source.parent / (named if named.endswith(".tex") else f"{named}.tex")
+        if PurePath(named).is_absolute() or ".." in PurePath(named).parts or not path.is_file():
+            raise InputError(source, "", f"inputs {named!r}, which is no file of its folder: put it there")
+        return _with_inputs(read_text(path, "LaTeX"), source, depth + 1)  # as in LaTeX, from the main file's folder
+
+    return _INPUT.sub(put, without_comments(text))
 
 
 def entries(row: Row, source: Source) -> list[RowEntry]:
