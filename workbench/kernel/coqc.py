@@ -126,8 +126,8 @@ def _trouble(folder: Path, place: Path, name: str, digest: str, seconds: float) 
     reals."""
     if not FILE.fullmatch(name) or name in LIBRARY or sha256(text := read_text(folder / name, "Coq file")) != digest:
         return "the file is not the one that was exported"
-    if (strange := strange_sentence(text)) is not None:
-        return f"holds what no export does: {strange}"
+    if (sentence := strange_sentence(text)) is not None:
+        return f"holds what no export does: {sentence}"
     write_text(place / name, text)
     said, trouble = _coqc(place, name, seconds)
     if trouble:
