@@ -227,6 +227,17 @@ def test_a_whole_number_beyond_64_bits_is_none_of_toml(value, tmp_path):
     assert read_toml(path)["seed"] == 2**63 - 1
 
 
+@pytest.mark.parametrize("text", ["a" + ".a" * 100_000 + " = 1", f"[{'a.' * 100_000}a]",
+                                  "x = {" + "a." * 9999 + "a = 1}",
+                                  "[[a]]\n" * 60_000, "".join(f"[[{'.'.join('a' * i)}]]\n" for i in range(1, 300))])
+def test_a_file_of_keys_without_end_is_refused_before_it_is_parsed(text, tmp_path):
+    path = tmp_path / "study.toml"
+    path.write_text(text)
+    with pytest.raises(InputError, match=r"nested too deeply|more than 50000 tables") as said:
+        read_toml(path)
+    assert str(path) in str(said.value)
+
+
 def test_a_number_that_no_float_holds_is_none_of_json(tmp_path):
     path = tmp_path / "a.json"
     path.write_text('{"claims": [1e999]}')

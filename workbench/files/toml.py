@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import copy
 import difflib
+import re
 import tomllib
 from collections.abc import Iterator
 from pathlib import Path
@@ -24,6 +25,9 @@ Name = Annotated[str, Strict(), Field(pattern=r"^[A-Za-z][A-Za-z0-9_.-]*$", max_
 
 
 LARGEST_INTEGER = 2**63 - 1  # that TOML asks its readers to know
+# Of a file, and of a dotted key.
+MOST_TABLES, MOST_PARTS = 50_000, 200
+_PART = re.compile(r"""[\w\s"'-]*""")
 
 # The key of a file by which it reproduces a paper, so that every value must have its source.
 REPRODUCTION = "reproduction"
@@ -103,16 +107,31 @@ def _table(path: Path, where: str) -> dict[str, Any]:
     text = read_text(path, "TOML", where)
     if not text.strip():
         raise InputError(path, "", "is empty: a TOML table is expected")
+    _require_quick(path, text)
     try:
         table = tomllib.loads(text)
+        integers = list(_integers(table, ""))
     except ValueError as trouble:  # TOMLDecodeError, and Python's own limit on the digits of an integer
         raise InputError(path, "", f"is not valid TOML: {trouble}") from None
     except RecursionError:
         raise InputError(path, "", "is nested too deeply: write flatter tables") from None
-    for key, number in _integers(table, ""):
+    for key, number in integers:
         if abs(number) > LARGEST_INTEGER:
             raise InputError(path, key, "is a whole number beyond 64 bits: give a finite number that fits, or a float")
     return table
+
+
+def _require_quick(path: Path, text: str) -> None:
+    """InputError for what takes the parser minutes: keys of thousands of parts, and tables by the hundred thousand."""
+    lines = text.splitlines()
+    if sum(line.lstrip().startswith("[") for line in lines) > MOST_TABLES:
+        raise InputError(path, "", f"has more than {MOST_TABLES} tables: put data into a CSV file")
+    for number, line in enumerate(lines):
+        run = 0
+        for piece in line.split(".") if line.count(".") > MOST_PARTS else ():
+            run = run + 1 if _PART.fullmatch(piece) else 0
+            if run > MOST_PARTS:
+                raise InputError(path, f"line {number + 1}", "is nested too deeply: write flatter tables")
 
 
 def _integers(value: Any, key: str) -> Iterator[tuple[str, int]]:
