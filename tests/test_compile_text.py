@@ -7,7 +7,16 @@ import numpy as np
 import pytest
 
 from workbench.compile.kernel import loop_module
-from workbench.compile.text import CALLED, CALLED_UNCOUNTED, MARKER, PUT_IN, WITHIN, loop_text, module_text
+from workbench.compile.text import (
+    CALLED,
+    CALLED_UNCOUNTED,
+    MARKER,
+    PUT_IN,
+    WITHIN,
+    WITHIN_UNCOUNTED,
+    loop_text,
+    module_text,
+)
 from workbench.errors import CompileError
 
 LOOP = f'''"""A loop."""
@@ -43,6 +52,7 @@ def loop(tmp_path, request):
 
 @pytest.mark.parametrize(("stated", "total", "others"), [
     ("", CALLED, CALLED), ('ENTRIES = ("total",)', CALLED, WITHIN),
+    ('ENTRIES = ("total",)\nMAKES_NO_ARRAY = True', CALLED_UNCOUNTED, WITHIN_UNCOUNTED),
     ('ENTRIES = ("total",)\nONE_BODY = True', CALLED_UNCOUNTED, PUT_IN)])
 def test_every_function_is_marked_for_what_calls_it_and_nothing_else_is_changed(loop, stated, total, others):
     lines = module_text("a test", [ADDED], loop(LOOP.replace(MARKER, f"{stated}\n{MARKER}"))).splitlines()
@@ -54,9 +64,10 @@ def test_every_function_is_marked_for_what_calls_it_and_nothing_else_is_changed(
 
 def test_marks_change_no_value(loop):
     rows = np.arange(6.0).reshape(3, 2)
-    stated = ("", 'ENTRIES = ("total",)', 'ENTRIES = ("total",)\nONE_BODY = True')
+    stated = ("", 'ENTRIES = ("total",)', 'ENTRIES = ("total",)\nMAKES_NO_ARRAY = True',
+              'ENTRIES = ("total",)\nONE_BODY = True')
     found = [loop_module("a test", [ADDED], loop(LOOP.replace(MARKER, f"{s}\n{MARKER}"))).total(rows) for s in stated]
-    assert found == [3 * (0.0 + 2.0 + 4.0 + 3 * 2)] * 3
+    assert found == [3 * (0.0 + 2.0 + 4.0 + 3 * 2)] * 4
 
 
 def test_an_entry_that_is_not_there_is_refused_by_name(loop):

@@ -28,15 +28,29 @@ def control_pd():
     return control.ss([], [], [], [[4, -4, -3]], True, inputs=["r", "x", "v"], outputs=["u"], name="control_pd")
 
 
+def plain_pd(t, y, desired):
+    return -4 * (y[0] - desired[0]) - 3 * y[1]
+
+
 @pytest.fixture(scope="module")
 def compared():
-    return wb.compare(SETTING, [wb.entrant(one, 0.01) for one in (PD, casadi_pd(), control_pd())])
+    return wb.compare(SETTING, [wb.entrant(one, 0.01) for one in (PD, casadi_pd(), control_pd(), plain_pd)])
 
 
 def test_guests_run_as_the_law_does(compared):
-    assert [run.name for run in compared] == ["pd", "casadi_pd", "control_pd"]
-    for guest in ("casadi_pd", "control_pd"):
+    assert [run.name for run in compared] == ["pd", "casadi_pd", "control_pd", "plain_pd"]
+    for guest in ("casadi_pd", "control_pd", "plain_pd"):
         assert compared[guest]["x"] == pytest.approx(compared["pd"]["x"], abs=1e-12)
+
+
+@pytest.mark.parametrize(("command", "words"), [
+    (lambda t, y, r: [1.0, 2.0], "gives 2 numbers at t = 0 s: give one for each input, u"),
+    (lambda t, y, r: "a", "fails at t = 0 s .ValueError"),
+    (lambda t, y, r: 1 / 0, r"controller 'lambda' fails at t = 0 s \(ZeroDivisionError: division by zero\)")])
+def test_what_a_controller_does_wrong_is_one_line(command, words):
+    """More numbers than inputs were once written beyond an array's end."""
+    with pytest.raises(ValueError, match=words):
+        wb.compare(SETTING, [wb.entrant(command, 0.01)])
 
 
 def test_a_state_of_a_guest_moves_once_a_sample():
@@ -60,7 +74,7 @@ def test_a_guest_that_does_not_fit_is_refused_in_one_line(guest, words):
 
 def test_results_show_themselves_in_a_notebook(compared):
     shown = compared._repr_html_()
-    assert shown.count("<tr>") == 1 + 3 and "casadi_pd" in shown
+    assert shown.count("<tr>") == 1 + 4 and "casadi_pd" in shown
     assert compared["pd"]._repr_html_().count("<tr>") == 2
     assert html_table([{"a": "<b>", "c": None}]).endswith("<tr><td>&lt;b&gt;</td><td></td></tr></tbody></table>")
 

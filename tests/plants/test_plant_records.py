@@ -207,3 +207,12 @@ def test_the_closed_loop_is_the_flow_of_plant_law_and_reference():
 
 def test_the_flow_of_a_plant_is_what_a_goal_takes():
     assert PENDULUM.flow[theta] == omega and list(PENDULUM.flow) == [theta, omega]
+
+
+@pytest.mark.parametrize("value", [None, "1", math.nan, [1.0], True])
+def test_what_is_no_number_is_one_line(value):
+    for key in ("initial", "noise"):
+        with pytest.raises(ValueError, match=rf"{key}\.x = .*: give a finite number"):
+            Setting(CART, 1.0, **{key: {"x": value}})
+    with pytest.raises(ValueError, match=r"duration_s = .*: give a positive number of seconds"):
+        Setting(CART, value if value is not True else math.inf)

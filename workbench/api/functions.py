@@ -81,8 +81,9 @@ def simulate(plant: Plant, law: StateLaw | Any | None, *, period_s: float, durat
 def entrant(law: StateLaw | Any, period_s: float, parameters: Names | None = None, initial: Names | None = None,
             name: str = "") -> Entrant:
     """A controller with its values for `compare`: a law, what has `build(setting, period_s)`, as `PlantMpc`, or a
-    controller of another library: a `casadi.Function` (t, y, r) -> u, or a `control` system whose inputs are the
-    plant's outputs and the references' values, and whose outputs are the plant's inputs, by their names.
+    controller made elsewhere: a function (t, y, r) -> u of Python or casadi, over the plant's outputs and the
+    references' values in their orders, or a `control` system whose inputs are these and whose outputs are the plant's
+    inputs, by their names.
     """
     if isinstance(law, StateLaw):
         return Entrant(name or law.id, period_s, law, _named(parameters), _named(initial))
@@ -91,7 +92,7 @@ def entrant(law: StateLaw | Any, period_s: float, parameters: Names | None = Non
         return Entrant(name or guest.name, period_s, build=guest.build)
     if not callable(getattr(law, "build", None)):
         raise ValueError(f"a {type(law).__name__} is no law and builds no controller: give a Law, a PlantMpc, a "
-                         "casadi.Function or a control system")
+                         "function (t, y, r) -> u or a control system")
     return Entrant(name or "mpc", period_s, build=law.build)
 
 

@@ -1,10 +1,11 @@
-"""Controllers of other libraries as entrants, called once a sample: a casadi Function, a system of python-control."""
+"""Controllers made elsewhere as entrants, called once a sample: functions, casadi's too, and systems of control."""
 
 from __future__ import annotations
 
 import sys
 from collections.abc import Mapping
 from dataclasses import dataclass
+from types import FunctionType, MethodType
 from typing import Any
 
 import numpy as np
@@ -22,9 +23,9 @@ class Guest:
 
     name: str
     controller: Any
-    kind: type[_Function] | type[_System]
+    kind: type[_Plain] | type[_Function] | type[_System]
 
-    def build(self, setting: Setting, period_s: float) -> _Function | _System:
+    def build(self, setting: Setting, period_s: float) -> _Plain | _Function | _System:
         """The controller in a setting; ValueError where their names or sizes do not fit."""
         return self.kind(self.controller, setting, period_s)
 
@@ -39,7 +40,20 @@ def guest_controller(controller: Any) -> Guest | None:
         return Guest(controller.name(), controller, _Function)
     if control is not None and isinstance(controller, control.InputOutputSystem):
         return Guest(controller.name or "control", controller, _System)
+    if isinstance(controller, FunctionType | MethodType):
+        return Guest(controller.__name__.strip("<>"), controller, _Plain)
     return None
+
+
+class _Plain:
+    """A function (t, y, r) -> u of Python: outputs, values of the references and inputs in their orders."""
+
+    def __init__(self, function: Any, setting: Setting, period_s: float) -> None:
+        self._function, self._references = function, setting.references
+
+    def command(self, t: float, measured: Array) -> Any:
+        """What the function gives."""
+        return self._function(t, measured.copy(), np.array([*_values(self._references, t).values()]))
 
 
 class _Function:

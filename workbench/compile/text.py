@@ -20,8 +20,8 @@ CALLED = "@njit(cache=True, error_model='numpy')"
 WITHIN = "@njit(cache=True, error_model='numpy', no_cpython_wrapper=True, no_cfunc_wrapper=True)"
 # Arrays as plain memory, whose uses are not counted: counting costs more than a Runge-Kutta stage.
 CALLED_UNCOUNTED = "@njit(cache=True, error_model='numpy', no_cfunc_wrapper=True, _nrt=False)"
-PUT_IN = ("@njit(cache=True, error_model='numpy', no_cpython_wrapper=True, no_cfunc_wrapper=True, _nrt=False, "
-          "forceinline=True)")
+WITHIN_UNCOUNTED = "@njit(cache=True, error_model='numpy', no_cpython_wrapper=True, no_cfunc_wrapper=True, _nrt=False)"
+PUT_IN = WITHIN_UNCOUNTED.replace(")", ", forceinline=True)")
 
 
 def loop_text(loop: ModuleType) -> str:
@@ -54,8 +54,9 @@ def shared_text(loop: ModuleType) -> str:
 def module_text(source: str, functions: Sequence[str], loop: ModuleType, shared: str = "") -> str:
     """Python source of generated functions and what stands below the marker in `loop`, every function a numba kernel.
 
-    A loop may say which `ENTRIES` Python calls, all its functions unless it does; and that it is `ONE_BODY`, so that
-    all others are put into those, and none makes an array. source: what the functions were generated from, in words;
+    A loop may say which `ENTRIES` Python calls, all its functions unless it does; that it `MAKES_NO_ARRAY`; and that it
+    is `ONE_BODY`, which makes none either, so that all others are put into those. source: what the functions were
+    generated from, in words;
     functions: their Python source; shared: the name of the module of `shared_text`, from which its functions come.
     Raises CompileError where no function has the name of an entry.
     """
@@ -78,8 +79,11 @@ def _functions(text: str) -> list[ast.FunctionDef]:
 
 def _marked(text: str, loop: ModuleType) -> str:
     """The text with a mark above every function, made from the last to the first, so that none moves another."""
-    entries, one_body = getattr(loop, "ENTRIES", None), getattr(loop, "ONE_BODY", False)
-    called, within = (CALLED_UNCOUNTED, PUT_IN) if one_body else (CALLED, WITHIN)
+    entries, called, within = getattr(loop, "ENTRIES", None), CALLED, WITHIN
+    if getattr(loop, "ONE_BODY", False):
+        called, within = CALLED_UNCOUNTED, PUT_IN
+    elif getattr(loop, "MAKES_NO_ARRAY", False):
+        called, within = CALLED_UNCOUNTED, WITHIN_UNCOUNTED
     lines = text.splitlines()
     for function in reversed(_functions(text)):
         lines.insert(function.lineno - 1, called if entries is None or function.name in entries else within)

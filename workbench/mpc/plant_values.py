@@ -9,7 +9,7 @@ from typing import Literal, get_args
 
 from workbench.model.law import time
 from workbench.systems.setting import Setting
-from workbench.systems.symbols import named_values
+from workbench.systems.symbols import is_finite, named_values
 
 Solver = Literal["fatrop", "ipopt"]
 MOST_STAGES = 1000
@@ -55,14 +55,15 @@ class PlantMpcValues:
         for key in (*NOT_NEGATIVE, "input_targets", "objective", "first_estimate"):
             table = {str(name): value for name, value in named_values(getattr(self, key), key).items()}
             object.__setattr__(self, key, table)
-        if not 1 <= self.horizon <= MOST_STAGES or self.substeps < 1:
+        whole = isinstance(self.horizon, int) and isinstance(self.substeps, int)
+        if not whole or not 1 <= self.horizon <= MOST_STAGES or self.substeps < 1:
             raise ValueError(f"horizon = {self.horizon}, substeps = {self.substeps}: give 1 to {MOST_STAGES} samples "
                              "and at least one step")
         if self.solver not in get_args(Solver):
             raise ValueError(f"solver '{self.solver}' is not known: it is one of {', '.join(get_args(Solver))}")
         for key in NOT_NEGATIVE:
             for name, value in getattr(self, key).items():
-                if not (math.isfinite(value) and value >= 0):
+                if not (is_finite(value) and value >= 0):
                     raise ValueError(f"{key}.{name} = {value}: give a number that is not negative")
         if not self.weights and not self.objective:
             raise ValueError("weights and objective are empty: state weights of tracked outputs, or of metrics")
@@ -123,7 +124,7 @@ class PlantMpcValues:
                 if name not in (*states, *disturbances):
                     raise ValueError(f"{key}.{name}: plant '{plant.id}' has no such state and no such disturbance: "
                                      f"name one of {', '.join((*states, *disturbances))}")
-                if not math.isfinite(value):
+                if not is_finite(value):
                     raise ValueError(f"{key}.{name} = {value}: give a finite number")
                 if name in disturbances and name not in self.observer:
                     raise ValueError(f"{key}.{name}: the disturbance is not estimated: state observer.{name}")

@@ -15,7 +15,7 @@ from workbench.systems.law import Reference
 from workbench.systems.metric import Metric
 from workbench.systems.plant import Plant
 from workbench.systems.signals import AnySignal, Constant, signal_of
-from workbench.systems.symbols import CLOCK, named_values, require_known, several
+from workbench.systems.symbols import CLOCK, is_finite, named_values, require_known, several
 
 Array = NDArray[np.float64]
 Integrator = Literal["rk4", "radau", "bdf", "lsoda"]
@@ -57,7 +57,7 @@ class Setting:
         plant = self.plant
         object.__setattr__(self, "step_s", self._step())
         for name in ("duration_s", "step_s"):
-            if not (math.isfinite(getattr(self, name)) and getattr(self, name) > 0):
+            if not (is_finite(getattr(self, name)) and getattr(self, name) > 0):
                 raise ValueError(f"{name} = {getattr(self, name)}: give a positive number of seconds")
         if self.duration_s / self.step_s > MOST_STEPS:
             raise ValueError(f"duration_s / step_s is more than {MOST_STEPS}: take a longer step")
@@ -80,7 +80,7 @@ class Setting:
             self._require_names(key, kind, names)
         for key in ("noise", "late_s", "lag_s", "delay_s", "initial"):
             for name, value in getattr(self, key).items():
-                if isinstance(value, str | bool) or not math.isfinite(value) or (key != "initial" and value < 0):
+                if not is_finite(value) or (key != "initial" and value < 0):
                     raise ValueError(f"{key}.{name} = {value}: give a finite number"
                                      f"{'' if key == 'initial' else ' that is not negative'}")
         for name, value in self.delay_s.items():

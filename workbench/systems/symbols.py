@@ -7,6 +7,7 @@ from collections.abc import Iterable, Mapping
 from difflib import get_close_matches
 from typing import Any
 
+import numpy as np
 import sympy as sp
 
 from workbench.model.law import period, time
@@ -31,6 +32,11 @@ def expression(value: Any, where: str) -> sp.Expr:
     if found.has(sp.I) or found.is_extended_real is False:
         raise ValueError(f"{where} is not real: {found}: state real dynamics, a complex state as two real ones")
     return found
+
+
+def is_finite(value: Any) -> bool:
+    """Whether a value is one finite real number."""
+    return isinstance(value, int | float | np.number) and not isinstance(value, bool) and bool(np.isfinite(value))
 
 
 def several(values: Any, where: str, of: type | None = None, write: str = "") -> tuple[Any, ...]:

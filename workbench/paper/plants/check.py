@@ -12,6 +12,7 @@ import sympy as sp
 from numpy.typing import NDArray
 
 from workbench.compile.vector_code import numeric_vector
+from workbench.errors import InputError
 from workbench.files.folders import CERTIFICATES, STUDY_FILE, held_in
 from workbench.model.law import period
 from workbench.paper.loading import load
@@ -61,7 +62,7 @@ def check_paper(folder: Path) -> Checked:
     """Check a folder: its study fits its plant and laws, every controller's run stays in its domain, compiled and
     interpreted commands agree, every `Lyapunov` function changes along its law's run as derived, certificates hold.
 
-    Raises InputError where the folder cannot be read at all.
+    Raises InputError where the folder cannot be read at all, or has nothing to check.
     """
     found: list[Check] = []
     if (folder / STUDY_FILE).is_file():
@@ -69,6 +70,8 @@ def check_paper(folder: Path) -> Checked:
         if isinstance(study, LocatedPlantStudy):
             found += _study(study)
     found += _certificates(folder)
+    if not found:
+        raise InputError(folder, "", "has nothing to check: name a paper's folder with a plant's study or certificates")
     return Checked(folder, tuple(found))
 
 

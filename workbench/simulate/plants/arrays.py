@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import lru_cache
 from types import ModuleType
 from typing import Any
 
@@ -37,11 +38,31 @@ class Compiled:
     extremes: tuple[sp.Expr, ...]
 
 
+class _Subject:
+    """What a module is made of: the same plant and law, as objects, with the same metrics and signals."""
+
+    def __init__(self, setting: Setting, law: StateLaw | None) -> None:
+        self.setting, self.law = setting, law
+        self._key = (id(setting.plant), id(law), setting.every_metric, tuple(setting.signals))
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, _Subject) and self._key == other._key
+
+    def __hash__(self) -> int:
+        return hash(self._key)
+
+
 def compiled(setting: Setting, law: StateLaw | None) -> Compiled:
     """The loop of a plant in a setting under a law; without one its law commands nothing and must not be called.
 
     Raises CompileError for an expression that has no code.
     """
+    return _compiled(_Subject(setting, law))
+
+
+@lru_cache(maxsize=64)  # writing the code takes longer than many a run; the subject kept holds plant and law alive
+def _compiled(subject: _Subject) -> Compiled:
+    setting, law = subject.setting, subject.law
     plant, metrics = setting.plant, setting.every_metric
     integrands = tuple(m.integrand for m in metrics if m.integrand is not None)
     extremes = tuple(m.expression if m.measure == "largest" else -m.expression for m in metrics

@@ -17,6 +17,7 @@ SHARES = (event_loop,)
 # What Python calls; all else is called by compiled functions alone.
 ENTRIES = ("signal_values", "limited", "plant_rates", "plant_outputs", "plant_margin", "law_margin", "law_step",
            "advance", "add_extremes", "record", "closed_loop")
+MAKES_NO_ARRAY = True
 RUNNING, DIVERGED, OUTSIDE, NO_COMMAND, LAW_OUTSIDE = 0, 1, 2, 3, 4
 
 # --- shared ---
@@ -82,6 +83,7 @@ def advance(first, count, h, states, x, wanted, u, u_middle, u_end, delays, ring
     """
     length = ring.shape[0]
     delayed, moving = length > 1, table.shape[0] > 0
+    until_log = (log_every - first % log_every) % log_every  # counted: a division a step takes as long as a sine
     for k in range(first, first + count):
         t = k * h
         if moving:
@@ -98,8 +100,10 @@ def advance(first, count, h, states, x, wanted, u, u_middle, u_end, delays, ring
             away = u[i] - command
             u_middle[i] = command + fade_half[i] * away
             u_end[i] = command + fade_full[i] * away
-        if k % log_every == 0:
+        if until_log == 0:
             record(t, states, x, u, wanted, s, told, log, k // log_every)
+            until_log = log_every
+        until_log -= 1
         if extremes.shape[0] > 0:
             add_extremes(t, x, u, s, p, extremes, values)
         if sides.shape[0] > 0:
@@ -154,10 +158,12 @@ def closed_loop(samples, every, h, states, x, wanted, u, u_middle, u_end, delays
     period, kept = every * h, seen.shape[0]
     for sample in range(samples):
         plant_outputs(sample * period, x, p, measured)
+        row = sample % kept
         for i in range(measured.shape[0]):
-            seen[sample % kept, i] = measured[i] + noise[sample, i]
+            seen[row, i] = measured[i] + noise[sample, i]
         for i in range(measured.shape[0]):
-            measured[i] = seen[max(sample - late[i], 0) % kept, i]
+            back = row - min(late[i], sample)
+            measured[i] = seen[back if back >= 0 else back + kept, i]
         t = sample * period
         signal_values(t, t, table, pieces, s)
         if not law_margin(t, period, measured, s, law_states, law_parameters) > 0.0:

@@ -19,6 +19,7 @@ from workbench.simulate.plants.plant_loop import LAW_OUTSIDE, NO_COMMAND, RUNNIN
 from workbench.simulate.plants.solver import advance_by_solver
 from workbench.systems.law import StateLaw
 from workbench.systems.setting import Setting, limits_of
+from workbench.systems.symbols import is_finite
 
 Array = NDArray[np.float64]
 
@@ -47,7 +48,7 @@ class Entrant:
     def __post_init__(self) -> None:
         if (self.law is None) == (self.build is None):
             raise ValueError(f"controller '{self.name}': give either a law or what builds a controller")
-        if not (math.isfinite(self.period_s) and self.period_s > 0):
+        if not (is_finite(self.period_s) and self.period_s > 0):
             raise ValueError(f"controller '{self.name}': period_s = {self.period_s}: give a positive number of seconds")
 
     def check(self, setting: Setting) -> None:
@@ -131,8 +132,10 @@ def run(setting: Setting, entrant: Entrant, nominal: Mapping[str, float] | None 
     outputs = [*map(str, setting.plant.outputs)]
     late = np.array([round(setting.late_s.get(name, 0.0) / entrant.period_s) for name in outputs], np.int64)
     deviations = np.array([setting.noise.get(name, 0.0) for name in outputs])
-    noise = np.random.default_rng(setting.seed).normal(size=(samples, len(outputs))) * deviations
-    loop = _Loop(setting, found, arrays, every, noise, late)
+    noise = np.zeros((samples, len(outputs)))
+    if deviations.any():
+        noise = np.random.default_rng(setting.seed).normal(size=noise.shape) * deviations
+    loop = _Loop(entrant.name, setting, found, arrays, every, noise, late)
     if law is not None and setting.integrator == "rk4":
         status, done, taken, fallbacks = *loop.compiled_law(samples, states, values), 0
     else:
@@ -164,6 +167,7 @@ def _law_values(setting: Setting, entrant: Entrant, believed: Mapping[str, float
 class _Loop:
     """The sampled loop of one run, by compiled code or sample by sample."""
 
+    name: str
     setting: Setting
     found: Compiled
     arrays: Arrays
@@ -204,7 +208,7 @@ class _Loop:
             told = np.array([self.seen[max(sample - late, 0) % kept, i] for i, late in enumerate(self.late)])
             module.signal_values(t, t, a.table, a.pieces, a.s)
             before = clock.perf_counter()
-            wanted = np.asarray(controller.command(t, told), dtype=float)
+            wanted = self._asked(controller, t, told)
             taken[sample] = (clock.perf_counter() - before) * 1e6
             if isinstance(controller, _Interpreted) and controller.outside:
                 return LAW_OUTSIDE, first, taken[:sample + 1]
@@ -217,6 +221,21 @@ class _Loop:
             if status != RUNNING:
                 return status, first + done, taken[:sample + 1]
         return RUNNING, samples * self.every, taken
+
+
+    def _asked(self, controller: SampledController, t: float, told: Array) -> Array:
+        """The command, one number an input; ValueError naming the controller for anything else, and what it raises."""
+        inputs = [*map(str, self.setting.plant.inputs)]
+        try:
+            given = controller.command(t, told)
+            wanted = np.asarray(given, dtype=float).ravel()
+        except Exception as trouble:  # whatever a user's controller does
+            what = " ".join(f"{type(trouble).__name__}: {trouble}".split())
+            raise ValueError(f"controller '{self.name}' fails at t = {t:.4g} s ({what}): correct it") from trouble
+        if len(wanted) != len(inputs):
+            raise ValueError(f"controller '{self.name}' gives {len(wanted)} numbers at t = {t:.4g} s: give one for "
+                             f"each input, {', '.join(inputs) or 'none'}")
+        return wanted
 
 
 class _Interpreted:
