@@ -17,6 +17,7 @@ from typer.main import get_command
 from workbench.cli.options import Version
 from workbench.cli.terminal import err_console
 from workbench.errors import InputError, WorkbenchError, of_an_extra, printable
+from workbench.tasks.threads import use_one_thread
 
 INTERRUPTED = 130  # with which typer ends after Ctrl-C
 LINKS = "Symlink loop"  # what pathlib says of them, before Python 3.13
@@ -60,6 +61,7 @@ def options(version: Version = False) -> None:
 
 def main() -> None:
     """Run the command line; an error that is the caller's to mend is one line and exit code 2."""
+    use_one_thread()
     if threading.current_thread() is threading.main_thread():
         signal.signal(signal.SIGTERM, signal.default_int_handler)  # what is finished is kept, as after Ctrl-C
     try:

@@ -22,9 +22,7 @@ from workbench.errors import WorkbenchError
 from workbench.files.cache_folder import note
 from workbench.files.modules import KnownFolders
 from workbench.tasks.sent import job_bytes, job_of
-
-THREAD_LIMITS = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "NUMBA_NUM_THREADS",
-                 "VECLIB_MAXIMUM_THREADS")
+from workbench.tasks.threads import THREAD_LIMITS
 
 # Rooms that hand tasks out and run none.
 WITHOUT_TASKS = ("cli", "api", "report")
