@@ -132,9 +132,7 @@ def run(setting: Setting, entrant: Entrant, nominal: Mapping[str, float] | None 
     outputs = [*map(str, setting.plant.outputs)]
     late = np.array([round(setting.late_s.get(name, 0.0) / entrant.period_s) for name in outputs], np.int64)
     deviations = np.array([setting.noise.get(name, 0.0) for name in outputs])
-    noise = np.zeros((samples, len(outputs)))
-    if deviations.any():
-        noise = np.random.default_rng(setting.seed).normal(size=noise.shape) * deviations
+    noise = np.random.default_rng(setting.seed).normal(size=(samples, len(outputs))) * deviations
     loop = _Loop(entrant.name, setting, found, arrays, every, noise, late)
     if law is not None and setting.integrator == "rk4":
         status, done, taken, fallbacks = *loop.compiled_law(samples, states, values), 0
@@ -199,8 +197,7 @@ class _Loop:
 
     def sampled(self, samples: int, controller: SampledController) -> tuple[int, int, Array]:
         """Sample by sample: the controller is called, the plant is moved by compiled code or a solver."""
-        module, a, taken = self.found.module, self.arrays, np.zeros(samples)
-        kept = len(self.seen)
+        module, a, taken, kept = self.found.module, self.arrays, np.zeros(samples), len(self.seen)
         for sample in range(samples):
             t, first = sample * self.every * self.h, sample * self.every
             module.plant_outputs(t, a.x, a.p, self.measured)
@@ -224,17 +221,15 @@ class _Loop:
 
 
     def _asked(self, controller: SampledController, t: float, told: Array) -> Array:
-        """The command, one number an input; ValueError naming the controller for anything else, and what it raises."""
-        inputs = [*map(str, self.setting.plant.inputs)]
+        """The command, one number an input; ValueError for anything else, and where the controller raises."""
         try:
-            given = controller.command(t, told)
-            wanted = np.asarray(given, dtype=float).ravel()
+            wanted = np.asarray(controller.command(t, told), dtype=float).ravel()
         except Exception as trouble:  # whatever a user's controller does
-            what = " ".join(f"{type(trouble).__name__}: {trouble}".split())
-            raise ValueError(f"controller '{self.name}' fails at t = {t:.4g} s ({what}): correct it") from trouble
-        if len(wanted) != len(inputs):
+            what = " ".join(f"'{self.name}' fails at t = {t:.4g} s ({type(trouble).__name__}: {trouble})".split())
+            raise ValueError(f"controller {what}: correct it") from trouble
+        if len(wanted) != len(self.arrays.u):
             raise ValueError(f"controller '{self.name}' gives {len(wanted)} numbers at t = {t:.4g} s: give one for "
-                             f"each input, {', '.join(inputs) or 'none'}")
+                             f"each input, {', '.join(map(str, self.setting.plant.inputs)) or 'none'}")
         return wanted
 
 
