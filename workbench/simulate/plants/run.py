@@ -219,7 +219,6 @@ class _Loop:
                 return status, first + done, taken[:sample + 1]
         return RUNNING, samples * self.every, taken
 
-
     def _asked(self, controller: SampledController, t: float, told: Array) -> Array:
         """The command, one number an input; ValueError for anything else, and where the controller raises."""
         try:
