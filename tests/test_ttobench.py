@@ -186,7 +186,7 @@ TRACK_MISTAKES = {
     "late limits": (_limits([10, 90]), "speed limits.values[0]", "from 0 on"),
     "limits twice": (_limits([0, 90], [500, 60], [500, 70]), "speed limits.values[2]", "sort"),
     "limit beyond": (_limits([0, 90], [9000, 60]), "speed limits.values[1]", "beyond the line"),
-    "limit NaN": (_limits([0, math.nan]), "speed limits.values[0][1]", "give a number"),
+    "limit NaN": (_limits([0, math.nan]), "line ", "NaN is no number of JSON: give a number"),
     "limit text": (_limits([0, "90"]), "speed limits.values[0][1]", "valid number"),
     "limit bool": (_limits([0, True]), "speed limits.values[0][1]", "valid number"),
     "limit huge": (_limits([0, 10**400]), "speed limits.values[0][1]", "valid number"),
@@ -201,7 +201,7 @@ TRACK_MISTAKES = {
     "radius 0": (_curves([0, 0, 100]), "curvatures.values[0][1]", "no railway curve"),
     "radius 30": (_curves([0, 100, -30]), "curvatures.values[0][2]", "no railway curve"),
     "radius word": (_curves([0, 100, "straight"]), "curvatures.values[0][2]", "infinity"),
-    "radius inf": (_curves([0, 100, math.inf]), "curvatures.values[0][2]", "infinity"),
+    "radius inf": (_curves([0, 100, math.inf]), "line ", "Infinity is no number of JSON: give a number"),
     "tunnel": ({"tunnels": TRACK["tunnels"] | {"values": [[8999, 10, 40]]}}, "tunnels.values[0]", "within the line"),
     "version": ({"metadata": {"id": "x", "library version": "TTOBench v2.0"}}, "metadata", "v1.1 to v1.5"),
 }

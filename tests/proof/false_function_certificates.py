@@ -68,9 +68,10 @@ ATTACKS = {
         proved("sqrt(Sum(W**2)*x)**2 == Sum(W**2*x)**2", IDENTITY, ["x > 0"], AT_ONE, **W), "two sides differ"),
     "division by what is a sum": (
         proved("Sum(W**2)/sqrt(Sum(W**2))**2 == 1", IDENTITY, example={"W": "1"}, **W), "not shown non-zero"),
-    **{f"{name} of a sum": (proved(f"{name}(Sum(W)) == Sum({name}(W))", IDENTITY, **W), f"(of a sum|{name} of a sum)")
+    **{f"{name} of a sum": (
+        proved(f"{name}(Sum(W)) == Sum({name}(W))", IDENTITY, **W), f"(of a sum|{name} of a sum|sides differ)")
        for name in ("abs", "sign", "tanh", "exp")},
-    "Max of a sum": (proved("Max(Sum(W), 0) == Sum(Max(W, 0))", IDENTITY, **W), "abs of a sum"),
+    "Max of a sum": (proved("Max(Sum(W), 0) == Sum(Max(W, 0))", IDENTITY, **W), "the two sides differ"),
     "no neuron, no sum": (proved("Sum(exp(W)) > 0", combination(("1", {"positive": "Sum(exp(W))"})), **W),
                           "not shown positive"),
     "no neuron": (proved("Sum(1) > 0", combination(("1", {"positive": "Sum(1)"}))), "not shown positive"),

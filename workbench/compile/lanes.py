@@ -8,10 +8,11 @@ between them. Generated functions take them as they take floats.
 from __future__ import annotations
 
 import hashlib
+import inspect
 import math
 import operator
+import sys
 from collections.abc import Callable
-from pathlib import Path
 from typing import Any
 
 from llvmlite import ir
@@ -50,7 +51,7 @@ class _Vector(models.PrimitiveModel):
 
 def kernel_head(count: int) -> str:
     """The line by which a kernel's source says how many lanes it has, and by which version of this file."""
-    return f"LANES = {count}  # {hashlib.sha256(Path(__file__).read_bytes()).hexdigest()[:12]}\n"
+    return f"LANES = {count}  # {hashlib.sha256(inspect.getsource(sys.modules[__name__]).encode()).hexdigest()[:12]}\n"
 
 
 def _at(number: int) -> ir.Constant:

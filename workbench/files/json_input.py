@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import math
+import re
 from pathlib import Path
 from typing import Any
 
@@ -12,6 +13,7 @@ from workbench.files.text import read_text
 
 # TTOBench nests five deep. What is much deeper was not written by hand, and would exhaust whoever prints it.
 DEEPEST = 40
+_STRING_OR_CONSTANT = re.compile(r'"(?:[^"\\]|\\.)*"|(NaN|-?Infinity)')
 
 
 def read_json(path: Path) -> dict[str, Any]:
@@ -21,6 +23,10 @@ def read_json(path: Path) -> dict[str, Any]:
         data = json.loads(text, object_pairs_hook=_unique, parse_float=_finite, parse_constant=_no_number)
     except InputError as trouble:
         raise trouble.within(path) from None
+    except _ConstantError as trouble:
+        where = next(found.start(1) for found in _STRING_OR_CONSTANT.finditer(text) if found[1])
+        raise InputError(path, f"line {text.count(chr(10), 0, where) + 1}",
+                         f"{trouble} is no number of JSON: give a number") from None
     except ValueError as trouble:  # JSONDecodeError, and Python's own limit on the digits of an integer
         raise InputError(path, "", f"is not valid JSON: {trouble}: correct it there") from None
     except RecursionError:
@@ -43,8 +49,12 @@ def _finite(text: str) -> float:
     return found
 
 
+class _ConstantError(Exception):
+    """NaN or an infinity, which Python's parser reads and JSON has not."""
+
+
 def _no_number(text: str) -> float:
-    raise ValueError(f"{text} is no number of JSON")
+    raise _ConstantError(text)
 
 
 def _unique(pairs: list[tuple[str, Any]]) -> dict[str, Any]:

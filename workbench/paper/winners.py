@@ -60,7 +60,8 @@ def winners_table(study: Any, drivers: Drivers, pairs: Sequence[Pair], results: 
                     if (pair.place, pair.tuned) == (place, tuned)
                     for mine, other in ((pair.law, pair.rival), (pair.rival, pair.law)) if mine == best.name}
             rest = [one for one in of if one is not best]
-            rows.append((condition, drivers.titles[best.name], best.mean, _others(drivers, rest, told, draws),
+            alone = "" if all(told.values()) else ", not alone"
+            rows.append((condition, drivers.titles[best.name] + alone, best.mean, _others(drivers, rest, told, draws),
                          best.step_s, best.energy_J))
     energy = any(row[-1] is not None for row in rows)
     header = ("condition", "winner", Column(f"its {name}", unit), Column("the others", unit), STEP,
@@ -68,8 +69,9 @@ def winners_table(study: Any, drivers: Drivers, pairs: Sequence[Pair], results: 
     kept = len(header) if energy else -1
     return ResultTable(
         "Who wins, and at what price", "comparison", header[:kept], tuple(row[:kept] for row in rows),
-        f"By the mean {name} over {draws} drawn trains, the least wins. Time of a control step and "
-        "energy at the wheel are the winner's.") if rows else None
+        f"By the mean {name} over {draws} drawn trains, the least wins; not alone where another is not told apart from "
+        "it by more than chance. Two laws, and two kinds of MPC, are ordered by their means without a test. Time of a "
+        "control step and energy at the wheel are the winner's.") if rows else None
 
 
 def _entrant(name: str, rows: Sequence[Mapping[str, Any]], metric: str) -> _Entrant:
