@@ -44,18 +44,18 @@ def test_the_cases_meet_every_track_train_and_factor():
     assert len(tracks) * len(trains) == len(PAIRS) and factors == set(FACTORS)
 
 
-@pytest.mark.parametrize(("track", "train", "factor", "gap"), [
+@pytest.mark.parametrize(("track", "train", "factor", "intervals", "gap"), [
     # The first mesh has no run in that time, since it drives a little worse than the line allows.
-    ("CN_Songjiazhuang_Yizhuang", "CN_Beijing_Subway", 1.0005, 1e-3),
+    ("CN_Songjiazhuang_Yizhuang", "CN_Beijing_Subway", 1.0005, None, 1e-3),
     # A run just below its speed limit where a tunnel begins: the bound may not take it for one at the limit.
-    ("00_reference_with_tunnels", "CH_Stadler_FLIRT_TPF", 1.01, 2e-4),
+    ("00_reference_with_tunnels", "CH_Stadler_FLIRT_TPF", 1.01, 800, 2e-4),
 ])
-def test_times_near_the_least_one(track, train, factor, gap):
+def test_times_near_the_least_one(track, train, factor, intervals, gap):
     (line, _), (vehicle, _) = (load(FOLDER / kind / f"{name}.json") for load, kind, name in (
         (load_line, "tracks", track), (load_vehicle, "trains", train)))
     run = course(line, vehicle)
     asked = factor * least_time(vehicle, run).trip_time_s
-    found = find_reference(vehicle, run, asked)
+    found = find_reference(vehicle, run, asked, intervals=intervals)
     assert 0 <= found.gap <= gap
     assert found.profile.trip_time_s <= asked * (1 + 1e-9)
 
