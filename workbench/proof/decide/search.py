@@ -8,6 +8,7 @@ import sympy as sp
 
 from workbench.proof.claim import D, Goal, Relation, at_least, at_most, equal, greater
 from workbench.proof.decide.combination import find_combination
+from workbench.proof.decide.cuts import after
 from workbench.proof.decide.first_lemmas import first_lemmas
 from workbench.proof.decide.identity import find_identity
 from workbench.proof.decide.pivots import find_by_pivots
@@ -17,7 +18,7 @@ from workbench.proof.decide.totals import find_by_totals
 from workbench.proof.decide.two_sides import between, find_by_two_sides, pinched
 from workbench.proof.decide.vanishing import vanishes
 from workbench.proof.derive import Side, Size, expand_derivatives, unfold
-from workbench.proof.text import assumptions, relation_text, text
+from workbench.proof.text import assumptions, text
 
 Proof = dict[str, Any]
 Given = tuple[Relation, ...]
@@ -35,15 +36,8 @@ def prove_relation(goal: Goal, shown: Relation) -> Found:
         first = pinched(given)
         first += first_lemmas(goal, shown, (*given, *(lemma for lemma, _ in first)))
         found = search(goal, shown, (*given, *(lemma for lemma, _ in first)), goal.lemmas)
-        return None if found is None else _cut(first, found)
+        return None if found is None else after(first, found)
     return _by_decrease(goal, shown)
-
-
-def _cut(lemmas: list[tuple[Relation, Proof]], final: Proof) -> Proof:
-    """A proof that uses lemmas, each shown from what is known before it."""
-    for lemma, proof in reversed(lemmas):
-        final = {"rule": "cut", "lemma": relation_text(lemma), "proof": proof, "then": final}
-    return final
 
 
 def search(goal: Goal, shown: Relation, given: Given, lemmas: Given = (), depth: int = 0) -> Found:
@@ -107,7 +101,7 @@ def _by_both_bounds(goal: Goal, shown: Relation, given: Given, lemmas: Given, de
     second = first and search(goal, upper, (*given, lower), lemmas, depth)
     if first is None or second is None:
         return None
-    return _cut([(lower, first), (upper, second)], between(len(given), len(given) + 1, len(given) + 2))
+    return after([(lower, first), (upper, second)], between(len(given), len(given) + 1, len(given) + 2))
 
 
 def _by_growth(goal: Goal, shown: Relation, given: Given, steps: int = MOST_STEPS) -> Found:
@@ -210,7 +204,7 @@ def _search_case(goal: Goal, shown: Relation, given: Given, lemmas: Given, depth
         return impossible | {"rule": "contradiction"}
     zero = pinched(given)
     found = search(goal, shown, (*given, *(lemma for lemma, _ in zero)), lemmas, depth)
-    return None if found is None else _cut(zero, found)
+    return None if found is None else after(zero, found)
 
 
 def _by_lemmas(goal: Goal, shown: Relation, given: Given, lemmas: Given) -> Found:
@@ -230,7 +224,7 @@ def _by_lemmas(goal: Goal, shown: Relation, given: Given, lemmas: Given) -> Foun
         final = find_squares(goal, shown, given)
     if final is None:
         return None
-    return _cut(steps, final)
+    return after(steps, final)
 
 
 def _signs_of_logs(relations: Given) -> list[Relation]:

@@ -17,8 +17,9 @@ import sympy as sp
 
 from workbench.proof.claim import Goal, Relation, at_least, equal, greater
 from workbench.proof.decide.combination import find_combination
+from workbench.proof.decide.cuts import after
 from workbench.proof.derive import Side, Size
-from workbench.proof.text import relation_text, text
+from workbench.proof.text import text
 
 Proof = dict[str, Any]
 Given = tuple[Relation, ...]
@@ -46,8 +47,8 @@ def find_by_tangents(goal: Goal, shown: Relation, given: Given) -> Proof | None:
         if found is None and not denominator.is_number:
             lemma = at_least(sp.expand(numerator), 0)
             first = find_combination(near, lemma, given, quick=True)
-            found = None if first is None else _after(
-                [(lemma, first)], find_combination(goal, shown, (*given, lemma)))
+            if first is not None and (rest := find_combination(goal, shown, (*given, lemma))) is not None:
+                return after([(lemma, first)], rest)
         if found is not None:
             return found
     return _by_halves(goal, shown, given, arguments)
@@ -77,7 +78,7 @@ def _at_each_other(goal: Goal, shown: Relation, given: Given, arguments: list[sp
             steps.append((at_least(sp.exp(a), at_b * (1 + a - b)), {"rule": "combination", "terms": terms}))
         found = find_combination(replace(goal, facts=()), shown, (*given, *(lemma for lemma, _ in steps)))
         if found is not None:
-            return _after(steps, found)
+            return after(steps, found)
     return None
 
 
@@ -131,18 +132,10 @@ def _of_logarithms(goal: Goal, shown: Relation, given: Given) -> Proof | None:
                   (excess, _single("log_tangent", a / b))]
         found = find_combination(goal, shown, (*given, *(lemma for lemma, _ in steps)))
         if found is not None:
-            return _after(steps, found)
+            return after(steps, found)
     return None
 
 
 def _single(fact: str, one: sp.Expr, other: sp.Expr | None = None) -> Proof:
     factor = {"fact": fact, "of": text(one)} | ({} if other is None else {"and": text(other)})
     return {"rule": "combination", "terms": [{"coefficient": "-1" if other is not None else "1", "factors": [factor]}]}
-
-
-def _after(steps: list[tuple[Relation, Proof]], found: Proof | None) -> Proof | None:
-    if found is None:
-        return None
-    for lemma, proof in reversed(steps):
-        found = {"rule": "cut", "lemma": relation_text(lemma), "proof": proof, "then": found}
-    return found

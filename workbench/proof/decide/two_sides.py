@@ -9,10 +9,11 @@ import sympy as sp
 from workbench.errors import ClaimError
 from workbench.proof.claim import Goal, Relation, at_least, at_most, equal
 from workbench.proof.decide.combination import find_combination
+from workbench.proof.decide.cuts import after
 from workbench.proof.decide.laurent import goal_atoms, positive_by_terms
 from workbench.proof.decide.squares import find_squares
 from workbench.proof.derive import Side, Size
-from workbench.proof.text import relation_text, text
+from workbench.proof.text import text
 
 Proof = dict[str, Any]
 Given = tuple[Relation, ...]
@@ -28,10 +29,7 @@ def find_by_two_sides(goal: Goal, shown: Relation, given: Given) -> Proof | None
         if proof is None:
             return None
         steps.append((side, proof))
-    final = between(len(given), len(given) + 1, len(given) + 2)
-    for lemma, proof in reversed(steps):
-        final = {"rule": "cut", "lemma": relation_text(lemma), "proof": proof, "then": final}
-    return final
+    return after(steps, between(len(given), len(given) + 1, len(given) + 2))
 
 
 def pinched(given: Given) -> list[tuple[Relation, Proof]]:
