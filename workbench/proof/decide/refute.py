@@ -68,7 +68,7 @@ def find_counterexample(goal: Goal, verdict: Verdict, seed: int = 1, quick: bool
                     certificate |= onward(usual, shown) or {}
                 if _accepted(certificate):
                     return certificate
-        if not quick and (found := _at_other_counts(usual, record, verdict, seed)) is not None:
+        if (found := _at_other_counts(usual, record, verdict, seed, quick)) is not None:
             return found
     except (CertificateError, ClaimError):  # nothing that the checker would accept can be said of such a goal
         return None
@@ -115,9 +115,10 @@ def _simplest(exact: Exact, point: Point) -> Point:
     return point
 
 
-def _at_other_counts(goal: Goal, record: dict[str, Any], verdict: Verdict, seed: int) -> dict[str, Any] | None:
+def _at_other_counts(goal: Goal, record: dict[str, Any], verdict: Verdict, seed: int,
+                     quick: bool) -> dict[str, Any] | None:
     """A certificate with a point at which the sums have no term, two or three."""
-    for point, terms in counted_points(goal, seed):
+    for point, terms in counted_points(goal, seed, quick):
         certificate = {"version": 1, "verdict": verdict, "goal": record, "point": texts(point),
                        "terms": [texts(term) for term in terms]}
         if _accepted(certificate):
