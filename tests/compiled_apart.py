@@ -2,12 +2,15 @@
 kernel in its process, and a test process needs a hundred."""
 
 import contextlib
+import math
 import os
 import select
 import signal
 import warnings
+from functools import cache
 
 import one_thread  # noqa: F401 - before numba imports numpy
+from numba import float64, njit
 from numba.core import sigutils
 from numba.core.ccallback import CFunc
 from numba.core.dispatcher import Dispatcher
@@ -22,8 +25,21 @@ def kept(cache, signature, target) -> bool:
     return file is None or cache._index_key(signature, target.codegen()) in file._load_index()
 
 
+def some_of_each(values, x):
+    values[0] = min(values[1] * math.sin(x), max(abs(x), 1)) + x**2 / 3
+    for i in range(len(values)):
+        values[i] += math.exp(x) if x > 0 else math.copysign(1, x) * i
+
+
+@cache
+def first_compilation() -> None:
+    """What a process does once before it compiles is done here, so that no fork has to do it."""
+    compile_here(njit(error_model="numpy")(some_of_each), (float64[::1], float64))
+
+
 def in_a_fork(work, *arguments) -> None:
     """What fails there fails here again, where it is seen."""
+    first_compilation()
     try:
         with warnings.catch_warnings(action="ignore", category=DeprecationWarning):  # there is a thread that only reads
             number = os.fork()

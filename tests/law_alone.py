@@ -12,4 +12,5 @@ def answers(samples, parameters, scalars, neurons, neuron_data, commands, states
         row = samples[i]
         commands[i] = control_step(row[0], row[1], row[2], row[3], row[4], row[5], row[6], parameters, scalars, neurons,
                                    neuron_data)
-        states[i] = scalars
+        for k in range(len(scalars)):  # by itself: an array put into a row takes numba two seconds more
+            states[i, k] = scalars[k]

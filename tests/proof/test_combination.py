@@ -2,7 +2,7 @@
 
 import pytest
 import sympy as sp
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from workbench.proof.checker import CertificateError, check
@@ -46,6 +46,7 @@ def test_false_inequalities_are_not(name):
     assert prove_goal(FALSE[name]) is None
 
 
+@settings(max_examples=20)
 @given(a=weights.filter(bool), b=weights, c=weights.filter(bool), d=weights)
 def test_any_weighted_square_is_proved_and_no_smaller_one(a, b, c, d):
     square = sp.expand(p * (sp.Rational(a) * x + sp.Rational(b) * y) ** 2)

@@ -140,15 +140,15 @@ conditions = st.lists(st.sampled_from([
        st.integers(0, 10**6))
 def test_whatever_is_proved_holds_at_random_points(summands, above, operator, assumed, seed):
     goal = Goal((Relation(sp.Add(*(c * term for c, term in summands)), operator, sp.sympify(above)),), assumed)
-    proof = prove_goal(goal)
-    if proof is None:
-        found = find_counterexample(goal, "refuted")
+    # In the engine's order: a proof of what fails at a point that is quickly found would be sought for a long time.
+    found = find_counterexample(goal, "refuted", quick=True) or prove_goal(goal) or find_counterexample(goal, "refuted")
+    if found is None or found["verdict"] == "refuted":
         # what is near a root is no point at which the equality holds
         assert found is None or "roots" in found or Evaluated(goal, neurons=1).holds_at(found["point"]) == (True, False)
         return
-    check(proof)
+    check(found)
     assert Evaluated(goal).falsifying_point(seed, batches=2, count=2_000, tight=4) is None
-    record = proof["goal"]
+    record = found["goal"]
     for point in at_points(seed):
         if all(holds(relation, point) for relation in record["assume"]):
             assert all(holds(relation, point) for relation in record["show"])

@@ -45,7 +45,7 @@ def test_an_indefinite_form_is_refuted_and_not_proved(a, b, c):
     assert find_counterexample(goal, "refuted") is not None
 
 
-@FEW
+@settings(max_examples=5)
 @given(k=st.integers(1, 9), below=st.integers(1, 50))
 def test_a_constant_that_is_a_little_too_small_is_not_proved(k, below):
     """x y <= k (x^2 + y^2)/2 for k >= 1 only; the tight case is true, anything less is false."""
@@ -69,14 +69,13 @@ conditions = st.lists(st.sampled_from([greater(x, 0), at_least(y, x), at_most(x,
 def test_whatever_is_proved_holds_at_random_points(left, operator, right, given_, seed):
     """Twenty statements of these; many more, made of the claims themselves, are those of test_mutants.py."""
     goal = Goal((Relation(left, operator, right),), given_)
-    proof = prove_goal(goal)
-    if proof is not None:
-        check(proof)
+    # In the engine's order: a proof of what fails at a point that is quickly found would be sought for a long time.
+    found = find_counterexample(goal, "refuted", quick=True) or prove_goal(goal) or find_counterexample(goal, "refuted")
+    if found is not None and found["verdict"] == "proved":
+        check(found)
         assert Evaluated(goal).falsifying_point(seed, batches=2, count=2_000) is None
-    else:
-        counterexample = find_counterexample(goal, "refuted")
-        if counterexample is not None and "roots" not in counterexample:  # near a root the equality does not hold
-            assert Evaluated(goal, neurons=1).holds_at(counterexample["point"]) == (True, False)
+    elif found is not None and "roots" not in found:  # near a root the equality does not hold
+        assert Evaluated(goal, neurons=1).holds_at(found["point"]) == (True, False)
 
 
 TRUE = {

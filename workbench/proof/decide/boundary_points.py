@@ -13,7 +13,7 @@ from workbench.proof.decide.landscape import Landscape, Numbers
 from workbench.proof.decide.tape import Tape
 
 MOST_TERMS = 60  # of an equation that is to be solved or factored
-MOST_TIES = 4
+MOST_EQUALITIES = 4
 EASY = 0.7  # share of equations solved for a symbol that may have any sign, where there is one
 
 Solution = tuple[sp.Symbol, sp.Expr]
@@ -29,11 +29,11 @@ class Family:
 
     @property
     def free(self) -> list[sp.Symbol]:
-        """The symbols whose values may be chosen, with the parameters that ties brought in."""
+        """The symbols whose values may be chosen, with the parameters that equalities brought in."""
         extra = {s for e in self.bound.values() for s in e.free_symbols} - set(self.symbols)
         return [s for s in self.symbols if s not in self.bound] + sorted(extra, key=str)
 
-    def tie(self, equation: sp.Expr, rng: random.Random) -> bool:
+    def hold(self, equation: sp.Expr, rng: random.Random) -> bool:
         """Add equation == 0, solved for a symbol; False when it cannot be solved or says nothing new."""
         solutions = solved(equation.xreplace(self.bound), self.symbols)
         if not solutions:
@@ -129,13 +129,13 @@ def families(landscape: Landscape, rng: random.Random, count: int) -> Iterator[F
     for attempt in range(count):
         family = Family(landscape.symbols)
         for equation in needed if attempt == 0 else rng.sample(needed, len(needed)):
-            family.tie(equation, rng)
+            family.hold(equation, rng)
         if root and (attempt % 2 or not border):
             for equation in root:
-                family.tie(equation, rng)
+                family.hold(equation, rng)
         if attempt and border:
-            for equation in rng.sample(border, min(len(border), rng.choice((1, 1, 2, 2, 3, MOST_TIES)))):
-                family.tie(equation, rng)
+            for equation in rng.sample(border, min(len(border), rng.choice((1, 1, 2, 2, 3, MOST_EQUALITIES)))):
+                family.hold(equation, rng)
         if family.bound not in seen:
             seen.append(family.bound)
             yield family

@@ -18,7 +18,7 @@ PENALTY, FAR = 10.0, 1e6
 Columns = dict[sp.Symbol, Numbers]
 
 
-def climb(landscape: Landscape, family: Family, break_shown: bool, rng: np.random.Generator) -> Columns:
+def local_search(landscape: Landscape, family: Family, break_shown: bool, rng: np.random.Generator) -> Columns:
     """Columns of the best points reached, each rounded to fewer and more digits; tidy ones first."""
     free = family.free
     if not free:

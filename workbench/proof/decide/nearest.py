@@ -10,7 +10,7 @@ from workbench.errors import ClaimError
 from workbench.proof.claim import Goal, name_of
 from workbench.proof.decide.boundary_points import families
 from workbench.proof.decide.landscape import Landscape, Numbers, landscape_of
-from workbench.proof.decide.local_search import climb
+from workbench.proof.decide.local_search import local_search
 from workbench.proof.decide.sampling import tidy_fraction, trial_columns
 
 FAMILIES, POINTS, MOST_NAMES = 4, 600, 12
@@ -27,7 +27,7 @@ def smallest_margin(goal: Goal, seed: int = 1) -> str:
         return "no point could be tried"
     rng, best = np.random.default_rng(seed), None
     for family in families(landscape, random.Random(seed), FAMILIES):
-        for chosen in (trial_columns(family.free, POINTS, rng), climb(landscape, family, True, rng)):
+        for chosen in (trial_columns(family.free, POINTS, rng), local_search(landscape, family, True, rng)):
             if not chosen and family.free:
                 continue
             columns = family.columns(chosen)

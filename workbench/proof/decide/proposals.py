@@ -2,7 +2,7 @@
 
 Small numbers first, so that what is easy to refute is refuted by numbers that are easy to read; then random ones, on
 the whole domain and on families where assumptions, the relation itself or coincidences hold with equality; then what
-climbing reaches. All are fractions; the exact check is the caller's.
+local search reaches. All are fractions; the exact check is the caller's.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ from workbench.proof.decide.boundary_points import Family, families
 from workbench.proof.decide.descent import descended
 from workbench.proof.decide.exact_values import exact_function
 from workbench.proof.decide.landscape import Landscape, landscape_of
-from workbench.proof.decide.local_search import climb
+from workbench.proof.decide.local_search import local_search
 from workbench.proof.decide.once import once_per_goal
 from workbench.proof.decide.sampling import tidy_fraction, trial_columns
 
@@ -30,7 +30,8 @@ SPECIAL = (Fraction(0), Fraction(1), Fraction(-1), Fraction(1, 2), Fraction(2), 
 SCALES = (Fraction(1, 4000), Fraction(1, 400), Fraction(1, 40), Fraction(1, 4), Fraction(5, 2))
 FIRST_BLOCKS = (40, 160, 400, 1_400)  # `quick` does without the last
 POINTS = 600
-FAMILIES, CLIMBS = 60, 8
+FAMILIES, SEARCHED = 60, 8  # families of points, and among them those that local search starts from
+FEW_SYMBOLS = 2  # of goals on which a local search costs next to nothing
 NEAR = 1e-2  # violation, in all, of points beside which equalities may hold
 LOOKS = 5  # exact looks for each batch of points
 
@@ -44,16 +45,16 @@ def proposals(goal: Goal, seed: int, break_shown: bool, quick: bool = False) -> 
     """
     landscape = landscape_of(goal)
     yield from _familiar(goal, landscape, seed, break_shown, quick)
-    if quick:
+    if quick and len(landscape.symbols) > FEW_SYMBOLS:
         return
     chance, rng = random.Random(seed), np.random.default_rng(seed)
     tried: list[Family] = []
-    for family in families(landscape, chance, FAMILIES):
+    for family in families(landscape, chance, 1 if quick else FAMILIES):
         tried.append(family)
         chosen = trial_columns(family.free, POINTS, rng)
         yield from _worth_a_look(landscape, family, chosen, break_shown)
-        if len(tried) <= CLIMBS:
-            yield from _worth_a_look(landscape, family, climb(landscape, family, break_shown, rng), break_shown)
+        if len(tried) <= SEARCHED:
+            yield from _worth_a_look(landscape, family, local_search(landscape, family, break_shown, rng), break_shown)
 
 
 @once_per_goal
