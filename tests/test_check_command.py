@@ -151,6 +151,12 @@ def test_words_of_python_and_of_certificates_may_be_letters(tmp_path):
     assert answer(r"\lambda^2 + D^2 + \lambda_1^2 \ge 0", loaded).decision.verdict == "proved"
 
 
+def test_what_takes_longer_than_its_limit_stays_undecided(symbols):
+    found = answer(r"\tilde W^Th \le \tfrac12\|\tilde W\|^2 + \tfrac12\sum_{j=1}^n h_j^2", load_symbols(symbols), 1e-3)
+    assert found.decision.verdict == "undecided" and "--limit" in found.decision.method
+    assert found.shown  # how it was read is shown all the same
+
+
 def test_the_command_says_its_verdict_by_its_exit_code(symbols, tmp_path):
     def asked_for(line, *more):
         return run("check", line, "--symbols", symbols, *more)

@@ -7,7 +7,7 @@ from typing import Annotated
 
 import typer
 
-from workbench.cli.options import JsonFile
+from workbench.cli.options import LIMIT_S, JsonFile, Limit
 from workbench.cli.terminal import answer_card, out_console
 
 CONTEXT = {"ignore_unknown_options": True}  # a line may begin with a minus
@@ -17,7 +17,7 @@ def command(line: Annotated[str, typer.Argument(metavar="LATEX", help="The line,
             symbols: Annotated[Path, typer.Option(
                 help="TOML file with symbols, definitions, assumptions and flow, or the folder of a paper, whose "
                      "Python is run.")],
-            json: JsonFile = None) -> None:
+            json: JsonFile = None, limit: Limit = LIMIT_S) -> None:
     """Decide a line of LaTeX; exit 0 when it is proved, 1 when it is not, 2 on bad input."""
     from workbench.errors import ClaimError, InputError
     from workbench.files.json_output import write_json
@@ -29,7 +29,7 @@ def command(line: Annotated[str, typer.Argument(metavar="LATEX", help="The line,
     check_outputs({"--json": json}, [symbols])
     letters = load_symbols(symbols)
     try:
-        found = answer(line, letters)
+        found = answer(line, letters, limit)
     except (ClaimError, LatexError) as trouble:  # of the line, or of the letters that it was read with
         raise InputError("", "", f"{trouble} (the line was read with the letters of {symbols})") from None
     if json:

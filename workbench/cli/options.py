@@ -49,6 +49,9 @@ def _workers(count: int | None) -> int | None:
 
 
 Workers = Annotated[int | None, typer.Option(min=1, callback=_workers, help="Processes; default: one a core.")]
+LIMIT_S = 60.0
+Limit = Annotated[float, typer.Option(
+    min=0.1, help="Seconds of processor time for one claim; what takes longer stays undecided.")]
 Dask = Annotated[str | None, typer.Option(
     "--dask", metavar="ADDRESS", help="Run on the Dask cluster whose scheduler is there; 'local' starts one here.")]
 PaperOrFile = Annotated[str, typer.Argument(

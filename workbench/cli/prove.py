@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from workbench.cli.options import Dask, JsonFile, Workers, on_cluster
+from workbench.cli.options import LIMIT_S, Dask, JsonFile, Limit, Workers, on_cluster
 from workbench.cli.terminal import claim_card, err_console, out_console, progress
 from workbench.errors import InputError
 
@@ -37,8 +37,7 @@ def command(paths: Annotated[list[str] | None, typer.Argument(
             cache: Annotated[bool, typer.Option(
                 help="Take what has not changed from the cache, and do not search for what the certificates in the "
                      "paper's folder show, each checked again; --no-cache searches all anew.")] = True,
-            limit: Annotated[float, typer.Option(
-                min=0.1, help="Seconds of processor time for one claim; what takes longer stays undecided.")] = 60.0,
+            limit: Limit = LIMIT_S,
             ) -> None:
     """Decide every claim; exit 0 when each verdict is the recorded one, 1 when one differs, 2 on bad input.
 

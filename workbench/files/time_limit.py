@@ -27,6 +27,11 @@ class OutOfTime(BaseException):  # no Exception: deciders and libraries that cat
     """The time that was given is used up."""
 
 
+def out_of_time(limit: float | None) -> str:
+    """Why a claim is undecided that took longer than the limit."""
+    return f"not decided within {limit:g} seconds: allow more with --limit, or state it in smaller steps"
+
+
 @contextmanager
 def at_most_seconds(limit: float | None) -> Iterator[None]:
     """Raise OutOfTime in this block once it has used so many seconds of processor time, whatever else the machine does,

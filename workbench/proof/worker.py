@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any, Literal
 
 from workbench.errors import InputError, WorkbenchError
-from workbench.files.time_limit import OutOfTime, at_most_seconds
+from workbench.files.time_limit import OutOfTime, at_most_seconds, out_of_time
 from workbench.proof.cache import DecisionCache, decision_cache
 from workbench.proof.checker import CertificateError, check, goal_digest
 from workbench.proof.claim import Claim
@@ -52,8 +52,7 @@ class Worker:
             with self._file(path).at_home(), at_most_seconds(self.limit):
                 decision, how = self._decision(claim, recorded)
         except OutOfTime:
-            late = f"not decided within {self.limit:g} seconds: allow more with --limit, or state it in smaller steps"
-            return self._without_verdict(path, claim, late, None)
+            return self._without_verdict(path, claim, out_of_time(self.limit), None)
         except WorkbenchError as trouble:
             named = "" if claim_id in str(trouble) else f"claim {claim_id}: "
             return self._without_verdict(path, claim, "misstated", str(InputError(path, "", f"{named}{trouble}")))

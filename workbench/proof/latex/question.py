@@ -8,6 +8,7 @@ from typing import Any
 
 import sympy as sp
 
+from workbench.files.time_limit import OutOfTime, at_most_seconds, out_of_time
 from workbench.proof.claim import Claim, D, Decision, Goal, Relation
 from workbench.proof.decide.engine import decide
 from workbench.proof.document_format import AnswerDocument
@@ -109,12 +110,17 @@ def _letters(node: Any) -> set[Letter]:
     return set().union(*map(_letters, parts)) if isinstance(parts, (list, tuple)) else set()
 
 
-def answer(line: str, symbols: Symbols) -> Answer:
-    """Decide a line; raises LatexError or ClaimError where it is no goal."""
+def answer(line: str, symbols: Symbols, limit_s: float | None = None) -> Answer:
+    """Decide a line, which stays undecided after so many seconds of processor time; raises LatexError or ClaimError
+    where it is no goal."""
     goal = asked(line, symbols)
     claim = Claim(id="pasted:line", title="the pasted line", kind="inequality", printed=line, recorded="undecided",
                   build=lambda: goal, origin="ours")
-    decision = decide(claim)
+    try:
+        with at_most_seconds(limit_s):
+            decision = decide(claim)
+    except OutOfTime:
+        decision = Decision(claim, "undecided", out_of_time(limit_s), None, 0.0)
 
     def written(relation: Relation) -> str:
         return relation.latex(symbols.letters)
