@@ -18,9 +18,10 @@ from workbench.proof.claim import Relation
 from workbench.proof.language import LANGUAGE
 from workbench.proof.latex.convert import Converter
 from workbench.proof.latex.error import LatexError
-from workbench.proof.latex.notation import Notation
+from workbench.proof.latex.notation import Notation, without_dot
 from workbench.proof.latex.read import read_line
 from workbench.proof.latex.statement import relations, statement
+from workbench.proof.latex.tree import Letter
 from workbench.proof.latex.write import letters_of
 from workbench.proof.paper import collect_papers
 
@@ -109,6 +110,7 @@ def symbols_in(record: SymbolsFile, path: Path) -> Symbols:
             raise InputError(path, f"flow.{typed}", "is none of the symbols: add it there, as it is typed here")
         flow[moving] = _expression(path, f"flow.{typed}", formula, notation, limits,
                                    vector=isinstance(moving, sp.Indexed))
+    _require_own_rates(path, record, notation, flow)
     inputs = _inputs(path, record, notation, flow)
     assume: list[Relation] = []
     for number, formula in enumerate(record.assumptions):
@@ -120,6 +122,20 @@ def symbols_in(record: SymbolsFile, path: Path) -> Symbols:
             raise InputError(path, f"assumptions[{number}]", "has a condition of its own: state relations only")
         assume += relations(stated.claimed)
     return Symbols(notation, letters, tuple(assume), flow, limits, inputs, declared=True)
+
+
+def _require_own_rates(path: Path, record: SymbolsFile, notation: Mapping[str, sp.Expr],
+                       flow: Mapping[sp.Expr, sp.Expr]) -> None:
+    """InputError for a letter with a dot that is not the rate of the letter below it, where that is known too."""
+    letters = Notation(notation)
+    for typed in (*record.symbols, *record.definitions):
+        found = without_dot(key) if isinstance(key := read_line(typed).chains[0].sides[0], Letter) else None
+        below = letters.meaning(found[0]) if found is not None else None
+        if below is not None and (flow or typed in record.definitions) and (
+                found is None or found[1] != 1 or flow.get(below) != notation[typed]):
+            part = "symbols" if typed in record.symbols else "definitions"
+            raise InputError(path, f"{part}.{typed}", "is the rate of a letter that is given too: state it as that "
+                             "letter's rate under [flow], or leave one of the two out")
 
 
 def _inputs(path: Path, record: SymbolsFile, notation: Mapping[str, sp.Expr],
