@@ -134,7 +134,7 @@ class _Builder(Transformer[Token, Line]):
     def product(self, parts: list[Any]) -> Node:
         factors: list[Node] = []
         if len(parts) == 1:
-            return parts[0]  # type: ignore[no-any-return]
+            return parts[0]
         _require_no_mixed_number(parts)
         for place, held in enumerate(parts):
             divides = place > 0 and isinstance(parts[place - 1], Token) and parts[place - 1].type == "SLASH"
@@ -156,7 +156,7 @@ class _Builder(Transformer[Token, Line]):
 
     def factor(self, parts: list[Any]) -> Node:
         if len(parts) == 1:
-            return parts[0]  # type: ignore[no-any-return]
+            return parts[0]
         if isinstance(parts[0], _Braced):
             raise _not_printed(parts[0])
         node: Node = parts[0]
