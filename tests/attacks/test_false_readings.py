@@ -47,6 +47,38 @@ def test_a_letter_with_a_dot_is_the_rate_of_the_letter_below_it(typed, key, tmp_
     assert refused.value.key == key
 
 
+# What is printed as a function of time, or of what moves, is no constant: each would hold if it were.
+VARYING = {
+    "printed so in a rate": ("'d' = 'real'\n[flow]\n'x' = '-x + d(t)'", r"\ddot x = x - d"),
+    "printed so in the line": ("'d' = 'real'\n[flow]\n'x' = '-x + d'", r"\ddot x = x - d(t)"),
+    "printed so in a definition": ("'d' = 'real'\n[definitions]\n'V' = 'x^2 + d^2(t)'\n[flow]\n'x' = '-x'",
+                                   r"\dot V = -2x^2"),
+    "a value at time t": ("'d(t)' = 'real'\n[flow]\n'x' = '-x + d(t)'", r"\ddot x = x - d(t)"),
+    "a value at what moves": ("'f(x)' = 'real'\n[definitions]\n'V' = 'x^2 + f(x)'\n[flow]\n'x' = '-x'",
+                              r"\dot V = -2x^2"),
+    "a value at an input": ("'u' = 'real'\n'f(u)' = 'real'\n[flow]\n'x' = '-x + u(t)'",
+                            r"\frac{d}{dt}(x f(u)) = f(u)(u - x)"),
+    "a product's power": ("'cx' = 'positive'\n'c' = 'real'\n[flow]\n'x' = '0'", "cx^2 > 0"),
+}
+
+
+@pytest.mark.parametrize("name", VARYING)
+def test_what_varies_as_it_is_printed_is_no_constant(name, tmp_path):
+    path = tmp_path / "symbols.toml"
+    typed, line = VARYING[name]
+    path.write_text(f"[symbols]\n'x' = 'real'\n{typed}\n")
+    assert outcome(line, load_symbols(path)) == "refused"
+
+
+def test_what_is_printed_with_its_time_may_have_a_rate_or_be_a_first_value(tmp_path):
+    path = tmp_path / "symbols.toml"
+    path.write_text("[symbols]\n'x' = 'real'\n'V(0)' = 'real'\n'k' = 'positive'\n[flow]\n'x' = '-k(t) x'\n'k' = '0'\n")
+    symbols = load_symbols(path)
+    assert not symbols.inputs
+    assert answer(r"\ddot x(t) = k^2 x", symbols).decision.verdict == "proved"
+    assert answer(r"\frac{d}{dt}(x V(0)) = -k x V(0)", symbols).decision.verdict == "proved"
+
+
 def test_a_letter_with_a_dot_may_be_a_rate_that_is_stated(tmp_path):
     path = tmp_path / "symbols.toml"
     path.write_text("[symbols]\n'q' = 'real'\n'\\dot q' = 'real'\n[definitions]\n'V' = 'q^2 + {\\dot q}^2'\n[flow]\n"

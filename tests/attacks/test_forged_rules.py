@@ -94,7 +94,8 @@ FORGED = {
     "one case": of("abs(x) == x", cases("x", nonnegative=IDENTITY)),
     "cases of what is undefined": of("x**2 >= 0", cases("1/x", **BOTH)),
     "a sign at zero": of("sign(x)**2 == 1", cases("x", **BOTH)),
-    "three signs": of("sign(x)**2 == 1", cases("x", **SIGNS)), "cases of another": of("abs(x) == y", cases("y", **BOTH)),
+    "three signs": of("sign(x)**2 == 1", cases("x", **SIGNS)),
+    "cases of another": of("abs(x) == y", cases("y", **BOTH)),
     "cases of a sum": of("Sum(abs(u)) == Sum(u)", cases("Sum(u)", **BOTH), indexed=["u"]),
     "cases too many": of("abs(x) == x", cases("x", zero=IDENTITY, **BOTH)),
     # contradiction

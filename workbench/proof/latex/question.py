@@ -18,6 +18,7 @@ from workbench.proof.latex.read import read_line
 from workbench.proof.latex.statement import relations, statement
 from workbench.proof.latex.symbols import Symbols
 from workbench.proof.latex.tree import Chain, Letter, Line, Number, Terms
+from workbench.proof.latex.varying import printed_of_time
 from workbench.proof.latex.write import latex
 
 
@@ -75,8 +76,9 @@ def asked(line: str, symbols: Symbols) -> Goal:
         if not any(rate.args[0].has(symbol) for symbol in flow):
             raise LatexError(f"a rate of {latex(rate.args[0], symbols.letters)}, which does not move: give the rates "
                              "of its letters under [flow], or before an arrow")
+    varying = (*symbols.inputs, *sorted(printed_of_time(tree, converter.notation) - {*symbols.inputs}, key=str))
     return Goal(claimed, tuple(assume), flow if rates else {},
-                inputs=tuple(symbol for symbol in symbols.inputs if symbol not in flow) if rates else ())
+                inputs=tuple(symbol for symbol in varying if symbol not in flow) if rates else ())
 
 
 def _require_told_apart(line: Line) -> None:
