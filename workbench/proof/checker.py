@@ -653,14 +653,6 @@ def nodes(text: str) -> list[ast.AST]:
     return [node for side in sides for node in ast.walk(parse(side))]
 
 
-def names_in(goal: dict[str, Any]) -> set[str]:
-    """All names of a goal: of what it says, and of what moves."""
-    texts = [text for part in ("assume", "show", "always") for text in goal.get(part, [])]
-    texts += [text for part in ("flow", "initial") for text in goal.get(part, {}).values()]
-    found = {node.id for text in texts for node in nodes(text) if isinstance(node, ast.Name)}
-    return found.union(goal.get("flow", {}), goal.get("inputs", []), goal.get("indexed", []))
-
-
 def calls(text: str, name: str) -> bool:
     """Whether an expression or relation calls a function."""
     return any(isinstance(node, ast.Call) and isinstance(node.func, ast.Name) and node.func.id == name
@@ -1214,7 +1206,7 @@ def _check_example(goal: dict[str, Any], context: Context, given: Relations, cer
     for rate in context.rates.values():
         require_defined_at(context, rate, point, None, between)
     if "path" in certificate:
-        _check_reached(context, given, point, certificate, goal)
+        _check_reached(context, given, point, certificate)
         return
     for name, value in given.initial.items():
         if not same(point[name], start_at(context, value, point, None)):
@@ -1281,7 +1273,7 @@ def check_false(goal: dict[str, Any], certificate: dict[str, Any]) -> None:
     if "path" in certificate:
         if terms is not None:
             raise CertificateError("a path leads to no point at which sums have several terms")
-        _check_reached(context, given, point, certificate, goal)
+        _check_reached(context, given, point, certificate)
     else:  # a point alone can only be the first of all instants
         for text in given.always:
             if symbols_of(context, margin(context, text)[0]) & (context.moving() - context.inputs):
@@ -1295,12 +1287,12 @@ def check_false(goal: dict[str, Any], certificate: dict[str, Any]) -> None:
         raise CertificateError("the goal holds at the point")
 
 
-def _check_reached(context: Context, given: Relations, point: dict[str, Ratio], certificate: dict[str, Any],
-                   goal: dict[str, Any]) -> None:
+def _check_reached(context: Context, given: Relations, point: dict[str, Ratio], certificate: dict[str, Any]) -> None:
     """Functions of time obey the flow from its initial values, keep what always holds for ever, and meet the point."""
     time, duration = read_name(certificate["time"]), read_rational(certificate["duration"])
     path = {name: context.read(text) for name, text in certificate["path"].items()}
-    if context.indexed & context.moving() or time in point or time in names_in(goal) or duration < 0:
+    named = {n.id for text in (*context.rates.values(), *given.always) for n in nodes(text) if isinstance(n, ast.Name)}
+    if context.indexed & context.moving() or time in named | point.keys() or duration < 0:
         raise CertificateError("a point is reached by a flow of numbers, no vectors, in a time of its own name")
     moving, inputs = context.moving(), context.inputs
     if not moving - inputs <= path.keys() <= moving or any(symbols_of(context, f) - {time} for f in path.values()):

@@ -46,6 +46,14 @@ def require_letter_before(notation: Notation, node: Node) -> None:
                          "brackets", node.position)
 
 
+def require_own_power(last: Node, declared: bool) -> None:
+    """Raise LatexError for the power at the end of a declared piece such as `x y`: V(0)^2 is the square of V(0), x y^2
+    may be that of y alone."""
+    if declared and not isinstance(_base(last), Group):
+        raise LatexError("the power may belong to all of a piece of the notation or to its last letter: put brackets "
+                         "around one of the two", last.position)
+
+
 def require_factor(notation: Notation, factors: tuple[Node, ...], at: int) -> None:
     """Raise LatexError for brackets that a reader would not take for a factor: `x(t)`, `V(0)`, `= 1 (3)`."""
     group, before = _base(factors[at]), factors[at - 1] if at else Dot()

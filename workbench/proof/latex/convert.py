@@ -15,6 +15,7 @@ from workbench.proof.latex.brackets import (
     is_next,
     require_factor,
     require_letter_before,
+    require_own_power,
 )
 from workbench.proof.latex.derivatives import Derivative, derivative, partial, rate
 from workbench.proof.latex.error import LatexError
@@ -142,6 +143,7 @@ class Converter:
             length, meaning, exponent = piece
             meaning = self._of_sum(node, meaning)
             if exponent is not None:
+                require_own_power(factors[at + length - 1], self.declared)
                 meaning = self._power(meaning, self.number(exponent), node.position)
             return meaning, False, length
         exponent_of = node.exponent if isinstance(node, Power) and isinstance(node.base, Named) else None

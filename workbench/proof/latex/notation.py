@@ -71,9 +71,6 @@ class Notation:
             if last == key[-1]:
                 return length, meaning, None
             if isinstance(last, Power) and last.base == key[-1]:
-                if not isinstance(key[-1], Group):  # V(0)^2 is a square of V(0); of x y^2 that is not said
-                    raise LatexError("the power may belong to all of a piece of the notation or to its last letter: "
-                                     "put brackets around one of the two", last.position)
                 return length, meaning, last.exponent
         return None
 
