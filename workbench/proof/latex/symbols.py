@@ -113,7 +113,7 @@ def symbols_in(record: SymbolsFile, path: Path) -> Symbols:
         flow[moving] = _expression(path, f"flow.{typed}", formula, notation, limits,
                                    vector=isinstance(moving, sp.Indexed))
     _require_own_rates(path, record, notation, flow)
-    inputs = _with_varying(_inputs(path, record, notation, flow), record, notation, flow)
+    inputs = _inputs(path, record, notation, flow)
     assume: list[Relation] = []
     for number, formula in enumerate(record.assumptions):
         try:
@@ -123,6 +123,7 @@ def symbols_in(record: SymbolsFile, path: Path) -> Symbols:
         if stated.conditions:
             raise InputError(path, f"assumptions[{number}]", "has a condition of its own: state relations only")
         assume += relations(stated.claimed)
+    inputs = _with_varying(inputs, record, notation, flow)
     return Symbols(notation, letters, tuple(assume), flow, limits, inputs, declared=True)
 
 
