@@ -58,6 +58,8 @@ VARYING = {
                               r"\dot V = -2x^2"),
     "a value at an input": ("'u' = 'real'\n'f(u)' = 'real'\n[flow]\n'x' = '-x + u(t)'",
                             r"\frac{d}{dt}(x f(u)) = f(u)(u - x)"),
+    "a component at time t": ("'v' = 'vector'\n[flow]\n'x' = '-x'",
+                              r"\frac{d}{dt}(x\sum_{i=1}^n v_i(t)) = -x\sum_{i=1}^n v_i"),
     "a product's power": ("'cx' = 'positive'\n'c' = 'real'\n[flow]\n'x' = '0'", "cx^2 > 0"),
 }
 

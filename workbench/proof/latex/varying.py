@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Iterator
-from dataclasses import fields, is_dataclass
+from dataclasses import fields, is_dataclass, replace
 from typing import Any
 
 import sympy as sp
@@ -20,7 +20,7 @@ def printed_of_time(tree: Any, notation: Notation) -> set[sp.Expr]:
         if isinstance(part, Product):
             for one, two in zip(part.factors[:-1], part.factors[1:], strict=True):
                 if _letters(_bare(two)) == {TIME} and isinstance(_bare(two), Group):
-                    meaning = notation.meaning(_bare(one))
+                    meaning = notation.meaning(_bare(one)) or notation.meaning(_without_index(_bare(one)))
                     found |= {meaning} if isinstance(meaning, (sp.Symbol, sp.Indexed)) else set()
     return found
 
@@ -30,6 +30,11 @@ def varies(key: Node, moving: Collection[sp.Expr], notation: Notation) -> bool:
     return isinstance(key, Product) and any(
         letter == TIME or notation.meaning(letter) in moving
         for factor in key.factors if isinstance(factor, Group) for letter in _letters(factor))
+
+
+def _without_index(node: Node) -> Node:
+    """A vector's letter where its component is printed."""
+    return replace(node, index="") if isinstance(node, Letter) else node
 
 
 def _bare(node: Node) -> Node:
