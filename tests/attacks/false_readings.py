@@ -54,6 +54,7 @@ FALSE = {
     "a rate at an instant, otherwise": r"\ddot e = 0 \text{ if } \dot e = 0",
     # what is claimed of what
     "given, with a bar": r"x > 1 \mid x^2 > 1", "where, with a colon": r"x > 0 : x > 1",
+    "a claim before a condition and a colon": r"x > 0 \text{ if } y > 0: y^2 \ge 0",
     "both ends of one": r"\forall x > 0: 0 < x, -1 < 0", "both ends of two": r"0 < x^2 + 1, x - x < 1",
     "implications, nested": r"x > 0 \text{ implies } y > 0 \Rightarrow y > 0",
     "there is none": r"\exists x: x^2 < 0", "if and only if": r"x > 1 \iff x > 1",

@@ -61,12 +61,9 @@ def statement(line: Line, converter: Converter) -> Statement:
 
 def _require_quantified(line: Line) -> None:
     """Raise LatexError for a colon that nothing introduces: `A: B` may say B for all A, or A where B holds."""
-    said = False
-    for words in line.separators:
-        for word in words:
-            said = said or word == "\\forall" or _said_of(word) in _UNDER
-            if word == ":" and not said:
-                raise LatexError(r"what the colon says is open: write \Rightarrow, \text{for}, or \forall first")
+    first = any(word == "\\forall" or _said_of(word) in _UNDER for word in line.separators[0])
+    if not first and any(":" in words for words in line.separators):
+        raise LatexError(r"what the colon says is open: write \Rightarrow, or \text{for} or \forall first")
 
 
 def relations(related: tuple[Related, ...]) -> tuple[Relation, ...]:
