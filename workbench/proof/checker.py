@@ -43,6 +43,7 @@ DIGEST = re.compile(r"[0-9a-f]{64}")
 EQUATION = re.compile(r"[A-Za-z0-9][A-Za-z0-9._+-]*")
 # More is refused, not computed.
 MOST_WORK, MOST_PRODUCTS, MOST_BITS, MOST_TEXT, MOST_DEPTH = 2_000_000, 20_000, 20_000, 100_000, 100
+MOST_OF_PARTS = 5 * MOST_WORK  # of all certificates of a whole theorem together
 LARGEST_EXPONENT, LARGEST, PRECISION = 10_000, 64 * 2**20, Fraction(1, 10**30)  # of exp; of files; of enclosures
 
 Monomial = tuple[tuple[str, int], ...]
@@ -1290,7 +1291,8 @@ def _check_reached(context: Context, given: Relations, point: dict[str, Ratio], 
     """Functions of time obey the flow from its initial values, keep what always holds for ever, and meet the point."""
     time, duration = read_name(certificate["time"]), read_rational(certificate["duration"])
     path = {name: context.read(text) for name, text in certificate["path"].items()}
-    if context.indexed & context.moving() or time in point or duration < 0:
+    named = {n.id for text in (*context.rates.values(), *given.always) for n in nodes(text) if isinstance(n, ast.Name)}
+    if context.indexed & context.moving() or time in named | point.keys() or duration < 0:
         raise CertificateError("a point is reached by a flow of numbers, no vectors, in a time of its own name")
     moving, inputs = context.moving(), context.inputs
     if not moving - inputs <= path.keys() <= moving or any(symbols_of(context, f) - {time} for f in path.values()):
@@ -1393,6 +1395,8 @@ def check(certificate: dict[str, Any]) -> None:
             _check_composition(certificate, certificate["composition"])
         except (KeyError, TypeError, ValueError, IndexError, AttributeError, RecursionError) as trouble:
             raise CertificateError(f"malformed: {type(trouble).__name__} {str(trouble)[:200]}") from None
+        finally:
+            Work.counts = False
 
 
 def _check_alone(certificate: dict[str, Any]) -> None:
@@ -1428,7 +1432,7 @@ def _check_composition(theorem: dict[str, Any], parts: dict[str, Any]) -> None:
     if parts.keys() != {"certificates", "cited", "links", "assumes"}:
         raise CertificateError("a composition has certificates, cited, links and assumes")
     paper, _, top = theorem["claim"].partition(":")
-    whole = {**parts["certificates"], top: theorem}
+    whole, spent = {**parts["certificates"], top: theorem}, 0
     if top in parts["certificates"] or theorem["verdict"] != "proved":
         raise CertificateError("a whole theorem is proved, and is no part of itself")
     for name, part in parts["certificates"].items():
@@ -1436,6 +1440,10 @@ def _check_composition(theorem: dict[str, Any], parts: dict[str, Any]) -> None:
             raise CertificateError(f"{name[:80]} is no proof of the claim of that number")
         if digest_of(part) not in ACCEPTED:
             _check_alone(part)
+            spent += Work.spent
+        if spent > MOST_OF_PARTS:
+            raise CertificateError(f"all parts together take more than {MOST_OF_PARTS} steps of work")
+    Work.spent, Work.counts = 0, True  # of how they hang together
     uses = {name: part.get("premises", {}) for name, part in whole.items()} | parts["cited"]
     if whole.keys() & parts["cited"].keys():
         raise CertificateError("a claim is cited and proved")
@@ -1465,6 +1473,7 @@ def _require_tree(top: str, uses: dict[str, dict[str, Any]]) -> None:
     """CertificateError unless all is used by what stands at the top, directly or not, and nothing by itself."""
     free = {name for name, premises in uses.items() if not premises}
     while more := {name for name, premises in uses.items() if name not in free and premises.keys() <= free}:
+        spend(len(uses))
         free |= more
     if free != uses.keys() or _reached(top, {name: set(premises) for name, premises in uses.items()}) != uses.keys():
         raise CertificateError("it uses itself through its premises, or holds what it does not use")
@@ -1475,6 +1484,7 @@ def _reached(top: str, below: dict[str, set[str]]) -> set[str]:
     reached, waiting = {top}, [top]
     while waiting:
         new = below[waiting.pop()] - reached
+        spend(1 + len(new))
         reached |= new
         waiting += new
     return reached

@@ -91,7 +91,8 @@ class Language:
 
     def _check_power(self, expr: sp.Pow, index: sp.Symbol | None) -> None:
         power = evaluated(expr.exp)
-        if not sp.Mul(power, 2).is_Integer:
+        # x/x is no exponent: that it has no value at 0 would be forgotten with it.
+        if expr.exp.free_symbols or not sp.Mul(power, 2).is_Integer:
             raise ClaimError(f"'{expr}' has no meaning in certificates: only whole and half powers have")
         if abs(power) > LARGEST_POWER:
             raise ClaimError(f"the power {power} is too large: certificates have powers up to {LARGEST_POWER}")

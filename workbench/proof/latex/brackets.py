@@ -34,6 +34,26 @@ def says_nothing(notation: Notation, node: Node) -> bool:
     return isinstance(node, Group) and notation.meaning(node) == 1
 
 
+def is_argument(notation: Notation, node: Node, before: Node) -> bool:
+    """The same, behind what may have an argument: `2(t)` and `x \\cdot (t)` are products."""
+    return says_nothing(notation, node) and not isinstance(before, (Number, Dot))
+
+
+def require_letter_before(notation: Notation, node: Node) -> None:
+    """Raise LatexError for an argument that stands where a number is expected, as in `x + (t)`."""
+    if says_nothing(notation, node):
+        raise LatexError("an argument of letters stands by itself: give its letter a rate, and write it without "
+                         "brackets", node.position)
+
+
+def require_own_power(last: Node, declared: bool) -> None:
+    """Raise LatexError for the power at the end of a declared piece such as `x y`: V(0)^2 is the square of V(0), x y^2
+    may be that of y alone."""
+    if declared and not isinstance(_base(last), Group):
+        raise LatexError("the power may belong to all of a piece of the notation or to its last letter: put brackets "
+                         "around one of the two", last.position)
+
+
 def require_factor(notation: Notation, factors: tuple[Node, ...], at: int) -> None:
     """Raise LatexError for brackets that a reader would not take for a factor: `x(t)`, `V(0)`, `= 1 (3)`."""
     group, before = _base(factors[at]), factors[at - 1] if at else Dot()

@@ -11,9 +11,11 @@ from workbench.proof.latex.brackets import (
     ends_behind_letter,
     inside,
     inside_all,
+    is_argument,
     is_next,
     require_factor,
-    says_nothing,
+    require_letter_before,
+    require_own_power,
 )
 from workbench.proof.latex.derivatives import Derivative, derivative, partial, rate
 from workbench.proof.latex.error import LatexError
@@ -73,10 +75,9 @@ class Converter:
 
     def expression(self, node: Node) -> sp.Expr:
         """The expression of a node; raises LatexError naming the place."""
+        require_letter_before(self.notation, node)
         known = self.notation.meaning(node)
-        if known is not None:
-            return self._of_sum(node, known)
-        return self._value(node)
+        return self._value(node) if known is None else self._of_sum(node, known)
 
     @singledispatchmethod
     def _value(self, node: Node) -> sp.Expr:
@@ -116,14 +117,14 @@ class Converter:
         at = 0
         while at < len(factors):
             node = factors[at]
-            if isinstance(node, Dot):
+            if isinstance(node, Dot) or (at and is_argument(self.notation, node, factors[at - 1])):
                 at += 1
                 continue
             require_factor(self.notation, factors, at)
             value, transposed, length = self._factor(factors, at)
             behind = factors[at + length] if at + length < len(factors) else None
             # x(t)^2 is (x(t))^2
-            if isinstance(behind, (Power, Transposed)) and says_nothing(self.notation, behind.base):
+            if isinstance(behind, (Power, Transposed)) and is_argument(self.notation, behind.base, node):
                 if isinstance(behind, Power):
                     value = self._power(value, self.number(behind.exponent), behind.position)
                 transposed, length = transposed or isinstance(behind, Transposed), length + 1
@@ -132,7 +133,7 @@ class Converter:
         position = factors[0].position
         if self.index is not None and any(transposed for _, transposed in values):
             raise LatexError("a product of vectors within a sum: give the product in the notation", position)
-        return multiplied(values, self.limits, position, self.declared)
+        return multiplied(values, self.limits, position, self.declared and self.index is None)
 
     def _factor(self, factors: tuple[Node, ...], at: int) -> tuple[sp.Expr, bool, int]:
         """The value of the factor at a place, whether it is transposed, and how many factors it takes."""
@@ -142,6 +143,7 @@ class Converter:
             length, meaning, exponent = piece
             meaning = self._of_sum(node, meaning)
             if exponent is not None:
+                require_own_power(factors[at + length - 1], self.declared)
                 meaning = self._power(meaning, self.number(exponent), node.position)
             return meaning, False, length
         exponent_of = node.exponent if isinstance(node, Power) and isinstance(node.base, Named) else None
@@ -189,7 +191,7 @@ class Converter:
                 raise LatexError(f"the argument of '{name.name}' is open: write it in brackets", name.position)
             arguments = [self.product(rest[:taken])]
         if name.name == "tr" and len(arguments) == 1:
-            return trace(arguments[0], self.limits, name.position), taken
+            return trace(arguments[0], self.limits, name.position, self.declared), taken
         for argument in arguments:
             if is_vector(argument) and self.index is None and name.name not in ("sat", "max", "min"):
                 raise LatexError(f"'{name.name}' of a vector: give the piece in the notation", name.position)
@@ -264,7 +266,7 @@ class Converter:
 
     def _power(self, base: sp.Expr, exponent: sp.Expr, position: int) -> sp.Expr:
         if self.declared:
-            require_usual(exponent, position)
+            require_usual(base if self.index is None else None, exponent, position)
         if exponent.is_Rational and not base.is_Rational:
             if exponent < 0:
                 self.conditions.append(Condition("denominator", base, position))

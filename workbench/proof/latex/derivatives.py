@@ -38,7 +38,13 @@ def derivative(node: Node) -> Derivative | None:
     if letter not in D_LETTERS or bottom[0] != letter or len(bottom) < 2:
         return None
     last, base = _power_of(bottom[-1])
-    return Derivative(order, top[1:], (*bottom[1:-1], base if last == order else bottom[-1]))
+    found = Derivative(order, top[1:], (*bottom[1:-1], base if last == order else bottom[-1]))
+    if last != order and len(bottom) == 2:
+        raise LatexError("the orders above and below the line of a derivative differ: correct one", node.position)
+    if found.in_time and letter != D_LETTERS[0]:
+        raise LatexError(r"a derivative by t alone, other letters held, is none along the motion: write \frac{d}{dt}",
+                         node.position)
+    return found
 
 
 def _factors(node: Node) -> tuple[Node, ...]:

@@ -11,6 +11,7 @@ import sympy as sp
 from workbench.proof.claim import saturation
 from workbench.proof.latex.error import LatexError
 from workbench.proof.latex.limits import LARGEST_EXPONENT
+from workbench.proof.latex.vectors import is_vector
 
 _ONE = {"tanh": sp.tanh, "sin": sp.sin, "cos": sp.cos, "exp": sp.exp, "ln": sp.log, "sgn": sp.sign}
 _MOST_ARGUMENTS = 20
@@ -25,7 +26,7 @@ def applied(name: str, arguments: Sequence[sp.Expr], position: int) -> sp.Expr:
         return _ONE[name](arguments[0])
     if name == "tan" and len(arguments) == 1:
         return sp.sin(arguments[0]) / sp.cos(arguments[0])
-    if name in ("max", "min") and 0 < len(arguments) <= _MOST_ARGUMENTS:
+    if name in ("max", "min") and 1 < len(arguments) <= _MOST_ARGUMENTS:
         return (sp.Max if name == "max" else sp.Min)(*arguments)
     if name == "sat" and len(arguments) == 3:
         return saturation(*arguments)
@@ -52,8 +53,10 @@ def power(base: sp.Expr, exponent: sp.Expr, position: int) -> sp.Expr:
     return base**exponent
 
 
-def require_usual(exponent: sp.Expr, position: int) -> None:
-    """Raise LatexError for the exponent of a power that goals do not have."""
+def require_usual(base: sp.Expr | None, exponent: sp.Expr, position: int) -> None:
+    """Raise LatexError for a power that goals do not have: of a column, or with another exponent."""
+    if base is not None and is_vector(base):
+        raise LatexError("a power of a vector: write a norm, a product of a row and a column, or a sum", position)
     if not exponent.is_Rational:
         raise LatexError(r"a power with letters in its exponent has no meaning in goals: write \exp(...), or give the "
                          "piece in the notation", position)

@@ -19,6 +19,7 @@ from workbench.proof.latex.read import read_line
 from workbench.proof.latex.statement import relations, statement
 from workbench.proof.latex.symbols import Symbols
 from workbench.proof.latex.tree import Chain, Letter, Line, Number, Terms
+from workbench.proof.latex.varying import printed_of_time
 from workbench.proof.latex.write import latex
 
 
@@ -55,11 +56,13 @@ def asked(line: str, symbols: Symbols) -> Goal:
         _require_told_apart(tree)
     stated = statement(tree, converter)
     flow = dict(symbols.flow)
+    found_here: set[sp.Expr] = set()
     assume = list(symbols.assume)
     for relation in relations(stated.conditions):
         moving = relation.left.args[0] if isinstance(relation.left, D) else None
         if relation.operator == "==" and isinstance(moving, (sp.Symbol, sp.Indexed)) and moving not in flow:
             flow[moving] = relation.right
+            found_here.add(moving)
         else:
             assume.append(relation)
     claimed = tuple(_counted(r, symbols.limits) for r in relations(stated.claimed))
@@ -68,11 +71,15 @@ def asked(line: str, symbols: Symbols) -> Goal:
         raise LatexError("both sides are the same as soon as the line is read, so that nothing is left to decide")
     rates = {found for r in (*claimed, *assume) for found in r.left.atoms(D) | r.right.atoms(D)}
     for rate in rates:
+        if rate.args[0].has(D) and any(rate.has(symbol) for symbol in found_here):
+            raise LatexError("a second rate of what has its rate in the line itself, which may hold at one instant "
+                             "alone: give the rate under [flow]")
         if not any(rate.args[0].has(symbol) for symbol in flow):
             raise LatexError(f"a rate of {latex(rate.args[0], symbols.letters)}, which does not move: give the rates "
                              "of its letters under [flow], or before an arrow")
+    varying = (*symbols.inputs, *sorted(printed_of_time(tree, converter.notation) - {*symbols.inputs}, key=str))
     return Goal(claimed, tuple(assume), flow if rates else {},
-                inputs=tuple(symbol for symbol in symbols.inputs if symbol not in flow) if rates else ())
+                inputs=tuple(symbol for symbol in varying if symbol not in flow) if rates else ())
 
 
 def _require_told_apart(line: Line) -> None:

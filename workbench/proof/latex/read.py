@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cache, lru_cache
+from itertools import pairwise
 from typing import Any
 
 from lark import Lark, Token, Transformer
@@ -116,6 +117,7 @@ class _Builder(Transformer[Token, Line]):
 
     def terms(self, parts: list[Any]) -> Node:
         signed = [part if isinstance(part, tuple) else (1, part) for part in parts]
+        signed = [(sign, _unbraced(node, with_sign=sign != 1)) for sign, node in signed]
         if len(signed) == 1 and signed[0][0] == 1:
             return signed[0][1]
         return Terms(tuple(signed), position=signed[0][1].position)
@@ -131,13 +133,17 @@ class _Builder(Transformer[Token, Line]):
 
     def product(self, parts: list[Any]) -> Node:
         factors: list[Node] = []
-        for place, part in enumerate(parts):
+        if len(parts) == 1:
+            return parts[0]
+        _require_no_mixed_number(parts)
+        for place, held in enumerate(parts):
+            divides = place > 0 and isinstance(parts[place - 1], Token) and parts[place - 1].type == "SLASH"
+            part = _unbraced(held, divides, beside=True)
             if isinstance(part, Token):
                 if part.type == "CDOT":
                     factors.append(Dot(position=part.start_pos or 0))
                 continue
-            before = parts[place - 1] if place else None
-            if isinstance(before, Token) and before.type == "SLASH":
+            if divides:
                 after = parts[place + 1] if place + 1 < len(parts) else None
                 if after is not None and not (isinstance(after, Token) and after.type == "CDOT"):
                     raise LatexError("what a slash divides by is open: write \\frac, or brackets and \\cdot",
@@ -149,6 +155,10 @@ class _Builder(Transformer[Token, Line]):
         return _product(factors)
 
     def factor(self, parts: list[Any]) -> Node:
+        if len(parts) == 1:
+            return parts[0]
+        if isinstance(parts[0], _Braced):
+            raise _not_printed(parts[0])
         node: Node = parts[0]
         raised = [token for token, exponent in parts[1:] if exponent is not None]
         if len(raised) > 1:  # TeX refuses it too
@@ -201,7 +211,43 @@ class _Builder(Transformer[Token, Line]):
         return Group(str(parts[0]), str(parts[2]), parts[1], position=_at(parts))
 
     def braces(self, parts: list[Any]) -> Node:
-        return parts[1]  # TeX's own braces are not printed
+        found = parts[1]
+        held = isinstance(found, (Terms, Product, Quotient, Power))
+        return _Braced(found, position=found.position) if held else found
+
+
+@dataclass(frozen=True)
+class _Braced(Node):
+    """Several pieces within TeX's own braces, which are not printed: what holds them together is not seen."""
+
+    body: Node
+
+
+def _not_printed(braced: _Braced) -> LatexError:
+    return LatexError("braces are not printed, so that what they hold is read with what stands beside them: write "
+                      "brackets", braced.position)
+
+
+def _unbraced(node: Node, with_sign: bool, beside: bool = False) -> Node:
+    """A piece without its braces; LatexError where it reads otherwise without them, as in `a - {b - c}`, `2{a + b}`."""
+    if not isinstance(node, _Braced):
+        return node
+    if (with_sign and isinstance(node.body, Product if beside else Terms)) or (
+            beside and isinstance(node.body, (Terms, Quotient))):
+        raise _not_printed(node)
+    return node.body
+
+
+def _require_no_mixed_number(parts: list[Any]) -> None:
+    """Raise LatexError for numbers side by side: `2\\frac12` is printed as two and a half is."""
+    for one, two in pairwise(parts):
+        if _is_number(one) and _is_number(two):
+            raise LatexError("two numbers stand side by side: write \\cdot between them, or one number", two.position)
+
+
+def _is_number(node: Any) -> bool:
+    parts = (node.top, node.bottom) if isinstance(node, Quotient) else (node,)
+    return all(isinstance(part, Number) for part in parts)
 
 
 def _at(parts: list[Any]) -> int:

@@ -21,8 +21,10 @@ from workbench.proof.latex.error import LatexError
 from workbench.proof.latex.limits import DEEPEST_NESTING, LONGEST_LINE
 
 _NAME = re.compile(r"\s*\{(?P<name>[a-z]+\*?)\}")
-_GOES_ON = re.compile(r"[\s&]*([=<>+\-/.]|"
+_GOES_ON = re.compile(r"[\s&]*([=<>+\-/]|\.(?!\d)|"
                       r"\\(end|le|leq|ge|geq|lt|gt|ne|neq|cdot|times|to|in|pm|Rightarrow)(?![A-Za-z]))")
+_SIGNED = re.compile(r"[\s&]*[+-]")
+_RELATED = re.compile(r"[=<>]|\\(le|leq|leqslant|ge|geq|geqslant|lt|gt|ne|neq|in)(?![A-Za-z])")
 _PIECE = re.compile(r"\\tag\*|\\[A-Za-z]+|\\.|\s+|.", re.DOTALL)
 _NUMBERED = re.compile(r"\\q?quad[\s\\,;~]*\((\d+[a-z]?|[A-Z]\.?\d+)\)[\s.,]*$")  # an equation's number, at its end
 
@@ -48,8 +50,12 @@ def scan(line: str) -> list[Piece]:
         found = _PIECE.match(line, at)
         assert found is not None  # every character is a piece
         text, start, at = found.group(), at, found.end()
-        if text.isspace() or text in ("~", "$"):
+        if text.isspace() or text == "$":
+            if text == "$" and line[:start].strip(" $") and line[at:].strip(" $.,;"):
+                raise LatexError(r"a dollar sign within the line: write one formula, and words in \text{...}", start)
             continue
+        if text == "~":
+            text = "\\ "
         if text.startswith("\\") and text[1:] in TEXTS | SILENT:
             content, at = _text(line, at)
             if text[1:] in TEXTS:  # \text{sgn} is \operatorname{sgn}
@@ -88,9 +94,21 @@ def _layout(line: str, text: str, start: int, at: int, environments: list[str], 
             raise LatexError("'&' tells cases apart, or columns: write one line for each case", start)
         return at
     parted = pieces and pieces[-1].text in (",", ";")
-    if pieces and not parted and not _GOES_ON.match(line, at):
+    if pieces and not parted and not _goes_on(line, at, start, environments):
         pieces.append(Piece("sign", ",", start))
     return at
+
+
+def _goes_on(line: str, at: int, start: int, environments: list[str]) -> bool:
+    """Whether a new line goes on with the formula before it; in cases no formula does so with a sign."""
+    if not _SIGNED.match(line, at):
+        return _GOES_ON.match(line, at) is not None
+    if environments and environments[-1] == "cases":
+        return False
+    if _RELATED.search(line[at:].partition("\\\\")[0]):
+        raise LatexError("whether the new line goes on with the formula before it is open: write one line for each",
+                         start)
+    return True
 
 
 def _kind(text: str, position: int) -> str:

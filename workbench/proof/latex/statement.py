@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from fractions import Fraction
+from itertools import pairwise
 
 import sympy as sp
 
@@ -48,9 +49,21 @@ def statement(line: Line, converter: Converter) -> Statement:
     if not converter.declared and any("\\forall" in words for words in line.separators):
         raise ProseError("the line quantifies over what stands behind 'for all': it is read by a person")
     claimed, conditions = parted(line)
+    if converter.declared:
+        _require_quantified(line)
+    for (before, after), words in zip(pairwise(line.chains), line.separators[1:], strict=False):
+        if words == (",",):
+            _require_own_ends(before, after)
     if not claimed:
         raise LatexError("the line claims nothing: write a relation, behind a colon where 'for all' stands first")
     return Statement(_related(claimed, converter), _related(conditions, converter))
+
+
+def _require_quantified(line: Line) -> None:
+    """Raise LatexError for a colon that nothing introduces: `A: B` may say B for all A, or A where B holds."""
+    first = any(word == "\\forall" or _said_of(word) in _UNDER for word in line.separators[0])
+    if not first and any(":" in words for words in line.separators):
+        raise LatexError(r"what the colon says is open: write \Rightarrow, or \text{for} or \forall first")
 
 
 def relations(related: tuple[Related, ...]) -> tuple[Relation, ...]:
@@ -67,7 +80,7 @@ def parted(line: Line) -> tuple[list[Chain], list[Chain]]:
         raise ProseError("the line says that something exists: it is read by a person")
     if "<=>" in flat:
         raise ProseError("the line claims that two statements are equivalent: state each of them")
-    if flat.count("=>") > 1:
+    if flat.count("=>") + sum(_said_of(word) in _IMPLIES for word in flat) > 1:
         raise LatexError("more than one arrow: write one line for each")
     claimed: list[Chain] = []
     conditions: list[Chain] = []
@@ -147,6 +160,20 @@ def _related(chains: list[Chain], converter: Converter) -> tuple[Related, ...]:
     if waiting:
         raise LatexError("no relation: write one with a relation sign", waiting[0].position)
     return tuple(found)
+
+
+def _require_own_ends(before: Chain, after: Chain) -> None:
+    """Raise LatexError for `0 < x, y < 1`: it may bound each of the two on both sides, or each on one."""
+    if len(before.sides) == len(after.sides) == 2 and _is_constant(before.sides[0]) and _is_constant(after.sides[1]) \
+            and before.signs[0][0] == after.signs[0][0] in "<>":
+        raise LatexError(r"whether the ends bound all that stands between them is open: write \text{and} between two "
+                         "relations, or each with both ends", after.position)
+
+
+def _is_constant(node: Node) -> bool:
+    """Whether a side is a number, or infinity, with its sign."""
+    terms = node.terms if isinstance(node, Terms) else ((1, node),)
+    return all(isinstance(term, Number) or term == Letter("\\infty") for _, term in terms)
 
 
 def _chain(chain: Chain, converter: Converter) -> list[Related]:

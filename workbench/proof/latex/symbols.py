@@ -18,9 +18,11 @@ from workbench.proof.claim import Relation
 from workbench.proof.language import LANGUAGE
 from workbench.proof.latex.convert import Converter
 from workbench.proof.latex.error import LatexError
-from workbench.proof.latex.notation import Notation
+from workbench.proof.latex.notation import Notation, without_dot
 from workbench.proof.latex.read import read_line
 from workbench.proof.latex.statement import relations, statement
+from workbench.proof.latex.tree import Letter
+from workbench.proof.latex.varying import printed_of_time, varies
 from workbench.proof.latex.write import letters_of
 from workbench.proof.paper import collect_papers
 
@@ -33,7 +35,8 @@ class SymbolsFile(FileRecord):
 
     symbols: letters and what is known of each; a vector has components 1..n. definitions: letters that stand for an
     expression of letters before them. assumptions: relations that hold. flow: rates of the letters that move in time.
-    inputs: letters without a rate that may vary in time; all others are constant.
+    inputs: letters without a rate that may vary in time, to which those printed as d(t) belong, or as f(x) where x
+    moves; all others are constant.
     """
 
     symbols: dict[Text, Kind] = Field(min_length=1)
@@ -109,6 +112,7 @@ def symbols_in(record: SymbolsFile, path: Path) -> Symbols:
             raise InputError(path, f"flow.{typed}", "is none of the symbols: add it there, as it is typed here")
         flow[moving] = _expression(path, f"flow.{typed}", formula, notation, limits,
                                    vector=isinstance(moving, sp.Indexed))
+    _require_own_rates(path, record, notation, flow)
     inputs = _inputs(path, record, notation, flow)
     assume: list[Relation] = []
     for number, formula in enumerate(record.assumptions):
@@ -119,7 +123,22 @@ def symbols_in(record: SymbolsFile, path: Path) -> Symbols:
         if stated.conditions:
             raise InputError(path, f"assumptions[{number}]", "has a condition of its own: state relations only")
         assume += relations(stated.claimed)
+    inputs = _with_varying(inputs, record, notation, flow)
     return Symbols(notation, letters, tuple(assume), flow, limits, inputs, declared=True)
+
+
+def _require_own_rates(path: Path, record: SymbolsFile, notation: Mapping[str, sp.Expr],
+                       flow: Mapping[sp.Expr, sp.Expr]) -> None:
+    """InputError for a letter with a dot that is not the rate of the letter below it, where that is known too."""
+    letters = Notation(notation)
+    for typed in (*record.symbols, *record.definitions):
+        found = without_dot(key) if isinstance(key := read_line(typed).chains[0].sides[0], Letter) else None
+        below = letters.meaning(found[0]) if found is not None else None
+        if below is not None and (flow or typed in record.definitions) and (
+                found is None or found[1] != 1 or flow.get(below) != notation[typed]):
+            part = "symbols" if typed in record.symbols else "definitions"
+            raise InputError(path, f"{part}.{typed}", "is the rate of a letter that is given too: state it as that "
+                             "letter's rate under [flow], or leave one of the two out")
 
 
 def _inputs(path: Path, record: SymbolsFile, notation: Mapping[str, sp.Expr],
@@ -135,6 +154,19 @@ def _inputs(path: Path, record: SymbolsFile, notation: Mapping[str, sp.Expr],
             raise InputError(path, f"inputs[{number}]", f"{typed!r} has a rate under [flow] too: keep one of the two")
         inputs.append(varying)
     return tuple(inputs)
+
+
+def _with_varying(inputs: tuple[sp.Symbol | sp.Indexed, ...], record: SymbolsFile, notation: Mapping[str, sp.Expr],
+                  flow: Mapping[sp.Expr, sp.Expr]) -> tuple[sp.Symbol | sp.Indexed, ...]:
+    """The inputs, with what the file itself prints as a function of time, or of what moves, and gives no rate."""
+    letters = Notation(notation)
+    of_time = set().union(*(printed_of_time(read_line(text), letters)
+                            for text in (*record.definitions.values(), *record.flow.values(), *record.assumptions)))
+    moving = {*flow, *inputs, *of_time}
+    more = [notation[typed] for typed in record.symbols
+            if notation[typed] in of_time or varies(read_line(typed).chains[0].sides[0], moving, letters)]
+    return (*inputs, *(symbol for symbol in more if symbol not in flow and symbol not in inputs
+                       and isinstance(symbol, (sp.Symbol, sp.Indexed))))
 
 
 def _expression(path: Path, key: str, formula: str, notation: Mapping[str, sp.Expr], limits: sp.Tuple | None,

@@ -10,6 +10,7 @@ from lark import Token
 from workbench.proof.latex.commands import (
     BARS,
     BIG,
+    CLOSES_BAR,
     CLOSING,
     DROPPED,
     ELLIPSES,
@@ -20,6 +21,7 @@ from workbench.proof.latex.commands import (
     GREEK,
     IMPLIES,
     OPENING,
+    OPENS_BAR,
     QUANTIFIERS,
     RELATIONS,
     SAME_ACCENT,
@@ -27,13 +29,13 @@ from workbench.proof.latex.commands import (
     STAR,
     TIMES,
     UPRIGHT,
+    WIDE,
 )
 from workbench.proof.latex.error import LatexError
 from workbench.proof.latex.limits import DEEPEST_NESTING, LONGEST_NUMBER
 from workbench.proof.latex.scan import Piece, argument, arguments, plain, scan
+from workbench.proof.latex.spaces import COMPLETE, require_no_formula
 
-# After these a value is complete, so that a bar closes.
-COMPLETE = frozenset(["LETTER", "NUMBER", "CLOSE", "RB", "SUB", "MARK", "TRANSPOSE", "BARS_CLOSE", "ELLIPSIS", "AT"])
 SIGNS = {"/": "SLASH", "+": "PLUS", "-": "MINUS", "=": "RELATION", "<": "RELATION", ">": "RELATION", "(": "OPEN",
          "[": "OPEN", ")": "CLOSE", "]": "CLOSE", "'": "MARK", ",": "COMMA", ";": "COMMA", ":": "COLON", ".": "COMMA"}
 _COMMANDS: dict[str, dict[str, str] | frozenset[str]] = {
@@ -41,7 +43,7 @@ _COMMANDS: dict[str, dict[str, str] | frozenset[str]] = {
                                                                   for name in FUNCTIONS},
     "RELATION": RELATIONS, "BIG": BIG, "IMPLIES": IMPLIES, "IFF": EQUIVALENT, "QUANTIFIER": QUANTIFIERS,
     "ELLIPSIS": ELLIPSES, "CDOT": TIMES, "PLUS_MINUS": frozenset(("pm", "mp")), "MARK": dict.fromkeys(STAR, "*"),
-    "COLON": frozenset(("mid", "colon")),
+    "COLON": frozenset(("colon",)),
 }
 TYPED = {"<=": "<=", ">=": ">=", "!=": "!=", ":=": "=", "<<": "<<", ">>": ">>"}
 _MARK = re.compile(r"\*|\+|-|0|\\pm|\\prime|'+|\(\d+\)|\\infty")
@@ -65,11 +67,14 @@ class _Words:
                              self.pieces[start].position)
         out: list[Token] = []
         opened: list[str] = []
+        spaces: list[int] = []
         at = start
         while at < end:
             piece = self.pieces[at]
             if piece.kind == "command" and piece.text in DROPPED:
                 at += 1
+                if piece.text in WIDE:
+                    spaces.append(len(out))
                 # \left. and \right. are brackets that are not there.
                 if piece.text in ("left", "right") and at < end and self.pieces[at].text == ".":
                     at += 1
@@ -91,6 +96,7 @@ class _Words:
                 out.append(_simple(piece))
                 self._brackets(out[-1], opened)
                 at += 1
+        require_no_formula(out, spaces)
         return out
 
     def _brackets(self, token: Token, opened: list[str]) -> None:
@@ -105,7 +111,14 @@ class _Words:
     def _bar(self, out: list[Token], opened: list[str], at: int, end: int) -> int:
         piece = self.pieces[at]
         kind = "|" if piece.text == "|" and piece.kind == "sign" else BARS[piece.text]
-        closes = bool(opened) and opened[-1] == kind and bool(out) and out[-1].type in COMPLETE
+        sized = self.pieces[at - 1].text if at else ""  # \left| opens whatever stands before it
+        fits = bool(opened) and opened[-1] == kind
+        if {piece.text, sized} & OPENS_BAR:
+            closes = False
+        elif {piece.text, sized} & CLOSES_BAR:
+            closes = fits
+        else:
+            closes = fits and bool(out) and out[-1].type in COMPLETE
         follows = self.pieces[at + 1].text if at + 1 < end else ""
         if closes:
             opened.pop()

@@ -57,6 +57,8 @@ def multiplied(factors: Sequence[tuple[sp.Expr, bool]], limits: sp.Tuple | None,
         else:
             outside.append(value)
     close()
+    if columns and sum(map(is_vector, outside)) > 1:
+        raise LatexError("two columns side by side: write one of them as a row, or a sum over their index", position)
     return sp.Mul(*outside)
 
 
@@ -73,9 +75,9 @@ def norm(bars: str, value: sp.Expr, limits: sp.Tuple | None, position: int) -> s
     return summed(sp.Abs(value), limits, position) if bars == "||_1" else sp.sqrt(summed(value**2, limits, position))
 
 
-def trace(value: sp.Expr, limits: sp.Tuple | None, position: int) -> sp.Expr:
-    """The trace of a diagonal matrix, whose entries are an indexed symbol."""
-    if not is_vector(value):
+def trace(value: sp.Expr, limits: sp.Tuple | None, position: int, columns: bool = False) -> sp.Expr:
+    """The trace of a diagonal matrix, whose entries are an indexed symbol; columns: whether there are no matrices."""
+    if columns or not is_vector(value):
         raise LatexError(f"the trace of {value}, which is no matrix: give the trace in the notation, or an indexed "
                          "symbol", position)
     return summed(value, limits, position)
