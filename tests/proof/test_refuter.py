@@ -72,6 +72,7 @@ mu, bound = sp.symbols("mu bound", positive=True)
 flow, start = {t: sp.Integer(1), V: rate}, {t: sp.Integer(0), V: V_0}
 decaying = (at_most(rate, -mu * V + bound), at_least(t, 0))
 a, b = sp.symbols("a b", real=True)
+NAMED = sp.Add(*sp.symbols("duration duration_ duration__ time time_ time__", real=True))
 LATER = {
     "along a curve": Goal((at_most(b, 2 * V),), (), {a: -p * a + x, b: a**2, V: x**2}, (), {
         a: sp.Integer(0), b: sp.Integer(0), V: sp.Integer(0)}, inputs=(x,)),
@@ -80,6 +81,8 @@ LATER = {
     "grows, though it starts well": Goal((at_most(V, V_0),), (), flow, (at_most(rate, bound), at_least(t, 0)), start,
                                           inputs=(rate,)),
     "an integral of a square": Goal((at_most(V, V_0),), (), {V: x**2}, (at_most(x, 1),), {V: V_0}, inputs=(x,)),
+    "with letters that are called as the search calls its own": Goal(
+        (at_most(V, V_0 + NAMED),), (at_most(NAMED, 0),), {V: x**2}, (at_most(x, 1),), {V: V_0}, inputs=(x,)),
     "with a constant of the flow": Goal((at_least(V, V_0 - p * t),), (greater(p, 0),), {**flow, p: sp.Integer(0)},
                                         (at_least(rate, -2 * p), at_least(t, 0)), {**start, p: p}, inputs=(rate,)),
 }

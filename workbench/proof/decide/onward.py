@@ -10,6 +10,7 @@ import sympy as sp
 from workbench.proof.checker import SUM
 from workbench.proof.claim import Goal, Relation, at_least, name_of
 from workbench.proof.decide.landscape import plain
+from workbench.proof.decide.names import free_name
 from workbench.proof.decide.proposals import Point
 from workbench.proof.decide.search import search
 from workbench.proof.text import text
@@ -29,7 +30,7 @@ def onward(goal: Goal, point: Point) -> dict[str, Any] | None:
     if any(isinstance(s, sp.Indexed) for s in goal.moving()):
         return None
     taken = {name_of(s) for s in goal.symbols()} | {SUM}
-    time = sp.Symbol(next(name for name in ("time", "time_", "time__") if name not in taken), real=True)
+    time = sp.Symbol(free_name("time", taken), real=True)
     values = {s if isinstance(s, sp.Symbol) else sp.Symbol(name_of(s), real=True): sp.Rational(
         point[name_of(s)].numerator, point[name_of(s)].denominator) for s in goal.symbols() if name_of(s) in point}
     rates = {s: plain(goal, rate) for s, rate in goal.flow.items() if rate != 0}

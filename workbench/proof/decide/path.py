@@ -18,6 +18,7 @@ from workbench.proof.checker import CertificateError, check
 from workbench.proof.claim import Goal, Relation, Verdict, at_least, name_of
 from workbench.proof.decide.combination import find_combination
 from workbench.proof.decide.identity import find_identity
+from workbench.proof.decide.names import free_name
 from workbench.proof.decide.proposals import Point, proposals
 from workbench.proof.derive import expand_derivatives
 from workbench.proof.text import assumptions, text
@@ -52,8 +53,8 @@ def reached_points(goal: Goal, seed: int, break_shown: bool, quick: bool = False
     if not goal.flow or not (goal.initial or goal.always) or any(isinstance(s, sp.Indexed) for s in goal.symbols()):
         return
     taken = {name_of(s) for s in goal.symbols()}
-    duration, time = (sp.Symbol(next(n for n in (name, f"{name}_", f"{name}__") if n not in taken), **sign)
-                      for name, sign in (("duration", {"positive": True}), ("time", {"real": True})))
+    duration = sp.Symbol(free_name("duration", taken), positive=True)
+    time = sp.Symbol(free_name("time", taken), real=True)
     for way in islice(_ways(goal, time), 1 if quick else None):
         for point in _ends(goal, way, duration, time, seed, break_shown, quick):
             reached = _reached(goal, way, point, duration, time)
