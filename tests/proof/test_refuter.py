@@ -82,7 +82,7 @@ LATER = {
                                           inputs=(rate,)),
     "an integral of a square": Goal((at_most(V, V_0),), (), {V: x**2}, (at_most(x, 1),), {V: V_0}, inputs=(x,)),
     "with letters that are called as the search calls its own": Goal(
-        (at_most(V, V_0 + NAMED),), (at_most(NAMED, 0),), {V: x**2}, (at_most(x, 1),), {V: V_0}, inputs=(x,)),
+        (at_most(V, V_0 + NAMED),), (equal(NAMED, 0),), {V: x**2}, (at_most(x, 1),), {V: V_0}, inputs=(x,)),
     "with a constant of the flow": Goal((at_least(V, V_0 - p * t),), (greater(p, 0),), {**flow, p: sp.Integer(0)},
                                         (at_least(rate, -2 * p), at_least(t, 0)), {**start, p: p}, inputs=(rate,)),
 }
