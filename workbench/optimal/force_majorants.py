@@ -5,7 +5,6 @@ from __future__ import annotations
 from functools import cache
 
 import numpy as np
-from scipy.optimize import linprog
 
 from workbench.optimal.course import Array
 from workbench.optimal.force_pieces import force_pieces
@@ -52,5 +51,7 @@ def majorants(limit: ForceLimit, top_mps: float) -> tuple[Majorant, ...]:
 
 def _least(terms: Array, force: Array, at: Array) -> Array:
     """Coefficients of the function above the force everywhere that is least where its terms have the values `at`."""
+    from scipy.optimize import linprog  # noqa: PLC0415 - which most trains do without
+
     return np.asarray(linprog(at, A_ub=-terms, b_ub=-force,
                               bounds=[(None, None), (0, None), (None, 0), (None, None)]).x)
