@@ -43,7 +43,7 @@ FINE, OF_P = 60, 50
 OF_VALUE, OF_ENERGY = OF_P + FINE, OF_P + 2 * FINE
 # Ranges of speed on which a limit of the acceleration is held against those of the forces, and halvings by which the
 # speed at which it passes one is found in each.
-SPEED_RANGES, CROSSING_HALVINGS = 4, 40
+SPEED_RANGES, CROSSING_HALVINGS = 4, 30
 # A value is claimed one of these shares below what was found: of what it is the sum of there, or at the highest speed.
 SLACKS = (1e-12, 1e-10, 1e-8, 1e-6)
 
@@ -79,7 +79,7 @@ def checked_bound(certificate: dict[str, Any]) -> Fraction:
     if not legs or legs[-1][0] != cells[-1].b:
         raise ValueError("the cells do not end at the last event")
     total = _near(time_part, OF_ENERGY) + _line_part(run, cells) + _ends_and_jumps(run, train, cells)
-    if len(cells) * len(train.ranges) > MOST_LOOKS:
+    if len(cells) * len(train.ranges) * train.crossings > MOST_LOOKS:
         raise ValueError(f"needs more than {MOST_LOOKS} looks at ranges of speed")
     looks = [0]
     for cell, price in zip(cells, _prices(legs, cells), strict=True):
@@ -143,7 +143,8 @@ class _Train:
         fastest, hardest = (train[f"max_{name}_mps2"] for name in ("acceleration", "deceleration"))
         self.fastest = None if fastest is None else _above(Fraction(fastest) * Fraction(inertia_kg))
         self.hardest = None if hardest is None else _above(Fraction(hardest) * Fraction(inertia_kg))
-        self.ranges = tuple(_ranges(train, top, fastest is not None or hardest is not None))
+        is_limited = fastest is not None or hardest is not None
+        self.ranges, self.crossings = tuple(_ranges(train, top, is_limited)), 4 if is_limited else 1
 
 
 def _ranges(train: dict[str, Any], top: int, is_limited: bool) -> Iterator[_Range]:

@@ -16,7 +16,7 @@ from workbench.optimal.vehicle import Vehicle
 Coefficients = tuple[Array, Array, Array, Array]
 # Ranges of speed on which a limit of the acceleration is held against those of the forces, and halvings by which the
 # speed at which it passes one is found in each.
-ACCELERATION_RANGES, HALVINGS = 4, 40
+ACCELERATION_RANGES, HALVINGS = 4, 30
 # From this speed on forces are looked at, m/s: a power's is infinite at standstill.
 SLOWEST_MPS = 1e-9
 
