@@ -10,12 +10,13 @@ from optimal_instances import certificate_values, courses, numbers, random_runs,
 from scipy.optimize import minimize_scalar
 
 from workbench.errors import WorkbenchError
-from workbench.optimal.bound import Certificate, Terms, lower_bound, minima
+from workbench.optimal.bound import Certificate, Terms, cell_bounds, lower_bound, minima
 from workbench.optimal.course import Course
 from workbench.optimal.envelope import InfeasibleRunError
 from workbench.optimal.grid import kept_borders
-from workbench.optimal.profile import Profile, energy_j, forces
+from workbench.optimal.profile import Profile, energy_j, forces, largest_force
 from workbench.optimal.reference import find_reference
+from workbench.optimal.timetable import as_timetable
 from workbench.optimal.vehicle import ForceLimit, Vehicle
 
 # Share of the work done by which a cell of constant acceleration may pass a limit between its ends.
@@ -163,3 +164,30 @@ def test_the_random_runs_are_runs():
     assert len(runs) > 30
     assert len({round(run.trip_time_s) for run in runs}) > 15
     assert all(isinstance(run, Profile) and run.half_square[-1] == 0.0 for run in runs)
+
+
+COMFORT = Vehicle("with comfort limits", 3e5, (4e3, 80.0, 9.0), ForceLimit(2.5e5, 2.2e6), ForceLimit(2e5, 2.5e6), 2e5,
+                  max_acceleration_mps2=0.4, max_deceleration_mps2=0.7, traction_efficiency=0.85,
+                  regenerative_efficiency=0.7)
+
+
+@pytest.mark.parametrize("p", [-0.4, 0.3, 1.6])
+@pytest.mark.parametrize("line_n", [-2e4, 3e4])
+@pytest.mark.parametrize("price_w", [1e4, 3e6])
+def test_a_limit_of_the_acceleration_binds_up_to_the_speed_where_another_does(p, line_n, price_w):
+    """Against the least value over a lattice of speeds with the forces that the train has at each; where p does not
+    change nothing else is lost. Equal ranges of speed lost up to a per cent where two limits crossed within one."""
+    course = Course(np.array([0.0, 1000.0]), np.array([35.0]), np.full((1, 2), line_n), np.zeros((1, 2)))
+    speeds = np.linspace(1e-3, 35.0, 200_001)
+    a, b_1, c = COMFORT.davis_n
+    resistance = a + b_1 * speeds + c * speeds**2
+    most = np.minimum(largest_force(COMFORT.traction, speeds), 3e5 * 0.4 + resistance + line_n)
+    electric = largest_force(COMFORT.regenerative, speeds)
+    hardest = np.minimum(electric + 2e5, 3e5 * 0.7 - resistance - line_n)
+    costs = [u * (1 / 0.85 - p) for u in (0.0 * most, most)]  # at corners of the cost of a force
+    costs += [0.7 * -np.minimum(u, electric) + p * u for u in (np.minimum(electric, hardest), hardest)]
+    expected = 1000.0 * np.min(np.min(costs, axis=0) + price_w / speeds + p * resistance)
+    certificate = Certificate(course.position_m, np.array([p]), np.array([p]), price_w)
+    found = float(cell_bounds(COMFORT, course, certificate, as_timetable(course, 100.0))[0])
+    assert found == pytest.approx(expected, rel=1e-6)
+    assert found <= expected + 1e-9 * abs(expected)

@@ -86,15 +86,15 @@ def test_either_way_the_run_is_drivable_in_time_and_above_the_bound(vehicle):
     assert found["auto"].lower_bound_j >= found["socp"].lower_bound_j * (1 - 1e-12)
 
 
-def test_where_the_curve_has_a_dip_the_nonlinear_program_saves_energy():
-    """The hull of the curve promises traction that the train lacks, so that the cone program's run is clipped."""
+def test_where_the_curve_has_a_dip_cones_prove_more_and_drive_as_well():
+    """The concave hull of this curve over the speed promised traction that the train lacks: its gap was 9.6 %."""
     course = Course(2e3 * np.arange(7.0), np.array([30.0, 10.0, 30.0, 8.0, 30.0, 12.0]), np.zeros((6, 2)),
                     np.zeros((6, 2)))
     asked = 1.05 * least_time(DIP, course).trip_time_s
-    cone, auto = (find_reference(DIP, course, asked, intervals=150, solver=way) for way in ("socp", "auto"))
-    assert auto.solver in ("fatrop", "ipopt") and cone.solver == "clarabel"
-    assert auto.energy_j < 0.999 * cone.energy_j
-    assert auto.gap < 0.8 * cone.gap
+    cone, nonlinear = (find_reference(DIP, course, asked, intervals=150, solver=way) for way in ("socp", "nlp"))
+    assert cone.energy_j == pytest.approx(nonlinear.energy_j, rel=2e-3)
+    assert nonlinear.lower_bound_j < cone.lower_bound_j <= min(cone.energy_j, nonlinear.energy_j)
+    assert cone.gap < 0.05
 
 
 def test_what_no_run_can_do_is_no_plan():

@@ -5,6 +5,7 @@ import subprocess
 import sys
 
 import pytest
+from command_line import run
 from scenarios import SHARED, YANG
 from small_folders import small_folder
 
@@ -12,10 +13,25 @@ from workbench.cli.loading import load
 from workbench.simulate import compare as compare_module
 from workbench.tasks.processes import LocalProcesses
 
-HEAVY = ("control", "cvxpy", "casadi", "matplotlib", "sympy", "numba", "clarabel", "scipy")
+HEAVY = ("scipy.optimize", "control", "cvxpy", "casadi", "matplotlib", "sympy", "numba", "clarabel", "scipy")
+# What reads values, shows tables or starts processes: of no use where a path is wrong.
+READERS = ("numpy", "multiprocessing", "rich.progress", "workbench.trains.scenario", "workbench.paper.study",
+           "workbench.proof.document", "workbench.optimal.inputs.line")
 PAGE = ("jinja2", "plotly", "grandalf", "workbench.report.page", "workbench.contest.matches")
 OTHER_VERBS = tuple(f"workbench.cli.{verb}" for verb in ("show", "sweep", "report", "gains", "errata", "check_coq"))
 LINE, TRAIN = SHARED / "lines" / "hills.toml", SHARED / "trains" / "yang2021.toml"
+CLAIM = """
+import sympy as sp
+from workbench.proof.claim import Goal, at_least
+from workbench.proof.paper import Paper
+
+paper = Paper("small", "nobody")
+
+
+@paper.claim("1", "one", "inequality", "x", "proved")
+def one() -> Goal:
+    return Goal((at_least(sp.Symbol("x", real=True)**2, 0),))
+"""
 PROGRAM = """
 import json, sys
 from workbench.cli.app import main
@@ -29,33 +45,38 @@ print(json.dumps([code, [name for name in json.loads(sys.stdin.read()) if name i
 
 
 def imported(*arguments: object) -> tuple[int, set[str]]:
-    """The exit code of a command in a process of its own, and which of HEAVY, PAGE and OTHER_VERBS it imported."""
+    """The exit code of a command in a process of its own, and what it imported of what is named above."""
+    names = (*HEAVY, *READERS, *PAGE, *OTHER_VERBS)
     done = subprocess.run([sys.executable, "-c", PROGRAM, json.dumps(list(map(str, arguments)))], check=True,
-                          input=json.dumps((*HEAVY, *PAGE, *OTHER_VERBS)), capture_output=True, text=True, timeout=300)
-    code, names = json.loads(done.stdout.splitlines()[-1])
-    return code or 0, set(names)
+                          input=json.dumps(names), capture_output=True, text=True, timeout=300)
+    code, found = json.loads(done.stdout.splitlines()[-1])
+    return code or 0, set(found)
 
 
 @pytest.mark.parametrize("arguments", [
-    ("reference", "nowhere.toml", TRAIN, "--time", 2600), ("reference", LINE, YANG, "--time", 2600),
-    ("reference", LINE, TRAIN, "--time", 2600, "--every", 0),
-], ids=str)
-def test_a_mistake_is_said_before_anything_heavy_is_imported(arguments):
+    ("reference", "nowhere.toml", TRAIN, "--time", 2600), ("compare", "nowhere.toml"), ("prove", "nowhere"),
+], ids=lambda arguments: arguments[0])
+def test_a_wrong_path_is_said_before_anything_is_imported_that_reads_or_runs(arguments):
     code, names = imported(*arguments)
     assert code == 2
     assert names == set()
 
 
-def test_a_mistake_in_a_scenario_is_said_before_solvers_and_figures_are_imported():
-    code, names = imported("compare", "nowhere.toml")
+@pytest.mark.parametrize("arguments", [
+    ("reference", LINE, YANG, "--time", 2600), ("reference", LINE, TRAIN, "--time", 2600, "--every", 0),
+], ids=str)
+def test_a_mistake_is_said_before_anything_heavy_is_imported(arguments):
+    code, names = imported(*arguments)
     assert code == 2
-    assert names == set()
+    assert names.isdisjoint({*HEAVY, *PAGE, *OTHER_VERBS})
 
 
-def test_a_proof_file_that_is_missing_is_said_before_sympy_is_imported():
-    code, names = imported("prove", "nowhere")
-    assert code == 2
-    assert names == set()
+def test_an_unchanged_paper_is_told_without_expressions_numbers_or_other_processes(tmp_path):
+    (tmp_path / "small.py").write_text(CLAIM, encoding="utf-8")
+    assert run("prove", tmp_path / "small.py").returncode == 0
+    code, names = imported("prove", tmp_path / "small.py")
+    assert code == 0
+    assert names <= {"workbench.proof.document", "rich.progress"}
 
 
 def test_a_small_comparison_needs_no_page_no_other_verb_and_no_other_process(tmp_path):
@@ -81,4 +102,4 @@ def test_a_run_needs_its_solver_and_no_modelling_tools():
     code, names = imported("reference", LINE, TRAIN, "--time", 2600)
     assert code == 0
     assert "clarabel" in names
-    assert names.isdisjoint({"control", "cvxpy", "casadi", "matplotlib"})
+    assert names.isdisjoint({"control", "cvxpy", "casadi", "matplotlib", "sympy", "scipy.optimize"})

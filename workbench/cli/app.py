@@ -14,8 +14,8 @@ from typer.core import TyperGroup
 from typer.exceptions import TyperException
 from typer.main import get_command
 
+from workbench.cli.console import err_console
 from workbench.cli.options import Version
-from workbench.cli.terminal import err_console
 from workbench.errors import InputError, WorkbenchError, of_an_extra, printable
 from workbench.tasks.threads import use_one_thread
 

@@ -7,8 +7,9 @@ from typing import Annotated
 
 import typer
 
+from workbench.cli.console import out_console
 from workbench.cli.options import LIMIT_S, JsonFile, Limit
-from workbench.cli.terminal import answer_card, out_console
+from workbench.cli.terminal import answer_card
 
 CONTEXT = {"ignore_unknown_options": True}  # a line may begin with a minus
 

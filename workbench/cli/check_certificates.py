@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from workbench.cli.console import err_console, out_console
 from workbench.cli.options import Workers
-from workbench.cli.terminal import err_console, out_console
 from workbench.errors import InputError, WorkbenchError, in_one_line
 
 if TYPE_CHECKING:

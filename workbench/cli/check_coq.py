@@ -8,8 +8,9 @@ from typing import Annotated
 
 import typer
 
+from workbench.cli.console import err_console, out_console
 from workbench.cli.options import JsonFile, Workers, path_of
-from workbench.cli.terminal import err_console, out_console, progress
+from workbench.cli.terminal import progress
 
 
 def command(folder: Annotated[Path, typer.Argument(metavar="DIR", help="What export-coq wrote.")],

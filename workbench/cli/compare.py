@@ -7,8 +7,8 @@ from typing import Annotated
 
 import typer
 
+from workbench.cli.console import out_console
 from workbench.cli.options import Dask, JsonFile, PaperOrFile, Workers, load, on_cluster
-from workbench.cli.terminal import metrics_table, out_console, print_failures, print_study, progress
 from workbench.errors import InputError
 
 
@@ -21,6 +21,7 @@ def command(paper: PaperOrFile, json: JsonFile = None,
     """Run all controllers of a scenario on the same train and line, and compare them; or all runs of a study."""
     loaded = load(paper)  # before what runs is imported: a mistake in the file is said at once
 
+    from workbench.cli.terminal import metrics_table, print_failures, print_study, progress
     from workbench.files.json_output import write_json
     from workbench.files.outputs import check_outputs
     from workbench.report.runs import check_resumable, comparison_document, run_study, study_document

@@ -1,7 +1,8 @@
-"""A console on which what comes from files steers no terminal: escape sequences are shown as letters."""
+"""Consoles on which what comes from files steers no terminal: escape sequences are shown as letters."""
 
 from __future__ import annotations
 
+import sys
 from collections.abc import Iterable
 
 from rich.console import Console, ConsoleOptions, RenderableType
@@ -19,3 +20,10 @@ class QuietConsole(Console):
         """The pieces of what is printed, rich's own codes among them."""
         for segment in super().render(renderable, options):
             yield segment if segment.control else Segment(segment.text.translate(_STEERING), segment.style)
+
+
+# Names, paths and messages come from files: brackets and colons in them are what they are, no markup.
+# Nor is anything looked for in them to be coloured, which takes a minute where a name has 200,000 letters.
+# Lines are wrapped between words for a reader; what another program reads stays one line.
+out_console = QuietConsole(markup=False, emoji=False, highlight=False, soft_wrap=not sys.stdout.isatty())
+err_console = QuietConsole(stderr=True, markup=False, emoji=False, highlight=False, soft_wrap=not sys.stderr.isatty())

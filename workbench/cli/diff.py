@@ -7,8 +7,8 @@ from typing import Annotated
 
 import typer
 
+from workbench.cli.console import out_console
 from workbench.cli.options import JsonFile
-from workbench.cli.terminal import out_console
 
 
 def command(before: Annotated[Path, typer.Argument(metavar="A.json", help="The earlier document.")],

@@ -7,8 +7,9 @@ from typing import Annotated
 
 import typer
 
+from workbench.cli.console import err_console, out_console
 from workbench.cli.options import Workers, path_of
-from workbench.cli.terminal import err_console, out_console, progress
+from workbench.cli.terminal import progress
 
 
 def command(paper: Annotated[str, typer.Argument(metavar="PAPER", help="A paper's folder, its name, or a proof file.")],

@@ -7,7 +7,7 @@ from typing import Annotated
 
 import typer
 
-from workbench.cli.terminal import out_console
+from workbench.cli.console import out_console
 
 
 def command(directory: Annotated[Path, typer.Argument(help="A new or empty folder")]) -> None:

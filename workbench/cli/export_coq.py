@@ -9,8 +9,8 @@ from typing import Annotated
 
 import typer
 
+from workbench.cli.console import out_console
 from workbench.cli.options import path_of
-from workbench.cli.terminal import out_console
 
 
 def command(paper: Annotated[str, typer.Argument(metavar="PAPER", help="A paper's folder, its name, or a folder of "

@@ -7,8 +7,8 @@ from typing import Annotated
 
 import typer
 
+from workbench.cli.console import out_console
 from workbench.cli.options import PaperOrFile, load
-from workbench.cli.terminal import out_console
 
 NAME = "export-fmu"
 

@@ -8,7 +8,8 @@ from collections.abc import Sequence
 from rich.padding import Padding
 from rich.text import Text
 
-from workbench.cli.terminal import COLOURS, count_words, out_console, verdict_colour
+from workbench.cli.console import out_console
+from workbench.cli.terminal import COLOURS, count_words, verdict_colour
 from workbench.proof.verdict import VERDICTS, Decision, FateWord, verdict_words
 from workbench.report.finding import Finding, Gravity, findings
 from workbench.report.finding_sentences import (

@@ -7,7 +7,8 @@ from typing import Annotated
 
 import typer
 
-from workbench.cli.terminal import out_console, papers_table
+from workbench.cli.console import out_console
+from workbench.cli.terminal import papers_table
 from workbench.errors import InputError
 
 

@@ -3,10 +3,13 @@
 from __future__ import annotations
 
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from workbench.paper import loading
 from workbench.paper.loading import Loaded
-from workbench.paper.study import StudyKind
+
+if TYPE_CHECKING:
+    from workbench.paper.study import StudyKind
 
 
 def load(path: Path) -> Loaded:

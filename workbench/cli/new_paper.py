@@ -8,7 +8,7 @@ from typing import Annotated
 
 import typer
 
-from workbench.cli.terminal import out_console
+from workbench.cli.console import out_console
 from workbench.errors import InputError
 
 VERBS = ("prove", "compare", "sweep --out FOLDER", "report --out FOLDER")

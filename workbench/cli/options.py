@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from workbench import __version__
-from workbench.cli.terminal import out_console
+from workbench.cli.console import out_console
 from workbench.errors import InputError
 from workbench.files.folders import paper_named, papers_near
 from workbench.files.outputs import STANDARD_OUTPUT

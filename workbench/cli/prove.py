@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from workbench.cli.console import err_console, out_console
 from workbench.cli.options import LIMIT_S, Dask, JsonFile, Limit, Workers, on_cluster
-from workbench.cli.terminal import claim_card, err_console, out_console, progress
 from workbench.errors import InputError
 
 if TYPE_CHECKING:
@@ -45,15 +45,18 @@ def command(paths: Annotated[list[str] | None, typer.Argument(
     written unless --write, --certificates or --json asks for it. A claim that states nothing that could be decided is
     bad input; the others are decided all the same.
     """
-    from workbench.files.json_output import write_json
-    from workbench.files.outputs import check_outputs
-    from workbench.proof.document import check_places, claims_document, places, write_certificates
-    from workbench.proof.prove import prove as run_prove
     from workbench.proof.selection import targets
 
     if write and certificates is not None:
         raise InputError("", "--write", "and --certificates name two places: leave one out")
-    found = targets(paths or ["proofs"])
+    found = targets(paths or ["proofs"])  # before what decides is imported: a mistake is said at once
+
+    from workbench.cli.terminal import progress
+    from workbench.files.json_output import write_json
+    from workbench.files.outputs import check_outputs
+    from workbench.proof.document import check_places, claims_document, places, write_certificates
+    from workbench.proof.prove import prove as run_prove
+
     check_outputs({"--json": json}, [file for target in found for file in target.inputs()])
     check_places([file for target in found for file in target.files], certificates, {"--json": json})
     with progress() as show, on_cluster(dask, workers):
@@ -78,6 +81,7 @@ def command(paths: Annotated[list[str] | None, typer.Argument(
 
 def _print_cards(proof: Proof, document: ClaimsDocument) -> None:
     from workbench.cli.findings import print_counts
+    from workbench.cli.terminal import claim_card
 
     for card in map(claim_card, document["claims"]):
         out_console.print(card)

@@ -7,8 +7,8 @@ from typing import Annotated, Literal
 
 import typer
 
+from workbench.cli.console import out_console
 from workbench.cli.options import Dask, JsonFile, Workers, on_cluster
-from workbench.cli.terminal import out_console
 from workbench.errors import InputError
 
 

@@ -7,8 +7,9 @@ from typing import Annotated
 
 import typer
 
+from workbench.cli.console import out_console
 from workbench.cli.options import JsonFile, path_of
-from workbench.cli.terminal import claim_card, out_console, progress
+from workbench.cli.terminal import claim_card, progress
 
 
 def command(claim: Annotated[str, typer.Argument(metavar="ID", help="PAPER:EQUATION, as in doe2026:44, or "

@@ -7,8 +7,9 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 import typer
 
+from workbench.cli.console import out_console
 from workbench.cli.options import Dask, PaperOrFile, Workers, load, on_cluster
-from workbench.cli.terminal import out_console, progress, result_table, summary_table
+from workbench.cli.terminal import progress, result_table, summary_table
 from workbench.errors import InputError
 
 if TYPE_CHECKING:

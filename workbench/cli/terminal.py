@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import sys
 import threading
 import time
 from collections.abc import Iterator, Mapping, Sequence
@@ -17,18 +16,13 @@ from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, T
 from rich.table import Table
 from rich.text import Text
 
-from workbench.cli.console import QuietConsole
+from workbench.cli.console import err_console, out_console
 from workbench.proof.verdict import VERDICTS, verdict_words
 
 if TYPE_CHECKING:
     from workbench.paper.contents import Contents
     from workbench.paper.results import ResultTable, StudyResult
 
-# Names, paths and messages come from files: brackets and colons in them are what they are, no markup.
-# Nor is anything looked for in them to be coloured, which takes a minute where a name has 200,000 letters.
-# Lines are wrapped between words for a reader; what another program reads stays one line.
-out_console = QuietConsole(markup=False, emoji=False, highlight=False, soft_wrap=not sys.stdout.isatty())
-err_console = QuietConsole(stderr=True, markup=False, emoji=False, highlight=False, soft_wrap=not sys.stderr.isatty())
 LINE_EVERY_S = 30.0
 COLOURS = {"proved": "green", "refuted": "red", "violated": "red", "gap": "yellow", "assumed": "cyan",
            "undecided": "magenta"}

@@ -7,8 +7,9 @@ from typing import Annotated
 
 import typer
 
+from workbench.cli.console import out_console
 from workbench.cli.options import Dask, PaperOrFile, Workers, load, on_cluster
-from workbench.cli.terminal import out_console, progress
+from workbench.cli.terminal import progress
 
 
 def command(paper: PaperOrFile,

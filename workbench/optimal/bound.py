@@ -39,12 +39,10 @@ from workbench.errors import WorkbenchError
 from workbench.optimal.bound_fixed import fixed_part, owner_of
 from workbench.optimal.certificate import Certificate
 from workbench.optimal.course import Array, Course
-from workbench.optimal.speed_ranges import Pieces, Ranges, speed_ranges
+from workbench.optimal.speed_ranges import Coefficients, Ranges, cut_at_crossings, force_at, speed_ranges
 from workbench.optimal.timetable import Timetable, as_timetable
 from workbench.optimal.vehicle import Vehicle
 
-# Of 1 / v, 1, v and v^2.
-Coefficients = tuple[Array, Array, Array, Array]
 # A tunnel's drag is linear along a cell up to this share.
 DRAG_TOLERANCE = 1e-9
 
@@ -98,13 +96,12 @@ def bound_terms(vehicle: Vehicle, course: Course, certificate: Certificate, time
     bend = np.maximum((certificate.right - certificate.left) * (cells.drag[1] - cells.drag[0]), 0.0) / 4
     a, b_1, c = vehicle.davis_n
     p, middle = np.stack((certificate.left, certificate.right)), (certificate.left + certificate.right) / 2
-    ranges = speed_ranges(vehicle, float(cells.limit_mps.max()))
-    way = _cheapest(vehicle, cells, p, middle, ranges)
+    ranges, way = _cheapest(vehicle, cells, p, middle)
     square = p * (c + cells.drag) - bend - vehicle.inertia_kg * slope / 2 + way[3]
     shape = (len(ranges.low), *p.shape)
-    inside = np.broadcast_to(cells.limit_mps > ranges.low, shape)
-    every = (np.arange(p.shape[1], dtype=float), np.array([[0.0], [1.0]]), ranges.low,
-             np.minimum(ranges.high, cells.limit_mps), price + way[0],
+    high = np.minimum(ranges.high, cells.limit_mps)
+    inside = np.broadcast_to(high > ranges.low, shape)
+    every = (np.arange(p.shape[1], dtype=float), np.array([[0.0], [1.0]]), ranges.low, high, price + way[0],
              p * a + way[1], p * b_1 + way[2], square)
     return Terms(*(np.broadcast_to(values, shape)[inside] for values in every))
 
@@ -138,53 +135,58 @@ def _cells(course: Course, certificate: Certificate) -> _Cells:
     return _Cells(limit, drag, least, most)
 
 
-def _cheapest(vehicle: Vehicle, cells: _Cells, p: Array, middle: Array, ranges: Ranges) -> Coefficients:
-    """The least of c(u) - p u from below, as (inverse, constant, slope, square) of the speed, on each range of speeds
-    and cell.
+def _cheapest(vehicle: Vehicle, cells: _Cells, p: Array, middle: Array) -> tuple[Ranges, Coefficients]:
+    """Ranges of speed, and on each and every cell the least of c(u) - p u from below.
 
     p: shape (2, n), at both ends of the cells; all that is returned can be broadcast to (ranges, 2, n). Each of several
-    limits alone gives a bound; the one taken on a cell is the best in its middle, the same for both of its ends.
-    Without limits of the acceleration the first of each is the only one.
+    limits alone gives a bound. They are cut where a limit of the acceleration passes one of a force, and the one taken
+    on a cell is the best in its middle, the same for both of its ends.
     """
     pull = np.maximum(p - 1 / vehicle.traction_efficiency, 0.0)
     regain = np.maximum(vehicle.regenerative_efficiency - p, 0.0)
     rub = np.maximum(-p, 0.0)
-    zero = np.zeros_like(p)
+    zero = np.zeros_like(middle)
     a, b_1, c = vehicle.davis_n
-    speed, speed_square, traction, brake = ranges.middle, ranges.middle_square, ranges.traction, ranges.brake
-    drag = cells.drag.min(axis=0), cells.drag.max(axis=0)
-    most: Coefficients = (zero - pull * traction.inverse_w, zero - pull * traction.constant_n,
-                          zero - pull * traction.slope_n_s_per_m, zero)
-    least: Coefficients = (zero - regain * brake.inverse_w,
-                           zero - regain * brake.constant_n - rub * vehicle.friction_brake_n,
-                           zero - regain * brake.slope_n_s_per_m, zero)
-    if np.isfinite(vehicle.max_acceleration_mps2):
-        top = (vehicle.inertia_kg * vehicle.max_acceleration_mps2 + a + cells.most_force, b_1, c + drag[1])
+    top = (zero, vehicle.inertia_kg * vehicle.max_acceleration_mps2 + a + cells.most_force, zero + b_1,
+           zero + c + cells.drag.max(axis=0))
+    hardest = (zero, vehicle.inertia_kg * vehicle.max_deceleration_mps2 - a - cells.least_force, zero - b_1,
+               zero - c - cells.drag.min(axis=0))
+    friction = (zero, zero + vehicle.friction_brake_n, zero, zero)
+    ranges = speed_ranges(vehicle, float(cells.limit_mps.max()))
+    is_accelerated = np.isfinite(vehicle.max_acceleration_mps2)
+    is_braked = np.isfinite(vehicle.max_deceleration_mps2)
+    ranges = cut_at_crossings(ranges, [
+        *([(top, ranges.traction)] if is_accelerated else []),
+        *([(hardest, (zero, zero, zero, zero)), (hardest, ranges.brake), (hardest, _sum(ranges.brake, friction))]
+          if is_braked else [])])
+    traction, brake = ranges.traction, ranges.brake
+    most, least = _times(-pull, traction), _sum(_times(-regain, brake), _times(-rub, friction))
+    speed = (ranges.low + ranges.high) / 2
+    if is_accelerated:
         # Where the force for it is traction's at every speed, so that the product with `pull` is concave.
-        lower = (top[0] >= 0) & (top[0] + top[1] * speed + top[2] * speed_square < traction.middle_n)
-        most = _choose(lower, (zero, -pull * top[0], -pull * top[1], -pull * top[2]), most)
-    if np.isfinite(vehicle.max_deceleration_mps2):
-        low = (a + cells.least_force - vehicle.inertia_kg * vehicle.max_deceleration_mps2, b_1, c + drag[0])
+        lower = (top[1] >= 0) & (force_at(top, speed) < force_at(traction, speed))
+        most = _choose(lower, _times(-pull, top), most)
+    if is_braked:
         # Holds where the force for the hardest braking is a brake's on all of the range: the product is concave then.
-        brakes = low[0] + low[1] * ranges.high + low[2] * ranges.high**2 <= 0
-        hardest = -(low[0] + low[1] * speed + low[2] * speed_square)
+        brakes = force_at(hardest, ranges.high) >= 0
+        hard, electric = force_at(hardest, speed), force_at(brake, speed)
         mid_regain = np.maximum(vehicle.regenerative_efficiency - middle, 0.0)
         mid_rub = np.maximum(-middle, 0.0)
-        electric = brake.middle_n
-        losses = (mid_regain * electric + mid_rub * vehicle.friction_brake_n, mid_regain * hardest,
-                  vehicle.regenerative_efficiency * electric + mid_rub * hardest)
-        alone = brakes & (losses[1] < np.minimum(losses[0], losses[2]))
-        mixed = brakes & (losses[2] < losses[0])
-        least = _choose(alone, (zero, regain * low[0], regain * low[1], regain * low[2]),
-                        _choose(mixed, _mixed(vehicle, brake, rub, low), least))
-    return most[0] + least[0], most[1] + least[1], most[2] + least[2], most[3] + least[3]
+        both, one = mid_regain * electric + mid_rub * vehicle.friction_brake_n, mid_regain * hard
+        mixed = vehicle.regenerative_efficiency * electric + mid_rub * hard
+        # All that the electric brake returns, and the hardest braking at the price of friction.
+        all_returned = _sum(_times(-vehicle.regenerative_efficiency * np.ones_like(p), brake), _times(-rub, hardest))
+        least = _choose(brakes & (one < np.minimum(both, mixed)), _times(-regain, hardest),
+                        _choose(brakes & (mixed < both), all_returned, least))
+    return ranges, _sum(most, least)
 
 
-def _mixed(vehicle: Vehicle, brake: Pieces, rub: Array, low: tuple[Array, float, Array]) -> Coefficients:
-    """All that the electric brake returns, and the hardest braking at the price of friction."""
-    regain = vehicle.regenerative_efficiency
-    return (-regain * brake.inverse_w, rub * low[0] - regain * brake.constant_n,
-            rub * low[1] - regain * brake.slope_n_s_per_m, rub * low[2])
+def _times(factor: Array, limit: Coefficients) -> Coefficients:
+    return factor * limit[0], factor * limit[1], factor * limit[2], factor * limit[3]
+
+
+def _sum(one: Coefficients, other: Coefficients) -> Coefficients:
+    return one[0] + other[0], one[1] + other[1], one[2] + other[2], one[3] + other[3]
 
 
 def _choose(where: NDArray[np.bool_], one: Coefficients, other: Coefficients) -> Coefficients:

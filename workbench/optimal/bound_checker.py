@@ -41,8 +41,9 @@ DRAG_NEAR = Fraction(1, 10**9)
 # Binary digits behind the point: of numbers of the file, of p, of the formulas' coefficients and values, of energy.
 FINE, OF_P = 60, 50
 OF_VALUE, OF_ENERGY = OF_P + FINE, OF_P + 2 * FINE
-# Ranges of speed on each of which one of several limits of the force is taken.
-SPEED_RANGES = 30
+# Ranges of speed on which a limit of the acceleration is held against those of the forces, and halvings by which the
+# speed at which it passes one is found in each.
+SPEED_RANGES, CROSSING_HALVINGS = 4, 30
 # A value is claimed one of these shares below what was found: of what it is the sum of there, or at the highest speed.
 SLACKS = (1e-12, 1e-10, 1e-8, 1e-6)
 
@@ -78,7 +79,7 @@ def checked_bound(certificate: dict[str, Any]) -> Fraction:
     if not legs or legs[-1][0] != cells[-1].b:
         raise ValueError("the cells do not end at the last event")
     total = _near(time_part, OF_ENERGY) + _line_part(run, cells) + _ends_and_jumps(run, train, cells)
-    if len(cells) * len(train.ranges) > MOST_LOOKS:
+    if len(cells) * len(train.ranges) * train.crossings > MOST_LOOKS:
         raise ValueError(f"needs more than {MOST_LOOKS} looks at ranges of speed")
     looks = [0]
     for cell, price in zip(cells, _prices(legs, cells), strict=True):
@@ -116,16 +117,12 @@ def stated_digests(certificate: dict[str, Any]) -> dict[str, str]:
 
 
 class _Range(NamedTuple):
-    """Speeds from low to high, to 2^-FINE, the least limit of traction and of the electric brake in their middle, and
-    for choosing among limits that middle in m/s with both forces there in N."""
+    """Speeds from low to high, and the least limit of traction and of the electric brake there, to 2^-FINE."""
 
     low: int
     high: int
     pull: Four
     electric: Four
-    middle: float
-    pull_n: float
-    electric_n: float
 
 
 class _Train:
@@ -146,7 +143,8 @@ class _Train:
         fastest, hardest = (train[f"max_{name}_mps2"] for name in ("acceleration", "deceleration"))
         self.fastest = None if fastest is None else _above(Fraction(fastest) * Fraction(inertia_kg))
         self.hardest = None if hardest is None else _above(Fraction(hardest) * Fraction(inertia_kg))
-        self.ranges = tuple(_ranges(train, top, fastest is not None or hardest is not None))
+        is_limited = fastest is not None or hardest is not None
+        self.ranges, self.crossings = tuple(_ranges(train, top, is_limited)), 4 if is_limited else 1
 
 
 def _ranges(train: dict[str, Any], top: int, is_limited: bool) -> Iterator[_Range]:
@@ -157,10 +155,7 @@ def _ranges(train: dict[str, Any], top: int, is_limited: bool) -> Iterator[_Rang
     if len(borders) > MOST_RANGES:
         raise ValueError(f"has more than {MOST_RANGES} ranges of speed")
     for low, high in pairwise(sorted(borders)):
-        middle = (low + high) / 2**(FINE + 1)
-        (pull, pull_n), (electric, electric_n) = (_limit(train[name], low, high, middle)
-                                                  for name in ("traction", "regenerative"))
-        yield _Range(low, high, pull, electric, middle, pull_n, electric_n)
+        yield _Range(low, high, *(_limit(train[name], low, high) for name in ("traction", "regenerative")))
 
 
 def _changes(limit: dict[str, Any], fast: float) -> Iterator[int]:
@@ -185,10 +180,10 @@ def _changes(limit: dict[str, Any], fast: float) -> Iterator[int]:
         yield from (_near(speed) for speed in met if low < speed < high)
 
 
-def _limit(limit: dict[str, Any], low: int, high: int, middle: float) -> tuple[Four, float]:
+def _limit(limit: dict[str, Any], low: int, high: int) -> Four:
     """A force that is never exceeded at speeds from low to high: the largest one, by the power, or by the table; of
-    these the least at the middle, and it there."""
-    force, power, rows = limit["force_n"], limit["power_w"], limit["table"]
+    these the least at the middle."""
+    force, power, rows, middle = limit["force_n"], limit["power_w"], limit["table"], (low + high) / 2**(FINE + 1)
     if force < 0 or (power is not None and power < 0) or any(row[1] < 0 for row in rows):
         raise ValueError("a largest force or power is negative")
     found: list[tuple[float, Four]] = [(float(force), (0, _above(force), 0, 0))]
@@ -205,8 +200,7 @@ def _limit(limit: dict[str, Any], low: int, high: int, middle: float) -> tuple[F
             slope = _above((Fraction(two) - Fraction(one)) * 2**FINE / (v_two - v_one))
             constant = _above(one) - (slope * v_one >> FINE)
             found.append(((constant + slope * middle) / 2**FINE, (0, constant, slope, 0)))
-    least = min(found)
-    return least[1], least[0]
+    return min(found)[1]
 
 
 class _Cell(NamedTuple):
@@ -222,48 +216,72 @@ class _Cell(NamedTuple):
     most_force: int
 
 
+def _at(limit: Four, v: float) -> float:
+    """About a limit's force at a speed in m/s, to 2^-FINE."""
+    return (limit[0] / v if limit[0] else 0.0) + limit[1] + v * (limit[2] + v * limit[3])
+
+
+def _crossings(one: _Range, high: int, apart: Four) -> Iterator[int]:
+    """The speed of a range, to 2^-FINE, at which a difference of limits changes its sign, a little below it."""
+    below, above = max(one.low / 2**FINE, 1e-9), high / 2**FINE
+    sign = _at(apart, below) > 0
+    if (_at(apart, above) > 0) == sign:
+        return
+    for _ in range(CROSSING_HALVINGS):
+        middle = (below + above) / 2
+        below, above = (middle, above) if (_at(apart, middle) > 0) == sign else (below, middle)
+    yield min(max(int(below * 2**FINE), one.low), high)
+
+
 def _groups(train: _Train, cell: _Cell) -> Iterator[tuple[int, int, Four, Four, Four, bool]]:
     """Ranges of speed with the limits of the forces taken there: of traction, of the brakes at the price of what they
-    return, and at that of friction; and whether all that is returned counts as gained. Neighbours of the same limits
-    are one. Each limit is one from above, so that each alone is a bound from below; times what a newton costs at
-    least, convex in p, it is concave along the cell where the limit is not negative."""
+    return, and at that of friction; and whether all that is returned counts as gained. They are cut where a limit of
+    the acceleration passes one of a force; neighbours of the same limits are one. Each limit is one from above, so that
+    each alone is a bound from below; times what a newton costs at least, convex in p, it is concave along the cell
+    where the limit is not negative."""
     nothing = 0, 0, 0, 0
     least_p, most_p = min(cell.p), max(cell.p)
     pulls, regains, rubs = most_p > train.pull_from, least_p < train.returned, least_p < 0
-    top = train.a + cell.most_force + (train.fastest or 0), train.b, train.c + max(cell.drag) + 1
-    low_n = train.a + cell.least_force - (train.hardest or 0), train.b, train.c + min(cell.drag)
+    friction = 0, train.friction, 0, 0
+    top = 0, train.a + cell.most_force + (train.fastest or 0), train.b, train.c + max(cell.drag) + 1
+    hardest = 0, (train.hardest or 0) - train.a - cell.least_force, -train.b, -train.c - min(cell.drag)
     middle_p = (cell.p[0] + cell.p[1]) / 2**(OF_P + 1)
     back = train.returned / 2**OF_P
-    regain, rub, friction = max(back - middle_p, 0.0), max(-middle_p, 0.0), train.friction / 2**FINE
+    regain, rub = max(back - middle_p, 0.0), max(-middle_p, 0.0)
+    may_top, may_brake = pulls and train.fastest is not None and top[1] >= 0, regains and train.hardest is not None
     kept: tuple[Four, Four, Four, bool] | None = None
     start = 0
     for one in train.ranges:
         if one.low >= cell.limit:
             break
-        v = one.middle
-        pull = one.pull if pulls else nothing
-        if pulls and train.fastest is not None and top[0] >= 0 and (
-                top[0] + top[1] * v + top[2] * v * v) / 2**FINE < one.pull_n:
-            pull = 0, *top
-        is_all = False
-        electric, rubbed = (one.electric if regains else nothing), ((0, train.friction, 0, 0) if rubs else nothing)
-        if regains and train.hardest is not None and (low_n[0] << 2 * FINE) + (low_n[1] * one.high << FINE) + (
-                low_n[2] * one.high**2) <= 0:
-            hard = -(low_n[0] + low_n[1] * v + low_n[2] * v * v) / 2**FINE
-            both, alone = regain * one.electric_n + rub * friction, regain * hard
-            mixed = back * one.electric_n + rub * hard
-            hardest = 0, -low_n[0], -low_n[1], -low_n[2]
-            if alone < min(both, mixed):
-                electric, rubbed = hardest, nothing
-            elif mixed < both:
-                electric, rubbed, is_all = one.electric, hardest, True
-        found = pull, electric, rubbed, is_all
-        if kept is not None and found != kept:
-            yield start, one.low, *kept
-            start = one.low
-        kept = found
+        end = min(one.high, cell.limit)
+        apart = [_less(top, one.pull)] if may_top else []
+        if may_brake:
+            apart += [hardest, _less(hardest, one.electric), _less(hardest, one.electric, friction)]
+        for low, high in pairwise(sorted({one.low, end, *(at for of in apart for at in _crossings(one, end, of))})):
+            v = (low + high) / 2**(FINE + 1)
+            pull = top if may_top and _at(top, v) < _at(one.pull, v) else one.pull if pulls else nothing
+            electric, rubbed, is_all = one.electric if regains else nothing, friction if rubs else nothing, False
+            if may_brake and (hardest[1] << 2 * FINE) + (hardest[2] * high << FINE) + hardest[3] * high**2 >= 0:
+                hard, most = _at(hardest, v), _at(one.electric, v)
+                both, alone, mixed = regain * most + rub * train.friction, regain * hard, back * most + rub * hard
+                if alone < min(both, mixed):
+                    electric, rubbed = hardest, nothing
+                elif mixed < both:
+                    rubbed, is_all = hardest, True
+            found = pull, electric, rubbed, is_all
+            if kept is not None and found != kept:
+                yield start, low, *kept
+                start = low
+            kept = found
     if kept is not None:
         yield start, cell.limit, *kept
+
+
+def _less(limit: Four, *others: Four) -> Four:
+    """A limit less others."""
+    a, b, c, d = (one - sum(of) for one, *of in zip(limit, *others, strict=True))
+    return a, b, c, d
 
 
 def _cells(run: dict[str, Any], p: dict[str, Any]) -> Iterator[_Cell]:

@@ -9,7 +9,6 @@ power x time.
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,7 +17,7 @@ from scipy import sparse
 from workbench.optimal.clock_rows import clock_rows
 from workbench.optimal.cone_program import ConeProgram, Linear, NoPlanError
 from workbench.optimal.course import Array
-from workbench.optimal.force_pieces import force_pieces
+from workbench.optimal.force_majorants import majorants
 from workbench.optimal.grid import Grid
 from workbench.optimal.open_rows import Mask, OpenRows, all_open, open_rows, rightly_closed, thinned
 from workbench.optimal.timetable import Timetable, as_timetable, counted
@@ -126,7 +125,8 @@ def _solve(vehicle: Vehicle, grid: Grid, asked: Timetable | float, ends_mps: tup
         program.require_at_most(grip - vehicle.friction_brake_n / force)
     for side, limit, near in ((pull, vehicle.traction, rows.pull_limit), (brake, vehicle.regenerative, rows.brake)):
         if limit.force_n > 0:
-            _require_limits(program, side, limit, grid, v_mean, tau, (force, speed, mean_time), np.flatnonzero(near))
+            _require_limits(program, side, limit, grid, (tau, v_mean, b_mean), (force, speed, mean_time),
+                            np.flatnonzero(near))
     if b_1 > 0:  # else the resistance would fall with a speed that the relaxation lets go
         program.require_at_most((1 / np.sqrt(top[free])) * b[free] - v[free])
     comfort = [(sign, program.require_at_most(sign * (b[1:] - b[:-1]) - 2 * limit * h / half))
@@ -181,37 +181,22 @@ def _where(program: ConeProgram, used: Mask, start: int, count: int) -> Linear:
     return Linear(place, np.zeros(len(used)))
 
 
-def _require_limits(program: ConeProgram, force: Linear, limit: ForceLimit, grid: Grid, v_mean: Linear, tau: Linear,
-                    scales: tuple[float, float, float], at: NDArray[np.intp]) -> None:
-    """Limits of one force on intervals `at`, in scaled units; a table by the lines of its upper concave hull."""
-    unit, speed, mean_time = scales
+def _require_limits(program: ConeProgram, force: Linear, limit: ForceLimit, grid: Grid,
+                    motion: tuple[Linear, Linear, Linear], scales: tuple[float, float, float],
+                    at: NDArray[np.intp]) -> None:
+    """Limits of one force on intervals `at`, in scaled units; a table by what lies above it.
+
+    motion: the time of each interval, its mean speed, and the mean square of that.
+    """
+    (tau, v_mean, b_mean), (unit, speed, mean_time) = motion, scales
     if not len(at):
         return
     program.require_at_most(force[at] - limit.force_n / unit)
     if np.isfinite(limit.power_w):
         program.require_at_most((grid.step_m[at] * unit / (limit.power_w * mean_time)) * force[at] - tau[at])
-    for constant, slope in _hull_lines(limit, speed):
-        program.require_at_most(force[at] - (slope * speed / unit) * v_mean[at] - constant / unit)
-
-
-def _hull_lines(limit: ForceLimit, top_mps: float) -> list[tuple[float, float]]:
-    """Falling lines (constant in N, slope) of the upper concave hull of the table, over 0 to top_mps."""
-    if not limit.table:
-        return []
-    pieces = force_pieces(ForceLimit(limit.force_n, table=limit.table), top_mps)
-    points = [(0.0, pieces[0].at(0.0)), *((piece.high_mps, piece.at(piece.high_mps)) for piece in pieces)]
-    hull: list[tuple[float, float]] = []
-    for point in points:
-        while len(hull) > 1 and _turns_left(hull[-2], hull[-1], point):
-            hull.pop()
-        hull.append(point)
-    lines = []
-    for (x, y), (z, w) in pairwise(hull):
-        slope = (w - y) / (z - x)
-        # A line that rises with the speed would bind a speed that the relaxation lets go: its end holds instead.
-        lines.append((y - slope * x, slope) if slope < 0 else (max(y, w), 0.0))
-    return lines
-
-
-def _turns_left(one: tuple[float, float], two: tuple[float, float], three: tuple[float, float]) -> bool:
-    return (two[0] - one[0]) * (three[1] - one[1]) >= (two[1] - one[1]) * (three[0] - one[0])
+    for constant, inverse, slope, square in majorants(limit, speed):
+        rise = inverse * mean_time / (grid.step_m[at] * unit)
+        row = 1 / (1 + rise)  # on a short interval its coefficient is large
+        program.require_at_most(row * (force[at] - (slope * speed / unit) * v_mean[at]
+                                       - (square * speed**2 / unit) * b_mean[at] - constant / unit)
+                                - (row * rise) * tau[at])

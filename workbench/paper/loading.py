@@ -1,19 +1,25 @@
-"""A scenario's or study's file, or the folder of a paper with its study: read once, into a record that travels on."""
+"""A scenario's or study's file, or the folder of a paper with its study: read once, into a record that travels on.
+
+What knows the records is imported once a file has been read, so that what is wrong with a path is said at once.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from workbench.errors import InputError
 from workbench.files.folders import STUDY_FILE, held_in, is_folder
 from workbench.files.toml import read_toml, validate_record
-from workbench.paper.study import Study, StudyKind
-from workbench.trains.scenario import Scenario, build_scenario
 
-Kinds = Mapping[str, Callable[[], StudyKind]]
+if TYPE_CHECKING:
+    from workbench.paper.study import Study, StudyKind
+    from workbench.trains.scenario import Scenario
+
+    Kinds = Mapping[str, Callable[[], StudyKind]]
+
 PLANT = "plant"
 
 
@@ -36,6 +42,8 @@ class Loaded:
     @property
     def scenario(self) -> Scenario:
         """The scenario; InputError for a study."""
+        from workbench.paper.study import Study  # noqa: PLC0415 - as said above
+
         if isinstance(self.record, Study):
             raise InputError(self.path, "kind", "is a study, where a scenario is needed: leave `kind` out, or name a "
                              "scenario")
@@ -44,6 +52,8 @@ class Loaded:
     @property
     def study(self) -> Study:
         """The study; InputError for a scenario."""
+        from workbench.trains.scenario import Scenario  # noqa: PLC0415 - as said above
+
         if isinstance(self.record, Scenario):
             raise InputError(self.path, "kind", "is a scenario, where a study is needed: name a study")
         return self.record
@@ -73,6 +83,8 @@ def load(path: Path, kinds: Kinds | None = None) -> Loaded:
     data, others = read_toml(path), {PLANT: _plant_kind, **(kinds or {})}
     named = data.get("kind")
     if named is None:
+        from workbench.trains.scenario import build_scenario  # noqa: PLC0415 - as said above
+
         return Loaded(path, data, build_scenario(path, data))
     if named not in ("study", *others):
         known = ", ".join(repr(kind) for kind in ("study", *others))
@@ -90,6 +102,8 @@ def _plant_kind() -> StudyKind:
 
 def study_kind(path: Path) -> StudyKind:
     """The record and the run of a study, from the `study` package beside its file; InputError where there is none."""
+    from workbench.paper.study import StudyKind  # noqa: PLC0415 - as said above
+
     found = held_in(path.parent, "study", StudyKind)
     if not found:
         raise InputError(path, "kind", "is 'study', but no study/__init__.py lies beside this file with a StudyKind in "

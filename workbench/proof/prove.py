@@ -16,11 +16,9 @@ from workbench.proof.fate import judged
 from workbench.proof.kernel_record import read_record, with_kernel
 from workbench.proof.messages import Decided, Listing
 from workbench.proof.premises import below, premises_problem
-from workbench.proof.process_pool import worker_pool
 from workbench.proof.selection import NO_PAPER, Target, chosen, files_of
 from workbench.proof.verdict import Decision, Stated
 from workbench.tasks.executor import named
-from workbench.tasks.handing_out import places
 
 Progress = Callable[[int, int], None]
 LIMIT = 60.0  # seconds of processor time for one claim
@@ -62,6 +60,9 @@ def prove(found: Sequence[Target], jobs: int | None = None, use_cache: bool = Tr
     with ExitStack() as stack:
         listings: dict[Path, Listing] = {}
         if missing:
+            from workbench.proof.process_pool import worker_pool  # noqa: PLC0415 - what is known needs nobody
+            from workbench.tasks.handing_out import places  # noqa: PLC0415 - as above
+
             workers = stack.enter_context(worker_pool(places(jobs), cached, limit))
             listings = dict(zip(missing, workers.listings(missing), strict=True))
         stated = {file: listings[file].claims if file in listings else tuple(d.claim for d in entries[file].decisions)

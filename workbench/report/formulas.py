@@ -8,7 +8,6 @@ from functools import cache
 from itertools import groupby
 from xml.etree import ElementTree
 
-from latex2mathml.converter import convert_to_element
 from markupsafe import Markup, escape
 
 from workbench.report.worded import show, worded
@@ -53,6 +52,8 @@ def in_html(text: str) -> Markup:
 def formula_tree(latex: str) -> ElementTree.Element | None:
     """The MathML of a formula as a tree, of which nothing but harmless elements is left; None where it cannot be
     converted."""
+    from latex2mathml.converter import convert_to_element  # noqa: PLC0415 - most of what is told has no formula
+
     try:
         root = convert_to_element(_words_apart(_as_text(latex.strip().strip("$").strip())))
         for element in root.iter():

@@ -1,4 +1,7 @@
-"""The line and the vehicle of an optimal run, from whatever file holds them."""
+"""The line and the vehicle of an optimal run, from whatever file holds them.
+
+What makes them is imported once a file has been read, so that what is wrong with a path is said at once.
+"""
 
 from __future__ import annotations
 
@@ -7,15 +10,13 @@ from typing import TYPE_CHECKING
 
 from workbench.errors import InputError
 from workbench.files.toml import load_record, read_toml
-from workbench.optimal.inputs import ttobench
-from workbench.optimal.inputs.cars_file import car_train
-from workbench.optimal.inputs.line import Line, Tunnel
-from workbench.optimal.inputs.train_file import TrainFile, vehicle
-from workbench.optimal.vehicle import Vehicle
-from workbench.trains import track as tracks
 
 if TYPE_CHECKING:
     from workbench.optimal.cars.car_train import CarTrain
+    from workbench.optimal.inputs.line import Line
+    from workbench.optimal.inputs.train_file import TrainFile
+    from workbench.optimal.vehicle import Vehicle
+    from workbench.trains.track import Track
 
 Notes = tuple[str, ...]
 
@@ -26,8 +27,12 @@ def load_line(path: Path) -> tuple[Line, Notes]:
     Raises InputError naming file, key and remedy.
     """
     if _is_json(path):
+        from workbench.optimal.inputs import ttobench  # noqa: PLC0415 - as said above
+
         return ttobench.load_track(path)
     _require_kind(path, "grade", "mass_kg", "a line")
+    from workbench.trains import track as tracks  # noqa: PLC0415 - as said above
+
     try:
         return from_track(tracks.load_track(path))
     except InputError as trouble:
@@ -40,8 +45,12 @@ def load_vehicle(path: Path) -> tuple[Vehicle, Notes]:
     Raises InputError naming file, key and remedy.
     """
     if _is_json(path):
+        from workbench.optimal.inputs import ttobench  # noqa: PLC0415 - as said above
+
         return ttobench.load_train(path)
     _require_kind(path, "mass_kg", "grade", "a train")
+    from workbench.optimal.inputs.train_file import TrainFile, vehicle  # noqa: PLC0415 - as said above
+
     train = load_record(path, TrainFile)
     try:
         return vehicle(train, path.stem), _assumed(train)
@@ -53,6 +62,9 @@ def load_cars(path: Path) -> CarTrain | None:
     """The cars of a train's file, None where it states none; raises InputError naming file, key and remedy."""
     if _is_json(path):
         return None
+    from workbench.optimal.inputs.cars_file import car_train  # noqa: PLC0415 - as said above
+    from workbench.optimal.inputs.train_file import TrainFile, vehicle  # noqa: PLC0415 - as said above
+
     train = load_record(path, TrainFile)
     if train.cars is None:
         return None
@@ -70,8 +82,10 @@ def notes_together(line: Line, train: Vehicle) -> Notes:
     return ()
 
 
-def from_track(track: tracks.Track) -> tuple[Line, Notes]:
+def from_track(track: Track) -> tuple[Line, Notes]:
     """A line of this project's own format, with the curve resistance 600/R, and notes."""
+    from workbench.optimal.inputs.line import Line, Tunnel  # noqa: PLC0415 - as said above
+
     notes = () if track.speed_limit else (f"line '{track.name}' states no speed limit: the train's own holds",)
     return Line(
         name=track.name, length_m=track.length_m, stops_m=track.stops_m or (0.0, track.length_m),
