@@ -18,12 +18,14 @@ from rich.table import Table
 from rich.text import Text
 
 from workbench.cli.console import QuietConsole
+from workbench.cli.streams import ready_streams
 from workbench.proof.verdict import VERDICTS, verdict_words
 
 if TYPE_CHECKING:
     from workbench.paper.contents import Contents
     from workbench.paper.results import ResultTable, StudyResult
 
+ready_streams()
 # Names, paths and messages come from files: brackets and colons in them are what they are, no markup.
 # Nor is anything looked for in them to be coloured, which takes a minute where a name has 200,000 letters.
 # Lines are wrapped between words for a reader; what another program reads stays one line.
