@@ -6,7 +6,7 @@ from pathlib import Path
 
 from command_line import one_line, run
 
-from workbench.cli.streams import ready_streams
+from workbench.files.streams import ready_streams
 
 
 def test_a_closed_stream_keeps_nothing_and_fails_nothing(monkeypatch):

@@ -18,7 +18,7 @@ from rich.table import Table
 from rich.text import Text
 
 from workbench.cli.console import QuietConsole
-from workbench.cli.streams import ready_streams
+from workbench.files.streams import ready_streams
 from workbench.proof.verdict import VERDICTS, verdict_words
 
 if TYPE_CHECKING:
