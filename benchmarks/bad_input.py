@@ -7,8 +7,8 @@ A case is a folder of small valid inputs in which one file or argument is spoile
 and a command that reads it. Demanded: exit code 0, or 1 where the verb says by it what it found, or 2 with one line
 that names the file or option within 5 s of processor time; no traceback; at most 1 GB; nothing written but the outputs
 asked for, nothing removed. What is accepted is run, and must end within 24 s. Each case is run in a process that is
-forked from one that has imported everything, `--apart` of them by a Python of their own. Exit code 1 when
-there is a fault.
+forked from one that has imported everything, `--apart` of them by a Python of their own. Interrupted it tells of the
+cases so far. Exit code 1 when there is a fault.
 """
 
 from __future__ import annotations
@@ -25,6 +25,7 @@ import tempfile
 import time
 from collections import Counter, defaultdict
 from collections.abc import Iterator, Sequence
+from contextlib import suppress
 from dataclasses import dataclass
 from itertools import pairwise
 from pathlib import Path
@@ -207,7 +208,7 @@ def _ended(number: int, begun: float) -> tuple[int, resource.struct_rusage]:
         done, status, used = os.wait4(number, os.WNOHANG)
         if done:
             return status, used
-        if time.monotonic() - begun > 8 * GRACE:  # of a machine that others use: its processor time is limited
+        if time.monotonic() - begun > 40 * GRACE:  # of a machine that others use: its processor time is limited
             os.killpg(number, signal.SIGKILL)
         time.sleep(0.002)
 
@@ -281,6 +282,8 @@ def main() -> None:
     parser.add_argument("--faults", type=Path, help="a folder for the folders of cases with faults")
     parser.add_argument("--folders", type=Path, help="a folder for the valid inputs, made where it is missing")
     asked = parser.parse_args()
+    # A shell's background job is started with SIGINT ignored, which ends this with its table.
+    signal.signal(signal.SIGINT, signal.default_int_handler)
     import_everything()
     commands = [command for command in COMMANDS if asked.verb in (None, command.verb)]
     table: dict[tuple[str, str], Row] = defaultdict(Row)
@@ -292,24 +295,25 @@ def main() -> None:
             write_folders(folders)
         place = Path(work) / "case" / "here"
         place.parent.mkdir()
-        for number, case in enumerate(cases(asked.cases, asked.seed, commands)):
-            if asked.only not in (None, case.seed):
-                continue
-            if number % 500 == 499:
-                print(f"{number + 1} of {asked.cases}", file=sys.stderr, flush=True)
-            apart = asked.apart > 0 and number % max(1, asked.cases // asked.apart) == 0
-            ended = run(case, folders, place, apart)
-            wrong = faults(case, ended)
-            table[case.command.verb, case.kind].add(ended, bool(wrong))
-            if wrong:
-                kinds.update(one.split(":")[0] for one in wrong)
-                print(
-                    f"{case.seed} {' '.join(ended.line)[:150]!r} {case.spoiled} ({ended.how}): {'; '.join(wrong)} "
-                    f"[{ended.code}, {ended.seconds:.1f} s] {ended.said.strip()[-200:]!r}",
-                    flush=True,
-                )
-                if asked.faults:
-                    shutil.copytree(place, asked.faults / f"{number}", symlinks=True, dirs_exist_ok=True)
+        with suppress(KeyboardInterrupt):
+            for number, case in enumerate(cases(asked.cases, asked.seed, commands)):
+                if asked.only not in (None, case.seed):
+                    continue
+                if number % 500 == 499:
+                    print(f"{number + 1} of {asked.cases}", file=sys.stderr, flush=True)
+                apart = asked.apart > 0 and number % max(1, asked.cases // asked.apart) == 0
+                ended = run(case, folders, place, apart)
+                wrong = faults(case, ended)
+                table[case.command.verb, case.kind].add(ended, bool(wrong))
+                if wrong:
+                    kinds.update(one.split(":")[0] for one in wrong)
+                    print(
+                        f"{case.seed} {' '.join(ended.line)[:150]!r} {case.spoiled} ({ended.how}): {'; '.join(wrong)} "
+                        f"[{ended.code}, {ended.seconds:.1f} s] {ended.said.strip()[-200:]!r}",
+                        flush=True,
+                    )
+                    if asked.faults:
+                        shutil.copytree(place, asked.faults / f"{number}", symlinks=True, dirs_exist_ok=True)
     print(
         f"\n{'verb':20}{'spoiled':28}{'cases':>7}{'accepted':>10}{'refused':>9}{'faults':>8}{'slowest':>9}{'in all':>9}"
     )

@@ -16,7 +16,6 @@ import argparse
 import math
 import os
 import re
-import resource
 import shutil
 import subprocess
 import sys
@@ -25,6 +24,7 @@ import time
 from pathlib import Path
 
 import pyarrow.parquet
+from descendants import adopt, seconds_of_all
 
 from workbench.simulate.closed_loop import prepared
 from workbench.simulate.draws import factors_of
@@ -95,26 +95,31 @@ def mebibytes(number: int) -> float | None:
     return int(found[1]) / 1024 if found else None
 
 
-def children(number: int) -> list[int]:
-    """The processes that a process has started."""
-    return [int(one) for path in Path(f"/proc/{number}/task").glob("*/children") for one in path.read_text().split()]
+def below(number: int) -> list[int]:
+    """The processes that a process has started, and those that they have."""
+    try:
+        lists = [path.read_text().split() for path in Path(f"/proc/{number}/task").glob("*/children")]
+    except OSError:  # it has ended
+        return []
+    found = [int(one) for numbers in lists for one in numbers]
+    return [*found, *(further for one in found for further in below(one))]
 
 
 def watched(command: list[str], every_s: float) -> tuple[float, list[tuple[float, float, float]]]:
     """Processor seconds of a command with its processes, and (seconds, parent, largest worker) over time, in MiB."""
+    adopt()
     process = subprocess.Popen(command, env={**os.environ, "PYTHONPATH": str(ROOT)}, stderr=subprocess.DEVNULL)
     begun, seen = time.monotonic(), list[tuple[float, float, float]]()
     while process.poll() is None:
         time.sleep(every_s)
         parent = mebibytes(process.pid)
         if parent is not None:
-            workers = [size for child in children(process.pid) if (size := mebibytes(child)) is not None]
+            workers = [size for child in below(process.pid) if (size := mebibytes(child)) is not None]
             seen.append((time.monotonic() - begun, parent, max(workers, default=0.0)))
             every_s = max(every_s, seen[-1][0] / 60)
     if process.returncode:
         raise RuntimeError(f"{' '.join(command)} ends with {process.returncode}")
-    used = resource.getrusage(resource.RUSAGE_CHILDREN)
-    return used.ru_utime + used.ru_stime, seen
+    return seconds_of_all(), seen
 
 
 def wilson(count: int, runs: int) -> tuple[float, float]:

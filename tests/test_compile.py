@@ -100,6 +100,17 @@ def test_a_symbol_without_a_value_is_named():
         plant_source(Plant(rates, sp.Symbol("u"), sp.Symbol("f"), (), "a test"))
 
 
+def test_symbols_that_would_be_one_variable_are_refused():
+    a, b = sp.symbols("a a_next", real=True)
+    moving = LawState(a, update=a + position)
+    for law in (_law(a * b, b, states=(moving,)), _law(a * b, states=(moving, LawState(b, update=b))),
+                _law(position * b, b, b), _law(position, position)):
+        with pytest.raises(CompileError, match=r"test\.law: two symbols would be called '(a_next|x_1)'"):
+            law_source(law)
+    with pytest.raises(CompileError, match="'x_1' has other assumptions"):
+        law_source(_law(sp.Symbol("x_1", positive=True) * b, b))
+
+
 def test_a_sum_inside_a_sum_is_refused():
     weight = sp.IndexedBase("w")[sp.Symbol("j", integer=True, positive=True)]
     law = _law(over_neurons(weight * over_neurons(weight)), states=(LawState(weight, rate=-weight),))

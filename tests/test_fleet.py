@@ -9,6 +9,8 @@ from command_line import said
 from scenarios import SHARED
 
 from workbench.errors import WorkbenchError
+from workbench.optimal.fleet import COLUMNS, TripRow
+from workbench.report.fleet_command import _write_csv
 
 FLEET = f"""
 name = "short trips"
@@ -70,6 +72,16 @@ def test_a_mistake_in_the_file_itself_is_one_line(fleet, old, new, words):
     with pytest.raises(WorkbenchError, match=words) as trouble:
         said("--fleet", fleet)
     assert "\n" not in str(trouble.value)
+
+
+def test_no_name_of_a_trip_is_a_formula_in_a_spreadsheet(tmp_path):
+    written = tmp_path / "a.csv"
+    names = ["=cmd|' /C calc'!A0", "+1", "-1", "@x", "\t=1", "a=1"]
+    _write_csv(written, COLUMNS, [TripRow(name, "line", "train", 1.0, trouble="=x").document() for name in names])
+    with written.open(encoding="utf-8", newline="") as file:
+        rows = list(csv.DictReader(file))
+    assert [row["id"] for row in rows] == [*("'" + name for name in names[:-1]), "a=1"]
+    assert {(row["trouble"], row["length_m"], row["gap"]) for row in rows} == {("'=x", "1", "")}
 
 
 def test_options_that_do_not_go_together_are_refused(fleet):

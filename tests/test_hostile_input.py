@@ -19,6 +19,7 @@ from bad_input_texts import CONTEST
 from workbench.compile.literals import require_short
 from workbench.errors import CompileError, InputError
 from workbench.files import folders, memory_limit, modules, time_limit
+from workbench.files.depth_limit import MOST_CALLS
 from workbench.files.json_input import read_json
 from workbench.files.modules import module_in
 from workbench.files.outputs import check_outputs
@@ -72,6 +73,20 @@ def test_a_module_that_takes_all_memory_is_named(text, tmp_path, monkeypatch):
         f"{folder / 'claims' / 'section_2.py'}: {modules.OUT_OF_MEMORY}")
     assert refusal(ProofFile(single).modules) == f"{single}: {modules.OUT_OF_MEMORY}"
     assert resource.getrlimit(resource.RLIMIT_DATA) == before
+
+
+def test_a_module_that_raises_the_limit_of_calls_is_named_as_soon_as_others(tmp_path):
+    folder, single = with_claims(small_folder(tmp_path / "doe2030"), "section_2"), tmp_path / "single.py"
+    text = "import sys\nsys.setrecursionlimit(10**9)\ndef f(n):\n    return f(n + 1) + 1\nf(0)\n"
+    (folder / "claims" / "section_2.py").write_text(text)
+    single.write_text(text)
+    before, set_limit = sys.getrecursionlimit(), sys.setrecursionlimit
+    try:
+        for read in (lambda: module_in(folder, "claims.section_2"), ProofFile(single).modules):
+            assert "line 4: RecursionError: " in refusal(read)
+            assert sys.getrecursionlimit() == MOST_CALLS and sys.setrecursionlimit is set_limit
+    finally:
+        sys.setrecursionlimit(before)
 
 
 def test_a_module_that_raises_what_is_no_exception_is_named(tmp_path):
@@ -158,6 +173,11 @@ def test_a_value_of_any_length_is_told_in_a_short_line(tmp_path):
     for line in (f'track = "{huge}"', f'"{huge}" = 1', f'kind = "{huge}"', f"kind = '''{huge}\n'''"):
         (tmp_path / "study.toml").write_text(f"version = 1\n{line}\n")
         assert len(one_line(run("compare", tmp_path / "study.toml"))) < 3000
+
+
+def test_a_formula_that_would_take_minutes_stands_as_it_is():
+    for latex in ("x + " * 50_000, r"\frac{x}{y} + " * 50_000):
+        assert formula(latex).startswith("<code>")
 
 
 @pytest.mark.parametrize("latex", [r"\undefined", r"\frac{", "{" * 400, "}" * 400, "\\", "\0", "x" * 5000])

@@ -43,6 +43,14 @@ def test_without_limits_it_is_the_linear_optimum(solver):
     assert controller.fallbacks == 0
 
 
+def test_a_constant_beyond_all_measure_keeps_no_solver_busy():
+    """fatrop looks for the first step of such a problem without end."""
+    wild = Plant("wild", (x, v), (v, u - 1e25 * x**3), inputs=(u,), input_limits={u: (-20.0, 20.0)})
+    controller = PlantMpc(20, {"x": 1.0}, {"u": 0.01}).build(Setting(wild, 0.2, **AT_REST), 0.05)
+    assert controller.command(0.0, np.array([0.3, 0.0])) == [0.0] and controller.fallbacks == 1
+    assert abs(controller.command(0.05, np.array([0.0, 0.0]))) < 1e-6 and controller.fallbacks == 1
+
+
 def test_with_a_long_horizon_it_is_the_regulator():
     period = 0.1
     whole = expm(period * np.array([[0.0, 1.0, 0.0], [0.0, 0.0, 1.0], [0.0, 0.0, 0.0]]))

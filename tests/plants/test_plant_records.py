@@ -47,6 +47,7 @@ def plant(**changes):
     ({"state_limits": {x: 3.0}}, "no pair of numbers"),
     ({"outputs": {z: u}}, "output 'z' uses 'u'"),
     ({"units": {z: "m"}}, "does not have"),
+    ({"units": {x: 3}}, "unit of 'x' is 3, no text"),
     ({"states": x, "rates": (0,)}, r"states is x, no list: write \(x,\)"),
     ({"inputs": u}, r"inputs is u, no list"),
     ({"parameters": (z,)}, r"z is no Parameter: write Parameter\(symbol, value\)"),
@@ -142,6 +143,9 @@ def test_linear_and_casadi_and_control_models_are_of_the_same_expressions():
     assert linear.B.ravel() == pytest.approx([0.0, 4.0])
     with pytest.raises(ValueError, match="no state and no input"):
         PENDULUM.linearise({"phi": 1.0})
+    for wrong in (math.nan, math.inf, "1"):
+        with pytest.raises(ValueError, match=r"'theta' = .* is no finite number: give one"):
+            PENDULUM.linearise({"theta": wrong})
 
 
 @pytest.mark.parametrize("expr", [
@@ -183,7 +187,9 @@ def test_a_spline_is_read_from_a_file_and_a_wrong_one_is_one_line(tmp_path):
     assert found == Spline(times_s=(0.0, 1.0, 2.0), values=(1.0, 2.0, 0.0))
     assert table_of([found, Step(after=1.0)])[1].shape == (4, 5)
     (tmp_path / "bad.csv").write_text("t_s,q\n0,1\n1,nan\n")
-    for file, column, words in (("r.csv", "p", "is no column"), ("bad.csv", "q", "line 3"), ("no.csv", "q", "no.csv")):
+    (tmp_path / "huge.csv").write_text(f"t_s,q\n0,{'9' * 200_000}\n")
+    for file, column, words in (("r.csv", "p", "is no column"), ("bad.csv", "q", "line 3"), ("no.csv", "q", "no.csv"),
+                                ("huge.csv", "q", "huge.csv: is not CSV")):
         with pytest.raises(InputError, match=words):
             read_signal(Spline(file=file, column=column), tmp_path)
     for wrong in ({"times_s": (0.0, 0.0), "values": (1.0, 2.0)}, {"times_s": (0.0, 1.0), "values": (1.0,)},

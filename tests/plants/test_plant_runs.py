@@ -187,7 +187,8 @@ def test_a_stiff_plant_is_moved_by_a_library_solver_where_fixed_steps_diverge():
     ({"tracks": {"theta": "r"}}, "is no reference"), ({"noise": {"theta": -0.1}}, "not negative"),
     ({"delay_s": {"tau": 1.5e-4}}, "no whole number of plant steps"), ({"parameters": {"mm": 1.0}}, "no parameter"),
     ({"integrator": "euler"}, "not known"), ({"metrics": (Metric("m", "mean", q),)}, "not declared"),
-    ({"disturbances": {"w": Constant(value=1.0)}}, "no disturbance")])
+    ({"disturbances": {"w": Constant(value=1.0)}}, "no disturbance"),
+    ({"seed": -1}, "seed = -1: give a whole number that is not negative"), ({"seed": 0.5}, "seed = 0.5")])
 def test_what_is_no_setting_is_one_line(changes, words):
     with pytest.raises(ValueError, match=words):
         Setting(**({"plant": PENDULUM, "duration_s": 1.0} | changes))

@@ -7,6 +7,7 @@ import sys
 import threading
 from functools import cache
 from importlib import import_module
+from pathlib import Path
 from typing import Any
 
 import typer
@@ -65,6 +66,7 @@ def main() -> None:
     if threading.current_thread() is threading.main_thread():
         signal.signal(signal.SIGTERM, signal.default_int_handler)  # what is finished is kept, as after Ctrl-C
     try:
+        _require_folder()
         code = _command()(sys.argv[1:] or ["--help"], prog_name="workbench", standalone_mode=False) or 0
     except WorkbenchError as trouble:
         code = _refused(str(trouble))
@@ -89,6 +91,14 @@ def main() -> None:
     if code == INTERRUPTED:
         err_console.print("workbench: interrupted; what was finished is kept", style="yellow")
     sys.exit(code)
+
+
+def _require_folder() -> None:
+    try:
+        Path.cwd()
+    except OSError as trouble:
+        raise InputError("", "", f"the folder you are in cannot be entered ({trouble.strerror}): change to another one"
+                         ) from None
 
 
 @cache

@@ -8,6 +8,8 @@ from collections.abc import Iterable
 from rich.console import Console, ConsoleOptions, RenderableType
 from rich.segment import Segment
 
+from workbench.files.streams import ready_streams
+
 # Of what a terminal obeys, line breaks alone; the signs of Unicode that turn the direction of writing are left out too.
 _TURNING = "\u061c\u200e\u200f\u202a\u202b\u202c\u202d\u202e\u2066\u2067\u2068\u2069\u2028\u2029"
 _STEERING = {code: "�" for code in (*range(0x20), *range(0x7F, 0xA0), *map(ord, _TURNING)) if code != ord("\n")}
@@ -22,6 +24,7 @@ class QuietConsole(Console):
             yield segment if segment.control else Segment(segment.text.translate(_STEERING), segment.style)
 
 
+ready_streams()
 # Names, paths and messages come from files: brackets and colons in them are what they are, no markup.
 # Nor is anything looked for in them to be coloured, which takes a minute where a name has 200,000 letters.
 # Lines are wrapped between words for a reader; what another program reads stays one line.

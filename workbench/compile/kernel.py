@@ -69,14 +69,28 @@ def _name(symbol: sp.Expr) -> str:
 
 
 def _require_known(exprs: Iterable[sp.Expr], known: Iterable[sp.Expr], where: str) -> None:
-    allowed = {_name(s) for s in known}
+    allowed = {_name(s): s for s in known}
     for expr in exprs:
-        for symbol in sorted(expr.free_symbols, key=str):
+        labels = {symbol.base.label for symbol in expr.free_symbols if isinstance(symbol, sp.Indexed)}
+        for symbol in sorted(expr.free_symbols - labels, key=str):
             if isinstance(symbol, sp.IndexedBase) or symbol in (neuron, neuron_count, cars):
                 continue
             if _name(symbol) not in allowed:
                 raise CompileError(f"{where}: symbol '{symbol}' has no value there: "
                                    f"make it a state, a parameter or a measurement")
+            if symbol != allowed[_name(symbol)]:
+                raise CompileError(f"{where}: symbol '{symbol}' has other assumptions than the declared one of that "
+                                   "name: use the same object")
+
+
+def _require_distinct(names: Iterable[str], where: str) -> None:
+    """CompileError where two symbols would be one variable, of which one would take the other's value."""
+    taken: set[str] = set()
+    for name in names:
+        if name in taken:
+            raise CompileError(f"{where}: two symbols would be called '{name}', a state's next value, a measurement or "
+                               "the sampling period among them: rename one")
+        taken.add(name)
 
 
 def _assignments(targets: Sequence[str], exprs: Sequence[sp.Expr], prefix: str, indent: str) -> list[str]:
@@ -134,6 +148,7 @@ def law_source(law: ControlLaw, estimates: Estimates = "corrected") -> str:
     next_scalars = [law.next_value(s) for s in scalars]
     next_neurons = [law.next_value(s) for s in neurons]
     _require_known([*next_scalars, *next_neurons, law.command, *law.domain], known, law.id)
+    _require_distinct([*map(_name, known), *(f"{_name(s.symbol)}_next" for s in law.states)], law.id)
 
     at_next: dict[sp.Expr, sp.Expr] = {}
     sums_next: dict[sp.Sum, sp.Symbol] = {}

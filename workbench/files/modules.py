@@ -18,6 +18,7 @@ from types import ModuleType
 from typing import Any
 
 from workbench.errors import InputError
+from workbench.files.depth_limit import limited_depth
 from workbench.files.memory_limit import limited_memory
 from workbench.files.mistakes import OF_A_FOLDER, mistake
 from workbench.files.text import inputs_read_by, read_source, written_since_read
@@ -99,7 +100,7 @@ def module_in(folder: Path, name: str) -> ModuleType:
     path = folder.joinpath(*name.split("."))
     where = path / "__init__.py" if (path / "__init__.py").is_file() else path.with_name(f"{path.name}.py")
     try:
-        with at_most_seconds(IMPORT_S), limited_memory():
+        with at_most_seconds(IMPORT_S), limited_memory(), limited_depth():
             return importlib.import_module(dotted)
     except InputError:
         raise

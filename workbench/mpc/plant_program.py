@@ -26,6 +26,8 @@ from workbench.mpc.plant_values import PlantMpcValues
 from workbench.systems.setting import Setting, limits_of
 
 Array = NDArray[np.float64]
+# A run ends where a state goes beyond it. Of residuals far beyond, fatrop looks for a first step without end.
+LARGEST_RESIDUAL = 1e12
 
 
 @dataclass(frozen=True)
@@ -33,10 +35,12 @@ class Program:
     """A problem as a solver takes it: its arguments are x0, p and bounds.
 
     p is [state, input before, d, estimated disturbances, desired outputs by stage, times and all references' values by
-    stage], the last two only where metrics are minimised; limited: the states with limits.
+    stage], the last two only where metrics are minimised; rows: the constraints, a function of x0 and p;
+    limited: the states with limits.
     """
 
     solve: Any
+    rows: Any
     bounds: Mapping[str, Array]
     limited: tuple[int, ...]
 
@@ -97,7 +101,8 @@ def program(how: PlantMpcValues, setting: Setting, period_s: float, tracked: lis
               "lbg": np.concatenate(rows.lower), "ubg": np.concatenate(rows.upper)}
     nlp = {"x": variables, "f": cost, "g": ca.vertcat(*rows.values),
            "p": ca.vertcat(start, push, estimated, ca.vec(desired), ca.vec(ahead))}
-    return Program(_solver(how, nlp, rows.equal), bounds, limited)
+    of_rows = ca.Function("rows", [nlp["x"], nlp["p"]], [nlp["g"]])
+    return Program(_solver(how, nlp, rows.equal), of_rows, bounds, limited)
 
 
 class _Rows:

@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from workbench.mpc.plant_actuators import Underway, moved, with_lags
 from workbench.mpc.plant_motion import PlantMotion
 from workbench.mpc.plant_observer import KalmanState, MeasuredState
-from workbench.mpc.plant_program import program
+from workbench.mpc.plant_program import LARGEST_RESIDUAL, program
 from workbench.mpc.plant_values import PlantMpcValues
 from workbench.systems.setting import Setting, first_inputs, limits_of
 from workbench.systems.signals import signals_at
@@ -74,16 +74,16 @@ class TrackingMpc:
         x = state.now(measured, self._underway.arrived if self._called else ())
         x = moved(self._motion, x, self._underway.ahead, state.disturbances, state.push / self._period)
         start = np.concatenate([x, self._before])
-        cold, guess, self._called = self._plan is None, self._shifted(start), True
+        cold, self._called = self._plan is None, True
         given = self._given(t + self._delay, start)
-        usable = self._solved(guess, given)
+        self._plan, within = self._first_guess(start, given)
+        usable = within and self._solved(self._plan, given)
         if not usable:
             self.fallbacks += 1
         elif cold and self._how.one_iteration:
             # A state at rest without inputs is no plan to go on from: a quadrotor without thrust cannot be steered.
             for _ in range(FIRST_ITERATIONS - 1):
                 self._solved(np.asarray(self._plan), given)
-        assert self._plan is not None
         u = self._plan[n + m:n + 2 * m].copy()
         self._before = np.clip(u, *limits_of(self._setting))
         self._underway.send(self._before)
@@ -99,6 +99,18 @@ class TrackingMpc:
         self._plan = plan if usable else guess
         self._multipliers = (found["lam_x"], found["lam_g"]) if usable else None
         return usable
+
+    def _first_guess(self, start: Array, given: Array) -> tuple[Array, bool]:
+        """The last plan moved on, or what stays at rest where that is out of reach; whether this is within it."""
+        guess = self._shifted(start)
+        if self._within_reach(guess, given):
+            return guess, True
+        guess, self._multipliers = self._at_rest(start), None
+        return guess, self._within_reach(guess, given)
+
+    def _within_reach(self, guess: Array, given: Array) -> bool:
+        """Whether a guess misses the constraints by so little that the solver may begin with it."""
+        return bool(np.abs(np.asarray(self._program.rows(guess, given))).max() < LARGEST_RESIDUAL)  # not where NaN
 
     def _answered(self, told: Mapping[str, Any]) -> bool:
         """Whether the solver is at its end; after one iteration it says that it has had no more."""
@@ -122,8 +134,12 @@ class TrackingMpc:
         """The last plan moved on by a sample; at first the state as it stands."""
         N, s = self._how.horizon, self._stage
         if self._plan is None:
-            stage = np.concatenate([start, np.zeros(self._m + self._excess)])
-            return np.concatenate([np.tile(stage, N), start])
+            return self._at_rest(start)
         moved = np.concatenate([self._plan[s:], self._plan[-(self._n + self._m):]])
         last_input = self._plan[s * (N - 1) + self._n + self._m:s * N]
         return np.concatenate([moved[:s * (N - 1) + self._n + self._m], last_input, moved[-(self._n + self._m):]])
+
+    def _at_rest(self, start: Array) -> Array:
+        """The plan in which the state stays as it stands, without inputs."""
+        stage = np.concatenate([start, np.zeros(self._m + self._excess)])
+        return np.concatenate([np.tile(stage, self._how.horizon), start])

@@ -12,6 +12,7 @@ from pathlib import Path
 from types import ModuleType
 
 from workbench.errors import ClaimError, InputError
+from workbench.files.depth_limit import limited_depth
 from workbench.files.folders import CLAIMS_FOLDER, PAPER_FILE
 from workbench.files.memory_limit import limited_memory
 from workbench.files.mistakes import mistake
@@ -114,7 +115,7 @@ class ProofFile:
         module = importlib.util.module_from_spec(spec)
         sys.modules[name] = module
         try:
-            with at_most_seconds(IMPORT_S), limited_memory():
+            with at_most_seconds(IMPORT_S), limited_memory(), limited_depth():
                 spec.loader.exec_module(module)
         except OutOfTime:
             raise InputError(self.path, "", OUT_OF_TIME) from None

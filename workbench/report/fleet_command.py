@@ -16,6 +16,7 @@ from workbench.files.json_input import read_json
 from workbench.files.json_output import write_json
 from workbench.files.outputs import check_outputs
 from workbench.files.regular import LARGEST_DATA, contents
+from workbench.files.spreadsheet import text_cell
 from workbench.files.toml import load_record
 from workbench.files.units import KWH_J
 from workbench.files.writing import write_text
@@ -112,6 +113,6 @@ def _write_csv(path: Path, columns: tuple[str, ...], rows: list[dict[str, Any]])
     text = io.StringIO(newline="")
     writer = csv.DictWriter(text, columns)
     writer.writeheader()
-    writer.writerows({name: "" if value is None else f"{value:.12g}" if isinstance(value, float) else value
+    writer.writerows({name: f"{value:.12g}" if isinstance(value, float) else text_cell(str(value or ""))
                       for name, value in row.items()} for row in rows)
     write_text(path, text.getvalue())

@@ -25,6 +25,8 @@ ATTRIBUTES = frozenset((
 ACCENTS = frozenset("˙¨^~¯ˇ´`→˘")
 BREAKS = frozenset("=≤≥<>+−⟹⇒⇔⟺∧∨∈")
 LONG = 40
+# Converting takes time in proportion to the square of the length: beyond this, seconds of what nobody reads.
+MOST_CHARACTERS = 20_000
 OPERATORS = frozenset("⟹⟸⟺⟶⟵⟷⇒⇐⇔→←↔↦:")
 LIMITS = frozenset(("lim", "max", "min", "sup", "inf", "lim sup", "lim inf", "∑", "∏"))
 _SENTENCE = re.compile(r"[A-Za-z]{2,} [a-z]+ [a-z]+ ")
@@ -51,9 +53,11 @@ def in_html(text: str) -> Markup:
 
 def formula_tree(latex: str) -> ElementTree.Element | None:
     """The MathML of a formula as a tree, of which nothing but harmless elements is left; None where it cannot be
-    converted."""
+    converted, or is longer than MOST_CHARACTERS."""
     from latex2mathml.converter import convert_to_element  # noqa: PLC0415 - most of what is told has no formula
 
+    if len(latex) > MOST_CHARACTERS:
+        return None
     try:
         root = convert_to_element(_words_apart(_as_text(latex.strip().strip("$").strip())))
         for element in root.iter():

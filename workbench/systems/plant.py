@@ -21,6 +21,7 @@ from workbench.systems.symbols import (
     Limits,
     expression,
     interval,
+    is_finite,
     named_values,
     require_distinct,
     require_known,
@@ -92,6 +93,9 @@ class Plant:
         for symbol in self.units:
             if symbol not in (*known, *self.outputs):
                 raise ValueError(f"{where}: units name '{symbol}', which the plant does not have: leave it out")
+            if not isinstance(self.units[symbol], str):
+                raise ValueError(f"{where}: the unit of '{symbol}' is {self.units[symbol]!r}, no text: write 'm' or "
+                                 "such")
 
     def _require_one_kind(self, where: str) -> str:
         """"rate" or "update"; ValueError unless it is one of them, with a step for updates alone."""
@@ -219,6 +223,8 @@ class Plant:
             if str(name) not in point:
                 raise ValueError(f"'{name}' is no state and no input of plant '{self.id}': name one of "
                                  f"{', '.join(point)}")
+            if not is_finite(value):
+                raise ValueError(f"at: '{name}' = {value!r} is no finite number: give one")
             point[str(name)] = float(value)
         return point
 

@@ -78,11 +78,7 @@ class Setting:
             object.__setattr__(self, key, {_name(name): value
                                            for name, value in named_values(getattr(self, key), key).items()})
             self._require_names(key, kind, names)
-        for key in ("noise", "late_s", "lag_s", "delay_s", "initial"):
-            for name, value in getattr(self, key).items():
-                if not is_finite(value) or (key != "initial" and value < 0):
-                    raise ValueError(f"{key}.{name} = {value}: give a finite number"
-                                     f"{'' if key == 'initial' else ' that is not negative'}")
+        self._check_numbers()
         for name, value in self.delay_s.items():
             self.steps_of(value, f"delay_s.{name}")
         for name, channel in self.tracks.items():
@@ -92,6 +88,15 @@ class Setting:
         if len(set(names)) < len(names):
             raise ValueError(f"two metrics are called '{max(names, key=names.count)}': rename one")
         require_known({f"metric '{m.id}'": m.expression for m in self.metrics}, self.symbols, f"plant '{plant.id}'")
+
+    def _check_numbers(self) -> None:
+        for key in ("noise", "late_s", "lag_s", "delay_s", "initial"):
+            for name, value in getattr(self, key).items():
+                if not is_finite(value) or (key != "initial" and value < 0):
+                    raise ValueError(f"{key}.{name} = {value}: give a finite number"
+                                     f"{'' if key == 'initial' else ' that is not negative'}")
+        if not isinstance(self.seed, int | np.integer) or isinstance(self.seed, bool) or self.seed < 0:
+            raise ValueError(f"seed = {self.seed!r}: give a whole number that is not negative")
 
     def _step(self) -> float:
         own = self.plant.step_s

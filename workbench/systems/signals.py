@@ -109,24 +109,32 @@ def read_signal(signal: AnySignal, folder: Path) -> AnySignal:
     if not isinstance(signal, Spline) or signal.file is None:
         return signal
     path = folder / signal.file
+    try:
+        found = _points(path, str(signal.column))
+    except csv.Error as trouble:
+        raise InputError(path, "", f"is not CSV ({trouble}): write it anew") from None
+    try:
+        return Spline(times_s=tuple(t for t, _ in found), values=tuple(v for _, v in found))
+    except ValueError:
+        raise InputError(path, "t_s", "has fewer than two rows, or times that do not increase: sort them") from None
+
+
+def _points(path: Path, column: str) -> list[tuple[float, float]]:
     rows = csv.DictReader(io.StringIO(read_text(path, "CSV")))
-    for name in ("t_s", str(signal.column)):
+    for name in ("t_s", column):
         if name not in (rows.fieldnames or ()):
             raise InputError(path, name, "is no column: the first line must name it")
     found: list[tuple[float, float]] = []
     for number, row in enumerate(rows, 2):
         try:
-            pair = float(row["t_s"]), float(row[str(signal.column)])
+            pair = float(row["t_s"]), float(row[column])
         except (TypeError, ValueError):
             pair = math.nan, math.nan
         if not all(map(math.isfinite, pair)) or len(found) == MOST_ROWS:
-            raise InputError(path, f"line {number}", f"has no finite number in t_s or {signal.column}, or is more than "
+            raise InputError(path, f"line {number}", f"has no finite number in t_s or {column}, or is more than "
                              f"{MOST_ROWS} rows: correct it")
         found.append(pair)
-    try:
-        return Spline(times_s=tuple(t for t, _ in found), values=tuple(v for _, v in found))
-    except ValueError:
-        raise InputError(path, "t_s", "has fewer than two rows, or times that do not increase: sort them") from None
+    return found
 
 
 def table_of(signals: Sequence[AnySignal]) -> tuple[Array, Array]:

@@ -11,6 +11,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from workbench.files.spreadsheet import text_cell
 from workbench.paper.results import Curve, Plot
 from workbench.report.svg import Array, thin
 
@@ -84,11 +85,12 @@ def chart_csv(chart: Chart) -> str:
     text = io.StringIO(newline="")
     rows = csv.writer(text, lineterminator="\n")
     several = len(chart.panels) > 1
-    rows.writerow(("curve", chart.x_label, "value", "quantity") if several else
-                  ("curve", chart.x_label, chart.panels[0].y_label))
+    x_label = text_cell(chart.x_label)
+    rows.writerow(("curve", x_label, "value", "quantity") if several else
+                  ("curve", x_label, text_cell(chart.panels[0].y_label)))
     for panel in chart.panels:
-        named = (f"{panel.title}: {panel.y_label}" if panel.title else panel.y_label,) if several else ()
+        named = (text_cell(f"{panel.title}: {panel.y_label}" if panel.title else panel.y_label),) if several else ()
         for curve in panel.curves:
-            rows.writerows((curve.label, f"{x:.10g}", f"{y:.10g}", *named)
+            rows.writerows((text_cell(curve.label), f"{x:.10g}", f"{y:.10g}", *named)
                            for x, y in zip(curve.x, curve.y, strict=True))
     return text.getvalue()
