@@ -1,5 +1,6 @@
 """Expressions become code in one place: what is refused there, and what is kept between runs."""
 
+import math
 import os
 import subprocess
 import sys
@@ -120,6 +121,14 @@ def test_casadi_numpy_and_the_kernel_agree_with_exact_evaluation(plant):
     states = len(plant.rates) + 2
     rates = kernel.plant_rates(*numbers[:states], np.array(numbers[states:]))
     assert rates == pytest.approx(expected, rel=1e-14)
+
+
+def test_neurons_far_away_answer_with_the_zero_that_exp_gives_too():
+    law = LAWS["yang2021.rbfnn_pocrac"]
+    exp_or_zero = loop_module(law.source, [law_source(law)], law_alone).exp_or_zero.py_func
+    for x in (-1e300, -746.0 - 1e-12, -746.0, -745.2, -745.1, -700.0, -1e-300, 0.0, 3.0):
+        assert exp_or_zero(x) == math.exp(x)
+    assert math.isnan(exp_or_zero(math.nan))
 
 
 def test_generated_source_names_the_papers_equations_it_comes_from():

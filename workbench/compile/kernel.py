@@ -40,11 +40,23 @@ class _Printer(PythonCodePrinter):
         raise CompileError(f"a sum inside a sum cannot be compiled: {expr}")
 
 
-_printer = _Printer({"fully_qualified_modules": True})
+class _NeuronPrinter(_Printer):
+    """For a pass over neurons, most of which are far away."""
+
+    def _print_exp(self, expr: sp.exp) -> str:
+        return f"exp_or_zero({self._print(expr.args[0])})"
+
+
+_QUALIFIED = {"fully_qualified_modules": True}
+_printer, _neuron_printer = _Printer(_QUALIFIED), _NeuronPrinter(_QUALIFIED)
+# exp below its smallest number, of which a processor makes zero five times as slowly as it makes others.
+_EXP_OR_ZERO = """def exp_or_zero(x):
+    return 0.0 if x < -746.0 else math.exp(x)
+"""
 
 
 # What the generated functions call their own variables.
-_TAKEN = {"math", "neurons", "neuron_data", "parameters", "scalars"}
+_TAKEN = {"exp_or_zero", "math", "neurons", "neuron_data", "parameters", "scalars"}
 
 
 # A car's neighbours: where they stand in the train, and how their values are called.
@@ -79,15 +91,16 @@ def _require_known(exprs: Iterable[sp.Expr], known: Iterable[sp.Expr], where: st
                                    f"make it a state, a parameter or a measurement")
 
 
-def _assignments(targets: Sequence[str], exprs: Sequence[sp.Expr], prefix: str, indent: str) -> list[str]:
+def _assignments(targets: Sequence[str], exprs: Sequence[sp.Expr], prefix: str, indent: str,
+                 printer: _Printer = _printer) -> list[str]:
     """Source lines that compute exprs into targets, common subexpressions first."""
     # Sums were replaced before; Indexed symbols become plain symbols so that cse treats them as leaves.
     leaves = {i: sp.Symbol(_name(i)) for e in exprs for i in e.atoms(sp.Indexed)}
     shared, reduced = sp.cse([e.xreplace(leaves) for e in exprs], sp.numbered_symbols(prefix))
     require_short(reduced + [expr for _, expr in shared])
     try:
-        lines = [f"{indent}{name} = {_printer.doprint(expr)}" for name, expr in shared]
-        return lines + [f"{indent}{t} = {_printer.doprint(e)}" for t, e in zip(targets, reduced, strict=True)]
+        lines = [f"{indent}{name} = {printer.doprint(expr)}" for name, expr in shared]
+        return lines + [f"{indent}{t} = {printer.doprint(e)}" for t, e in zip(targets, reduced, strict=True)]
     except ValueError as trouble:  # Python's own limit on the digits of an integer
         raise CompileError(f"a number cannot be written out ({trouble}): state it as a float") from None
 
@@ -117,7 +130,7 @@ def _neuron_loop(law: ControlLaw, sums: dict[sp.Sum, sp.Symbol], updates: Sequen
     # The next values stand in the summands as expressions, so that one cse shares each neuron's output.
     summands = [s.function.xreplace(at_next) for s in sums]
     terms = [f"{n}_term" for n in sums.values()]
-    lines += _assignments([*names, *terms], [*updates, *summands], f"{prefix}_", indent)
+    lines += _assignments([*names, *terms], [*updates, *summands], f"{prefix}_", indent, _neuron_printer)
     lines += [f"{indent}{n} += {n}_term" for n in sums.values()]
     lines += [f"{indent}neurons[{i}, _j] = {name}" for i, name in enumerate(names)]
     return lines
@@ -162,6 +175,7 @@ def law_source(law: ControlLaw, estimates: Estimates = "corrected") -> str:
     smallest = ", ".join([*margins, "math.inf", "math.inf"])
     arguments = ", ".join(_MEASUREMENT_ARGUMENTS)
     return "\n".join([
+        *([_EXP_OR_ZERO, ""] if any("exp_or_zero" in line for line in body) else []),
         f"def control_step({arguments}, parameters, scalars, neurons, neuron_data):", *body,
         "    return _command", "", "",
         f"def domain_margin({arguments}, parameters):", *margin, f"    return min({smallest})", "",
