@@ -43,7 +43,7 @@ MONTE_CARLO = "monte_carlo"
 FILES = ("report.html", "claims.json", "compare.json", "gains.json", f"{MONTE_CARLO}/sweep.csv",
          f"{MONTE_CARLO}/sweep.journal.jsonl", "matches.journal.jsonl", "pareto.journal.jsonl")
 # So many drawn trains a report takes at the most, unless it is to be full.
-QUICK_DRAWS = 20
+QUICK_DRAWS = 10
 
 
 @dataclass(frozen=True)
