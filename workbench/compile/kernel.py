@@ -41,22 +41,20 @@ class _Printer(PythonCodePrinter):
 
 
 class _NeuronPrinter(_Printer):
-    """For a pass over neurons, most of which are far away."""
+    """For a pass over neurons, most of which are far away: of less than -746 exp is zero, and takes five times as long
+    to say so as it takes for other numbers."""
 
     def _print_exp(self, expr: sp.exp) -> str:
-        return f"exp_or_zero({self._print(expr.args[0])})"
+        x = self._print(expr.args[0])
+        return f"(0.0 if {x} < -746.0 else math.exp({x}))"
 
 
 _QUALIFIED = {"fully_qualified_modules": True}
 _printer, _neuron_printer = _Printer(_QUALIFIED), _NeuronPrinter(_QUALIFIED)
-# exp below its smallest number, of which a processor makes zero five times as slowly as it makes others.
-_EXP_OR_ZERO = """def exp_or_zero(x):
-    return 0.0 if x < -746.0 else math.exp(x)
-"""
 
 
 # What the generated functions call their own variables.
-_TAKEN = {"exp_or_zero", "math", "neurons", "neuron_data", "parameters", "scalars"}
+_TAKEN = {"math", "neurons", "neuron_data", "parameters", "scalars"}
 
 
 # A car's neighbours: where they stand in the train, and how their values are called.
@@ -175,7 +173,6 @@ def law_source(law: ControlLaw, estimates: Estimates = "corrected") -> str:
     smallest = ", ".join([*margins, "math.inf", "math.inf"])
     arguments = ", ".join(_MEASUREMENT_ARGUMENTS)
     return "\n".join([
-        *([_EXP_OR_ZERO, ""] if any("exp_or_zero" in line for line in body) else []),
         f"def control_step({arguments}, parameters, scalars, neurons, neuron_data):", *body,
         "    return _command", "", "",
         f"def domain_margin({arguments}, parameters):", *margin, f"    return min({smallest})", "",
