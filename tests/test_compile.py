@@ -1,5 +1,6 @@
 """Expressions become code in one place: what is refused there, and what is kept between runs."""
 
+import math
 import os
 import subprocess
 import sys
@@ -14,7 +15,7 @@ from scenarios import LAWS
 
 from workbench.compile.kernel import casadi_function, law_source, loop_module, numeric, plant_source
 from workbench.errors import CompileError
-from workbench.model.law import ControlLaw, LawState, over_neurons, position
+from workbench.model.law import ControlLaw, LawState, neuron, over_neurons, position
 from workbench.simulate.law_loop import law_loop
 from workbench.trains.train import Plant, single_particle, single_particle_per_mass
 
@@ -131,6 +132,18 @@ def test_casadi_numpy_and_the_kernel_agree_with_exact_evaluation(plant):
     states = len(plant.rates) + 2
     rates = kernel.plant_rates(*numbers[:states], np.array(numbers[states:]))
     assert rates == pytest.approx(expected, rel=1e-14)
+
+
+def test_neurons_far_away_answer_with_the_zero_that_exp_gives_too():
+    """Two neurons in one place, so far from the train as makes the borders of what exp has."""
+    center, width = sp.IndexedBase("c")[neuron], sp.Symbol("w", positive=True)
+    answers = over_neurons(sp.exp(-(position - center) ** 2 / width))
+    law = ControlLaw("test.far", "a law", "a test", "full state, model unknown", answers, parameters=(width,),
+                     neuron_data=(center,))
+    step = loop_module(law.source, [law_source(law)], law_alone).control_step.py_func
+    for x in (-1e300, -746.0 - 1e-12, -746.0, -745.2, -745.1, -700.0, -1e-300, 0.0, math.nan):
+        found = step(0.0, math.sqrt(-x), *(0.0,) * 5, np.ones(1), np.zeros(0), np.zeros((0, 2)), np.zeros((1, 2)))
+        assert np.array_equal(found, 2 * math.exp(-math.sqrt(-x) ** 2), equal_nan=True)
 
 
 def test_generated_source_names_the_papers_equations_it_comes_from():

@@ -209,12 +209,12 @@ def test_progress_comes_through(tiny):
     assert steps == [("runs", 1, 1)]
 
 
-@pytest.mark.parametrize(("full", "drawn"), [(False, 20), (True, 100)])
+@pytest.mark.parametrize(("full", "drawn"), [(False, 10), (True, 100)])
 def test_a_report_draws_few_trains_unless_it_is_to_be_full(tmp_path, full, drawn):
     asked = Asked.of(load(PROOFS / "mao2018"), [], tmp_path / "out", full=full)
     assert (asked.draws(100), asked.draws(7)) == (drawn, 7) and asked.command.endswith(" --full") == full
     assert building._with_draws(asked).study.pairs.draws == drawn
-    assert building._draws_words(asked) == ("" if full else "the first 20 of 100; all with --full")
+    assert building._draws_words(asked) == ("" if full else "the first 10 of 100; all with --full")
     assert asked.loaded.study.pairs.draws == 100, "the page shows what is stated"
 
 

@@ -21,7 +21,7 @@ from workbench.gains.problem import Problem
 from workbench.gains.result import Condition, GainReport, GainSet, Quantity
 from workbench.gains.search import Found, search
 from workbench.gains.stated import Stated
-from workbench.paper.gain_search import GainSearch, Row, Task, same_for_all
+from workbench.paper.gain_search import Ended, GainSearch, Runs, Task, same_for_all
 from workbench.paper.loading import Loaded
 from workbench.paper.study import varied
 from workbench.proof.claim import D, Goal, at_least, at_most
@@ -30,9 +30,10 @@ from . import laws as law
 from .laws import c_1, c_2, c_3
 from .one_car import one_car
 from .simulation.cars_runs import run_cars
+from .simulation.cars_trials import CarsRun
 from .simulation.plans import plan
 from .study.record import ChenStudy
-from .study.runs import outcome
+from .study.runs import RunCase, outcome
 
 Values = dict[sp.Expr, sp.Expr]
 
@@ -176,12 +177,24 @@ def tasks(report: GainReport) -> list[Task]:
     return same_for_all(report, "as stated")
 
 
-def run(loaded: Loaded, task: Task) -> tuple[Row, str | None]:
+def run(loaded: Loaded, task: Task) -> Ended:
     """All trials of the study with the task's changes."""
     study = loaded.study
     assert isinstance(study, ChenStudy)
     changed = varied(study, task.changes, str(loaded.path))
-    run = run_cars(replace(plan(changed), kept=()))
+    return row(changed, run_cars(replace(plan(changed), kept=())))
+
+
+def had(loaded: Loaded, task: Task, runs: Runs) -> Ended | None:
+    """The same from the study's own run with these values."""
+    study = loaded.study
+    assert isinstance(study, ChenStudy)
+    number = study.number_of(task.changes)
+    return None if number is None else row(study.changed(number), runs[RunCase(number)])
+
+
+def row(changed: ChenStudy, run: CarsRun) -> Ended:
+    """The numbers of a run of all trials."""
     if not len(run.totals):
         return {}, run.failed
     position, speed = run.position_error, run.speed_error
@@ -194,7 +207,7 @@ def run(loaded: Loaded, task: Task) -> tuple[Row, str | None]:
         "bound_used": bound_used(run, changed), "outcome": outcome(run)}, run.failed
 
 
-def bound_used(run: Any, study: ChenStudy) -> float:
+def bound_used(run: CarsRun, study: ChenStudy) -> float:
     """The largest part, over all trials, that the position errors fill of 2 int z_1^2 + 2 gain^2 int Delta u^2."""
     gains = study.gains
     gain = gains.c_3 / (gains.c_1 * gains.c_2)
@@ -202,4 +215,4 @@ def bound_used(run: Any, study: ChenStudy) -> float:
     return float(np.max(run.total("position_error_square_s") / bound))
 
 
-SEARCH = GainSearch(report, tasks, run)
+SEARCH = GainSearch(report, tasks, run, had=had)

@@ -21,7 +21,7 @@ from workbench.gains.problem import Problem
 from workbench.gains.result import Condition, GainReport, GainSet, Quantity
 from workbench.gains.search import Found, largest, search
 from workbench.gains.stated import Stated
-from workbench.paper.gain_search import GainSearch, Row, Task, changes_of
+from workbench.paper.gain_search import Ended, GainSearch, Row, Runs, Task, changes_of
 from workbench.paper.learning_comparison import rises
 from workbench.paper.loading import Loaded
 from workbench.paper.study import varied
@@ -29,7 +29,7 @@ from workbench.proof.claim import Goal, at_least, at_most
 
 from . import laws, plant
 from .simulation.plans import Case, plan
-from .simulation.trials import run_trials
+from .simulation.trials import TrialRun, run_trials
 from .study.record import JiaoStudy
 from .study.runs import outcome
 
@@ -248,17 +248,32 @@ def tasks(report: GainReport) -> list[Task]:
     return [*made, Task("stated", f"jiao2025.pd, u in {READING}", {}, {"law": "jiao2025.pd"})]
 
 
-def run(loaded: Loaded, task: Task) -> tuple[Row, str | None]:
+def run(loaded: Loaded, task: Task) -> Ended:
     """All trials of a law with the task's changes."""
     study = loaded.study
     assert isinstance(study, JiaoStudy)
     other = varied(study, task.changes, task.gains)
-    run = run_trials(plan(other, Case(READING, task.values["law"], other.trials.seed)))
+    return row(other, run_trials(plan(other, Case(READING, task.values["law"], other.trials.seed))))
+
+
+def had(loaded: Loaded, task: Task, runs: Runs) -> Ended | None:
+    """The same from the study's own run with these values."""
+    study = loaded.study
+    assert isinstance(study, JiaoStudy)
+    number = study.number_of(task.changes)
+    if number is None:
+        return None
+    run = runs.get(Case(READING, task.values["law"], study.trials.seed, number))
+    return None if run is None else row(study.changed(number), run)
+
+
+def row(study: JiaoStudy, run: TrialRun) -> Ended:
+    """The numbers of a run of all trials."""
     mse = run.mse
     numbers: Row = {f"mse_{n}": float(mse[n]) if n < len(mse) else None
-                    for n in (0, *other.trials.compared, other.trials.count)}
+                    for n in (0, *study.trials.compared, study.trials.count)}
     numbers |= {"trials_worse": rises(mse), "outcome": outcome(run)}
     return numbers, run.failed
 
 
-SEARCH = GainSearch(report, tasks, run)
+SEARCH = GainSearch(report, tasks, run, had=had)

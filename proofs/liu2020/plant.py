@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from functools import cache
+
 import sympy as sp
 
 from workbench.trains.train import Plant
@@ -33,6 +35,7 @@ additional = sp.Symbol("f_a", real=True)
 opposing_force = additional - M / chi * d  # additional resistance and disturbance, as one force in N
 
 
+@cache
 def model() -> Plant:
     """(9) with (8), driven by u in N, against `opposing_force` in N."""
     speed_rate = acceleration.xreplace({f_d: davis(v) + opposing, d: sp.Integer(0)})

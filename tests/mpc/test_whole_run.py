@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 from scenarios import short_scenario
 
+from proofs.liu2020.plant import model
 from workbench.model.sensing import Sensing
 from workbench.mpc.controller import MpcController
 from workbench.mpc.learning import RecordingMpc
@@ -41,13 +42,13 @@ def scenario_of(law, told=False, **changes):
                           controllers__mpc__parameters=WEIGHTS | OWN.get(law, {}) | changes)
 
 
-def both(scenario, make, sensing):
-    """The run by the compiled loop and the one by calls, and their controllers."""
-    setting = replace(setting_of(scenario), end_s=12.0, sensing=sensing)
+def both(scenario, make, sensing, plant=None):
+    """The run of a plant by the compiled loop and the one by calls, and their controllers."""
+    setting = replace(setting_of(scenario), end_s=12.0, sensing=sensing, plant_values=(1.05,) if plant else ())
     driven, called = make(scenario), make(scenario)
     assert whole_run(driven) is not None
-    return (simulate_in(scenario, "mpc", setting, sampled=driven),
-            simulate_in(scenario, "mpc", setting, sampled=Called(called)), driven, called)
+    return (simulate_in(scenario, "mpc", setting, plant, driven),
+            simulate_in(scenario, "mpc", setting, plant, Called(called)), driven, called)
 
 
 def plain(scenario):
@@ -65,6 +66,14 @@ def test_a_run_has_the_bits_of_calls(law, told, sensed):
     assert len(run.step_us) == len(other.step_us) and np.all(run.step_us > 0)
     if sensed in ("far off", "fast beyond reason"):
         assert driven.counters["bad_measurement"] > 0
+
+
+def test_a_run_of_another_plant_has_the_bits_of_calls_too():
+    """A train that answers to a force with a factor that MPC does not know."""
+    run, other, driven, called = both(scenario_of("mpc.offset_free"), plain, SENSED["noisy and late"], model())
+    assert run.log.tobytes() == other.log.tobytes() and driven.counters == called.counters
+    known, *_ = both(scenario_of("mpc.offset_free"), plain, SENSED["noisy and late"])
+    assert run.failed is None and run.log.tobytes() != known.log.tobytes()
 
 
 def test_what_is_learned_of_a_trip_is_the_same_too():

@@ -21,9 +21,9 @@ def command(paper: PaperOrFile,
                 help="Papers whose claims are on the page; default: the paper's own")] = None,
             out: Annotated[Path, typer.Option(help="Folder of the report")] = Path("out"),
             runs: Annotated[int | None, typer.Option(
-                min=1, help="Monte Carlo runs; default: as the scenario states, 20 at the most")] = None,
+                min=1, help="Monte Carlo runs; default: as the scenario states, 10 at the most")] = None,
             full: Annotated[bool, typer.Option(
-                "--full", help="On all drawn trains that the file states, not on the first 20 alone.")] = False,
+                "--full", help="On all drawn trains that the file states, not on the first 10 alone.")] = False,
             seed: Annotated[int | None, typer.Option(min=0)] = None,
             gains: Annotated[bool, typer.Option(
                 help="Also what is proved of the paper's gains, and better ones.")] = True,

@@ -122,10 +122,11 @@ def comparison_tasks(drivers: Drivers, study: Any) -> list[Task]:
 
 
 def comparison_stage(drivers: Drivers, study: Any) -> Stage:
-    """The runs of `comparison_tasks` as a stage of the study."""
+    """The runs of `comparison_tasks` as a stage of the study; MPC, of which most is to be compiled, begins."""
     places = drivers.places(study)
     return Stage(_drive, (drivers, study), comparison_tasks(drivers, study),
-                 lambda task, _: f"{places[task.place]}, {drivers.titles[task.name]}")
+                 lambda task, _: f"{places[task.place]}, {drivers.titles[task.name]}",
+                 work=lambda task: float(task.name in MPC_NAMES))
 
 
 def _drive(shared: tuple[Drivers, Any], task: Task) -> Mapping[str, Any]:

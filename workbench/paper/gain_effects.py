@@ -8,10 +8,12 @@ from dataclasses import dataclass
 from workbench.errors import InputError, WorkbenchError
 from workbench.gains.result import GainReport
 from workbench.gains.stated import Stated
-from workbench.paper.gain_search import Row, Task, gain_search_of
+from workbench.paper.gain_search import Row, Runs, Task, gain_search_of
 from workbench.paper.loading import Loaded
 from workbench.paper.study import Progress
 from workbench.tasks.handing_out import places, run_tasks
+
+NONE_YET: Runs = {}
 
 
 @dataclass(frozen=True)
@@ -41,17 +43,22 @@ def gains_of(loaded: Loaded) -> GainReport:
 
 
 def effects(loaded: Loaded, report: GainReport, workers: int | None = None,
-            on_progress: Progress = lambda done, total, what: None) -> tuple[Effect, ...]:
-    """Every found set of gains beside the stated ones, in the order of the paper's tasks."""
+            on_progress: Progress = lambda done, total, what: None, runs: Runs = NONE_YET) -> tuple[Effect, ...]:
+    """Every found set of gains beside the stated ones, in the order of the paper's tasks.
+
+    runs: of the paper's study, where it was run: what is among them is not run again.
+    """
     search = gain_search_of(loaded)
     tasks = search.tasks(report) if search else []
-    found: dict[int, Effect] = {}
+    had = {number: search.had(loaded, task, runs) for number, task in enumerate(tasks)} if search and runs else {}
+    found = {number: _effect(tasks[number], *ended) for number, ended in had.items() if ended is not None}
 
     def record(result: tuple[int, Effect]) -> None:
         found[result[0]] = result[1]
         on_progress(len(found), len(tasks), result[1].gains)
 
-    run_tasks(_run, loaded, list(enumerate(tasks)), places(workers), record)
+    left = [(number, task) for number, task in enumerate(tasks) if number not in found]
+    run_tasks(_run, loaded, left, places(workers), record)
     return tuple(found[number] for number in range(len(tasks)))
 
 
@@ -59,6 +66,9 @@ def _run(loaded: Loaded, numbered: tuple[int, Task]) -> tuple[int, Effect]:
     number, task = numbered
     search = gain_search_of(loaded)
     assert search is not None
-    numbers, failed = search.run(loaded, task)
+    return number, _effect(task, *search.run(loaded, task))
+
+
+def _effect(task: Task, numbers: Row, failed: str | None) -> Effect:
     finite: Row = {k: None if isinstance(v, float) and not math.isfinite(v) else v for k, v in numbers.items()}
-    return number, Effect(task.gains, task.setting, finite, failed)
+    return Effect(task.gains, task.setting, finite, failed)

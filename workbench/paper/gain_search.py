@@ -5,7 +5,7 @@ Of a front (`gain_front.py`): which gains are searched for what their runs cost 
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Hashable, Mapping
 from dataclasses import dataclass, field
 from fractions import Fraction
 from typing import Any
@@ -20,6 +20,10 @@ from workbench.paper.loading import Loaded
 Row = dict[str, float | str | None]
 Values = Mapping[str, float]
 Numbers = dict[str, float | None]
+# The numbers of a run, and why it ended early if it did.
+Ended = tuple[Row, str | None]
+# What the runs of a study left, by case.
+Runs = Mapping[Hashable, Any]
 
 
 @dataclass(frozen=True)
@@ -69,16 +73,22 @@ class FrontSearch:
     seed: int = 1
 
 
+def _never(loaded: Loaded, task: Task, runs: Runs) -> None:
+    return None
+
+
 @dataclass(frozen=True)
 class GainSearch:
     """report(stated): conditions, certificates and found gains of a file's numbers; tasks(report): the runs, each
     setting first with the stated gains, then with those found for it; run(loaded, task): the numbers of one, in SI
-    units, and why it ended early if it did. front: what cost against proved bound is searched for, if anything."""
+    units, and why it ended early if it did. had(loaded, task, runs): the same where a study has run it already, in its
+    own `runs` by case, else None. front: what cost against proved bound is searched for, if anything."""
 
     report: Callable[[Stated], GainReport]
     tasks: Callable[[GainReport], list[Task]]
-    run: Callable[[Loaded, Task], tuple[Row, str | None]]
+    run: Callable[[Loaded, Task], Ended]
     front: FrontSearch | None = None
+    had: Callable[[Loaded, Task, Runs], Ended | None] = _never
 
 
 def gain_search_of(loaded: Loaded) -> GainSearch | None:

@@ -54,6 +54,15 @@ class ReproducedStudy(Study):
             return self
         return varied(self, self.changes[number].set, f"changes: '{self.changes[number].title}'")
 
+    def number_of(self, values: Mapping[str, Any]) -> int | None:
+        """The number of the change with which a run has the same values as with these; None where it has none.
+
+        Raises ValueError for an unknown key or an unfit value.
+        """
+        wanted = varied(self, values, "values")
+        return next((number for number in (STATED, *range(len(self.changes)))
+                     if varied(self.changed(number), {}, "") == wanted), None)
+
     def change_title(self, number: int) -> str | None:
         """The title of a change, by its number; None for what is as stated."""
         return None if number == STATED else self.changes[number].title

@@ -114,4 +114,4 @@ def _run(of: Reproduction, study: Any, workers: int, on_progress: Progress) -> S
                        if run.failed is not None and of.told(case)),
         winners=winners_table(study, drivers, pairs, drawn),
         # The first that shows law and MPC together, else the paper's own first one.
-        first_plot=len(plots[0]) if plots[1] else 0 if plots[0] else None)
+        first_plot=len(plots[0]) if plots[1] else 0 if plots[0] else None, runs=runs)

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable
-from dataclasses import dataclass
+from collections.abc import Hashable, Iterable, Mapping
+from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
@@ -121,7 +121,8 @@ class StudyResult:
     rows: one a run, with the keys of `workbench compare` where they make sense, and more; plain data, None for
     a number that a failed run does not have. findings: what a reader should know, a sentence each, every number
     in it taken from the runs. failures: (run, why) of runs that ended early. winners, first_plot: what the first screen
-    shows, a table and the number of one of the plots; None where nobody is compared.
+    shows, a table and the number of one of the plots; None where nobody is compared. runs: what each of the study's own
+    cases left, for whoever asks for the same run.
     """
 
     rows: tuple[dict[str, Any], ...]
@@ -131,6 +132,7 @@ class StudyResult:
     failures: tuple[tuple[str, str], ...] = ()
     winners: ResultTable | None = None
     first_plot: int | None = None
+    runs: Mapping[Hashable, Any] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
         for row in self.rows:

@@ -55,10 +55,11 @@ class Stage:
 def run_stages(stages: Sequence[Stage], workers: int, on_progress: Progress) -> tuple[Mapping[Any, Any], ...]:
     """Task -> result for each stage, in the order of its tasks.
 
-    All stages share one pool of processes, in their order, so that modules are imported and kernels loaded once and no
-    process waits for the end of a stage; stages of one task follow. on_progress(finished, in all, title) counts over
-    all stages. Raises WorkbenchError when a worker process dies; an exception of a stage's function is raised here: a
-    run that fails says so in its result instead.
+    All stages share one pool of processes, so that modules are imported and kernels loaded once and no process waits
+    for the end of a stage. It begins with a task of each, so that what one stage compiles is made beside what another
+    does, and goes on in their order; stages of one task follow. on_progress(finished, in all, title) counts over all
+    stages. Raises WorkbenchError when a worker process dies; an exception of a stage's function is raised here: a run
+    that fails says so in its result instead.
 
     A study's run is then:
 
@@ -75,8 +76,9 @@ def run_stages(stages: Sequence[Stage], workers: int, on_progress: Progress) -> 
             on_progress(len(found), total, stages[of[0]].title(task, result))
 
     shared = [(stage.function, stage.shared, stage.together) for stage in stages]
-    results_of(_run, shared, [(number, tasks) for number in pooled for tasks in stages[number].handed_out()], workers,
-               keep)
+    handed = [[(number, tasks) for tasks in stages[number].handed_out()] for number in pooled]
+    first, rest = [of_stage[0] for of_stage in handed], [task for of_stage in handed for task in of_stage[1:]]
+    results_of(_run, shared, [*first, *rest], workers, keep)
     for number in alone:
         results_of(_run, shared, [(number, tuple(stages[number].tasks))], 1, keep)
     return tuple({task: found[number, task] for task in stage.tasks} for number, stage in enumerate(stages))

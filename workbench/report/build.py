@@ -16,8 +16,8 @@ from workbench.files.outputs import check_outputs
 from workbench.files.own_files import read_manifest
 from workbench.files.writing import make_folder, require_inside, write_text
 from workbench.gains.result import GainReport
-from workbench.paper.gain_effects import effects, gains_of
-from workbench.paper.gain_search import gain_search_of
+from workbench.paper.gain_effects import NONE_YET, effects, gains_of
+from workbench.paper.gain_search import Runs, gain_search_of
 from workbench.paper.loading import Loaded
 from workbench.paper.recorded_front import searched_or_recorded, shown_fronts
 from workbench.paper.results import StudyResult
@@ -43,7 +43,7 @@ MONTE_CARLO = "monte_carlo"
 FILES = ("report.html", "claims.json", "compare.json", "gains.json", f"{MONTE_CARLO}/sweep.csv",
          f"{MONTE_CARLO}/sweep.journal.jsonl", "matches.journal.jsonl", "pareto.journal.jsonl")
 # So many drawn trains a report takes at the most, unless it is to be full.
-QUICK_DRAWS = 20
+QUICK_DRAWS = 10
 
 
 @dataclass(frozen=True)
@@ -148,7 +148,7 @@ def build_study_report(asked: Asked, on_progress: Progress = lambda what, done, 
         result = run_study(_with_draws(asked), asked.workers, on_progress, out, asked.resume)
         write_json(out / "compare.json", study_document(study, result))
     write_curves(list(map(chart_of, result.plots)), out)
-    found = _gains(asked, on_progress, timings)
+    found = _gains(asked, on_progress, timings, result.runs)
     page = out / "report.html"
     with _timed(timings, "page"):
         text = build_study_page(StudyContent(study, result, claims, timings, (asked.command,), found,
@@ -189,13 +189,14 @@ def _decide(asked: Asked, on_progress: Progress, timings: dict[str, float]) -> d
     return claims
 
 
-def _gains(asked: Asked, on_progress: Progress, timings: dict[str, float]) -> StudyResult | None:
-    """What is known of the paper's gains, and gains.json; none for a paper that searches none."""
+def _gains(asked: Asked, on_progress: Progress, timings: dict[str, float], runs: Runs = NONE_YET
+           ) -> StudyResult | None:
+    """What is known of the paper's gains, and gains.json; none for a paper that searches none. runs: see `effects`."""
     if asked.gains is None:
         return None
     with _timed(timings, "gains"):
         done = effects(asked.loaded, asked.gains, asked.workers,
-                       lambda at, total, _: on_progress("runs of gains", at, total))
+                       lambda at, total, _: on_progress("runs of gains", at, total), runs)
         fronts = shown_fronts(asked.loaded, searched_or_recorded(asked.loaded, False), asked.workers,
                               lambda at, total, _: on_progress("fronts of gains", at, total))
         write_json(asked.out / "gains.json", gains_document(asked.gains, done, fronts))

@@ -118,8 +118,8 @@ def simulate_in(scenario: Scenario, name: str, setting: Setting, plant: Plant | 
                        spec.title or law.title, plant, predictor=spec.predictor)
     sampled, plan = sampled or SAMPLED[spec.law](scenario, spec, name), setting.plan(spec.period_s)
     title = spec.title or sampled.title
-    if plant is None and (whole := whole_run(sampled)) is not None:
-        return _run_whole(whole, setting, spec, name, title)
+    if (whole := whole_run(sampled)) is not None:
+        return _run_whole(whole, setting, spec, name, title, plant)
     # The kernel holds what it is told; noise and delays lie between it and the controller.
     arrays, sensing = _arrays(replace(setting, sensing=PERFECT), spec.period_s, held_command), setting.sensing
     between = sensing.arrays(-(-plan[0] // plan[1]), spec.period_s)
@@ -129,11 +129,12 @@ def simulate_in(scenario: Scenario, name: str, setting: Setting, plant: Plant | 
                 _why(status, reached * plan[2], arrays.state, held_command, spec.law), sampled.counters)
 
 
-def _run_whole(whole: WholeRun, setting: Setting, spec: ControllerSpec, name: str, title: str) -> Run:
+def _run_whole(whole: WholeRun, setting: Setting, spec: ControllerSpec, name: str, title: str, plant: Plant | None
+               ) -> Run:
     """A run of MPC that the compiled loop calls itself; every sample is timed all the same."""
     arrays, plan = _arrays(setting, spec.period_s, held_command), setting.plan(spec.period_s)
     values = whole.parameters, np.zeros(0), np.zeros((0, 0)), whole.numbers
-    kernel = mpc_loop(whole.controller.problem.actuator).closed_loop
+    kernel = mpc_loop(whole.controller.problem.actuator, plant).closed_loop
     status, reached, _ = _run_compiled(kernel, arrays, values, _fixed(setting), plan)
     whole.take_over()
     return _run(name, title, held_command, arrays, plan, (status, reached, whole.taken_us(-(-reached // plan[1]))),

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from functools import cache, partial
+from functools import partial
 from types import ModuleType
 from typing import Any
 
@@ -55,7 +55,15 @@ def written_loop(source: str, functions: Sequence[str], plant: Plant | None = No
     return LawLoop(partial(driven.closed_loop, c_function(law, "answer", law_call.ANSWER)), driven, law)
 
 
-@cache
-def mpc_loop(actuator: Actuator) -> LawLoop:
-    """The single particle's closed loop under MPC of the train with an actuator; see `mpc/whole_run.py`."""
-    return written_loop(f"MPC of train.py with its actuator ({actuator})", source(actuator))
+# By plant itself, as above, and by what MPC takes for its actuator.
+_of_mpc: dict[tuple[int, Actuator], tuple[Plant | None, LawLoop]] = {}
+
+
+def mpc_loop(actuator: Actuator, plant: Plant | None = None) -> LawLoop:
+    """A plant's closed loop, the single particle's unless given, under MPC of the train with an actuator; compiled once
+    a process. See `mpc/whole_run.py`."""
+    key = id(plant), actuator
+    if key not in _of_mpc:
+        written = written_loop(f"MPC of train.py with its actuator ({actuator})", source(actuator), plant)
+        _of_mpc[key] = plant, written
+    return _of_mpc[key][1]

@@ -121,7 +121,8 @@ def groups(study: ChenStudy, cases: Sequence[RunCase]) -> list[list[RunCase]]:
     alike: dict[tuple[object, ...], list[RunCase]] = {}
     for case in sorted(cases, key=lambda case: (-study.changed(case.change).trials.count, case.change)):
         of = study.changed(case.change)
-        alike.setdefault((of.sampling.acceleration, of.sampling.memory, of.line.seen_by, of.samples), []).append(case)
+        loop = of.sampling.acceleration, of.sampling.memory, of.line.seen_by == "nowhere", of.samples
+        alike.setdefault(loop, []).append(case)
     return [among[first : first + 2 * LANES] for among in alike.values() for first in range(0, len(among), 2 * LANES)]
 
 

@@ -20,8 +20,8 @@ from .. import laws
 from ..simulation.trip import KILONEWTON, TONNE, Signs, law_of, run_under, setting_of, wrong_signs
 from .record import CaseData, MaoStudy, Tuning
 
-# What is drawn in full, s.
-START_S = 5.0
+# What is drawn in full, s; from when on the error at the start is over.
+START_S, SETTLED_S = 5.0, 20.0
 
 
 @dataclass(frozen=True)
@@ -51,13 +51,17 @@ class Stretch:
 
 @dataclass(frozen=True)
 class RunResult:
-    """What a run leaves: a row of numbers, its stretches between events (those it finished), curves over time."""
+    """What a run leaves: a row of numbers, its stretches between events (those it finished), curves over time.
+
+    late: of a run to the end, RMS and size of the position errors from SETTLED_S on.
+    """
 
     case: RunCase
     row: dict[str, Any]
     stretches: tuple[Stretch, ...]
     curves: dict[str, Curve]
     failed: str | None
+    late: tuple[float, float] | None
 
     @property
     def largest_m(self) -> float:
@@ -145,7 +149,13 @@ def run_case(study: MaoStudy, of: RunCase) -> RunResult:
         "command_change_mps2": run.totals["command_variation_mps2"] / max(1.0, run.totals["commands"]),
         "loop_gain": _loop_gain(study, case, run), "failure_learned_n": _failure_learned(study, case, run)}
     row = {key: None if isinstance(value, float) and not math.isfinite(value) else value for key, value in row.items()}
-    return RunResult(of, row, tuple(stretches), curves, run.failed)
+    return RunResult(of, row, tuple(stretches), curves, run.failed, late_errors(run))
+
+
+def late_errors(run: Run) -> tuple[float, float] | None:
+    """RMS and largest size of a run's position errors from SETTLED_S on; None of one that failed."""
+    error = (run.column("s_m") - run.column("s_desired_m"))[run.column("t_s") >= SETTLED_S]
+    return None if run.failed else (float(np.sqrt(np.mean(error**2))), float(np.abs(error).max()))
 
 
 def name_of(study: MaoStudy, of: RunCase) -> str:

@@ -1,7 +1,6 @@
 """chen2019's train under MPC: the same cars as under the law, within their limits; law and MPC stated and tuned."""
 
 from dataclasses import replace
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -12,21 +11,14 @@ from proofs.chen2019.simulation.held_cars_loop import HELD_COLUMNS
 from proofs.chen2019.simulation.mpc_trip import held_arguments, held_kernel, run_mpc
 from proofs.chen2019.simulation.plans import car_data, plan
 from proofs.chen2019.study.comparison import COMPARISON, DRIVERS, stated_tasks
-from workbench.cli.loading import load
 from workbench.paper.cells import Phrase
 from workbench.paper.stages import run_stages
 from workbench.paper.study import varied
 from workbench.simulate.closed_loop import NOMINAL, Factors
 
-FOLDER = Path(__file__).parents[3] / "proofs" / "chen2019"
 # Two cars over a short trip.
 SHORT = {"train.cars": 2, "reference.cruise_mps": 5.0, "reference.acceleration_mps2": 0.15,
          "reference.trip_time_s": 60.0, "trials.count": 3, "trials.shown": [3]}
-
-
-@pytest.fixture(scope="module")
-def study():
-    return load(FOLDER).study
 
 
 @pytest.fixture(scope="module")

@@ -8,8 +8,11 @@ import pytest
 
 from proofs.jiao2025.simulation.plans import Case, plan
 from proofs.jiao2025.simulation.trials import run_trials
+from proofs.jiao2025.study.runs import run_case
 from workbench.paper.gain_effects import effects, gains_of
+from workbench.paper.gain_search import gain_search_of
 from workbench.paper.loading import load
+from workbench.paper.reproduced import STATED
 from workbench.paper.study import varied
 from workbench.report.gains import compared, gains_document, gains_result
 
@@ -53,6 +56,30 @@ def test_where_trials_repeat_the_law_contracts_as_fast_as_is_certified(done):
     assert ratios.max() <= certified.proved
     assert ratios[mse[:-1] < 1].max() <= certified.check
     assert ratios[-1] > 0.9 * certified.check  # and hardly faster, so that the bound says something
+
+
+def test_what_the_study_has_run_is_not_run_again(done, monkeypatch):
+    study, report, alone = done
+    loaded, again = load(FOLDER), []
+    search = gain_search_of(loaded)
+    cases = {Case("kN", task.values["law"], study.trials.seed) for task in search.tasks(report) if not task.changes}
+    runs = {case: run_case(study, case) for case in cases}
+
+    def counted(plan):
+        again.append(plan)
+        return run_trials(plan)
+
+    monkeypatch.setitem(search.run.__globals__, "run_trials", counted)
+    assert effects(loaded, report, 1, runs=runs) == alone
+    assert len(again) == len([task for task in search.tasks(report) if task.changes]) < len(alone) - 3
+
+
+def test_a_change_is_known_by_its_values():
+    study = load(FOLDER).study
+    last = len(study.changes) - 1
+    assert study.number_of({}) == study.number_of({"learning.rho": study.learning.rho}) == STATED
+    assert study.number_of(study.changes[last].set) == last
+    assert study.number_of({"learning.rho": 0.123}) is None
 
 
 def test_document_and_tables_hold_every_run(done):
