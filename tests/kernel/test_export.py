@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import copy
+import re
 from pathlib import Path
 from typing import Any
 
@@ -137,6 +138,17 @@ def test_what_has_no_coq_text_is_listed_with_its_reason() -> None:
     root = export(digested(ROOT))
     assert root.text is None
     assert root.reason == "a point that is a root: no theorem of intermediate values is used in Coq"
+
+
+def test_the_same_certificate_gives_the_same_text_in_every_process() -> None:
+    """What is rewritten is in the order of its text, not of hashes, which differ from process to process."""
+    calls = [f"exp({name})" for name in "abcdefg"]
+    text = document({**SUMS, "goal": {"show": [f"{' + '.join(calls)} == {' + '.join(reversed(calls))}"]},
+                     "proofs": [IDENTITY]})
+    named = {name: call for name, call in re.findall(r"assert \((C\d+_) : \(exp v_(\w)\) =", text)}
+    rewritten = re.search(r"((?:rewrite \?C\d+_\. ){7})", text)
+    assert rewritten is not None
+    assert [named[name] for name in re.findall(r"C\d+_", rewritten[1])] == list("abcdefg")
 
 
 @pytest.fixture(scope="module")

@@ -172,9 +172,9 @@ class _Here:
                     script.say(f"exists {text_of(self.values[name[2:]], letters)}.")
         parts: list[str] = []
         for name, rate in goal.rates.items():
-            each, at = (EACH, " i") if name in goal.letters.indexed else ("", "")
+            of, at = (EACH, " i") if name in goal.letters.indexed else ("", "")
             slope = text_of(self.partly(rate), self.letters)
-            parts.append(self.moved(f"is_derive (v_{name}{at}) 0 {slope}", f"(v_{name}_rate{at})", each))
+            parts.append(self.moved(f"is_derive (v_{name}{at}) 0 {slope}", f"(v_{name}_rate{at})", of))
             script.say(f"pose proof {parts[-1]} as rate_{name}.")
         for text in goal.stated.get("assume", []):
             parts += [*self.conditions(text), self.relation(text)]
