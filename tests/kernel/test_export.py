@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import copy
+import re
 from pathlib import Path
 from typing import Any
 
@@ -78,8 +79,22 @@ CAUCHY = {"version": 2, "claim": "mine:11", "verdict": "proved", "example": {"x"
               [{"assume": 0}, {"square": "Sum(x**2) + 1"}, {"sum_of_squares": "y"}])]},
                      IDENTITY, IDENTITY]}
 
+# Written with exp(-g) here and exp(g) there, so that what stands first decides which of them is the atom.
+TURNED = {"version": 2, "claim": "mine:12", "verdict": "proved",
+          "example": {"a": "0", "b": "1", "g": "0", "h": "1", "z": "1"},
+          "goal": {"indexed": ["a", "b", "g", "h"], "flow": {"b": "h", "z": "Sum(a*exp(b))"}, "show": [
+              "D(z**2/2 + Sum(b**2*exp(-g)/2)) == z*Sum(a*exp(b)) + Sum(b*D(b)/exp(g))"]}, "proofs": [IDENTITY]}
+RATES = {"version": 2, "claim": "mine:13", "verdict": "refuted", "point": {"h": "1", "w": "1", "z": "1"},
+         "goal": {"indexed": ["h", "w"], "flow": {"w": "-w*h", "z": "Sum(w)"},
+                  "show": ["D(z**2 + Sum(w**2)) <= Sum(h*D(w)) - Sum(h/w)"]}}
 
-CERTIFICATES = (PRODUCT, SUMS, POINT, OPPOSITES, ANGLES, PENDULUM, ANGLE, STEADY, CAUCHY)
+# The rates have a function, tanh, that what is shown has not.
+SATURATED = {"version": 2, "claim": "mine:14", "verdict": "proved", "example": {"x": "0", "y": "0", "z": "0"},
+             "goal": {"flow": {"x": "tanh(z)", "y": "(1 - exp(2*z))/(1 + exp(2*z))"}, "show": ["D(x + y) == 0"]},
+             "proofs": [IDENTITY]}
+
+
+CERTIFICATES = (PRODUCT, SUMS, POINT, OPPOSITES, ANGLES, PENDULUM, ANGLE, STEADY, CAUCHY, TURNED, RATES, SATURATED)
 
 
 def digested(certificate: dict[str, Any]) -> dict[str, Any]:
@@ -128,6 +143,17 @@ def test_what_has_no_coq_text_is_listed_with_its_reason() -> None:
     root = export(digested(ROOT))
     assert root.text is None
     assert root.reason == "a point that is a root: no theorem of intermediate values is used in Coq"
+
+
+def test_the_same_certificate_gives_the_same_text_in_every_process() -> None:
+    """What is rewritten is in the order of its text, not of hashes, which differ from process to process."""
+    calls = [f"exp({name})" for name in "abcdefg"]
+    text = document({**SUMS, "goal": {"show": [f"{' + '.join(calls)} == {' + '.join(reversed(calls))}"]},
+                     "proofs": [IDENTITY]})
+    named = dict(re.findall(r"assert \((C\d+_) : \(exp v_(\w)\) =", text))
+    rewritten = re.search(r"((?:rewrite \?C\d+_\. ){7})", text)
+    assert rewritten is not None
+    assert [named[name] for name in re.findall(r"C\d+_", rewritten[1])] == list("abcdefg")
 
 
 @pytest.fixture(scope="module")
@@ -179,6 +205,8 @@ def test_a_file_with_a_sentence_that_no_export_has_is_not_shown_to_coq(sentence:
     (ANGLES, "exp(x + y) == exp(x)*exp(y)", "exp(x + y) == exp(x) + exp(y)"),
     (PENDULUM, "D(w**2/2 - cos(a)) == 0", "D(w**2/2 + cos(a)) == 0"), (ANGLE, "cos(x) <= 1/2", "cos(x) <= 14/25"),
     (STEADY, "k > 0", "k < 0"), (CAUCHY, "Sum(x*y)**2 <= Sum(x**2)*Sum(y**2)", "Sum(x*y)**2 <= Sum(x**2)"),
+    (TURNED, TURNED["goal"]["show"][0], "D(Sum(b**2*exp(-g)/2)) == Sum(b*h*exp(g))"),
+    (RATES, RATES["goal"]["show"][0], "D(z**2 + Sum(w**2)) <= Sum(h*D(w)) + Sum(h/w)"),
     (CAUCHY, "Sum(x*Sum(y)) == Sum(x)*Sum(y)", "Sum(x*Sum(y)) == Sum(x*y)"),
 ])
 def test_kernel_refuses_a_goal_that_is_not_so(library: Path, certificate: dict[str, Any], old: str, new: str) -> None:

@@ -7,10 +7,14 @@ from itertools import product
 from pathlib import Path
 
 import pytest
+import sympy as sp
+from sympy.polys.orderings import grevlex
+from sympy.polys.rings import PolyRing
 
 from workbench.errors import ClaimError
 from workbench.files.time_limit import OutOfTime, at_most_seconds
 from workbench.proof.checker import check
+from workbench.proof.decide.ideals import groebner_basis
 from workbench.proof.decide.obligations import belongs, decide_obligation
 from workbench.proof.obligation import goals_of
 from workbench.proof.text import goal_text
@@ -19,6 +23,7 @@ FILE = Path(__file__).parents[2] / "benchmarks" / "peers" / "ode_invariants.json
 PEERS = json.loads(FILE.read_text(encoding="utf-8"))
 # Some of every kind, and of every way in which they are decided; each takes a fraction of a second.
 SAMPLE = (0, 46, 59, 93, 97, 128, 176, 185)
+MONOMIALS = [sp.sympify(text) for text in ("x*y", "x", "y**2", "z", "x*z", "1")]
 
 
 def stated(show, *assume):
@@ -84,9 +89,32 @@ def test_what_is_no_obligation_is_refused_in_one_line(statement):
     (stated(["=", "2*(x**4 + y**4 + z**4)", "1"], ["=", "x + y + z", "0"], ["=", "x**2 + y**2 + z**2", "1"]), "proved"),
     (stated(["<=", "y", "2"], ["=", "y**2 - 4*cos(x)", "-1"]), "proved"),  # beside points that are no roots
     (stated(["and", [">=", "x**2", "0"], ["<=", "x", "x**2"]]), "refuted"),
+    (stated(["=", "y", "0"], ["=", "x*y", "0"], ["!=", "x", "0"]), "proved"),  # a division by what is not zero
+    (stated(["=", "y", "0"], ["=", "x*y", "0"], ["=", "x**2", "x"]), "refuted"),
+    (stated(["=", "y", "0"], ["=", "x**2", "1"], ["<", "x", "1"], [">", "x", "-1"]), "proved"),  # nothing meets it
+    (stated(["!=", "z", "0"], ["=", "x*y", "1"], ["=", "x*z", "2"]), "proved"),
+    (stated(["!=", "x*z", "2"], ["=", "x*y", "1"], ["=", "y*z", "2"]), "refuted"),
+    (stated(["=", "a**2 + c**2", "1"], ["=", "a**2 + b**2", "1"], ["=", "c**2 + d**2", "1"], ["=", "a*c + b*d", "0"]),
+     "proved"),  # rows are orthonormal, so columns are
+    (stated(["or", ["=", "x", "0"], ["=", "y", "0"]], ["or", ["=", "x*y", "0"], ["=", "x**2", "1"]], ["<", "x", "1"],
+            [">", "x", "-1"]), "proved"),
+    (stated(["<=", "x*z**2 - x*z", "6*z**2"], ["=", "x**2 + y**2 + z**2", "100"], ["<=", "y**2", "1"], [">=", "z", "0"],
+            ["<=", "x", "5"]), "refuted"),  # far from where x and y are bounded
 ])
 def test_each_way_of_deciding(obligation, verdict):
     assert outcome_of(obligation) == verdict
+
+
+@pytest.mark.parametrize("seed", range(6))
+def test_a_basis_is_sympys_and_its_cofactors_make_it_of_the_equalities(seed):
+    """Every element is the sum of its cofactors times the equalities, and both bases span the same ideal."""
+    ring, rng = PolyRing("x, y, z", sp.QQ, grevlex), random.Random(seed)
+    zeros = [sum((rng.randint(-2, 2) * m for m in map(ring.from_expr, MONOMIALS)), ring.zero) for _ in range(3)]
+    found = groebner_basis(ring, zeros)
+    for element in found:
+        assert element.value == sum((c * z for c, z in zip(element.cofactors, zeros, strict=True)), ring.zero)
+    theirs = sp.groebner([z.as_expr() for z in zeros], *ring.symbols, order="grevlex").polys
+    assert all(not ring.from_expr(other.as_expr()).rem([element.value for element in found]) for other in theirs)
 
 
 def test_certificates_of_another_obligation_do_not_belong():

@@ -93,7 +93,8 @@ def print_counts(decisions: Sequence[Decision]) -> None:
             line.append_text(Text(", ").join(Text(count_words(v, counts[v], under), COLOURS[v])
                                              for v in VERDICTS if counts[v]))
             if by_kernel := sum(d.trust == "kernel" for d in of_them):
-                line.append(f"; {by_kernel} of them accepted by Coq's kernel too")
+                certified = sum(d.certificate is not None for d in of_them)
+                line.append(f"; Coq's kernel accepts {by_kernel} of their {certified} certificates too")
             _paragraph(line, 0)
 
 

@@ -108,6 +108,10 @@ Proof.
   apply (D_scale (fun s => s - t)). apply (D_minus (fun s => s) (fun _ => t)); [apply D_id|apply D_const].
 Qed.
 
+Lemma motions : forall t q r : R,
+  { x : nat -> R -> R | (forall i, x i t = q) /\ (forall i, is_derive (x i) t r) }.
+Proof. intros t q r. destruct (motion t q r) as [x [A D]]. exists (fun _ => x). split; intros _; assumption. Qed.
+
 (* rule nonincreasing: a function whose derivative is never positive from time zero to t is at t at most what it was *)
 Lemma nonincreasing : forall (f d : R -> R) (t : R), 0 <= t ->
   (forall s, 0 <= s <= t -> is_derive f s (d s)) -> (forall s, 0 <= s <= t -> d s <= 0) -> f t <= f 0.

@@ -24,7 +24,7 @@ class Functions(Signs):
                 if text not in self.facts.calls:
                     self.facts.calls[text] = self._call(part, text)
                 found.append(text)
-        outermost_first = sorted(set(found), key=lambda text: -len(text))
+        outermost_first = sorted(set(found), key=lambda text: (-len(text), text))  # the same in every process
         return "".join(f"rewrite ?{self.facts.calls[text]}. " for text in outermost_first)
 
     def _call(self, node: ast.Call, text: str) -> str:

@@ -22,7 +22,7 @@ from workbench.kernel.syntax import (
     split_margin,
     text_of,
 )
-from workbench.kernel.theorem import Goal
+from workbench.kernel.theorem import EACH, Goal
 from workbench.kernel.writing import conjunction
 from workbench.proof.checker import bounds, margin, parse, read_goal, split_relation
 
@@ -50,9 +50,11 @@ def proof_at_point(goal: Goal, certificate: dict[str, Any]) -> Script:
     indexed = goal.letters.indexed
     rows = [{name: number_of(Fraction(text)) for name, text in row.items()} for row in certificate["terms"]
             ] if "terms" in certificate else [{name: values[name] for name in indexed & values.keys()}]
-    if indexed and (goal.kind != "static" or not rows or any(row.keys() != indexed for row in rows)):
-        raise NotExportedError("a point of sums without terms, or of rates of each index")
-    if missing := (set(goal.constants) | goal.letters.moving) - values.keys():
+    if indexed and (not rows or any(row.keys() != indexed for row in rows)):
+        raise NotExportedError("a point of sums without terms")
+    if indexed and goal.kind != "static" and len(rows) > 1:
+        raise NotExportedError("a point of rates with several terms of a sum")
+    if missing := (set(goal.constants) | goal.letters.moving - indexed) - values.keys():
         raise NotExportedError(f"a point without a value for {min(missing)}")
     here = _Here(goal, values, rows)
     here.prove()
@@ -88,7 +90,7 @@ class _Here:
                     total = operation(total, ast.Add(), self.closed(part.args[0], each))  # type: ignore[attr-defined]
                 return total
             if called(part, "D"):
-                return self.closed(self.derivative(part)[1])
+                return self.closed(self.derivative(part)[1], row)
             return known.get(part.id) if isinstance(part, ast.Name) else None
 
         if isinstance(node, ast.Call):
@@ -100,7 +102,8 @@ class _Here:
 
     def partly(self, node: ast.expr) -> ast.expr:
         """An expression with numbers for its constants alone."""
-        fixed = {name: self.values[name] for name in self.goal.constants}
+        fixed = {name: value for name, value in (self.values | next(iter(self.rows), {})).items()
+                 if name not in self.goal.letters.moving}
 
         def new(part: ast.expr) -> ast.expr | None:
             if isinstance(part, ast.Call):
@@ -118,22 +121,28 @@ class _Here:
             found = Differentiation(rates, self.letters).of(inner)
             value = found.value if found.value is not None else ast.Constant(0)
             function, worth = f"(fun s => {text_of(inner, self.letters.at('s'))})", text_of(value, self.letters)
-            derives = self.script.show("X", f"is_derive {function} 0 {worth}",
-                                       f"refine {found.proof}; cbv beta; "
+            each = EACH if theorem.of_each_index(node.args[0], self.letters) else ""  # type: ignore[attr-defined]
+            intros, at = ("intros i. ", " i") if each else ("", "")
+            derives = self.script.show("X", f"{each}is_derive {function} 0 {worth}",
+                                       f"{intros}refine {found.proof}; cbv beta; "
                                        "solve [assumption | reflexivity | simpl; linear | nonzero].")
-            exists = self.script.show("Y", f"ex_derive {function} 0", f"exists {worth}. exact {derives}.")
-            equation = self.script.show("D", f"(Derive {function} 0) = {worth}",
-                                        f"apply is_derive_unique. exact {derives}.")
+            exists = self.script.show("Y", f"{each}ex_derive {function} 0",
+                                      f"{intros}exists {worth}. exact ({derives}{at}).")
+            equation = self.script.show("D", f"{each}(Derive {function} 0) = {worth}",
+                                        f"{intros}apply is_derive_unique. exact ({derives}{at}).")
             self.derivatives[key] = equation, value, exists
         return self.derivatives[key]
 
-    def moved(self, statement: str, proof: str) -> str:
-        """A statement of the motion's values, from the same of numbers."""
+    def moved(self, statement: str, proof: str, each: str = "") -> str:
+        """A statement of the motion's values, from the same of numbers; `each`: of every index i."""
         if self.goal.kind == "static":
-            return proof
+            return f"(fun _ : nat => {proof})" if each else proof
+        intros = "intros i. " if each else ""
         rates = "".join(f"rewrite ?{equation}. " for equation, _, _ in self.derivatives.values())
+        if "bigsum" in statement:  # no rewriting reaches below an index: the sum of one term is written out between
+            rates += f"cbv [bigsum n]. {rates}"
         at = "".join(f"rewrite ?v_{name}_at. " for name in self.goal.rates)
-        return self.script.show("W", statement, f"{rates}{at}exact {proof}.")
+        return self.script.show("W", f"{each}{statement}", f"{intros}{rates}{at}exact {proof}.")
 
     def prove(self) -> None:
         """Values first, then all parts of the statement in their order."""
@@ -143,11 +152,13 @@ class _Here:
         for group in binders.strip("()").split(") (") if binders else []:
             names, _, kind = group.partition(" : ")
             for name in names.split():
-                if kind == "R -> R":
-                    at = text_of(self.values[name[2:]], letters)
-                    slope = text_of(self.closed(goal.rates[name[2:]]), letters)
+                if name[2:] in goal.letters.moving:
+                    row = self.rows[0] if name[2:] in goal.letters.indexed else {}
+                    at = text_of((self.values | row)[name[2:]], letters)
+                    slope = text_of(self.closed(goal.rates[name[2:]], row), letters)
                     script.libraries.add("WorkbenchFlow")
-                    script.say(f"destruct (motion 0 {at} {slope}) as [{name} [{name}_at {name}_rate]]. exists {name}.")
+                    script.say(f"destruct ({'motions' if row else 'motion'} 0 {at} {slope}) as "
+                               f"[{name} [{name}_at {name}_rate]]. exists {name}.")
                 elif name == "t":
                     script.say("exists 0.")
                 elif kind == "nat":
@@ -161,9 +172,9 @@ class _Here:
                     script.say(f"exists {text_of(self.values[name[2:]], letters)}.")
         parts: list[str] = []
         for name, rate in goal.rates.items():
-            back = "".join(f"rewrite ?v_{each}_at. " for each in goal.rates)
-            parts.append(script.show("R", f"is_derive v_{name} 0 {text_of(self.partly(rate), self.letters)}",
-                                     f"{back}exact v_{name}_rate."))
+            of, at = (EACH, " i") if name in goal.letters.indexed else ("", "")
+            slope = text_of(self.partly(rate), self.letters)
+            parts.append(self.moved(f"is_derive (v_{name}{at}) 0 {slope}", f"(v_{name}_rate{at})", of))
             script.say(f"pose proof {parts[-1]} as rate_{name}.")
         for text in goal.stated.get("assume", []):
             parts += [*self.conditions(text), self.relation(text)]
@@ -186,7 +197,8 @@ class _Here:
             each = [self.condition(self.closed(part, row), wanted) for row in self.rows]
             if len(each) > 1:
                 raise NotExportedError("several terms of a sum, each with a condition")
-            found.append(f"(fun _ : nat => {each[0]})")
+            here = theorem.condition_text(self.partly(part), wanted, self.letters).removeprefix(EACH)
+            found.append(self.moved(here, each[0], EACH))
         return found
 
     def condition(self, node: ast.expr, wanted: str) -> str:

@@ -41,10 +41,10 @@ def _proof_of(goal: Goal, certificate: dict[str, Any], context: Context, given: 
         script.assumption(text, f"assumed_{number}")
     shown: list[str] = []
     for text, proof in zip(goal.stated["show"], certificate["proofs"], strict=True):
+        _, operator = margin(context, text)  # first, for a function's atom is that of its first argument: x or -x
         script.defined(text)
         # with a sum the same value may be another fraction than the checker's: what the equation says is shown
         equation, value = script.evaluate(split_margin(text))
-        _, operator = margin(context, text)
         name = script.fresh("M")
         script.say(f"assert ({name} : {stated(script, value, operator)}).")
         with script.subproof():

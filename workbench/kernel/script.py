@@ -86,7 +86,8 @@ class Script(Functions):
                 return ast.Name(f"{NAMED}{found[1]}", ast.Load())
             return None
 
-        bare = plain(replaced(replaced(node, rated), summed))
+        carried = replaced(node, rated)  # its rates may have functions that it has not
+        bare = plain(replaced(carried, summed))
         rewrites += [equation for equation, _, _ in sums.values()]
         calls = self._calls(bare)
         linear = self.context.node(bare)
@@ -95,7 +96,7 @@ class Script(Functions):
         change = "".join(f"rewrite ?{name}. " for name in rewrites)
         text = text_of(node, self.normal.letters)
         equation = self.show("E", f"{start}{text} = {self.normal.ratio(linear)}",
-                             f"{intros}{change}{unfolding(node)}{calls}same.")
+                             f"{intros}{change}{unfolding(carried)}{calls}same.")
         if not sums:
             if not same(linear, self.context.node(node)):
                 raise NotExportedError("an expression reads differently here and in the checker")

@@ -10,6 +10,8 @@ from typing import Any
 from workbench.kernel.syntax import Letters, NotExportedError, called, names_in, relation_text, text_of
 from workbench.proof.checker import calls, has_relation, parse, partial_operations, split_relation
 
+EACH = "forall i : nat, "
+
 
 @dataclass(frozen=True)
 class Goal:
@@ -81,7 +83,7 @@ class Goal:
             for node in ast.walk(parse(side)):
                 if called(node, "D"):
                     inner = node.args[0]  # type: ignore[attr-defined]
-                    each = "forall i : nat, " if names_in(inner) & letters.indexed and not _bound(inner) else ""
+                    each = EACH if of_each_index(inner, letters) else ""
                     derivable = f"ex_derive (fun s => {text_of(inner, letters.at('s'))}) {letters.instant}"
                     found.append((f"({each}{derivable})" if each else derivable, node, "derivative"))  # type: ignore[arg-type]
         return list({condition: (condition, part, wanted) for condition, part, wanted in found}.values())
@@ -108,7 +110,12 @@ def condition_text(part: ast.expr, wanted: str, letters: Letters) -> str:
     """What an expression needs to be defined, as Coq text."""
     text = text_of(part, letters)
     condition = {"non-zero": f"{text} <> 0", "positive": f"0 < {text}", "non-negative": f"0 <= {text}"}[wanted]
-    return f"forall i : nat, {condition}" if names_in(part) & letters.indexed and not _bound(part) else condition
+    return f"{EACH}{condition}" if of_each_index(part, letters) else condition
+
+
+def of_each_index(node: ast.expr, letters: Letters) -> bool:
+    """Whether an expression has a value for each index: one with a sum is a single number."""
+    return bool(names_in(node) & letters.indexed) and not _bound(node)
 
 
 def _bound(node: ast.AST) -> bool:

@@ -19,7 +19,7 @@ STARTS, STEPS, BEST = 24, 25, 6
 ROOM = np.array([0.3, 3e-2, 1e-3, 1e-5])  # of a margin, relative to the sum of its terms' sizes
 DIGITS = (2, 4, 7, 11)
 DIFFERENCE, LARGEST = 1e-7, 1e8
-OPEN = 4.0  # how far points start from a bound where there is none on the other side
+OPEN = np.repeat((4.0, 4.0, 30.0), 4)  # how far points start from a bound where there is none on the other side
 
 Columns = dict[sp.Symbol, Numbers]
 
@@ -81,14 +81,16 @@ def _residuals(landscape: Landscape, family: Family, free: list[sp.Symbol], poin
 
 
 def _starts(landscape: Landscape, free: list[sp.Symbol], rng: np.random.Generator) -> Numbers:
-    """The middle of the box that the bounds of single symbols make, and random points in it."""
+    """The middle of the box that the bounds of single symbols make, and random points in it, some farther out where it
+    is open."""
     low, high = bounds_of(landscape, free)
     below, above = np.isfinite(low), np.isfinite(high)
-    least = np.where(below, low, np.where(above, high, OPEN / 2) - OPEN)
-    most = np.where(above, high, np.where(below, low, -OPEN / 2) + OPEN)
+    far = np.resize(OPEN, (STARTS, 1))
+    least = np.where(below, low, np.where(above, high, far / 2) - far)
+    most = np.where(above, high, np.where(below, low, -far / 2) + far)
     middle, reach = (least + most) / 2, (most - least) / 2
     points = middle + reach * rng.uniform(-1, 1, (STARTS, len(free)))
-    points[0] = middle
+    points[0] = middle[0]
     return np.stack([within_sign(s, c) for s, c in zip(free, points.T, strict=True)], axis=1)
 
 

@@ -10,6 +10,7 @@ from workbench.proof.claim import D, Goal, Relation, at_least, at_most, equal, g
 from workbench.proof.decide.combination import find_combination
 from workbench.proof.decide.cuts import after
 from workbench.proof.decide.first_lemmas import first_lemmas
+from workbench.proof.decide.ideals import find_by_ideal
 from workbench.proof.decide.identity import find_identity
 from workbench.proof.decide.pivots import find_by_pivots
 from workbench.proof.decide.squares import find_squares
@@ -54,17 +55,15 @@ def search(goal: Goal, shown: Relation, given: Given, lemmas: Given = (), depth:
                           *inspected, depth)
         if found is not None:
             return found
-    return (_by_lemmas(goal, shown, given, lemmas) or _by_contradiction(goal, shown, given)
-            or _by_growth(goal, _carried(shown, goal), given) or find_by_totals(goal, shown, given, search)
-            or find_by_tangents(goal, _carried(shown, goal), given) or _by_its_square(goal, shown, given)
-            or find_by_two_sides(goal, shown, given) or find_by_pivots(goal, shown, given)
-            or _by_both_bounds(goal, shown, given, lemmas, depth))
+    return (_by_lemmas(goal, shown, given, lemmas) or find_by_ideal(goal, shown, given)
+            or _by_contradiction(goal, shown, given) or _by_growth(goal, _carried(shown, goal), given)
+            or find_by_totals(goal, shown, given, search) or find_by_tangents(goal, _carried(shown, goal), given)
+            or _by_its_square(goal, shown, given) or find_by_two_sides(goal, shown, given)
+            or find_by_pivots(goal, shown, given) or _by_both_bounds(goal, shown, given, lemmas, depth))
 
 
 def _by_contradiction(goal: Goal, shown: Relation, given: Given) -> Found:
     """Where the relation fails the assumptions cannot all hold; finds what needs a division by the goal's margin."""
-    if shown.operator == "==":
-        return None
     impossible = find_combination(goal, greater(0, 0), (*given, shown.negation))
     if impossible is None:
         return None
