@@ -47,7 +47,7 @@ myst_heading_anchors = 4
 nb_execution_mode = "force"
 nb_execution_in_temp = True
 nb_execution_raise_on_error = True
-nb_execution_timeout = 300
+nb_execution_timeout = 1800  # a machine with much else to do takes its time
 nb_merge_streams = True
 nb_output_stderr = "remove"  # progress; an error ends the build
 
