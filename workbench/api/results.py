@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 from workbench.api.frames import data_frame, dataset, html_table, write_mat
 from workbench.errors import of_an_extra
+from workbench.files.numbers import unit_text
 from workbench.simulate.plants.run import PlantRun
 from workbench.systems.setting import Setting
 
@@ -166,7 +167,7 @@ def _figure(setting: Setting, runs: Sequence[PlantRun], columns: Sequence[str]) 
             return text.getvalue()
 
     plant = setting.plant
-    units = {str(symbol): unit for symbol, unit in plant.units.items()}
+    units = {str(symbol): unit_text(unit) for symbol, unit in plant.units.items()}
     shown = columns or [*map(str, plant.states), *map(str, plant.inputs)]
     figure = Drawn(figsize=(7.0, 1.8 * len(shown)), layout="constrained")
     for axes, name in zip(np.atleast_1d(figure.subplots(len(shown), 1, sharex=True)), shown, strict=True):
