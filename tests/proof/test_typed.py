@@ -198,7 +198,7 @@ def test_what_is_put_in_for_a_term_built_elsewhere_is_put_in_or_told():
     """A saturation of the law, replaced by a sign within the goal, stayed as it was and another line was decided."""
     law = -sp.Max(-1, sp.Min(1, (x + y) / p))
     first = claim_of(lambda: Goal((at_most(law.subs(sp.Max(-1, sp.Min(1, (x + y) / p)), sp.sign(x + y)), 1),)))
-    with pytest.raises(ClaimError, match="claim a:1: nothing is put in for Max.* build both above it"):
+    with pytest.raises(ClaimError, match=r"claim a:1: nothing is put in for Max.* build both above it"):
         built(first, first.build)
     second = claim_of(lambda: Goal((at_most(law.subs({x: y, y: x}).subs(x * y, 1), 1),)))
     assert built(second, second.build).show
