@@ -63,6 +63,13 @@ def test_an_unstable_loop_has_no_margins_and_each_input_a_loop():
     assert held[0]["least_gain"] == pytest.approx(0.25) and held[1]["phase_deg"] == pytest.approx(90)
 
 
+def test_a_phase_that_only_tends_to_half_a_turn_limits_no_gain():
+    """A motor: 1 / ((s + 1) (s + 200)), where rounding found a crossing at a gain of 1e15."""
+    motor = wb.Plant("motor", (x, v), (v, 200 * (u - x) - 201 * v), (u,))
+    (row,) = wb.margins(motor, wb.Law("p", {u: -3 * x - sp.Rational(1, 10**6) * v})).rows
+    assert (row["least_gain"], row["most_gain"]) == (0, math.inf) and 0 < row["phase_deg"] < 180
+
+
 def test_the_plot_has_gain_and_phase():
     gain, phase = wb.margins(MASS, PD, law_parameters=GAINS).plot().axes
     omega, size = gain.lines[0].get_data()

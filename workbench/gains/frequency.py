@@ -14,6 +14,7 @@ if TYPE_CHECKING:
     import control
 
 Array = NDArray[np.float64]
+ENDLESS = 1e9  # beyond, a gain at which the phase lags by 180 degrees is what rounding makes of none
 
 
 @dataclass(frozen=True)
@@ -101,5 +102,6 @@ def loop_margins(opened: control.StateSpace) -> Margins:
     crossing = np.asarray(crossovers) > 0
     delays = np.radians(phases[crossing]) / np.asarray(crossovers)[crossing]
     gains = np.asarray(gains)
-    return Margins(max((g for g in gains if 0 < g < 1), default=0.0), min((g for g in gains if g > 1), default=np.inf),
+    return Margins(max((g for g in gains if 1 / ENDLESS < g < 1), default=0.0),
+                   min((g for g in gains if 1 < g < ENDLESS), default=np.inf),
                    min(phases, default=np.inf), min(delays, default=np.inf))
