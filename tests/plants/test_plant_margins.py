@@ -64,9 +64,10 @@ def test_an_unstable_loop_has_no_margins_and_each_input_a_loop():
 
 
 def test_a_phase_that_only_tends_to_half_a_turn_limits_no_gain():
-    """A motor: 1 / ((s + 1) (s + 200)), where rounding found a crossing at a gain of 1e15."""
-    motor = wb.Plant("motor", (x, v), (v, 200 * (u - x) - 201 * v), (u,))
-    (row,) = wb.margins(motor, wb.Law("p", {u: -3 * x - sp.Rational(1, 10**6) * v})).rows
+    """A motor under its speed and angle: rounding finds a crossing at a gain of 1e15."""
+    i = sp.Symbol("i", real=True)
+    motor = wb.Plant("motor", (x, v, i), (v, 30 * i - 5 * v, 200 * u - 200 * i - 60 * v), (u,))
+    (row,) = wb.margins(motor, wb.Law("p", {u: -30 * x - 2 * v})).rows
     assert (row["least_gain"], row["most_gain"]) == (0, math.inf) and 0 < row["phase_deg"] < 180
 
 
