@@ -47,7 +47,7 @@ myst_heading_anchors = 4
 nb_execution_mode = "force"
 nb_execution_in_temp = True
 nb_execution_raise_on_error = True
-nb_execution_timeout = 300
+nb_execution_timeout = 1800  # a machine with much else to do takes its time
 nb_merge_streams = True
 nb_output_stderr = "remove"  # progress; an error ends the build
 
@@ -79,8 +79,15 @@ def setup(app: Any) -> None:
     """What these pages need beyond the extensions: formulas, generated pages, short names of classes, a last look."""
     app.add_html_math_renderer("mathml", (_inline, None), (_display, None))
     app.connect("config-inited", lambda _app, _config: generated_pages.write(HERE / "generated"))
+    app.connect("source-read", _named_after_its_paper)
     app.connect("missing-reference", _public_name)
     app.connect("build-finished", _nothing_from_elsewhere)
+
+
+def _named_after_its_paper(_app: Any, name: str, source: list[str]) -> None:
+    """Errata are all headed alike; in a list of them and at the edge of a page their paper tells them apart."""
+    if name.endswith("/errata"):
+        source[0] = source[0].replace("# Corrections", f"# Corrections to {name.split('/')[-2]}", 1)
 
 
 def _inline(self: Any, node: nodes.math) -> None:

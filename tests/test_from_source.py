@@ -1,5 +1,6 @@
 """A paper's LaTeX source as rows: numbers as LaTeX prints them, letters, references, what is decided and what waits."""
 
+import re
 import shutil
 from pathlib import Path
 
@@ -169,3 +170,17 @@ def test_a_file_that_is_not_there_is_named(tmp_path, named, why):
     with pytest.raises(InputError, match=why):
         write_from_source("noe2029", tmp_path, source)
     assert not (tmp_path / "noe2029").exists()
+
+
+def test_what_is_told_missing_is_what_the_author_can_fill_in(tmp_path):
+    """V is defined by a row: what its definition lacks is told instead of it. Signs may stand behind the letters."""
+    source = tmp_path / "paper.tex"
+    source.write_text(r"""\documentclass{article}\begin{document}
+Let the gains $c, \gamma$ be positive constants; $b$ is not positive, and $M$ is positive definite.
+\begin{equation} \dot x = -c x + b \end{equation} \begin{equation} V = z^2 + \gamma M \end{equation}
+\begin{equation} V \ge 0 \end{equation}\end{document}""")
+    written = write_from_source("mine2026", tmp_path, source)
+    assert "does not say what M, z are: fill in kind, or add a row of role 'definition'" in written.missing["3"]
+    table = (written.folder / "symbols.toml").read_text()
+    kinds = dict(re.findall(r"'(\S+)' *= \{ kind = '(\w*)'", table))
+    assert kinds == {"c": "positive", r"\gamma": "positive", "x": "", "b": "", "M": "", "z": ""}

@@ -136,6 +136,13 @@ def test_what_is_assumed_is_listed_with_its_reason(content, page):
         assert value.key in text and value.words in text
 
 
+def test_the_first_screen_has_one_figure(page):
+    """Who holds the desired run how well stands before the proof, and is not drawn twice."""
+    summary, rest = page.split('id="proof"', 1)
+    assert summary.count("<figure") == 1 and 'id="position-errors"' in summary
+    assert 'id="position-errors"' not in rest
+
+
 def test_page_of_a_scenario_alone(content):
     page = build_page(ReportContent(scenario=content.scenario))
     read(page)
@@ -226,3 +233,9 @@ def test_stated_numbers_keep_their_digits(value, text):
 
 def test_fixed_decimals_have_no_negative_zero():
     assert (numbers.fixed(-0.0001, 2), numbers.fixed(-1234.5, 1)) == ("0.00", "−1234.5")
+
+
+@pytest.mark.parametrize(("unit", "text"), [("m/s^2", "m/s²"), ("kg m^-3", "kg m⁻³"), ("1/(m^2 s^10)", "1/(m² s¹⁰)"),
+                                            ("m", "m"), ("", "")])
+def test_units_are_printed_with_raised_powers(unit, text):
+    assert numbers.unit_text(unit) == text

@@ -14,6 +14,7 @@ __version__ = "0.1.0"
 
 if TYPE_CHECKING:
     from workbench.api.functions import check_paper, compare, entrant, gains, load, prove, reference, simulate
+    from workbench.api.margins import Loops, margins
     from workbench.api.results import Comparison, Proved, Run
     from workbench.api.schemas import schema
     from workbench.model.law import LawState, period, time
@@ -30,7 +31,7 @@ if TYPE_CHECKING:
 
 _WHERE = {
     "api.functions": ("check_paper", "compare", "entrant", "gains", "load", "prove", "reference", "simulate"),
-    "api.results": ("Comparison", "Proved", "Run"), "api.schemas": ("schema",),
+    "api.margins": ("Loops", "margins"), "api.results": ("Comparison", "Proved", "Run"), "api.schemas": ("schema",),
     "model.law": ("LawState", "period", "time"),
     "mpc.plant_tracking": ("PlantMpc",), "proof.paper": ("Paper",), "systems.setting": ("Setting",),
     "systems.law": ("Reference", "StateLaw"), "systems.lyapunov": ("Lyapunov", "closed_loop", "next_values"),
@@ -40,10 +41,10 @@ _WHERE = {
 _MODULES = {name: module for module, names in _WHERE.items() for name in names}
 _RENAMED = {"Law": "StateLaw"}
 
-__all__ = ["Comparison", "Constant", "Event", "Law", "LawState", "Lyapunov", "Metric", "Paper", "Parameter", "Plant",
-           "PlantMpc", "Proved", "Ramp", "Reference", "Run", "Setting", "Sine", "Spline", "Step", "check_paper",
-           "closed_loop", "compare", "entrant", "gains", "load", "next_values", "period", "prove", "reference",
-           "schema", "simulate", "time"]
+__all__ = ["Comparison", "Constant", "Event", "Law", "LawState", "Loops", "Lyapunov", "Metric", "Paper", "Parameter",
+           "Plant", "PlantMpc", "Proved", "Ramp", "Reference", "Run", "Setting", "Sine", "Spline", "Step",
+           "check_paper", "closed_loop", "compare", "entrant", "gains", "load", "margins", "next_values", "period",
+           "prove", "reference", "schema", "simulate", "time"]
 
 
 def __getattr__(name: str) -> Any:

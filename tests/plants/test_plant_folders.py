@@ -61,7 +61,9 @@ def test_every_verb_takes_it(mine):
         one["failed"] is None and one["root_of_V_left"] < one["root_of_V_left_proved"] < 0.01 for one in effects)
     report = run("report", "mine2026", "--out", "page", "--workers", 1, folder=folder)
     assert report.returncode == 0, report.stderr
-    assert "adaptive (tuned)" in (folder / "page" / "report.html").read_text()
+    page = (folder / "page" / "report.html").read_text()
+    assert "adaptive (tuned)" in page and "conditions at the stated gains" not in page  # it states none
+    assert "m/s²" in page and page.index('id="figure-1"') < page.index('id="tables"')
     curves = sorted(path.name for path in (folder / "page" / "curves").glob("*.csv"))
     assert curves == ["01-x.csv", "02-v.csv", "03-u.csv"]
     assert "--resume: is for scenarios" in one_line(run("sweep", "mine2026", "--out", "mc", "--resume", folder=folder))

@@ -117,6 +117,15 @@ def test_what_cannot_be_estimated_is_one_line(how, setting, words):
         PlantMpc(5, {"x": 1.0}, **how).check(Setting(HIDDEN, 1.0, **ONE, **setting), 0.1)
 
 
+def test_steps_that_would_make_a_quick_state_grow_are_one_line():
+    """A current's time constant of 5 ms, planned with steps of 20 ms, grew beyond all bounds."""
+    quick = Plant("quick", (x, v), (v, 200 * (u - v)), (u,))
+    setting = Setting(quick, 1.0, **ONE)
+    with pytest.raises(ValueError, match=r"time constant of 0.005 s, too short for 1 Runge-Kutta step .* substeps = 2"):
+        PlantMpc(5, {"x": 1.0}).check(setting, 0.02)
+    PlantMpc(5, {"x": 1.0}, substeps=2).check(setting, 0.02)
+
+
 def test_what_it_cannot_be_told_of_is_one_line():
     f = sp.Symbol("f", real=True)
     two = Plant("two", (x, v), (v, u + f), (u, f))

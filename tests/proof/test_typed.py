@@ -192,3 +192,14 @@ def test_sums_are_refuted_at_other_numbers_of_terms(name):
 def test_counterexamples_are_simple():
     point = find_counterexample(Goal((at_most(x * y, x**2 + y**2 - 1),)), "refuted")["point"]
     assert set(point.values()) <= {"0", "1", "-1"}
+
+
+def test_what_is_put_in_for_a_term_built_elsewhere_is_put_in_or_told():
+    """A saturation of the law, replaced by a sign within the goal, stayed as it was and another line was decided."""
+    law = -sp.Max(-1, sp.Min(1, (x + y) / p))
+    first = claim_of(lambda: Goal((at_most(law.subs(sp.Max(-1, sp.Min(1, (x + y) / p)), sp.sign(x + y)), 1),)))
+    with pytest.raises(ClaimError, match=r"claim a:1: nothing is put in for Max.* build both above it"):
+        built(first, first.build)
+    second = claim_of(lambda: Goal((at_most(law.subs({x: y, y: x}).subs(x * y, 1), 1),)))
+    assert built(second, second.build).show
+    assert law.subs(sp.Max(-1, sp.Min(1, (x + y) / p)), 0) == 0

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import io
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -13,6 +12,7 @@ from numpy.typing import NDArray
 
 from workbench.api.frames import data_frame, dataset, html_table, write_mat
 from workbench.errors import of_an_extra
+from workbench.files.numbers import unit_text
 from workbench.simulate.plants.run import PlantRun
 from workbench.systems.setting import Setting
 
@@ -153,22 +153,13 @@ class Proved:
 
 def _figure(setting: Setting, runs: Sequence[PlantRun], columns: Sequence[str]) -> Any:
     try:
-        from matplotlib.figure import Figure  # noqa: PLC0415 - for plots alone
+        from workbench.api.figure import drawn  # noqa: PLC0415 - for plots alone
     except ImportError as trouble:
         raise of_an_extra(trouble) or trouble from None
-
-    class Drawn(Figure):
-        """A figure that a notebook shows without pyplot's help."""
-
-        def _repr_svg_(self) -> str:
-            text = io.StringIO()
-            self.savefig(text, format="svg")
-            return text.getvalue()
-
     plant = setting.plant
-    units = {str(symbol): unit for symbol, unit in plant.units.items()}
+    units = {str(symbol): unit_text(unit) for symbol, unit in plant.units.items()}
     shown = columns or [*map(str, plant.states), *map(str, plant.inputs)]
-    figure = Drawn(figsize=(7.0, 1.8 * len(shown)), layout="constrained")
+    figure = drawn(figsize=(7.0, 1.8 * len(shown)))
     for axes, name in zip(np.atleast_1d(figure.subplots(len(shown), 1, sharex=True)), shown, strict=True):
         channel = setting.tracks.get(name)
         if channel:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 
 NOTHING = "—"
 _SUPERSCRIPT = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
@@ -62,3 +63,8 @@ def length(value_m: float | None, digits: int = 3) -> str:
 def _scientific(mantissa: str, exponent: int) -> str:
     power = str(exponent).translate(_SUPERSCRIPT)
     return f"{mantissa.replace('-', '−')}{THIN_SPACE}×{THIN_SPACE}10{power}"
+
+
+def unit_text(unit: str) -> str:
+    """A unit as it is printed: `m/s^2` is m/s², `kg m^-3` is kg m⁻³."""
+    return re.sub(r"\^(-?\d+)", lambda power: power[1].translate(_SUPERSCRIPT), unit)

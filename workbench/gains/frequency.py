@@ -14,6 +14,7 @@ if TYPE_CHECKING:
     import control
 
 Array = NDArray[np.float64]
+ENDLESS = 1e9  # beyond, a gain at which the phase lags by 180 degrees is what rounding makes of none
 
 
 @dataclass(frozen=True)
@@ -88,13 +89,19 @@ def feedback_margins(A: Array, B: Array, K: Array) -> list[Margins]:
     found = []
     for k in range(B.shape[1]):
         others = [j for j in range(B.shape[1]) if j != k]
-        opened = control.ss(A + B[:, others] @ K[others], B[:, [k]], -K[[k]], np.zeros((1, 1)))
-        gains, phases, _, _, crossovers, _ = control.stability_margins(opened, returnall=True)
-        phases = np.mod(np.asarray(phases), 360.0)  # what a lag may be, at each frequency at which the gain is one
-        crossing = np.asarray(crossovers) > 0
-        delays = np.radians(phases[crossing]) / np.asarray(crossovers)[crossing]
-        gains = np.asarray(gains)
-        found.append(Margins(max((g for g in gains if 0 < g < 1), default=0.0),
-                             min((g for g in gains if g > 1), default=np.inf),
-                             min(phases, default=np.inf), min(delays, default=np.inf)))
+        found.append(loop_margins(control.ss(A + B[:, others] @ K[others], B[:, [k]], -K[[k]], np.zeros((1, 1)))))
     return found
+
+
+def loop_margins(opened: control.StateSpace) -> Margins:
+    """Margins of a loop with one input and one output, negative feedback, in continuous time, stable when closed."""
+    import control  # noqa: PLC0415 - as above
+
+    gains, phases, _, _, crossovers, _ = control.stability_margins(opened, returnall=True)
+    phases = np.mod(np.asarray(phases), 360.0)  # what a lag may be, at each frequency at which the gain is one
+    crossing = np.asarray(crossovers) > 0
+    delays = np.radians(phases[crossing]) / np.asarray(crossovers)[crossing]
+    gains = np.asarray(gains)
+    return Margins(max((g for g in gains if 1 / ENDLESS < g < 1), default=0.0),
+                   min((g for g in gains if 1 < g < ENDLESS), default=np.inf),
+                   min(phases, default=np.inf), min(delays, default=np.inf))

@@ -7,12 +7,15 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Literal, get_args
 
+import numpy as np
+
 from workbench.model.law import time
-from workbench.systems.setting import Setting
+from workbench.systems.setting import Setting, first_inputs
 from workbench.systems.symbols import is_finite, named_values
 
 Solver = Literal["fatrop", "ipopt"]
 MOST_STAGES = 1000
+LONGEST = 2.0  # a Runge-Kutta step in time constants: from 2.8 on what decays would grow
 NOT_NEGATIVE = ("weights", "input_weights", "change_weights", "rate_limits", "observer", "first_spread")
 
 
@@ -98,6 +101,7 @@ class PlantMpcValues:
                 raise ValueError(f"MPC needs every state of plant '{plant.id}', and '{state}' is not measured: make it "
                                  f"an output, or state observer, as {{ {state} = 1.0 }}, to estimate it")
         self._check_estimates(setting)
+        self._check_substeps(setting, period_s)
         self._check_actuators(setting, period_s)
         for name in self.weights:
             if name not in setting.tracks:
@@ -129,6 +133,21 @@ class PlantMpcValues:
                 if name in disturbances and name not in self.observer:
                     raise ValueError(f"{key}.{name}: the disturbance is not estimated: state observer.{name}")
 
+    def _check_substeps(self, setting: Setting, period_s: float) -> None:
+        """ValueError where the plant, as it starts, has a pole that Runge-Kutta steps as long as these make grow."""
+        if setting.plant.updates:
+            return
+        try:
+            A = setting.plant.jacobians({**setting.initial, **_inputs(setting)}, setting.parameters)[0]
+        except ValueError:  # no linear plant there, so nothing is known of it
+            return
+        pole = float(abs(np.linalg.eigvals(A)).max())
+        least = math.ceil(pole * period_s / LONGEST)
+        if self.substeps < least:
+            raise ValueError(f"plant '{setting.plant.id}' starts with a time constant of {1 / pole:.3g} s, too short "
+                             f"for {self.substeps} Runge-Kutta step{'s' * (self.substeps > 1)} in the period of "
+                             f"{period_s:g} s: give substeps = {least} or more")
+
     def _check_actuators(self, setting: Setting, period_s: float) -> None:
         """ValueError for actuators that the predictor cannot be told of."""
         if not self.predictor:
@@ -138,7 +157,12 @@ class PlantMpcValues:
             told = ", ".join(f"{u} {delay:g} s" for u, delay in delays.items())
             raise ValueError(f"predictor: the inputs' delays differ, {told}: make them equal, or leave predictor out")
         for name, lag in setting.lag_s.items() if not setting.plant.updates else ():
-            least = math.ceil(period_s / (2 * lag)) if lag else 1  # beyond, Runge-Kutta steps of the lag grow
+            least = math.ceil(period_s / (LONGEST * lag)) if lag else 1
             if self.substeps < least:
                 raise ValueError(f"predictor: the lag of {name}, {lag:g} s, is too short for {self.substeps} Runge-"
                                  f"Kutta steps in {period_s:g} s: give {least} substeps or more")
+
+
+def _inputs(setting: Setting) -> dict[str, float]:
+    """The inputs before the first command by their names."""
+    return {str(u): float(value) for u, value in zip(setting.plant.inputs, first_inputs(setting), strict=True)}

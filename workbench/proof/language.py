@@ -141,8 +141,12 @@ class Language:
         if self.names.get(name) is owner:
             return
         if not re.fullmatch(r"[A-Za-z_][A-Za-z0-9_]*", name) or keyword.iskeyword(name) or name in LANGUAGE:
-            raise ClaimError(f"symbol '{name}': certificates need names of letters, digits and underscores, "
-                             f"other than {', '.join(LANGUAGE)} and Python's own words")
+            if name in LANGUAGE or keyword.iskeyword(name):
+                whose = "a function" if name in LANGUAGE else "one of Python's own words"
+                raise ClaimError(f"symbol '{name}': is {whose}, which no symbol of a claim may be called: name it "
+                                 f"otherwise, such as '{name}_0'")
+            raise ClaimError(f"symbol '{name}': certificates need names of letters, digits and underscores, the first "
+                             "no digit: name it otherwise")
         if self.names.setdefault(name, owner) != owner:
             raise ClaimError(f"two different symbols are named '{name}' (other assumptions, or one of them indexed): "
                              "certificates could not tell them apart; give each its own name")

@@ -5,6 +5,9 @@ claim would be decided for more values than it speaks of. `sympy.evaluate(False)
 sympy's own calculations (expand, integrate, det) do not end or give nonsense. Here only what the caller's code writes
 down is kept: operators, functions, `Add` and its like, and what `xreplace` puts together. What sympy calculates for it
 is as sympy gives it.
+
+A term kept as typed is another one than sympy's own, so that `subs` would pass over what was built elsewhere, without a
+word, and a goal would say what nobody meant. While a goal is built that is an error.
 """
 
 from __future__ import annotations
@@ -18,9 +21,11 @@ from types import FrameType
 from typing import Any, TypeVar
 
 import sympy as sp
-from sympy.core.function import DefinedFunction
+from sympy.core.function import AppliedUndef, DefinedFunction
 from sympy.core.operations import AssocOp
 from sympy.functions.elementary.miscellaneous import MinMaxBase
+
+from workbench.errors import ClaimError
 
 T = TypeVar("T")
 
@@ -29,10 +34,12 @@ BUILDERS: tuple[Any, ...] = (AssocOp, sp.Pow, sp.Function, DefinedFunction, MinM
 WRITTEN = {"sqrt", "xreplace", "_func", "binary_op_wrapper", "__sympifyit_wrapper"}
 WRITTEN |= {f"__{side}{name}__" for name in ("add", "sub", "mul", "truediv", "pow") for side in ("", "r")}
 WRITTEN |= {"__neg__", "__pos__", "__abs__"}
+REPLACERS = ("subs", "xreplace")
 
 _blocks: list[int] = []  # the threads of all blocks of `as_typed` that are open, in whatever thread
 _open: dict[int, int] = {}  # by thread: how many of its blocks are in force
 _before: dict[Any, Any] = {}  # sympy's own way to build a term, while it is replaced
+_building: set[int] = set()  # the threads that build a goal
 _lock = threading.Lock()
 
 
@@ -78,8 +85,15 @@ def kept_as_typed(build: Callable[[], T]) -> Callable[[], T]:
 
     @wraps(build)
     def typed() -> T:
-        with as_typed():
-            return build()
+        me = threading.get_ident()
+        outermost = me not in _building
+        _building.add(me)
+        try:
+            with as_typed():
+                return build()
+        finally:
+            if outermost:
+                _building.discard(me)
 
     typed.keeps_typed = True  # type: ignore[attr-defined]
     return typed
@@ -110,12 +124,48 @@ def _install() -> None:
     for owner in BUILDERS:
         _before[owner] = owner.__dict__["__new__"]
         owner.__new__ = staticmethod(_keeping(owner.__new__))
+    for name in REPLACERS:
+        _before[name] = getattr(sp.Basic, name)
+        setattr(sp.Basic, name, _replacing(_before[name]))
 
 
 def _remove() -> None:
     for owner, original in _before.items():
-        owner.__new__ = original
+        if isinstance(owner, str):
+            setattr(sp.Basic, owner, original)
+        else:
+            owner.__new__ = original
     _before.clear()
+
+
+def _replacing(original: Callable[..., Any]) -> Callable[..., Any]:
+    @wraps(original)
+    def replace(self: Any, *args: Any, **options: Any) -> Any:
+        if threading.get_ident() in _building and isinstance(self, sp.Expr) and not _inside_sympy(sys._getframe(1)):
+            given = args[0] if len(args) == 1 else [args[:2]]
+            for old, _ in given.items() if hasattr(given, "items") else given:
+                if isinstance(old, sp.Expr) and old.args and not isinstance(old, (sp.Indexed, AppliedUndef)):
+                    _require_seen(original, self, old)
+        return original(self, *args, **options)
+
+    return replace
+
+
+def _require_seen(original: Callable[..., Any], expr: sp.Expr, old: sp.Expr) -> None:
+    """ClaimError where a term stands in an expression for sympy, and not in the form in which one of them is typed."""
+    mark = sp.Dummy()
+    if original(expr, {old: mark}) != expr:
+        return
+    plain = evaluated(expr)
+    with as_evaluated():
+        seen = original(plain, {evaluated(old): mark}) != plain
+    if seen:
+        raise ClaimError(f"nothing is put in for {old}, which stands in the expression in another form, because terms "
+                         "are kept as typed within a goal's function: build both above it, in the module")
+
+
+def _inside_sympy(frame: FrameType) -> bool:
+    return str(frame.f_globals.get("__name__", "")).startswith("sympy.")
 
 
 def _keeping(original: Callable[..., Any]) -> Callable[..., Any]:

@@ -24,7 +24,7 @@ NOT_ERRORS = {"energy_J", "command_max", "bound_used", "mse_0", "reversals"}  # 
 
 def gains_result(report: GainReport, effects: Sequence[Effect], fronts: Sequence[GainFront] = ()) -> StudyResult:
     """The tables that `workbench gains` prints, its notes as findings."""
-    tables = [_conditions(report), _quantities(report), _found(report)]
+    tables = [table for table in (_conditions(report), _quantities(report), _found(report)) if table.rows]
     if effects:
         tables += _effects(effects)
     tables += [_front(front) for front in fronts]

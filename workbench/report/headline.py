@@ -29,7 +29,7 @@ def proof_line(claims: Sequence[ClaimView]) -> Markup | None:
         return None
     paper = [claim for claim in claims if not claim.ours]
     line = Markup("<strong>Proof.</strong>")
-    line += f" {len(paper)} lines of the paper: {_verdicts(paper)}."
+    line += f" {len(paper)} line{'s' * (len(paper) != 1)} of the paper: {_verdicts(paper)}."
     tainted = sum(claim.verdict == "proved" and bool(claim.tainted_by) for claim in paper)
     if tainted:
         line += Markup(" {} of the proved rest on a line that fails.").format(tainted)
@@ -38,7 +38,7 @@ def proof_line(claims: Sequence[ClaimView]) -> Markup | None:
         line += Markup(" {} of the proved hold only under lines that are not shown.").format(under)
     own = [claim for claim in claims if claim.ours]
     if own:
-        line += f" {len(own)} questions of ours: {_verdicts(own)}."
+        line += f" {len(own)} question{'s' * (len(own) > 1)} of ours: {_verdicts(own)}."
     return line
 
 
@@ -143,8 +143,10 @@ def variants_line(nominal: Sequence[Metrics], variants: Sequence[tuple[Variant, 
     return line
 
 
-def sources_line(values: Sequence[SourcedValue]) -> Markup:
-    """How much of the data the paper does not give."""
+def sources_line(values: Sequence[SourcedValue]) -> Markup | None:
+    """How much of the data the paper does not give; None where no source is stated."""
+    if not values:
+        return None
     assumed = sum(value.kind == "assumed" for value in values)
     return Markup('<strong>Data.</strong> {} of {} stated values are <a href="#assumptions">assumed</a>: '
                   "the paper does not give them.").format(assumed, len(values))

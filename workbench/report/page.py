@@ -54,6 +54,7 @@ def build_page(content: ReportContent) -> str:
     claims = claim_views(content.claims)
     sources = sourced_values(scenario)
     shown = _figures(content, names)
+    first = shown.pop("position-errors", None)
     lines = [
         headline.proof_line(claims), headline.nominal_line(scenario, content.metrics, names),
         headline.table_line(scenario, summaries, names, content.sweep),
@@ -69,7 +70,7 @@ def build_page(content: ReportContent) -> str:
         commands=content.commands, timings=content.timings, gains=gains_view(content.gains),
         content=content, scenario=scenario, names=names,
         figures=[figure for anchor, figure in shown.items() if anchor != "spread"], spread=shown.get("spread"),
-        standings=[], sentences=(), first_figure=None,
+        standings=[], sentences=(), first_figure=first,
         winners=winners(scenario, content.metrics, content.variants, content.sweep, names),
         nominal=tables.nominal_table(content.metrics),
         information=[tables.information(scenario, m.controller) for m in content.metrics],

@@ -23,6 +23,7 @@ from workbench.report.charts.files import CURVES
 from workbench.report.claims import ClaimView, by_section, claim_views, counts, fated, in_words
 from workbench.report.findings_view import finding_groups
 from workbench.report.graph.view import graph_views
+from workbench.report.math_font import math_font
 from workbench.report.sources import SourcedValue, stated
 from workbench.report.svg import PALETTE
 
@@ -67,12 +68,9 @@ def render(template: str, document: Mapping[str, Any], sources: Sequence[Sourced
 
 
 def _style(folder: Path) -> str:
-    """The page's style, with the colours of its curves and the font of its formulas, of which dots over letters need a
-    table that few systems' fonts have."""
-    font = base64.b64encode(contents(folder / "fonts" / "math.woff2")).decode()
+    """The page's style, with the colours of its curves and the font of its formulas."""
     series = " ".join(f"--series-{i}: {colour};" for i, colour in enumerate(PALETTE))
-    return (f'@font-face {{ font-family: "Page Math"; src: url(data:font/woff2;base64,{font}) format("woff2"); }}\n'
-            f":root {{ {series} }}\n{contents(folder / 'page.css').decode()}")
+    return f"{math_font()}:root {{ {series} }}\n{contents(folder / 'page.css').decode()}"
 
 
 def _scripts(folder: Path, charts: bool) -> list[str]:

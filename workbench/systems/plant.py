@@ -206,16 +206,21 @@ class Plant:
 
         if not self.inputs:
             raise ValueError(f"plant '{self.id}' has no input, which a StateSpace needs: give it one that does nothing")
+        A, B, C, D = self.jacobians(at, parameters)
+        return control.ss(A, B, C, D, states=[*map(str, self.states)], inputs=[*map(str, self.inputs)],
+                          outputs=[*map(str, self.outputs)], dt=self.step_s or 0)
+
+    def jacobians(self, at: Mapping[str, float] | None = None,
+                  parameters: Mapping[str, Any] | None = None) -> tuple[NDArray[np.float64], ...]:
+        """A, B, C and D of the linear plant about a point, as `linearise` takes and refuses it."""
         values = {**self._point(at), **dict.fromkeys(map(str, self.disturbances), 0.0), **self.values(parameters)}
         known = {str(s): s for s in (*self.states, *self.inputs, *self.disturbances, *self.parameter_symbols)}
         point = {known[name]: sp.Float(value, 17) for name, value in values.items()} | {time: sp.Integer(0)}
         try:
-            A, B, C, D = (jacobian_at(rows, by, point) for rows in (self.moves, [*self.outputs.values()])
-                          for by in (self.states, self.inputs))
+            return tuple(jacobian_at(rows, by, point) for rows in (self.moves, [*self.outputs.values()])
+                         for by in (self.states, self.inputs))
         except ValueError as trouble:
             raise ValueError(f"plant '{self.id}': {trouble}") from None
-        return control.ss(A, B, C, D, states=[*map(str, self.states)], inputs=[*map(str, self.inputs)],
-                          outputs=[*map(str, self.outputs)], dt=self.step_s or 0)
 
     def _point(self, at: Mapping[str, float] | None) -> dict[str, float]:
         point = {str(symbol): 0.0 for symbol in (*self.states, *self.inputs)}

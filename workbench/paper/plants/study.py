@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 
 from workbench.errors import InputError
-from workbench.files.numbers import number
+from workbench.files.numbers import number, unit_text
 from workbench.paper.cells import Column
 from workbench.paper.parameter_search import NONE_YET, Finished, Name, Restart, Tuned, score, search, search_all
 from workbench.paper.plants.problem import LocatedPlantStudy, located
@@ -31,9 +31,12 @@ def _run_task(study: LocatedPlantStudy, name: str) -> PlantRun:
 
 def told(study: LocatedPlantStudy, runs: Sequence[PlantRun]) -> StudyResult:
     """Runs as a study's result."""
-    return StudyResult(tuple(map(row_of, runs)), (comparison_table(study.setting, runs),),
-                       tuple(_plots(study.setting, runs)), tuple(_findings(study.setting, runs)),
-                       tuple((run.name, run.failed) for run in runs if run.failed))
+    plots = tuple(_plots(study.setting, runs))
+    tracked = [number for number, plot in enumerate(plots) if plot.title in study.setting.tracks]
+    return StudyResult(tuple(map(row_of, runs)), (comparison_table(study.setting, runs),), plots,
+                       tuple(_findings(study.setting, runs)),
+                       tuple((run.name, run.failed) for run in runs if run.failed),
+                       first_plot=next(iter(tracked), 0) if plots else None)
 
 
 def row_of(run: PlantRun) -> dict[str, object]:
@@ -47,7 +50,7 @@ def comparison_table(setting: Setting, runs: Sequence[PlantRun]) -> ResultTable:
     """The controllers beside each other, a column a metric."""
     metrics = setting.every_metric
     header = (Column("controller"), Column("period", "ms", 1e-3, None),
-              *(Column(m.title or m.id.replace("_", " "), m.unit) for m in metrics), Column("step", "µs"))
+              *(Column(m.title or m.id.replace("_", " "), unit_text(m.unit)) for m in metrics), Column("step", "µs"))
     rows = tuple((run.name, run.period_s, *(run.metrics[m.id] for m in metrics), run.step_us) for run in runs)
     return ResultTable("Controllers on the same plant", f"plant {setting.plant.id}", header, rows,
                        "A law's step is timed with the plant's integration, MPC's call by call without it.")
@@ -62,10 +65,10 @@ def _plots(setting: Setting, runs: Sequence[PlantRun]) -> Iterator[Plot]:
         if channel and whole:
             longest = max(whole, key=lambda run: run.reached_s)
             curves.insert(0, _desired(longest, channel))
-        unit = plant.units.get(symbol, "")
-        kind = "input, as it acts" if symbol in plant.inputs else "state"
+        unit = unit_text(plant.units.get(symbol, ""))
+        kind, acts = ("input", ", as it acts") if symbol in plant.inputs else ("state", "")
         if curves:
-            yield Plot(f"{symbol}", f"{kind} of plant {plant.id}", "time (s)", f"{symbol} ({unit})" if unit else
+            yield Plot(f"{symbol}", f"{kind} of plant {plant.id}{acts}", "time (s)", f"{symbol} ({unit})" if unit else
                        f"{symbol}", tuple(curves))
 
 
@@ -80,7 +83,7 @@ def _findings(setting: Setting, runs: Sequence[PlantRun]) -> Iterator[str]:
         if len(values) > 1:
             best = min(values.values())
             least = [name for name, value in values.items() if number(value) == number(best)]
-            unit = next((m.unit for m in setting.every_metric if m.id == f"{output}_error_rms"), "")
+            unit = next((unit_text(m.unit) for m in setting.every_metric if m.id == f"{output}_error_rms"), "")
             yield f"RMS error of {output}, least: {' and '.join(least)}, {number(best)} {unit}".rstrip() + "."
     for run in runs:
         if run.failed:

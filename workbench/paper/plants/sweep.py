@@ -13,6 +13,7 @@ from typing import Any
 import numpy as np
 
 from workbench.errors import InputError
+from workbench.files.numbers import unit_text
 from workbench.files.writing import make_folder, write_text
 from workbench.paper.cells import Column
 from workbench.paper.plants.problem import LocatedPlantStudy
@@ -51,8 +52,9 @@ class PlantSweep:
         header = [Column("controller"), Column("failed runs", digits=None)]
         for metric in metrics:
             name = metric.title or metric.id.replace("_", " ")
-            header += [Column(f"{name}, mean", metric.unit),
-                       Column(f"{name}, {'least' if metric.measure == 'smallest' else 'largest'}", metric.unit)]
+            unit = unit_text(metric.unit)
+            header += [Column(f"{name}, mean", unit),
+                       Column(f"{name}, {'least' if metric.measure == 'smallest' else 'largest'}", unit)]
         rows = []
         for controller in dict.fromkeys(row["controller"] for row in self.rows):
             own = [row for row in self.rows if row["controller"] == controller]

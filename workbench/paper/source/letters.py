@@ -22,6 +22,9 @@ _INLINE = re.compile(r"(?<!\\)\$(?!\$)(.+?)(?<!\\)\$|\\\((.+?)\\\)", re.DOTALL)
 _LIST = r"((?:\$[^$]+\$(?:\s*,\s*(?:and\s+)?|\s+and\s+)?)+)"
 _CONSTANTS = re.compile(r"\b(?:constants?|gains?|parameters?)\b[^.$]{0,30}" + _LIST, re.IGNORECASE)
 _POSITIVE = re.compile(r"\b(?<!non)(?<!non-)positive\s+(?:\w+\s+){0,3}" + _LIST, re.IGNORECASE)
+_ARE_POSITIVE = re.compile(
+    _LIST + r"\s*(?:be|are|is)\s+(?:an?\s+|all\s+|some\s+)?positive\s+(?:\w+\s+){0,2}?"
+    r"(?:constants?|gains?|numbers?|scalars?|parameters?)\b", re.IGNORECASE)
 _INPUTS = re.compile(r"\b(?:disturbances?|inputs?|references?)\b[^.$]{0,30}" + _LIST, re.IGNORECASE)
 _SIGNS = {">": "positive", ">=": "nonnegative"}
 
@@ -38,7 +41,7 @@ def table_of(rows: list[RowEntry], text: str) -> dict[str, LetterEntry]:
     defined = {letter for row in rows if row.role == "definition" for letter, _ in sides_of(text_of(row))}
     states = {letter for row in rows if row.role == "dynamics" for letter, _ in moving_sides(text_of(row))}
     kinds = dict(_kinds(text))
-    kinds = dict.fromkeys(_named(_POSITIVE, text), "positive") | kinds
+    kinds = dict.fromkeys((*_named(_POSITIVE, text), *_named(_ARE_POSITIVE, text)), "positive") | kinds
     constants, inputs = set(_named(_CONSTANTS, text)), set(_named(_INPUTS, text))
     entries = {}
     for letter in found:

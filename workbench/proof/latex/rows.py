@@ -111,6 +111,7 @@ class _Known:
         definitions = {left: right for row in rows if row.role == "definition"
                        for left, right in sides_of(text_of(row))}
         flow = {left: right for row in rows if row.role == "dynamics" for left, right in moving_sides(text_of(row))}
+        self._defining = definitions
         self.definitions = _in_order(definitions, set(filled))
         self.flow = {letter: right for letter, right in flow.items()
                      if letter in filled and letters_of_text(right) <= filled.keys() | self.definitions.keys()}
@@ -123,11 +124,11 @@ class _Known:
             raise LatexError("a statement in words: state its goal by hand")
         line = text_of(row)
         assumed = self._assumed(row)
-        missing = sorted({letter for text in (line, *map(text_of, assumed)) for letter in letters_of_text(text)
-                          if not self._known(letter)})
+        missing = sorted({letter for text in (line, *map(text_of, assumed)) for letter in self._unknown(text, set())})
         if missing:
             verb = "is" if len(missing) == 1 else "are"
-            raise LatexError(f"{SYMBOLS} does not say what {', '.join(missing)} {verb}: fill in kind")
+            raise LatexError(f"{SYMBOLS} does not say what {', '.join(missing)} {verb}: fill in kind, or add a row "
+                             "of role 'definition'")
         goal = asked(line, self.symbols)
         given = [relation for one in assumed for relation in asked(text_of(one), self.symbols).show]
         goal = replace(goal, assume=(*goal.assume, *given))
@@ -140,8 +141,13 @@ class _Known:
                   if one in self.rows and stated.title.startswith("Assumption")]
         return [one for one in dict.fromkeys((*named, *inside)) if one.role == "assumption"]
 
-    def _known(self, letter: str) -> bool:
-        return letter in self.symbols.notation or letter in self.definitions
+    def _unknown(self, text: str, seen: set[str]) -> set[str]:
+        """The letters of a text of which nothing is known, those of a definition instead of the letter it defines."""
+        found = set()
+        for letter in letters_of_text(text) - seen - self.symbols.notation.keys() - self.definitions.keys():
+            seen.add(letter)
+            found |= self._unknown(self._defining[letter], seen) if letter in self._defining else {letter}
+        return found
 
     def _with_inputs(self, goal: Goal) -> Goal:
         """The same goal with what may vary in time; a letter of which nobody says whether it moves is refused."""

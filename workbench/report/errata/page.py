@@ -8,24 +8,26 @@ from markupsafe import Markup
 
 from workbench.report.errata.blocks import Block, Item, Medium, written
 from workbench.report.formulas import formula, in_html
+from workbench.report.math_font import math_font
 
 STYLE = """:root{color-scheme:light dark}body{font:1.05rem/1.55 Georgia,serif;max-width:46rem;margin:2rem auto;
 padding:0 1rem}h1,h2,h3{line-height:1.25;font-family:system-ui,sans-serif}h2{margin-top:2.5rem;border-bottom:1px solid
 #8886}h3{margin-top:2rem;font-size:1.05rem}.formula{margin:.6rem 0;overflow-x:auto}.label{font:600 .85rem
-system-ui,sans-serif;display:block;color:#777}math{font-size:1.05em}pre{font-size:.78rem;overflow-x:auto;
-background:#8881;padding:.5rem}ul{padding-left:1.2rem}li{margin:.25rem 0}.unbroken{white-space:nowrap}
-@media print{body{max-width:none;margin:0;font-size:10pt}pre{white-space:pre-wrap;word-break:break-all}}"""
-POLICY = "default-src 'none'; style-src 'unsafe-inline'; base-uri 'none'; form-action 'none'"
+system-ui,sans-serif;display:block;opacity:.75}math{font-size:1.05em;font-family:"Page Math",math}pre{font-size:.78rem;
+white-space:pre-wrap;overflow-wrap:anywhere;background:#8881;padding:.5rem}
+ul{padding-left:1.2rem}li{margin:.25rem 0}.unbroken{white-space:nowrap}
+@media print{body{max-width:none;margin:0;font-size:10pt}}"""
+POLICY = "default-src 'none'; style-src 'unsafe-inline'; font-src data:; base-uri 'none'; form-action 'none'"
 
 
 def html_document(blocks: Sequence[Block], title: str) -> str:
     """The document as one page of HTML."""
-    body = Markup("\n").join(written(blocks, HTML))
+    style, body = Markup(math_font() + STYLE), Markup("\n").join(written(blocks, HTML))
     return str(Markup(
         '<!doctype html>\n<html lang="en">\n<head>\n<meta charset="utf-8">\n'
         '<meta name="viewport" content="width=device-width, initial-scale=1">\n'
         '<meta http-equiv="Content-Security-Policy" content="{}">\n<title>{}</title>\n<style>{}</style>\n</head>\n'
-        "<body>\n<main>\n{}\n</main>\n</body>\n</html>\n").format(Markup(POLICY), title, Markup(STYLE), body))
+        "<body>\n<main>\n{}\n</main>\n</body>\n</html>\n").format(Markup(POLICY), title, style, body))
 
 
 def _paragraph(text: str, label: str) -> Markup:
