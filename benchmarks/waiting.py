@@ -25,6 +25,7 @@ import car_speed
 import mpc_speed
 import numpy as np
 import simulation_speed
+from descendants import adopt, seconds_of_all
 
 from workbench.optimal.inputs.files import load_line, load_vehicle
 from workbench.optimal.inputs.line import course
@@ -57,15 +58,14 @@ class Bench:
 
     def once(self, *arguments: object, cache: str = "cache", options: tuple[str, ...] = ()) -> Ended:
         """One command. options: of Python."""
-        said = self.place / "said.txt"
+        said, before = self.place / "said.txt", seconds_of_all()
         with said.open("wb") as out:
             process = subprocess.Popen(
                 [sys.executable, *options, "-m", "workbench", *map(str, arguments)], cwd=self.place, stdout=out,
                 stderr=out, env={**os.environ, "PYTHONPATH": str(ROOT), "WORKBENCH_CACHE": str(self.place / cache)},
             )
-            _, status, used = os.wait4(process.pid, 0)
-            process.returncode = os.waitstatus_to_exitcode(status)
-        return Ended(used.ru_utime + used.ru_stime, process.returncode, said.read_text(encoding="utf-8"))
+            process.wait()
+        return Ended(seconds_of_all() - before, process.returncode, said.read_text(encoding="utf-8"))
 
     def row(self, what: str, *arguments: object, expected: int = 0, warm: bool = True) -> Ended:
         """The quickest of the repeats, after one that fills the caches; a line of the table. Exits where a command
@@ -214,6 +214,7 @@ def main() -> None:
     parser.add_argument("--modules", action="store_true", help="imports of the short commands too")
     parser.add_argument("--repeats", type=int, default=2)
     asked = parser.parse_args()
+    adopt()
     with tempfile.TemporaryDirectory(prefix="waiting-") as place:
         bench = Bench(Path(place), asked.repeats)
         print(f"{'':58s}  CPU (s)")
