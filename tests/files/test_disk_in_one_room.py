@@ -22,7 +22,7 @@ EXCEPTIONS = {
     "kernel/coqc.py": {"shutil"},  # looks up where a command is
     "report/svg.py": {"savefig"},  # draws into memory
     "report/reference_figure.py": {"savefig"},  # so does this one
-    "api/results.py": {"savefig"},  # and this one, for notebooks
+    "api/figure.py": {"savefig"},  # and this one, for notebooks
 }
 
 
