@@ -153,9 +153,9 @@ def run_case(study: MaoStudy, of: RunCase) -> RunResult:
 
 
 def late_errors(run: Run) -> tuple[float, float] | None:
-    """RMS and largest size of a run's position errors from SETTLED_S on; None of one that failed."""
+    """RMS and largest size of a run's position errors from SETTLED_S on; None of one that failed or ended before."""
     error = (run.column("s_m") - run.column("s_desired_m"))[run.column("t_s") >= SETTLED_S]
-    return None if run.failed else (float(np.sqrt(np.mean(error**2))), float(np.abs(error).max()))
+    return None if run.failed or not len(error) else (float(np.sqrt(np.mean(error**2))), float(np.abs(error).max()))
 
 
 def name_of(study: MaoStudy, of: RunCase) -> str:

@@ -21,7 +21,8 @@ from workbench.proof.decide.atoms import Item
 from workbench.proof.decide.semialgebraic import read_situation
 from workbench.proof.decide.situation import Polynomial
 
-MOST_PAIRS, MOST_TERMS, MOST_ELEMENTS = 60, 60, 30  # of the basis; terms of an element, with its cofactors
+MOST_PAIRS, MOST_ELEMENTS = 60, 30  # of the basis
+MOST_TERMS = 60  # of an element with its cofactors, and of a product
 MOST_FACTORS, MOST_PRODUCTS = 4, 200  # of a product; products looked at
 
 
@@ -106,7 +107,8 @@ def _product_within(ring: PolyRing, basis: list[Element], nonzero: list[tuple[tu
             return tuple(item for items, _ in factors for item in items), prod((f for _, f in factors), start=ring.one)
         if len(places) < MOST_FACTORS and len(products) < MOST_PRODUCTS:
             products += [((*places, place), (rest * nonzero[place][1]).rem(divisors))
-                         for place in range(places[-1] if places else 0, len(nonzero))]
+                         for place in range(places[-1] if places else 0, len(nonzero))
+                         if len(rest) * len(nonzero[place][1]) <= MOST_TERMS]
     return None
 
 

@@ -55,15 +55,18 @@ def search(goal: Goal, shown: Relation, given: Given, lemmas: Given = (), depth:
                           *inspected, depth)
         if found is not None:
             return found
-    return (_by_lemmas(goal, shown, given, lemmas) or find_by_ideal(goal, shown, given)
-            or _by_contradiction(goal, shown, given) or _by_growth(goal, _carried(shown, goal), given)
-            or find_by_totals(goal, shown, given, search) or find_by_tangents(goal, _carried(shown, goal), given)
-            or _by_its_square(goal, shown, given) or find_by_two_sides(goal, shown, given)
-            or find_by_pivots(goal, shown, given) or _by_both_bounds(goal, shown, given, lemmas, depth))
+    return (_by_lemmas(goal, shown, given, lemmas) or _by_contradiction(goal, shown, given)
+            or _by_growth(goal, _carried(shown, goal), given) or find_by_totals(goal, shown, given, search)
+            or find_by_tangents(goal, _carried(shown, goal), given) or _by_its_square(goal, shown, given)
+            or find_by_two_sides(goal, shown, given) or find_by_pivots(goal, shown, given)
+            or find_by_ideal(goal, shown, given) or _by_impossibility(goal, shown, given)
+            or _by_both_bounds(goal, shown, given, lemmas, depth))
 
 
 def _by_contradiction(goal: Goal, shown: Relation, given: Given) -> Found:
     """Where the relation fails the assumptions cannot all hold; finds what needs a division by the goal's margin."""
+    if shown.operator == "==":
+        return None
     impossible = find_combination(goal, greater(0, 0), (*given, shown.negation))
     if impossible is None:
         return None
@@ -72,6 +75,14 @@ def _by_contradiction(goal: Goal, shown: Relation, given: Given) -> Found:
     here: Proof = {"rule": "combination", "terms": [{"coefficient": "1", "factors": [{"assume": len(given)}]}]}
     return {"rule": "cases", "of": text(shown.margin), "positive": here, "zero": here,
             "negative": impossible | {"rule": "contradiction"}}
+
+
+def _by_impossibility(goal: Goal, shown: Relation, given: Given) -> Found:
+    """An equality, where the assumptions cannot all hold."""
+    if shown.operator != "==":
+        return None
+    impossible = find_combination(goal, greater(0, 0), (*given, shown.negation))
+    return None if impossible is None else impossible | {"rule": "contradiction"}
 
 
 def _by_its_square(goal: Goal, shown: Relation, given: Given) -> Found:
