@@ -84,6 +84,13 @@ def test_no_name_of_a_trip_is_a_formula_in_a_spreadsheet(tmp_path):
     assert {(row["trouble"], row["length_m"], row["gap"]) for row in rows} == {("'=x", "1", "")}
 
 
+def test_whole_numbers_stay_numbers_in_a_table(tmp_path):
+    written = tmp_path / "a.csv"
+    row = {"zero": 0, "negative": -3, "small": -0.5, "none": None}
+    _write_csv(written, tuple(row), [row])
+    assert written.read_text(encoding="utf-8").splitlines()[1] == "0,-3,-0.5,"
+
+
 def test_options_that_do_not_go_together_are_refused(fleet):
     with pytest.raises(WorkbenchError, match="--fleet: names lines, trains and times itself"):
         said("--fleet", fleet, "--time", 100)

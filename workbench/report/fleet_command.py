@@ -113,6 +113,12 @@ def _write_csv(path: Path, columns: tuple[str, ...], rows: list[dict[str, Any]])
     text = io.StringIO(newline="")
     writer = csv.DictWriter(text, columns)
     writer.writeheader()
-    writer.writerows({name: f"{value:.12g}" if isinstance(value, float) else text_cell(str(value or ""))
-                      for name, value in row.items()} for row in rows)
+    writer.writerows({name: _cell(value) for name, value in row.items()} for row in rows)
     write_text(path, text.getvalue())
+
+
+def _cell(value: Any) -> Any:
+    """A number as it is, a text as no formula, None as nothing."""
+    if isinstance(value, float):
+        return f"{value:.12g}"
+    return text_cell(value) if isinstance(value, str) else value
