@@ -10,8 +10,11 @@ from test_cli import one_line, run
 from workbench.errors import InputError
 from workbench.paper.source.document import read_source
 from workbench.paper.source.folder import write_from_source
+from workbench.paper.source.letters import assumed_formulas
+from workbench.paper.source.lines import chained
 from workbench.paper.source.macros import SourceError, expanded
 from workbench.proof.latex.rows import ROWS, SYMBOLS, LettersFile, RowsFile, load_record
+from workbench.proof.latex.symbols import SymbolsFile, symbols_in
 from workbench.proof.prove import prove
 from workbench.proof.selection import targets
 
@@ -184,3 +187,61 @@ Let the gains $c, \gamma$ be positive constants; $b$ is not positive, and $M$ is
     table = (written.folder / "symbols.toml").read_text()
     kinds = dict(re.findall(r"'(\S+)' *= \{ kind = '(\w*)'", table))
     assert kinds == {"c": "positive", r"\gamma": "positive", "x": "", "b": "", "M": "", "z": ""}
+
+
+@pytest.fixture(scope="module")
+def sliding(tmp_path_factory):
+    return write_from_source("sliding2029", tmp_path_factory.mktemp("sliding"), SOURCES / "sliding_mode.tex")
+
+
+def test_a_paper_with_a_reference_and_a_bounded_disturbance_is_decided_as_a_reader_would(sliding):
+    """The plant is M dv/dt = ..., the law needs the reference's rate, which nothing is known of; steps are chains."""
+    assert dict(sliding.missing) == dict.fromkeys(("assumption1", "assumption2"),
+                                                  "a statement in words: state its goal by hand")
+    assert {row: sliding.verdicts[row] for row in ("8", "10", "11", "12", "13")} == {
+        "8": "proved", "10": "proved", "11": "proved", "12": "refuted", "13": "proved"}
+
+
+def test_a_line_that_goes_on_is_read_from_the_last_side_before_it(sliding):
+    rows = rows_of(sliding.folder)
+    assert rows["11"].printed.startswith(r"\le -k s^2") and rows["12"].printed == r"\le -2 k s^2"
+    assert rows["12"].line == r"-k s^2 \le -2 k s^2"
+    assert chained("a &= (b = c)", r"\le d") == r"(b = c) \le d"
+    assert chained(r"a = b, \quad c = d", r"\le e") == chained("a", r"\le e") == chained("a = b", "c = d") == ""
+
+
+def test_the_formula_of_an_assumption_holds_from_there_on_and_one_on_a_condition_does_not(sliding):
+    rows = rows_of(sliding.folder)
+    assert rows["assumption1.formula1"].printed == r"|d(t)| \le D"
+    assert not [row for row in rows if row.startswith("assumption2.")]
+    letters = load_record(sliding.folder / SYMBOLS, LettersFile).letters
+    assert letters["v"].kind == "real" and letters["r"].role == "input"
+    premises = {one.claim.equation: one.claim.premises for one in prove(targets([str(sliding.folder)]), 1).decisions}
+    assert premises["13"] == ("sliding2029:assumption1.formula1",) and not premises["1"]
+
+
+@pytest.mark.parametrize("text", [
+    "If $x > 0$ then $y > x$.", "There exists $y$ such that $y > x$.", "Either $x = y$ or $x = z$.",
+    "For all $x > y$ it is smooth.", r"$x \ge y \Rightarrow z = y$", "The gain $k > 0$ is large.", r"$x \in X$"])
+def test_no_formula_is_assumed_that_a_text_ties_to_a_condition_or_that_says_a_sign_alone(text):
+    assert not [*assumed_formulas(text)]
+
+
+def with_rates(flow, **more):
+    record = SymbolsFile(symbols=dict.fromkeys(("x", "y", "c", "r"), "real"), definitions={"e": "x - c r"}, flow=flow,
+                         **more)
+    return {str(moving): str(rate) for moving, rate in symbols_in(record, Path("letters.toml")).flow.items()}
+
+
+def test_rates_of_other_letters_within_a_rate_are_put_in():
+    assert with_rates({"y": r"\dot e + x", "x": "2 c"}) == {"y": "2*c + x", "x": "2*c"}
+    assert with_rates({"y": r"\dot e", "x": "y", "r": "x"}) == {"y": "-c*x + y", "x": "y", "r": "x"}
+
+
+@pytest.mark.parametrize(("flow", "inputs", "words"), [
+    ({"y": r"\dot x", "x": r"\dot y"}, (), "needs itself"),
+    ({"y": r"\dot e", "x": "1"}, ("r",), "rate of r, which has none"),
+    ({"y": r"\frac{d}{dt} |x|", "x": "1"}, (), "may have none")])
+def test_a_rate_that_is_not_known_within_another_is_named(flow, inputs, words):
+    with pytest.raises(InputError, match=words):
+        with_rates(flow, inputs=inputs)

@@ -6,7 +6,7 @@ import re
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 
-from workbench.paper.source.lines import goes_on
+from workbench.paper.source.lines import chained, goes_on
 from workbench.paper.source.macros import SourceError, expanded, group, optional, without_comments
 
 DISPLAYS = ("equation", "align", "gather", "multline", "eqnarray", "flalign", "alignat")
@@ -30,8 +30,8 @@ _NESTED = re.compile(r"\\(begin|end)\s*\{[^{}]*\}|[{}]|\\.", re.DOTALL)
 class Row:
     """A numbered piece of a paper: its id, what it is ("Equation", "Lemma", ...), number, LaTeX as printed, label.
 
-    within: the id of the theorem or assumption in whose text an equation stands; referred: labels that its text, or
-    the text before it, refers to; proved_by: those that its proof does.
+    line: what is read instead, where it goes on from the row before it. within: the id of the theorem or assumption
+    in whose text an equation stands; referred: labels that its text, the text before it, or its proof refers to.
     """
 
     id: str
@@ -40,6 +40,7 @@ class Row:
     printed: str
     labels: tuple[str, ...] = ()
     title: str = ""
+    line: str = ""
     within: str = ""
     referred: list[str] = field(default_factory=list)
     rests_on: tuple[str, ...] = ()
@@ -186,8 +187,10 @@ class _Reader:
                 continue
             carried = ""
             number = tag[1].strip() if tag else self._equation_number()
+            last = self.rows[-1] if len(self.rows) > before else None
+            chain = chained(last.line or last.printed, printed) if last else ""
             self._add(Row(_id(number), "Equation", number, printed, tuple(_LABEL.findall(line)), within=within,
-                          referred=self.pending + _references(line)))
+                          line=chain, referred=self.pending + _references(line)))
             self.pending = []
         if carried and len(self.rows) > before and goes_on(self.rows[-1].printed, carried):
             self.rows[-1].printed = _joined(self.rows[-1].printed, carried)

@@ -13,11 +13,12 @@ from workbench.files.text import read_text
 from workbench.files.writing import write_text, write_tree
 from workbench.paper.new_paper import new_folder
 from workbench.paper.source.document import Row, Source, read_source
-from workbench.paper.source.letters import table_of
+from workbench.paper.source.letters import assumed_formulas, table_of
 from workbench.paper.source.macros import SourceError, without_comments
 from workbench.proof.latex.error import LatexError
 from workbench.proof.latex.read import read_line
-from workbench.proof.latex.rows import ROWS, SYMBOLS, LetterEntry, Role, RowEntry, moving_sides, sides_of
+from workbench.proof.latex.rows import ROWS, SYMBOLS, LetterEntry, Role, RowEntry
+from workbench.proof.latex.sides import moving_sides, sides_of
 from workbench.proof.latex.statement import parted
 from workbench.proof.prove import prove
 from workbench.proof.selection import targets
@@ -103,12 +104,17 @@ def entries(row: Row, source: Source) -> list[RowEntry]:
     """A row as it stands in the table; a formula of cases is one row for each case, under its condition."""
     title = f"{row.what} {row.number}".strip() + (f": {row.title}" if row.title else "")
     assumed = {one.id for one in source.rows if one.what == "Assumption"}
-    whole = RowEntry(id=row.id, title=title, role="claim", printed=row.printed or row.what, rests_on=row.rests_on,
+    whole = RowEntry(id=row.id, title=title, role="claim", printed=row.printed or row.what,
+                     line=row.line or None, rests_on=row.rests_on,
                      severity="result" if row.what in ("Theorem", "Corollary", "Proposition") else "step")
     if row.what != "Equation":
         inside = tuple(one.id for one in source.rows if one.within == row.id)
-        rests = tuple(dict.fromkeys((*row.rests_on, *(one for one in inside if row.id not in _of(source, one)))))
-        return [whole.model_copy(update={"role": "words", "rests_on": rests})]
+        formulas = [whole.model_copy(update={"id": f"{row.id}.formula{number}", "title": f"{title}, formula {number}",
+                                             "role": "assumption", "printed": formula, "rests_on": ()})
+                    for number, formula in enumerate(assumed_formulas(row.printed), 1) if row.what == "Assumption"]
+        rests = tuple(dict.fromkeys((*row.rests_on, *(one.id for one in formulas),
+                                     *(one for one in inside if row.id not in _of(source, one)))))
+        return [whole.model_copy(update={"role": "words", "rests_on": rests}), *formulas]
     if row.within in assumed:
         return [whole.model_copy(update={"role": "assumption"})]
     cases = _cases(row.printed)

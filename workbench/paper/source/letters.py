@@ -7,25 +7,26 @@ from collections.abc import Iterator
 
 from workbench.proof.latex.error import LatexError
 from workbench.proof.latex.read import read_line
-from workbench.proof.latex.rows import (
-    LetterEntry,
-    RowEntry,
-    letter_latex,
-    letters_of_text,
-    moving_sides,
-    sides_of,
-    text_of,
-)
+from workbench.proof.latex.rows import LetterEntry, RowEntry, text_of
+from workbench.proof.latex.sides import letter_latex, letters_of_text, moving_sides, sides_of
 from workbench.proof.latex.tree import Letter, Node, Number
 
 _INLINE = re.compile(r"(?<!\\)\$(?!\$)(.+?)(?<!\\)\$|\\\((.+?)\\\)", re.DOTALL)
 _LIST = r"((?:\$[^$]+\$(?:\s*,\s*(?:and\s+)?|\s+and\s+)?)+)"
-_CONSTANTS = re.compile(r"\b(?:constants?|gains?|parameters?)\b[^.$]{0,30}" + _LIST, re.IGNORECASE)
+_CONSTANTS = re.compile(r"\b(?:constants?|gains?|parameters?)\b[^.,;:$]{0,30}" + _LIST, re.IGNORECASE)
 _POSITIVE = re.compile(r"\b(?<!non)(?<!non-)positive\s+(?:\w+\s+){0,3}" + _LIST, re.IGNORECASE)
 _ARE_POSITIVE = re.compile(
     _LIST + r"\s*(?:be|are|is)\s+(?:an?\s+|all\s+|some\s+)?positive\s+(?:\w+\s+){0,2}?"
     r"(?:constants?|gains?|numbers?|scalars?|parameters?)\b", re.IGNORECASE)
-_INPUTS = re.compile(r"\b(?:disturbances?|inputs?|references?)\b[^.$]{0,30}" + _LIST, re.IGNORECASE)
+_INPUTS = re.compile(r"\b(?:disturbances?|inputs?|references?)\b[^.,;:$]{0,30}" + _LIST, re.IGNORECASE)
+_CONDITIONAL = re.compile(
+    r"\b(?:if|when|whenever|unless|otherwise|either|or|not|without|exists?|such|some|then|impl\w+)\b"
+    r"|\\(?:forall|exists|Rightarrow|implies|to|rightarrow)(?![A-Za-z])", re.IGNORECASE)
+_ON_CONDITION = re.compile(
+    r"\b(?:if|when|whenever|while|until|unless|provided(?:\s+that)?|such\s+that|case|for(?:\s+(?:all|every|any|each))?|on|or|"
+    r"not|as\s+(?:long|soon)\s+as)\s+\Z", re.IGNORECASE)
+_FOR_ALL = re.compile(r"\b(?:for|with)\s+(?:all|every|any|each)\s*\Z", re.IGNORECASE)
+_HOLDING = {"=", "<", ">", "<=", ">="}
 _SIGNS = {">": "positive", ">=": "nonnegative"}
 
 
@@ -47,10 +48,26 @@ def table_of(rows: list[RowEntry], text: str) -> dict[str, LetterEntry]:
     for letter in found:
         if letter in defined:
             continue
-        role = ("state" if letter in states else "input" if letter in inputs and letter not in constants
-                else "constant" if letter in constants else "")
+        said = [role for role, letters in (("constant", constants), ("input", inputs)) if letter in letters]
+        role = "state" if letter in states else said[0] if len(said) == 1 else ""
         entries[letter] = LetterEntry.model_validate({"kind": kinds.get(letter, ""), "role": role})
     return entries
+
+
+def assumed_formulas(text: str) -> Iterator[str]:
+    r"""The relations within the text of an assumption that hold as they stand, as `$|d| \\le D$`; none of a text that
+    ties them to a condition. What only says a letter's sign is left to the table of letters."""
+    if _CONDITIONAL.search(text):
+        return
+    for inline in _INLINE.finditer(text):
+        formula = (inline[1] or inline[2]).strip(" .,;")
+        try:
+            chains = read_line(formula).chains
+        except LatexError:
+            continue
+        if all(chain.signs and not set(chain.signs) - _HOLDING for chain in chains) and not (
+                _FOR_ALL.search(text[:inline.start()]) or any(_kind(chain.signs, chain.sides[1:]) for chain in chains)):
+            yield formula
 
 
 def _named(pattern: re.Pattern[str], text: str) -> Iterator[str]:
@@ -63,6 +80,8 @@ def _named(pattern: re.Pattern[str], text: str) -> Iterator[str]:
 def _kinds(text: str) -> Iterator[tuple[str, str]]:
     r"""Letters whose sign a formula in the text says, as `k, c > 0`, or that they are real, as `x \in \mathbb{R}`."""
     for inline in _INLINE.finditer(text):
+        if _ON_CONDITION.search(text[:inline.start()]):
+            continue
         try:
             line = read_line((inline[1] or inline[2]).strip(" .,;"))
         except LatexError:

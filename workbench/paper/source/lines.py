@@ -6,9 +6,29 @@ import re
 
 _SIGN = r"(?:[=<>+\-/]|\\(?:leq?|geq?|leqslant|geqslant|cdot|times|in|pm|quad|qquad|Rightarrow|implies)(?![A-Za-z]))"
 _AT_START, _AT_END = re.compile(_SIGN), re.compile(rf"{_SIGN}$")
+_RELATION = re.compile(r"(?:[=<>]|\\(?:leq?|geq?|leqslant|geqslant|lt|gt|equiv|triangleq)(?![A-Za-z]))")
+_STEP = re.compile(rf"{_RELATION.pattern}|\\[A-Za-z]+|\\.|[(){{}}\[\],;]|.", re.DOTALL)
 
 
 def goes_on(first: str, second: str) -> bool:
     """Whether a line goes on in the next one: by a sign at its end or at the start of that, or by an open bracket."""
     return bool(_AT_START.match(second) or _AT_END.search(first)) or any(
         first.count(one) > first.count(other) for one, other in ("()", "[]", "{}"))
+
+
+def chained(first: str, second: str) -> str:
+    """A numbered line that begins with a relation sign, as what it says: from the last side of the line before it on.
+
+    Empty where it begins with none, or the line before it is no single chain.
+    """
+    if not _RELATION.match(second):
+        return ""
+    depth, start = 0, None
+    for found in _STEP.finditer(first):
+        sign = found.group()
+        depth += (sign in ("(", "[", "{", r"\{")) - (sign in (")", "]", "}", r"\}"))
+        if depth == 0 and _RELATION.fullmatch(sign):
+            start = found.end()
+        elif depth == 0 and sign in (",", ";", r"\quad", r"\qquad", r"\text", r"\Rightarrow", r"\implies"):
+            return ""
+    return "" if start is None else f"{first[start:].strip()} {second}"

@@ -6,11 +6,11 @@ goal as soon as it can be read and all its letters are filled in; until then its
 
 from __future__ import annotations
 
-import re
-from collections.abc import Callable, Iterator
-from dataclasses import fields, is_dataclass, replace
+from collections.abc import Callable
+from dataclasses import replace
+from itertools import takewhile
 from pathlib import Path
-from typing import Any, Literal
+from typing import Literal
 
 from pydantic import Field
 
@@ -18,11 +18,19 @@ from workbench.errors import ClaimError, InputError
 from workbench.files.toml import FileRecord, Record, Text, load_record
 from workbench.proof.claim import D, Goal, Kind
 from workbench.proof.latex.error import LatexError
+from workbench.proof.latex.notation import spelled
 from workbench.proof.latex.question import asked
-from workbench.proof.latex.read import read_line
-from workbench.proof.latex.statement import parted
+from workbench.proof.latex.sides import (
+    RATES,
+    in_order,
+    letter_latex,
+    letters_in,
+    letters_of_text,
+    moving_sides,
+    sides_of,
+)
+from workbench.proof.latex.symbols import Kind as LetterKind
 from workbench.proof.latex.symbols import Symbols, SymbolsFile, symbols_in
-from workbench.proof.latex.tree import Chain, Letter
 from workbench.proof.paper import Paper
 from workbench.proof.verdict import Verdict
 
@@ -32,7 +40,6 @@ Role = Literal["claim", "definition", "dynamics", "assumption", "words"]
 TAKEN: dict[Role, str] = {"definition": "taken as a definition of this paper", "dynamics": "taken as the dynamics",
                           "assumption": "an assumption of this paper"}
 
-_LAYOUT = re.compile(r"\\(?:begin|end)\s*\{(?:aligned|split|gathered)\}|(?<!\\)&")
 
 
 class LetterEntry(Record):
@@ -93,11 +100,12 @@ def _state(paper: Paper, known: _Known, row: RowEntry) -> None:
         paper.axiom(row.id, row.title, row.printed, TAKEN[row.role], hypotheses=row.rests_on, severity=row.severity)
         return
     try:
-        goal = known.goal(row)
+        goal, kind = known.goal(row)
     except (LatexError, ClaimError) as trouble:
         paper.unstated(row.id, row.title, row.printed, str(trouble), rests_on=row.rests_on, severity=row.severity)
         return
-    paper.claim(row.id, row.title, _kind(goal), row.printed, row.recorded, rests_on=row.rests_on,
+    paper.claim(row.id, row.title, kind, row.printed, row.recorded,
+                premises=tuple(one.id for one in known.assumed(row)), rests_on=row.rests_on,
                 severity=row.severity, where=known.symbols.notation,
                 reading=f"Read as {row.line}." if row.line else "")(_giving(goal))
 
@@ -106,40 +114,95 @@ class _Known:
     """What definitions, dynamics and the table of letters give, as far as they are filled in."""
 
     def __init__(self, folder: Path, rows: tuple[RowEntry, ...], table: dict[str, LetterEntry]) -> None:
-        self.table, self.rows = table, {row.id: row for row in rows}
+        self.table, self.rows = dict(table), {row.id: row for row in rows}
         filled = {letter: entry.kind for letter, entry in table.items() if entry.kind}
         definitions = {left: right for row in rows if row.role == "definition"
                        for left, right in sides_of(text_of(row))}
         flow = {left: right for row in rows if row.role == "dynamics" for left, right in moving_sides(text_of(row))}
         self._defining = definitions
-        self.definitions = _in_order(definitions, set(filled))
+        self.definitions = in_order(definitions, set(filled))
         self.flow = {letter: right for letter, right in flow.items()
                      if letter in filled and letters_of_text(right) <= filled.keys() | self.definitions.keys()}
-        record = SymbolsFile(symbols=filled, definitions=self.definitions, flow=self.flow) if filled else None
+        self._let_inputs_move(filled)
+        self._leave_out_unmoved()
+        inputs = tuple(one for one in filled if one not in self.flow and self.table[one].role == "input")
+        record = SymbolsFile(symbols=filled, definitions=self.definitions, flow=self.flow,
+                             inputs=inputs) if filled else None
         self.symbols = symbols_in(record, folder / SYMBOLS) if record else Symbols({}, {})
 
-    def goal(self, row: RowEntry) -> Goal:
-        """The goal of a row; LatexError or ClaimError with what is missing."""
+    def _let_inputs_move(self, filled: dict[str, LetterKind]) -> None:
+        """Give an input of which rates are printed, as a reference, those rates as letters that vary as they like."""
+        printed = [one for row in self.rows.values() for one in letters_in(text_of(row)) if one.accents[-1:] and
+                   one.accents[-1] in RATES]
+        for letter in [one for one, kind in filled.items() if kind != "vector" and self.table[one].role == "input"]:
+            rates = [one for one in printed if letter_latex(one) == letter]
+            below = letter
+            for accent in RATES[:max((RATES.index(one.accents[-1]) + 1 for one in rates), default=0)]:
+                rate = spelled(replace(rates[0], accents=(*rates[0].accents[:-1], accent)))
+                filled[rate], self.table[rate] = "real", LetterEntry(kind="real", role="input")
+                self.flow[below] = rate
+                below = rate
+
+    def _leave_out_unmoved(self) -> None:
+        """Leave out rates in which rates stand of letters that have none, yet."""
+        def made_of(letter: str) -> set[str]:
+            right = self.definitions.get(letter)
+            return {letter} if right is None else set().union(*map(made_of, letters_of_text(right)))
+
+        def missing(right: str) -> bool:
+            rates = {letter_latex(one) for one in letters_in(right) if set(one.accents) & set(RATES)}
+            return any(one not in self.flow and self.table.get(one, LetterEntry()).role != "constant"
+                       for one in set().union(*map(made_of, rates)))
+
+        while gone := [letter for letter, right in self.flow.items() if missing(right)]:
+            for letter in gone:
+                del self.flow[letter]
+
+    def goal(self, row: RowEntry) -> tuple[Goal, Kind]:
+        """The goal of a row, and what its line is by itself; LatexError or ClaimError with what is missing."""
         if row.role == "words":
             raise LatexError("a statement in words: state its goal by hand")
         line = text_of(row)
-        assumed = self._assumed(row)
+        if r"\int" in line:
+            raise LatexError("an integral is not read: write it as a letter, whose rate a row of role 'dynamics' gives")
+        assumed = self.assumed(row)
         missing = sorted({letter for text in (line, *map(text_of, assumed)) for letter in self._unknown(text, set())})
         if missing:
             verb = "is" if len(missing) == 1 else "are"
             raise LatexError(f"{SYMBOLS} does not say what {', '.join(missing)} {verb}: fill in kind, or add a row "
                              "of role 'definition'")
         goal = asked(line, self.symbols)
+        kind = _kind(goal)
         given = [relation for one in assumed for relation in asked(text_of(one), self.symbols).show]
         goal = replace(goal, assume=(*goal.assume, *given))
-        return self._with_inputs(goal) if goal.flow else goal
+        return self._with_inputs(goal) if goal.flow else goal, kind
 
-    def _assumed(self, row: RowEntry) -> list[RowEntry]:
-        """The assumptions that a row rests on, by themselves or by the statement in which they stand."""
+    def assumed(self, row: RowEntry) -> list[RowEntry]:
+        """The assumptions of a row: those it rests on, by themselves or by the statement in which they stand, and the
+        paper's earlier ones that speak of its letters."""
         named = [self.rows[one] for one in row.rests_on if one in self.rows]
         inside = [self.rows[one] for stated in named if stated.role == "words" for one in stated.rests_on
                   if one in self.rows and stated.title.startswith("Assumption")]
-        return [one for one in dict.fromkeys((*named, *inside)) if one.role == "assumption"]
+        found = [one for one in dict.fromkeys((*named, *inside)) if one.role == "assumption"]
+        earlier = [one for one in takewhile(lambda one: one is not row, self.rows.values())
+                   if one.role == "assumption" and one not in found and not self._unknown(text_of(one), set())]
+        letters = set().union(*(self._speaks_of(text_of(one)) for one in (row, *found)))
+        while near := [one for one in earlier if self._speaks_of(text_of(one)) & letters]:
+            letters |= set().union(*(self._speaks_of(text_of(one)) for one in near))
+            found += near
+            earlier = [one for one in earlier if one not in near]
+        return found
+
+    def _speaks_of(self, text: str) -> set[str]:
+        """The letters of a text, with those of the definitions and rates of its letters."""
+        found: set[str] = set()
+        left = letters_of_text(text)
+        while left:
+            letter = left.pop()
+            found.add(letter)
+            for right in (self._defining.get(letter), self.flow.get(letter)):
+                left |= letters_of_text(right) - found if right else set()
+        return found
 
     def _unknown(self, text: str, seen: set[str]) -> set[str]:
         """The letters of a text of which nothing is known, those of a definition instead of the letter it defines."""
@@ -177,80 +240,6 @@ def _giving(goal: Goal) -> Callable[[], Goal]:
 def text_of(row: RowEntry) -> str:
     """The line of a row as it is read."""
     return row.line or row.printed
-
-
-def letters_of_text(text: str) -> set[str]:
-    """The letters of a line, in LaTeX, each with its marks; none of a line that cannot be read."""
-    try:
-        return {letter_latex(one) for one in _letters(read_line(text))}
-    except LatexError:
-        return set()
-
-
-def letter_latex(letter: Letter) -> str:
-    """A letter with its marks in LaTeX."""
-    text = letter.name
-    for accent in letter.accents:
-        if accent not in ("dot", "ddot", "dddot"):
-            text = rf"\{accent}{{{text}}}"
-    return text + (f"_{{{letter.index}}}" if letter.index else "") + (f"^{{{letter.mark}}}" if letter.mark else "")
-
-
-def _letters(node: Any) -> Iterator[Letter]:
-    if isinstance(node, Letter):
-        yield node
-    elif isinstance(node, tuple):
-        for part in node:
-            yield from _letters(part)
-    elif is_dataclass(node):
-        for one in fields(node):
-            yield from _letters(getattr(node, one.name))
-
-
-def sides_of(text: str) -> Iterator[tuple[str, str]]:
-    """Of every `letter = expression` in a line the letter, and the expression as it is typed."""
-    for letter, right in _equations(text):
-        if not set(letter.accents) & {"dot", "ddot", "dddot"}:
-            yield letter_latex(letter), right
-
-
-def moving_sides(text: str) -> Iterator[tuple[str, str]]:
-    """Of every `rate of a letter = expression` the letter, and the expression as it is typed."""
-    for letter, right in _equations(text):
-        if letter.accents[-1:] == ("dot",) and "dot" not in letter.accents[:-1]:
-            yield letter_latex(letter), right
-
-
-def _equations(text: str) -> Iterator[tuple[Letter, str]]:
-    try:
-        line = read_line(text)
-        claimed, conditions = parted(line)
-    except LatexError:
-        return
-    if conditions or any(words not in ((), (",",)) for words in line.separators):
-        return
-    ends = [*(chain.position for chain in claimed[1:]), len(text)]
-    for chain, end in zip(claimed, ends, strict=True):
-        if chain.signs == ("=",) and isinstance(chain.sides[0], Letter):
-            start = chain.sides[1].position
-            right = _LAYOUT.sub(" ", text[_start(text, chain, start):end])
-            yield chain.sides[0], " ".join(right.split()).rstrip(",;. \\")
-
-
-def _start(text: str, chain: Chain, near: int) -> int:
-    """Where the right side begins: behind the equality sign."""
-    return max(place + len(sign) for sign in ("=", r"\triangleq", r"\coloneqq")
-               if (place := text.rfind(sign, chain.position, near + 1)) >= 0)
-
-
-def _in_order(definitions: dict[str, str], filled: set[str]) -> dict[str, str]:
-    """The definitions whose letters are known, each behind those that it uses."""
-    found: dict[str, str] = {}
-    left = {letter: right for letter, right in definitions.items() if letter not in filled}
-    while ready := [letter for letter, right in left.items() if letters_of_text(right) <= filled | found.keys()]:
-        for letter in ready:
-            found[letter] = left.pop(letter)
-    return found
 
 
 def _kind(goal: Goal) -> Kind:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import keyword
 import re
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Literal
@@ -14,7 +14,7 @@ from pydantic import Field
 
 from workbench.errors import InputError
 from workbench.files.toml import FileRecord, Text, load_record
-from workbench.proof.claim import Relation
+from workbench.proof.claim import D, Relation
 from workbench.proof.language import LANGUAGE
 from workbench.proof.latex.convert import Converter
 from workbench.proof.latex.error import LatexError
@@ -124,6 +124,7 @@ def symbols_in(record: SymbolsFile, path: Path) -> Symbols:
             raise InputError(path, f"assumptions[{number}]", "has a condition of its own: state relations only")
         assume += relations(stated.claimed)
     inputs = _with_varying(inputs, record, notation, flow)
+    flow = _written_out(path, flow, inputs)
     return Symbols(notation, letters, tuple(assume), flow, limits, inputs, declared=True)
 
 
@@ -135,10 +136,41 @@ def _require_own_rates(path: Path, record: SymbolsFile, notation: Mapping[str, s
         found = without_dot(key) if isinstance(key := read_line(typed).chains[0].sides[0], Letter) else None
         below = letters.meaning(found[0]) if found is not None else None
         if below is not None and (flow or typed in record.definitions) and (
-                found is None or found[1] != 1 or flow.get(below) != notation[typed]):
+                found is None or _rate_of(below, found[1], flow) != notation[typed]):
             part = "symbols" if typed in record.symbols else "definitions"
             raise InputError(path, f"{part}.{typed}", "is the rate of a letter that is given too: state it as that "
                              "letter's rate under [flow], or leave one of the two out")
+
+
+def _rate_of(moving: sp.Expr, order: int, flow: Mapping[sp.Expr, sp.Expr]) -> sp.Expr | None:
+    """What the flow gives as the first, second, ... rate, where each rate is a letter with a rate of its own."""
+    found: sp.Expr | None = moving
+    for _ in range(order):
+        found = flow.get(found) if found is not None else None
+    return found
+
+
+def _written_out(path: Path, flow: Mapping[sp.Expr, sp.Expr], inputs: Collection[sp.Expr]) -> dict[sp.Expr, sp.Expr]:
+    """Rates in which rates of other letters stand, as `s' = e' + c e`, with these put in; InputError where one of
+    them is not given, or needs itself."""
+    def along(part: sp.Expr, moving: sp.Expr) -> sp.Expr:
+        if part.has(sp.Abs, sp.sign, sp.Max, sp.Min, sp.Sum, sp.Indexed):
+            raise InputError(path, f"flow.{moving}", f"has the rate of {part}, which may have none: write it out")
+        if unknown := sorted(map(str, part.free_symbols & set(inputs))):
+            raise InputError(path, f"flow.{moving}", f"has a rate of {unknown[0]}, which has none: give it one under "
+                             "[flow], as a letter of its own if nothing more is known")
+        moved = sorted(part.free_symbols & flow.keys(), key=str)
+        return sp.Add(*(sp.diff(part, symbol) * flow[symbol] for symbol in moved))
+
+    found = dict(flow)
+    for _ in flow:
+        for moving, rate in found.items():
+            inner = {one: along(one.args[0], moving) for one in rate.atoms(D) if not one.args[0].has(D)}
+            found[moving] = rate.xreplace(inner)
+    for moving, rate in found.items():
+        if rate.has(D):
+            raise InputError(path, f"flow.{moving}", "needs itself by way of other rates: solve for the rate")
+    return found
 
 
 def _inputs(path: Path, record: SymbolsFile, notation: Mapping[str, sp.Expr],

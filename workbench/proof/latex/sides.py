@@ -1,0 +1,107 @@
+"""What a line's text says: its letters, and which of them it gives a value or a rate."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from dataclasses import fields, is_dataclass
+from typing import Any
+
+from workbench.proof.latex.error import LatexError
+from workbench.proof.latex.read import read_line
+from workbench.proof.latex.statement import parted
+from workbench.proof.latex.tree import Chain, Letter, Node, Product
+
+RATES = ("dot", "ddot", "dddot")
+_LAYOUT = re.compile(r"\\(?:begin|end)\s*\{(?:aligned|split|gathered)\}|(?<!\\)&")
+_OF_TIME = read_line("(t)").chains[0].sides[0]  # says nothing of the letter that it stands behind
+
+
+def letters_of_text(text: str) -> set[str]:
+    """The letters of a line, in LaTeX, each with its marks; none of a line that cannot be read."""
+    return {letter_latex(one) for one in letters_in(text)}
+
+
+def letters_in(text: str) -> list[Letter]:
+    """Every letter of a line with its rates and marks, as often as it stands there; none of one that cannot be read."""
+    try:
+        return [*_letters(read_line(text))]
+    except LatexError:
+        return []
+
+
+def letter_latex(letter: Letter) -> str:
+    """A letter with its marks in LaTeX."""
+    text = letter.name
+    for accent in letter.accents:
+        if accent not in RATES:
+            text = rf"\{accent}{{{text}}}"
+    return text + (f"_{{{letter.index}}}" if letter.index else "") + (f"^{{{letter.mark}}}" if letter.mark else "")
+
+
+def _letters(node: Any) -> Iterator[Letter]:
+    if isinstance(node, Letter):
+        yield node
+    elif node == _OF_TIME:
+        return
+    elif isinstance(node, tuple):
+        for part in node:
+            yield from _letters(part)
+    elif is_dataclass(node):
+        for one in fields(node):
+            yield from _letters(getattr(node, one.name))
+
+
+def sides_of(text: str) -> Iterator[tuple[str, str]]:
+    """Of every `letter = expression` in a line the letter, and the expression as it is typed."""
+    for left, right in _equations(text):
+        if isinstance(left, Letter) and not set(left.accents) & set(RATES):
+            yield letter_latex(left), right
+
+
+def moving_sides(text: str) -> Iterator[tuple[str, str]]:
+    r"""Of every `rate of a letter = expression` the letter, and the expression as it is typed; of `M \dot v = u` the
+    expression over M."""
+    for left, right in _equations(text):
+        *factors, last = left.factors if isinstance(left, Product) else (left,)
+        if not isinstance(last, Letter) or last.accents[-1:] != ("dot",) or "dot" in last.accents[:-1] or any(
+                set(one.accents) & set(RATES) for one in _letters(tuple(factors))):
+            continue
+        before = text[left.position:last.position] if factors else ""
+        yield letter_latex(last), rf"\frac{{{right}}}{{{_plain(before)}}}" if before else right
+
+
+def _plain(text: str) -> str:
+    """A piece of a line without what lays it out."""
+    return " ".join(_LAYOUT.sub(" ", text).split())
+
+
+def _equations(text: str) -> Iterator[tuple[Node, str]]:
+    try:
+        line = read_line(text)
+        claimed, conditions = parted(line)
+    except LatexError:
+        return
+    if conditions or any(words not in ((), (",",)) for words in line.separators):
+        return
+    ends = [*(chain.position for chain in claimed[1:]), len(text)]
+    for chain, end in zip(claimed, ends, strict=True):
+        if chain.signs == ("=",) and isinstance(chain.sides[0], (Letter, Product)):
+            start = chain.sides[1].position
+            yield chain.sides[0], _plain(text[_start(text, chain, start):end]).rstrip(",;. \\")
+
+
+def _start(text: str, chain: Chain, near: int) -> int:
+    """Where the right side begins: behind the equality sign."""
+    return max(place + len(sign) for sign in ("=", r"\triangleq", r"\coloneqq")
+               if (place := text.rfind(sign, chain.position, near + 1)) >= 0)
+
+
+def in_order(definitions: dict[str, str], filled: set[str]) -> dict[str, str]:
+    """The definitions whose letters are known, each behind those that it uses."""
+    found: dict[str, str] = {}
+    left = {letter: right for letter, right in definitions.items() if letter not in filled}
+    while ready := [letter for letter, right in left.items() if letters_of_text(right) <= filled | found.keys()]:
+        for letter in ready:
+            found[letter] = left.pop(letter)
+    return found
