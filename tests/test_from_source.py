@@ -10,8 +10,8 @@ from test_cli import one_line, run
 from workbench.errors import InputError
 from workbench.paper.source.document import read_source
 from workbench.paper.source.folder import write_from_source
-from workbench.paper.source.letters import assumed_formulas
-from workbench.paper.source.lines import chained
+from workbench.paper.source.letters import assumed_formulas, values_and_rates
+from workbench.paper.source.lines import chained, system_lines, without_end
 from workbench.paper.source.macros import SourceError, expanded
 from workbench.proof.latex.rows import ROWS, SYMBOLS, LettersFile, RowsFile, load_record
 from workbench.proof.latex.symbols import SymbolsFile, symbols_in
@@ -218,6 +218,29 @@ def test_the_formula_of_an_assumption_holds_from_there_on_and_one_on_a_condition
     assert letters["v"].kind == "real" and letters["r"].role == "input"
     premises = {one.claim.equation: one.claim.premises for one in prove(targets([str(sliding.folder)]), 1).decisions}
     assert premises["13"] == ("sliding2029:assumption1.formula1",) and not premises["1"]
+
+
+@pytest.mark.parametrize(("printed", "lines"), [
+    (r"\left\{ \begin{array}{l} \dot x = v \\ \dot v(t) = u \end{array} \right.", [r"\dot x = v", r"\dot v(t) = u"]),
+    (r"\begin{cases} \dot x &= v, \\[2pt] \dot v &= u \end{cases}", [r"\dot x = v", r"\dot v = u"]),
+    (r"\{\begin{aligned} a &= b \\ c \end{aligned}", []),
+    (r"|x| = \begin{cases} x & x > 0 \\ -x & x < 0 \end{cases}", [])])
+def test_a_system_behind_a_brace_is_a_line_for_each_of_its_equations(printed, lines):
+    assert system_lines(printed) == lines
+    assert without_end(rf"{printed} , ") == printed
+
+
+@pytest.mark.parametrize(("line", "values", "rates"), [
+    (r"e(t) = x(t) - r(t), \quad k > 0", {"e": "x(t) - r(t)"}, {}), (r"M \dot v(t) = u", {}, {"v": r"\frac{u}{M}"}),
+    (r"a = b \text{ if } c > 0", {}, {}), ("a = b, c < d", {}, {}), (r"\dot M \dot v = u", {}, {})])
+def test_what_a_line_gives_a_value_or_a_rate(line, values, rates):
+    assert values_and_rates(line) == (values, rates)
+
+
+@pytest.mark.parametrize("text", [r"$|d(t)| \le D$, $\forall t \geq 0$.", r"$|d(t)| \le D$ for all $t \ge 0$",
+                                  r"at all times, for all times, $|d(t)| \le D$ with $D > 0$"])
+def test_what_holds_at_all_times_is_no_condition(text):
+    assert [*assumed_formulas(text)] == [r"|d(t)| \le D"]
 
 
 @pytest.mark.parametrize("text", [

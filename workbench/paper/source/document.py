@@ -6,7 +6,7 @@ import re
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 
-from workbench.paper.source.lines import chained, goes_on
+from workbench.paper.source.lines import chained, goes_on, without_end
 from workbench.paper.source.macros import SourceError, expanded, group, optional, without_comments
 
 DISPLAYS = ("equation", "align", "gather", "multline", "eqnarray", "flalign", "alignat")
@@ -278,7 +278,7 @@ def _clean(line: str) -> str:
     inner = [found.span() for found in _INNER.finditer(line)]
     kept = "".join(sign for at, sign in enumerate(line)
                    if sign != "&" or line[at - 1:at] == "\\" or any(start <= at < end for start, end in inner))
-    return " ".join(kept.split()).rstrip(" .,;")
+    return without_end(" ".join(kept.split()))
 
 
 def _joined(first: str, second: str) -> str:

@@ -13,13 +13,11 @@ from workbench.files.text import read_text
 from workbench.files.writing import write_text, write_tree
 from workbench.paper.new_paper import new_folder
 from workbench.paper.source.document import Row, Source, read_source
-from workbench.paper.source.letters import assumed_formulas, table_of
+from workbench.paper.source.letters import assumed_formulas, table_of, values_and_rates
+from workbench.paper.source.lines import continues, system_lines
 from workbench.paper.source.macros import SourceError, without_comments
-from workbench.proof.latex.error import LatexError
-from workbench.proof.latex.read import read_line
 from workbench.proof.latex.rows import ROWS, SYMBOLS, LetterEntry, Role, RowEntry
 from workbench.proof.latex.sides import moving_sides, sides_of
-from workbench.proof.latex.statement import parted
 from workbench.proof.prove import prove
 from workbench.proof.selection import targets
 
@@ -117,10 +115,11 @@ def entries(row: Row, source: Source) -> list[RowEntry]:
         return [whole.model_copy(update={"role": "words", "rests_on": rests}), *formulas]
     if row.within in assumed:
         return [whole.model_copy(update={"role": "assumption"})]
-    cases = _cases(row.printed)
-    return [whole] if not cases else [
-        whole.model_copy(update={"id": f"{row.id}.case{number}", "title": f"{title}, case {number}", "line": line})
-        for number, line in enumerate(cases, 1)]
+    for what, parts in (("line", system_lines(row.printed)), ("case", _cases(row.printed))):
+        if parts:
+            return [whole.model_copy(update={"id": f"{row.id}.{what}{number}", "title": f"{title}, {what} {number}",
+                                             "line": line}) for number, line in enumerate(parts, 1)]
+    return [whole]
 
 
 def _of(source: Source, id_: str) -> tuple[str, ...]:
@@ -149,24 +148,16 @@ def _with_roles(rows: list[RowEntry], source: Source) -> list[RowEntry]:
     for row in rows:
         role: Role = row.role
         line = row.line or row.printed
-        if role == "claim" and row.line is None:
-            values, rates = dict(sides_of(line)), dict(moving_sides(line))
-            chains = _chains(line)
-            if values and len(values) == chains and not set(values) & (defined | states):
+        if role == "claim" and not continues(row.printed):
+            values, rates = values_and_rates(line)
+            if values and not set(values) & (defined | states):
                 role = "definition"
                 defined |= set(values)
-            elif rates and len(rates) == chains and set(rates) <= states - moved:
+            elif rates and set(rates) <= states - moved:
                 role = "dynamics"
                 moved |= set(rates)
         found.append(row.model_copy(update={"role": role}))
     return found
-
-
-def _chains(line: str) -> int:
-    try:
-        return len(parted(read_line(line))[0])
-    except LatexError:
-        return 0
 
 
 def rows_text(rows: list[RowEntry]) -> str:

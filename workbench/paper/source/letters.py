@@ -9,6 +9,7 @@ from workbench.proof.latex.error import LatexError
 from workbench.proof.latex.read import read_line
 from workbench.proof.latex.rows import LetterEntry, RowEntry, text_of
 from workbench.proof.latex.sides import letter_latex, letters_of_text, moving_sides, sides_of
+from workbench.proof.latex.statement import parted
 from workbench.proof.latex.tree import Letter, Node, Number
 
 _INLINE = re.compile(r"(?<!\\)\$(?!\$)(.+?)(?<!\\)\$|\\\((.+?)\\\)", re.DOTALL)
@@ -25,7 +26,11 @@ _CONDITIONAL = re.compile(
 _ON_CONDITION = re.compile(
     r"\b(?:if|when|whenever|while|until|unless|provided(?:\s+that)?|such\s+that|case|for(?:\s+(?:all|every|any|each))?|on|or|"
     r"not|as\s+(?:long|soon)\s+as)\s+\Z", re.IGNORECASE)
-_FOR_ALL = re.compile(r"\b(?:for|with)\s+(?:all|every|any|each)\s*\Z", re.IGNORECASE)
+_ALL = r"for\s+(?:all|every|any|each)\s*"
+_AT_ALL_TIMES = re.compile(
+    rf"(?:\b{_ALL})?\$\s*(?:\\forall\s*)?t\s*(?:\\geq|\\geqslant|\\ge|>)\s*0\s*\$|\$\s*\\forall\s*t\s*\$"
+    rf"|\b{_ALL}(?:times?\b|\$\s*t\s*\$)", re.IGNORECASE)
+_FOR_ALL = re.compile(rf"\b{_ALL}\Z", re.IGNORECASE)
 _HOLDING = {"=", "<", ">", "<=", ">="}
 _SIGNS = {">": "positive", ">=": "nonnegative"}
 
@@ -42,6 +47,9 @@ def table_of(rows: list[RowEntry], text: str) -> dict[str, LetterEntry]:
     defined = {letter for row in rows if row.role == "definition" for letter, _ in sides_of(text_of(row))}
     states = {letter for row in rows if row.role == "dynamics" for letter, _ in moving_sides(text_of(row))}
     kinds = dict(_kinds(text))
+    for row in rows:
+        if row.role in ("definition", "dynamics"):
+            kinds |= dict(_kinds_in(text_of(row)))
     kinds = dict.fromkeys((*_named(_POSITIVE, text), *_named(_ARE_POSITIVE, text)), "positive") | kinds
     constants, inputs = set(_named(_CONSTANTS, text)), set(_named(_INPUTS, text))
     entries = {}
@@ -57,6 +65,7 @@ def table_of(rows: list[RowEntry], text: str) -> dict[str, LetterEntry]:
 def assumed_formulas(text: str) -> Iterator[str]:
     r"""The relations within the text of an assumption that hold as they stand, as `$|d| \\le D$`; none of a text that
     ties them to a condition. What only says a letter's sign is left to the table of letters."""
+    text = _AT_ALL_TIMES.sub(" ", text)
     if _CONDITIONAL.search(text):
         return
     for inline in _INLINE.finditer(text):
@@ -80,22 +89,38 @@ def _named(pattern: re.Pattern[str], text: str) -> Iterator[str]:
 def _kinds(text: str) -> Iterator[tuple[str, str]]:
     r"""Letters whose sign a formula in the text says, as `k, c > 0`, or that they are real, as `x \in \mathbb{R}`."""
     for inline in _INLINE.finditer(text):
-        if _ON_CONDITION.search(text[:inline.start()]):
+        conditional = _ON_CONDITION.search(text[:inline.start()]) is not None
+        for letter, kind in _kinds_in((inline[1] or inline[2]).strip(" .,;")):
+            if kind == "real" or not conditional:
+                yield letter, kind
+
+
+def _kinds_in(formula: str) -> Iterator[tuple[str, str]]:
+    try:
+        line = read_line(formula)
+    except LatexError:
+        return
+    waiting: list[Node] = []
+    for chain in line.chains:
+        waiting.append(chain.sides[0])
+        if not chain.signs:
             continue
-        try:
-            line = read_line((inline[1] or inline[2]).strip(" .,;"))
-        except LatexError:
-            continue
-        waiting: list[Node] = []
-        for chain in line.chains:
-            waiting.append(chain.sides[0])
-            if not chain.signs:
-                continue
-            kind = _kind(chain.signs, chain.sides[1:])
-            for side in waiting:
-                if kind and isinstance(side, Letter):
-                    yield letter_latex(side), kind
-            waiting = []
+        kind = _kind(chain.signs, chain.sides[1:])
+        for side in waiting:
+            if kind and isinstance(side, Letter):
+                yield letter_latex(side), kind
+        waiting = []
+
+
+def values_and_rates(line: str) -> tuple[dict[str, str], dict[str, str]]:
+    """What a line gives a value, and what a rate; nothing where it says anything else than that and letters' signs."""
+    values, rates = dict(sides_of(line)), dict(moving_sides(line))
+    signs = [*_kinds_in(line)]
+    try:
+        chains = len(parted(read_line(line))[0])
+    except LatexError:
+        return {}, {}
+    return values if len(values) + len(signs) == chains else {}, rates if len(rates) + len(signs) == chains else {}
 
 
 def _kind(signs: tuple[str, ...], rest: tuple[Node, ...]) -> str:

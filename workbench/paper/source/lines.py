@@ -8,6 +8,23 @@ _SIGN = r"(?:[=<>+\-/]|\\(?:leq?|geq?|leqslant|geqslant|cdot|times|in|pm|quad|qq
 _AT_START, _AT_END = re.compile(_SIGN), re.compile(rf"{_SIGN}$")
 _RELATION = re.compile(r"(?:[=<>]|\\(?:leq?|geq?|leqslant|geqslant|lt|gt|equiv|triangleq)(?![A-Za-z]))")
 _STEP = re.compile(rf"{_RELATION.pattern}|\\[A-Za-z]+|\\.|[(){{}}\[\],;]|.", re.DOTALL)
+_SYSTEM = re.compile(
+    r"(?:(?:\\left)?\s*(?:\\\{|\\lbrace)\s*\\begin\s*\{(?P<name>array|aligned|split|matrix|gathered)\}|"
+    r"\\begin\s*\{(?P<cases>cases)\})(?:\s*\[[a-z]\])?(?:\s*\{[lcr@{}\s]*\})?(?P<lines>.*?)"
+    r"\\end\s*\{(?:(?P=name)|(?P=cases))\}\s*(?:\\right\s*\.)?\s*", re.DOTALL)
+_BREAK = re.compile(r"\\\\(?:\s*\[[^\]]*\])?")
+
+
+def system_lines(printed: str) -> list[str]:
+    """The lines of a system of equations behind one brace, each a relation; none of another formula."""
+    found = _SYSTEM.fullmatch(printed)
+    lines = [" ".join(line.replace("&", " ").split()) for line in _BREAK.split(found["lines"])] if found else []
+    return [without_end(line) for line in lines if line] if all(map(_RELATION.search, filter(None, lines))) else []
+
+
+def without_end(line: str) -> str:
+    r"""A line without the full stop or comma that ends its sentence; the dot of `\\right.` stays."""
+    return re.sub(r"(?<!\\right)[ .,;]+\Z", "", line)
 
 
 def goes_on(first: str, second: str) -> bool:
@@ -16,12 +33,17 @@ def goes_on(first: str, second: str) -> bool:
         first.count(one) > first.count(other) for one, other in ("()", "[]", "{}"))
 
 
+def continues(line: str) -> bool:
+    """Whether a line begins with a relation sign."""
+    return _RELATION.match(line) is not None
+
+
 def chained(first: str, second: str) -> str:
     """A numbered line that begins with a relation sign, as what it says: from the last side of the line before it on.
 
     Empty where it begins with none, or the line before it is no single chain.
     """
-    if not _RELATION.match(second):
+    if not continues(second):
         return ""
     depth, start = 0, None
     for found in _STEP.finditer(first):

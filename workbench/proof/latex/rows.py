@@ -131,13 +131,16 @@ class _Known:
         self.symbols = symbols_in(record, folder / SYMBOLS) if record else Symbols({}, {})
 
     def _let_inputs_move(self, filled: dict[str, LetterKind]) -> None:
-        """Give an input of which rates are printed, as a reference, those rates as letters that vary as they like."""
+        """Give an input of which a rate is printed, as a reference, rates as letters, the last of which is free.
+
+        All three have letters, since a printed first rate within a definition needs the second one in its rate.
+        """
         printed = [one for row in self.rows.values() for one in letters_in(text_of(row)) if one.accents[-1:] and
                    one.accents[-1] in RATES]
         for letter in [one for one, kind in filled.items() if kind != "vector" and self.table[one].role == "input"]:
             rates = [one for one in printed if letter_latex(one) == letter]
             below = letter
-            for accent in RATES[:max((RATES.index(one.accents[-1]) + 1 for one in rates), default=0)]:
+            for accent in RATES if rates else ():
                 rate = spelled(replace(rates[0], accents=(*rates[0].accents[:-1], accent)))
                 filled[rate], self.table[rate] = "real", LetterEntry(kind="real", role="input")
                 self.flow[below] = rate

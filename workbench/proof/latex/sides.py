@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
-from dataclasses import fields, is_dataclass
+from dataclasses import fields, is_dataclass, replace
 from typing import Any
 
 from workbench.proof.latex.error import LatexError
@@ -14,6 +14,7 @@ from workbench.proof.latex.tree import Chain, Letter, Node, Product
 
 RATES = ("dot", "ddot", "dddot")
 _LAYOUT = re.compile(r"\\(?:begin|end)\s*\{(?:aligned|split|gathered)\}|(?<!\\)&")
+_END = re.compile(r"(?<!\\right)(?:[\s,;.]|\\q?quad(?![A-Za-z])|\\[,;: ]?)+\Z")
 _OF_TIME = read_line("(t)").chains[0].sides[0]  # says nothing of the letter that it stands behind
 
 
@@ -86,9 +87,17 @@ def _equations(text: str) -> Iterator[tuple[Node, str]]:
         return
     ends = [*(chain.position for chain in claimed[1:]), len(text)]
     for chain, end in zip(claimed, ends, strict=True):
-        if chain.signs == ("=",) and isinstance(chain.sides[0], (Letter, Product)):
+        left = _without_time(chain.sides[0])
+        if chain.signs == ("=",) and isinstance(left, (Letter, Product)):
             start = chain.sides[1].position
-            yield chain.sides[0], _plain(text[_start(text, chain, start):end]).rstrip(",;. \\")
+            yield left, _END.sub("", _plain(text[_start(text, chain, start):end]))
+
+
+def _without_time(side: Node) -> Node:
+    """A side without the `(t)` behind its last letter."""
+    if not isinstance(side, Product) or side.factors[-1] != _OF_TIME:
+        return side
+    return side.factors[0] if len(side.factors) == 2 else replace(side, factors=side.factors[:-1])
 
 
 def _start(text: str, chain: Chain, near: int) -> int:
