@@ -124,7 +124,7 @@ def worst(told: Told) -> Iterator[str]:
         "## Tuned for the worst of several conditions", "",
         f"`benchmarks/minimax.toml`, a contest of its own with {told.contest.seeds} draws a condition: + is tuned "
         "for the worst of several conditions, _ten is the same controller with what the common contest found in one. "
-        f"Searches are short here, {told.contest.evaluations('')} evaluations of {told.contest.tuning.draws} run in "
+        f"A search takes {told.contest.evaluations('')} evaluations of {told.contest.tuning.draws} run in "
         "each condition, and nothing is ranked: the table says what the objective comes to, and where it is worst.", "")
     for found in (*objective_table(told), *tuning_table(told)):
         yield from (f"### {found.title}", "", *shown(found))

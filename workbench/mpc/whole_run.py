@@ -46,6 +46,8 @@ BLOCKS: tuple[tuple[str, str, tuple[str, ...]], ...] = (
     ("under_way", "", ("W",)), ("unconverged", WHOLE, ("C",)), ("foreseen", "", ("F",)), ("pushed", "", ("F",)),
     ("x", "", ("3",)),
 )
+# By kind and dimensions: the kernel's function that finds a block among all numbers.
+VIEWS = {("", 1): "row", ("", 2): "table", ("", 3): "cube", (WHOLE, 1): "whole_row", (WHOLE, 2): "whole_table"}
 COUNTED = ("qp", "qp_failed", "unconverged", "shifted_plan", "lqr", "feedforward", "bad_measurement")
 """Of `fallback.COUNTERS`, in the order of the kernel; without a deadline nothing is late."""
 
@@ -159,12 +161,11 @@ def source(actuator: Actuator) -> tuple[str, ...]:
     lines += ["    _numbers = neuron_data[0]", "    _at = 0"]
     for name, kind, shape in BLOCKS:
         sizes = [text if text.isdigit() else f"(_{text})" for text in shape]
-        view = f"_numbers[_at:_at + {' * '.join(sizes)}]" + (".view(int64)" if kind == WHOLE else "")
-        lines += [f"    {name} = {view}" + (f".reshape(({', '.join(sizes)}))" if len(sizes) > 1 else ""),
+        lines += [f"    {name} = {VIEWS[kind, len(shape)]}(_numbers, _at, {', '.join(sizes)})",
                   f"    _at += {' * '.join(sizes)}"]
     law = ["def control_step(_t, _p, _v, _x_d, _v_d, _a_d, _period, parameters, scalars, neurons, neuron_data):",
            *lines,
-           "    _clock = _numbers[_at:_at + 2].view(int64)", "    _sample = int(round(_t / _period))",
+           "    _clock = whole_row(_numbers, _at, 2)", "    _sample = int(round(_t / _period))",
            f"    _which = int(parameters[{len(DIMENSIONS)}])", "    _started = seconds_now(_which, _clock)",
            f"    _command = command_of(_sample, _p, _v, {', '.join(name for name, _, _ in BLOCKS)})",
            "    _numbers[_at + 2 + min(_sample, _S - 1)] = seconds_now(_which, _clock) - _started",

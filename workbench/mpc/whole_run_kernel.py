@@ -17,6 +17,31 @@ kind: 0 whether the model is linearised once; 1 the last sample; 2, 3, 4 the mos
 # --- kernel ---
 
 
+def row(numbers, at, length):
+    """Numbers from a place on. Each kind of view has its function, since numba takes long over every slice."""
+    return numbers[at : at + length]
+
+
+def table(numbers, at, rows, columns):
+    """The same in rows."""
+    return numbers[at : at + rows * columns].reshape((rows, columns))
+
+
+def cube(numbers, at, layers, rows, columns):
+    """The same in layers."""
+    return numbers[at : at + layers * rows * columns].reshape((layers, rows, columns))
+
+
+def whole_row(numbers, at, length):
+    """Whole numbers, which take as much room."""
+    return numbers[at : at + length].view(int64)
+
+
+def whole_table(numbers, at, rows, columns):
+    """The same in rows."""
+    return numbers[at : at + rows * columns].view(int64).reshape((rows, columns))
+
+
 def seconds_now(which, clock):
     """Of the clock that Python's perf_counter reads."""
     clock_gettime(which, clock.ctypes)
