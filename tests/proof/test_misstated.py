@@ -8,6 +8,7 @@ import pytest
 from typer.testing import CliRunner
 
 from workbench.cli.app import app
+from workbench.errors import InputError
 from workbench.files.time_limit import OutOfTime, at_most_seconds
 from workbench.proof.prove import prove
 from workbench.proof.selection import targets
@@ -82,3 +83,10 @@ def test_a_limit_ends_what_catches_every_exception():
     assert time.process_time() - started < 2
     with at_most_seconds(None):
         pass
+
+
+def test_a_paper_without_claims_is_told(tmp_path):
+    (tmp_path / "claims").mkdir()
+    (tmp_path / "paper.py").write_text('from workbench.proof.paper import Paper\npaper = Paper("a", "a")\n')
+    with pytest.raises(InputError, match="claims: states no claim"):
+        CliRunner().invoke(app, ["prove", str(tmp_path)], catch_exceptions=False)

@@ -61,6 +61,8 @@ def command(paths: Annotated[list[str] | None, typer.Argument(
     check_places([file for target in found for file in target.files], certificates, {"--json": json})
     with progress() as show, on_cluster(dask, workers):
         proof = run_prove(found, workers or jobs, cache, lambda done, total: show("claims", done, total), limit)
+    if not proof.decisions and not proof.misstated:
+        raise InputError(found[0].path, "claims", "states no claim: write one with paper.claim(...) in a file there")
     single = any(target.pattern is not None for target in found)
     where = places(proof, certificates)
     if write or certificates is not None:
