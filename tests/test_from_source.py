@@ -238,13 +238,14 @@ def test_what_a_line_gives_a_value_or_a_rate(line, values, rates):
 
 
 @pytest.mark.parametrize("text", [r"$|d(t)| \le D$, $\forall t \geq 0$.", r"$|d(t)| \le D$ for all $t \ge 0$",
-                                  r"at all times, for all times, $|d(t)| \le D$ with $D > 0$"])
+                                  r"at all times, for all times, $|d(t)| \le D$ with $D > 0$",
+                                  r"There exists a constant $D > 0$ such that $|d(t)| \le D$."])
 def test_what_holds_at_all_times_is_no_condition(text):
     assert [*assumed_formulas(text)] == [r"|d(t)| \le D"]
 
 
 @pytest.mark.parametrize("text", [
-    "If $x > 0$ then $y > x$.", "There exists $y$ such that $y > x$.", "Either $x = y$ or $x = z$.",
+    "If $x > 0$ then $y > x$.", "For every $x$ there exists $y$ such that $y > x$.", "Either $x = y$ or $x = z$.",
     "For all $x > y$ it is smooth.", r"$x \ge y \Rightarrow z = y$", "The gain $k > 0$ is large.", r"$x \in X$"])
 def test_no_formula_is_assumed_that_a_text_ties_to_a_condition_or_that_says_a_sign_alone(text):
     assert not [*assumed_formulas(text)]
@@ -254,6 +255,13 @@ def with_rates(flow, **more):
     record = SymbolsFile(symbols=dict.fromkeys(("x", "y", "c", "r"), "real"), definitions={"e": "x - c r"}, flow=flow,
                          **more)
     return {str(moving): str(rate) for moving, rate in symbols_in(record, Path("letters.toml")).flow.items()}
+
+
+@pytest.mark.parametrize(("text", "role"), [("The gain obeys", "assumption"), ("If the train stands,", "words")])
+def test_a_display_within_an_assumption_on_a_condition_is_left_to_the_author(text, role, tmp_path):
+    display = r"\begin{equation} k \ge c \end{equation}"
+    (tmp_path / "s.tex").write_text(rf"\begin{{assumption}} {text} {display} \end{{assumption}}")
+    assert rows_of(write_from_source("p2029", tmp_path, tmp_path / "s.tex").folder)["1"].role == role
 
 
 def test_rates_of_other_letters_within_a_rate_are_put_in():

@@ -13,7 +13,7 @@ from workbench.files.text import read_text
 from workbench.files.writing import write_text, write_tree
 from workbench.paper.new_paper import new_folder
 from workbench.paper.source.document import Row, Source, read_source
-from workbench.paper.source.letters import assumed_formulas, table_of, values_and_rates
+from workbench.paper.source.letters import assumed_formulas, on_condition, table_of, values_and_rates
 from workbench.paper.source.lines import continues, system_lines
 from workbench.paper.source.macros import SourceError, without_comments
 from workbench.proof.latex.rows import ROWS, SYMBOLS, LetterEntry, Role, RowEntry
@@ -101,7 +101,7 @@ def _with_inputs(text: str, source: Path, depth: int = 0) -> str:
 def entries(row: Row, source: Source) -> list[RowEntry]:
     """A row as it stands in the table; a formula of cases is one row for each case, under its condition."""
     title = f"{row.what} {row.number}".strip() + (f": {row.title}" if row.title else "")
-    assumed = {one.id for one in source.rows if one.what == "Assumption"}
+    assumed = {one.id: one.printed for one in source.rows if one.what == "Assumption"}
     whole = RowEntry(id=row.id, title=title, role="claim", printed=row.printed or row.what,
                      line=row.line or None, rests_on=row.rests_on,
                      severity="result" if row.what in ("Theorem", "Corollary", "Proposition") else "step")
@@ -114,7 +114,7 @@ def entries(row: Row, source: Source) -> list[RowEntry]:
                                      *(one for one in inside if row.id not in _of(source, one)))))
         return [whole.model_copy(update={"role": "words", "rests_on": rests}), *formulas]
     if row.within in assumed:
-        return [whole.model_copy(update={"role": "assumption"})]
+        return [whole.model_copy(update={"role": "words" if on_condition(assumed[row.within]) else "assumption"})]
     for what, parts in (("line", system_lines(row.printed)), ("case", _cases(row.printed))):
         if parts:
             return [whole.model_copy(update={"id": f"{row.id}.{what}{number}", "title": f"{title}, {what} {number}",

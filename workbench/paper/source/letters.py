@@ -21,8 +21,8 @@ _ARE_POSITIVE = re.compile(
     r"(?:constants?|gains?|numbers?|scalars?|parameters?)\b", re.IGNORECASE)
 _INPUTS = re.compile(r"\b(?:disturbances?|inputs?|references?)\b[^.,;:$]{0,30}" + _LIST, re.IGNORECASE)
 _CONDITIONAL = re.compile(
-    r"\b(?:if|when|whenever|unless|otherwise|either|or|not|without|exists?|such|some|then|impl\w+)\b"
-    r"|\\(?:forall|exists|Rightarrow|implies|to|rightarrow)(?![A-Za-z])", re.IGNORECASE)
+    r"\b(?:if|when|whenever|unless|otherwise|either|or|not|without|then|impl\w+|(?:all|every|any|each)\b.*\bexists?)\b"
+    r"|\\(?:forall|exists|Rightarrow|implies|to|rightarrow)(?![A-Za-z])", re.IGNORECASE | re.DOTALL)
 _ON_CONDITION = re.compile(
     r"\b(?:if|when|whenever|while|until|unless|provided(?:\s+that)?|such\s+that|case|for(?:\s+(?:all|every|any|each))?|on|or|"
     r"not|as\s+(?:long|soon)\s+as)\s+\Z", re.IGNORECASE)
@@ -62,11 +62,17 @@ def table_of(rows: list[RowEntry], text: str) -> dict[str, LetterEntry]:
     return entries
 
 
+def on_condition(text: str) -> bool:
+    """Whether the text of an assumption ties what it says to a condition, so that its formulas do not hold by
+    themselves."""
+    return _CONDITIONAL.search(_AT_ALL_TIMES.sub(" ", text)) is not None
+
+
 def assumed_formulas(text: str) -> Iterator[str]:
     r"""The relations within the text of an assumption that hold as they stand, as `$|d| \\le D$`; none of a text that
     ties them to a condition. What only says a letter's sign is left to the table of letters."""
     text = _AT_ALL_TIMES.sub(" ", text)
-    if _CONDITIONAL.search(text):
+    if on_condition(text):
         return
     for inline in _INLINE.finditer(text):
         formula = (inline[1] or inline[2]).strip(" .,;")
