@@ -10,7 +10,7 @@ from test_cli import one_line, run
 from workbench.errors import InputError
 from workbench.paper.source.document import read_source
 from workbench.paper.source.folder import write_from_source
-from workbench.paper.source.letters import assumed_formulas, values_and_rates
+from workbench.paper.source.letters import assumed_formulas, defined_in_text, values_and_rates
 from workbench.paper.source.lines import chained, system_lines, without_end
 from workbench.paper.source.macros import SourceError, expanded
 from workbench.proof.latex.rows import ROWS, SYMBOLS, LettersFile, RowsFile, load_record
@@ -249,6 +249,23 @@ def test_what_holds_at_all_times_is_no_condition(text):
     "For all $x > y$ it is smooth.", r"$x \ge y \Rightarrow z = y$", "The gain $k > 0$ is large.", r"$x \in X$"])
 def test_no_formula_is_assumed_that_a_text_ties_to_a_condition_or_that_says_a_sign_alone(text):
     assert not [*assumed_formulas(text)]
+
+
+def test_a_letter_that_the_text_alone_defines_is_a_row(tmp_path):
+    text = r"""Let the error be $e = x - r$ of $x, q \in \mathbb{R}$, where $r = 2 q$. Define $z = q$.
+    \begin{equation} e^2 = x^2 - 4 q x + r^2 \end{equation} \begin{equation} e^2 \ge r^2 \end{equation}"""
+    (tmp_path / "s.tex").write_text(text)
+    found = write_from_source("p2029", tmp_path, tmp_path / "s.tex")
+    assert {row.id: row.printed for row in rows_of(found.folder).values() if row.role == "definition"} == {
+        "text1": "e = x - r", "text2": "r = 2 q"}
+    assert (found.verdicts["1"], found.verdicts["2"]) == ("proved", "refuted")
+
+
+@pytest.mark.parametrize("text", [
+    "If $x = 3 q$", "with $c = q$", "Let $k = 3$", r"Let $x \ge q$", "where $w = q$, where $w = 2 q$",
+    "Let $x = x + q$", r"\begin{proof} Let $m = q$. \end{proof}", "Let it run. Then $x = q$"])
+def test_what_the_text_does_not_define_for_the_whole_paper_is_no_definition(text):
+    assert not defined_in_text(text)
 
 
 def with_rates(flow, **more):

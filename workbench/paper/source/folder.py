@@ -13,11 +13,17 @@ from workbench.files.text import read_text
 from workbench.files.writing import write_text, write_tree
 from workbench.paper.new_paper import new_folder
 from workbench.paper.source.document import Row, Source, read_source
-from workbench.paper.source.letters import assumed_formulas, on_condition, table_of, values_and_rates
+from workbench.paper.source.letters import (
+    assumed_formulas,
+    defined_in_text,
+    on_condition,
+    table_of,
+    values_and_rates,
+)
 from workbench.paper.source.lines import continues, system_lines
 from workbench.paper.source.macros import SourceError, without_comments
-from workbench.proof.latex.rows import ROWS, SYMBOLS, LetterEntry, Role, RowEntry
-from workbench.proof.latex.sides import moving_sides, sides_of
+from workbench.proof.latex.rows import ROWS, SYMBOLS, LetterEntry, Role, RowEntry, text_of
+from workbench.proof.latex.sides import letters_of_text, moving_sides, sides_of
 from workbench.proof.prove import prove
 from workbench.proof.selection import targets
 
@@ -69,7 +75,7 @@ def write_from_source(name: str, directory: Path, source: Path) -> FromSource:
     except SourceError as trouble:
         raise InputError(source, "", str(trouble)) from None
     rows = [entry for row in found.rows for entry in entries(row, found)]
-    rows = _with_roles(rows, found)
+    rows = _with_roles(_with_definitions(rows, found.text), found)
     letters = table_of(rows, found.text)
     write_tree(folder, {
         PurePath("paper.py"): PAPER.format(name=name).encode(), PurePath("claims/rows.py"): CLAIMS.encode(),
@@ -136,6 +142,19 @@ def _cases(printed: str) -> list[str]:
     if not all(value and condition for value, condition in parts):
         return []
     return [" ".join(rf"{found['before']} {value} \text{{if}} {condition}".split()) for value, condition in parts]
+
+
+def _with_definitions(rows: list[RowEntry], text: str) -> list[RowEntry]:
+    """The rows, behind those letters that they use and that the running text alone defines."""
+    lines = [text_of(row) for row in rows if row.role != "words"]
+    given = {letter for line in lines for letter, _ in (*sides_of(line), *moving_sides(line))}
+    known = {letter: formula for letter, formula in defined_in_text(text).items() if letter not in given}
+    used: list[str] = []
+    while more := [one for one in known if one not in used and any(one in letters_of_text(line) for line in lines)]:
+        used += more
+        lines += [known[one] for one in more]
+    return [*(RowEntry(id=f"text{number}", title=f"Definition {number} in the text", role="claim", printed=known[one])
+              for number, one in enumerate(used, 1)), *rows]
 
 
 def _with_roles(rows: list[RowEntry], source: Source) -> list[RowEntry]:

@@ -31,6 +31,9 @@ _AT_ALL_TIMES = re.compile(
     rf"(?:\b{_ALL})?\$\s*(?:\\forall\s*)?t\s*(?:\\geq|\\geqslant|\\ge|>)\s*0\s*\$|\$\s*\\forall\s*t\s*\$"
     rf"|\b{_ALL}(?:times?\b|\$\s*t\s*\$)", re.IGNORECASE)
 _FOR_ALL = re.compile(rf"\b{_ALL}\Z", re.IGNORECASE)
+_DEFINING = re.compile(r"\b(?:(?:let|defin(?:e|ing)|denot(?:e|ing)|introduc(?:e|ing))\b[^.;:$]{0,60}|where\s+)\Z",
+                       re.IGNORECASE)
+_ENVIRONMENT = re.compile(r"\\begin\s*\{(\w+\*?)\}.*?\\end\s*\{\1\}", re.DOTALL)
 _HOLDING = {"=", "<", ">", "<=", ">="}
 _SIGNS = {">": "positive", ">=": "nonnegative"}
 
@@ -83,6 +86,21 @@ def assumed_formulas(text: str) -> Iterator[str]:
         if all(chain.signs and not set(chain.signs) - _HOLDING for chain in chains) and not (
                 _FOR_ALL.search(text[:inline.start()]) or any(_kind(chain.signs, chain.sides[1:]) for chain in chains)):
             yield formula
+
+
+def defined_in_text(text: str) -> dict[str, str]:
+    r"""The letters that the running text gives a value of other letters, as "Let $e = v - r$" or "where $q = x / y$",
+    and the formula; a letter with two of them is left out, as is what holds within a theorem or a proof alone."""
+    text = _ENVIRONMENT.sub(" ", text)
+    found: dict[str, set[str]] = {}
+    for inline in _INLINE.finditer(text):
+        formula = (inline[1] or inline[2]).strip(" .,;")
+        values, _ = values_and_rates(formula)
+        for letter, value in values.items():
+            behind = letters_of_text(value)
+            if _DEFINING.search(text[:inline.start()]) and behind and letter not in behind and len(values) == 1:
+                found.setdefault(letter, set()).add(formula)
+    return {letter: formulas.pop() for letter, formulas in found.items() if len(formulas) == 1}
 
 
 def _named(pattern: re.Pattern[str], text: str) -> Iterator[str]:
