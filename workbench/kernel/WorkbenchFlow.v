@@ -135,3 +135,28 @@ Proof.
     apply (ex_derive_continuous f x). exists 0. apply D. lra.
   - lra.
 Qed.
+
+(* rule monotone: where the derivative is not negative from a to x, a function is at x at least what it is at a *)
+Lemma monotone : forall (f d : R -> R) (a x : R), a <= x ->
+  (forall s, a <= s <= x -> is_derive f s (d s)) -> (forall s, a <= s <= x -> d s >= 0) -> f a <= f x.
+Proof.
+  intros f d a x A D N. destruct (MVT_gen f a x d) as [c [C E]].
+  - intros s S. rewrite Rmin_left, Rmax_right in S by lra. apply D. lra.
+  - intros s S. rewrite Rmin_left, Rmax_right in S by lra. apply continuity_pt_filterlim.
+    apply (ex_derive_continuous f s). exists (d s). apply D. lra.
+  - rewrite Rmin_left, Rmax_right in C by lra. assert (0 * (x - a) <= d c * (x - a)); [|lra].
+    apply Rmult_le_compat_r; [lra|]. apply Rge_le, N. lra.
+Qed.
+
+Lemma monotone_ge : forall (f d : R -> R) (a x : R), a <= x ->
+  (forall s, a <= s <= x -> is_derive f s (d s)) -> (forall s, a <= s <= x -> d s >= 0) -> f a >= 0 -> f x >= 0.
+Proof. intros f d a x A D N S. pose proof (monotone f d a x A D N). lra. Qed.
+
+Lemma monotone_gt : forall (f d : R -> R) (a x : R), a <= x ->
+  (forall s, a <= s <= x -> is_derive f s (d s)) -> (forall s, a <= s <= x -> d s >= 0) -> f a > 0 -> f x > 0.
+Proof. intros f d a x A D N S. pose proof (monotone f d a x A D N). lra. Qed.
+
+(* a point that is a root: a continuous function of opposite signs at two numbers is zero between them *)
+Lemma root_between : forall (f : R -> R) (a b : R), continuity f -> a <= b -> f a * f b <= 0 ->
+  exists z, a <= z <= b /\ f z = 0.
+Proof. intros f a b C A S. destruct (IVT_cor f a b C A S) as [z Z]. exists z. exact Z. Qed.
