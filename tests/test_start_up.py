@@ -1,5 +1,6 @@
 """What commands import: a mistake is said without any solver, and a run is found without tools it has no use for."""
 
+import gc
 import json
 import subprocess
 import sys
@@ -9,6 +10,7 @@ from command_line import run
 from scenarios import SHARED, YANG
 from small_folders import small_folder
 
+from workbench.cli.collection import MANY, collect_later
 from workbench.cli.loading import load
 from workbench.simulate import compare as compare_module
 from workbench.tasks.processes import LocalProcesses
@@ -96,6 +98,24 @@ def test_a_small_comparison_is_run_where_it_is_asked_for(tmp_path, monkeypatch):
     loaded = load(path)
     assert [m.controller for m in compare_module.compare(path, loaded.data, loaded.scenario).metrics] == list(
         loaded.scenario.controllers)
+
+
+def test_collection_begins_late_and_then_is_as_it_was():
+    before = gc.get_threshold()
+    gc.collect()  # so that no count is near the limit yet
+    try:
+        gc.set_threshold(700, 10, 10)
+        collect_later()
+        collect_later()  # as of a program that calls the command line twice
+        assert gc.get_threshold() == (MANY, 10, 10)
+        kept = [[] for _ in range(MANY + 10_000)]
+        assert gc.get_threshold() == (700, 10, 10)
+        assert len(kept) > MANY
+        gc.set_threshold(0)
+        collect_later()
+        assert gc.get_threshold()[0] == 0
+    finally:
+        gc.set_threshold(*before)
 
 
 def test_a_run_needs_its_solver_and_no_modelling_tools():
