@@ -163,7 +163,8 @@ def test_a_contest_names_who_takes_part_at_other_periods_too():
     assert (copy.period_s, own.period_s) == (0.1, 0.005) and copy.parameters == own.parameters
     assert contest.tuning.ranges["pid_100ms"] == contest.tuning.ranges["pid"]
     assert {contest.evaluations("ten", name) for name in contest.tuning.found} == {402}
-    fewer = contest.model_copy(update={"tuning": contest.tuning.model_copy(update={"evaluations_of": {"mpc_linear": 9}})})
+    tuning = contest.tuning.model_copy(update={"evaluations_of": {"mpc_linear": 9}})
+    fewer = contest.model_copy(update={"tuning": tuning})
     assert (fewer.evaluations("ten", "mpc_linear"), fewer.evaluations("ten", "pid_100ms")) == (9, 402)
 
 
