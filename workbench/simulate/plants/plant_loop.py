@@ -84,6 +84,13 @@ def advance(first, count, h, states, x, wanted, u, u_middle, u_end, delays, ring
     length = ring.shape[0]
     delayed, moving = length > 1, table.shape[0] > 0
     until_log = (log_every - first % log_every) % log_every  # counted: a division a step takes as long as a sine
+    held = not delayed  # every input is its command throughout, and nothing of it is computed at each step
+    for i in range(u.shape[0]):
+        held = held and fade_full[i] == 0.0
+    for i in range(u.shape[0] if held else 0):
+        u[i] = wanted[i]
+        u_middle[i] = wanted[i]
+        u_end[i] = wanted[i]
     for k in range(first, first + count):
         t = k * h
         if moving:
@@ -93,7 +100,7 @@ def advance(first, count, h, states, x, wanted, u, u_middle, u_end, delays, ring
         if delayed:
             for i in range(u.shape[0]):
                 ring[k % length, i] = wanted[i]
-        for i in range(u.shape[0]):
+        for i in range(0 if held else u.shape[0]):
             command = ring[(k - delays[i]) % length, i] if delayed else wanted[i]
             if fade_full[i] == 0.0:  # without lag
                 u[i] = command
@@ -113,7 +120,7 @@ def advance(first, count, h, states, x, wanted, u, u_middle, u_end, delays, ring
                 return status, k + 1 - first
         else:
             plant_step(t, h, x, u, s, u_middle, s_middle, u_end, s_end, p)
-        for i in range(u.shape[0]):
+        for i in range(0 if held else u.shape[0]):
             u[i] = u_end[i]
         for i in range(states):
             if not abs(x[i]) < 1e12:
