@@ -16,6 +16,11 @@ inputs = ['w']
 'x_1' = "real"
 'x_2' = "real"
 'c' = "positive"
+'k' = "positive"
+'x_{11}' = "real"
+'f(x)' = "real"
+'f(y)' = "real"
+'f(0)' = "real"
 'v' = "vector"
 'W' = "vector"
 [definitions]
@@ -74,6 +79,37 @@ FALSE = {
     "a root of a square": r"\sqrt{x^2} = x",
     "a sum of roots": r"\sqrt{x^2 + y^2} = \sqrt{x^2} + \sqrt{y^2}", "a function's power": r"\sin^2 x = \sin x^2",
     "a sum's square": r"\Bigl(\sum_{i=1}^n v_i\Bigr)^2 \le \sum_{i=1}^n v_i^2",
+    # what is claimed, and of what: several claims, each with its condition
+    "a root that is real": r"\sqrt{x} \in \mathbb{R}, y^2 \ge 0",
+    "a quotient that is real": r"\frac{1}{x} \in \mathbb{R} \text{ and } y^2 \ge 0",
+    "a number of three": r"x \in \mathbb{R}^3, x^2 \ge 0",
+    "values by cases": r"x^2 \ge \begin{cases} 0 \text{ if } x \ge 0 \\ x^2 + 1 \text{ if } y \ge 0 \end{cases}",
+    "two claims with conditions": r"x^2 \ge 0 \text{ if } x > 0, y^3 \ge 0 \text{ if } y^2 > 0",
+    "two claims, joined": r"x^2 \ge 0 \text{ if } x > 0 \text{ and } y^3 \ge 0 \text{ if } y^2 > 0",
+    "a claim behind a condition": r"x^3 > 0 \text{ for } x > 0, \quad y^3 \ge y",
+    "a rate behind a condition": r"x^3 > 0\ \forall x > 0,\ \dot y \ge 0",
+    "a claim behind a semicolon": r"x^2 > 0 \text{ if } x > 0; y \ge 1",
+    "a claim behind a full stop": r"x^2 > 0 \text{ for } x > 0. y \ge 1",
+    "a claim in a new line": r"\begin{aligned} x^2 &> 0 \text{ for } x > 0, \\ y &\ge 1 \end{aligned}",
+    "a claim with its condition before an arrow": r"x > 0 \text{ if } y > 0 \Rightarrow x > 0",
+    "two colons": r"\forall x > 0: y > 0: y^3 > 0", "a decimal comma": r"1,5 c > c",
+    # sums
+    "a letter that counts twice": r"\sum_{i=1}^2 \sum_{i=1}^2 i x_i = 5x_1 + 4x_2 + 0 y^2",
+    "a sum from the outer letter on": r"\sum_{k=1}^2 \sum_{i=k}^2 x_i \ge 2x_1 + 2x_2 - 1",
+    "a slash by what counts": r"\sum_{k=1}^2 x_k/k \le \frac{x_1 + x_2}{k} + c",
+    "a superscript that counts": r"\sum_{i=1}^2 x^{(i)} \ge x", "an index of ten": r"\sum_{i=11}^{11} x_{1i} = x_{11}",
+    # components and values of functions
+    "a component's norm": r"2\|v_j\| \ge \|v\|", "a component's product": r"v_j^T W_j \le \|v\|\|W\|",
+    "a function's value": "V(x + y) = V x + V y", "a next value": r"a(k+1) = a k + a",
+    "another value": r"f(x) = f(y) \text{ for } y = x + 1", "a value's bound": r"f(x) \ge f(0)",
+    # what a function, a slash or a derivative applies to
+    "a half within a function": r"|\sin x/2| \le \frac12",
+    "a half within a function's power": r"\sin^2 x/2 \le \frac12",
+    "a function letter by letter": r"\sum_{i=1}^2 sin x \le 2",
+    "a derivative before a dot": r"\frac{d}{dt} x \cdot y = \dot x y + x\dot y",
+    "two derivatives": r"\frac{d}{dt} x \frac{d}{dt} y = \dot x\dot y + x\ddot y",
+    "a derivative before a rate": r"\frac{d}{dt} x\dot y = \dot x\dot y + x \ddot y",
+    "a derivative before a slash": r"\frac{d}{dt} y / y = \dot y / y + 0 x",
 }
 TRUE = (
     r"\left|\left|b\right|\right| \ge b", r"\lvert -\lvert b\rvert\rvert \ge b", r"{x}^2 \ge 0",
@@ -81,5 +117,10 @@ TRUE = (
     r"\begin{aligned} (x - y)^2 &= x^2 \\ &- 2xy + y^2 \end{aligned}", r"x(t)^2 + \dot y(t)^2 \ge 0",
     r"\frac{d}{dt}\frac{d}{dt} y = y", r"\sin{2x} = 2\sin x\cos x", r"\forall x > 1: x^2 > 1",
     r"0 < c \text{ and } -c < 1", r"\dot e = -e \Rightarrow \frac{d}{dt} e^2 = -2e^2", r"2\cdot\tfrac12 x + y^2 \ge x",
+    r"f(x) = f(y) \text{ if } x = y", r"x = 0 \Rightarrow f(x) = f(0)", r"n \ge 1",
+    r"\sum_{i=1}^n (1 + v_i^2) \ge 1", r"v \in \mathbb{R}^n, \|v\| \ge 0", r"x^2 > 0 \text{ if } x > 0, y \ge 1",
+    r"\sum_{k=1}^2 \sum_{i=1}^2 k x_i = 3x_1 + 3x_2 + 0 y", r"k(x + y) = kx + ky + 0 a",
+    r"\frac{d}{dt}\frac12 x^2 = x\dot x", r"x^3 > 0 \text{ for } x > 0, \; |y| \le 1", r"c^{(1/2)} > 0",
+    r"\begin{cases} x^2 \ge 0, \\ y^2 \ge 0 \end{cases}",
     r"\sqrt{x^2} = |x| + 0 y^2", r"v^T(v + W) = \|v\|^2 + v^TW", r"a{(b + c)} = ab + ac", r"\max\{x, y\} \ge x",
 )

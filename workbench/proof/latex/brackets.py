@@ -4,8 +4,21 @@ from __future__ import annotations
 
 from workbench.proof.latex.error import LatexError
 from workbench.proof.latex.notation import Notation
-from workbench.proof.latex.tree import Dot, Group, Letter, Named, Node, Number, Power, Transposed
+from workbench.proof.latex.tree import (
+    Dot,
+    Group,
+    Letter,
+    Named,
+    Node,
+    Number,
+    Power,
+    Quotient,
+    Terms,
+    Transposed,
+    letters_of_node,
+)
 
+STEPS = {Letter(name) for name in "tknij"}  # what counts steps, where it stands alone with numbers
 PAIRS = {"(": ")", "[": "]", "{": "}"}
 
 
@@ -54,17 +67,44 @@ def require_own_power(last: Node, declared: bool) -> None:
                          "around one of the two", last.position)
 
 
-def require_factor(notation: Notation, factors: tuple[Node, ...], at: int) -> None:
-    """Raise LatexError for brackets that a reader would not take for a factor: `x(t)`, `V(0)`, `= 1 (3)`."""
+def require_factor(notation: Notation, factors: tuple[Node, ...], at: int, declared: bool = False) -> None:
+    """Raise LatexError for brackets that a reader would not take for a factor: `x(t)`, `V(0)`, `= 1 (3)`; where letters
+    are declared, neither for a value at another instant, `x(t - T)`, `x(k + 1)`, nor of a function, `V(x + y)`."""
     group, before = _base(factors[at]), factors[at - 1] if at else Dot()
     if not isinstance(group, Group) or isinstance(before, (Dot, Group)) or notation.meaning(group) is not None:
         return
     chains = group.line.chains
     lone = chains[0].sides[0] if len(chains) == 1 and not chains[0].signs else None
-    if isinstance(lone, Number) or (isinstance(lone, Letter) and isinstance(_base(before), Letter)):
+    letter = _base(before)
+    if isinstance(lone, Number) or (isinstance(letter, Letter) and (isinstance(lone, Letter) or (declared and (
+            _is_instant(lone) or _is_function(notation, letter))))):
         raise LatexError("what stands in these brackets may be an argument, a factor or the number of an equation: "
                          r"write \cdot before them for a product, or add the piece with its letter to the notation",
                          group.position)
+
+
+def _is_instant(node: Node | None) -> bool:
+    """Whether an expression holds the letter of time, or is a step's number: k + 1, 2 n."""
+    found = letters_of_node(node)
+    return Letter("t") in found or (bool(found) and found <= STEPS and not isinstance(node, Quotient))
+
+
+def _is_function(notation: Notation, letter: Letter) -> bool:
+    """Whether a letter is a capital one that the notation defines, as functions of Lyapunov are."""
+    meaning = notation.meaning(letter)
+    return letter.name.isupper() and meaning is not None and not meaning.is_number and not meaning.is_Atom and (
+        "Indexed" not in type(meaning).__name__)
+
+
+def plain_exponent(exponent: Node) -> Node:
+    """The exponent; LatexError for one in brackets that may count, as in `x^{(i)}`, and be no power."""
+    sides = inside_all(exponent) if isinstance(exponent, Group) and exponent.opening == "(" else []
+    parts = [part for side in sides for part in (
+        [term for _, term in side.terms] if isinstance(side, Terms) else [side])]
+    if parts and all(isinstance(part, (Letter, Number)) for part in parts):
+        raise LatexError("a superscript in brackets may count or be a power: write the power without brackets",
+                         exponent.position)
+    return exponent
 
 
 def ends_behind_letter(rest: tuple[Node, ...]) -> bool:

@@ -19,6 +19,8 @@ FUNCTIONS = frozenset((
     "sat", "sgn", "sign", "tanh", "exp", "ln", "log", "max", "min", "sup", "inf", "tr", "det", "diag", "sin", "cos",
     "tan", "cosh", "sinh", "arctan", "arg", "dim", "rank",
 ))
+# What letters without a backslash must not spell; shorter names are products of letters too.
+SPELLED = FUNCTIONS - {"tr", "arg", "dim", "rank"} | {"abs"}
 SAME_FUNCTION = {"sign": "sgn", "log": "ln"}
 FRACTIONS = frozenset(["frac", "tfrac", "dfrac", "cfrac"])
 BIG = frozenset(["sum", "prod", "int", "iint", "oint", "lim", "limsup", "liminf", "bigcup", "bigcap"])

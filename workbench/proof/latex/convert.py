@@ -13,15 +13,16 @@ from workbench.proof.latex.brackets import (
     inside_all,
     is_argument,
     is_next,
+    plain_exponent,
     require_factor,
     require_letter_before,
     require_own_power,
 )
-from workbench.proof.latex.derivatives import Derivative, derivative, partial, rate
+from workbench.proof.latex.derivatives import Derivative, derivative, partial, rate, require_operand
 from workbench.proof.latex.error import LatexError
 from workbench.proof.latex.functions import Condition, applied, divided, power, require_kept, require_usual
 from workbench.proof.latex.notation import Notation, without_dot
-from workbench.proof.latex.sums import big
+from workbench.proof.latex.sums import big, require_component
 from workbench.proof.latex.tree import (
     Accented,
     Big,
@@ -120,13 +121,13 @@ class Converter:
             if isinstance(node, Dot) or (at and is_argument(self.notation, node, factors[at - 1])):
                 at += 1
                 continue
-            require_factor(self.notation, factors, at)
+            require_factor(self.notation, factors, at, self.declared)
             value, transposed, length = self._factor(factors, at)
             behind = factors[at + length] if at + length < len(factors) else None
             # x(t)^2 is (x(t))^2
             if isinstance(behind, (Power, Transposed)) and is_argument(self.notation, behind.base, node):
                 if isinstance(behind, Power):
-                    value = self._power(value, self.number(behind.exponent), behind.position)
+                    value = self._power(value, self.number(plain_exponent(behind.exponent)), behind.position)
                 transposed, length = transposed or isinstance(behind, Transposed), length + 1
             values.append((value, transposed))
             at += length
@@ -144,7 +145,7 @@ class Converter:
             meaning = self._of_sum(node, meaning)
             if exponent is not None:
                 require_own_power(factors[at + length - 1], self.declared)
-                meaning = self._power(meaning, self.number(exponent), node.position)
+                meaning = self._power(meaning, self.number(plain_exponent(exponent)), node.position)
             return meaning, False, length
         exponent_of = node.exponent if isinstance(node, Power) and isinstance(node.base, Named) else None
         name = node.base if isinstance(node, Power) and exponent_of is not None else node
@@ -157,8 +158,7 @@ class Converter:
             return big(self, node, rest), False, 1 + len(rest)
         operator = derivative(node)
         if operator is not None and not operator.of and rest and self.notation.meaning(node) is None:
-            if isinstance(rest[0], Group) and len(rest) > 1:
-                raise LatexError("what the derivative applies to is open: put all of it in brackets", node.position)
+            require_operand(rest, node.position)
             return self._derived(replace(operator, of=rest), node.position), False, 1 + len(rest)
         applies = rest and isinstance(rest[0], Group) and self.notation.meaning(rest[0]) is None
         if isinstance(node, Letter) and applies and node in self.notation.applied:
@@ -220,10 +220,9 @@ class Converter:
         return rate(value, count)
 
     def _of_sum(self, node: Node, meaning: sp.Expr) -> sp.Expr:
-        """The meaning, which within a sum has an index only where it is printed with the sum's own."""
-        if self.index is not None and is_vector(meaning) and isinstance(node, Letter) and self.index not in node.index:
-            raise LatexError(f"'{node.name}' has one value for each index, but is printed without the sum's index "
-                             f"'{self.index}': correct the notation", node.position)
+        """The meaning, where the letter is printed with the index that it has here."""
+        if isinstance(node, Letter) and is_vector(meaning):
+            require_component(node, self.index, self.limits if self.declared else None)
         return meaning
 
     @_value.register
@@ -262,7 +261,7 @@ class Converter:
             return sp.exp(self.number(node.exponent))
         if isinstance(node.base, Named):
             return self.product((node,))
-        return self._power(self.expression(node.base), self.number(node.exponent), node.position)
+        return self._power(self.expression(node.base), self.number(plain_exponent(node.exponent)), node.position)
 
     def _power(self, base: sp.Expr, exponent: sp.Expr, position: int) -> sp.Expr:
         if self.declared:

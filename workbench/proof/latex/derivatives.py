@@ -9,7 +9,7 @@ import sympy as sp
 
 from workbench.proof.claim import D
 from workbench.proof.latex.error import LatexError
-from workbench.proof.latex.tree import Letter, Node, Number, Power, Product, Quotient
+from workbench.proof.latex.tree import Accented, Dot, Group, Letter, Node, Number, Power, Product, Quotient, Transposed
 
 D_LETTERS = (Letter("d"), Letter("\\partial"))
 TIME = Letter("t")
@@ -45,6 +45,28 @@ def derivative(node: Node) -> Derivative | None:
         raise LatexError(r"a derivative by t alone, other letters held, is none along the motion: write \frac{d}{dt}",
                          node.position)
     return found
+
+
+def require_operand(rest: tuple[Node, ...], position: int) -> None:
+    """Raise LatexError where it is open what an operator such as d/dt, that stands before these factors, applies to."""
+    first, *others = rest
+    nested = isinstance(first, Quotient) and (inner := derivative(first)) is not None and not inner.of
+    if (isinstance(first, Group) and others) or any(isinstance(node, Dot) for node in rest) or (
+            not nested and any(map(_is_rate, others))):
+        raise LatexError("what the derivative applies to is open: put all of it in brackets", position)
+
+
+def _is_rate(node: Node) -> bool:
+    """Whether a factor is a rate or an operator itself."""
+    base = node.base if isinstance(node, (Power, Transposed)) else node
+    return (isinstance(base, (Letter, Accented)) and _has_dot(base)) or (
+        isinstance(base, Quotient) and derivative(base) is not None)
+
+
+def _has_dot(node: Letter | Accented) -> bool:
+    """Whether the outermost accent of a node is a dot."""
+    accent = node.accent if isinstance(node, Accented) else node.accents[-1] if node.accents else ""
+    return accent in ("dot", "ddot", "dddot")
 
 
 def _factors(node: Node) -> tuple[Node, ...]:

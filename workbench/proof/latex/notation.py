@@ -28,7 +28,7 @@ class Notation:
     def __init__(self, letters: Mapping[str, sp.Expr]) -> None:
         self.single: dict[Node, sp.Expr] = {}
         self.products: dict[Node, list[tuple[tuple[Node, ...], sp.Expr]]] = {}
-        self.typed = tuple(letters)
+        self.typed, self.given = tuple(letters), dict(letters)
         self.indices: set[str] = set()
         for typed, meaning in letters.items():
             self._add(typed, meaning)

@@ -3,22 +3,22 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, fields, is_dataclass, replace
-from typing import Any
+from dataclasses import dataclass, replace
 
 import sympy as sp
 
 from workbench.files.time_limit import OutOfTime, at_most_seconds, out_of_time
-from workbench.proof.claim import Claim, D, Decision, Goal, Relation
+from workbench.proof.claim import Claim, D, Decision, Goal, Relation, at_least
 from workbench.proof.decide.engine import decide
 from workbench.proof.document_format import AnswerDocument
 from workbench.proof.latex.convert import Converter
 from workbench.proof.latex.error import LatexError
+from workbench.proof.latex.function_values import apart, one_value_at_one_argument, values_of_one_function
 from workbench.proof.latex.notation import Notation
 from workbench.proof.latex.read import read_line
 from workbench.proof.latex.statement import relations, statement
 from workbench.proof.latex.symbols import Symbols
-from workbench.proof.latex.tree import Chain, Letter, Line, Number, Terms
+from workbench.proof.latex.tree import PARTED, Chain, Letter, Line, Number, Terms, letters_of_node
 from workbench.proof.latex.varying import printed_of_time
 from workbench.proof.latex.write import latex
 
@@ -85,8 +85,8 @@ def asked(line: str, symbols: Symbols) -> Goal:
 def _require_told_apart(line: Line) -> None:
     """Raise LatexError for a line such as `1/x <= x, x >= 1`: whether its end is claimed too, or a condition."""
     for number, (chain, words) in enumerate(zip(line.chains, line.separators, strict=False)):
-        if number and words == (",",) and _is_bound(chain) and any(
-                earlier.signs and not _is_bound(earlier) and _letters(chain) & _letters(earlier)
+        if number and words in PARTED and _is_bound(chain) and any(
+                earlier.signs and not _is_bound(earlier) and letters_of_node(chain) & letters_of_node(earlier)
                 for earlier in line.chains[:number]):
             raise LatexError(r"what stands behind the comma may be claimed or a condition: write \text{for} or "
                              r"\text{and} before it, or the condition and \Rightarrow first", chain.position)
@@ -106,15 +106,27 @@ def _counted(relation: Relation, limits: sp.Tuple | None) -> Relation:
 
 def _is_bound(chain: Chain) -> bool:
     """Whether a chain bounds one letter by numbers."""
-    return bool(chain.signs) and len(_letters(chain)) == 1 and all(
+    return bool(chain.signs) and len(letters_of_node(chain)) == 1 and all(
         isinstance(side, (Letter, Number, Terms)) for side in chain.sides)
 
 
-def _letters(node: Any) -> set[Letter]:
-    if isinstance(node, Letter):
-        return {node}
-    parts = [getattr(node, f.name) for f in fields(node)] if is_dataclass(node) else node
-    return set().union(*map(_letters, parts)) if isinstance(parts, (list, tuple)) else set()
+def _decided(claim: Claim, goal: Goal, symbols: Symbols) -> tuple[Decision, Goal]:
+    """The decision, with the goal that is decided: a vector has a component, a function one value at one argument."""
+    decision = decide(claim)
+    certificate = decision.certificate or {}
+    if decision.verdict in ("refuted", "gap") and certificate.get("terms") == [] and symbols.limits is not None:
+        goal = replace(goal, assume=(*goal.assume, at_least(sp.Sum(1, symbols.limits), 1)))
+        decision = decide(replace(claim, build=lambda: goal))
+        certificate = decision.certificate or {}
+    pairs = values_of_one_function(symbols.notation, goal)
+    if decision.verdict in ("refuted", "gap") and not one_value_at_one_argument(pairs, certificate.get("point", {})):
+        other = replace(goal, assume=(*goal.assume, *apart(pairs)))
+        elsewhere = decide(replace(claim, build=lambda: other))
+        if elsewhere.verdict in ("refuted", "gap"):
+            return elsewhere, other
+        return Decision(claim, "undecided", "it fails only where a function has two values at one argument", None,
+                        decision.seconds), goal
+    return decision, goal
 
 
 def answer(line: str, symbols: Symbols, limit_s: float | None = None) -> Answer:
@@ -125,7 +137,7 @@ def answer(line: str, symbols: Symbols, limit_s: float | None = None) -> Answer:
                   build=lambda: goal, origin="ours")
     try:
         with at_most_seconds(limit_s):
-            decision = decide(claim)
+            decision, goal = _decided(claim, goal, symbols)
     except OutOfTime:
         decision = Decision(claim, "undecided", out_of_time(limit_s), None, 0.0)
 

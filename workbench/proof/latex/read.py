@@ -6,17 +6,18 @@ from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cache, lru_cache
-from itertools import pairwise
 from typing import Any
 
 from lark import Lark, Token, Transformer
 from lark.exceptions import UnexpectedInput, VisitError
 from lark.lexer import Lexer
 
+from workbench.proof.latex.adjacent import require_no_mixed_number, require_own_slash
 from workbench.proof.latex.error import LatexError
 from workbench.proof.latex.grammar import GRAMMAR
 from workbench.proof.latex.tokens import tokens
 from workbench.proof.latex.tree import (
+    END,
     Accented,
     At,
     Big,
@@ -107,7 +108,8 @@ class _Builder(Transformer[Token, Line]):
 
     def separators(self, parts: list[Token]) -> tuple[str, ...]:
         words = {"COMMA": ",", "COLON": ":", "IMPLIES": "=>", "IFF": "<=>"}
-        return tuple(words.get(p.type, f"\\{p.value}" if p.type == "QUANTIFIER" else f"text {p.value}") for p in parts)
+        return tuple(END if p.type == "COMMA" and p.value in ";." else words.get(
+            p.type, f"\\{p.value}" if p.type == "QUANTIFIER" else f"text {p.value}") for p in parts)
 
     def chain(self, parts: list[Any]) -> Chain:
         return Chain(tuple(parts[::2]), tuple(str(sign) for sign in parts[1::2]), position=parts[0].position)
@@ -135,7 +137,7 @@ class _Builder(Transformer[Token, Line]):
         factors: list[Node] = []
         if len(parts) == 1:
             return parts[0]
-        _require_no_mixed_number(parts)
+        require_no_mixed_number(parts)
         for place, held in enumerate(parts):
             divides = place > 0 and isinstance(parts[place - 1], Token) and parts[place - 1].type == "SLASH"
             part = _unbraced(held, divides, beside=True)
@@ -148,6 +150,7 @@ class _Builder(Transformer[Token, Line]):
                 if after is not None and not (isinstance(after, Token) and after.type == "CDOT"):
                     raise LatexError("what a slash divides by is open: write \\frac, or brackets and \\cdot",
                                      part.position)
+                require_own_slash(factors, part)
                 top = _product(factors)
                 factors = [Quotient(top, part, position=top.position)]
             else:
@@ -236,18 +239,6 @@ def _unbraced(node: Node, with_sign: bool, beside: bool = False) -> Node:
             beside and isinstance(node.body, (Terms, Quotient))):
         raise _not_printed(node)
     return node.body
-
-
-def _require_no_mixed_number(parts: list[Any]) -> None:
-    """Raise LatexError for numbers side by side: `2\\frac12` is printed as two and a half is."""
-    for one, two in pairwise(parts):
-        if _is_number(one) and _is_number(two):
-            raise LatexError("two numbers stand side by side: write \\cdot between them, or one number", two.position)
-
-
-def _is_number(node: Any) -> bool:
-    parts = (node.top, node.bottom) if isinstance(node, Quotient) else (node,)
-    return all(isinstance(part, Number) for part in parts)
 
 
 def _at(parts: list[Any]) -> int:

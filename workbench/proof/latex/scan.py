@@ -9,9 +9,11 @@ from workbench.proof.latex.commands import (
     ACCENTS,
     DROPPED,
     ENVIRONMENTS,
+    EQUIVALENT,
     FONTS,
     FRACTIONS,
     FUNCTIONS,
+    IMPLIES,
     KNOWN,
     SILENT,
     TEXTS,
@@ -85,6 +87,8 @@ def _layout(line: str, text: str, start: int, at: int, environments: list[str], 
         if found is None or found["name"] not in ENVIRONMENTS:
             raise LatexError(f"this {text} is not read: write the lines of a formula or of cases", start)
         if text == "\\begin":
+            if found["name"] == "cases" and not _begins(pieces):
+                raise LatexError("a value by cases: write one line for each case, with its condition", start)
             environments.append(found["name"])
         elif not environments or environments.pop() != found["name"]:
             raise LatexError(f"{text} ends what has not begun: correct the environments", start)
@@ -93,16 +97,27 @@ def _layout(line: str, text: str, start: int, at: int, environments: list[str], 
         if not environments or environments[-1] == "cases":
             raise LatexError("'&' tells cases apart, or columns: write one line for each case", start)
         return at
-    parted = pieces and pieces[-1].text in (",", ";")
-    if pieces and not parted and not _goes_on(line, at, start, environments):
-        pieces.append(Piece("sign", ",", start))
+    parted = bool(pieces) and pieces[-1].text in (",", ";")
+    if pieces and not _goes_on(line, at, start, environments, parted):
+        pieces[len(pieces) - parted:] = [Piece("sign", ";", start)]
     return at
 
 
-def _goes_on(line: str, at: int, start: int, environments: list[str]) -> bool:
+def _begins(pieces: list[Piece]) -> bool:
+    """Whether a formula begins behind these pieces, so that cases are a system and not the values of something."""
+    for piece in reversed(pieces):
+        if piece.kind == "open" or (piece.kind == "command" and piece.text in DROPPED | {"{", "lbrace"}):
+            continue
+        return piece.kind == "text" or piece.text in {",", ";", ":", *IMPLIES, *EQUIVALENT}
+    return True
+
+
+def _goes_on(line: str, at: int, start: int, environments: list[str], parted: bool) -> bool:
     """Whether a new line goes on with the formula before it; in cases no formula does so with a sign."""
     if not _SIGNED.match(line, at):
         return _GOES_ON.match(line, at) is not None
+    if parted or not line[at:].strip():
+        return False
     if environments and environments[-1] == "cases":
         return False
     if _RELATED.search(line[at:].partition("\\\\")[0]):

@@ -10,7 +10,7 @@ from typing import Any
 from workbench.proof.latex.error import LatexError
 from workbench.proof.latex.read import read_line
 from workbench.proof.latex.statement import parted
-from workbench.proof.latex.tree import Chain, Letter, Node, Product
+from workbench.proof.latex.tree import PARTED, Chain, Letter, Node, Product
 
 RATES = ("dot", "ddot", "dddot")
 _LAYOUT = re.compile(r"\\(?:begin|end)\s*\{(?:aligned|split|gathered)\}|(?<!\\)&")
@@ -83,7 +83,7 @@ def _equations(text: str) -> Iterator[tuple[Node, str]]:
         claimed, conditions = parted(line)
     except LatexError:
         return
-    if conditions or any(words not in ((), (",",)) for words in line.separators):
+    if conditions or any(words not in PARTED for words in line.separators):
         return
     ends = [*(chain.position for chain in claimed[1:]), len(text)]
     for chain, end in zip(claimed, ends, strict=True):

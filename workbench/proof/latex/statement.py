@@ -2,16 +2,18 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from itertools import pairwise
 
 import sympy as sp
 
 from workbench.proof.claim import Operator, Relation
+from workbench.proof.latex.brackets import says_nothing
 from workbench.proof.latex.convert import Converter
 from workbench.proof.latex.error import LatexError
-from workbench.proof.latex.tree import Chain, Group, Letter, Line, Node, Number, Power, Product, Terms
+from workbench.proof.latex.tree import END, Chain, Group, Letter, Line, Node, Number, Power, Product, Size, Terms
+from workbench.proof.latex.vectors import is_vector
 
 OPERATORS: dict[str, Operator] = {"=": "==", "<=": "<=", ">=": ">=", "<": "<", ">": ">", "!=": "!="}
 _AND = frozenset(("and", ",", "", "as well as"))
@@ -48,9 +50,11 @@ def statement(line: Line, converter: Converter) -> Statement:
     """The statement of a line; raises ProseError where words carry part of it, LatexError for what cannot be read."""
     if not converter.declared and any("\\forall" in words for words in line.separators):
         raise ProseError("the line quantifies over what stands behind 'for all': it is read by a person")
-    claimed, conditions = parted(line)
+    parts = _parts(line)
+    claimed, conditions = parts.claimed, parts.conditions
     if converter.declared:
         _require_quantified(line)
+        _require_conditions(parts.late, converter)
     for (before, after), words in zip(pairwise(line.chains), line.separators[1:], strict=False):
         if words == (",",):
             _require_own_ends(before, after)
@@ -75,33 +79,97 @@ def relations(related: tuple[Related, ...]) -> tuple[Relation, ...]:
 def parted(line: Line) -> tuple[list[Chain], list[Chain]]:
     """The chains that a line claims, and those that are its conditions: before an arrow or a colon, after `for`, `if`
     or a quantifier, in brackets after a relation."""
-    flat = [word for words in line.separators for word in words]
+    parts = _parts(line)
+    return parts.claimed, parts.conditions
+
+
+@dataclass
+class _Parts:
+    """Chains claimed, and their conditions; `late` are those conditions behind a claim that a comma alone makes one.
+
+    behind: whether the conditions stand behind a claim; listed: how many of them the last word introduced.
+    """
+
+    claimed: list[Chain] = field(default_factory=list)
+    conditions: list[Chain] = field(default_factory=list)
+    late: list[Chain] = field(default_factory=list)
+    behind: bool = False
+    listed: int = 0
+
+    def under(self) -> None:
+        """Conditions follow; raise LatexError where a list of them stands before, which may hold claims."""
+        if self.behind and self.listed > 1:
+            raise LatexError("several claims with a condition each, or one claim with all of them: write one line for "
+                             "each claim")
+        self.behind, self.listed = bool(self.claimed), 0
+
+    def turn(self) -> None:
+        """What stood so far is the condition of what follows."""
+        if self.behind:
+            raise LatexError("a claim and its condition stand before an arrow or a colon: write the conditions first")
+        self.conditions = [*(c for c in self.conditions if c.signs), *self.claimed]
+        self.claimed = []
+
+    def condition(self, chain: Chain, words: tuple[str, ...]) -> None:
+        """One more condition, behind these words."""
+        if self.behind and END in words:
+            raise LatexError("whether the condition goes on behind the full stop, semicolon or new line is open: write "
+                             "one line for each claim", chain.position)
+        if self.behind and words == (",",):
+            self.late.append(chain)
+        self.listed += bool(chain.signs)
+        self.conditions.append(chain)
+
+
+def _require_one(flat: list[str]) -> None:
+    """Raise LatexError where a line makes more than one statement, or one that is none of a goal."""
     if "\\exists" in flat:
         raise ProseError("the line says that something exists: it is read by a person")
     if "<=>" in flat:
         raise ProseError("the line claims that two statements are equivalent: state each of them")
     if flat.count("=>") + sum(_said_of(word) in _IMPLIES for word in flat) > 1:
         raise LatexError("more than one arrow: write one line for each")
-    claimed: list[Chain] = []
-    conditions: list[Chain] = []
-    into = claimed
+    if flat.count(":") > 1:
+        raise LatexError("more than one colon: write one line for each")
+
+
+def _parts(line: Line) -> _Parts:
+    flat = [word for words in line.separators for word in words]
+    _require_one(flat)
+    parts, conditional = _Parts(), False
     for words, chain in zip(line.separators, line.chains, strict=False):
         for word in words:
             if word in ("=>", ":") or _said_of(word) in _IMPLIES:
-                conditions, claimed = [*(c for c in conditions if c.signs), *claimed], []
-                into = claimed
-            elif word == "\\forall":
-                into = conditions
-            elif word.startswith("text "):
-                into = _after_words(word.removeprefix("text "), into, claimed, conditions)
+                parts.turn()
+                conditional = False
+            elif word == "\\forall" or _said_of(word) in _UNDER:
+                parts.under()
+                conditional = True
+            elif _said_of(word) in _THEN and conditional and not parts.claimed:
+                conditional = False
+            elif word.startswith("text ") and _said_of(word) not in _AND:
+                raise _said(word.removeprefix("text "))
         kept, bracketed = _unbracketed(chain)
-        into.append(kept)
-        conditions += bracketed
+        if conditional:
+            parts.condition(kept, words)
+        else:
+            parts.claimed.append(kept)
+        parts.conditions += bracketed
     if any(word == "\\forall" or _said_of(word) in _ALL for word in flat):
-        while conditions and not conditions[-1].signs and isinstance(conditions[-1].sides[0], Letter):
-            conditions.pop()  # `for all x`: everything is said of all values
+        while parts.conditions and not parts.conditions[-1].signs and isinstance(parts.conditions[-1].sides[0], Letter):
+            parts.conditions.pop()  # `for all x`: everything is said of all values
     _require_end(line.separators[-1])
-    return claimed, conditions
+    return parts
+
+
+def _require_conditions(late: list[Chain], converter: Converter) -> None:
+    """Raise LatexError for what stands behind a condition and a comma, unless it bounds a letter: it may be claimed."""
+    for chain in late:
+        side = chain.sides[0]
+        bounded = side.parts[0] if isinstance(side, Size) and len(side.parts) == 1 else side
+        if chain not in _AT_ALL_TIMES and not isinstance(converter.notation.meaning(bounded), (sp.Symbol, sp.Indexed)):
+            raise LatexError(r"what stands behind the comma may be claimed or one more condition: write \text{and} "
+                             "before a condition, another line for a claim", chain.position)
 
 
 def _require_end(words: tuple[str, ...]) -> None:
@@ -111,17 +179,6 @@ def _require_end(words: tuple[str, ...]) -> None:
             raise _said(word.removeprefix("text "))
         if word in ("=>", ":"):
             raise LatexError("nothing stands behind the arrow or colon: complete the line")
-
-
-def _after_words(text: str, into: list[Chain], claimed: list[Chain], conditions: list[Chain]) -> list[Chain]:
-    said = _said_of(f"text {text}")
-    if said in _AND:
-        return into
-    if said in _UNDER:
-        return conditions
-    if said in _THEN and into is conditions and not claimed:
-        return claimed
-    raise _said(text)
 
 
 def _said_of(word: str) -> str:
@@ -154,6 +211,9 @@ def _related(chains: list[Chain], converter: Converter) -> tuple[Related, ...]:
         if not chain.signs:
             waiting.append(chain)
             continue
+        if waiting and _is_constant(waiting[-1].sides[0]):
+            raise LatexError("a number and a comma before a relation: write a point for a decimal comma",
+                             waiting[-1].position)
         for single in (*waiting, chain):
             found += _chain(replace(chain, sides=(single.sides[0], *chain.sides[1:])), converter)
         waiting = []
@@ -192,6 +252,7 @@ def _interval(chain: Chain, converter: Converter) -> list[Related]:
     """`x \\in [a, b)` as a <= x, x < b, and the chain before it."""
     place, interval = chain.signs.index("in"), chain.sides[-1]
     if place == len(chain.signs) - 1 and _is_all_numbers(interval):
+        _require_letter(chain.sides[-2], interval, converter)
         return _chain(Chain(chain.sides[:-1], chain.signs[:-1]), converter) if place else []
     if place != len(chain.signs) - 1 or not isinstance(interval, Group):
         raise ProseError("a set other than an interval: the line is read by a person")
@@ -206,6 +267,22 @@ def _interval(chain: Chain, converter: Converter) -> list[Related]:
     bounds = [] if low is None else [Related((low, value), ("<=" if interval.opening == "[" else "<",))]
     upper = [] if high is None else [Related((value, high), ("<=" if interval.closing == "]" else "<",))]
     return [*before, *bounds, *upper]
+
+
+def _require_letter(member: Node, numbers: Node, converter: Converter) -> None:
+    """Raise LatexError unless a letter is said to be real, which says no more of it: of a formula it says that it is
+    defined."""
+    of_time = isinstance(member, Product) and len(member.factors) == 2 and says_nothing(
+        converter.notation, member.factors[1])
+    letter = member.factors[0] if isinstance(member, Product) and of_time else member
+    meaning = converter.notation.meaning(member)
+    if meaning is None and not isinstance(letter, Letter):
+        raise LatexError("that a formula is a real number says that it is defined, which is no relation: write what "
+                         "its denominators, roots and logarithms need", member.position)
+    if converter.declared and meaning is not None and isinstance(numbers, Power) and (
+            not is_vector(meaning) or numbers.exponent != Letter("n")):
+        raise LatexError(r"the set of columns fits no declared kind: a vector is one of \mathbb{R}^n, a number of "
+                         r"\mathbb{R}", member.position)
 
 
 def _infinite(node: Node, sign: int) -> bool:

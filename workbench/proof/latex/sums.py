@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from dataclasses import fields, is_dataclass, replace
 from fractions import Fraction
+from itertools import pairwise
 from typing import Any, Protocol
 
 import sympy as sp
@@ -13,7 +14,7 @@ from workbench.proof.latex.error import LatexError
 from workbench.proof.latex.limits import MOST_SUMMANDS
 from workbench.proof.latex.notation import Notation
 from workbench.proof.latex.read import read_line
-from workbench.proof.latex.tree import Big, Dot, Group, Letter, Node, Number, Product, Terms
+from workbench.proof.latex.tree import Big, Dot, Group, Letter, Node, Number, Product, Terms, letters_of_node, parts_of
 from workbench.proof.latex.vectors import is_vector
 
 _INDEX = re.compile(r"(?P<letter>(\\[A-Za-z]+|[A-Za-z])(_\w+)?)(=(?P<first>.+))?", re.DOTALL)
@@ -113,13 +114,36 @@ def _ends(converter: Reading, first: str | None, sign: Big) -> tuple[sp.Expr, sp
     return converter.number(start.sides[0]), converter.number(sign.above)
 
 
+def require_component(letter: Letter, index: str | None, limits: sp.Tuple | None) -> None:
+    """Raise LatexError for a vector printed without the index of the sum that it stands in, or, where the limits of
+    the goal's sums are given, for a component that stands in none."""
+    if index is not None and index not in letter.index:
+        raise LatexError(f"'{letter.name}' has one value for each index, but is printed without the sum's index "
+                         f"'{index}': correct the notation", letter.position)
+    if index is None and limits is not None and str(limits[0]) in map(str.strip, letter.index_parts()):
+        raise LatexError(f"a component of '{letter.name}' stands in no sum: write a sum, or the vector without its "
+                         "index", letter.position)
+
+
 def _written_out(converter: Reading, letter: str, ends: tuple[sp.Expr, sp.Expr], rest: tuple[Node, ...],
                  position: int) -> sp.Expr:
     first, last = map(int, ends)
     if not 0 <= last - first < MOST_SUMMANDS:
         raise LatexError(f"a sum from {first} to {last}: write one of 1 to {MOST_SUMMANDS} terms", position)
+    if any(isinstance(part, Big) and _mentions(Letter("", index=part.below), letter) for part in parts_of(rest)):
+        raise LatexError(f"a sum within the sum over '{letter}' has that letter below too: count by another letter, "
+                         "and from a number on", position)
+    if last > 9 and any(isinstance(part, Letter) and _runs_on(part, letter) for part in parts_of(rest)):
+        raise LatexError(f"with {last} in the place of '{letter}' an index of several letters is open: write commas "
+                         "within it", position)
     return sp.Add(*(converter.product(tuple(_put(node, letter, Number(Fraction(number))) for node in rest))
                     for number in range(first, last + 1)))
+
+
+def _runs_on(printed: Letter, letter: str) -> bool:
+    """Whether an index has the letter beside another without a comma between."""
+    parts = [part.strip() for part in printed.index_parts()]
+    return letter in parts and any(one != "," != two and letter in (one, two) for one, two in pairwise(parts))
 
 
 def _put(node: Any, letter: str, by: Number | Letter) -> Any:
@@ -139,12 +163,7 @@ def _put(node: Any, letter: str, by: Number | Letter) -> Any:
 
 def _mentions(node: Any, letter: str) -> bool:
     """Whether a letter stands in a node, by itself or as an index."""
-    if isinstance(node, Letter):
-        return node.name == letter or letter in (part.strip() for part in node.index_parts())
-    if isinstance(node, tuple):
-        return any(_mentions(part, letter) for part in node)
-    return isinstance(node, Node) and is_dataclass(node) and any(
-        _mentions(getattr(node, f.name), letter) for f in fields(node) if f.name != "position")
+    return any(found.name == letter or letter in map(str.strip, found.index_parts()) for found in letters_of_node(node))
 
 
 def _integrals(sign: Big, rest: tuple[Node, ...]) -> list[tuple[sp.Expr, tuple[Node, ...]]]:

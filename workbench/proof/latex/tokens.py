@@ -26,6 +26,7 @@ from workbench.proof.latex.commands import (
     RELATIONS,
     SAME_ACCENT,
     SAME_FUNCTION,
+    SPELLED,
     STAR,
     TIMES,
     UPRIGHT,
@@ -93,11 +94,22 @@ class _Words:
             elif arguments(piece):
                 at = self._with_arguments(out, at, end, depth)
             else:
+                self._require_no_name(at, end)
                 out.append(_simple(piece))
                 self._brackets(out[-1], opened)
                 at += 1
         require_no_formula(out, spaces)
         return out
+
+    def _require_no_name(self, at: int, end: int) -> None:
+        """Raise LatexError for letters side by side that spell a function: `sin x` is s times i times n times x."""
+        run = ""
+        while at + len(run) < end and (piece := self.pieces[at + len(run)]).kind == "letter" and (
+                self._adjacent(at, at + len(run))):
+            run += piece.text
+        if name := next((name for name in SPELLED if run.startswith(name)), None):
+            raise LatexError(f"the letters '{name}' are a product: write \\{name} for the function, or spaces between "
+                             "the letters", self.pieces[at].position)
 
     def _brackets(self, token: Token, opened: list[str]) -> None:
         if token.type in ("OPEN", "LB"):

@@ -7,9 +7,13 @@ counted in characters from the line's start; they are for messages and do not en
 from __future__ import annotations
 
 import re
-from dataclasses import dataclass, field
+from collections.abc import Iterator
+from dataclasses import dataclass, field, fields
 from fractions import Fraction
+from typing import Any
 
+END = ";"  # a semicolon or full stop: what stands behind it is no member of a list before it
+PARTED = ((), (",",), (END,))  # what may stand between relations that are all claimed
 _INDEX_PART = re.compile(r"\\[A-Za-z]+ ?|.", re.DOTALL)
 
 
@@ -169,3 +173,19 @@ class Group(Node):
     opening: str
     closing: str
     line: Line
+
+
+def parts_of(node: Any) -> Iterator[Node]:
+    """All nodes within one, itself first; of a tuple those of its members."""
+    if isinstance(node, tuple):
+        for part in node:
+            yield from parts_of(part)
+    elif isinstance(node, Node):
+        yield node
+        for one in fields(node):
+            yield from parts_of(getattr(node, one.name))
+
+
+def letters_of_node(node: Any) -> set[Letter]:
+    """The letters within a node, each with its marks."""
+    return {part for part in parts_of(node) if isinstance(part, Letter)}

@@ -2,24 +2,24 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator
-from dataclasses import fields, is_dataclass, replace
+from collections.abc import Collection
+from dataclasses import replace
 from typing import Any
 
 import sympy as sp
 
 from workbench.proof.latex.derivatives import TIME
 from workbench.proof.latex.notation import Notation
-from workbench.proof.latex.tree import Group, Letter, Node, Power, Product, Transposed
+from workbench.proof.latex.tree import Group, Letter, Node, Power, Product, Transposed, letters_of_node, parts_of
 
 
 def printed_of_time(tree: Any, notation: Notation) -> set[sp.Expr]:
     """The symbols that a tree prints with the argument (t)."""
     found = set()
-    for part in _parts(tree):
+    for part in parts_of(tree):
         if isinstance(part, Product):
             for one, two in zip(part.factors[:-1], part.factors[1:], strict=True):
-                if _letters(_bare(two)) == {TIME} and isinstance(_bare(two), Group):
+                if letters_of_node(_bare(two)) == {TIME} and isinstance(_bare(two), Group):
                     meaning = notation.meaning(_bare(one)) or notation.meaning(_without_index(_bare(one)))
                     found |= {meaning} if isinstance(meaning, (sp.Symbol, sp.Indexed)) else set()
     return found
@@ -29,7 +29,7 @@ def varies(key: Node, moving: Collection[sp.Expr], notation: Notation) -> bool:
     """Whether a letter of a notation is a value at time t, or at what moves."""
     return isinstance(key, Product) and any(
         letter == TIME or notation.meaning(letter) in moving
-        for factor in key.factors if isinstance(factor, Group) for letter in _letters(factor))
+        for factor in key.factors if isinstance(factor, Group) for letter in letters_of_node(factor))
 
 
 def _without_index(node: Node) -> Node:
@@ -39,16 +39,3 @@ def _without_index(node: Node) -> Node:
 
 def _bare(node: Node) -> Node:
     return node.base if isinstance(node, (Power, Transposed)) else node
-
-
-def _letters(node: Node) -> set[Letter]:
-    return {part for part in _parts(node) if isinstance(part, Letter)}
-
-
-def _parts(node: Any) -> Iterator[Node]:
-    """A tree's nodes, itself first."""
-    if isinstance(node, Node):
-        yield node
-    inner = [getattr(node, f.name) for f in fields(node)] if is_dataclass(node) else node
-    for part in inner if isinstance(inner, (list, tuple)) else ():
-        yield from _parts(part)
