@@ -241,10 +241,12 @@ def _width(lines: Sequence[Sequence[str]]) -> int:
 
 def print_study(result: StudyResult) -> None:
     """Tables and findings of a study; on standard error a line for every run that failed."""
+    from workbench.report.plain_formulas import plain_words
+
     for table in result.tables:
         out_console.print(result_table(table))
     for finding in result.findings:
-        out_console.print(f"• {finding}", highlight=False)
+        out_console.print(f"• {plain_words(finding)}", highlight=False)
     for run, why in result.failures:
         err_console.print(f"{run}: {why}", style="red", soft_wrap=True, highlight=False)
 

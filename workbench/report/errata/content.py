@@ -7,7 +7,7 @@ from collections.abc import Sequence
 
 from workbench.proof.checker import goal_digest
 from workbench.proof.places import place_of, subject_of
-from workbench.proof.verdict import VERDICTS, Decision, verdict_words
+from workbench.proof.verdict import VERDICTS, Decision, FateWord, verdict_words
 from workbench.proof.wording import listed
 from workbench.report.counterexample import Counterexample
 from workbench.report.errata.blocks import Block, Code, Formula, Heading, Item, Items, Paragraph
@@ -24,6 +24,7 @@ from workbench.report.worded import math, worded
 
 MOST_STEPS = 120  # lines of a proof beyond which a reader is sent to the certificate
 CHECKER = "checker.py"
+GRAVEST_FIRST: tuple[FateWord, ...] = ("falls", "stands with corrections", "open", "stands")
 ABOUT = """Every line was stated as mathematics, as it stands here, and decided by a machine. Each verdict \
 below comes with a certificate, a proof or a counterexample in exact arithmetic, that one short program, checker.py, \
 re-checks with Python's standard library alone. Numbers in brackets are those of the paper; words in quotation marks \
@@ -56,9 +57,21 @@ def _verb(verdict: str, count: int) -> str:
 
 
 def _fates(decisions: Sequence[Decision]) -> list[Block]:
-    lines = tuple(Item(worded(fate_sentence(d.claim.equation, d.fate.word, d.fate.why, d.claim.title)))
-                  for d in decisions if d.fate)
-    return [Heading(2, "What becomes of the headline statements"), Items(lines)] if lines else []
+    """Those that fall first, after how many there are of each."""
+    told = [(d.fate, d.claim) for word in GRAVEST_FIRST for d in decisions if d.fate is not None and d.fate.word == word]
+    counts = Counter(fate.word for fate, _ in told)
+    words = listed([f"{counts[word]} {_verb_of(word, counts[word])}" for word in GRAVEST_FIRST if counts[word]])
+    lines = tuple(Item(worded(fate_sentence(claim.equation, fate.word, fate.why, claim.title))) for fate, claim in told)
+    of = f"Of {len(told)} headline statements" if len(told) > 1 else "Of one headline statement"
+    return [Heading(2, "What becomes of the headline statements"), Paragraph(f"{of}, {words}."), Items(lines)
+            ] if lines else []
+
+
+def _verb_of(word: FateWord, count: int) -> str:
+    """A fate behind the number of its statements."""
+    if word == "open":
+        return "is open" if count == 1 else "are open"
+    return word if count == 1 else {"falls": "fall", "stands": "stand"}.get(word, word.replace("stands", "stand"))
 
 
 def _corrections(found: Sequence[Finding]) -> list[Block]:
