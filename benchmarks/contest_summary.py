@@ -90,20 +90,26 @@ def page(told: Told, contest: Contest, fronts: list[Front]) -> Iterator[str]:
     left = [stated.title for name, stated in contest.conditions.items() if name not in told.contest.conditions]
     yield from (
         "# The common contest, as it was played", "",
-        "Written by `benchmarks/contest_summary.py`; every number is from the runs. Behind the actuator of "
-        "`benchmarks/common_run.toml` unless the condition says otherwise; where anything is drawn, draws are added "
-        "until who tracks best is told apart at each period, or to the most. + marks tuned parameters. Intervals are "
-        f"{100 * told.contest.confidence:g} % BCa; ● is the best and all who are not told apart from it by Holm's "
-        "correction over all metrics and conditions of those who sample alike. Who learns shows the last of its trips, "
-        "which all meet the same train, line and gusts; noise is drawn anew for each.", "")
-    if left:
-        yield from (f"Stated in the contest's file and not played here: {', '.join(left)}.", "")
-    yield from ("## Headline", "", *(f"- {words}" for words in period_findings(told)), "")
+        "All controllers on one train and line, under the same actuator, draws, noise and failures; ranked among those "
+        "who command equally often. A + marks parameters that were tuned, by the same budget for all.", "",
+        "## Headline", "", *(f"- {words}" for words in period_findings(told)), "")
     groups = list(at_each_period(told))
     yield from ("## The best tracker by condition", "")
     rows = [[stated.title, str(told.runs(name)), *(", ".join(own.best(name, "position_rms")) for _, own in groups)]
             for name, stated in told.contest.conditions.items()]
     yield from table(["condition", "draws", *(f"every {1e3 * period:g} ms" for period, _ in groups)], rows)
+    yield from (
+        "## How it was played", "",
+        "- Behind the actuator of `benchmarks/common_run.toml`, unless the condition says otherwise.",
+        "- Where anything is drawn, draws are added until who tracks best is told apart at each period, or to the "
+        "most.",
+        f"- Intervals are {100 * told.contest.confidence:g} % BCa. ● is the best and all who are not told apart from "
+        "it by Holm's correction over all metrics and conditions of those who sample alike.",
+        "- Who learns shows the last of its trips, which all meet the same train, line and gusts; noise is drawn anew "
+        "for each.",
+        "- Every number is from the runs; `benchmarks/contest_summary.py` writes this page.", "")
+    if left:
+        yield from (f"Stated in the contest's file and not played here: {', '.join(left)}.", "")
     for period, own in groups:
         base = told.contest.tuning.condition
         yield from (f"## Commands every {1e3 * period:g} ms, {told.contest.conditions[base].title}", "")

@@ -1,5 +1,6 @@
 """Findings: what a referee would write, made from the decisions alone."""
 
+from dataclasses import replace
 from fractions import Fraction
 
 import pytest
@@ -14,6 +15,7 @@ from workbench.report.finding_sentences import (
     breaks_at,
     consequence_sentence,
     findings_document,
+    printed_sentence,
     sentences,
     verdict_sentence,
 )
@@ -118,7 +120,55 @@ def test_places_are_named_as_a_reader_names_them(equation, place):
 
 def test_places_of_one_kind_stand_together():
     assert places_of(["theorem2", "41", "theorem3", "41.a", "44"]) == ["Theorems 2 and 3", "equations (41) and (44)"]
-    assert places_of(["41", "41.a", "gamma.b"], parts=True) == ["equations (41) and (41) [a]", "Gamma [b]"]
+    titles = {"41.a": "the rates", "gamma.b": "p is positive", "45": "V decreases"}
+    assert places_of(["41.a", "45", "gamma.b"], titles) == [
+        "equations (41) “the rates” and (45)", "the statement “p is positive”"]
+    # Where the whole line fails, so does its part, which is not told again.
+    assert places_of(["41", "41.a"], titles) == ["equation (41)"]
+
+
+@pytest.mark.parametrize(("equation", "title", "place"), [
+    ("45.a", "Rate of V_2", "Equation (45) “Rate of V_2”"), ("45.a", "", "Equation (45)"), ("45", "V", "Equation (45)"),
+    ("theorem1.1.z", "z is bounded", "Theorem 1.1 “z is bounded”"), ("objective.stable", "", "Objective"),
+    ("gamma", "gamma has a mean", "The statement “gamma has a mean”"), ("gamma", "", "Statement")])
+def test_a_part_of_a_line_is_told_by_what_it_says(equation, title, place):
+    assert place_of(equation, title) == place
+
+
+def test_a_theorem_names_only_lines_that_fail_on_the_way_to_it():
+    """What holds in its other reading is no failure of the paper's way."""
+    own = {d.claim.equation: d for d in paper()}
+    chain = replace(own["lemma2"], claim=replace(own["lemma2"].claim, rests_on=("doe2026:4", "doe2026:7")))
+    found = {f.equation: f for f in findings(judged([chain if d is own["lemma2"] else d for d in own.values()]))}
+    assert found["lemma2"].because == ("4", "7")
+    assert verdict_sentence(found["lemma2"]) == "Lemma 2 holds, but the paper's way there fails at equation (4)."
+
+
+@pytest.mark.parametrize(("point", "show", "shown"), [
+    ({"x": "-1/4", "y": "1/3"}, "x*y >= 0", "with $x = -\\frac{1}{4}$, $y = \\frac{1}{3}$, $x y \\ge 0$ would say "
+     "$-\\frac{1}{12} \\ge 0$"),
+    ({"x": "-1/4", "y": "3/8"}, "x*y >= 0", "with $x = -0.25$, $y = 0.375$, $x y \\ge 0$ would say $-0.09375 \\ge 0$"),
+    ({"x": "-1/4", "y": "1/2"}, "x >= y/3", "with $x = -\\frac{1}{4}$, $y = \\frac{1}{2}$, $x \\ge \\frac{y}{3}$ would "
+     "say $-\\frac{1}{4} \\ge \\frac{1}{6}$"),
+    ({"x": "-1/4"}, "x >= 3/10", "with $x = -0.25$, $x \\ge 0.3$ would say $-0.25 \\ge 0.3$"),
+    ({"x": "-1/4", "y": "1234567/3"}, "x*y >= 0", "with $x = -0.25$, $y \\approx 4.115 \\times 10^{5}$, $x y \\ge 0$ "
+     "would say $-1.029 \\times 10^{5} \\ge 0$, rounded")])
+def test_numbers_of_one_counterexample_are_all_decimals_or_all_fractions(point, show, shown):
+    assert breaks_at(counterexample_of(certificate("a:1", "refuted", show, point))) == shown
+
+
+def test_numbers_in_a_motion_are_written_alike():
+    goal = {"assume": [], "show": ["x**2 <= e"], "flow": {"t": "1", "x": "w", "e": "0"}, "inputs": ["w"],
+            "eventually": "t"}
+    at = {"verdict": "refuted", "goal": goal, "functions": {"x": "8/3 + 16*t"}, "point": {"e": "1/4"}}
+    assert counterexample_of(at).values == (r"x = \frac{8}{3} + 16 t", r"e = \frac{1}{4}")
+    at["functions"] = {"x": "3/10 + 16*t"}
+    assert counterexample_of(at).values == ("x = 0.3 + 16 t", "e = 0.25")
+
+
+def test_a_printed_sentence_has_one_full_stop():
+    line = replace(found_by_equation()["4"], printed=r"\text{it is stable.}")
+    assert printed_sentence(line).endswith(r"stable.}$") and printed_sentence(found_by_equation()["4"]).endswith("$.")
 
 
 @pytest.mark.parametrize(("text", "shown"), [

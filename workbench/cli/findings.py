@@ -46,7 +46,8 @@ def _print_paper(paper: str, decisions: Sequence[Decision], found: Sequence[Find
         for d in decisions:
             if d.fate is None or d.fate.word != word:
                 continue
-            _paragraph(Text(fate_sentence(d.claim.equation, word, d.fate.why), colour), 2)
+            said = worded(fate_sentence(d.claim.equation, word, d.fate.why, d.claim.title))
+            _paragraph(Text(show(said, plain_formula), colour), 2)
     left_out: Counter[Gravity] = Counter()
     heading = None
     for f in found:

@@ -125,7 +125,7 @@ def answer_card(answer: Mapping[str, Any]) -> Table:
 
 def claim_card(row: Mapping[str, Any]) -> Table:
     """One claim with all that is known of it."""
-    from workbench.report.certificate_latex import assignment_latex
+    from workbench.report.certificate_latex import assignments_latex
     from workbench.report.plain_formulas import plain_formula
     from workbench.report.worded import show, worded
 
@@ -137,8 +137,7 @@ def claim_card(row: Mapping[str, Any]) -> Table:
         "claim": f"{row['id']}: {row['title']}", "statement": plain_formula(row["statement"]),
         "verdict": verdict_words(row["verdict"], row["proved_under"]) + recorded,
         "shown by": row["method"], "value": row["computed"],
-        "counterexample": ", ".join(plain_formula(assignment_latex(*pair))
-                                    for pair in (row["counterexample"] or {}).items()),
+        "counterexample": ", ".join(map(plain_formula, assignments_latex(row["counterexample"] or {}))),
         "corrected": plain_formula(row["correction"] or ""), "fate": _fate(row), "holds for": row["scope"],
         "stands in the paper as": f"{ORIGIN_WORDS[row['origin']]}, {row['severity']}",
         "became a goal by": f"{MATCH_WORDS[row['match']]}{': ' if row['reading'] else ''}{row['reading']}",
@@ -167,7 +166,10 @@ MATCH_WORDS = {"parsed": "a machine that parsed the line", "read": "a person who
 
 
 def _fate(row: Mapping[str, Any]) -> str | None:
-    return f"{row['fate']}: {row['fate_why']}" if row["fate"] else None
+    from workbench.report.plain_formulas import plain_formula
+    from workbench.report.worded import show, worded
+
+    return f"{row['fate']}: {show(worded(row['fate_why']), plain_formula)}" if row["fate"] else None
 
 
 def verdict_lines(document: dict[str, Any]) -> list[Text]:
@@ -239,10 +241,12 @@ def _width(lines: Sequence[Sequence[str]]) -> int:
 
 def print_study(result: StudyResult) -> None:
     """Tables and findings of a study; on standard error a line for every run that failed."""
+    from workbench.report.plain_formulas import plain_words
+
     for table in result.tables:
         out_console.print(result_table(table))
     for finding in result.findings:
-        out_console.print(f"• {finding}", highlight=False)
+        out_console.print(f"• {plain_words(finding)}", highlight=False)
     for run, why in result.failures:
         err_console.print(f"{run}: {why}", style="red", soft_wrap=True, highlight=False)
 

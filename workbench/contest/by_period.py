@@ -11,6 +11,7 @@ from workbench.contest.tables import winners_table
 from workbench.contest.told import COLUMNS, Told
 from workbench.files.numbers import number
 from workbench.paper.results import ResultTable
+from workbench.proof.wording import listed
 
 TRACKING = "position_rms"
 
@@ -51,20 +52,26 @@ def period_findings(told: Told) -> Iterator[str]:
         order = sorted(means, key=means.__getitem__)
         tied = set(own.rankings[condition, TRACKING].winners)
         names = [entry.name for entry in own.entries]
-        said = [f"{names[i]} {_interval(own, i, condition)}" for i in order if i in tied]
+        said = [f"{names[i]}, {_interval(own, i, condition)}," for i in order if i in tied]
         others = [i for i in order if i not in tied]
-        behind = "; nobody is told apart from them"
+        them = "it" if len(said) == 1 else "them"
+        behind = f"nobody else is told apart from {them}"
         if others:
-            behind = f"; told apart from them, the next is {names[others[0]]} {_interval(own, others[0], condition)}"
+            behind = f"the next that is told apart from {them} is {names[others[0]]}, " + _interval(
+                own, others[0], condition)
         learners = sum(learns(own.scenario, own.entries[i].controller) for i in means)
-        words = f" ({learners} on the last of trips that all meet the same train, line and gusts)" if learners else ""
+        words = f", {learners} of them judged on the last of several trips" if learners else ""
         where = f"{own.contest.conditions[condition].title}, {own.runs(condition)} draws"
-        yield (f"Commands every {1e3 * period:g} ms, {where}, {COLUMNS[TRACKING].heading}, best of {len(means)} who "
-               f"arrive{words}: {', '.join(said)}{behind}.")
+        metric = COLUMNS[TRACKING].title
+        has = "has" if len(said) == 1 else "have"
+        yield (f"With a command every {1e3 * period:g} ms, {listed(said)} {has} the least {metric}; {behind} "
+               f"({where}; {len(means)} arrive{words}).")
 
 
 def _interval(told: Told, i: int, condition: str) -> str:
     values = told.values(condition, TRACKING)[i]
     assert values is not None
     found = told.interval(values)
-    return number(float(values.mean())) + (f" [{number(found.low)}, {number(found.high)}]" if found else "")
+    unit = COLUMNS[TRACKING].unit
+    return f"{number(float(values.mean()))} {unit}" + (
+        f" [{number(found.low)}, {number(found.high)}]" if found else "")

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
-from workbench.proof.places import place_of, places_of
+from workbench.proof.places import places_of, subject_of
 from workbench.proof.premises import holds_in_other_reading, proved_under, with_taint
 from workbench.proof.verdict import Decision, Fate
 from workbench.proof.wording import listed
@@ -38,29 +38,29 @@ def fates(decisions: Sequence[Decision]) -> dict[str, Fate]:
 
 def _fate(decision: Decision, by_id: dict[str, Decision], mended: Decision | None,
           unshown: tuple[str, ...]) -> Fate:
-    instead = f"; its mended form, {_place(mended.claim.id)}, is proved" if mended else ""
+    instead = f"; its mended form is proved, “{subject_of(mended.claim.title)}”" if mended else ""
     if decision.verdict == "refuted":
         if holds_in_other_reading(decision, by_id):
             other = str(decision.claim.glyph)
-            return Fate("open", f"depends on the reading: {_place(other)} holds", (other,))
+            return Fate("open", f"depends on the reading: {_named((other,), by_id)} holds", (other,))
         return Fate("falls", f"refuted by {_how(decision)}{instead}", (mended.claim.id,) if mended else ())
     if decision.verdict == "proved" and not unshown:
         failing = tuple(line for line in decision.tainted_by if not holds_in_other_reading(by_id[line], by_id))
         open_glyphs = tuple(line for line in decision.tainted_by if line not in failing)
         holds = "holds in its other reading" if len(open_glyphs) == 1 else "hold in their other readings"
-        readings = f"; {_named(open_glyphs)} on the way {holds}" if open_glyphs else ""
+        readings = f"; {_named(open_glyphs, by_id)} on the way {holds}" if open_glyphs else ""
         if not failing:
             return Fate("stands", f"proved, and no line that the paper uses to get there fails{readings}", open_glyphs)
         return Fate("stands with corrections", f"proved as a whole, though the paper's way there fails at "
-                    f"{_named(failing)}{readings}", failing)
+                    f"{_named(failing, by_id)}{readings}", failing)
     if mended is not None:
-        return Fate("stands with corrections", f"{_shortfall(decision, unshown)}{instead}", (mended.claim.id,))
-    return Fate("open", _shortfall(decision, unshown), unshown)
+        return Fate("stands with corrections", f"{_shortfall(decision, unshown, by_id)}{instead}", (mended.claim.id,))
+    return Fate("open", _shortfall(decision, unshown, by_id), unshown)
 
 
-def _shortfall(decision: Decision, unshown: tuple[str, ...]) -> str:
+def _shortfall(decision: Decision, unshown: tuple[str, ...], by_id: Mapping[str, Decision]) -> str:
     if decision.verdict == "proved":
-        return f"proved only under lines that are not shown: {_named(unshown)}"
+        return f"proved only under lines that are not shown: {_named(unshown, by_id)}"
     return {"gap": "does not follow from its premises", "violated": "its conditions fail at the printed numbers",
             "assumed": "taken from the literature", "undecided": "not decided"}[decision.verdict]
 
@@ -69,10 +69,8 @@ def _how(decision: Decision) -> str:
     return "an exact motion" if (decision.certificate or {}).get("functions") else "a counterexample"
 
 
-def _place(claim_id: str) -> str:
-    return place_of(claim_id.partition(":")[2])
-
-
-def _named(claim_ids: Sequence[str]) -> str:
-    """Lines as a reader calls them, `equation (4) and Theorem 1`, with their parts: one may fail and another hold."""
-    return listed(places_of([name.partition(":")[2] for name in claim_ids], parts=True))
+def _named(claim_ids: Sequence[str], by_id: Mapping[str, Decision]) -> str:
+    """Lines as a reader calls them, `equation (4) and Theorem 1`, with what their parts say: one may fail and another
+    hold."""
+    titles = {by_id[name].claim.equation: by_id[name].claim.title for name in claim_ids}
+    return listed(places_of(list(titles), titles))

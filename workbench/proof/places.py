@@ -3,39 +3,54 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 
 from workbench.proof.wording import listed
 
 _WORDS = {"theorem": "Theorem", "lemma": "Lemma", "remark": "Remark", "table": "Table", "figure": "Figure",
           "proposition": "Proposition", "contribution": "Contribution", "section": "Section", "A": "Assumption",
-          "corollary": "Corollary", "property": "Property", "algorithm": "Algorithm"}
-_TEXT = {"intro": "Introduction", "text": "Text"}
+          "assumption": "Assumption", "corollary": "Corollary", "property": "Property", "algorithm": "Algorithm"}
+# Places that a paper has without a number.
+_UNNUMBERED = {"intro": "Introduction", "text": "Text", "figures": "Figures", "tables": "Tables"} | {
+    word.lower(): word for word in ("Abstract", "Objective", "Conclusion", "Example", "Notation", *_WORDS.values())}
+STATEMENT = "Statement"  # of a line that has no number in its paper
+_TOLD = f"The {STATEMENT.lower()} "
 _PLACED = re.compile(rf"(?:{'|'.join(_WORDS.values())}) \d+[^:]*: ")
 _NAMED = re.compile(r"([A-Za-z]+?)(\d+)((?:\.\w+)*)")
 _NUMBERED = re.compile(r"(\d+)((?:\.\w+)*)")
 
 
-def place_of(equation: str) -> str:
-    """The name of a line by its claim's number: `44` is equation (44), `theorem2.speed` a part of Theorem 2."""
+def place_of(equation: str, title: str | None = None) -> str:
+    """The name of a line by its claim's number: `44` is equation (44), `theorem2.speed` a part of Theorem 2.
+
+    title: what the claim says. A part of a line is told by it, `Theorem 2 “The speed tracks too”`, and so is a line
+    that has no number in the paper. Without it a part has its short name in brackets, `Theorem 2 [speed]`; with an
+    empty one the part is left out, for a place beside which the title stands.
+    """
     found = _NUMBERED.fullmatch(equation)
     if found:
-        return f"Equation ({found[1]})" + _part(found[2])
+        return f"Equation ({found[1]})" + _part(found[2], title)
     found = _NAMED.fullmatch(equation)
     if found and found[1] in _WORDS:
-        return f"{_WORDS[found[1]]} {found[2]}" + _part(found[3])
+        return f"{_WORDS[found[1]]} {found[2]}" + _part(found[3], title)
     stem, dot, rest = equation.partition(".")
     if re.fullmatch(r"[IVX]+", stem):
-        return f"Section {stem}" + _part(dot + rest)
-    if stem in _TEXT:
-        return _TEXT[stem] + _part(dot + rest)
-    return stem[:1].upper() + stem[1:] + _part(dot + rest)
+        return f"Section {stem}" + _part(dot + rest, title)
+    if title is not None and stem not in _UNNUMBERED:
+        return f"{_TOLD.strip()}{_quoted(title)}" if title else STATEMENT
+    return _UNNUMBERED.get(stem, stem[:1].upper() + stem[1:]) + _part(dot + rest, title)
 
 
-def _part(suffix: str) -> str:
-    """What tells parts of a line apart, in brackets; numbers of parts as they are."""
+def _part(suffix: str, title: str | None) -> str:
+    """What tells parts of a line apart, in brackets or told by its title; numbers of parts as they are."""
     numbers, rest = re.fullmatch(r"((?:\.\d+(?!\w))*)(.*)", suffix).groups()  # type: ignore[union-attr]
-    return f"{numbers} [{rest[1:]}]" if rest else str(numbers)
+    if not rest:
+        return str(numbers)
+    return numbers + (f" [{rest[1:]}]" if title is None else _quoted(title))
+
+
+def _quoted(title: str) -> str:
+    return f" “{subject_of(title)}”" if title else ""
 
 
 def subject_of(title: str) -> str:
@@ -43,17 +58,25 @@ def subject_of(title: str) -> str:
     return _PLACED.sub("", title)
 
 
-def places_of(equations: Sequence[str], parts: bool = False) -> list[str]:
-    """The names of several lines, those of one kind together: `Theorems 2, 3 and 4`, `equations (41) and (44)`; with
-    what tells their parts apart where it is asked for, `equations (41) [rate] and (44)`."""
+def places_of(equations: Sequence[str], titles: Mapping[str, str] | None = None) -> list[str]:
+    """The names of several lines, those of one kind together: `Theorems 2, 3 and 4`, `equations (41) and (44)`.
+
+    titles: what the lines say, by equation. A part whose whole line is not among them is told by its title, `equations
+    (41) “The rates” and (44)`, as another part of it may hold; without titles parts are left out.
+    """
     groups: dict[str, list[str]] = {}
     for equation in equations:
-        place = place_of(equation)
-        kind, _, number = (place if parts else place.partition(" [")[0]).partition(" ")
+        whole = place_of(equation, "")
+        in_whole = any(other != equation and place_of(other) == whole for other in equations)
+        place = whole if titles is None or in_whole else place_of(equation, titles.get(equation))
+        told = place.startswith(_TOLD)
+        kind, number = (_TOLD, place.removeprefix(_TOLD)) if told else place.partition(" ")[::2]
         if number not in groups.setdefault(kind, []):
             groups[kind].append(number)
     found = []
     for kind, numbers in groups.items():
-        plural = kind if len(numbers) == 1 else {"Lemma": "Lemmas"}.get(kind, f"{kind}s")
-        found.append(f"{plural.lower() if kind == 'Equation' else plural} {listed(numbers)}".strip())
+        plural = kind.strip() + ("s" if len(numbers) > 1 else "")
+        if kind in ("Equation", _TOLD):
+            plural = plural[0].lower() + plural[1:]
+        found.append(f"{plural} {listed(numbers)}".strip())
     return found

@@ -9,60 +9,84 @@ from fractions import Fraction
 
 from workbench.proof.checker import RATIONAL, parse, split_relation
 from workbench.proof.latex.letters import latex_name
+from workbench.report.number_style import Style, style_of, value_latex
 
 SUM, PRODUCT, POWER, ATOM = range(4)  # how tightly a text holds together
 Written = tuple[str, int]
 SIGNS = {"==": "=", "<=": r"\le", ">=": r"\ge", "!=": r"\ne", "<": "<", ">": ">"}
 ZERO, ONE = ast.Constant(0), ast.Constant(1)
-LONGEST_FRACTION = 6  # digits above or below a fraction bar, beyond which a reader is given a decimal
 _WORD = re.compile(r"(?<=[{,])(?<!\\mathrm\{)[A-Za-z]{2,}(?=[},])")  # an index of several letters
 LOGARITHM = "log_"  # a positive letter with an index is stated by its logarithm: e^log_m is m
 
 
-def relation_latex(text: str) -> str:
-    """A relation of the certificate language as LaTeX."""
+def relation_latex(text: str, style: Style = "exact") -> str:
+    """A relation of the certificate language as LaTeX, its numbers in a style."""
     left, operator, right = split_relation(text)
-    return f"{expression_latex(left)} {SIGNS[operator]} {expression_latex(right)}"
+    return f"{expression_latex(left, style)} {SIGNS[operator]} {expression_latex(right, style)}"
 
 
-def expression_latex(text: str) -> str:
-    """An expression of the certificate language as LaTeX; factors of one and terms of zero are left out.
+def expression_latex(text: str, style: Style = "exact") -> str:
+    """An expression of the certificate language as LaTeX, its numbers in a style; factors of one and terms of zero are
+    left out.
 
     Raises CertificateError for what is no expression.
     """
-    return _written(_tidied(parse(text)))[0]
+    tree = _tidied(parse(text))
+    return _written(tree if style == "exact" else _Numbers({}, style).visit(tree))[0]
 
 
-def numbers_put_in(text: str, values: Mapping[str, Fraction]) -> str | None:
+def numbers_in(text: str) -> list[Fraction]:
+    """The numbers in an expression that are not whole, and what letters are divided by."""
+    found = []
+    for node in ast.walk(parse(text)):
+        if isinstance(node, ast.BinOp) and isinstance(node.op, ast.Div) and _whole(node.right):
+            found.append(Fraction(_whole(node.left) or 1, _whole(node.right) or 1))
+        elif isinstance(node, ast.Constant) and isinstance(node.value, float):
+            found.append(Fraction(str(node.value)))
+    return found
+
+
+def numbers_put_in(text: str, values: Mapping[str, Fraction], style: Style = "exact") -> str | None:
     """An expression with numbers in place of its letters, nothing multiplied out; None where that says nothing: where
     a letter has no number, or where rates or sums over an index stand in it."""
     tree = _tidied(parse(text))
     if any(isinstance(node, ast.Name) and node.id in ("D", "Sum") for node in ast.walk(tree)):
         return None
     names = {node.id for node in ast.walk(tree) if isinstance(node, ast.Name)} - _CALLED.keys() - {"exp"}
-    if not names or not names <= values.keys() or any(r"\approx" in value_latex(values[name]) for name in names):
+    if not names or not names <= values.keys() or any(
+            r"\approx" in value_latex(values[name], style) for name in names):
         return None
-    return _written(_PutIn(values).visit(tree))[0]
+    return _written(_Numbers(values, style).visit(tree))[0]
 
 
-class _PutIn(ast.NodeTransformer):
-    """Names become numbers."""
+class _Numbers(ast.NodeTransformer):
+    """Names become numbers, and all numbers are written in one style."""
 
-    def __init__(self, values: Mapping[str, Fraction]) -> None:
-        self.values = values
+    def __init__(self, values: Mapping[str, Fraction], style: Style) -> None:
+        self.values, self.style = values, style
 
     def visit_Name(self, node: ast.Name) -> ast.expr:
-        return _number(self.values[node.id]) if node.id in self.values else node
+        return _number(self.values[node.id], self.style) if node.id in self.values else node
+
+    def visit_BinOp(self, node: ast.BinOp) -> ast.expr:
+        above, below = _whole(node.left), _whole(node.right)
+        if self.style != "exact" and isinstance(node.op, ast.Div) and above is not None and below:
+            value = Fraction(above, below)
+            return node if r"\approx" in value_latex(value, self.style) else _number(value, self.style)
+        return self.generic_visit(node)  # type: ignore[return-value]
+
+    def visit_Constant(self, node: ast.Constant) -> ast.expr:
+        return _number(Fraction(str(node.value)), self.style) if isinstance(node.value, float) else node
 
 
-def _number(value: Fraction) -> ast.expr:
+def _number(value: Fraction, style: Style) -> ast.expr:
     """A number as the tree that is written as a reader would write it."""
     if value < 0:
-        return ast.UnaryOp(ast.USub(), _number(-value))
+        return ast.UnaryOp(ast.USub(), _number(-value, style))
     if value.denominator == 1:
         return ast.Constant(value.numerator)
-    if r"\frac" not in value_latex(value):
-        return ast.Name(f"={value_latex(value)}")
+    if r"\frac" not in (written := value_latex(value, style)):
+        return ast.Name(f"={written}")
     return ast.BinOp(ast.Constant(value.numerator), ast.Div(), ast.Constant(value.denominator))
 
 
@@ -73,46 +97,21 @@ def name_latex(name: str) -> str:
     return _WORD.sub(r"\\mathrm{\g<0>}", latex_name(name))
 
 
-def assignment_latex(name: str, value: str) -> str:
-    """`name = value` as LaTeX; the value is a fraction, or a function of time in the certificate language.
+def assignments_latex(values: Mapping[str, str]) -> list[str]:
+    """Each `name = value` as LaTeX, all numbers alike; values are fractions, or functions of time in the certificate
+    language.
 
     Raises CertificateError for what is neither.
     """
-    typed = value_latex(Fraction(value)) if RATIONAL.fullmatch(value) else expression_latex(value)
-    return f"{name_latex(name)} = {typed}".replace(r"= \approx", r"\approx")
+    style = style_of(number for value in values.values() for number in numbers_of(value))
+    typed = {name: value_latex(Fraction(value), style) if RATIONAL.fullmatch(value) else expression_latex(value, style)
+             for name, value in values.items()}
+    return [f"{name_latex(name)} = {text}".replace(r"= \approx", r"\approx") for name, text in typed.items()]
 
 
-def value_latex(value: Fraction) -> str:
-    """A number as a reader would write it: whole, decimal where that is short and exact, a fraction, or with an
-    'about' in front where its digits are too many."""
-    decimal = _decimal(value)
-    if decimal is not None:
-        return decimal
-    sign = "-" if value < 0 else ""
-    above, below = abs(value.numerator), value.denominator
-    if max(len(str(above)), len(str(below))) <= LONGEST_FRACTION:
-        return rf"{sign}\frac{{{above}}}{{{below}}}"
-    return rf"\approx {_scientific(f'{float(value):.4g}')}"
-
-
-def _decimal(value: Fraction) -> str | None:
-    """A whole number or a decimal with few digits, exactly; else None."""
-    if value.denominator == 1 and abs(value) < 10**6:
-        return str(value.numerator)
-    digits = f"{float(value):.6g}" if abs(value) < 10**30 else ""
-    if not digits or Fraction(digits) != value:
-        return None
-    telling = digits.partition("e")[0].lstrip("-").replace(".", "").lstrip("0")
-    short = len(telling) <= 4 or value.denominator > 1000
-    return _scientific(digits) if short else None
-
-
-def _scientific(digits: str) -> str:
-    mantissa, e, exponent = digits.partition("e")
-    if not e:
-        return digits
-    power = rf"10^{{{int(exponent)}}}"
-    return power if mantissa == "1" else rf"{mantissa} \times {power}"
+def numbers_of(value: str) -> list[Fraction]:
+    """The number that a value is, or those in the function that it is."""
+    return [Fraction(value)] if RATIONAL.fullmatch(value) else numbers_in(value)
 
 
 def _tidied(node: ast.expr) -> ast.expr:

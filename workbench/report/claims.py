@@ -10,8 +10,8 @@ from urllib.parse import quote
 from markupsafe import Markup, escape
 
 from workbench.proof.checker import CertificateError
-from workbench.proof.places import place_of, subject_of
-from workbench.report.certificate_latex import assignment_latex
+from workbench.proof.places import STATEMENT, place_of, subject_of
+from workbench.report.certificate_latex import assignments_latex
 from workbench.report.formulas import formula, in_html
 from workbench.report.worded import worded
 
@@ -37,7 +37,9 @@ class ClaimRef:
 
 @dataclass(frozen=True)
 class ClaimView:
-    """One claim, ready to show; formulas are MathML, `facts` are labelled texts that fold away.
+    """One claim, ready to show; formulas are MathML, `facts` are labelled texts that fold away; place: its line in the
+    paper, empty where that has no number; told: its line and, for a part of one, what it says, formulas between dollar
+    signs.
 
     decided: the goal itself, made from what was decided, where no machine found it in the printed line.
     """
@@ -70,8 +72,9 @@ class ClaimView:
     open: bool
     ours: bool
     fate: str
-    fate_why: str
+    fate_why: Markup
     place: str
+    told: str
 
 
 def claim_views(document: Mapping[str, Any]) -> list[ClaimView]:
@@ -117,7 +120,7 @@ def _view(entry: Mapping[str, Any], known: set[str]) -> ClaimView:
     refs = {key: tuple(ClaimRef(name, anchor(name) if name in known else None)
                        for name in map(_text, _list(entry.get(key))))
             for key in ("tainted_by", "proved_under", "premises", "rests_on")}
-    trust = _text(entry.get("trust"))
+    trust, place = _text(entry.get("trust")), place_of(_text(entry.get("equation")), "")
     return ClaimView(
         id=_text(entry.get("id")), anchor=anchor(_text(entry.get("id"))), title=in_words(_text(entry.get("title"))),
         subject=in_words(subject_of(_text(entry.get("title")))),
@@ -134,7 +137,8 @@ def _view(entry: Mapping[str, Any], known: set[str]) -> ClaimView:
         counterexample=_lines(entry.get("counterexample")),
         facts=tuple((label, text) for label, text in shown if text), open=verdict in NOT_AS_PRINTED,
         ours=origin == "ours", fate=_text(entry.get("fate")),
-        fate_why=_text(entry.get("fate_why")), place=place_of(_text(entry.get("equation"))),
+        fate_why=in_words(_text(entry.get("fate_why"))), place=place.replace(STATEMENT, ""),
+        told=worded(place_of(_text(entry.get("equation")), _text(entry.get("title")))),
     )
 
 
@@ -159,13 +163,10 @@ def in_words(text: str, letters: bool = True) -> Markup:
 def _lines(value: object) -> tuple[Markup, ...]:
     """A counterexample as lines `name = value`, whatever its shape."""
     if isinstance(value, Mapping):
-        return tuple(_line(_text(name), _text(entry)) for name, entry in value.items())
+        values = {_text(name): _text(entry) for name, entry in value.items()}
+        try:
+            return tuple(map(formula, assignments_latex(values)))
+        except CertificateError:
+            return tuple(Markup("<code>{} = {}</code>").format(*pair) for pair in values.items())
     return tuple(Markup("<code>{}</code>").format(_text(entry)) for entry in _list(value))
 
-
-def _line(name: str, value: str) -> Markup:
-    """A letter and its number, or its function of time, as a formula; as they are where they are none."""
-    try:
-        return formula(assignment_latex(name, value))
-    except CertificateError:
-        return Markup("<code>{} = {}</code>").format(name, value)

@@ -30,10 +30,11 @@ from workbench.report.certificate_latex import (
     SIGNS,
     expression_latex,
     name_latex,
+    numbers_of,
     numbers_put_in,
     relation_latex,
-    value_latex,
 )
+from workbench.report.number_style import Style, style_of, value_latex
 
 MANY = 6  # letters with one value, from which on they are called 'all others'
 
@@ -80,24 +81,29 @@ def counterexample_of(certificate: Mapping[str, Any]) -> Counterexample | None:
         failing = next((text for text in goal["show"] if not _holds(context, text, point, terms, between)), failing)
     left, operator, right = split_relation(failing)
     deciding = _symbols(context, left) | _symbols(context, right)
-    shown = {name: _rounded(Fraction(text), 10) if name in between else value_latex(Fraction(text))
+    sides = _sides(context, (left, right), point, terms, between)
+    style = style_of([*(Fraction(text) for row in (certificate["point"], *certificate.get("terms", []))
+                        for name, text in row.items() if name not in between),
+                      *(low for low, high in sides or () if low == high)])
+    shown = {name: _rounded(Fraction(text), 10) if name in between else value_latex(Fraction(text), style)
              for name, text in sorted(certificate["point"].items())}
-    rows = [{name: value_latex(Fraction(text)) for name, text in sorted(row.items())}
+    rows = [{name: value_latex(Fraction(text), style) for name, text in sorted(row.items())}
             for row in certificate.get("terms", [])]
     values, others = _grouped({name: value for name, value in shown.items() if name in deciding})
     in_sums = tuple(f"{_indexed(name, i)} = {value}" for i, row in enumerate(rows, 1) for name, value in row.items()
                     if name in deciding)
     every = tuple((name_latex(name), value) for name, value in shown.items()) + tuple(
         (_indexed(name, i), value) for i, row in enumerate(rows, 1) for name, value in row.items())
-    return Counterexample(relation_latex(failing), SIGNS[operator], values + in_sums, others,
-                          *_values(context, (left, right), point, terms, between), every, False,
-                          None if between else _put_in(left, right, certificate["point"]))
+    return Counterexample(relation_latex(failing, style), SIGNS[operator], values + in_sums, others,
+                          *_values(sides, style), every, False,
+                          None if between else _put_in(left, right, certificate["point"], style))
 
 
-def _put_in(left: str, right: str, point: Mapping[str, str]) -> tuple[str, str] | None:
+def _put_in(left: str, right: str, point: Mapping[str, str], style: Style) -> tuple[str, str] | None:
     values = {name: Fraction(text) for name, text in point.items()}
-    sides = [numbers_put_in(side, values) or expression_latex(side) for side in (left, right)]
-    return None if sides == [expression_latex(left), expression_latex(right)] or any(
+    letters = [expression_latex(side, style) for side in (left, right)]
+    sides = [numbers_put_in(side, values, style) or before for side, before in zip((left, right), letters, strict=True)]
+    return None if sides == letters or any(
         "dt" in side or r"\sum" in side for side in sides) else (sides[0], sides[1])
 
 
@@ -106,14 +112,16 @@ def _motion(certificate: Mapping[str, Any], context: Context, point: dict[str, R
     left, operator, right = split_relation(goal["show"][0])
     functions = {name: context.read(text) for name, text in certificate["functions"].items()}
     deciding = _symbols(context, left) | _symbols(context, right)
-    along = [_of_time(substitute(context, substitute(context, context.read(side), functions), point),
-                      goal["eventually"]) for side in (left, right)]
-    moving = {name: expression_latex(text) for name, text in sorted(certificate["functions"].items())}
-    fixed = {name: value_latex(Fraction(text)) for name, text in sorted(certificate["point"].items())}
+    sides = [substitute(context, substitute(context, context.read(side), functions), point) for side in (left, right)]
+    style = style_of([number for text in (*certificate["functions"].values(), *certificate["point"].values())
+                      for number in numbers_of(text)] + [number for side in sides for number in _coefficients(side)])
+    along = [_of_time(side, goal["eventually"], style) for side in sides]
+    moving = {name: expression_latex(text, style) for name, text in sorted(certificate["functions"].items())}
+    fixed = {name: value_latex(Fraction(text), style) for name, text in sorted(certificate["point"].items())}
     named = {name: value for name, value in (moving | fixed).items() if name in deciding or name in moving}
     values, others = _grouped(named)
     grows = operator in ("<=", "<") and right.strip() == goal["eventually"]
-    return Counterexample(relation_latex(goal["show"][0]), SIGNS[operator], values, others, along[0], along[1],
+    return Counterexample(relation_latex(goal["show"][0], style), SIGNS[operator], values, others, along[0], along[1],
                           tuple((name_latex(name), value) for name, value in (moving | fixed).items()), True,
                           unbounded=expression_latex(left) if grows else None)
 
@@ -143,24 +151,33 @@ class _AtPoint(Context):
 
 
 def _enclosed(context: Context, side: str, point: dict[str, Ratio], terms: Terms | None,
-              between: Bounds) -> tuple[Fraction, Fraction]:
+              between: Bounds) -> Enclosed:
     if calls(side, "D") or calls(side, "Sum"):
         return bounds(context, at(context, context.read(side), point, terms), dict(between))
     numbers = _AtPoint(point)
     return bounds(numbers, numbers.read(side), dict(between))
 
 
-def _values(context: Context, sides: Sequence[str], point: dict[str, Ratio],
-            terms: Terms | None, between: Bounds) -> tuple[str | None, str | None]:
-    """Both sides at the point: exact where they are rational and short, else rounded so far that they differ."""
+Enclosed = tuple[Fraction, Fraction]
+
+
+def _sides(context: Context, sides: Sequence[str], point: dict[str, Ratio], terms: Terms | None,
+           between: Bounds) -> list[Enclosed] | None:
+    """Between which fractions both sides lie at the point; None where they are no numbers."""
     try:
-        found = [_enclosed(context, side, point, terms, between) for side in sides]
+        return [_enclosed(context, side, point, terms, between) for side in sides]
     except CertificateError:
+        return None
+
+
+def _values(found: list[Enclosed] | None, style: Style) -> tuple[str | None, str | None]:
+    """Both sides at the point: exact where they are rational and short, else rounded so far that they differ."""
+    if found is None:
         return None, None
     numbers = [(low + high) / 2 for low, high in found]
     exact = [low == high for low, high in found]
     for digits in (6, 10, 15):
-        left, right = (value_latex(n) if is_exact else _rounded(n, digits)
+        left, right = (value_latex(n, style) if is_exact else _rounded(n, digits)
                        for n, is_exact in zip(numbers, exact, strict=True))
         if left.removeprefix(r"\approx ") != right.removeprefix(r"\approx ") or numbers[0] == numbers[1]:
             break
@@ -174,7 +191,13 @@ def _rounded(value: Fraction, digits: int) -> str:
     return rf"\approx {mantissa}" + (rf" \times 10^{{{int(exponent)}}}" if e else "")
 
 
-def _of_time(value: Ratio, time: str) -> str | None:
+def _coefficients(value: Ratio) -> list[Fraction]:
+    """The numbers in a polynomial, where it is one."""
+    below = value.den.get(()) if set(value.den) == {()} else None
+    return [] if below is None else [Fraction(coefficient) / below for coefficient in value.num.values()]
+
+
+def _of_time(value: Ratio, time: str, style: Style) -> str | None:
     """A polynomial of time as LaTeX; None for anything else."""
     powers = _powers(value.num, time)
     if powers is None or set(value.den) != {()}:
@@ -182,7 +205,7 @@ def _of_time(value: Ratio, time: str) -> str | None:
     below = value.den[()]
     text = ""
     for power, coefficient in sorted(powers.items()):
-        size = value_latex(abs(coefficient / below))
+        size = value_latex(abs(coefficient / below), style)
         letter = "" if power == 0 else name_latex(time) if power == 1 else f"{name_latex(time)}^{{{power}}}"
         sign = ("-" if coefficient < 0 else "") if not text else (" - " if coefficient < 0 else " + ")
         text += sign + (letter if size == "1" and letter else f"{size} {letter}".strip())

@@ -15,10 +15,10 @@ from workbench.files.cache_folder import cache_folder, drop, keep
 from workbench.files.regular import contents, sha256_of
 from workbench.proof import checker
 from workbench.proof.latex import letters
-from workbench.report import certificate_latex, counterexample
+from workbench.report import certificate_latex, counterexample, number_style
 from workbench.report.counterexample import Counterexample, counterexample_of
 
-READERS = (checker, letters, certificate_latex, counterexample)
+READERS = (checker, letters, certificate_latex, number_style, counterexample)
 READERS_KEPT = 4
 
 

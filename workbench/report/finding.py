@@ -13,6 +13,7 @@ from workbench.proof.premises import holds_in_other_reading
 from workbench.proof.verdict import FAILED, Decision, FateWord, Verdict
 from workbench.report.counterexample import Counterexample
 from workbench.report.counterexample_cache import cached_counterexample
+from workbench.report.number_style import alike
 
 # What a finding is, the gravest first: a headline statement that falls, that stands only with corrections, that stays
 # open; a line that fails and that others rest on; one that does not follow; one that fails and that nothing rests on;
@@ -31,7 +32,8 @@ class Finding:
     own, mended_under: the equations of what that proof uses and that is not shown; counterexample: what breaks it;
     headlines: the theorems and headline statements that rest on it, lines: how many other lines do; because: the lines
     that fail on the way to it; other_reading: LaTeX of how else it may be read, other_holds: whether that is proved;
-    digest: that of the goal in its certificate, None without one.
+    digest: that of the goal in its certificate, None without one; titles: what the other lines named here say, by
+    equation.
     """
 
     paper: str
@@ -54,11 +56,12 @@ class Finding:
     other_holds: bool
     note: str
     digest: str | None
+    titles: dict[str, str]
 
     @property
     def place(self) -> str:
-        """The line's name: Theorem 2, equation (44)."""
-        return place_of(self.equation)
+        """The line's name: Theorem 2, equation (44); a part of a line is told by its title."""
+        return place_of(self.equation, self.title)
 
 
 def findings(decisions: Sequence[Decision]) -> list[Finding]:
@@ -87,15 +90,26 @@ def _finding(d: Decision, by_id: dict[str, Decision], mended: Decision | None,
     headlines = tuple(other.claim.equation for other in resting if is_headline(other))
     lines = len(resting) - len(headlines)
     holds = holds_in_other_reading(d, by_id)
+    fate_by = d.fate.by if d.fate else ()
+    others = [by_id[name].claim for name in (*d.tainted_by, *fate_by)] + [other.claim for other in resting]
+    others += [by_id[name].claim for name in mended.proved_under] if mended else []
     return Finding(
         d.claim.paper, d.claim.equation, d.claim.section, d.claim.title,
         _gravity(d, bool(resting), holds), d.verdict, d.claim.printed,
-        d.correction or (mended.claim.printed if mended else ""), mended.claim.equation if mended else None,
+        _correction(d, mended), mended.claim.equation if mended else None,
         tuple(name.partition(":")[2] for name in mended.proved_under) if mended and not d.correction else (),
         cached_counterexample(d.certificate) if d.certificate else None, headlines, lines,
         tuple(name.partition(":")[2] for name in d.tainted_by), d.fate.word if d.fate else None,
-        tuple(name.partition(":")[2] for name in d.fate.by) if d.fate else (),
-        d.other_reading or "", holds, d.claim.note, goal_digest(d.certificate) if d.certificate else None)
+        tuple(name.partition(":")[2] for name in fate_by),
+        d.other_reading or "", holds, d.claim.note, goal_digest(d.certificate) if d.certificate else None,
+        {claim.equation: claim.title for claim in others})
+
+
+def _correction(d: Decision, mended: Decision | None) -> str:
+    """The nearest true statement; numbers at which a condition holds are written as in its counterexample."""
+    if d.correction:
+        return alike(d.correction) if d.verdict == "violated" else d.correction
+    return mended.claim.printed if mended else ""
 
 
 def _gravity(d: Decision, rested_on: bool, holds_otherwise: bool) -> Gravity:

@@ -10,7 +10,7 @@ from workbench.proof.places import place_of, places_of, subject_of
 from workbench.proof.wording import listed
 from workbench.report.counterexample import Counterexample
 from workbench.report.finding import Finding, Gravity
-from workbench.report.worded import INNER, math
+from workbench.report.worded import INNER, math, worded
 
 HEADINGS: dict[Gravity, str] = {
     "falls": "Headline statements that fall", "corrected": "Headline statements that stand with corrections",
@@ -25,15 +25,21 @@ SHORT = 70  # characters of LaTeX up to which a relation is repeated beside its 
 def verdict_sentence(found: Finding) -> str:
     """What is wrong, in one sentence, with the numbers that show it."""
     where = "" if found.counterexample is None else f": {breaks_at(found.counterexample)}"
-    name = found.place
+    name = worded(found.place)
     if found.gravity == "corrected":
-        below = f", but the paper's way there fails at {listed(places_of(found.because))}" if found.because else ""
+        if found.verdict == "proved" and found.mended_by not in found.fate_by:
+            return f"{name} holds, but the paper's way there fails at {_named(found, found.fate_by)}."
         if found.verdict == "proved":
-            return f"{name} holds{below}."
+            return f"{name} is shown only from lines that are not shown."
         return f"{name} {_words(found)}{where}."
     if found.verdict == "proved":
-        return f"{name} is shown only from lines that are not shown, {listed(places_of(found.fate_by))}."
+        return f"{name} is shown only from lines that are not shown, {_named(found, found.fate_by)}."
     return f"{name} {_words(found)}{where}."
+
+
+def _named(found: Finding, equations: Sequence[str]) -> str:
+    """The lines of that name as a reader calls them, their parts told by what they say."""
+    return worded(listed(places_of(equations, found.titles)))
 
 
 def _words(found: Finding) -> str:
@@ -69,23 +75,24 @@ def correction_sentence(found: Finding) -> str:
         return ""
     what = {"violated": "It holds with", "gap": "What does follow:"}.get(found.verdict, "It should read")
     if found.mended_by is not None and found.fate is not None:
-        what = "Mended, it is proved:"
-    under = [place_of(equation) for equation in found.mended_under]
-    where = f", where {listed(under)} {'holds' if len(under) == 1 else 'hold'}" if under else ""
-    return f"{what} {math(found.should_read)}{where}."
+        what = "Beside it is proved:" if found.verdict == "proved" else "Mended, it is proved:"
+    under = found.mended_under
+    where = f", where {_named(found, under)} {'holds' if len(under) == 1 else 'hold'}" if under else ""
+    return _ended(f"{what} {math(found.should_read)}", found.should_read) if not where else (
+        f"{what} {math(found.should_read)}{where}.")
 
 
 def consequence_sentence(found: Finding) -> str:
     """What rests on the line, and what it rests on that fails; empty where neither is."""
-    resting = places_of(found.headlines)
+    resting = [worded(place) for place in places_of(found.headlines, found.titles)]
     if found.lines:
-        resting.append(f"{found.lines} {'other ' if resting else ''}line{'s' if found.lines > 1 else ''}")
+        count = "one" if found.lines == 1 else str(found.lines)
+        resting.append(f"{count} {'other ' if resting else ''}line{'s' if found.lines > 1 else ''}")
     one = len(found.headlines) + found.lines == 1
     text = f"{listed(resting)} rest{'s' if one else ''} on it." if resting else ""
     if found.because and found.gravity != "corrected":
-        below = places_of(found.because)
         fail = "fails" if len(found.because) == 1 else "fail"
-        text = f"{text} The paper gets there by {listed(below)}, which {fail}.".strip()
+        text = f"{text} The paper gets there by {_named(found, found.because)}, which {fail}.".strip()
     return text[:1].upper() + text[1:]
 
 
@@ -98,7 +105,12 @@ def reading_sentence(found: Finding) -> str:
 
 def printed_sentence(found: Finding) -> str:
     """The line as printed."""
-    return f"Printed: {math(found.printed)}."
+    return _ended(f"Printed: {math(found.printed)}", found.printed)
+
+
+def _ended(sentence: str, formula: str) -> str:
+    """The sentence with a full stop, where the formula at its end has none of its own."""
+    return sentence if formula.rstrip("} ").endswith(".") else f"{sentence}."
 
 
 def sentences(found: Finding) -> list[str]:
@@ -116,5 +128,6 @@ def findings_document(found: Sequence[Finding]) -> dict[str, Any]:
 
 def fate_sentence(equation: str, word: str, why: str, title: str = "") -> str:
     """What becomes of a headline statement, in one sentence; title: what it says, where the reader is to be told."""
-    says = f" ({subject_of(title)})" if title else ""
-    return f"{place_of(equation)}{says} {'is ' if word == 'open' else ''}{word}: {why}."
+    place = place_of(equation, title or None)
+    says = f" ({subject_of(title)})" if title and "“" not in place else ""
+    return f"{place}{says} {'is ' if word == 'open' else ''}{word}: {why}."

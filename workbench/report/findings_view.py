@@ -11,6 +11,8 @@ from markupsafe import Markup
 from workbench.report.claims import VERDICTS, anchor
 from workbench.report.formulas import formula, in_html
 
+# Sentences whose formulas stand on lines of their own.
+TOLD_APART = ("Printed:", "It should read", "Mended, it is proved:", "Beside it is proved:")
 FOLDED = ("cosmetic", "reading")  # gravities that are told of when asked for
 
 
@@ -52,7 +54,7 @@ def finding_groups(document: Mapping[str, Any]) -> list[FindingGroup]:
 def _view(entry: Mapping[str, Any]) -> FindingView:
     verdict, equation = str(entry.get("verdict")), str(entry.get("equation"))
     sentences = [str(s) for s in entry.get("sentences") or ("",)]
-    shown = [s for s in sentences[1:] if not s.startswith(("Printed:", "It should read", "Mended, it is proved:"))]
+    shown = [s for s in sentences[1:] if not s.startswith(TOLD_APART)]
     digest = entry.get("digest")
     return FindingView(
         str(entry.get("place", equation)), anchor(f"{entry.get('paper')}:{equation}"), verdict,

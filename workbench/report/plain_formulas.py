@@ -8,6 +8,7 @@ from functools import cache
 from xml.etree import ElementTree
 
 from workbench.report.formulas import formula_tree
+from workbench.report.worded import show, worded
 
 _UP = "⁰¹²³⁴⁵⁶⁷⁸⁹⁺⁻⁼⁽⁾ⁱⁿᵀ"
 _RAISED = dict(zip("0123456789+−=()inT", _UP, strict=True)) | {"′": "′"}
@@ -23,6 +24,16 @@ _WORD = re.compile(r"\\mathrm\{([A-Za-z ]{2,})\}")  # letters of a word stay tog
 def plain_formula(latex: str) -> str:
     """A LaTeX formula as one line of Unicode text; what cannot be converted stays LaTeX."""
     return _plain(latex.strip())
+
+
+def plain_words(text: str) -> str:
+    """A text with its letters, such as x_1 or rho_hat, as Unicode."""
+    return plain_told(worded(text))
+
+
+def plain_told(text: str) -> str:
+    """A text whose formulas stand between dollar signs as Unicode."""
+    return show(text, plain_formula)
 
 
 @cache
@@ -116,7 +127,7 @@ def _operand(node: ElementTree.Element, below: bool = False) -> str:
 
 def _base(node: ElementTree.Element) -> str:
     text = _line(node)
-    return f"({text})" if " " in text.strip() and not text.strip().startswith("(") else text
+    return f"({text})" if node.tag != "mtext" and " " in text.strip() and not text.strip().startswith("(") else text
 
 
 def _moved(text: str, table: dict[str, str], mark: str) -> str:
@@ -126,4 +137,5 @@ def _moved(text: str, table: dict[str, str], mark: str) -> str:
         return "*" + (_moved(text[1:], table, mark) if text[1:] else "")
     if text and all(letter in table for letter in text):
         return "".join(table[letter] for letter in text)
-    return f"{mark}{text}" if _is_letter(text) else f"{mark}{{{text}}}"
+    word = len(text) > 2 and text.isascii() and text.isalpha()
+    return f"{mark}{text}" if word or _is_letter(text) else f"{mark}{{{text}}}"

@@ -7,6 +7,7 @@ from matplotlib.figure import Figure
 
 from workbench.paper.results import Plot
 from workbench.report.charts.chart import BENEATH, FEW
+from workbench.report.plain_formulas import plain_words
 from workbench.report.svg import FAINT, PALETTE, drawing, svg, thin
 
 LINES = ("-", "--", ":", "-.")
@@ -31,7 +32,7 @@ def study_plot(plot: Plot, name: str) -> str:
             axes.plot(x, y, LINES[drawn // len(PALETTE) % len(LINES)], color=PALETTE[drawn % len(PALETTE)],
                       label=curve.label, marker="o" if len(curve.x) <= FEW else None, markersize=3)
             drawn += 1
-        axes.set(xlabel=plot.x_label, ylabel=plot.y_label)
+        axes.set(xlabel=plain_words(plot.x_label), ylabel=plain_words(plot.y_label))
         axes.margins(x=0.01)
         if plot.log_y and any((curve.y > 0).any() for curve in plot.curves):
             axes.set_yscale("log", nonpositive="mask")
@@ -39,7 +40,7 @@ def study_plot(plot: Plot, name: str) -> str:
             axes.set_xscale("log", nonpositive="mask")
         if len(labels) > 1:
             figure.legend(loc="outside upper left", ncols=columns)
-        return svg(figure, f"{plot.title}: {plot.y_label} against {plot.x_label}; {_ranges(plot)}")
+        return svg(figure, plain_words(f"{plot.title}: {plot.y_label} against {plot.x_label}; {_ranges(plot)}"))
 
 
 def _ranges(plot: Plot) -> str:

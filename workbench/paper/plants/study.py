@@ -6,7 +6,7 @@ from collections.abc import Iterator, Sequence
 
 from workbench.errors import InputError
 from workbench.files.numbers import number, unit_text
-from workbench.paper.cells import Column
+from workbench.paper.cells import Cell, Column, Phrase, Quantity
 from workbench.paper.parameter_search import NONE_YET, Finished, Name, Restart, Tuned, score, search, search_all
 from workbench.paper.plants.problem import LocatedPlantStudy, located
 from workbench.paper.plants.record import PlantStudy
@@ -36,7 +36,7 @@ def told(study: LocatedPlantStudy, runs: Sequence[PlantRun]) -> StudyResult:
     return StudyResult(tuple(map(row_of, runs)), (comparison_table(study.setting, runs),), plots,
                        tuple(_findings(study.setting, runs)),
                        tuple((run.name, run.failed) for run in runs if run.failed),
-                       first_plot=next(iter(tracked), 0) if plots else None)
+                       winners=_winners(study.setting, runs), first_plot=next(iter(tracked), 0) if plots else None)
 
 
 def row_of(run: PlantRun) -> dict[str, object]:
@@ -91,6 +91,30 @@ def _findings(setting: Setting, runs: Sequence[PlantRun]) -> Iterator[str]:
         if run.fallbacks:
             yield (f"The solver of {run.name} gave nothing usable at {run.fallbacks} "
                    f"sample{'s' * (run.fallbacks > 1)}; its last plan went on there.")
+
+
+def _winners(setting: Setting, runs: Sequence[PlantRun]) -> ResultTable | None:
+    """Who follows each reference most closely, and what it takes; None where nobody is compared."""
+    units = {metric.id: unit_text(metric.unit) for metric in setting.every_metric}
+    efforts = [f"{symbol}_rms" for symbol in setting.plant.inputs if f"{symbol}_rms" in units]
+    rows: list[tuple[Cell, ...]] = []
+    for output in setting.tracks:
+        key = f"{output}_error_rms"
+        ranked = sorted((run for run in runs if not run.failed and run.metrics.get(key) is not None),
+                        key=lambda run: abs(run.metrics[key] or 0.0))
+        if len(runs) < 2 or not ranked:
+            continue
+        best, *others = ranked
+        failed = [f"{run.name} fails" for run in runs if run.failed]
+        words = "; ".join([f"{run.name} {{}}" for run in others] + failed)
+        rows.append((output, best.name, Quantity(best.metrics[key], units[key]),
+                     Phrase(words, tuple(Quantity(run.metrics[key], units[key]) for run in others)) if words else None,
+                     *(Quantity(best.metrics[effort], units[effort]) for effort in efforts), best.step_us))
+    header = ("output", "closest", "its RMS error", "the others",
+              *(f"its RMS of {effort.removesuffix('_rms')}" for effort in efforts), Column("its step", "µs"))
+    return ResultTable(
+        "Who follows the reference most closely, and at what price", f"plant {setting.plant.id}", header, tuple(rows),
+        "One run of each, of the plant as stated; 'workbench sweep' draws its uncertain values.") if rows else None
 
 
 def tune(study: LocatedPlantStudy, names: list[str], workers: int, on_progress: Progress,

@@ -13,6 +13,7 @@ import numpy as np
 
 from workbench.files.spreadsheet import text_cell
 from workbench.paper.results import Curve, Plot
+from workbench.report.plain_formulas import plain_words
 from workbench.report.svg import Array, thin
 
 BENEATH = ("desired", "printed")  # curves whose label begins so are drawn broad and faint, beneath the others
@@ -57,10 +58,10 @@ def chart_json(chart: Chart) -> str:
     """All that a page draws the chart from, thinned to what can be zoomed into; safe within a script element."""
     labels = list(dict.fromkeys([*chart.colours, *(c.label for p in chart.panels for c in p.curves
                                                    if not c.label.startswith(BENEATH))]))
-    panels = [{"y": panel.y_label, "title": panel.title, "log": panel.log_y,
+    panels = [{"y": plain_words(panel.y_label), "title": plain_words(panel.title), "log": panel.log_y,
                "curves": [_curve(curve, labels) for curve in panel.curves]} for panel in chart.panels]
-    text = json.dumps({"title": chart.title, "x": chart.x_label, "log": chart.log_x, "panels": panels},
-                      ensure_ascii=False, separators=(",", ":"), allow_nan=False)
+    whole = {"title": plain_words(chart.title), "x": plain_words(chart.x_label), "log": chart.log_x, "panels": panels}
+    text = json.dumps(whole, ensure_ascii=False, separators=(",", ":"), allow_nan=False)
     return text.replace("<", "\\u003c")
 
 

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 
 from workbench.proof.checker import goal_digest
 from workbench.proof.places import place_of, subject_of
-from workbench.proof.verdict import VERDICTS, Decision, verdict_words
+from workbench.proof.verdict import VERDICTS, Decision, FateWord, verdict_words
 from workbench.proof.wording import listed
 from workbench.report.counterexample import Counterexample
 from workbench.report.errata.blocks import Block, Code, Formula, Heading, Item, Items, Paragraph
@@ -24,10 +24,11 @@ from workbench.report.worded import math, worded
 
 MOST_STEPS = 120  # lines of a proof beyond which a reader is sent to the certificate
 CHECKER = "checker.py"
+GRAVEST_FIRST: tuple[FateWord, ...] = ("falls", "stands with corrections", "open", "stands")
 ABOUT = """Every line was stated as mathematics, as it stands here, and decided by a machine. Each verdict \
 below comes with a certificate, a proof or a counterexample in exact arithmetic, that one short program, checker.py, \
-re-checks with Python's standard library alone. Numbers in brackets are those of the paper; a word in square brackets \
-tells parts of one line apart."""
+re-checks with Python's standard library alone. Numbers in brackets are those of the paper; words in quotation marks \
+say which part of a line is meant."""
 
 
 def errata(decisions: Sequence[Decision], citation: str) -> list[Block]:
@@ -56,9 +57,21 @@ def _verb(verdict: str, count: int) -> str:
 
 
 def _fates(decisions: Sequence[Decision]) -> list[Block]:
-    lines = tuple(Item(worded(fate_sentence(d.claim.equation, d.fate.word, d.fate.why, d.claim.title)))
-                  for d in decisions if d.fate)
-    return [Heading(2, "What becomes of the headline statements"), Items(lines)] if lines else []
+    """Those that fall first, after how many there are of each."""
+    told = [(d.fate, d.claim) for word in GRAVEST_FIRST for d in decisions if d.fate is not None and d.fate.word == word]
+    counts = Counter(fate.word for fate, _ in told)
+    words = listed([f"{counts[word]} {_verb_of(word, counts[word])}" for word in GRAVEST_FIRST if counts[word]])
+    lines = tuple(Item(worded(fate_sentence(claim.equation, fate.word, fate.why, claim.title))) for fate, claim in told)
+    of = f"Of {len(told)} headline statements" if len(told) > 1 else "Of one headline statement"
+    return [Heading(2, "What becomes of the headline statements"), Paragraph(f"{of}, {words}."), Items(lines)
+            ] if lines else []
+
+
+def _verb_of(word: FateWord, count: int) -> str:
+    """A fate behind the number of its statements."""
+    if word == "open":
+        return "is open" if count == 1 else "are open"
+    return word if count == 1 else {"falls": "fall", "stands": "stand"}.get(word, word.replace("stands", "stand"))
 
 
 def _corrections(found: Sequence[Finding]) -> list[Block]:
@@ -77,7 +90,7 @@ def _corrections(found: Sequence[Finding]) -> list[Block]:
 def _correction(number: int, found: Finding) -> list[Block]:
     where = f" (section {found.section})" if found.section else ""
     title = subject_of(found.title)
-    blocks: list[Block] = [Heading(3, f"{number}. {found.place}{where}: {worded(title)}"),
+    blocks: list[Block] = [Heading(3, f"{number}. {place_of(found.equation, '')}{where}: {worded(title)}"),
                            Formula(found.printed, "Printed")]
     if found.should_read:
         label = {"violated": "Holds with", "gap": "What does follow"}.get(found.verdict, "Should read")
@@ -108,7 +121,8 @@ def _worked(point: Counterexample) -> list[Block]:
 
 def _readings(found: Sequence[Finding]) -> list[Block]:
     of_it = [f for f in found if f.gravity == "reading"]
-    lines = tuple(Item(f"{f.place}: {math(f.printed)}. {verdict_sentence(f)} {reading_sentence(f)}") for f in of_it)
+    lines = tuple(Item(f"{worded(f.place)}: {math(f.printed)}. {verdict_sentence(f)} {reading_sentence(f)}")
+                  for f in of_it)
     if not lines:
         return []
     intro = ("The text of the paper was extracted by a machine, which may lose a sign, a power or an index. These "
@@ -124,16 +138,16 @@ def _mended(decisions: Sequence[Decision]) -> list[Block]:
     for d in decisions:
         if d.claim.mends not in headlines or d.verdict != "proved" or d.certificate is None:
             continue
-        blocks.append(Heading(3, f"{place_of(headlines[d.claim.mends].claim.equation)}, mended"))
+        blocks.append(Heading(3, f"{_told(headlines[d.claim.mends])}, mended"))
         blocks.append(Formula(d.claim.printed, "Statement"))
         if d.claim.note:
             blocks.append(Paragraph(worded(d.claim.note), "Note"))
-        used = [f"{place_of(name.partition(':')[2])} ({verdict_words(by_id[name].verdict, by_id[name].proved_under)})"
+        used = [f"{_told(by_id[name])} ({verdict_words(by_id[name].verdict, by_id[name].proved_under)})"
                 for name in d.claim.premises if name in by_id]
         if used:
             blocks.append(Paragraph(f"{listed(used)}.", "It uses"))
         if d.proved_under:
-            under = listed([place_of(name.partition(":")[2]) for name in d.proved_under])
+            under = listed([_told(by_id[name]) for name in d.proved_under])
             blocks.append(Paragraph(f"{under}: what rests on them is proved only where they hold.", "Not shown"))
         if d.goal:
             blocks.append(Formula(d.goal, "Decided as"))
@@ -144,6 +158,11 @@ def _mended(decisions: Sequence[Decision]) -> list[Block]:
         blocks.append(Code(f"python {CHECKER} certificates/{d.claim.equation}.json --claim-digest "
                            f"{goal_digest(d.certificate)}"))
     return [Heading(2, "The headline statements, mended and proved"), *blocks] if blocks else []
+
+
+def _told(d: Decision) -> str:
+    """The name of a line, its part told by what it says."""
+    return worded(place_of(d.claim.equation, d.claim.title))
 
 
 def _rechecking(decisions: Sequence[Decision]) -> list[Block]:

@@ -9,8 +9,9 @@ from fractions import Fraction
 from typing import Any
 
 from workbench.proof.checker import split_relation
-from workbench.report.certificate_latex import expression_latex, relation_latex, value_latex
+from workbench.report.certificate_latex import expression_latex, relation_latex
 from workbench.report.errata.blocks import Item
+from workbench.report.number_style import value_latex
 
 FACTS = {"log_tangent": r"$\ln x \le x - 1$", "exp_tangent": r"$e^x \ge 1 + x$", "exp_positive": r"$e^x > 0$",
          "enclosure": "a number, enclosed by fractions", "abs_square": r"$\left|x\right|^2 = x^2$",

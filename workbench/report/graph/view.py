@@ -10,8 +10,10 @@ from markupsafe import Markup, escape
 from workbench.proof.places import place_of
 from workbench.proof.verdict import FAILED
 from workbench.report.claims import ClaimRef, ClaimView
+from workbench.report.formulas import in_html
 from workbench.report.graph.layout import HEIGHT, Layout, Point, layout
 from workbench.report.graph.premise_graph import PremiseGraph, premise_graphs
+from workbench.report.plain_formulas import plain_told
 
 LETTER, PADDING = 7.1, 26.0  # pixels: an average letter, the room around the letters of a box
 
@@ -51,7 +53,7 @@ def _view(graph: PremiseGraph) -> GraphView:
 
 
 def _ref(line: ClaimView) -> ClaimRef:
-    return ClaimRef(_label(line), line.anchor)
+    return ClaimRef(in_html(line.told.removeprefix("Equation ")), line.anchor)
 
 
 def _label(line: ClaimView) -> str:
@@ -91,5 +93,5 @@ def _box(line: ClaimView, label: str, placed: Layout, i: int, width: float) -> M
     return Markup('<a href="#{}" class="line {}{}{}"><title>{}</title><rect x="{:.1f}" y="{:.1f}" width="{:.1f}" '
                   'height="{:g}" rx="5"/><text x="{:.1f}" y="{:.1f}">{} {}</text></a>').format(
         line.anchor, escape(line.verdict if line.sign != "?" else "undecided"), rests, " headline" if line.fate else "",
-        f"{place_of(line.equation)}: {said}", x - width / 2, y - HEIGHT / 2, width, HEIGHT, x, y + 4.5, line.sign,
+        f"{plain_told(line.told)}: {said}", x - width / 2, y - HEIGHT / 2, width, HEIGHT, x, y + 4.5, line.sign,
         label)
