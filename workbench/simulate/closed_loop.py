@@ -205,7 +205,7 @@ def _arrays(setting: Setting, period_s: float, law: ControlLaw, predictor: bool 
     own = np.array([setting.mass_kg, *setting.davis_n, *setting.plant_values])
     return _Arrays(
         state=state, hints=np.zeros(2, dtype=np.int64), breaks=setting.curve.breaks_s,
-        coefficients=setting.curve.coefficients, edges=setting.line.position_m, values=setting.line.specific_force,
+        coefficients=setting.curve.coefficients, edges=setting.line.position_m, values=setting.line.pieces(),
         terms=setting.terms, failures=setting.failures, changes=setting.changes,
         plant=own, now=own.copy(),
         drive=drive(setting.limits, setting.actuator, setting.plant_step_s, setting.mass_kg,

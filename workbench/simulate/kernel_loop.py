@@ -52,13 +52,16 @@ def desired(t, hint, breaks, coefficients):
 
 
 def additional(position, hint, edges, values):
-    """Section of the line at a position, and its additional resistance in N per kg."""
+    """Section of the line at a position, and its additional resistance in N per kg.
+
+    A row of `values`: the resistance at the section's edge, and its change a metre.
+    """
     last = edges.shape[0] - 1
     while hint < last and position >= edges[hint + 1]:
         hint += 1
     while hint > 0 and position < edges[hint]:
         hint -= 1
-    return hint, values[hint]
+    return hint, values[hint, 0] + values[hint, 1] * (position - edges[hint])
 
 
 def term(t, rows, i):

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -90,7 +90,7 @@ def setting_of(scenario: Scenario, factors: Factors = NOMINAL, nominal: Setting 
         log_every_s=simulation.log_every_s, position_band_m=simulation.position_band_m,
         initial_position_m=simulation.initial_position_m,
         limits=(train.max_traction_n, train.max_braking_n, train.max_power_w or np.inf),
-        line=ResistanceTable(table.position_m, table.specific_force * factors.line_resistance),
+        line=replace(table, specific_force=table.specific_force * factors.line_resistance),
         terms=scenario.disturbance.rows(), failures=failure_rows(scenario.failures),
         changes=mode_rows(scenario.modes, train.mass_kg, of_davis),
         speed_limits=nominal.speed_limits if nominal else SpeedLimits(*speed_limits(scenario.track)),
