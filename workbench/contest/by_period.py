@@ -53,9 +53,10 @@ def period_findings(told: Told) -> Iterator[str]:
         names = [entry.name for entry in own.entries]
         said = [f"{names[i]} {_interval(own, i, condition)}" for i in order if i in tied]
         others = [i for i in order if i not in tied]
-        behind = "; nobody is told apart from them"
+        first = "it" if len(said) == 1 else "the first"  # whom alone all others are compared with
+        behind = f"; nobody is told apart from {first}"
         if others:
-            behind = f"; told apart from them, the next is {names[others[0]]} {_interval(own, others[0], condition)}"
+            behind = f"; told apart from {first}, the next is {names[others[0]]} {_interval(own, others[0], condition)}"
         learners = sum(learns(own.scenario, own.entries[i].controller) for i in means)
         words = f" ({learners} on the last of trips that all meet the same train, line and gusts)" if learners else ""
         where = f"{own.contest.conditions[condition].title}, {own.runs(condition)} draws"

@@ -219,7 +219,8 @@ def closed_loop(law, first, count, per_sample, dt, state, hints, breaks, coeffic
                 state[0], state[1], state[2], state[3] = p, v, u, force
                 return 1, n
             u = state[2]
-            if not math.isfinite(u):
+            # Nor may it be so large that sums of its changes are no numbers; no train is asked for a millionth of it.
+            if not abs(u) < 1e12:
                 state[0], state[1], state[2], state[3] = p, v, u, force
                 return 2, n
             u = delayed(sample, u, sensing[2])
