@@ -221,14 +221,14 @@ def _run_compiled(kernel: Any, arrays: _Arrays, law: tuple[Array, Array, Array, 
     """Whole blocks of samples at a time, so that the time per control step can be told."""
     steps, per_sample, dt, log_every = plan
     block = per_sample * TIMED_BLOCK
+    before_law, after_law = arrays.before_law(), arrays.after_law()
     # No step at all, so that loading or compiling the kernel is not timed as part of the first block.
-    kernel(0, 0, per_sample, dt, *arrays.before_law(), *fixed, *law, *arrays.after_law(), log_every)
+    kernel(0, 0, per_sample, dt, *before_law, *fixed, *law, *after_law, log_every)
     taken, first, status = [], 0, RUNNING
     while first < steps and status == RUNNING:
         count = min(block, steps - first)
         before = time.perf_counter()
-        status, reached = kernel(first, count, per_sample, dt, *arrays.before_law(), *fixed, *law,
-                                 *arrays.after_law(), log_every)
+        status, reached = kernel(first, count, per_sample, dt, *before_law, *fixed, *law, *after_law, log_every)
         taken.append((time.perf_counter() - before) * 1e6 / max(1, (reached - first) // per_sample))
         first = reached
     return status, first, np.array(taken)

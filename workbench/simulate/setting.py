@@ -33,6 +33,7 @@ class Factors:
 NOMINAL = Factors()
 
 
+NO_ERRORS = Instruments()
 # A line without grade, curve or tunnel.
 LEVEL = ResistanceTable(np.zeros(1), np.zeros(1))
 UNLIMITED = (np.inf, np.inf, np.inf)
@@ -95,6 +96,6 @@ def setting_of(scenario: Scenario, factors: Factors = NOMINAL, nominal: Setting 
         changes=mode_rows(scenario.modes, train.mass_kg, of_davis),
         speed_limits=nominal.speed_limits if nominal else SpeedLimits(*speed_limits(scenario.track)),
         actuator=scenario.actuator,
-        sensing=(scenario.sensing or Instruments()).sensing(factors.odometer_scale),
+        sensing=(scenario.sensing or NO_ERRORS).sensing(factors.odometer_scale),
         known=Known(train.mass_kg, train.davis_newton),
     )
