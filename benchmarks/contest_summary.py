@@ -40,9 +40,7 @@ CHANGED = (
     "to 0.070 instead of 0.12 to 0.13; position RMS moves by 2.5 % (mpc_told+, 0.165 instead of 0.169 mm) or by less "
     "than 0.2 %, the order is the same, energy and comfort are the same to three digits or nearly so. Every column "
     "of jerk, every value of the objective and what was tuned by it, jerk being part of it, rest on the old line; "
-    "headlines by position stand.",
-    "The worst-case contest's mpc_linear was tuned with a horizon of at most 5 s, at which it binds; its file allows "
-    "20 s now.")
+    "headlines by position stand.",)
 
 
 def rests_on(folder: Path, contest: Contest) -> Iterator[str]:
