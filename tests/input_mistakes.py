@@ -17,6 +17,7 @@ SCENARIO_MISTAKES = {
     "missing key": ("dwell_s = 5.0\n", "", "simulation.dwell_s", "is missing: add it"),
     "missing in the reference": ("braking_mps2 = 0.5\n", "", "reference.braking_mps2", "is missing: add it"),
     "missing name": ('name = "yang2021"\n', "", "name", "is missing: add it"),
+    "a name for no number": ('name = "yang2021"\n', 'name = "nan"\n', "name", "choose another name"),
     "missing version": ("version = 1\n", "", "version", "is missing: add it"),
     "negative mass": ("mass_kg = 200000.0", "mass_kg = -200000.0", "train.mass_kg", "greater than 0"),
     "mass in tonnes": ("mass_kg = 200000.0", "mass_kg = 200.0", "train", "is it in tonnes?"),

@@ -1,13 +1,17 @@
 """What a referee would take a contest apart for: late savings, bounds of another train, few draws, unlike periods."""
 
-from dataclasses import replace
+import json
+from dataclasses import asdict, replace
 
 import numpy as np
 import pytest
 from contests import few, only
 
+from workbench.contest.by_period import period_findings
+from workbench.contest.entrant import Entrant, Played
+from workbench.contest.entrants import ENTRANTS
 from workbench.contest.learning import _pairings
-from workbench.contest.matches import METRICS, Match
+from workbench.contest.matches import METRICS, Entry, Match, one_match
 from workbench.contest.objective_table import objective_of, objective_table
 from workbench.contest.pareto import Front, Point, front_plots, front_tables
 from workbench.contest.record import Contest, Pareto
@@ -17,6 +21,7 @@ from workbench.contest.told import Told
 from workbench.contest.tuning_table import tuning_table
 from workbench.errors import InputError
 from workbench.paper.statistics import overtakes
+from workbench.simulate.closed_loop import simulate_in
 
 QUICK = ("pid", "pocrac", "mpc_linear")
 
@@ -158,3 +163,60 @@ def test_too_few_draws_for_so_many_comparisons_are_said_to_be(contest: Contest, 
         assert 2.0 ** (1 - told.fewest) * metrics <= 0.05 < 2.0 ** (2 - told.fewest) * metrics
         assert (len(told.winners("ten", "position_rms")) == 1) is (draws >= told.fewest)
         assert ("With fewer than" in winners_table(told).note) is (draws < told.fewest)
+
+
+class Answering:
+    """A controller in Python that answers every sample alike."""
+
+    title, information = "own", "nothing"
+
+    def __init__(self, answer: float) -> None:
+        self.counters, self.answer = {}, answer
+
+    def command(self, time_s: float, position_m: float, speed_mps: float) -> float:
+        return self.answer
+
+
+def test_an_entrant_of_ones_own_that_answers_no_number_fails_and_one_that_raises_is_named(
+        contest: Contest, world, monkeypatch) -> None:
+    def match(play) -> Match:
+        monkeypatch.setitem(ENTRANTS, "own.law", Entrant("own", "nothing", (), play))
+        spec = world.controllers["mpc_linear"].model_copy(update={"law": "own.law"})
+        return one_match((contest, world.model_copy(update={"controllers": {"own": spec}})),
+                         ("nominal", 0, Entry("own", tuned=False)))
+
+    def driven(answer: float, **totals: float):
+        def play(scenario, spec, setting) -> Played:
+            of = scenario.model_copy(update={"controllers": {"own": world.controllers["mpc_linear"]}})
+            run = simulate_in(of, "own", setting, sampled=Answering(answer))
+            return Played(replace(run, totals=run.totals | totals))
+        return play
+
+    assert match(driven(0.1)).failed is None
+    for cheat in (driven(np.nan), driven(np.inf), driven(1e300), driven(-1e13), driven(0.1, traction_work_j=np.inf),
+                  driven(0.1, force_switchings=np.nan)):
+        found = match(cheat)
+        assert found.failed and set(found.values.values()) == {None}
+        json.dumps(asdict(found), allow_nan=False)  # as its journal keeps it
+
+    def breaks(scenario, spec, setting) -> Played:
+        raise ValueError("no more")
+
+    with pytest.raises(InputError, match=r"own: own.law: play\(\) raised ValueError: no more"):
+        match(breaks)
+
+
+def test_the_next_is_told_apart_from_the_first_alone(contest: Contest, world) -> None:
+    """Who is tied with the first is not compared with the next, so that nothing is said of the two."""
+    whole = few(contest, "ten", seeds=16)
+    rng = np.random.default_rng(1)
+    base = rng.normal(0.0, 0.1, 16)
+    values = {"pid": 1.0 + base, "pocrac": 1.05 + rng.normal(0.0, 0.4, 16), "mpc_linear": 2.0 + base}
+    at_two = world.model_copy(update={"controllers": world.controllers | {
+        name: world.controllers[name].model_copy(update={"period_s": 0.1}) for name in ("pid", "pocrac")}
+        | {"late": world.controllers["pid"]}})
+    matches = tuple(played("ten", draw, entry, position_rms=float(of[draw]))
+                    for draw in range(16) for entry, of in (*values.items(), ("late", base + 3)))
+    words = next(words for words in period_findings(Told(whole, at_two, matches, None)) if "100 ms" in words)
+    assert words.index("pocrac 0.9") < words.index("pid 1.0")
+    assert "; told apart from the first, the next is mpc_linear 2.0" in words

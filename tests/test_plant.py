@@ -24,7 +24,7 @@ def held(command_mps2, dt, steps, limits=(1e9, 1e9, np.inf)):
     standstill = np.zeros((1, 6))
     status, reached = kernel(
         0, steps, 1, dt, state, np.zeros(2, dtype=np.int64), np.array([0.0, 1.0]), standstill, np.zeros(1),
-        np.array([LINE]), np.array([[0.0, np.inf, 0.0, SINE[0], SINE[1], 0.0, 0.0]]),
+        np.array([[LINE, 0.0]]), np.array([[0.0, np.inf, 0.0, SINE[0], SINE[1], 0.0, 0.0]]),
         np.zeros((0, 7)), np.zeros((0, 5)), plant, plant.copy(), np.array(limits), PERFECT.arrays(steps, dt),
         0.2, MASS, np.array([command_mps2]), np.zeros(0), np.zeros((0, 0)), np.zeros((0, 0)), acc,
         ride(dt, SpeedLimits()).arrays(), np.zeros((1, len(LOG_COLUMNS))), 10**9)

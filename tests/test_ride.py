@@ -13,6 +13,7 @@ from workbench.simulate.closed_loop import run_law, setting_of, simulate
 from workbench.simulate.metrics import measure, measure_run
 from workbench.simulate.ride import SUMS, SpeedLimits, ride, weighting
 from workbench.trains.actuator import Actuator
+from workbench.trains.track import ResistanceTable, over_length
 
 AMPLITUDE, MIDDLE = 0.3, 0.5
 up = sp.Symbol("up", real=True)
@@ -26,7 +27,8 @@ def setting(**changes):
     scenario = short_scenario()
     bare = replace(setting_of(scenario), davis_n=(0.0, 0.0, 0.0), terms=np.zeros((0, 7)), end_s=4.0,
                    limits=(1e9, 1e9, np.inf), plant_step_s=0.005, log_every_s=0.1)
-    return replace(bare, line=replace(bare.line, specific_force=0.0 * bare.line.specific_force), **changes)
+    level = replace(bare.line, specific_force=0.0 * bare.line.specific_force)
+    return replace(bare, **{"line": level} | changes)
 
 
 def driven(law=alternating, period_s=0.005, start=(1.0,), **changes):
@@ -69,6 +71,19 @@ def test_a_late_and_lagging_command_is_felt_as_the_force_it_makes():
     assert found.jerk_max == pytest.approx(a / lag, rel=0.02)
     assert found.command_variation == 0.0 and found.switchings == 0.0
     assert np.all(run.column("v_mps")[: round(late / 0.005) + 1] == 0.0) and run.column("v_mps")[-1] > 0
+
+
+def test_a_train_with_a_length_feels_an_edge_of_the_line_as_evenly_as_it_comes():
+    """Jerk is the edge's resistance a metre of train times the speed, and nothing of how the line is kept."""
+    edge, length, start = 0.2, 100.0, 2.0
+    steady = replace(alternating, command=sp.Float(MIDDLE) + 0 * up)
+    run = driven(steady, end_s=40.0, log_every_s=0.005,
+                 line=over_length(ResistanceTable(np.array([0.0, start]), np.array([0.0, edge])), length))
+    under = run.column("s_m") < start + length
+    speed, found = run.column("v_mps")[under], measure_run(run, 0.0)
+    assert found.jerk_max == pytest.approx(edge / length * speed[-1], rel=2e-3)
+    square = np.sum((edge / length * speed[run.column("s_m")[under] > start]) ** 2)
+    assert found.jerk_rms == pytest.approx(np.sqrt(square / run.totals["jerk_steps"]), rel=2e-3)
 
 
 @pytest.mark.parametrize(("frequency", "printed"), [(0.5, 853), (1.0, 1011), (4.0, 512)])

@@ -54,10 +54,10 @@ def period_findings(told: Told) -> Iterator[str]:
         names = [entry.name for entry in own.entries]
         said = [f"{names[i]}, {_interval(own, i, condition)}," for i in order if i in tied]
         others = [i for i in order if i not in tied]
-        them = "it" if len(said) == 1 else "them"
-        behind = f"nobody else is told apart from {them}"
+        first = "it" if len(said) == 1 else "the first"  # whom alone all others are compared with
+        behind = f"nobody else is told apart from {first}"
         if others:
-            behind = f"the next that is told apart from {them} is {names[others[0]]}, " + _interval(
+            behind = f"the next that is told apart from {first} is {names[others[0]]}, " + _interval(
                 own, others[0], condition)
         learners = sum(learns(own.scenario, own.entries[i].controller) for i in means)
         words = f", {learners} of them judged on the last of several trips" if learners else ""

@@ -8,7 +8,7 @@ from pathlib import Path
 from workbench.contest.entrant import Entrant, Played
 from workbench.contest.learning_mpc import ENTRANTS
 from workbench.contest.record import Contest
-from workbench.errors import InputError
+from workbench.errors import InputError, WorkbenchError
 from workbench.model.laws import law_named, named, names_near
 from workbench.mpc.controller import KINDS
 from workbench.simulate.closed_loop import Setting, run_law, simulate_in
@@ -98,7 +98,10 @@ def check_names(contest: Contest, stated: Scenario, path: Path) -> None:
 
 
 def play(scenario: Scenario, name: str, setting: Setting) -> Played:
-    """Run a contestant in a setting that may differ from what the scenario states, which is what it knows."""
+    """Run a contestant in a setting that may differ from what the scenario states, which is what it knows.
+
+    Raises InputError where the code of an entrant of one's own raises: that is no run that failed, but none at all.
+    """
     spec = scenario.controllers[name]
     entrant = entrant_named(spec.law, scenario.folder)
     law = None if entrant else compiled_law(scenario, spec)
@@ -107,7 +110,13 @@ def play(scenario: Scenario, name: str, setting: Setting) -> Played:
                               spec.title or law.title, predictor=spec.predictor))
     if entrant is None:
         return Played(simulate_in(scenario, name, setting))
-    found = entrant.play(scenario, spec, setting)
+    try:
+        found = entrant.play(scenario, spec, setting)
+    except WorkbenchError:
+        raise
+    except Exception as trouble:  # whatever a user's entrant does
+        raise InputError("", f"{name}: {spec.law}", f"play() raised {type(trouble).__name__}: {trouble}: let it answer "
+                         "with a run, which may have failed") from trouble
     return replace(found, run=replace(found.run, controller=name))
 
 

@@ -135,9 +135,10 @@ def _levelled(scenario: Scenario) -> Track:
 
 
 def match_values(run: Run, scenario: Scenario) -> dict[str, float | None]:
-    """METRICS of a run; None each where it failed."""
+    """METRICS of a run; None each where it failed, or one of them is no number, as of an entrant of one's own."""
+    nothing: dict[str, float | None] = dict.fromkeys((*METRICS, LOGGED_JERK))
     if run.failed is not None:
-        return dict.fromkeys((*METRICS, LOGGED_JERK))
+        return nothing
     found = measure(run, scenario)
     values = {
         "position_rms": found.position_rms, "speed_rms": found.speed_rms,
@@ -150,7 +151,7 @@ def match_values(run: Run, scenario: Scenario) -> dict[str, float | None]:
         "switchings_per_s": found.switchings,
         "late_s": _late(run, scenario),
         "overspeed_mps": found.overspeed_max}
-    return {key: float(value) for key, value in values.items()}
+    return {key: float(value) for key, value in values.items()} if all(map(math.isfinite, values.values())) else nothing
 
 
 def _late(run: Run, scenario: Scenario) -> float:
@@ -178,8 +179,9 @@ def one_match(shared: tuple[Contest, Scenario], task: Task) -> Match:
     run = played.run
     steps = run.step_us[:: held_samples(scenario, entry.controller)]
     middle, slow = np.percentile(steps, (50, 99)).tolist() if len(steps) else (0.0, 0.0)
-    return Match(condition, draw, entry.name, match_values(run, scenario), run.failed,
-                 middle, slow, run.counters, played.trials)
+    values = match_values(run, scenario)
+    failed = run.failed or ("a metric of its run is no number" if values["position_rms"] is None else None)
+    return Match(condition, draw, entry.name, values, failed, middle, slow, run.counters, played.trials)
 
 
 Undecided = Callable[[Sequence[Match]], Sequence[str]]

@@ -10,7 +10,17 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import Annotated, Any, Self, TypeVar
 
-from pydantic import BaseModel, ConfigDict, Field, PrivateAttr, Strict, ValidationError, ValidationInfo, model_validator
+from pydantic import (
+    AfterValidator,
+    BaseModel,
+    ConfigDict,
+    Field,
+    PrivateAttr,
+    Strict,
+    ValidationError,
+    ValidationInfo,
+    model_validator,
+)
 
 from workbench.errors import InputError
 from workbench.files.text import read_text
@@ -20,8 +30,16 @@ Positive = Annotated[float, Strict(), Field(gt=0, allow_inf_nan=False)]
 NonNegative = Annotated[float, Strict(), Field(ge=0, allow_inf_nan=False)]
 Count = Annotated[int, Strict(), Field(ge=1)]
 Text = Annotated[str, Strict(), Field(min_length=1)]
+
+
+def _no_number(name: str) -> str:
+    if name in ("nan", "inf"):
+        raise ValueError(f"'{name}' stands for a number that is none, in tables too: choose another name")
+    return name
+
+
 # Names become file names and columns of tables.
-Name = Annotated[str, Strict(), Field(pattern=r"^[A-Za-z][A-Za-z0-9_.-]*$", max_length=100)]
+Name = Annotated[str, Strict(), Field(pattern=r"^[A-Za-z][A-Za-z0-9_.-]*$", max_length=100), AfterValidator(_no_number)]
 
 
 LARGEST_INTEGER = 2**63 - 1  # that TOML asks its readers to know

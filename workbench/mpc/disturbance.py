@@ -52,11 +52,10 @@ class Unknown:
 
 def _line_between(line: ResistanceTable, low_m: Array, high_m: Array) -> tuple[Array, Array]:
     """Least and largest resistance of the line from low_m to high_m, a row each; its end values hold beyond it."""
-    first = np.clip(np.searchsorted(line.position_m, low_m, side="right") - 1, 0, None)
-    last = np.clip(np.searchsorted(line.position_m, high_m, side="right") - 1, 0, None)
-    least, most = line.specific_force[first].copy(), line.specific_force[first].copy()
-    for section, force in enumerate(line.specific_force):
-        met = (first <= section) & (section <= last)
+    ends = line.at(low_m), line.at(high_m)
+    least, most = np.minimum(*ends), np.maximum(*ends)
+    for place, force in zip(line.position_m, line.specific_force, strict=True):
+        met = (low_m <= place) & (place <= high_m)
         least[met], most[met] = np.minimum(least[met], force), np.maximum(most[met], force)
     return least, most
 

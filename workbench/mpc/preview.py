@@ -33,8 +33,7 @@ def preview(problem: Problem, curve: DesiredCurve, duration_s: float, speed_limi
     position, speed, acceleration = curve.at(np.arange(steps + 1, dtype=np.float64) * problem.period_s + late_s)
     told = np.zeros(steps + 1)
     if line is not None:
-        section = np.clip(np.searchsorted(line.position_m, position, side="right") - 1, 0, len(line.position_m) - 1)
-        told = -line.specific_force[section]
+        told = -line.at(position)
     if learned is not None:
         samples = np.arange(len(learned), dtype=np.float64)
         told = told + np.interp(np.arange(steps + 1) + late_s / problem.period_s, samples, learned)

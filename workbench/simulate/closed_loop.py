@@ -205,7 +205,7 @@ def _arrays(setting: Setting, period_s: float, law: ControlLaw, predictor: bool 
     own = np.array([setting.mass_kg, *setting.davis_n, *setting.plant_values])
     return _Arrays(
         state=state, hints=np.zeros(2, dtype=np.int64), breaks=setting.curve.breaks_s,
-        coefficients=setting.curve.coefficients, edges=setting.line.position_m, values=setting.line.specific_force,
+        coefficients=setting.curve.coefficients, edges=setting.line.position_m, values=setting.line.pieces(),
         terms=setting.terms, failures=setting.failures, changes=setting.changes,
         plant=own, now=own.copy(),
         drive=drive(setting.limits, setting.actuator, setting.plant_step_s, setting.mass_kg,
@@ -221,14 +221,14 @@ def _run_compiled(kernel: Any, arrays: _Arrays, law: tuple[Array, Array, Array, 
     """Whole blocks of samples at a time, so that the time per control step can be told."""
     steps, per_sample, dt, log_every = plan
     block = per_sample * TIMED_BLOCK
+    before_law, after_law = arrays.before_law(), arrays.after_law()
     # No step at all, so that loading or compiling the kernel is not timed as part of the first block.
-    kernel(0, 0, per_sample, dt, *arrays.before_law(), *fixed, *law, *arrays.after_law(), log_every)
+    kernel(0, 0, per_sample, dt, *before_law, *fixed, *law, *after_law, log_every)
     taken, first, status = [], 0, RUNNING
     while first < steps and status == RUNNING:
         count = min(block, steps - first)
         before = time.perf_counter()
-        status, reached = kernel(first, count, per_sample, dt, *arrays.before_law(), *fixed, *law,
-                                 *arrays.after_law(), log_every)
+        status, reached = kernel(first, count, per_sample, dt, *before_law, *fixed, *law, *after_law, log_every)
         taken.append((time.perf_counter() - before) * 1e6 / max(1, (reached - first) // per_sample))
         first = reached
     return status, first, np.array(taken)

@@ -52,13 +52,16 @@ def desired(t, hint, breaks, coefficients):
 
 
 def additional(position, hint, edges, values):
-    """Section of the line at a position, and its additional resistance in N per kg."""
+    """Section of the line at a position, and its additional resistance in N per kg.
+
+    A row of `values`: the resistance at the section's edge, and its change a metre.
+    """
     last = edges.shape[0] - 1
     while hint < last and position >= edges[hint + 1]:
         hint += 1
     while hint > 0 and position < edges[hint]:
         hint -= 1
-    return hint, values[hint]
+    return hint, values[hint, 0] + values[hint, 1] * (position - edges[hint])
 
 
 def term(t, rows, i):
@@ -216,7 +219,8 @@ def closed_loop(law, first, count, per_sample, dt, state, hints, breaks, coeffic
                 state[0], state[1], state[2], state[3] = p, v, u, force
                 return 1, n
             u = state[2]
-            if not math.isfinite(u):
+            # Nor may it be so large that sums of its changes are no numbers; no train is asked for a millionth of it.
+            if not abs(u) < 1e12:
                 state[0], state[1], state[2], state[3] = p, v, u, force
                 return 2, n
             u = delayed(sample, u, sensing[2])

@@ -81,6 +81,7 @@ def measure_run(run: Run, length_m: float) -> Metrics:
     whole = np.nan if run.failed else 1.0  # what only makes sense for a whole run is no number for a failed one
     samples = max(1.0, total["samples"])
     seconds = max(run.end_s, run.period_s)
+    step_us_median, step_us_p99 = np.percentile(run.step_us, (50, 99)).tolist()
     # The log's rows are a whole number of plant steps apart, which log_every_s need not be.
     logged_jerk = np.diff(run.column("v_mps"), 2) / np.diff(run.column("t_s")[:2]) ** 2
     return Metrics(
@@ -101,7 +102,7 @@ def measure_run(run: Run, length_m: float) -> Metrics:
         rate_limited_fraction=total["rate_limited_steps"] / samples,
         adhesion_limited_fraction=total["adhesion_limited_steps"] / samples,
         limit_violations=int(total["band_violations"]),
-        step_us_median=float(np.median(run.step_us)), step_us_p99=float(np.percentile(run.step_us, 99)),
+        step_us_median=step_us_median, step_us_p99=step_us_p99,
         deadline_misses=int(np.sum(run.step_us > run.period_s * 1e6)),
         failed=run.failed, command_max=total["command_max_mps2"], command_min=total["command_min_mps2"],
         speed_min=total["speed_min_mps"], time_of_max_position_error=total["time_of_max_position_error_s"],

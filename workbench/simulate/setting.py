@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -33,6 +33,7 @@ class Factors:
 NOMINAL = Factors()
 
 
+NO_ERRORS = Instruments()
 # A line without grade, curve or tunnel.
 LEVEL = ResistanceTable(np.zeros(1), np.zeros(1))
 UNLIMITED = (np.inf, np.inf, np.inf)
@@ -90,11 +91,11 @@ def setting_of(scenario: Scenario, factors: Factors = NOMINAL, nominal: Setting 
         log_every_s=simulation.log_every_s, position_band_m=simulation.position_band_m,
         initial_position_m=simulation.initial_position_m,
         limits=(train.max_traction_n, train.max_braking_n, train.max_power_w or np.inf),
-        line=ResistanceTable(table.position_m, table.specific_force * factors.line_resistance),
+        line=replace(table, specific_force=table.specific_force * factors.line_resistance),
         terms=scenario.disturbance.rows(), failures=failure_rows(scenario.failures),
         changes=mode_rows(scenario.modes, train.mass_kg, of_davis),
         speed_limits=nominal.speed_limits if nominal else SpeedLimits(*speed_limits(scenario.track)),
         actuator=scenario.actuator,
-        sensing=(scenario.sensing or Instruments()).sensing(factors.odometer_scale),
+        sensing=(scenario.sensing or NO_ERRORS).sensing(factors.odometer_scale),
         known=Known(train.mass_kg, train.davis_newton),
     )

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import cache
@@ -15,9 +14,6 @@ from numpy.typing import NDArray
 from pydantic import Field, Strict, model_validator
 
 from workbench.files.toml import NonNegative, Positive, Record, SourcedRecord, Text, load_record
-
-# A mean over a train's length changes along the line; so long are the pieces in which it is held, m.
-PIECE_M = 0.5
 
 
 class Section(Record):
@@ -124,24 +120,40 @@ def _require_cover(kind: str, sections: Sequence[Section], length_m: float) -> N
 
 @dataclass(frozen=True)
 class ResistanceTable:
-    """Piecewise-constant additional resistance: value k holds from position_m[k] to position_m[k+1].
+    """Additional resistance along a line: value k holds from position_m[k] to position_m[k+1].
 
-    position_m: shape (n,), m, increasing from 0; specific_force: shape (n,), N per kg, opposing motion.
+    position_m: shape (n,), m, increasing from 0; specific_force: shape (n,), N per kg, opposing motion; linear: value k
+    is that at position_m[k], from where it changes evenly to the next. The end values hold beyond the ends.
     """
 
     position_m: NDArray[np.float64]
     specific_force: NDArray[np.float64]
+    linear: bool = False
 
     def at(self, position_m: NDArray[np.float64]) -> NDArray[np.float64]:
         """Resistance in N per kg at positions in m; the end values hold beyond the line's ends."""
+        if self.linear:
+            return np.interp(position_m, self.position_m, self.specific_force)
         index = np.clip(np.searchsorted(self.position_m, position_m, side="right") - 1, 0, None)
         return self.specific_force[index]
+
+    def pieces(self) -> NDArray[np.float64]:
+        """A row for each position, for compiled loops: the resistance there (N/kg), and its change a metre from it on.
+
+        Before the first position the row of it holds, which therefore must not change: ValueError where it does.
+        """
+        slopes = np.zeros(len(self.position_m))
+        if self.linear:
+            slopes[:-1] = np.diff(self.specific_force) / np.diff(self.position_m)
+            if slopes[0]:
+                raise ValueError("a line's resistance must not change before its second position")
+        return np.stack((self.specific_force, slopes), axis=1)
 
 
 def resistance_table(track: Track, length_m: float | None = None) -> ResistanceTable:
     """The additional resistance of `track` by section, from `additional_specific_resistance`.
 
-    length_m: of a train with its front at a position, over which it is averaged, in pieces of at most PIECE_M.
+    length_m: of a train with its front at a position, over which it is averaged.
     """
     layers: tuple[Sequence[Section], ...] = (track.grade, track.curve, track.tunnel)
     borders = {edge for layer in layers for s in layer for edge in (s.start_m, s.end_m)}
@@ -178,19 +190,18 @@ def _resistance() -> Callable[[float, float, float], float]:
 
 
 def over_length(table: ResistanceTable, length_m: float | None) -> ResistanceTable:
-    """The mean of a table over the length behind a position; behind the line's start its first value holds.
+    """The mean of a table of steps over the length behind a position; behind the line's start its first value holds.
 
-    length_m: None for a point, which meets the table as it is.
+    It changes evenly while an edge lies under the train, and is kept as that: held in pieces, it would push the train
+    by small steps, which are felt as jerk. length_m: None for a point, which meets the table as it is.
     """
     if not length_m:
         return table
     edges, values = table.position_m, table.specific_force
-    pieces = np.linspace(0.0, length_m, math.ceil(length_m / PIECE_M) + 1)
-    starts = np.unique(np.concatenate([edges[:1], *(edge + pieces for edge in edges[1:])]))
-    middle = (starts + np.append(starts[1:], starts[-1] + PIECE_M)) / 2
+    places = np.unique(np.concatenate([edges, edges[1:] + length_m]))
     # What every edge adds, by the share of the train that is beyond it.
-    shares = np.clip((middle[:, None] - edges[1:]) / length_m, 0.0, 1.0)
-    return ResistanceTable(starts, values[0] + shares @ np.diff(values))
+    shares = np.clip((places[:, None] - edges[1:]) / length_m, 0.0, 1.0)
+    return ResistanceTable(places, values[0] + shares @ np.diff(values), linear=True)
 
 
 def speed_limits(track: Track) -> tuple[NDArray[np.float64], NDArray[np.float64]]:

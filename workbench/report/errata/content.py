@@ -58,7 +58,7 @@ def _verb(verdict: str, count: int) -> str:
 
 def _fates(decisions: Sequence[Decision]) -> list[Block]:
     """Those that fall first, after how many there are of each."""
-    told = [(d.fate, d.claim) for word in GRAVEST_FIRST for d in decisions if d.fate is not None and d.fate.word == word]
+    told = [(d.fate, d.claim) for word in GRAVEST_FIRST for d in decisions if d.fate and d.fate.word == word]
     counts = Counter(fate.word for fate, _ in told)
     words = listed([f"{counts[word]} {_verb_of(word, counts[word])}" for word in GRAVEST_FIRST if counts[word]])
     lines = tuple(Item(worded(fate_sentence(claim.equation, fate.word, fate.why, claim.title))) for fate, claim in told)
