@@ -131,7 +131,8 @@ def _candidates(target: Laurent, known: list[Known], atoms: Atoms, rounds: int, 
     for _ in range(rounds):
         fresh: list[Known] = []
         for base in pool:
-            for by in sorted({ratio_of(wanted, own) for wanted in support for own in base.value}):
+            aimed = {ratio_of(wanted, own) for wanted in support for own in base.value}
+            for by in sorted(aimed if target else aimed | {()}):  # products may cancel among themselves
                 fresh += _scaled(base, by, atoms, terms)
             if len(terms) > MAX_COLUMNS:
                 return list(terms.values())
