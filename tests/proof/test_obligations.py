@@ -16,7 +16,8 @@ from workbench.files.time_limit import OutOfTime, at_most_seconds
 from workbench.proof.checker import check
 from workbench.proof.decide.ideals import groebner_basis
 from workbench.proof.decide.obligations import belongs, decide_obligation
-from workbench.proof.obligation import goals_of
+from workbench.proof.decide.reduced import reduced
+from workbench.proof.obligation import expression, goals_of
 from workbench.proof.text import goal_text
 
 FILE = Path(__file__).parents[2] / "benchmarks" / "peers" / "ode_invariants.json"
@@ -100,6 +101,22 @@ def test_what_is_no_obligation_is_refused_in_one_line(statement):
             [">", "x", "-1"]), "proved"),
     (stated(["<=", "x*z**2 - x*z", "6*z**2"], ["=", "x**2 + y**2 + z**2", "100"], ["<=", "y**2", "1"], [">=", "z", "0"],
             ["<=", "x", "5"]), "refuted"),  # far from where x and y are bounded
+    (stated(["<=", "x - 2*x*y - y**2 - 2*z**2 - 2*w**4", "0"], ["=", "x**2/2 + y**2 + z**2 + w**2", "1/10000"]),
+     "refuted"),  # a small sphere, seen from afar
+    (stated(["<=", "a + b", "141/100"], ["<=", "a**2 + b**2 + c**2 + d**2 + e**2", "1"]), "refuted"),  # narrow
+    (stated([">", "c", "1/2"], ["<=", "y**2 + 2*(1 - c)", "1"], ["=", "s**2 + c**2", "1"]), "refuted"),  # at two points
+    (stated(["<=", "x", "y"], ["<=", "x + v**2/(2*b)", "y + w**2/(2*b)"], [">", "b", "0"]), "refuted"),  # b comes later
+    (stated([">=", "(u - a)**2", "s**2"], [">=", "(x - a)**2", "(r + s)**2"], [">", "r", "0"], [">", "s", "0"],
+            ["<=", "(u - x)**2", "r**2"]), "proved"),  # distances alone
+    (stated(["<=", "x**2*(1 - y) + y**2*(1 - z) + z**2*(1 - x)", "1"], [">=", "x", "0"], ["<=", "x", "1"],
+            [">=", "y", "0"], ["<=", "y", "1"], [">=", "z", "0"], ["<=", "z", "1"]), "proved"),  # products of three
+    (stated(["<=", "(p - a*y)*(p - b*y)", "0"], ["!=", "y", "0"], ["<=", "a*y**2", "y*p"], ["<=", "y*p", "b*y**2"]),
+     "proved"),
+    (stated([">", "(1 + x)**2 + y**2", "0"], ["<", "x**2 + y**2", "1"]), "proved"),  # the square of what is positive
+    (stated(["<=", "log(x)", "7/10"], ["<=", "x", "2"], [">", "x", "0"]), "proved"),
+    (stated(["<=", "log(x)", "69/100"], ["<=", "x", "2"], [">", "x", "0"]), "refuted"),
+    (stated(["<=", "abs(x)/sqrt(1 + x**2)", "1"]), "proved"),
+    (stated(["<", "x/sqrt(x**2)", "1"], ["!=", "x", "0"]), "refuted"),
 ])
 def test_each_way_of_deciding(obligation, verdict):
     assert outcome_of(obligation) == verdict
@@ -115,6 +132,21 @@ def test_a_basis_is_sympys_and_its_cofactors_make_it_of_the_equalities(seed):
         assert element.value == sum((c * z for c, z in zip(element.cofactors, zeros, strict=True)), ring.zero)
     theirs = sp.groebner([z.as_expr() for z in zeros], *ring.symbols, order="grevlex").polys
     assert all(not ring.from_expr(other.as_expr()).rem([element.value for element in found]) for other in theirs)
+
+
+def test_what_is_shown_may_be_taken_less_multiples_of_equalities():
+    goal, = goals_of(stated(["<=", "x**3 + x*y**2 + y", "3/2"], ["=", "x**2 + y**2", "1"], [">=", "x", "0"]))
+    lower = reduced(goal)
+    assert sp.expand(lower.goal.show[0].margin - (sp.Rational(3, 2) - sp.Symbol("x", real=True)
+                                                  - sp.Symbol("y", real=True))) == 0
+    # n**2, for the margin n of the opposite of what is left, is m**2 of that stated and a multiple of the circle.
+    n, m = (-sp.expand(g.show[0].margin) for g in (lower.goal, goal))
+    term, rest = lower.terms_as_stated([{"coefficient": "1", "factors": [{"assume": 2}, {"assume": 2}]}])
+    circle = -(goal.assume[0].right - goal.assume[0].left)
+    moved = expression(rest["factors"][1]["any"])
+    assert term["factors"] == [{"assume": 2}, {"assume": 2}]
+    assert sp.expand(m**2 + circle * moved - n**2) == 0
+    assert outcome_of(stated(["<=", "x**3 + x*y**2 + y", "3/2"], ["=", "x**2 + y**2", "1"])) == "proved"
 
 
 def test_certificates_of_another_obligation_do_not_belong():

@@ -16,6 +16,7 @@ from typing import Any
 import sympy as sp
 
 from workbench.errors import ClaimError
+from workbench.proof.checker import partial_operations
 from workbench.proof.claim import Goal, Operator, Relation
 from workbench.proof.text import text
 from workbench.proof.typed import as_typed
@@ -45,8 +46,14 @@ def goals_of(obligation: dict[str, Any]) -> list[Goal]:
         raise ClaimError("'indexed' is a list of names: those that differ from term to term of the sums")
     indexed = frozenset(names)
     cases = _both([_either(statement, indexed) for statement in obligation["assume"]])
-    return [_goal(last.negation, (*case, *others))
+    return [_goal(last.negation, tuple(sorted((*case, *others), key=_may_be_undefined)))
             for *others, last in _either(obligation["show"], indexed, holds=False) for case in cases]
+
+
+def _may_be_undefined(relation: Relation) -> bool:
+    """Whether a relation has denominators, roots or logarithms: it is read where those without hold, in whatever order
+    they are stated."""
+    return bool(partial_operations(text(relation.left)) or partial_operations(text(relation.right)))
 
 
 def _goal(shown: Relation, assumed: Conjunction) -> Goal:

@@ -94,7 +94,22 @@ def square_atom(itself: sp.Expr, atoms: Atoms) -> sp.Expr:
     meaning = itself if size else sp.sqrt(_with_sums(inner))
     atoms.squares[symbol] = (meaning, {"fact": f"{name}_square", "of": argument})
     atoms.nonnegative[symbol] = {"fact": f"{name}_nonnegative", "of": argument}
+    if not size and inner.is_Add and _plainly_positive(inner, atoms):
+        atoms.positive[symbol] = {"fact": "sqrt_positive", "of": argument}, {"positive": text(1 / meaning)}
     return symbol**power
+
+
+def _plainly_positive(inner: sp.Expr, atoms: Atoms) -> bool:
+    """Whether an expression is a positive number, or symbol, plus even powers and products of what has its sign."""
+    strict = False
+    for term in sp.Add.make_args(sp.expand(inner)):
+        number, powers = term.as_coeff_Mul()
+        bases = [(base, power) for base, power in powers.as_powers_dict().items() if base != 1]
+        if number < 0 or not all(base.is_Symbol and base != SUM and power.is_Integer and power > 0 and (
+                power % 2 == 0 or base in atoms.positive or base in atoms.nonnegative) for base, power in bases):
+            return False
+        strict |= all(base in atoms.positive for base, _ in bases)
+    return strict
 
 
 def _with_sums(flat: sp.Expr) -> sp.Expr:

@@ -9,7 +9,9 @@ from __future__ import annotations
 
 from dataclasses import replace
 from fractions import Fraction
+from functools import reduce
 from itertools import combinations, combinations_with_replacement
+from math import prod
 from typing import Any
 
 import numpy as np
@@ -39,8 +41,9 @@ from workbench.proof.text import text
 
 MAX_COLUMNS = 6_000
 MAX_PRODUCT = 12
-# (rounds of multiplication, products of two assumptions, monomials that z s = 1 hides), cheap ones first
-ATTEMPTS = ((1, False, False), (1, True, False), (1, False, True), (2, False, False), (2, True, False))
+MANY_SIGNED = 8  # of more, no products of three are taken
+# (rounds of multiplication, factors of products of assumptions, monomials that z s = 1 hides), cheap ones first
+ATTEMPTS = ((1, 1, False), (1, 2, False), (1, 1, True), (2, 1, False), (2, 2, False), (2, 3, False))
 SUPPORT_TOLERANCE = 1e-9
 COUNT: Exponents = (-99,)  # no monomial of any goal
 
@@ -59,8 +62,8 @@ def find_combination(goal: Goal, shown: Relation, relations: tuple[Relation, ...
         known = known_facts(goal, relations, atoms)
     except ClaimError:
         return None
-    for rounds, pairs, hidden in ATTEMPTS[:1] if quick else ATTEMPTS:
-        terms = _candidates(target, known, atoms, rounds, pairs, hidden)
+    for rounds, factors, hidden in ATTEMPTS[:1] if quick else ATTEMPTS:
+        terms = _candidates(target, known, atoms, rounds, factors, hidden)
         if shown.operator == "==":  # what is not negative would show no more than that
             terms = [term for term in terms if term.sign == "=="]
         if len(terms) <= MAX_COLUMNS:
@@ -107,28 +110,29 @@ def _expression(exponents: Exponents, atoms: Atoms) -> sp.Expr:
     return sp.Mul(*powers, evaluate=plain or len(powers) < 2)
 
 
-def _candidates(target: Laurent, known: list[Known], atoms: Atoms, rounds: int, pairs: bool,
+def _candidates(target: Laurent, known: list[Known], atoms: Atoms, rounds: int, factors: int,
                 hidden: bool) -> list[Known]:
     """Terms of known sign that could add up to the target."""
     pool = list(known)
     sum_place = atoms.generators.index(SUM)
-    if pairs:
-        signed = [k for k in known if k.items and k.sign != "=="]
-        for one, two in combinations_with_replacement(signed, 2):
-            if len(one.value) * len(two.value) > MAX_PRODUCT:
-                continue
-            if any(e[sum_place] for k in (one, two) for e in k.value if len(e) > sum_place):
-                continue
-            sign = ">" if one.sign == two.sign == ">" else ">="
-            value = reduce_inverses(multiply(one.value, two.value), atoms)
-            pool.append(Known(one.items + two.items, value, sign))
+    signed = [k for k in known if k.items and k.sign != "==" and not any(
+        e[sum_place] for e in k.value if len(e) > sum_place)]
+    for count in range(2, factors + 1):
+        if count > 2 and len(signed) > MANY_SIGNED:
+            break
+        for several in combinations_with_replacement(signed, count):
+            if prod(len(k.value) for k in several) <= MAX_PRODUCT:
+                sign = ">" if all(k.sign == ">" for k in several) else ">="
+                value = reduce(lambda one, two: reduce_inverses(multiply(one, two), atoms), (k.value for k in several))
+                pool.append(Known(tuple(item for k in several for item in k.items), value, sign))
     # Nothing to aim at: a contradiction among the assumptions themselves.
     support = (set(target) or {e for k in known for e in k.value}) | (unreduced(target, atoms) if hidden else set())
     terms: dict[tuple[str, ...], Known] = {}
     for _ in range(rounds):
         fresh: list[Known] = []
         for base in pool:
-            for by in sorted({ratio_of(wanted, own) for wanted in support for own in base.value}):
+            aimed = {ratio_of(wanted, own) for wanted in support for own in base.value}
+            for by in sorted(aimed if target else aimed | {()}):  # products may cancel among themselves
                 fresh += _scaled(base, by, atoms, terms)
             if len(terms) > MAX_COLUMNS:
                 return list(terms.values())

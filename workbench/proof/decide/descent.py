@@ -18,20 +18,23 @@ from workbench.proof.decide.sampling import within_sign
 STARTS, STEPS, BEST = 24, 25, 6
 ROOM = np.array([0.3, 3e-2, 1e-3, 1e-5])  # of a margin, relative to the sum of its terms' sizes
 DIGITS = (2, 4, 7, 11)
+PLACES = (1, 2)  # after the point, to which the best points are rounded first: what is nearly zero becomes zero
 DIFFERENCE, LARGEST = 1e-7, 1e8
-OPEN = np.repeat((4.0, 4.0, 30.0), 4)  # how far points start from a bound where there is none on the other side
+OPEN = np.repeat((4.0, 0.4, 30.0), 4)  # how far points start from a bound where there is none on the other side
 
 Columns = dict[sp.Symbol, Numbers]
 
 
-def descended(landscape: Landscape, family: Family, break_shown: bool, rng: np.random.Generator) -> Iterator[Columns]:
-    """Columns of the best points reached, rounded to few digits first, then to more."""
+def descended(landscape: Landscape, family: Family, break_shown: bool, rng: np.random.Generator) -> Numbers:
+    """The best points reached, of shape (points, free symbols of the family); it must have some.
+
+    A step counts as better by the sizes of terms at the point that it leaves: relative to its own sizes a margin may
+    stay as large all the way down, as that of x**2 - 1/100 does from x = 10 to x = 1.
+    """
     free = family.free
-    if not free:
-        return
     points, room = _starts(landscape, free, rng), np.resize(ROOM, STARTS)
     damping = np.full(STARTS, 1e-2)
-    values, slopes = _residuals(landscape, family, free, points, room, break_shown)
+    values, slopes, sizes = _residuals(landscape, family, free, points, room, break_shown)
     for _ in range(STEPS):
         height = np.sum(values**2, axis=1)
         if np.sum(height == 0) >= BEST:
@@ -42,19 +45,29 @@ def descended(landscape: Landscape, family: Family, break_shown: bool, rng: np.r
         step = np.linalg.solve(normal, -np.einsum("bij,bi->bj", slopes, values)[..., None])[..., 0]
         moved = np.clip(points + step, -LARGEST, LARGEST)
         moved = np.stack([within_sign(s, c) for s, c in zip(free, moved.T, strict=True)], axis=1)
-        tried, tried_slopes = _residuals(landscape, family, free, moved, room, break_shown)
-        better = np.sum(tried**2, axis=1) < height
+        tried, tried_slopes, tried_sizes = _residuals(landscape, family, free, moved, room, break_shown)
+        with np.errstate(all="ignore"):
+            better = np.sum((tried * (tried_sizes / sizes))**2, axis=1) < height
         points, values = np.where(better[:, None], moved, points), np.where(better[:, None], tried, values)
         slopes = np.where(better[:, None, None], tried_slopes, slopes)
+        sizes = np.where(better[:, None], tried_sizes, sizes)
         damping = np.clip(np.where(better, damping * 0.2, damping * 5), 1e-12, 1e8)
     order = np.argsort(np.sum(values**2, axis=1), kind="stable")[:BEST]
+    return points[order]
+
+
+def rounded(family: Family, points: Numbers) -> Iterator[Columns]:
+    """Points as columns, rounded to few digits first, then to more."""
+    for places in PLACES:
+        yield {s: np.round(points[:, i], places) for i, s in enumerate(family.free)}
     for digits in DIGITS:
-        yield {s: np.array([float(f"{v:.{digits - 1}e}") for v in points[order, i]]) for i, s in enumerate(free)}
+        yield {s: np.array([float(f"{v:.{digits - 1}e}") for v in points[:, i]]) for i, s in enumerate(family.free)}
 
 
 def _residuals(landscape: Landscape, family: Family, free: list[sp.Symbol], points: Numbers, room: Numbers,
-               break_shown: bool) -> tuple[Numbers, Numbers]:
-    """Residuals of shape (points, relations) and their derivatives of shape (points, relations, symbols)."""
+               break_shown: bool) -> tuple[Numbers, Numbers, Numbers]:
+    """Residuals of shape (points, relations), their derivatives of shape (points, relations, symbols), and the sums of
+    terms' sizes, of which residuals are shares."""
     count, size = points.shape
     width = DIFFERENCE * (1 + np.abs(points))
     around = np.concatenate([points, *(points + width * unit for unit in np.eye(size))])
@@ -77,7 +90,7 @@ def _residuals(landscape: Landscape, family: Family, free: list[sp.Symbol], poin
             values[:, k], signs[:, k] = short, np.where(short > 0, -turn, 0.0)
     bad = ~np.isfinite(first).all(axis=1) | ~np.isfinite(slopes).all(axis=(1, 2))
     values[bad], slopes[bad] = 1e6, 0.0
-    return values, slopes * signs[..., None]
+    return values, slopes * signs[..., None], scale
 
 
 def _starts(landscape: Landscape, free: list[sp.Symbol], rng: np.random.Generator) -> Numbers:

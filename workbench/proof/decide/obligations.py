@@ -20,8 +20,9 @@ from workbench.proof.decide.combination import find_combination
 from workbench.proof.decide.engine import Certificate, not_shown, proofs_of
 from workbench.proof.decide.identity import find_identity
 from workbench.proof.decide.method import method_of
+from workbench.proof.decide.reduced import reduced
 from workbench.proof.decide.refute import descended_counterexample, examples, find_counterexample, quick_examples
-from workbench.proof.decide.turned import PLACES, contradictory, exclusion_of, find_turned, renumbered
+from workbench.proof.decide.turned import PLACES, contradictory, exclusion_of, find_carried, find_turned, renumbered
 from workbench.proof.obligation import goals_of
 from workbench.proof.text import assumptions, goal_text
 
@@ -116,6 +117,8 @@ def _proof(goal: Goal, functions: bool = True) -> tuple[Proof | None, str]:
     Among many terms linear programs grow faster than semidefinite ones. functions: as `Goal.evaluated` takes them.
     """
     usual = goal.evaluated(functions)
+    if (found := find_carried(goal) or _reduced_proof(goal)) is not None:
+        return found, ""
     if sum(len(sp.Add.make_args(sp.expand(r.margin))) for r in usual.relations()) > MANY_TERMS:
         shown, given = usual.show[0], assumptions(usual)
         found = find_combination(usual, shown, given, quick=True) or find_turned(goal, stated=True)
@@ -125,6 +128,18 @@ def _proof(goal: Goal, functions: bool = True) -> tuple[Proof | None, str]:
     if not isinstance(proofs, str):
         return proofs[0], "a proof was found, and no point at which all that it uses holds"
     return find_turned(goal), proofs
+
+
+def _reduced_proof(goal: Goal) -> Proof | None:
+    """A proof of what is shown less multiples of equalities, as one of the goal as it is stated."""
+    lower = reduced(goal)
+    if lower is None:
+        return None
+    proofs = proofs_of(lower.goal.evaluated())
+    found = find_turned(lower.goal) if isinstance(proofs, str) else proofs[0]
+    terms = None if found is None else contradictory(found, len(assumptions(lower.goal)), lower.goal.show[0])
+    stated = None if terms is None else lower.terms_as_stated(terms)
+    return None if stated is None else {"rule": "contradiction", "terms": stated}
 
 
 def _certified(goal: Goal, proof: Proof) -> Certificate | None:

@@ -19,8 +19,9 @@ import sympy as sp
 
 from workbench.proof.claim import Goal, equal, name_of
 from workbench.proof.decide.boundary_points import Family, families
-from workbench.proof.decide.descent import descended
+from workbench.proof.decide.descent import descended, rounded
 from workbench.proof.decide.exact_values import exact_function
+from workbench.proof.decide.innermost import innermost
 from workbench.proof.decide.landscape import Landscape, landscape_of
 from workbench.proof.decide.local_search import local_search
 from workbench.proof.decide.once import once_per_goal
@@ -33,6 +34,7 @@ POINTS = 600
 FAMILIES, SEARCHED = 60, 8  # families of points, and among them those that local search starts from
 FEW_SYMBOLS = 2  # of goals on which a local search costs next to nothing
 NEAR = 1e-2  # violation, in all, of points beside which equalities may hold
+INNERMOST = 3  # points reached by least squares from which one farther inside is sought
 LOOKS = 5  # exact looks for each batch of points
 
 Point = dict[str, Fraction]
@@ -72,7 +74,11 @@ def descents(goal: Goal, seed: int, break_shown: bool) -> list[tuple[Point, bool
 
 def _descended(landscape: Landscape, seed: int, break_shown: bool) -> Iterator[tuple[Point, bool]]:
     family = next(families(landscape, random.Random(seed), 1))
-    for chosen in descended(landscape, family, break_shown, np.random.default_rng(seed)):
+    if not family.free:
+        return
+    reached = descended(landscape, family, break_shown, np.random.default_rng(seed))
+    inside = innermost(landscape, family, break_shown, reached[:INNERMOST])
+    for chosen in (*rounded(family, reached), *rounded(family, inside)):
         violation, excess = landscape.look(family.columns(chosen))
         near = violation < NEAR
         if break_shown:

@@ -100,8 +100,8 @@ def _descended(goal: Goal, seed: int, break_shown: bool) -> Iterator[Place]:
         if not missed:
             if exact.breaks(point) if break_shown else exact.meets(point):
                 yield Place(point, {})
-        elif (found := roots_near(goal, point)) is not None:
-            yield Place(found[0], {"roots": found[1]})
+        else:
+            yield from (Place(moved, {"roots": roots}) for moved, roots in roots_near(goal, point))
 
 
 def _simplest(exact: Exact, point: Point) -> Point:

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from fractions import Fraction
+from itertools import islice, product
 
 import sympy as sp
 
@@ -12,30 +14,32 @@ from workbench.proof.text import assumptions, relation_text
 Point = dict[str, Fraction]
 Root = dict[str, str]
 NARROW = 40  # halvings of the interval in which the sign changes
+MOST_CHOICES = 6
 STEPS = (Fraction(1, 10**9), Fraction(1, 10**6), Fraction(1, 10**3), Fraction(1, 10))
 
 
-def roots_near(goal: Goal, point: Point) -> tuple[Point, list[Root]] | None:
-    """The point and its roots, if by a symbol each the equalities that fail at a point may be made to hold.
+def roots_near(goal: Goal, point: Point) -> Iterator[tuple[Point, list[Root]]]:
+    """Points and their roots: by a symbol each the equalities that fail at a point are made to hold; for every such
+    choice of symbols, as far as there are not too many.
 
-    None where a symbol that would be moved stands in another equality, too.
+    Nothing where a symbol that would be moved stands in another equality, too.
     """
     values = {s: sp.Rational(*point[name_of(s)].as_integer_ratio()) for s in goal.symbols() if name_of(s) in point}
     equalities = [(r, r.margin) for r in assumptions(goal) if r.operator == "=="]
-    roots: list[Root] = []
+    choices: list[list[tuple[str, Fraction, Root]]] = []
     for relation, margin in equalities:
         if margin.xreplace(values) == 0:
             continue
         others = {s for _, other in equalities if other is not margin for s in other.free_symbols}
-        curves = {name_of(s): _coefficients(margin, values, s) for s in sorted(margin.free_symbols - others, key=str)}
-        found = next(((name, ends) for step in STEPS for name, curve in curves.items()
-                      if (ends := _change_of_sign(curve, point[name], step)) is not None), None)
-        if found is None:
-            return None
-        name, (low, high) = found
-        point = point | {name: (low + high) / 2}
-        roots.append({"of": name, "from": str(low), "to": str(high), "equality": relation_text(relation)})
-    return (point, roots) if roots else None
+        choices.append([])
+        for symbol in sorted(margin.free_symbols - others, key=str):
+            name, curve = name_of(symbol), _coefficients(margin, values, symbol)
+            ends = next((found for step in STEPS if (found := _change_of_sign(curve, point[name], step))), None)
+            if ends is not None:
+                root = {"of": name, "from": str(ends[0]), "to": str(ends[1]), "equality": relation_text(relation)}
+                choices[-1].append((name, (ends[0] + ends[1]) / 2, root))
+    for chosen in islice(product(*choices), MOST_CHOICES) if choices else ():
+        yield point | {name: value for name, value, _ in chosen}, [root for *_, root in chosen]
 
 
 def _coefficients(margin: sp.Expr, values: dict[sp.Expr, sp.Expr], symbol: sp.Expr) -> list[Fraction]:

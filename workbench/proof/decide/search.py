@@ -165,11 +165,16 @@ def _inspected(relations: Given, goal: Goal) -> tuple[sp.Expr, bool] | None:
     for relation in relations:
         carried = _carried(relation, goal)
         parts = [side.atoms(Size, Side) for side in (carried.left, carried.right)]
-        inner = sorted({a for a in set().union(*parts) if not a.args[0].has(Size, Side)}, key=sp.default_sort_key)
+        inner = sorted({a for a in set().union(*parts) if not a.args[0].has(Size, Side)}, key=_plain_first)
         if inner:
             argument = inner[0].args[0]
             return argument, any(isinstance(a, Side) and _turn(a.args[0], argument) for a in inner)
     return None
+
+
+def _plain_first(atom: sp.Expr) -> tuple[bool, Any]:
+    """Signs of plain expressions come first: they often settle those of functions of them."""
+    return atom.has(sp.exp, sp.log, sp.sin, sp.cos), sp.default_sort_key(atom)
 
 
 def _turn(one: sp.Expr, other: sp.Expr) -> int:

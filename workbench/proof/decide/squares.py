@@ -74,6 +74,7 @@ def _programs(situation: Situation) -> Iterator[tuple[Multiplier, Program]]:
     signed = [k for k in known if k.sign != "==" and not situation.substituted(k.value).is_ground]
     one = Signed((), ring.one, ">")
     several = [_product(some, ring) for count in (2, 3) for some in combinations(signed, count)][:MOST_PRODUCTS]
+    squared = [_product((k, k), ring) for k in signed if k.sign == ">"]
     seen = set()
     constrained = bool(signed or zeros)
     for multiplier, level in _order(_multipliers(situation, constrained), constrained):
@@ -86,7 +87,7 @@ def _programs(situation: Situation) -> Iterator[tuple[Multiplier, Program]]:
             continue
         shape = Shape(_extent(target, [*weights[1:], *zeros], level))
         try:
-            strict = _strict_weights(situation, [one, *signed, *several], shape) if situation.strict else []
+            strict = _strict_weights(situation, [one, *signed, *several, *squared], shape) if situation.strict else []
             program = assemble(ring, target, [*weights, *strict], zeros, shape)
         except TooLargeError:
             continue

@@ -120,20 +120,36 @@ def _of_logarithms(goal: Goal, shown: Relation, given: Given) -> Proof | None:
     """log a - log b = log(a/b) <= a/b - 1 for logarithms that stand in what is shown."""
     inside = sorted({log.args[0] for log in shown.margin.atoms(sp.log)}, key=sp.default_sort_key)[:3]
     for a, b in permutations(inside, 2):
-        steps: list[tuple[Relation, Proof]] = []
+        found = _from_quotients(goal, shown, given, [(a, b)])
+        if found is not None:
+            return found
+    moving = [a for a in inside if a.free_symbols]
+    for places in _least(shown.margin, moving, given) if moving else ():
+        if all(place > 0 for place in places):
+            found = _from_quotients(goal, shown, given, list(zip(moving, places, strict=True)), both=True)
+            if found is not None:
+                return found
+    return None
+
+
+def _from_quotients(goal: Goal, shown: Relation, given: Given, pairs: list[tuple[sp.Expr, sp.Expr]],
+                    both: bool = False) -> Proof | None:
+    """A proof from 1 - b/a <= log(a/b) <= a/b - 1 of pairs (a, b); the lower bound only if both are asked for."""
+    steps: list[tuple[Relation, Proof]] = []
+    for a, b in pairs:
         for positive in (greater(a, 0), greater(b, 0)):
             known = (*given, *(lemma for lemma, _ in steps))
-            first = find_combination(goal, positive, known)
+            first = find_combination(goal, positive, known) if positive.margin.free_symbols else None
             if first is not None:
                 steps.append((positive, first))
         quotient = sp.log(a / b, evaluate=False)
-        excess = at_least(a / b - 1 - quotient, 0)
         steps += [(equal(quotient, sp.log(a) - sp.log(b)), _single("log_product", b, a / b)),
-                  (excess, _single("log_tangent", a / b))]
-        found = find_combination(goal, shown, (*given, *(lemma for lemma, _ in steps)))
-        if found is not None:
-            return after(steps, found)
-    return None
+                  (at_least(a / b - 1 - quotient, 0), _single("log_tangent", a / b))]
+        if both:
+            steps += [(equal(sp.log(b / a, evaluate=False), sp.log(b) - sp.log(a)), _single("log_product", a, b / a)),
+                      (at_least(b / a - 1 - sp.log(b / a, evaluate=False), 0), _single("log_tangent", b / a))]
+    found = find_combination(goal, shown, (*given, *(lemma for lemma, _ in steps)))
+    return None if found is None else after(steps, found)
 
 
 def _single(fact: str, one: sp.Expr, other: sp.Expr | None = None) -> Proof:

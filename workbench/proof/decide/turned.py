@@ -7,15 +7,21 @@ it is decides how large programs are and whether multipliers of high degree are 
 
 from __future__ import annotations
 
-import re
-from collections.abc import Iterator
 from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any
 
 import sympy as sp
 
-from workbench.proof.claim import Goal, Relation, name_of
+from workbench.proof.claim import Goal, Relation
+from workbench.proof.decide.centres import (
+    Centre,
+    carried_along,
+    centre_of,
+    shifted,
+    shifted_back,
+    squares_completed,
+)
 from workbench.proof.decide.combination import find_combination
 from workbench.proof.decide.squares import find_squares
 from workbench.proof.text import assumptions, text
@@ -24,7 +30,6 @@ from workbench.proof.typed import evaluated
 Proof = dict[str, Any]
 Term = dict[str, Any]
 PLACES = ("assume", "inverse", "square_of")  # the keys by which a factor names an assumption
-TEXTS = ("square", "any", "positive", "sum_of_squares", "of")
 MOST_TURNS = 4
 
 
@@ -75,21 +80,34 @@ def find_turned(goal: Goal, stated: bool = False) -> Proof | None:
 
     Polynomials of low degree first: their programs are small. stated: also for what the goal shows, without a centre.
     """
+    centre = centre_of(goal)
+    found = _turned(goal, centre, stated)
+    if found is None and (squared := squares_completed(goal)) and squared != centre:
+        found = _turned(goal, squared, stated)
+    return found
+
+
+def find_carried(goal: Goal) -> Proof | None:
+    """A proof of a goal of one relation that speaks of distances alone: in fewer symbols, counted from another one."""
+    along = carried_along(goal)
+    return _turned(goal, along, True) if along else None
+
+
+def _turned(goal: Goal, centre: Centre, stated: bool) -> Proof | None:
     whole = exclusion_of(goal)
     degrees = {place: _degree(relation) for place, relation in enumerate(whole.relations)}
     last = len(whole.relations) - 1
     places = sorted((p for p in degrees if degrees[p] > 1 and whole.relations[p].operator != "=="),
                     key=degrees.__getitem__)[:MOST_TURNS]
-    centre = _centre(goal)
     for turned in places:
         if turned == last and not (centre or stated):
             continue
         form, order = whole.without(turned, list(range(last + 1)))
-        found = _sought(_shifted(form, centre))
+        found = _sought(shifted(form, centre))
         terms = None if found is None else contradictory(found, last, form.show[0])
         if terms is not None:
             return {"rule": "contradiction",
-                    "terms": renumbered(_shifted_back(terms, centre), dict(enumerate(order)))}
+                    "terms": renumbered(shifted_back(terms, centre), dict(enumerate(order)))}
     return None
 
 
@@ -103,53 +121,3 @@ def _degree(relation: Relation) -> int:
     if not margin.free_symbols or not margin.is_polynomial(*margin.free_symbols):
         return 0
     return int(sp.Poly(margin, *margin.free_symbols).total_degree())
-
-
-def _centre(goal: Goal) -> dict[sp.Symbol, sp.Rational]:
-    """The numbers that are taken off symbols below even powers, by symbol: where what is stated has its middle."""
-    found: dict[sp.Symbol, sp.Rational] = {}
-    for base in _bases(goal):
-        symbols = base.free_symbols
-        if len(symbols) == 1 and base.is_polynomial(*symbols):
-            symbol, = symbols
-            polynomial = sp.Poly(base, symbol)
-            if polynomial.degree() == 1:
-                root = -polynomial.coeff_monomial(1) / polynomial.LC()
-                if root != 0:
-                    found.setdefault(symbol, root)
-    return found
-
-
-def _bases(goal: Goal) -> Iterator[sp.Expr]:
-    for relation in goal.relations():
-        for side in (relation.left, relation.right):
-            for power in sorted(side.atoms(sp.Pow), key=sp.default_sort_key):
-                exponent = evaluated(power.exp)
-                if exponent.is_Integer and exponent > 0 and exponent % 2 == 0 and power.base.is_Add:
-                    yield evaluated(power.base)
-
-
-def _shifted(goal: Goal, centre: dict[sp.Symbol, sp.Rational]) -> Goal:
-    """The goal for symbols counted from their centre."""
-    moved = {symbol: symbol + value for symbol, value in centre.items()}
-
-    def put(relations: tuple[Relation, ...]) -> tuple[Relation, ...]:
-        return tuple(Relation(sp.expand(evaluated(r.left).xreplace(moved)), r.operator,
-                              sp.expand(evaluated(r.right).xreplace(moved))) for r in relations)
-
-    return Goal(put(goal.show), put(goal.assume))
-
-
-def _shifted_back(terms: list[Term], centre: dict[sp.Symbol, sp.Rational]) -> list[Term]:
-    """The terms in the symbols as they are stated."""
-    names = {name_of(symbol): _from(symbol, Fraction(int(value.p), int(value.q))) for symbol, value in centre.items()}
-    if not names:
-        return terms
-    pattern = re.compile(rf"\b({'|'.join(names)})\b")
-    return [{"coefficient": term["coefficient"], "factors": [
-        {key: pattern.sub(lambda found: names[found[1]], value) if key in TEXTS else value
-         for key, value in item.items()} for item in term["factors"]]} for term in terms]
-
-
-def _from(symbol: sp.Symbol, value: Fraction) -> str:
-    return f"({name_of(symbol)} {'-' if value > 0 else '+'} {abs(value)})"
