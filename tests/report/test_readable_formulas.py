@@ -91,3 +91,9 @@ def test_no_line_begins_with_the_punctuation_behind_a_formula():
     for mark in (",", ")", "."):
         assert f"</math>{mark}</span>" in shown
     assert str(in_html("<b> & $x$")) == "&lt;b&gt; &amp; " + str(formula("x"))
+
+
+def test_a_long_list_of_formulas_may_break_behind_its_commas():
+    long = r"\gamma \left(\frac{a}{b} + \frac{c}{d}\right), \gamma \left(\frac{e}{f} + \frac{g}{h}\right)"
+    pieces = str(formula(long)).split("</math>")
+    assert len(pieces) == 3 and pieces[0].endswith(",</mo></mrow>")
