@@ -7,6 +7,8 @@ import pytest
 from command_line import one_line, run, run_apart
 from scenarios import LIGHT_TRAIN, ROOT
 
+from workbench.cli.app import VERBS, _verb
+
 ROW_KEYS = {"controller", "position_error_min", "position_error_max", "speed_error_min", "speed_error_max",
             "position_rms", "speed_rms", "stopping_error", "energy_J", "jerk_rms", "saturated_fraction",
             "limit_violations", "step_us_median", "step_us_p99", "deadline_misses", "failed"}
@@ -81,6 +83,23 @@ def short(tmp_path):
     path = tmp_path / "short.toml"
     path.write_text(short_toml())
     return path
+
+
+@pytest.mark.parametrize("verb", VERBS)
+def test_help_leaves_nothing_out(verb):
+    """Brackets are no markup in it, and its sentences run to the end of the line."""
+    command = _verb(verb)
+    for parameter in (parameter for parameter in command.params if not getattr(parameter, "hidden", False)):
+        assert parameter.help or parameter.name == "help", f"{verb}: {parameter.name} has no help"
+        assert "[" not in (parameter.help or ""), f"{verb}: {parameter.name}"
+    assert command.help and "\n" not in command.help.replace("\n\n", "")
+
+
+def test_what_was_nearly_typed_is_asked_for(tmp_path):
+    (tmp_path / "study.toml").write_text("")
+    assert "did you mean 'prove'? Else see 'workbench --help'" in one_line(run("prov", "x"))
+    assert f"did you mean '{tmp_path / 'study.toml'}'?" in one_line(run("compare", tmp_path / "studi.toml"))
+    assert "did you mean" not in one_line(run("compare", tmp_path / "nowhere.json"))
 
 
 def test_help_names_every_command():

@@ -19,6 +19,18 @@ def test_links_between_documents_lead_somewhere(path):
         assert (made and made[1] in WRITTEN) or (path.parent / target).exists(), target
 
 
+def test_the_start_of_the_readme_says_what_is_found():
+    """The lines that it shows of a run stand in the errata, which are made from the same decisions."""
+    start = (ROOT / "README.md").read_text(encoding="utf-8").partition("## Start here")[2].partition("\n## ")[0]
+    fate, _, finding, _, counts = start.split("```")[3].strip().splitlines()
+    errata = (DOCS / "errata/yang2021/errata.md").read_text(encoding="utf-8")
+    assert f"- {fate}\n" in errata
+    assert finding.replace("e₁ = 0, k = 1", "$e_{1} = 0$, $k = 1$").replace("0 < 0", "$0 < 0$") in errata
+    lines, words = re.fullmatch(r"(\d+) lines of the paper: (.*)", counts).groups()
+    told = re.search(rf"Of {lines} lines, (.*?)\. Proved", errata)[1]
+    assert re.findall(r"\d+", words) == re.findall(r"\d+", told)
+
+
 def test_every_page_is_named_in_a_table_of_contents():
     named = set()
     for path in DOCS.glob("**/*.md"):

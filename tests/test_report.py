@@ -143,6 +143,13 @@ def test_the_first_screen_has_one_figure(page):
     assert 'id="position-errors"' not in rest
 
 
+def test_the_badges_count_lines_of_the_paper_alone(content):
+    rows = [{"id": f"a:{n}", "paper": "a", "equation": str(n), "title": "x", "verdict": verdict, "origin": origin}
+            for n, (verdict, origin) in enumerate([("proved", "printed"), ("refuted", "ours"), ("proved", "implied")])]
+    page = build_page(ReportContent(scenario=content.scenario, claims={"claims": rows}))
+    assert re.findall(r"<b>(\d+)</b> (\w+)", page) == [("2", "proved")]
+
+
 def test_page_of_a_scenario_alone(content):
     page = build_page(ReportContent(scenario=content.scenario))
     read(page)

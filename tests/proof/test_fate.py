@@ -60,7 +60,8 @@ def test_what_is_refuted_falls_and_says_by_what(functions, how):
     assert how in fate(theorem).why
     mended = decided("T.mended", "proved", origin="ours", mends="T")
     assert fate(theorem, mended).word == "falls"
-    assert "T [mended]" in fate(theorem, mended).why
+    assert f"its mended form is proved, “{mended.claim.title}”" in fate(theorem, mended).why
+    assert fate(theorem, mended).by == (mended.claim.id,)
 
 
 def test_a_line_with_an_unclear_glyph_taints_and_costs_a_theorem_nothing_where_its_other_reading_holds():

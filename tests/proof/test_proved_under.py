@@ -57,6 +57,6 @@ def test_a_headline_and_a_mended_one_need_premises_that_are_shown(verdict):
 def test_findings_and_errata_say_under_what_a_mended_line_is_proved():
     rows = judged([decided("1", "gap"), decided("2", "refuted"), decided("2.mended", "proved", "1", mends="p2020:2")])
     found = next(f for f in findings(rows) if f.equation == "2")
-    assert correction_sentence(found) == "It should read $x = y$, where Equation (1) holds."
+    assert correction_sentence(found) == "It should read $x = y$, where equation (1) holds."
     texts = " ".join(block.text for block in errata(rows, "cited") if isinstance(block, Paragraph))
     assert "1 of them only where lines hold that are not shown" in texts

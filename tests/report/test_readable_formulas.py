@@ -91,3 +91,10 @@ def test_no_line_begins_with_the_punctuation_behind_a_formula():
     for mark in (",", ")", "."):
         assert f"</math>{mark}</span>" in shown
     assert str(in_html("<b> & $x$")) == "&lt;b&gt; &amp; " + str(formula("x"))
+
+
+def test_a_long_list_of_formulas_may_break_behind_its_commas():
+    part = r"\gamma \left(\frac{a}{b} + \frac{c}{d} + \frac{e}{f}\right)"
+    pieces = str(formula(f"{part}, {part}")).split("</math>")
+    assert len(pieces) == 3 and pieces[0].endswith(",</mo></mrow>")
+    assert str(formula("a, b")).count("<math") == 1

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import inspect
 import signal
 import sys
 import threading
+from difflib import get_close_matches
 from functools import cache
 from importlib import import_module
 from pathlib import Path
@@ -48,7 +50,9 @@ class Verbs(TyperGroup):
 def _verb(name: str) -> Any:
     module = import_module(f"workbench.cli.{MODULES.get(name, name.replace('-', '_'))}")
     alone = typer.Typer(add_completion=False)
-    alone.command(name, context_settings=getattr(module, "CONTEXT", None))(module.command)
+    paragraphs = (inspect.getdoc(module.command) or "").split("\n\n")
+    said = "\n\n".join(" ".join(paragraph.split()) for paragraph in paragraphs)  # lines end where the terminal does
+    alone.command(name, help=said, context_settings=getattr(module, "CONTEXT", None))(module.command)
     return get_command(alone)
 
 
@@ -80,7 +84,7 @@ def main() -> None:
     except TyperException as trouble:  # of options and arguments
         context = getattr(trouble, "ctx", None)
         command = context.command_path if context else "workbench"
-        problem = f"{trouble.format_message().removesuffix('.')}: see '{command} --help'"
+        problem = f"{trouble.format_message().removesuffix('.')}: {_verb_meant()}see '{command} --help'"
         code = _refused(str(InputError(command.removeprefix("workbench").strip(), "", problem)))
     except OSError as trouble:  # of what no room expects to fail, such as a terminal that is gone
         where = str(trouble.filename or "")
@@ -107,6 +111,13 @@ def _require_folder() -> None:
 def _command() -> Any:
     """All verbs with their options, worked out once."""
     return get_command(app)
+
+
+def _verb_meant() -> str:
+    """The verb that was nearly typed, as a question; empty where the verb is one, or like none."""
+    asked = next((word for word in sys.argv[1:] if not word.startswith("-")), "")
+    close = get_close_matches(asked, VERBS, n=1) if asked not in VERBS else []
+    return f"did you mean '{close[0]}'? Else " if close else ""
 
 
 def _refused(line: str) -> int:

@@ -95,7 +95,9 @@ def print_counts(decisions: Sequence[Decision]) -> None:
                                              for v in VERDICTS if counts[v]))
             if by_kernel := sum(d.trust == "kernel" for d in of_them):
                 certified = sum(d.certificate is not None for d in of_them)
-                line.append(f"; Coq's kernel accepts {by_kernel} of their {certified} certificates too")
+                all_of_them = "its certificate" if certified == 1 else f"all {certified} certificates"
+                accepted = all_of_them if by_kernel == certified else f"{by_kernel} of their {certified} certificates"
+                line.append(f"; Coq's kernel accepts {accepted} too")
             _paragraph(line, 0)
 
 

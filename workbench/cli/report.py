@@ -24,7 +24,8 @@ def command(paper: PaperOrFile,
                 min=1, help="Monte Carlo runs; default: as the scenario states, 10 at the most")] = None,
             full: Annotated[bool, typer.Option(
                 "--full", help="On all drawn trains that the file states, not on the first 10 alone.")] = False,
-            seed: Annotated[int | None, typer.Option(min=0)] = None,
+            seed: Annotated[int | None, typer.Option(
+                min=0, help="Of the Monte Carlo; default: as the scenario states.")] = None,
             gains: Annotated[bool, typer.Option(
                 help="Also what is proved of the paper's gains, and better ones.")] = True,
             resume: Annotated[bool, typer.Option(

@@ -23,7 +23,7 @@ def command(paper: PaperOrFile,
             seed: Annotated[int | None, typer.Option(min=0, help="Default: as the scenario states.")] = None,
             controller: Annotated[list[str] | None, typer.Option(help="Only this one; may be repeated.")] = None,
             sensitivity: Annotated[bool, typer.Option(
-                "--sensitivity", help="Instead: all values of [joint_sensitivity] drawn at once, and which decides.")
+                "--sensitivity", help="Instead: all values of the joint_sensitivity table at once, and which decides.")
             ] = False,
             resume: Annotated[bool, typer.Option(help="Go on after an interruption.")] = False,
             draws: Annotated[Literal["random", "sobol"], typer.Option(

@@ -4,8 +4,11 @@ from __future__ import annotations
 
 import errno
 import hashlib
+import os
 import sys
 import time
+from difflib import get_close_matches
+from itertools import islice
 from pathlib import Path
 
 from workbench.errors import InputError
@@ -100,7 +103,7 @@ def _contents(path: Path, kind: str, where: str) -> bytes:
     try:
         return contents(path, limit)
     except FileNotFoundError:
-        raise InputError(path, "", f"no such file: {where}") from None
+        raise InputError(path, "", f"no such file: {where}{_meant(path)}") from None
     except IsADirectoryError:
         raise InputError(path, "", f"is a folder: name a .{kind.lower()} file in it") from None
     except NotRegularError:
@@ -113,3 +116,18 @@ def _contents(path: Path, kind: str, where: str) -> bytes:
         raise InputError(path, "", f"cannot be read ({trouble.strerror}): {remedy}") from None
     except ValueError as trouble:  # a null character in the path
         raise InputError(path, "", f"is no path ({trouble}): correct the name") from None
+
+
+MOST_LISTED = 5_000  # names in a folder beyond which none is looked for
+
+
+def _meant(path: str | Path) -> str:
+    """What is called nearly so in the same folder, as a question; empty where nothing is."""
+    asked = Path(path)
+    try:
+        with os.scandir(asked.parent) as entries:
+            names = [entry.name for entry in islice(entries, MOST_LISTED)]
+    except (OSError, ValueError):
+        return ""
+    close = get_close_matches(asked.name, sorted(names), n=1, cutoff=0.75)
+    return f"; did you mean '{asked.with_name(close[0])}'?" if close else ""

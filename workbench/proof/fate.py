@@ -62,7 +62,7 @@ def _shortfall(decision: Decision, unshown: tuple[str, ...], by_id: Mapping[str,
     if decision.verdict == "proved":
         return f"proved only under lines that are not shown: {_named(unshown, by_id)}"
     return {"gap": "does not follow from its premises", "violated": "its conditions fail at the printed numbers",
-            "assumed": "taken from the literature", "undecided": "not decided"}[decision.verdict]
+            "assumed": "taken as given, its proof was not checked", "undecided": "not decided"}[decision.verdict]
 
 
 def _how(decision: Decision) -> str:

@@ -47,7 +47,7 @@ def _words(found: Finding) -> str:
     return {"refuted": "is false as printed, by a motion of the printed closed loop" if motion else
             "is false as printed", "violated": "is broken by the printed numbers",
             "gap": "does not follow from what the paper uses to get there", "undecided": "is not decided",
-            "assumed": "is taken from the literature", "proved": "holds"}[found.verdict]
+            "assumed": "is taken as given: its proof was not checked", "proved": "holds"}[found.verdict]
 
 
 def breaks_at(point: Counterexample) -> str:

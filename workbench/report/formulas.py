@@ -24,6 +24,7 @@ ATTRIBUTES = frozenset((
 ))
 ACCENTS = frozenset("˙¨^~¯ˇ´`→˘")
 BREAKS = frozenset("=≤≥<>+−⟹⇒⇔⟺∧∨∈")
+ENDS = frozenset(",;")  # behind which a line may break
 LONG = 40
 # Converting takes time in proportion to the square of the length: beyond this, seconds of what nobody reads.
 MOST_CHARACTERS = 20_000
@@ -121,7 +122,7 @@ def _flowing(root: ElementTree.Element) -> list[ElementTree.Element | str]:
 
 
 def _parts(root: ElementTree.Element) -> list[ElementTree.Element]:
-    """A long formula cut before its operators, because browsers break lines only between formulas."""
+    """A long formula cut before its operators and behind its commas: browsers break lines only between formulas."""
     if len(root) != 1 or root[0].tag != "mrow" or sum(1 for _ in root.iter()) < LONG:
         return [root]
     rows: list[list[ElementTree.Element]] = [[]]
@@ -131,8 +132,10 @@ def _parts(root: ElementTree.Element) -> list[ElementTree.Element]:
             child.set("form", "infix")
             rows.append([])
         rows[-1].append(child)
+        if child.tag == "mo" and child.text in ENDS:
+            rows.append([])
     parts = []
-    for row in rows:
+    for row in filter(None, rows):
         part = ElementTree.Element("math", root.attrib)
         ElementTree.SubElement(part, "mrow").extend(row)
         parts.append(part)

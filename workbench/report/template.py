@@ -58,8 +58,9 @@ def render(template: str, document: Mapping[str, Any], sources: Sequence[Sourced
     environment = Environment(loader=FileSystemLoader(folder), autoescape=True, undefined=StrictUndefined,
                               trim_blocks=True, lstrip_blocks=True)
     environment.filters |= {"number": number, "stated": stated, "breakable": _breakable, "in_words": in_words}
+    printed = [claim for claim in claims if not claim.ours] or claims
     return environment.get_template(template).render(
-        claims=claims, counts=counts(claims), findings=finding_groups(document), sections=by_section(claims),
+        claims=claims, counts=counts(printed), findings=finding_groups(document), sections=by_section(claims),
         fated=fated(claims), graphs=graph_views(claims),
         choices=[(name, label, found) for name, label in CHOICES if len(found := _values(claims, name)) > 1],
         sources={kind: [s for s in sources if s.kind == kind] for kind in ("assumed", "paper", "convention")},

@@ -110,8 +110,9 @@ def _winners(setting: Setting, runs: Sequence[PlantRun]) -> ResultTable | None:
         rows.append((output, best.name, Quantity(best.metrics[key], units[key]),
                      Phrase(words, tuple(Quantity(run.metrics[key], units[key]) for run in others)) if words else None,
                      *(Quantity(best.metrics[effort], units[effort]) for effort in efforts), best.step_us))
-    header = ("output", "closest", "its RMS error", "the others",
-              *(f"its RMS of {effort.removesuffix('_rms')}" for effort in efforts), Column("its step", "µs"))
+    header: tuple[Column | str, ...] = (
+        "output", "closest", "its RMS error", "the others",
+        *(f"its RMS of {effort.removesuffix('_rms')}" for effort in efforts), Column("its step", "µs"))
     return ResultTable(
         "Who follows the reference most closely, and at what price", f"plant {setting.plant.id}", header, tuple(rows),
         "One run of each, of the plant as stated; 'workbench sweep' draws its uncertain values.") if rows else None

@@ -58,13 +58,13 @@ def _verb(verdict: str, count: int) -> str:
 
 def _fates(decisions: Sequence[Decision]) -> list[Block]:
     """Those that fall first, after how many there are of each."""
-    told = [(d.fate, d.claim) for word in GRAVEST_FIRST for d in decisions if d.fate and d.fate.word == word]
+    fated = [(d.fate, d.claim) for d in decisions if d.fate is not None]
+    told = sorted(fated, key=lambda pair: GRAVEST_FIRST.index(pair[0].word))
     counts = Counter(fate.word for fate, _ in told)
     words = listed([f"{counts[word]} {_verb_of(word, counts[word])}" for word in GRAVEST_FIRST if counts[word]])
     lines = tuple(Item(worded(fate_sentence(claim.equation, fate.word, fate.why, claim.title))) for fate, claim in told)
-    of = f"Of {len(told)} headline statements" if len(told) > 1 else "Of one headline statement"
-    return [Heading(2, "What becomes of the headline statements"), Paragraph(f"{of}, {words}."), Items(lines)
-            ] if lines else []
+    summary = [Paragraph(f"Of {len(told)} headline statements, {words}.")] if len(told) > 1 else []
+    return [Heading(2, "What becomes of the headline statements"), *summary, Items(lines)] if lines else []
 
 
 def _verb_of(word: FateWord, count: int) -> str:
