@@ -10,7 +10,7 @@ from scenarios import SHARED
 
 from workbench.errors import WorkbenchError
 from workbench.optimal.fleet import COLUMNS, TripRow
-from workbench.report.fleet_command import _write_csv
+from workbench.report.fleet_command import FleetRequest, _write_csv, fleet_run
 
 FLEET = f"""
 name = "short trips"
@@ -60,6 +60,10 @@ def test_a_days_trips_are_one_table_of_the_same_bytes_for_any_number_of_workers(
     monkeypatch.setattr(solving, "solved_trip", lambda shared, trip: asked.append(trip.trip.id) or solve(shared, trip))
     said("--fleet", fleet, "--json", tmp_path / "1.json", "--csv", tmp_path / "3.csv", "--workers", 1, "--resume")
     assert asked == ["too soon", "no train"]
+    seen = []
+    (tmp_path / "4.json").write_bytes(files[0][0])
+    list(fleet_run(FleetRequest(fleet, tmp_path / "4.json", None, 1, True), lambda *far: seen.append(far)))
+    assert seen == [(2, 4), (3, 4), (4, 4)], "how far it is, from what an earlier run has done"
     assert [(tmp_path / name).read_bytes() for name in ("1.json", "3.csv")] == files[0]
 
 

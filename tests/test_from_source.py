@@ -8,6 +8,7 @@ import pytest
 from test_cli import one_line, run
 
 from workbench.errors import InputError
+from workbench.paper.source import folder
 from workbench.paper.source.document import read_source
 from workbench.paper.source.folder import write_from_source
 from workbench.paper.source.letters import assumed_formulas, defined_in_text, values_and_rates
@@ -135,6 +136,13 @@ def test_macros(text, plain):
 def test_a_source_that_cannot_be_read_is_one_line(text, words):
     with pytest.raises(SourceError, match=words):
         read_source(text)
+
+
+def test_a_source_whose_tables_would_be_too_large_to_read_is_named_and_nothing_is_written(tmp_path, monkeypatch):
+    monkeypatch.setattr(folder, "LARGEST_TEXT", 2000)
+    with pytest.raises(InputError, match=r"backstepping.tex: becomes tables of more than"):
+        write_from_source("grown2030", tmp_path, SOURCES / "backstepping.tex")
+    assert not list(tmp_path.iterdir())
 
 
 PARTS = r"""\documentclass{article}\newtheorem{assumption}{Assumption}

@@ -45,6 +45,9 @@ def plant(**changes):
     ({"input_limits": {x: (-1.0, 1.0)}}, "no input"),
     ({"state_limits": {x: (0.0, math.nan)}}, "NaN"),
     ({"state_limits": {x: 3.0}}, "no pair of numbers"),
+    ({"state_limits": {x: (0, 10**400)}}, "no pair of numbers"),
+    ({"state_limits": {x: (0, 10**5000)}}, "a tuple of thousands of digits is no pair of numbers"),
+    ({"rates": (v, 10**5000)}, "a int of thousands of digits: give a finite number"),
     ({"outputs": {z: u}}, "output 'z' uses 'u'"),
     ({"units": {z: "m"}}, "does not have"),
     ({"units": {x: 3}}, "unit of 'x' is 3, no text"),
@@ -69,10 +72,12 @@ def test_symbols_may_be_named_and_measured_states_listed():
 
 @pytest.mark.parametrize(("changes", "words"), [
     ({"references": {"r": math.sin}}, "references.r = <.*> is no signal: give a number, Constant"),
-    ({"disturbances": {"d": "1"}}, "disturbances.d = 1 is no signal"),
+    ({"disturbances": {"d": "1"}}, "disturbances.d = '1' is no signal"),
     ({"references": {"r": math.inf}}, "is no signal"), ({"initial": [1.0, 0.0]}, "initial is .*, no table"),
-    ({"initial": {"x": "1"}}, "initial.x = 1: give a finite number"), ({"tracks": {"x": "q"}}, "no reference"),
-    ({"metrics": x}, "metrics is x, no list"),
+    ({"initial": {"x": "1"}}, "initial.x = '1': give a finite number"), ({"tracks": {"x": "q"}}, "no reference"),
+    ({"metrics": x}, "metrics is x, no list"), ({"step_s": 10**400}, "step_s = 10+: give a positive number"),
+    ({"step_s": 2.0}, "duration_s = 1 is shorter than one step of 2 s"),
+    ({"references": {"r": -10**5000}}, "thousands of digits is no signal"),
 ])
 def test_what_is_no_setting_is_one_line(changes, words):
     with pytest.raises(ValueError, match=words):
@@ -94,6 +99,7 @@ def test_a_plant_without_a_derivative_at_the_point_is_not_linearised(rate, words
 
 @pytest.mark.parametrize(("value", "known", "words"), [
     (-1.0, None, "declared positive"), (math.inf, None, "not finite"), (1j, None, "no real number"),
+    (10**400, None, "not finite"),
     ("1", None, "no real number"), (True, None, "no real number"), (3.0, (1.0, 2.0), "outside the known interval"),
     (1.5, (2.0, 1.0), "exchange them")])
 def test_what_is_no_parameter_is_one_line(value, known, words):

@@ -82,6 +82,31 @@ def test_the_probability_of_a_run_is_that_of_the_trains_that_make_it(scenario_pa
     assert one.probability.low < 0.05 < one.probability.high < 0.2
     [again] = probabilities(scenario, scenario_path, Event("energy_J", energy[-1]), 3, ["own"], 1)
     assert again == one
+    every = [rare.estimate((scenario, Event("energy_J", energy[-1]), 3, rare.LEAST), ("own", n)) for n in range(4)]
+    assert one.probability == Probability.of(np.array([each.probability for each in every])), "no estimate is left out"
+
+
+def test_an_event_that_no_run_meets_ends_early_with_what_the_draws_alone_say(scenario_path, monkeypatch, tmp_path):
+    """As by hand: of n independent draws none, so 0.05 = (1 - p)^n; what the search has seen beyond is no bound."""
+    monkeypatch.setattr(rare, "SAMPLES", 8)
+    deep = []
+
+    def counted(shared, task):
+        deep.append(task) if shared[-1] < 1 else None
+        return estimate(shared, task)
+
+    estimate = rare.estimate
+    monkeypatch.setattr(rare, "estimate", counted)
+    scenario, event = load_scenario(scenario_path), Event("position_rms", 1000.0)
+    [one] = probabilities(scenario, scenario_path, event, 3, ["own"], 1, tmp_path / "rare.csv")
+    assert deep == [("own", 0), ("own", 1)], "the others draw their points, and search no deeper"
+    assert (one.probability.mean, one.probability.low) == (0.0, 0.0)
+    assert (1 - one.probability.high) ** 80 == pytest.approx(0.05)
+    assert f"was met by none of {one.runs} runs" in one.line(event) and "is below 0.037 at 95 %" in one.line(event)
+    assert (tmp_path / "rare.csv").read_text().count(",0.0,") == 10
+    monkeypatch.setattr(rare, "PILOTS", 0)  # whose estimates meet nothing, where others do
+    [often] = probabilities(scenario, scenario_path, Event("position_rms", 0.0), 3, ["own"], 1)
+    assert often.probability.mean == 1.0
 
 
 @pytest.mark.parametrize(("arguments", "words"), [
@@ -89,6 +114,7 @@ def test_the_probability_of_a_run_is_that_of_the_trains_that_make_it(scenario_pa
     (("--rare", "energy_J"), "no finite number"), (("--rare", "energy_J>inf"), "no finite number"),
     (("--rare", "energy_J>1", "--resume"), "leave --resume out"),
     (("--rare", "energy_J>1", "--runs", 5), "leave --runs out"),
+    (("--sensitivity", "--runs", 5), "leave --runs out"), (("--sensitivity", "--seed", 0), "leave --seed out"),
 ])
 def test_what_cannot_be_asked_is_said_in_a_line(scenario_path, tmp_path, arguments, words):
     assert words in one_line(run("sweep", scenario_path, "--out", tmp_path / "out", *arguments))

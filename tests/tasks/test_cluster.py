@@ -3,6 +3,7 @@ is lost is run again, what cannot be is said in a line, and nothing is left behi
 
 import json
 import os
+import re
 import subprocess
 import sys
 import time
@@ -15,13 +16,14 @@ from scenarios import ROOT
 from small_folders import CLAIMS, PAPER, small_folder
 
 sys.path.insert(0, str(ROOT / "benchmarks"))
-from bad_input_texts import CONTEST
-from faults import contest_without_times
+from bad_input_texts import CONTEST, FLEET, LINE_MORE, TRAIN, line_text
+from faults import SEARCH, contest_without_times
 
 from workbench.proof.prove import prove
 from workbench.proof.selection import targets
 from workbench.tasks.executor import ThisProcess, on
 
+SEARCHED = SEARCH.format(runs=4).replace("good", "own")
 PATIENCE_S = 120.0  # a busy machine may take long; nothing waits longer than it must
 # A variable of the environment that every process started from here inherits: others of the machine are not looked at.
 OURS = {"WORKBENCH_TEST_OF": f"cluster {os.getpid()} {time.monotonic_ns()}"}
@@ -98,6 +100,11 @@ def jobs():
         said[place] = [command("sweep", folder, "--runs", 4, "--out", out / place, *where)]
         if place != "processes":
             said[place].append(command("compare", folder / "contest.toml", "--json", out / f"{place}.json", *where))
+            tuned = folder / f"{place}.toml"
+            tuned.write_text((folder / "study.toml").read_text() + (folder / "search").read_text())
+            said[place].append(command("tune", tuned, "--write", *where))
+            said[place].append(command("reference", "--fleet", folder / "fleet.toml", "--json",
+                                       out / f"{place}_day.json", *where))
     said["two kinds"] = command("sweep", folder, "--out", out / "no", "--dask", address, "--workers", 2)
     said["one run"] = command("reference", "a", "b", "--dask", address)
 
@@ -174,6 +181,12 @@ def paper(tmp_path_factory):
     (folder / "claims").mkdir()
     for number in "12":
         (folder / "claims" / f"section_{number}.py").write_text(CLAIMS.format(number=number, name=number))
+    (folder / "search").write_text(SEARCHED)
+    train = TRAIN + "max_speed_mps = 40.0\nlength_m = 50.0\n"
+    sources = "".join(f'source.{key} = "assumed: a test"\n' for key in re.findall(r"(?m)^(\w+) = ", train))
+    (folder / "train.toml").write_text(train + sources)
+    (folder / "day_line.toml").write_text(line_text(LINE_MORE))
+    (folder / "fleet.toml").write_text(FLEET.replace("line.toml", "day_line.toml"))
     (folder / "contest.toml").write_text(CONTEST.replace("run.toml", "study.toml").replace("good", "own"))
     return folder
 
@@ -205,8 +218,17 @@ def test_a_sweep_has_the_same_bytes_wherever_it_is_run(found):
 def test_so_has_a_contest(found):
     said, out = found
     for place in ("here", "cluster"):
-        assert [code for code, _ in said[place]] == [0, 0], said[place]
+        assert {code for code, _ in said[place]} == {0}, said[place]
     assert contest_without_times(out / "here.json") == contest_without_times(out / "cluster.json")
+
+
+def test_so_have_a_search_and_a_days_trips(found, paper):
+    _, out = found
+    here, there = ((paper / f"{place}.toml").read_bytes() for place in ("here", "cluster"))
+    assert here == there and here != (paper / "study.toml").read_bytes() + SEARCHED.encode()
+    here, there = ((out / f"{place}_day.json").read_bytes() for place in ("here", "cluster"))
+    assert here == there
+    assert [row["status"] for row in json.loads(here)["trips"]] == ["optimal", "refused", "optimal"]
 
 
 def test_claims_are_decided_alike_by_a_named_executor_which_keeps_nothing(paper, monkeypatch, tmp_path):

@@ -9,6 +9,7 @@ import typer
 
 from workbench.cli.console import err_console, out_console
 from workbench.cli.options import Workers
+from workbench.cli.terminal import progress
 from workbench.errors import InputError, WorkbenchError, in_one_line
 
 if TYPE_CHECKING:
@@ -54,7 +55,9 @@ def _folder(folder: Path, named: list[Path], workers: int | None) -> tuple[list[
     from workbench.tasks.handing_out import places
 
     require_few(folder)
-    rows, bound = check_all(folder, papers_at_hand(folder, named), places(workers))
+    with progress() as show:
+        rows, bound = check_all(folder, papers_at_hand(folder, named), places(workers),
+                                lambda done, total: show("papers", done, total))
     others = len({path for path, _, _ in rows}) - bound
     whole = f"the goals of their papers' claims: {bound}" if bound else ""
     alone = f"their manifest alone, for no claims are at hand: {others}" if others > 0 else ""

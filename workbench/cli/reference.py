@@ -9,6 +9,7 @@ import typer
 
 from workbench.cli.console import out_console
 from workbench.cli.options import Dask, JsonFile, Workers, on_cluster
+from workbench.cli.terminal import progress
 from workbench.errors import InputError
 
 
@@ -51,9 +52,11 @@ def command(track: Annotated[Path | None, typer.Argument(help="Line: TOML of thi
             raise InputError("", "--fleet", "names lines, trains and times itself: leave TRACK, TRAIN and times out")
         from workbench.report.fleet_command import FleetRequest, fleet_run
 
-        with on_cluster(dask, workers):
-            for line in fleet_run(FleetRequest(fleet, json, csv, workers, resume)):
-                out_console.print(line, soft_wrap=True, highlight=False)
+        with progress() as show, on_cluster(dask, workers):
+            lines = list(fleet_run(FleetRequest(fleet, json, csv, workers, resume),
+                                   lambda done, total: show("trips", done, total)))
+        for line in lines:
+            out_console.print(line, soft_wrap=True, highlight=False)
         return
     if dask is not None:
         raise InputError("", "--dask", "is for the trips of --fleet; one run is computed here: leave it out")

@@ -46,6 +46,10 @@ def command(paper: PaperOrFile,
     until = UntilWidth.parse(until_width) if until_width is not None else None
     event = _event(rare, {"--runs": runs, "--resume": resume, "--until-width": until, "--sensitivity": sensitivity,
                           "--draws": draws != "random"})
+    if sensitivity:
+        _left_out("--sensitivity", "draws as [joint_sensitivity] states", {
+            "--runs": runs, "--seed": seed is not None, "--controller": controller, "--draws": draws != "random",
+            "--until-width": until})
     loaded = load(paper)
     if event is not None:
         with on_cluster(dask, workers):
@@ -56,6 +60,8 @@ def command(paper: PaperOrFile,
             _joint(loaded, out, resume, workers)
         return
     if loaded.kind is not None and loaded.data.get("kind") == PLANT:
+        _left_out(loaded.path, "is a plant's study, which is drawn by chance and as often as asked",
+                  {"--draws": draws != "random", "--until-width": until})
         with on_cluster(dask, workers):
             _sweep_plant(loaded, out, runs, seed, controller, resume, workers)
         return
@@ -78,10 +84,15 @@ def _event(rare: str | None, others: dict[str, Any]) -> Any:
 
     if rare is None:
         return None
+    _left_out("--rare", "takes as many runs as it needs, by chance", others)
+    return Event.parse(rare)
+
+
+def _left_out(where: str | Path, why: str, others: dict[str, Any]) -> None:
+    """InputError where an option is given that has no meaning here, rather than to do without it in silence."""
     for option, given in others.items():
         if given:
-            raise InputError("", "--rare", f"takes as many runs as it needs, by chance: leave {option} out")
-    return Event.parse(rare)
+            raise InputError(where, "", f"{why}: leave {option} out")
 
 
 def _rare(loaded: Loaded, event: Any, out: Path, seed: int | None, controllers: list[str] | None,

@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Any
 
@@ -15,7 +15,8 @@ WORTH_PROCESSES = 100  # certificates; fewer are checked sooner than another pro
 Part = tuple[str, Any]
 
 
-def check_all(folder: Path, papers: Mapping[Path, Path], workers: int) -> tuple[list[Row], int]:
+def check_all(folder: Path, papers: Mapping[Path, Path], workers: int,
+              on_progress: Callable[[int, int], None] = lambda done, total: None) -> tuple[list[Row], int]:
     """The rows of `check_folder`, those of `check_claims` for each folder of certificates and its paper, and how many
     certificates are of their claims. Raises InputError where a paper cannot be imported."""
     claims = {place: (place, path) for place, path in papers.items()}
@@ -29,7 +30,8 @@ def check_all(folder: Path, papers: Mapping[Path, Path], workers: int) -> tuple[
         tasks: list[Part] = [("files", place) for place in sorted(groups, key=lambda place: -len(groups[place]))]
         tasks += [("claims", place) for place in claims]
         found.update(results_of(_part, {"files": groups, "claims": claims}, tasks,
-                                workers if len(files) >= WORTH_PROCESSES else 1, lambda *_: None))
+                                workers if len(files) >= WORTH_PROCESSES else 1,
+                                lambda done, *_: on_progress(done, len(tasks))))
         by_path = {row[0]: row for place in groups for row in found["files", place]}
         return [by_path[path] for path, _ in files]
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import csv
 import hashlib
 import io
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -34,8 +34,11 @@ class FleetRequest:
     resume: bool
 
 
-def fleet_run(asked: FleetRequest) -> Iterator[str]:
-    """Lines for the reader: one a trip in the order of the file, and sums; raises InputError for the file itself."""
+def fleet_run(asked: FleetRequest, on_progress: Callable[[int, int], None] = lambda done, total: None) -> Iterator[str]:
+    """Lines for the reader: one a trip in the order of the file, and sums; raises InputError for the file itself.
+
+    on_progress: is called with the trips done and all of them, when they begin and after each.
+    """
     check_outputs({"--json": asked.json, "--csv": asked.csv}, [asked.fleet])
     if asked.resume and asked.json is None:
         raise InputError("", "--resume", "needs --json, the file that keeps what is finished: name it")
@@ -60,7 +63,9 @@ def fleet_run(asked: FleetRequest) -> Iterator[str]:
         rows[trip.trip.id] = row
         if asked.json:
             write_json(asked.json, document())  # an interruption loses nothing
+        on_progress(len(rows), len(trips))
 
+    on_progress(len(rows), len(trips))
     waiting = [trip for trip in trips if trip.trip.id not in rows]
     results_of(solved_trip, None, waiting, places(asked.workers), record)
     found = [rows[trip.trip.id] for trip in trips]

@@ -21,7 +21,7 @@ from workbench.simulate.law_values import check_controllers
 from workbench.simulate.metric_option import metric_and_number
 from workbench.simulate.metrics import measure
 from workbench.simulate.setting import Factors, setting_of
-from workbench.simulate.splitting import Array, Estimate, Probability, splitting
+from workbench.simulate.splitting import LEAST, Array, Estimate, Probability, splitting
 from workbench.simulate.sweep import chosen
 from workbench.simulate.sweep_rows import NUMBERS
 from workbench.tasks.handing_out import places, results_of
@@ -30,6 +30,8 @@ from workbench.trains.scenario import Scenario
 CSV_NAME = "rare.csv"
 # Independent estimates, of which the interval is made, and the points of each.
 ESTIMATES, SAMPLES = 10, 200
+# Where none of the first estimates meets the event, the others draw and count their points, and search no deeper.
+PILOTS = 2
 LARGEST = "largest_position_error"
 
 Task = tuple[str, int]  # controller, number of the estimate
@@ -61,10 +63,14 @@ class Rare:
     runs: int
 
     def line(self, event: Event) -> str:
-        """As people read it."""
-        p = self.probability
-        return (f"{self.controller}: {event.metric} > {event.value:g}, or a run that fails, with probability "
-                f"{p.mean:.3g}, 95 % interval {p.low:.3g} to {p.high:.3g} ({ESTIMATES} estimates, {self.runs} runs)")
+        """As people read it; of an event that no run has met what its independent draws say, and they alone."""
+        p, what = self.probability, f"{self.controller}: {event.metric} > {event.value:g}, or a run that fails, "
+        if p.mean == 0.0:
+            return (f"{what}was met by none of {self.runs} runs, though {PILOTS} estimates searched the worst "
+                    f"{LEAST:g} of all; after {ESTIMATES * SAMPLES} independent draws the probability is below "
+                    f"{p.high:.2g} at 95 %")
+        return (f"{what}with probability {p.mean:.3g}, 95 % interval {p.low:.3g} to {p.high:.3g} ({ESTIMATES} "
+                f"estimates, {self.runs} runs)")
 
 
 def probabilities(scenario: Scenario, scenario_path: Path, event: Event, seed: int | None = None,
@@ -72,6 +78,7 @@ def probabilities(scenario: Scenario, scenario_path: Path, event: Event, seed: i
                   on_progress: Callable[[int, int], None] = lambda done, total: None) -> list[Rare]:
     """The probability of an event under each controller, over the scenario's uncertainty; the same for the same seed.
 
+    Where no run has met it, 0 and what is known from the independent draws alone: below `high` at 95 %.
     out: a CSV file for the estimates. Raises InputError for unusable options and where nothing is drawn.
     """
     check_controllers(scenario, scenario_path)
@@ -81,19 +88,37 @@ def probabilities(scenario: Scenario, scenario_path: Path, event: Event, seed: i
                          "spread")
     seed = scenario.uncertainty.seed if seed is None else seed
     shared = compiled(scenario.model_copy(update={"controllers": {n: scenario.controllers[n] for n in names}}))
-    tasks = [(name, number) for name in names for number in range(ESTIMATES)]
-    found = results_of(estimate, (shared, event, seed), tasks, places(workers),
-                       lambda done, *_: on_progress(done, len(tasks)))
+    total, ended = len(names) * ESTIMATES, 0
+
+    def made(tasks: list[Task], least: float) -> dict[Task, Estimate]:
+        return results_of(estimate, (shared, event, seed, least), tasks, places(workers),
+                          lambda done, *_: on_progress(ended + done, total))
+
+    found = made([(name, number) for name in names for number in range(PILOTS)], LEAST)
+    ended = len(found)
+    others = range(PILOTS, ESTIMATES)
+    unmet = [name for name in names if not any(found[name, number].probability for number in range(PILOTS))]
+    drawn = made([(name, number) for name in unmet for number in others], 1.0)
+    unmet = [name for name in unmet if not any(drawn[name, number].probability for number in others)]
+    ended = len(names) * PILOTS + len(unmet) * len(others)
+    found |= made([(name, number) for name in names if name not in unmet for number in others], LEAST)
+    found |= {task: one for task, one in drawn.items() if task[0] in unmet}
     if out is not None:
-        _write(out, found)
+        _write(out, {(name, number): found[name, number] for name in names for number in range(ESTIMATES)})
     rows = [[found[name, number] for number in range(ESTIMATES)] for name in names]
-    return [Rare(name, Probability.of(np.array([one.probability for one in row])), sum(one.runs for one in row))
-            for name, row in zip(names, rows, strict=True)]
+    return [Rare(name, _probability(row), sum(one.runs for one in row)) for name, row in zip(names, rows, strict=True)]
 
 
-def estimate(shared: tuple[Scenario, Event, int], task: Task) -> Estimate:
+def _probability(estimates: Sequence[Estimate]) -> Probability:
+    """Of estimates; of such as have not met the event what as many independent draws without it allow (exact)."""
+    if any(one.probability for one in estimates):
+        return Probability.of(np.array([one.probability for one in estimates]))
+    return Probability(0.0, 0.0, 1.0 - 0.05 ** (1.0 / (SAMPLES * len(estimates))))
+
+
+def estimate(shared: tuple[Scenario, Event, int, float], task: Task) -> Estimate:
     """One estimate under one controller; every controller's estimates begin with the same draws."""
-    (scenario, event, seed), (name, number) = shared, task
+    (scenario, event, seed, least), (name, number) = shared, task
     drive, nominal, spread = prepared(scenario, name), setting_of(scenario), spreads(scenario)
 
     def of_run(point: Sequence[float]) -> float:
@@ -105,7 +130,7 @@ def estimate(shared: tuple[Scenario, Event, int], task: Task) -> Estimate:
         return np.array([of_run(point) for point in points.tolist()])
 
     generator = np.random.default_rng(np.random.SeedSequence(seed, spawn_key=(number,)))
-    return splitting(performance, len(spread), event.value, SAMPLES, generator)
+    return splitting(performance, len(spread), event.value, SAMPLES, generator, least)
 
 
 def _write(path: Path, found: dict[Task, Estimate]) -> None:

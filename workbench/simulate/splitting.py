@@ -28,8 +28,8 @@ DROPPED, MOVES = 0.75, 8
 # Lengths of steps are drawn between these, evenly in their logarithm. They depend on nothing: steps as long as the
 # points that are left lie apart would accept more, and would bring back a bias, of a tenth at 3e-7.
 LONGEST, SHORTEST = 1.0, 0.03
-# Below this nobody will see it: 0 is returned.
-LEAST = 1e-15
+# So deep is searched for an event that no point has met.
+LEAST = 1e-9
 
 
 @dataclass(frozen=True)
@@ -41,14 +41,17 @@ class Estimate:
 
 
 def splitting(performance: Performance, dimensions: int, beyond: float, samples: int,
-              generator: np.random.Generator) -> Estimate:
-    """The probability that the performance of a point drawn evenly from [-1, 1]^dimensions is above a value."""
+              generator: np.random.Generator, least: float = LEAST) -> Estimate:
+    """The probability that the performance of a point drawn evenly from [-1, 1]^dimensions is above a value.
+
+    least: the share of all points that is searched at last; with 1 points are drawn and counted, no more.
+    """
     points = generator.uniform(-1.0, 1.0, (samples, dimensions))
     values, runs, weight = performance(points), samples, 1.0
-    while weight > LEAST:
+    while weight > least:
         level = float(np.partition(values, round(samples * DROPPED) - 1)[round(samples * DROPPED) - 1])
         if level >= beyond:
-            return Estimate(weight * float(np.mean(values > beyond)), runs)
+            break
         left = np.flatnonzero(values > level)
         if not len(left):
             break
@@ -64,7 +67,7 @@ def splitting(performance: Performance, dimensions: int, beyond: float, samples:
             moving, worth = np.where(allowed[:, None], tried, moving), np.where(allowed, there, worth)
             runs += len(gone)
         points[gone], values[gone] = moving, worth
-    return Estimate(0.0, runs)
+    return Estimate(weight * float(np.mean(values > beyond)), runs)
 
 
 def _reflected(points: Array) -> Array:

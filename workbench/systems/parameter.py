@@ -40,7 +40,10 @@ def checked_value(symbol: sp.Symbol, value: Any, where: str) -> float:
     """A finite number that agrees with what sympy knows of the symbol's sign; ValueError otherwise."""
     if isinstance(value, bool | complex | str) or not isinstance(value, int | float | sp.Number | np.number):
         raise ValueError(f"{where} = {value!r} is no real number: give one")
-    number = float(value)
+    try:
+        number = float(value)
+    except OverflowError:  # an int of hundreds of digits
+        number = math.inf
     if not math.isfinite(number):
         raise ValueError(f"{where} = {number} is not finite: give a number")
     if (symbol.is_positive and number <= 0) or (symbol.is_nonnegative and number < 0):

@@ -27,6 +27,7 @@ from workbench.systems.symbols import (
     require_known,
     several,
     symbols_of,
+    written,
 )
 
 
@@ -229,7 +230,7 @@ class Plant:
                 raise ValueError(f"'{name}' is no state and no input of plant '{self.id}': name one of "
                                  f"{', '.join(point)}")
             if not is_finite(value):
-                raise ValueError(f"at: '{name}' = {value!r} is no finite number: give one")
+                raise ValueError(f"at: '{name}' = {written(value)} is no finite number: give one")
             point[str(name)] = float(value)
         return point
 

@@ -15,7 +15,7 @@ from workbench.systems.law import Reference
 from workbench.systems.metric import Metric
 from workbench.systems.plant import Plant
 from workbench.systems.signals import AnySignal, Constant, signal_of
-from workbench.systems.symbols import CLOCK, is_finite, named_values, require_known, several
+from workbench.systems.symbols import CLOCK, is_finite, named_values, require_known, several, written
 
 Array = NDArray[np.float64]
 Integrator = Literal["rk4", "radau", "bdf", "lsoda"]
@@ -58,9 +58,12 @@ class Setting:
         object.__setattr__(self, "step_s", self._step())
         for name in ("duration_s", "step_s"):
             if not (is_finite(getattr(self, name)) and getattr(self, name) > 0):
-                raise ValueError(f"{name} = {getattr(self, name)}: give a positive number of seconds")
+                raise ValueError(f"{name} = {written(getattr(self, name))}: give a positive number of seconds")
         if self.duration_s / self.step_s > MOST_STEPS:
             raise ValueError(f"duration_s / step_s is more than {MOST_STEPS}: take a longer step")
+        if self.duration_s < self.step_s:
+            raise ValueError(f"duration_s = {self.duration_s:g} is shorter than one step of {self.step_s:g} s: give "
+                             "more")
         self._check_integrator()
         object.__setattr__(self, "parameters", plant.values(self.parameters))
         outputs, inputs = [*map(str, plant.outputs)], [*map(str, plant.inputs)]
@@ -93,17 +96,18 @@ class Setting:
         for key in ("noise", "late_s", "lag_s", "delay_s", "initial"):
             for name, value in getattr(self, key).items():
                 if not is_finite(value) or (key != "initial" and value < 0):
-                    raise ValueError(f"{key}.{name} = {value}: give a finite number"
+                    raise ValueError(f"{key}.{name} = {written(value)}: give a finite number"
                                      f"{'' if key == 'initial' else ' that is not negative'}")
         if not isinstance(self.seed, int | np.integer) or isinstance(self.seed, bool) or self.seed < 0:
             raise ValueError(f"seed = {self.seed!r}: give a whole number that is not negative")
 
     def _step(self) -> float:
         own = self.plant.step_s
-        if own is not None and not math.isnan(self.step_s) and self.step_s != own:
-            raise ValueError(f"step_s = {self.step_s:g}: plant '{self.plant.id}' moves in steps of {own:g} s: leave it "
-                             "out")
-        return (own or A_MILLISECOND) if math.isnan(self.step_s) else self.step_s
+        unstated = isinstance(self.step_s, float) and math.isnan(self.step_s)
+        if own is not None and not unstated and self.step_s != own:
+            raise ValueError(f"step_s = {written(self.step_s)}: plant '{self.plant.id}' moves in steps of {own:g} s: "
+                             "leave it out")
+        return (own or A_MILLISECOND) if unstated else self.step_s
 
     def _check_integrator(self) -> None:
         if self.integrator not in get_args(Integrator):

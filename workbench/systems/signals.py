@@ -10,7 +10,7 @@ import io
 import math
 from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import Annotated, Literal
+from typing import Annotated, Any, Literal
 
 import numpy as np
 from numpy.typing import NDArray
@@ -20,6 +20,7 @@ from scipy.interpolate import CubicSpline
 from workbench.errors import InputError
 from workbench.files.text import read_text
 from workbench.files.toml import Number, Positive, Record, Text
+from workbench.systems.symbols import is_finite, written
 
 Array = NDArray[np.float64]
 # Kinds in a row of numbers: kind, offset, slope or height or amplitude, start or angular rate, phase, first piece, how
@@ -94,14 +95,14 @@ Signal = Annotated[Constant | Step | Ramp | Sine | Spline, Field(discriminator="
 AnySignal = Constant | Step | Ramp | Sine | Spline
 
 
-def signal_of(value: object, where: str) -> AnySignal:
+def signal_of(value: Any, where: str) -> AnySignal:
     """A signal, a number as one that is constant; ValueError naming `where` for anything else."""
     if isinstance(value, AnySignal):
         return value
-    if isinstance(value, int | float | np.number) and math.isfinite(value):
+    if is_finite(value):
         return Constant(value=float(value))
-    raise ValueError(f"{where} = {value} is no signal: give a number, Constant, Step, Ramp, Sine, or a Spline through "
-                     "points")
+    raise ValueError(f"{where} = {written(value)} is no signal: give a number, Constant, Step, Ramp, Sine, or a Spline "
+                     "through points")
 
 
 def read_signal(signal: AnySignal, folder: Path) -> AnySignal:

@@ -19,12 +19,12 @@ CLOCK = (time, period)
 
 def expression(value: Any, where: str) -> sp.Expr:
     """A real scalar expression without NaN, infinities and imaginary numbers; ValueError naming `where`."""
-    if isinstance(value, float | int) and not math.isfinite(value):
-        raise ValueError(f"{where} is {value}: give a finite number or an expression")
+    if isinstance(value, float | int) and not (isinstance(value, bool) or is_finite(value)):
+        raise ValueError(f"{where} is {written(value)}: give a finite number or an expression")
     try:
         found = sp.sympify(value, strict=True)
     except sp.SympifyError:
-        raise ValueError(f"{where} is {value!r}, no expression: give one of sympy, or a number") from None
+        raise ValueError(f"{where} is {written(value)}, no expression: give one of sympy, or a number") from None
     if not isinstance(found, sp.Expr):
         raise ValueError(f"{where} is a {type(found).__name__}, no scalar: give one expression each")
     if found.has(sp.nan, sp.zoo, sp.oo, -sp.oo):
@@ -35,8 +35,21 @@ def expression(value: Any, where: str) -> sp.Expr:
 
 
 def is_finite(value: Any) -> bool:
-    """Whether a value is one finite real number."""
-    return isinstance(value, int | float | np.number) and not isinstance(value, bool) and bool(np.isfinite(value))
+    """Whether a value is one finite real number that a float can hold."""
+    if isinstance(value, bool) or not isinstance(value, int | float | np.number):
+        return False
+    try:
+        return math.isfinite(value)
+    except (OverflowError, TypeError):  # an int of hundreds of digits; a complex number
+        return False
+
+
+def written(value: Any) -> str:
+    """A value in a message, as Python writes it; one with an int of thousands of digits by its type, for it refuses."""
+    try:
+        return repr(value)
+    except ValueError:
+        return f"a {type(value).__name__} of thousands of digits"
 
 
 def several(values: Any, where: str, of: type | None = None, write: str = "") -> tuple[Any, ...]:
@@ -106,8 +119,8 @@ def interval(limits: Any, where: str) -> Limits:
     try:
         low, high = limits
         low, high = -math.inf if low is None else float(low), math.inf if high is None else float(high)
-    except (TypeError, ValueError):
-        raise ValueError(f"{where} = {limits!r} is no pair of numbers: write (lower, upper)") from None
+    except (TypeError, ValueError, OverflowError):
+        raise ValueError(f"{where} = {written(limits)} is no pair of numbers: write (lower, upper)") from None
     if math.isnan(low) or math.isnan(high):
         raise ValueError(f"{where} holds NaN: write (lower, upper)")
     if low >= high:

@@ -9,6 +9,7 @@ from dataclasses import dataclass
 from pathlib import Path, PurePath
 
 from workbench.errors import InputError
+from workbench.files.regular import LARGEST_TEXT
 from workbench.files.text import read_text
 from workbench.files.writing import write_text, write_tree
 from workbench.paper.new_paper import new_folder
@@ -77,6 +78,9 @@ def write_from_source(name: str, directory: Path, source: Path) -> FromSource:
     rows = [entry for row in found.rows for entry in entries(row, found)]
     rows = _with_roles(_with_definitions(rows, found.text), found)
     letters = table_of(rows, found.text)
+    if len(rows_text(rows).encode()) > LARGEST_TEXT // 2:  # verdicts are added, and the table is read again
+        raise InputError(source, "", "becomes tables of more than 2 MiB, as where a macro writes itself many times "
+                         "over: leave out what is not mathematics, or give it in parts")
     write_tree(folder, {
         PurePath("paper.py"): PAPER.format(name=name).encode(), PurePath("claims/rows.py"): CLAIMS.encode(),
         PurePath(ROWS): rows_text(rows).encode(), PurePath(SYMBOLS): letters_text(letters).encode()}, REMEDY)

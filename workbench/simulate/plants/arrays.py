@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 
 from workbench.compile.kernel import loop_module
 from workbench.compile.vector_code import into_array, jump_step, runge_kutta_step, smallest
+from workbench.errors import CompileError
 from workbench.model.law import period, time
 from workbench.simulate.plants import plant_loop
 from workbench.simulate.plants.event_code import event_functions
@@ -55,9 +56,12 @@ class _Subject:
 def compiled(setting: Setting, law: StateLaw | None) -> Compiled:
     """The loop of a plant in a setting under a law; without one its law commands nothing and must not be called.
 
-    Raises CompileError for an expression that has no code.
+    Raises CompileError, which names both, for an expression that has no code.
     """
-    return _compiled(_Subject(setting, law))
+    try:
+        return _compiled(_Subject(setting, law))
+    except CompileError as trouble:
+        raise CompileError(f"plant '{setting.plant.id}'{f' under law {law.id!r}' if law else ''}: {trouble}") from None
 
 
 @lru_cache(maxsize=64)  # writing the code takes longer than many a run; the subject kept holds plant and law alive
