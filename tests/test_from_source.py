@@ -12,7 +12,7 @@ from workbench.paper.source import folder
 from workbench.paper.source.document import read_source
 from workbench.paper.source.folder import write_from_source
 from workbench.paper.source.letters import assumed_formulas, defined_in_text, values_and_rates
-from workbench.paper.source.lines import chained, system_lines, without_end
+from workbench.paper.source.lines import chained, on_condition_around, system_lines, without_end
 from workbench.paper.source.macros import SourceError, expanded
 from workbench.proof.latex.rows import ROWS, SYMBOLS, LettersFile, RowsFile, load_record
 from workbench.proof.latex.symbols import SymbolsFile, symbols_in
@@ -38,8 +38,7 @@ def verdicts_of(folder):
 def test_every_numbered_piece_is_a_row_with_latex_s_number_in_the_paper_s_order(written):
     assert [*rows_of(written.folder)] == [
         "1.1a", "1.1b", "assumption1", "1.2", "2.1", "2.2", "2.3", "A1", "2.4", "2.5.case1", "2.5.case2", "2.6",
-        "theorem1", "lemma2", "remark"]
-    assert written.unnumbered == 1
+        "theorem1", "lemma2", "remark", "display1"]
     titles = [row.title for row in rows_of(written.folder).values() if row.role == "words"]
     assert titles == ["Assumption 1: bounded disturbance", "Theorem 1", "Lemma 2", "Remark"]
 
@@ -77,7 +76,7 @@ def test_what_has_its_letters_is_decided_at_once_and_the_rest_says_what_is_missi
     assert "z is: fill in kind" in written.missing["2.6"]
     assert "words" in written.missing["theorem1"]
     assert {row.id: row.recorded for row in rows_of(written.folder).values() if row.role == "claim"} == {
-        row: written.verdicts[row] for row in ("2.3", "A1", "2.4", "2.5.case1", "2.5.case2", "2.6")}
+        row: written.verdicts[row] for row in ("2.3", "A1", "2.4", "2.5.case1", "2.5.case2", "2.6", "display1")}
 
 
 def test_a_letter_filled_in_lets_its_row_be_decided_and_an_assumption_counts_where_it_is_named(written, tmp_path):
@@ -118,14 +117,17 @@ def test_the_command_says_what_was_found(tmp_path):
     assert "roe2029:4  proved" in answer.stdout and "roe2029:theorem1  not decided: " in answer.stdout
     assert "exists already" in one_line(run("new-paper", "roe2029", "--from", "twisting.tex", folder=tmp_path))
     (tmp_path / "empty.tex").write_text("nothing")
-    assert "no numbered equation" in one_line(run("new-paper", "poe2029", "--from", "empty.tex", folder=tmp_path))
+    assert "no displayed formula" in one_line(run("new-paper", "poe2029", "--from", "empty.tex", folder=tmp_path))
     assert not (tmp_path / "poe2029").exists()
 
 
 @pytest.mark.parametrize(("text", "plain"), [
     (r"\newcommand{\al}{\alpha}\al x", r"\alpha x"), (r"\newcommand\f[2][a]{#1+#2}\f{b} \f[c]{d}", "a+b c+d"),
     (r"\def\g#1{\hat{#1}}\g x", r"\hat{x}"), (r"\newcommand{\a}{\b}\newcommand{\b}{1}\a", "1"),
-    (r"\providecommand{\a}{2}\a \% % gone", r"2 \% % gone")])
+    (r"\providecommand{\a}{2}\a \% % gone", r"2 \% % gone"), (r"\let\e=\varepsilon\e x", r"\varepsilon x"),
+    (r"\DeclarePairedDelimiter\n{\lVert}{\rVert}\n{x} \n*{y} \n[\big]{z}",
+     r"\lVert x\rVert \lVert y\rVert \lVert z\rVert"),
+    (r"\newenvironment{e}{\begin{equation}}{\end{equation}}\begin{e}x\end{e}", r"\begin{equation}x\end{equation}")])
 def test_macros(text, plain):
     assert expanded(text) == plain
 
@@ -167,7 +169,7 @@ def test_what_is_put_into_other_files_is_read_and_a_line_without_a_number_stands
     (tmp_path / "body.tex").write_text(BODY)
     (tmp_path / "main.tex").write_text(PARTS)
     rows = rows_of(write_from_source("noe2029", tmp_path, tmp_path / "main.tex").folder)
-    assert list(rows) == ["assumption1", "1a", "1b", "2", "3", "4"]
+    assert list(rows) == ["assumption1", "1a", "1b", "2", "display1", "3", "4"]
     assert (rows["3"].printed, rows["4"].printed) == (r"x^2 \ge 0", r"a \le b \le c")
 
 
@@ -254,7 +256,8 @@ def test_what_holds_at_all_times_is_no_condition(text):
 
 @pytest.mark.parametrize("text", [
     "If $x > 0$ then $y > x$.", "For every $x$ there exists $y$ such that $y > x$.", "Either $x = y$ or $x = z$.",
-    "For all $x > y$ it is smooth.", r"$x \ge y \Rightarrow z = y$", "The gain $k > 0$ is large.", r"$x \in X$"])
+    "For all $x > y$ it is smooth.", r"$x \ge y \Rightarrow z = y$", "The gain $k > 0$ is large.", r"$x \in X$",
+    r"It holds that $f \ge x$ for $x > 0$.", r"$f \ge x$ on $x \in [0, 1]$.", "We have $y = x$ for each $x > 1$."])
 def test_no_formula_is_assumed_that_a_text_ties_to_a_condition_or_that_says_a_sign_alone(text):
     assert not [*assumed_formulas(text)]
 
@@ -301,3 +304,51 @@ def test_rates_of_other_letters_within_a_rate_are_put_in():
 def test_a_rate_that_is_not_known_within_another_is_named(flow, inputs, words):
     with pytest.raises(InputError, match=words):
         with_rates(flow, inputs=inputs)
+
+
+@pytest.fixture(scope="module")
+def observer(tmp_path_factory):
+    return write_from_source("observer2029", tmp_path_factory.mktemp("observer"), SOURCES / "observer.tex")
+
+
+def test_no_displayed_formula_is_lost_whether_it_has_a_number_or_not(observer):
+    r"""IEEEeqnarray, dmath, \[, $$, starred environments, an author's own ones; not what \iffalse leaves out."""
+    rows = rows_of(observer.folder)
+    one, two, *shown = [f"display{number}" for number in range(1, 16)]
+    assert list(rows) == ["1", one, "2", "standing-assumption1", "3", two, "4", *shown[:5], "5", *shown[5:9],
+                          "example1", shown[9], "theorem1", *shown[10:12], "remark1", shown[12]]
+    assert rows["display3"].printed.count(r"\le") == 2 and rows["display1"].role == rows["2"].role == "dynamics"
+    assert rows["theorem1"].rests_on == ("standing-assumption1", "4", "display13")
+    assert {row for row, verdict in observer.verdicts.items() if verdict == "proved"} == {
+        "display3", "display4", "display8", "display9", "display14"}
+    assert {row for row, verdict in observer.verdicts.items() if verdict == "refuted"} == {"display6", "display10"}
+    assert "a matrix is not read" in observer.missing["5"]
+    assert "an integral is not read" in observer.missing["display11"]
+
+
+def test_what_a_sentence_says_on_a_condition_of_an_example_or_as_a_correction_is_left_to_the_author(observer):
+    rows = rows_of(observer.folder)
+    assert {row for row in rows if rows[row].role == "words"} == {
+        "standing-assumption1", "display5", "display7", "example1", "display12", "theorem1", "remark1", "display15"}
+    assert rows["3"].role == "assumption" and rows["4"].role == rows["display2"].role == "definition"
+
+
+@pytest.mark.parametrize(("before", "display", "behind", "tied"), [
+    ("It holds. If $x > 0$, then", "y", "", True), ("If we choose the law, then", "y", "", False),
+    ("Thus", "y", r" for all $x \ne 0$.", True), ("Thus", "y", r" for all $t \ge 0$.", False),
+    ("Thus", "y .", "for $x > 0$ more holds.", False), ("Thus", "y", ". For $x > 0$ more holds.", False),
+    (r"If $x > 0$, this is clear. Thus", "y", "", False), (r"The law (3) should read", "y", "", True),
+    (r"With gains $k > 0$ we have", "y", r", where $k = 2$", False), ("Suppose that $x = 0$. Then", "y", "", True),
+    ("The bound", "y", "does not hold.", True), (r"Thus", "y", r"for all $x \in \mathbb{R}^n$.", False)])
+def test_which_sentence_ties_a_display_to_a_condition(before, display, behind, tied):
+    assert on_condition_around(before, display, behind) is tied
+
+
+def test_a_formula_without_a_number_defines_only_what_nothing_else_does(tmp_path):
+    (tmp_path / "s.tex").write_text(r"""Let $x, y \in \mathbb{R}$. \[ V = x^4 \] \begin{equation} V = x^2 \end{equation}
+        \begin{proof} \[ W = y \] \end{proof} \begin{align*} U &= x^2 \\ & + 1, \\ U &\ge 1, \\ U &> y \end{align*}""")
+    found = write_from_source("p2029", tmp_path, tmp_path / "s.tex")
+    assert {row.id: (row.role, row.printed) for row in rows_of(found.folder).values()} == {
+        "display1": ("claim", "V = x^4"), "1": ("definition", "V = x^2"), "display2": ("claim", "W = y"),
+        "display3": ("definition", "U = x^2 + 1"), "display4": ("claim", r"U \ge 1"), "display5": ("claim", "U > y")}
+    assert (found.verdicts["display4"], found.verdicts["display5"]) == ("proved", "refuted")

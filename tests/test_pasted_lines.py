@@ -104,6 +104,7 @@ def test_what_can_be_read_in_two_ways_or_in_none_is_refused_in_one_line(symbols)
 
 @pytest.mark.parametrize("line", [
     r"|v^T W| \le \|v\| \|W\|", r"\|v + W\| \le \|v\| + \|W\|", "|x y| = |x||y|", r"\frac1x \le x \text{ for } x \ge 1",
-    r"x \ge 2 \Rightarrow \frac{\ln x}{x - 1} \ge 0", r"|x + y| \le |x| + |y|", r"\dot V \le -k x^2 + x w"])
+    r"x \ge 2 \Rightarrow \frac{\ln x}{x - 1} \ge 0", r"|x + y| \le |x| + |y|",
+    r"1/\sqrt{1 + w^2} \le 1", r"\dot V \le -k x^2 + x w"])
 def test_what_control_papers_use_is_proved(symbols, line):
     assert answer(line, symbols).decision.verdict == "proved"

@@ -45,6 +45,8 @@ FALSE: dict[str, Callable[[], Goal]] = {
     "a half power": lambda: Goal((equal(x**R(3, 2)*x**R(1, 2), x**2),)),
     "a half power of a square": lambda: Goal((equal((x**2)**R(3, 2), x**3),)),
     "a negative half power": lambda: Goal((greater(x**R(-1, 2), 0),), (at_least(x, 0),)),
+    "a root below a fraction bar": lambda: Goal((at_most(1/sq(1 + x**2), R(9, 10)),)),
+    "a root of what may be negative": lambda: Goal((at_most(1/sq(1 + x**3), 1),)),
     "an exponential's half": lambda: Goal((equal(sq(e(2*x)), e(-x)),)),
     # quadratic forms: x = 1, y = -1 or a = b = 1, r = 2, or on the edge
     "minors of another sign": lambda: Goal((at_least(FORM, 0),), (at_least(a*b, r**2),)),

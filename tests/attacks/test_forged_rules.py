@@ -44,6 +44,9 @@ def falls(function, decrease, then):
     return {"rule": "nonincreasing", "function": function, "decrease": decrease, "then": then}
 
 
+REST = {"x": "0", "y": "0", "t": "0"}
+CLOCK = {"flow": {"x": "1", "t": "1"}, "initial": {"x": "0", "t": "0"}}
+FALLING = {"flow": {"x": "y", "y": "-1", "t": "1"}, "initial": REST}
 ONE, FIRST = add(("1", [])), add(("1", [{"assume": 0}]))
 BOTH = {"nonnegative": IDENTITY, "nonpositive": IDENTITY}
 SIGNS = {"negative": IDENTITY, "positive": IDENTITY, "zero": IDENTITY}
@@ -130,6 +133,15 @@ FORGED = {
         "x": "y", "y": "0"}, example={"x": "0", "y": "0"}),
     "a sign as a rate": of("abs(x) <= 0", falls("x**2", add(("2", [{"fact": "abs_nonnegative", "of": "x"}])), IDENTITY),
                            flow={"x": "sign(x)"}, initial={"x": "0"}, example={"x": "0"}),
+    # an example whose motion breaks at once what always holds: of no motion anything would follow
+    "an equality that is left": of("t**2 <= 0", falls("x**2", add(("-2", [{"assume": 0}])), falls(
+        "t**2/2 - x*t", add(("1", [{"assume": 1}])), add(
+            ("4", [{"assume": 1}]), ("1", [{"square": "t - 2*x"}]), ("4", [{"assume": 0}])))), example=REST, **CLOCK,
+                                   always=["x == 0"]),
+    "left at the second rate": of("y**2 >= 0", add(("1", [{"square": "y"}])), example=REST, always=["x >= 0"],
+                                  **FALLING),
+    "left at the third rate": of("y**2 >= 0", add(("1", [{"square": "y"}])), example=REST, always=["x >= 0"], **(
+        FALLING | {"flow": {"x": "-y**2", "y": "1", "t": "1"}})),
     # no rule
     "on trust": of("x >= 0", {"rule": "trust"}), "a list of rules": of("x >= 0", {"rule": ["identity"]}),
 }
@@ -151,6 +163,10 @@ def test_what_does_not_follow_is_refused(name):
     of("x >= 0", contra(("1", [{"assume": 0}]), ("1", [{"assume": 1}])), "x > 0"),
     of("exp(x) - 1 >= 0", monotone("0", fact("exp_positive", of="x"), IDENTITY), "x >= 0"),
     of("x <= 0", falls("x", ONE, FIRST), flow={"x": "-1"}, initial={"x": "0"}, example={"x": "0"}),
+    of("y**2 >= 0", add(("1", [{"square": "y"}])), example=REST, always=["x >= 0"], initial=REST,
+       flow={"x": "y", "y": "1", "t": "1"}),
+    of("y**2 + 1 > 0", add(("1", [{"square": "y"}]), ("1", [])), example=REST, always=["x == 0"], initial=REST,
+       flow={"x": "x*y", "y": "1", "t": "1"}),
     of("log(y) == log(y) + 0", cut("y > 0", add(("1", [{"assume": 0}]), ("1", [{"assume": 1}])), IDENTITY), "x > 0",
        "y - x >= 0"),
 ], ids=lambda honest: honest["goal"]["show"][0])

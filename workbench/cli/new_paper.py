@@ -43,8 +43,6 @@ def _from_source(name: str, directory: Path, source: Path) -> None:
              + ", ".join(f"{count} {verdict}" for verdict, count in counts.items())]
     lines += [f"{name}:{row}  {verdict}" for row, verdict in found.verdicts.items() if row not in found.missing]
     lines += [f"{name}:{row}  not decided: {why}" for row, why in found.missing.items()]
-    if found.unnumbered:
-        lines.append(f"{found.unnumbered} displayed formulas without a number are no rows")
     lines.append(f"to go on: fill in {found.folder / SYMBOLS}, then workbench prove {found.folder}")
     for line in lines:
         out_console.print(line, soft_wrap=True, highlight=False)

@@ -30,7 +30,7 @@ from functools import lru_cache
 from pathlib import Path
 from typing import Any
 
-MOST_TERMS = 16  # of the sums at a point
+MOST_TERMS, MOST_RATES = 16, 8  # of the sums at a point; of what always holds, at the first instant
 SUM = "Sum()"  # the formal sum over the index: a product SUM * term means the sum of the terms
 TOTAL = "total"  # the kind of an atom that is the sum of a term, a number like any other
 OPERATORS = ("<=", ">=", "==", "!=", "<", ">")
@@ -1212,13 +1212,31 @@ def _check_example(goal: dict[str, Any], context: Context, given: Relations, cer
         if not same(point[name], start_at(context, value, point, None)):
             raise CertificateError(f"the example is no instant of a motion: {name} is not where it starts, and no path "
                                    "leads there")
-    for text in given.always if given.initial else ():
-        value, operator = margin(context, text)
-        if operator != ">=" or symbols_of(context, value) & context.inputs:  # an input may turn the motion back
-            continue
-        if bounds(context, substitute(context, value, point)) == (0, 0) and bounds(
-                context, substitute(context, context.derivative(value, context.flow), point))[1] < 0:
+    lasting = given.always if given.initial else []
+    if lasting and all(bounds(context, substitute(context, rate, point)) == (0, 0) for rate in context.flow.values()):
+        return  # the motion rests there
+    for text in lasting:
+        if _leaves_at_once(context, *margin(context, text), point):
             raise CertificateError(f"the example's motion breaks at once what always holds: {text}")
+
+
+def _leaves_at_once(context: Context, value: Ratio, operator: str, point: dict[str, Ratio]) -> bool:
+    """Whether a relation that holds at a point fails right after it, by the first of its rates that is not zero; also
+    where so many are zero that it is not told. An input may turn the motion back."""
+    rate = value
+    for order in range(MOST_RATES if operator in (">=", "==") else 0):
+        if symbols_of(context, rate) & context.inputs:
+            return False
+        low, high = bounds(context, substitute(context, rate, point))
+        if (low, high) != (0, 0):
+            return order > 0 and (high < 0 or (operator == "==" and low > 0))
+        try:
+            below, rate = rate, context.derivative(rate, context.flow)
+        except CertificateError:  # of a size or a sign
+            return False
+        if rate.is_zero() or (rate.den == below.den == ONE and divide_exactly(rate.num, below.num) is not None):
+            return False  # a rate that is a multiple of the value: what is zero stays zero
+    return operator in (">=", "==")
 
 
 def _require_met(context: Context, goal: dict[str, Any], point: dict[str, Ratio], certificate: dict[str, Any],

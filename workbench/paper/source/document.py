@@ -4,21 +4,34 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 
-from workbench.paper.source.lines import chained, goes_on, without_end
+from workbench.paper.source.lines import chained, goes_on, on_condition_around, without_end
 from workbench.paper.source.macros import SourceError, expanded, group, optional, without_comments
+from workbench.paper.source.row import Row, resolve
+from workbench.proof.latex.rows import is_assumption
 
-DISPLAYS = ("equation", "align", "gather", "multline", "eqnarray", "flalign", "alignat")
+DISPLAYS = ("equation", "align", "gather", "multline", "eqnarray", "flalign", "alignat", "IEEEeqnarray", "dmath",
+            "displaymath")
+WHOLE = ("equation", "multline", "dmath", "displaymath")  # one formula, however many lines it has
+UNNUMBERED = "display1"  # the id of the first formula without a number
+WITH_ARGUMENT = ("alignat", "IEEEeqnarray")
 SKIPPED = ("verbatim", "lstlisting", "comment", "thebibliography", "tikzpicture")
 # Environments that styles define without \newtheorem in the source.
 USUAL = {"theorem": "Theorem", "lemma": "Lemma", "assumption": "Assumption", "remark": "Remark",
-         "definition": "Definition", "proposition": "Proposition", "corollary": "Corollary", "property": "Property"}
-_MARK = re.compile(r"\\(begin|end|section|appendix|eqref|[cC]ref|autoref|ref|label|setcounter)(?![A-Za-z])\*?")
+         "definition": "Definition", "proposition": "Proposition", "corollary": "Corollary", "property": "Property",
+         "example": "Example"}
+PROOFS = ("proof", "IEEEproof", "pf")
+_MARK = re.compile(r"\\(begin|end|section|appendix|eqref|[cC]ref|autoref|ref|label|setcounter)(?![A-Za-z])\*?"
+                   r"|(?<!\\)(?:\\\[|\$\$)")
 _LABEL = re.compile(r"\\label\s*\{([^{}]*)\}")
 _TAG = re.compile(r"\\tag\*?\s*\{([^{}]*)\}")
-_UNNUMBERED = re.compile(r"\\(?:nonumber|notag)(?![A-Za-z])")
+_UNNUMBERED = re.compile(r"\\(?:nonumber|notag|IEEEnonumber)(?![A-Za-z])")
+_LAYOUT = re.compile(r"\\(?:IEEEyesnumber|IEEEeqnarraynumspace|displaybreak)(?![A-Za-z])\*?"
+                     r"|\\(?:short)?intertext\s*\{[^{}$]*\}")
+_PARENTHESIS = re.compile(r"(?<!\\)\\[()]")  # another way to type a dollar sign
 _NEWTHEOREM = re.compile(r"\\newtheorem(\*?)\s*\{([^{}]*)\}\s*(?:\[([^\]]*)\])?\s*\{([^{}]*)\}\s*(?:\[([^\]]*)\])?")
+_LEFT_OUT = re.compile(r"\\iffalse(?![A-Za-z]).*?\\fi(?![A-Za-z])", re.DOTALL)
 _WITHIN = re.compile(r"\\numberwithin\s*\{equation\}\s*\{section\}")
 _REFERENCE = re.compile(r"\\(?:eqref|[cC]ref|autoref|ref)\s*\{([^{}]*)\}")
 _SPLIT = re.compile(r"\\\\(?:\s*\[[^\]]*\])?")
@@ -27,55 +40,33 @@ _NESTED = re.compile(r"\\(begin|end)\s*\{[^{}]*\}|[{}]|\\.", re.DOTALL)
 
 
 @dataclass
-class Row:
-    """A numbered piece of a paper: its id, what it is ("Equation", "Lemma", ...), number, LaTeX as printed, label.
-
-    line: what is read instead, where it goes on from the row before it. within: the id of the theorem or assumption
-    in whose text an equation stands; referred: labels that its text, the text before it, or its proof refers to.
-    """
-
-    id: str
-    what: str
-    number: str
-    printed: str
-    labels: tuple[str, ...] = ()
-    title: str = ""
-    line: str = ""
-    within: str = ""
-    referred: list[str] = field(default_factory=list)
-    rests_on: tuple[str, ...] = ()
-
-
-@dataclass
 class Source:
-    """What was found: rows in order, the running text for what it says of letters, and how many displayed formulas
-    have no number."""
+    """What was found: rows in order, and the running text for what it says of letters."""
 
     rows: list[Row]
     text: str
-    unnumbered: int
 
 
 def read_source(text: str) -> Source:
     """The rows of a LaTeX source; raises SourceError in one line for what is not closed or has no rows."""
-    plain = expanded(without_comments(text))
+    plain = _PARENTHESIS.sub("$", expanded(_LEFT_OUT.sub("", without_comments(text))))
     begin = plain.find(r"\begin{document}")
     preamble, body = (plain[:begin], plain[begin + 16:]) if begin >= 0 else (plain, plain)
     end = body.find(r"\end{document}")
     reader = _Reader(preamble, body if end < 0 else body[:end])
     reader.read()
-    _resolve(reader)
+    resolve(reader.rows, reader.group_labels)
     if not reader.rows:
-        raise SourceError("the source has no numbered equation, assumption, theorem or remark: give the paper's own "
+        raise SourceError("the source has no displayed formula, assumption, theorem or remark: give the paper's own "
                           "file, with what it inputs put in")
-    return Source(reader.rows, reader.body, reader.unnumbered)
+    return Source(reader.rows, reader.body)
 
 
 class _Reader:
     """Walks through the source once, counting as LaTeX does."""
 
     def __init__(self, preamble: str, body: str) -> None:
-        self.body, self.unnumbered = body, 0
+        self.body, self.proving = body, False
         self.rows: list[Row] = []
         self.by_section = _WITHIN.search(preamble) is not None
         self.names: dict[str, tuple[str, str, bool]] = {}  # environment -> name, counter, within sections
@@ -98,7 +89,11 @@ class _Reader:
         while (found := _MARK.search(self.body, at, end)) is not None:
             at = found.end()
             word = found[1]
-            if word == "section" and not found.group().endswith("*"):
+            if word is None:
+                close = self._closing(found.group(), at, end)
+                self._equations("equation", self.body[at:close], within, (found.start(), close + 2), numbered=False)
+                at = close + 2
+            elif word == "section" and not found.group().endswith("*"):
                 self.section += 1
                 if self.by_section:
                     self.counts["equation"] = 0
@@ -129,17 +124,25 @@ class _Reader:
             return close
         base = name.removesuffix("*")
         if base in DISPLAYS:
-            inside = self.body[group(self.body, at)[1] if base == "alignat" else at:close]
-            if base != name:
-                self.unnumbered += 1
-            else:
-                self._equations(base, inside, within)
+            start = optional(self.body, at)[1] if base == "IEEEeqnarray" else at
+            inside = self.body[group(self.body, start)[1] if base in WITH_ARGUMENT else start:close]
+            around = (self.body.rfind("\\begin", 0, at), self.body.find("}", close) + 1)
+            self._equations(base, inside, within, around, numbered=base == name != "displaymath")
             return close
         if base in self.names:
             self._theorem(base, name != base, at, close)
-        elif name == "proof":
+        elif base in PROOFS:
             self._proof(at, close)
-        return close if base in self.names or name == "proof" else at
+        return close if base in self.names or base in PROOFS else at
+
+    def _closing(self, opening: str, at: int, end: int) -> int:
+        r"""Where a formula that \\[ or $$ opens is closed."""
+        closing = r"\]" if opening == r"\[" else "$$"
+        found = self.body.find(closing, at, end)
+        if found < 0:
+            line = self.body.count("\n", 0, at) + 1
+            raise SourceError(f"{opening} in line {line} of the document's body has no end")
+        return found
 
     def _close(self, name: str, at: int, end: int) -> int:
         r"""Where the environment that has just begun ends, at its \\end."""
@@ -171,31 +174,38 @@ class _Reader:
             return self.parent + chr(ord("a") + self.part - 1)
         return self._counted("equation", self.by_section)
 
-    def _equations(self, name: str, text: str, within: str) -> None:
-        lines = [text] if name in ("equation", "multline") else _lines(text)
-        carried = ""
+    def _equations(self, name: str, text: str, within: str, around: tuple[int, int], numbered: bool) -> None:
+        """The rows of a display; around: where it begins and ends in the body."""
+        lines = [text] if name in WHOLE else _lines(text)
+        carried, labels = "", ()
         before = len(self.rows)
-        for line in lines:
-            if not line.strip():
-                continue
-            if carried and not goes_on(carried, _clean(line)):
-                carried, self.unnumbered = "", self.unnumbered + 1
-            printed = _joined(carried, _clean(line))
-            tag = _TAG.search(line)
-            if tag is None and _UNNUMBERED.search(line):
-                carried = printed
-                continue
-            carried = ""
-            number = tag[1].strip() if tag else self._equation_number()
+        conditional = on_condition_around(self.body[:around[0]], text, self.body[around[1]:])
+
+        def add(number: str, printed: str, labels: tuple[str, ...], referred: list[str]) -> None:
             last = self.rows[-1] if len(self.rows) > before else None
             chain = chained(last.line or last.printed, printed) if last else ""
-            self._add(Row(_id(number), "Equation", number, printed, tuple(_LABEL.findall(line)), within=within,
-                          line=chain, referred=self.pending + _references(line)))
+            self._add(Row(_id(number) if number else UNNUMBERED, "Equation", number, printed, labels, within=within,
+                          line=chain, referred=self.pending + referred, conditional=conditional,
+                          aside=bool(within) or self.proving))
             self.pending = []
+
+        for line in lines:
+            if not _clean(line):
+                continue
+            if carried and not goes_on(carried, _clean(line)):
+                add("", carried, labels, [])
+                carried, labels = "", ()
+            printed, labels = _joined(carried, _clean(line)), (*labels, *_LABEL.findall(line))
+            tag = _TAG.search(line)
+            if tag is None and (_UNNUMBERED.search(line) or not (numbered or "IEEEyesnumber" in line)):
+                carried = printed
+                continue
+            add(tag[1].strip() if tag else self._equation_number(), printed, labels, _references(line))
+            carried, labels = "", ()
         if carried and len(self.rows) > before and goes_on(self.rows[-1].printed, carried):
             self.rows[-1].printed = _joined(self.rows[-1].printed, carried)
         elif carried:
-            self.unnumbered += 1
+            add("", carried, labels, [])
 
     def _theorem(self, base: str, starred: bool, at: int, close: int) -> None:
         what, counter, by_section = self.names[base]
@@ -213,44 +223,21 @@ class _Reader:
         named, begin = optional(self.body, at)
         of = _references(named or "")
         owner = next((row for row in self.rows if set(row.labels) & set(of)), None) or next(
-            (row for row in reversed(self.rows) if row.what not in ("Equation", "Remark", "Assumption")), None)
+            (row for row in reversed(self.rows)
+             if row.what not in ("Equation", "Remark") and not is_assumption(row.what)), None)
         if owner is not None:
             owner.referred += _references(self.body[begin:close])
-        self.pending = []
+        self.pending, self.proving = [], True
         self._walk(begin, close, "")
-        self.pending = []
+        self.pending, self.proving = [], False
 
     def _add(self, row: Row) -> None:
         taken = {one.id for one in self.rows}
         number, base = 2, row.id
         while row.id in taken:
-            row.id, number = f"{base}-{number}", number + 1
+            row.id = f"display{number}" if base == UNNUMBERED else f"{base}-{number}"
+            number += 1
         self.rows.append(row)
-
-
-def _resolve(reader: _Reader) -> None:
-    """Labels become ids; a row rests on earlier rows, a theorem on what its proof names as well, never in a circle."""
-    ids = {label: [row.id] for row in reader.rows for label in row.labels} | reader.group_labels
-    chains: dict[str, set[str]] = {}
-
-    def reaches(start: str, goal: str) -> bool:
-        seen, left = set(), [start]
-        while left:
-            one = left.pop()
-            if one == goal:
-                return True
-            if one not in seen:
-                seen.add(one)
-                left += chains.get(one, ())
-        return False
-
-    for row in reader.rows:
-        found: list[str] = []
-        for one in (one for label in row.referred for one in ids.get(label, ())):
-            if one not in found and not reaches(one, row.id):
-                found.append(one)
-        row.rests_on = tuple(found)
-        chains[row.id] = set(found)
 
 
 def _lines(text: str) -> Iterator[str]:
@@ -273,7 +260,7 @@ def _lines(text: str) -> Iterator[str]:
 
 def _clean(line: str) -> str:
     """A line without what numbers and aligns it; what stands in an inner environment stays as it is."""
-    for pattern in (_LABEL, _TAG, _UNNUMBERED):
+    for pattern in (_LABEL, _TAG, _UNNUMBERED, _LAYOUT):
         line = pattern.sub("", line)
     inner = [found.span() for found in _INNER.finditer(line)]
     kept = "".join(sign for at, sign in enumerate(line)

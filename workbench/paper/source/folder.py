@@ -13,7 +13,7 @@ from workbench.files.regular import LARGEST_TEXT
 from workbench.files.text import read_text
 from workbench.files.writing import write_text, write_tree
 from workbench.paper.new_paper import new_folder
-from workbench.paper.source.document import Row, Source, read_source
+from workbench.paper.source.document import Source, read_source
 from workbench.paper.source.letters import (
     assumed_formulas,
     defined_in_text,
@@ -23,7 +23,8 @@ from workbench.paper.source.letters import (
 )
 from workbench.paper.source.lines import continues, system_lines
 from workbench.paper.source.macros import SourceError, without_comments
-from workbench.proof.latex.rows import ROWS, SYMBOLS, LetterEntry, Role, RowEntry, text_of
+from workbench.paper.source.row import Row
+from workbench.proof.latex.rows import ROWS, SYMBOLS, LetterEntry, Role, RowEntry, is_assumption, text_of
 from workbench.proof.latex.sides import letters_of_text, moving_sides, sides_of
 from workbench.proof.prove import prove
 from workbench.proof.selection import targets
@@ -57,12 +58,11 @@ state_rows(paper, Path(__file__).parents[1])
 
 @dataclass(frozen=True)
 class FromSource:
-    """What was written: the folder, the verdict of each row, why rows are not decided, formulas without number."""
+    """What was written: the folder, the verdict of each row, why rows are not decided."""
 
     folder: Path
     verdicts: Mapping[str, str]
     missing: Mapping[str, str]
-    unnumbered: int
 
 
 def write_from_source(name: str, directory: Path, source: Path) -> FromSource:
@@ -75,8 +75,9 @@ def write_from_source(name: str, directory: Path, source: Path) -> FromSource:
         found = read_source(_with_inputs(read_text(source, "LaTeX"), source))
     except SourceError as trouble:
         raise InputError(source, "", str(trouble)) from None
-    rows = [entry for row in found.rows for entry in entries(row, found)]
-    rows = _with_roles(_with_definitions(rows, found.text), found)
+    made = [(row, entry) for row in found.rows for entry in entries(row, found)]
+    rows = _with_roles(_with_definitions([entry for _, entry in made], found.text),
+                       {entry.id: row for row, entry in made if row.what == "Equation" and not row.number})
     letters = table_of(rows, found.text)
     if len(rows_text(rows).encode()) > LARGEST_TEXT // 2:  # verdicts are added, and the table is read again
         raise InputError(source, "", "becomes tables of more than 2 MiB, as where a macro writes itself many times "
@@ -90,7 +91,7 @@ def write_from_source(name: str, directory: Path, source: Path) -> FromSource:
                 for row in rows]
     write_text(folder / ROWS, rows_text(recorded), REMEDY)
     return FromSource(folder, verdicts, {d.claim.equation: d.method for d in decided.decisions
-                                         if d.verdict == "undecided"}, found.unnumbered)
+                                         if d.verdict == "undecided"})
 
 
 def _with_inputs(text: str, source: Path, depth: int = 0) -> str:
@@ -110,8 +111,10 @@ def _with_inputs(text: str, source: Path, depth: int = 0) -> str:
 
 def entries(row: Row, source: Source) -> list[RowEntry]:
     """A row as it stands in the table; a formula of cases is one row for each case, under its condition."""
-    title = f"{row.what} {row.number}".strip() + (f": {row.title}" if row.title else "")
-    assumed = {one.id: one.printed for one in source.rows if one.what == "Assumption"}
+    title = f"{row.what} {row.number or 'without a number'}" if row.what == "Equation" else (
+        f"{row.what} {row.number}".strip() + (f": {row.title}" if row.title else ""))
+    assumed = {one.id: one.printed for one in source.rows if is_assumption(one.what)}
+    examples = {one.id for one in source.rows if "example" in one.what.lower()}
     whole = RowEntry(id=row.id, title=title, role="claim", printed=row.printed or row.what,
                      line=row.line or None, rests_on=row.rests_on,
                      severity="result" if row.what in ("Theorem", "Corollary", "Proposition") else "step")
@@ -119,12 +122,14 @@ def entries(row: Row, source: Source) -> list[RowEntry]:
         inside = tuple(one.id for one in source.rows if one.within == row.id)
         formulas = [whole.model_copy(update={"id": f"{row.id}.formula{number}", "title": f"{title}, formula {number}",
                                              "role": "assumption", "printed": formula, "rests_on": ()})
-                    for number, formula in enumerate(assumed_formulas(row.printed), 1) if row.what == "Assumption"]
+                    for number, formula in enumerate(assumed_formulas(row.printed), 1) if is_assumption(row.what)]
         rests = tuple(dict.fromkeys((*row.rests_on, *(one.id for one in formulas),
                                      *(one for one in inside if row.id not in _of(source, one)))))
         return [whole.model_copy(update={"role": "words", "rests_on": rests}), *formulas]
     if row.within in assumed:
         return [whole.model_copy(update={"role": "words" if on_condition(assumed[row.within]) else "assumption"})]
+    if row.conditional or row.within in examples:  # of fewer values than the line by itself speaks of
+        return [whole.model_copy(update={"role": "words"})]
     for what, parts in (("line", system_lines(row.printed)), ("case", _cases(row.printed))):
         if parts:
             return [whole.model_copy(update={"id": f"{row.id}.{what}{number}", "title": f"{title}, {what} {number}",
@@ -161,8 +166,11 @@ def _with_definitions(rows: list[RowEntry], text: str) -> list[RowEntry]:
               for number, one in enumerate(used, 1)), *rows]
 
 
-def _with_roles(rows: list[RowEntry], source: Source) -> list[RowEntry]:
-    """The first line that gives a letter a value defines it, the first that gives it a rate moves it."""
+def _with_roles(rows: list[RowEntry], unnumbered: Mapping[str, Row]) -> list[RowEntry]:
+    """The first line that gives a letter a value defines it, the first that gives it a rate moves it; one without a
+    number where no other does, and not in the text of a theorem, remark or proof."""
+    numbered = [text_of(row) for row in rows if row.role == "claim" and row.id not in unnumbered]
+    given = {letter for line in numbered for letter in (*values_and_rates(line)[0], *values_and_rates(line)[1])}
     defined: set[str] = set()
     moved: set[str] = set()
     found = []
@@ -171,8 +179,11 @@ def _with_roles(rows: list[RowEntry], source: Source) -> list[RowEntry]:
     for row in rows:
         role: Role = row.role
         line = row.line or row.printed
-        if role == "claim" and not continues(row.printed):
+        printed = unnumbered.get(row.id)
+        if role == "claim" and not continues(row.printed) and not (printed and printed.aside):
             values, rates = values_and_rates(line)
+            if printed and {*values, *rates} & given:
+                values, rates = {}, {}
             if values and not set(values) & (defined | states):
                 role = "definition"
                 defined |= set(values)
@@ -185,9 +196,9 @@ def _with_roles(rows: list[RowEntry], source: Source) -> list[RowEntry]:
 
 def rows_text(rows: list[RowEntry]) -> str:
     """The table of rows as TOML."""
-    parts = ["# Every numbered piece of the paper, in its order. role: claim is decided; definition, dynamics and\n"
-             "# assumption are taken as they are; words wait for a goal of yours. `line` is what is read instead of\n"
-             "# `printed`. `recorded` is the verdict on record.\n"]
+    parts = ["# Every displayed formula and statement of the paper, in its order. role: claim is decided; definition,\n"
+             "# dynamics and assumption are taken as they are; words wait for a goal of yours. `line` is what is read\n"
+             "# instead of `printed`. `recorded` is the verdict on record.\n"]
     for row in rows:
         values = row.model_dump(exclude_none=True)
         parts.append("[[rows]]\n" + "".join(f"{key} = {_toml(value)}\n" for key, value in values.items()

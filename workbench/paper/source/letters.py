@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 
+from workbench.paper.source.lines import FOR
 from workbench.proof.latex.error import LatexError
 from workbench.proof.latex.read import read_line
 from workbench.proof.latex.rows import LetterEntry, RowEntry, text_of
@@ -68,7 +69,8 @@ def table_of(rows: list[RowEntry], text: str) -> dict[str, LetterEntry]:
 def on_condition(text: str) -> bool:
     """Whether the text of an assumption ties what it says to a condition, so that its formulas do not hold by
     themselves."""
-    return _CONDITIONAL.search(_AT_ALL_TIMES.sub(" ", text)) is not None
+    text = _AT_ALL_TIMES.sub(" ", text)
+    return _CONDITIONAL.search(text) is not None or FOR.search(text) is not None
 
 
 def assumed_formulas(text: str) -> Iterator[str]:

@@ -54,3 +54,34 @@ def chained(first: str, second: str) -> str:
         elif depth == 0 and sign in (",", ";", r"\quad", r"\qquad", r"\text", r"\Rightarrow", r"\implies"):
             return ""
     return "" if start is None else f"{first[start:].strip()} {second}"
+
+
+_SPOKEN = r"(?:[^.;$]|\$[^$]*\$)*?"
+_RELATED = (r"\$[^$]*(?:[=<>]|\\(?:leq?|geq?|leqslant|geqslant|ne|neq|in)(?![A-Za-z])"
+            r"(?!\s*\\mathbb\s*\{R\}(?:\^[^$\s]*)?\s*\$))[^$]*\$")
+FOR = re.compile(rf"\b(?:for|on)\s+(?:(?:all|every|any|each|some)\s*)?{_RELATED}", re.IGNORECASE | re.DOTALL)
+_TIED = (r"(?:\b(?:if|when|whenever|while|until|unless|suppose|assume|otherwise|provided|as\s+long\s+as)\b"
+         rf"{_SPOKEN}{_RELATED}|{FOR.pattern})")
+_BEFORE, _BEHIND = re.compile(_TIED, re.IGNORECASE | re.DOTALL), re.compile(rf"[\s,]*{_TIED}", re.DOTALL)
+_NOT_CLAIMED = re.compile(r"\b(?:should\s+(?:read|be)|instead|incorrect\w*|wrong\w*|erroneous\w*|misprint\w*|not\s+true"
+                          r"|not\s+hold|fails?\s+to\s+hold|contrary)\b", re.IGNORECASE)
+_GOES_ON = re.compile(r"\s*(?:Then|In\s+(?:this|that)\s+case)\b")
+_SENTENCE = re.compile(r"(?<=[.!?])\s|\\(?:begin|end|item|section|\[|\])|\n\s*\n|\$\$")
+_ENDED = re.compile(r"[.!?](?=\s|\Z)")
+_LABELS = re.compile(r"\\(?:label|[A-Za-z]*ref)\s*\{[^{}]*\}")
+_OF_TIME = re.compile(r"\bfor\s+(?:all|every|any|each)\s*(?:times?\b|\$\s*t\s*(?:(?:\\geq?|\\geqslant|>)\s*0\s*)?\$)|"
+                      r"\$\s*\\forall\s*t[^$]*\$", re.IGNORECASE)
+_REACH = 600  # letters before and behind a display that its sentence is looked for in
+
+
+def on_condition_around(before: str, display: str, behind: str) -> bool:
+    """Whether the sentence in which a display stands ties it to a relation: `if $x = 0$, then`, or behind it `for
+    $x > 0$`, or does not claim it: `(3) should read`. Without that it would be decided for more than it says."""
+    before, behind = (_LABELS.sub("", text) for text in (before[-_REACH:], behind[:_REACH]))
+    *_, earlier, last = "", *_SENTENCE.split(before)
+    sentence = _OF_TIME.sub(" ", f"{earlier} {last}" if _GOES_ON.match(last) else last)
+    if _BEFORE.search(sentence) or _NOT_CLAIMED.search(sentence):
+        return True
+    ended = re.search(r"\.[\s\\,]*\Z", display) is not None
+    rest = _SENTENCE.split(_ENDED.split(behind)[0])[0]
+    return not ended and (_BEHIND.match(_OF_TIME.sub(" ", rest)) or _NOT_CLAIMED.search(rest)) is not None

@@ -9,7 +9,8 @@ MOST_EXPANSIONS = 100_000
 LONGEST_SOURCE = 10_000_000
 
 _COMMENT = re.compile(r"(?<!\\)((?:\\\\)*)%.*")
-_DEFINED = re.compile(r"\\(?:(?:re)?new|provide)command\*?|\\DeclareMathOperator\*?|\\def(?![A-Za-z])")
+_DEFINED = re.compile(r"\\(?:(?:re)?new|provide)command\*?|\\DeclareMathOperator\*?|"
+                      r"\\DeclarePairedDelimiter(?![A-Za-z])|\\(?:re)?newenvironment\*?|\\(?:def|let)(?![A-Za-z])")
 _COMMAND = re.compile(r"\\(?:[A-Za-z@]+|.)", re.DOTALL)
 _COUNT = re.compile(r"\s*\[(\d)\]")
 _PARAMETER = re.compile(r"#(\d)")
@@ -21,11 +22,15 @@ class SourceError(ValueError):
 
 @dataclass(frozen=True)
 class Macro:
-    """A command of the author's: how many arguments it takes, the first one's default, and what it stands for."""
+    """A command of the author's: how many arguments it takes, the first one's default, and what it stands for.
+
+    sized: whether a star or a size in square brackets, which only change its look, may stand before its argument.
+    """
 
     count: int
     default: str | None
     body: str
+    sized: bool = False
 
 
 def without_comments(text: str) -> str:
@@ -39,17 +44,31 @@ def expanded(text: str) -> str:
     Raises SourceError for a definition without braces, and for commands that never end.
     """
     macros: dict[str, Macro] = {}
+    environments: dict[str, tuple[str, str]] = {}
     plain: list[str] = []
     at = 0
     for found in _DEFINED.finditer(text):
         if found.start() < at:  # within a definition
             continue
         plain.append(text[at:found.start()])
+        if "environment" in found.group():
+            name, begun = group(text, found.end())
+            if _COUNT.match(text, begun) is None:  # one with arguments stays as it is
+                first, begun = group(text, begun)
+                last, at = group(text, begun)
+                environments[name.strip()] = (first, last)
+                continue
+            plain.append(found.group())
+            at = found.end()
+            continue
         name, macro, at = _definition(text, found)
         if name not in macros or "provide" not in found.group():
             macros[name] = macro
     plain.append(text[at:])
-    return _put("".join(plain), macros)
+    whole = "".join(plain)
+    for name, (first, last) in environments.items():
+        whole = whole.replace(rf"\begin{{{name}}}", first).replace(rf"\end{{{name}}}", last)
+    return _put(whole, macros)
 
 
 def group(text: str, at: int) -> tuple[str, int]:
@@ -92,6 +111,14 @@ def _definition(text: str, found: re.Match[str]) -> tuple[str, Macro, int]:
         count = len(_PARAMETER.findall(text[at:body_at]))
         body, end = group(text, max(at, body_at))
         return name.strip(), Macro(count, None, body), end
+    if found.group() == r"\let":
+        sign = re.compile(r"\s*=?").match(text, at)
+        meaning, end = group(text, sign.end() if sign else at)
+        return name.strip(), Macro(0, None, meaning), end
+    if "Delimiter" in found.group():
+        opening, end = group(text, at)
+        closing, end = group(text, end)
+        return name.strip(), Macro(1, None, f"{opening} #1{closing}", sized=True), end
     if "Operator" in found.group():
         body, end = group(text, at)
         return name.strip(), Macro(0, None, rf"\operatorname{{{body}}}"), end
@@ -126,6 +153,8 @@ def _put(text: str, macros: dict[str, Macro]) -> str:
 
 def _applied(text: str, at: int, macro: Macro) -> tuple[str, int]:
     values: list[str] = []
+    if macro.sized:
+        at = optional(text, at + text[at:].startswith("*"))[1]
     if macro.default is not None:
         first, at = optional(text, at)
         values.append(macro.default if first is None else first)

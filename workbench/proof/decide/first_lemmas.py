@@ -39,6 +39,21 @@ def first_lemmas(goal: Goal, shown: Relation, given: Given) -> list[Lemma]:
     return found
 
 
+def roots_below(goal: Goal, shown: Relation, given: Given) -> list[Lemma]:
+    """Of every root that a relation divides by how small it may be: sqrt(4 + x**2) >= 2, by its constant term."""
+    found: list[Lemma] = []
+    powers = {power for side in (shown.left, shown.right) for power in side.atoms(sp.Pow)
+              if power.exp.is_Rational and power.exp < 0 and not power.exp.is_Integer and not power.base.has(*OTHERS)}
+    for power in sorted(powers, key=sp.default_sort_key):
+        least = sp.sqrt(sp.expand(power.base).as_coeff_Add()[0])
+        lemma = at_least(sp.sqrt(power.base), least)
+        if least.is_Rational and least > 0 and power.base.free_symbols:
+            known = (*given, *(other for other, _ in found))
+            proof = find_combination(goal, lemma, known, quick=True) or find_squares(goal, lemma, known)
+            found += [] if proof is None else [(lemma, proof)]
+    return found
+
+
 def _partial(shown: Relation) -> list[Relation]:
     """What must hold for a relation to be defined; of a denominator that it is positive."""
     found: list[Relation] = []

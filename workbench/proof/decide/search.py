@@ -9,7 +9,7 @@ import sympy as sp
 from workbench.proof.claim import D, Goal, Relation, at_least, at_most, equal, greater
 from workbench.proof.decide.combination import find_combination
 from workbench.proof.decide.cuts import after
-from workbench.proof.decide.first_lemmas import first_lemmas
+from workbench.proof.decide.first_lemmas import first_lemmas, roots_below
 from workbench.proof.decide.ideals import find_by_ideal
 from workbench.proof.decide.identity import find_identity
 from workbench.proof.decide.pivots import find_by_pivots
@@ -36,7 +36,11 @@ def prove_relation(goal: Goal, shown: Relation) -> Found:
         given = assumptions(goal)
         first = pinched(given)
         first += first_lemmas(goal, shown, (*given, *(lemma for lemma, _ in first)))
-        found = search(goal, shown, (*given, *(lemma for lemma, _ in first)), goal.lemmas)
+        known = (*given, *(lemma for lemma, _ in first))
+        found = search(goal, shown, known, goal.lemmas)
+        if found is None and (roots := roots_below(goal, shown, known)):
+            first += roots
+            found = search(goal, shown, (*known, *(lemma for lemma, _ in roots)), goal.lemmas)
         return None if found is None else after(first, found)
     return _by_decrease(goal, shown)
 

@@ -6,6 +6,7 @@ goal as soon as it can be read and all its letters are filled in; until then its
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable
 from dataclasses import replace
 from itertools import takewhile
@@ -39,7 +40,7 @@ ROWS, SYMBOLS = "rows.toml", "symbols.toml"
 Role = Literal["claim", "definition", "dynamics", "assumption", "words"]
 TAKEN: dict[Role, str] = {"definition": "taken as a definition of this paper", "dynamics": "taken as the dynamics",
                           "assumption": "an assumption of this paper"}
-
+_ASSUMING = re.compile(r"\b(?:assumptions?|hypothes[ie]s|conditions?|axioms?|postulates?)\b", re.IGNORECASE)
 
 
 class LetterEntry(Record):
@@ -185,7 +186,7 @@ class _Known:
         paper's earlier ones that speak of its letters."""
         named = [self.rows[one] for one in row.rests_on if one in self.rows]
         inside = [self.rows[one] for stated in named if stated.role == "words" for one in stated.rests_on
-                  if one in self.rows and stated.title.startswith("Assumption")]
+                  if one in self.rows and is_assumption(stated.title)]
         found = [one for one in dict.fromkeys((*named, *inside)) if one.role == "assumption"]
         earlier = [one for one in takewhile(lambda one: one is not row, self.rows.values())
                    if one.role == "assumption" and one not in found and not self._unknown(text_of(one), set())]
@@ -231,6 +232,11 @@ class _Known:
             elif symbol in derived or entry.role == "state":
                 raise LatexError(f"{letter} stands in a rate: give it a role in {SYMBOLS}, and a state its dynamics")
         return replace(goal, inputs=tuple(inputs))
+
+
+def is_assumption(title: str) -> bool:
+    """Whether a statement is taken as it is, by what it is called: `Standing Assumption 2: bounds`."""
+    return _ASSUMING.search(title.partition(":")[0]) is not None
 
 
 def _giving(goal: Goal) -> Callable[[], Goal]:

@@ -85,7 +85,9 @@ def _layout(line: str, text: str, start: int, at: int, environments: list[str], 
     if text in ("\\begin", "\\end"):
         found = _NAME.match(line, at)
         if found is None or found["name"] not in ENVIRONMENTS:
-            raise LatexError(f"this {text} is not read: write the lines of a formula or of cases", start)
+            matrix = found is not None and found["name"].rstrip("*").endswith(("matrix", "array"))
+            raise LatexError("a matrix is not read: write its rows as formulas of their own" if matrix else
+                             f"this {text} is not read: write the lines of a formula or of cases", start)
         if text == "\\begin":
             if found["name"] == "cases" and not _begins(pieces):
                 raise LatexError("a value by cases: write one line for each case, with its condition", start)

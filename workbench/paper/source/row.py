@@ -1,0 +1,54 @@
+"""A piece of a paper's source as a row, and how its references become the rows that it rests on."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+
+@dataclass
+class Row:
+    """A numbered piece of a paper: its id, what it is ("Equation", "Lemma", ...), number, LaTeX as printed, label.
+
+    line: what is read instead, where it goes on from the row before it. within: the id of the theorem or assumption
+    in whose text an equation stands; referred: labels that its text, the text before it, or its proof refers to.
+    conditional: whether the sentence around it says it on a condition; aside: whether it stands in the text of a
+    theorem, remark, example or proof.
+    """
+
+    id: str
+    what: str
+    number: str
+    printed: str
+    labels: tuple[str, ...] = ()
+    title: str = ""
+    line: str = ""
+    within: str = ""
+    conditional: bool = False
+    aside: bool = False
+    referred: list[str] = field(default_factory=list)
+    rests_on: tuple[str, ...] = ()
+
+
+def resolve(rows: list[Row], groups: dict[str, list[str]]) -> None:
+    """Labels become ids; a row rests on earlier rows, a theorem on what its proof names as well, never in a circle."""
+    ids = {label: [row.id] for row in rows for label in row.labels} | groups
+    chains: dict[str, set[str]] = {}
+
+    def reaches(start: str, goal: str) -> bool:
+        seen, left = set(), [start]
+        while left:
+            one = left.pop()
+            if one == goal:
+                return True
+            if one not in seen:
+                seen.add(one)
+                left += chains.get(one, ())
+        return False
+
+    for row in rows:
+        found: list[str] = []
+        for one in (one for label in row.referred for one in ids.get(label, ())):
+            if one not in found and not reaches(one, row.id):
+                found.append(one)
+        row.rests_on = tuple(found)
+        chains[row.id] = set(found)
