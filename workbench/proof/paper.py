@@ -12,6 +12,7 @@ import sympy as sp
 from workbench.errors import ClaimError, InputError
 from workbench.proof.building import built
 from workbench.proof.claim import Claim, Goal, Kind, Relation, Verdict
+from workbench.proof.lemmas.lemma import Lemma
 from workbench.proof.loading import ProofFile
 from workbench.proof.selection import NO_PAPER, files_of, targets
 from workbench.proof.verdict import Match, Origin, Severity
@@ -84,6 +85,29 @@ class Paper:
             axiom=source, premises=self._ids(equation, hypotheses, "hypotheses"), origin=origin, severity=severity,
             match=match, reading=reading, note=note))
 
+    def lemma(self, equation: str, title: str, printed: str, lemma: Lemma, *,
+              recorded: Mapping[str, Verdict] | None = None, rests_on: tuple[str, ...] = (), origin: Origin = "printed",
+              severity: Severity = "step", match: Match = "read", note: str = "") -> None:
+        """State a conclusion that the paper draws by a named lemma: each hypothesis is a claim `equation.name` that is
+        decided, and the conclusion is assumed by the lemma's name, on these.
+
+        recorded: verdicts of hypotheses that are not `proved`, by their names; rests_on: what else the text uses here.
+        Raises ClaimError for a verdict of a hypothesis that the lemma has not.
+        """
+        stated, names = dict(recorded or {}), tuple(one.name for one in lemma.hypotheses)
+        if unknown := stated.keys() - set(names):
+            raise ClaimError(f"claim {self._id(equation)}: {lemma.source} has no hypothesis '{min(unknown)}': choose "
+                             f"of {', '.join(names)}")
+        for one in lemma.hypotheses:
+            collect = self.claim(
+                f"{equation}.{one.name}", f"{title}: {one.title[0].lower()}{one.title[1:]}", "implication",
+                r",\ ".join(relation.latex() for relation in one.goal.show), stated.get(one.name, "proved"),
+                origin="implied", reading=f"A hypothesis of {lemma.source}.", note=f"Asked by {lemma.source}.")
+            collect(_answering(one.goal))
+        self.axiom(equation, title, printed or lemma.conclusion, lemma.source, origin=origin, severity=severity,
+                   match=match, hypotheses=(*(f"{equation}.{name}" for name in names), *rests_on),
+                   note=" ".join(filter(None, (note, lemma.taken))))
+
     def unstated(self, equation: str, title: str, printed: str, why: str, *, rests_on: tuple[str, ...] = (),
                  severity: Severity = "step") -> None:
         """State a line that has no goal yet, and why; it stays undecided."""
@@ -98,6 +122,12 @@ class Paper:
 
     def _id(self, equation: str) -> str:
         return equation if ":" in equation else f"{self.name}:{equation}"
+
+
+def _answering(goal: Goal) -> Builder:
+    def build() -> Goal:
+        return goal
+    return build
 
 
 def section_of(module: str) -> str:
