@@ -58,7 +58,7 @@ class Setting:
         object.__setattr__(self, "step_s", self._step())
         for name in ("duration_s", "step_s"):
             if not (is_finite(getattr(self, name)) and getattr(self, name) > 0):
-                raise ValueError(f"{name} = {getattr(self, name)}: give a positive number of seconds")
+                raise ValueError(f"{name} = {getattr(self, name)!r}: give a positive number of seconds")
         if self.duration_s / self.step_s > MOST_STEPS:
             raise ValueError(f"duration_s / step_s is more than {MOST_STEPS}: take a longer step")
         self._check_integrator()
