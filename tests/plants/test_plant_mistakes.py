@@ -56,7 +56,8 @@ def test_mpc_of_an_empty_tank_ends(start: float, goal: float) -> None:
     """Where the tank is empty the outflow's root has an endless slope: the solver searched for a step without end."""
     h, q = sp.symbols("h q", real=True)
     tank = wb.Plant("tank", (h,), (q - sp.sqrt(h) / 10,), (q,), input_limits={q: (0, 0.5)})
-    setting = wb.Setting(tank, 2.0, 0.01, references={"r": wb.Constant(value=goal)}, tracks={"h": "r"}, initial={"h": start})
+    setting = wb.Setting(tank, 2.0, 0.01, references={"r": wb.Constant(value=goal)}, tracks={"h": "r"},
+                         initial={"h": start})
     run = wb.compare(setting, [wb.entrant(wb.PlantMpc(20, {"h": 1.0}, {"q": 1e-3}, substeps=4), 0.5)]).runs[0]
     assert run.failed is None
     assert run["h"][-1] > 0.4 if goal else run["h"][-1] < 0.45
