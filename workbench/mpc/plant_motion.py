@@ -2,18 +2,40 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from functools import cache
 from typing import Any
 
 import casadi as ca
 import numpy as np
+import sympy as sp
 from numpy.typing import NDArray
 
 from workbench.compile.casadi_tree import casadi_of
 from workbench.mpc.plant_values import PlantMpcValues
+from workbench.systems.plant import Plant
 from workbench.systems.setting import Setting
 
 Array = NDArray[np.float64]
+LEAST_BASE = 1e-9  # of a root or logarithm in the model: below it neither they nor their slopes are of use to a solver
+
+
+def _within_domain(plant: Plant) -> Plant:
+    """The plant with roots and logarithms that go on beyond their domain.
+
+    An empty tank's root has an endless slope, and from there fatrop searches for a step without end.
+    """
+    def leaves(e: sp.Basic) -> bool:
+        return (isinstance(e, sp.log) and not e.args[0].is_positive) or (
+            isinstance(e, sp.Pow) and e.exp.is_integer is False and not e.base.is_positive)
+
+    def kept(e: sp.Basic) -> sp.Expr:
+        return e.func(sp.Max(e.args[0], sp.Float(LEAST_BASE)), *e.args[1:])
+
+    moves = tuple(e.replace(leaves, kept) for e in plant.moves)
+    if moves == plant.moves:
+        return plant
+    return replace(plant, updates=moves) if plant.updates else replace(plant, rates=moves)
 
 
 class PlantMotion:
@@ -57,7 +79,7 @@ class PlantMotion:
 
     def _moved(self, seconds: float) -> tuple[Any, Any, Any, Any]:
         plant, how = self._setting.plant, self._how
-        f = plant.to_casadi(self._setting.parameters)
+        f = _within_domain(plant).to_casadi(self._setting.parameters)
         x, u, w = (ca.SX.sym(name, size) for name, size in (
             ("x", len(plant.states)), ("u", len(plant.inputs)), ("w", len(self.estimated))))
         d = ca.vertcat(*(w[self.estimated.index(s)] if s in self.estimated else 0.0 for s in plant.disturbances))

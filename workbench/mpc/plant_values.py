@@ -58,10 +58,10 @@ class PlantMpcValues:
         for key in (*NOT_NEGATIVE, "input_targets", "objective", "first_estimate"):
             table = {str(name): value for name, value in named_values(getattr(self, key), key).items()}
             object.__setattr__(self, key, table)
-        whole = isinstance(self.horizon, int) and isinstance(self.substeps, int)
+        whole = all(isinstance(n, int | np.integer) and not isinstance(n, bool) for n in (self.horizon, self.substeps))
         if not whole or not 1 <= self.horizon <= MOST_STAGES or self.substeps < 1:
-            raise ValueError(f"horizon = {self.horizon}, substeps = {self.substeps}: give 1 to {MOST_STAGES} samples "
-                             "and at least one step")
+            raise ValueError(f"horizon = {self.horizon}, substeps = {self.substeps}: give whole numbers, "
+                             f"1 to {MOST_STAGES} samples and at least one step")
         if self.solver not in get_args(Solver):
             raise ValueError(f"solver '{self.solver}' is not known: it is one of {', '.join(get_args(Solver))}")
         for key in NOT_NEGATIVE:

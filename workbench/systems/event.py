@@ -8,7 +8,7 @@ from typing import Any, Literal, get_args
 
 import sympy as sp
 
-from workbench.systems.symbols import expression
+from workbench.systems.symbols import expression, named_values, symbols_of
 
 Direction = Literal["falling", "rising", "both"]
 
@@ -33,10 +33,12 @@ class Event:
             raise ValueError(f"{where}: direction {self.direction!r} is not known: it is one of "
                              f"{', '.join(get_args(Direction))}")
         object.__setattr__(self, "expression", expression(self.expression, where))
-        if not self.reset:
+        given = named_values(self.reset, f"{where}: reset")
+        if not given:
             raise ValueError(f"{where} sets no state: give reset, state to its value just after")
+        symbols_of(given, f"{where}: reset")
         object.__setattr__(self, "reset", {symbol: expression(value, f"{where}: reset of '{symbol}'")
-                                           for symbol, value in self.reset.items()})
+                                           for symbol, value in given.items()})
 
     @property
     def sides(self) -> tuple[float, float]:

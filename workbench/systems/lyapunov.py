@@ -20,6 +20,7 @@ def closed_loop(plant: Plant, law: StateLaw) -> dict[sp.Expr, sp.Expr]:
     limits are left out. The third rate of a reference is an input of the goal. Raises ValueError where the law does not
     fit the plant, or one of the two moves in steps, which is no flow.
     """
+    _require_pair(plant, law)
     law.check(plant)
     for state in law.states:
         if state.rate is None:
@@ -44,6 +45,7 @@ def next_values(plant: Plant, law: StateLaw) -> dict[sp.Expr, sp.Expr]:
     and input limits left out. References are as they are now. Raises ValueError for a plant in continuous time, and
     where the law does not fit it.
     """
+    _require_pair(plant, law)
     law.check(plant)
     if plant.step_s is None:
         raise ValueError(f"plant '{plant.id}' has rates, not updates: take closed_loop(plant, law)")
@@ -54,6 +56,11 @@ def next_values(plant: Plant, law: StateLaw) -> dict[sp.Expr, sp.Expr]:
                                      for state, value in zip(plant.states, plant.updates, strict=True)}
     return found | {state: value.xreplace(measured | step)
                     for state, value in zip(law.state_symbols, law.next_values, strict=True)}
+
+
+def _require_pair(plant: Plant, law: StateLaw) -> None:
+    if not isinstance(plant, Plant) or not isinstance(law, StateLaw):
+        raise ValueError(f"given are a {type(plant).__name__} and a {type(law).__name__}: give the Plant, then the law")
 
 
 @dataclass(frozen=True)

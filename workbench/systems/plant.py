@@ -185,7 +185,15 @@ class Plant:
 
     def rates_at(self, states: Sequence[float], inputs: Sequence[float] = (), *, disturbances: Sequence[float] = (),
                  parameters: Mapping[str, Any] | None = None, t: float = 0.0) -> NDArray[np.float64]:
-        """x' at a point, of a plant in discrete time its next state: an array of n numbers."""
+        """x' at a point, of a plant in discrete time its next state: an array of n numbers.
+
+        Raises ValueError unless there is a number for each state and, where any is given, each input and disturbance.
+        """
+        for kind, given, symbols in (("states", states, self.states), ("inputs", inputs, self.inputs),
+                                     ("disturbances", disturbances, self.disturbances)):
+            if isinstance(given, Mapping) or (len(given) != len(symbols) and (len(given) or kind == "states")):
+                raise ValueError(f"plant '{self.id}': {kind} = {given}: give a list of {len(symbols)} numbers, "
+                                 f"{', '.join(map(str, symbols)) or 'none'}")
         return np.array(self._numeric(self.moves)(t, *states, *self._all(inputs, self.inputs),
                                                   *self._all(disturbances, self.disturbances),
                                                   *self.values(parameters).values()), dtype=float)

@@ -98,7 +98,7 @@ AnySignal = Constant | Step | Ramp | Sine | Spline
 def signal_of(value: Any, where: str) -> AnySignal:
     """A signal, a number as one that is constant; ValueError naming `where` for anything else."""
     if isinstance(value, AnySignal):
-        return value
+        return read_signal(value, Path())  # a study has read its files already, relative to its own
     if is_finite(value):
         return Constant(value=float(value))
     raise ValueError(f"{where} = {written(value)} is no signal: give a number, Constant, Step, Ramp, Sine, or a Spline "

@@ -27,11 +27,20 @@ def expression(value: Any, where: str) -> sp.Expr:
         raise ValueError(f"{where} is {written(value)}, no expression: give one of sympy, or a number") from None
     if not isinstance(found, sp.Expr):
         raise ValueError(f"{where} is a {type(found).__name__}, no scalar: give one expression each")
+    found = found.replace(lambda e: isinstance(e, sp.Piecewise) and e.args[-1].cond != sp.true,
+                          lambda e: _complete(e, where))
     if found.has(sp.nan, sp.zoo, sp.oo, -sp.oo):
         raise ValueError(f"{where} holds {found}, which is no number: correct the expression")
     if found.has(sp.I) or found.is_extended_real is False:
         raise ValueError(f"{where} is not real: {found}: state real dynamics, a complex state as two real ones")
     return found
+
+
+def _complete(cases: sp.Piecewise, where: str) -> sp.Expr:
+    """Cases of which one always holds; ValueError naming `where` for cases that leave something open."""
+    if sp.Or(*(one.cond for one in cases.args)) != sp.true:
+        raise ValueError(f"{where}: {cases} says nothing of what is left: end it with (value, True)")
+    return sp.Piecewise(*cases.args[:-1], (cases.args[-1].expr, True))
 
 
 def is_finite(value: Any) -> bool:

@@ -134,7 +134,9 @@ def add_extremes(t, x, u, s, p, extremes, values):
     """Keep the largest value so far of every expression that is taken at each step."""
     extreme_values(t, x, u, s, p, values)
     for i in range(extremes.shape[0]):
-        extremes[i] = max(extremes[i], values[i])
+        # What is no number at one step stays none: an extreme of the rest would be another metric's.
+        if not math.isnan(extremes[i]):
+            extremes[i] = values[i] if math.isnan(values[i]) else max(extremes[i], values[i])
 
 
 def record(t, states, x, u, wanted, s, law_states, log, row):

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 import time as clock
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
@@ -12,9 +11,9 @@ from typing import Any, Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-from workbench.compile.vector_code import numeric_vector
 from workbench.simulate.plants.arrays import Arrays, Compiled, arrays_of, compiled
 from workbench.simulate.plants.endings import why
+from workbench.simulate.plants.measures import metrics_of
 from workbench.simulate.plants.plant_loop import LAW_OUTSIDE, NO_COMMAND, RUNNING
 from workbench.simulate.plants.solver import advance_by_solver
 from workbench.systems.law import StateLaw
@@ -263,7 +262,7 @@ def _told(setting: Setting, entrant: Entrant, found: Compiled, a: Arrays, status
     plant, law = setting.plant, entrant.law
     columns = ("t_s", *map(str, plant.states), *map(str, plant.inputs), *(f"{u}_wanted" for u in plant.inputs),
                *setting.signals, *(map(str, law.state_symbols) if law else ()))
-    return PlantRun(entrant.name, entrant.period_s, columns, a.log[:rows], _metrics(setting, a, t, status == RUNNING),
+    return PlantRun(entrant.name, entrant.period_s, columns, a.log[:rows], metrics_of(setting, a, t, status == RUNNING),
                     why(setting, entrant.name, law, status, t, a), t, float(np.median(taken)),
                     float(np.percentile(taken, 99)), events=_events(setting, a))
 
@@ -272,31 +271,3 @@ def _events(setting: Setting, a: Arrays) -> tuple[Happened, ...]:
     names = [event.id for event in setting.plant.events]
     return tuple(Happened(t, names[int(which)], tuple(states))
                  for t, which, *states in a.event_log[:a.event_count[0]].tolist())
-
-
-def _metrics(setting: Setting, a: Arrays, t: float, whole: bool) -> dict[str, float | None]:
-    metrics, n = setting.every_metric, len(setting.plant.states)
-    if not whole:
-        return dict.fromkeys((metric.id for metric in metrics), None)
-    signal = {symbol: value for symbol, value in zip(setting.signal_symbols, a.s, strict=True)
-              if symbol in setting.symbols}
-    last = numeric_vector((*setting.plant.states, *setting.plant.inputs, *setting.plant.parameter_symbols, *signal),
-                          [metric.expression for metric in metrics])
-    final = last(t, *a.x[:n], *a.u, *a.p, *signal.values())
-    found: dict[str, float | None] = {}
-    integrals, extremes = iter(a.x[n:]), iter(a.extremes)
-    for metric, value in zip(metrics, final, strict=True):
-        match metric.measure:
-            case "integral":
-                found[metric.id] = float(next(integrals))
-            case "mean":
-                found[metric.id] = float(next(integrals)) / t
-            case "root mean square":
-                found[metric.id] = math.sqrt(max(0.0, float(next(integrals)) / t))
-            case "largest":
-                found[metric.id] = max(float(next(extremes)), float(value))
-            case "smallest":
-                found[metric.id] = min(-float(next(extremes)), float(value))
-            case _:
-                found[metric.id] = float(value)
-    return {name: value if value is not None and math.isfinite(value) else None for name, value in found.items()}

@@ -1,0 +1,63 @@
+"""What newcomers get wrong is one clear line; what has no number is told as none."""
+
+import math
+from pathlib import Path
+
+import pytest
+import sympy as sp
+
+import workbench as wb
+
+x, v, u = sp.symbols("x v u", real=True)
+r = wb.Reference("r")
+LAW = wb.Law("pd", {u: -(x - r.value) - v}, references=(r,))
+
+
+def _plant(push: sp.Expr = u, **more: object) -> wb.Plant:
+    return wb.Plant("m", (x, v), (v, push), (u,), **more)  # type: ignore[arg-type]
+
+
+@pytest.mark.parametrize(("made", "told"), [
+    (lambda: _plant(events=(wb.Event("b", x, {"v": -v}),)), "event 'b': reset: 'v' is no symbol"),
+    (lambda: wb.Event("b", x, [(v, -v)]), "no table"),  # type: ignore[arg-type]
+    (lambda: _plant(sp.Piecewise((u, x > 0))), "end it with"),
+    (lambda: _plant().rates_at([1, 2, 3]), "give a list of 2 numbers, x, v"),
+    (lambda: _plant().rates_at({"x": 1, "v": 2}), "give a list of 2"),  # type: ignore[arg-type]
+    (lambda: wb.closed_loop(LAW, _plant()), "give the Plant, then the law"),  # type: ignore[arg-type]
+    (lambda: wb.margins(LAW, _plant()), "give the Plant, then the law"),  # type: ignore[arg-type]
+    (lambda: wb.PlantMpc(10.0, {"x": 1.0}), "whole numbers"),  # type: ignore[arg-type]
+    (lambda: wb.Setting(_plant(), "1"), "duration_s = '1'"),  # type: ignore[arg-type]
+    (lambda: wb.Setting(_plant(), 1.0, references={"r": wb.Spline(file="none.csv", column="r")}), "no such file")])
+def test_a_mistake_is_one_line(made: object, told: str) -> None:
+    with pytest.raises(Exception, match=told) as trouble:
+        made()  # type: ignore[operator]
+    assert "\n" not in str(trouble.value)
+
+
+def test_what_has_no_number_is_none(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """A logarithm beyond its domain, at the end or for a part of the run alone; cases that leave nothing open; a
+    spline's file."""
+    (tmp_path / "r.csv").write_text("t_s,r\n0,1\n1,1\n2,1\n")
+    monkeypatch.chdir(tmp_path)
+    cases = sp.Piecewise((u, x > 0), (u, x <= 0))
+    found = wb.simulate(
+        _plant(cases), LAW, period_s=0.01, duration_s=2.0, tracks={"x": "r"},
+        references={"r": wb.Spline(file="r.csv", column="r")},
+        metrics=(wb.Metric("end", "terminal", sp.log(x - 10)),
+                 wb.Metric("part", "largest", sp.log(x - sp.Rational(1, 2))),
+                 wb.Metric("whole", "largest", sp.log(x + 1))))
+    assert found.metrics["end"] is None
+    assert found.metrics["part"] is None
+    assert found.metrics["whole"] == pytest.approx(math.log(1 + max(found["x"])), abs=1e-2)
+
+
+@pytest.mark.parametrize(("start", "goal"), [(0.5, 0.0), (0.0, 0.5)])
+def test_mpc_of_an_empty_tank_ends(start: float, goal: float) -> None:
+    """Where the tank is empty the outflow's root has an endless slope: the solver searched for a step without end."""
+    h, q = sp.symbols("h q", real=True)
+    tank = wb.Plant("tank", (h,), (q - sp.sqrt(h) / 10,), (q,), input_limits={q: (0, 0.5)})
+    setting = wb.Setting(tank, 2.0, 0.01, references={"r": wb.Constant(value=goal)}, tracks={"h": "r"},
+                         initial={"h": start})
+    run = wb.compare(setting, [wb.entrant(wb.PlantMpc(20, {"h": 1.0}, {"q": 1e-3}, substeps=4), 0.5)]).runs[0]
+    assert run.failed is None
+    assert run["h"][-1] > 0.4 if goal else run["h"][-1] < 0.45
