@@ -10,6 +10,7 @@ from workbench.optimal.adjoint import certificate_from
 from workbench.optimal.bound_checker import checked_bound
 from workbench.optimal.bound_document import bound_document
 from workbench.optimal.course import Course
+from workbench.optimal.envelope import InfeasibleRunError
 from workbench.optimal.grid import graded_grid, kept_borders
 from workbench.optimal.reference import find_reference, least_time
 from workbench.optimal.refine import refined
@@ -91,3 +92,41 @@ def test_a_line_as_slow_as_a_walk_is_no_mistake_in_the_unit_of_time():
     found = find_reference(TRAIN, crawl, 3 * least_time(TRAIN, crawl).trip_time_s)
     assert 0 <= found.gap <= 1e-3
     assert found.profile.speed_mps.max() <= 0.4 * (1 + 1e-9)
+
+
+def test_a_fast_start_into_a_slow_run_brakes_as_hard_as_it_can():
+    """It was refused as a start that the train cannot make: the plan lay a little below full brakes from the start."""
+    vehicle = Vehicle("electric", 5e5, (4.5e3, 50.0, 16.0), ForceLimit(3.2e5, 4.4e6), ForceLimit(3.6e5, 7.5e6),
+                      rotating_fraction=0.05, traction_efficiency=0.85, regenerative_efficiency=0.5)
+    line = Course(np.array([0.0, 5000.0]), np.array([55.0]), np.zeros((1, 2)), np.zeros((1, 2)))
+    least = least_time(vehicle, line, 28.5).trip_time_s
+    found = find_reference(vehicle, line, 1.5 * least, 28.5)
+    assert found.profile.speed_mps[0] == pytest.approx(28.5, rel=1e-9) and 0 <= found.gap <= 3e-3
+    assert found.check.force_excess <= 1e-6
+    with pytest.raises(InfeasibleRunError, match="cannot start"):
+        least_time(vehicle, line, 90.0)
+
+
+def test_a_train_too_heavy_to_come_near_the_limit_is_planned_in_units_of_its_own_speed():
+    """Under 60 m/s a run of 3 m/s at most had no plan on any mesh, and a gap of 275 %."""
+    vehicle = Vehicle("heavy", 2.43e6, (3.8e4, 970.0, 97.0), ForceLimit(1.16e5, 1.13e6), ForceLimit(3.3e5, 7.3e6),
+                      regenerative_efficiency=0.5)
+    force = np.array([6.5e4, -6.5e4, 6.5e4])
+    line = Course(np.array([0.0, 36.0, 91.0, 313.0]), np.full(3, 60.0), np.stack((force, force), axis=1),
+                  np.zeros((3, 2)))
+    quickest = least_time(vehicle, line)
+    found = find_reference(vehicle, line, 1.0005 * quickest.trip_time_s, solver="socp")
+    assert quickest.speed_mps.max() < 3 and 0 <= found.gap <= 1e-3
+
+
+def test_on_grades_that_change_all_along_a_train_coasts_and_is_not_early():
+    """With one acceleration on long cells it pulled and braked instead, 8 to 16 % of the energy, and was 7 % early."""
+    rng = np.random.default_rng(123)
+    position = np.linspace(0.0, 9e3, 61)
+    force = 3.3e4 * rng.choice([-1.0, 0.0, 1.0], 61)
+    line = Course(position, np.full(60, 25.0), np.stack((force[:-1], force[1:]), axis=1), np.zeros((60, 2)))
+    vehicle = Vehicle("light", 9.7e4, (1e3, 39.0, 4.4), ForceLimit(6e4), friction_brake_n=7e4, rotating_fraction=0.12)
+    least = least_time(vehicle, line).trip_time_s
+    found = [find_reference(vehicle, line, factor * least, solver="socp", intervals=240) for factor in (1.3, 2.5)]
+    assert 0 <= found[0].gap <= 0.015
+    assert 0.97 * 2.5 * least < found[1].profile.trip_time_s <= 2.5 * least * (1 + 1e-12)

@@ -18,7 +18,7 @@ from workbench.optimal.course import Array
 
 # Accuracy asked of clarabel; what it returns is checked again by everything that follows. Where it stops before, an
 # answer whose cost and dual cost differ by no more than the other share is as near as careful solving comes.
-TOLERANCE, NEAR = 1e-8, 1e-5
+TOLERANCE, NEAR = 1e-8, 1e-4
 
 
 class NoPlanError(SolverError):

@@ -17,7 +17,8 @@ from workbench.optimal.vehicle import Vehicle
 from workbench.trains.resistance import davis_resistance
 
 # By the least of these shares that serves more than half the square of a run's last speed is aimed at where full
-# traction leads to it: for the steps' error, and for what cells give up that keep their limits at every point.
+# traction leads to it, and than that of its first where full brakes lead away from it: for the steps' error, and for
+# what cells give up that keep their limits at every point.
 RUN_UPS = (1e-5, 1e-4, 1e-3, 4e-3, 1.6e-2, 6.4e-2)
 # Over these lengths b follows from one slope, whatever the train; and as many at most.
 PART_M, MOST_PARTS = 20.0, 100_000
@@ -147,16 +148,19 @@ def _pass(target: Array, start: float, step: Array, line: Array, drag: Array, us
 
 
 @njit(cache=True)
-def _run_up(target: Array, top: Array, end: float, more: float, step: Array, line: Array, drag: Array, numbers: Array,
-            limits: tuple[Array, Array], tables: tuple[Array, Array]) -> Array:
-    """The target, raised at the end to what full traction needs in order to reach `end`; below top everywhere."""
+def _run_up(target: Array, top: Array, end: float, more: float, step: Array, line: Array, drag: Array, sign: float,
+            numbers: Array, limits: tuple[Array, Array], tables: tuple[Array, Array]) -> Array:
+    """The target, raised at the end to what full traction needs in order to reach `end`; below top everywhere.
+
+    With sign -1, and everything in the opposite order, to what full brakes need after a start at `end`.
+    """
     raised = target.copy()
     b = end * (1.0 + more)
     for k in range(len(step) - 1, -1, -1):
         raised[k + 1] = min(max(raised[k + 1], b), top[k + 1])
-        first = _slope(b, 1.0, line[k, 1], drag[k, 1], numbers, limits, tables)
+        first = _slope(b, sign, line[k, 1], drag[k, 1], numbers, limits, tables)
         middle = max(b - step[k] / 2 * first, 0.0)
-        slope = _slope(middle, 1.0, (line[k, 0] + line[k, 1]) / 2, (drag[k, 0] + drag[k, 1]) / 2, numbers, limits,
+        slope = _slope(middle, sign, (line[k, 0] + line[k, 1]) / 2, (drag[k, 0] + drag[k, 1]) / 2, numbers, limits,
                        tables)
         b -= step[k] * slope
         if b <= 0.0 or (b <= raised[k] and slope > 0.0):
@@ -182,27 +186,32 @@ def drivable(vehicle: Vehicle, course: Course, target: Array, start_mps: float =
     stands[[0, -1]] = start_mps == 0, end_mps == 0
     usable = course.usable_shares
 
+    backwards = (step[::-1].copy(), course.force_n[::-1, ::-1].copy(), course.drag[::-1, ::-1].copy())
+
     def from_start(below: Array) -> tuple[Array, int]:
         return _pass(below, start_mps**2 / 2, step, course.force_n, course.drag, usable[:, 0].copy(), stands, 1.0,
                      numbers, limits, tables, is_strict)
 
-    if end_mps > 0:
-        most = np.where(stands, 0.0, _top(course))
-        for more in RUN_UPS:
-            raised = _run_up(top, most, end_mps**2 / 2, more, step, course.force_n, course.drag, numbers, limits,
-                             tables)
+    most = np.where(stands, 0.0, _top(course)) if start_mps > 0 or end_mps > 0 else top
+    for more_at_start in RUN_UPS if start_mps > 0 else RUN_UPS[:1]:
+        aimed = top
+        if start_mps > 0:
+            aimed = _run_up(top[::-1].copy(), most[::-1].copy(), start_mps**2 / 2, more_at_start, *backwards, -1.0,
+                            numbers, limits, tables)[::-1].copy()
+        for more in RUN_UPS if end_mps > 0 else RUN_UPS[:1]:
+            raised = aimed if end_mps == 0 else _run_up(aimed, most, end_mps**2 / 2, more, step, course.force_n,
+                                                        course.drag, 1.0, numbers, limits, tables)
             forward, stuck = from_start(raised)
             if forward[-1] >= end_mps**2 / 2 * (1 - 1e-10):
                 break
-    else:
-        forward, stuck = from_start(top)
-    if stuck >= 0:
-        raise InfeasibleRunError(_stall(vehicle, course, stuck))
-    found, stuck = _pass(forward[::-1].copy(), end_mps**2 / 2, step[::-1].copy(), course.force_n[::-1, ::-1].copy(),
-                         course.drag[::-1, ::-1].copy(), usable[::-1, 1].copy(), stands[::-1].copy(), -1.0, numbers,
-                         limits, tables, is_strict)
-    if stuck >= 0:
-        raise InfeasibleRunError(_runaway(vehicle, course, len(step) - 1 - stuck))
+        if stuck >= 0:
+            raise InfeasibleRunError(_stall(vehicle, course, stuck))
+        found, stuck = _pass(forward[::-1].copy(), end_mps**2 / 2, *backwards, usable[::-1, 1].copy(),
+                             stands[::-1].copy(), -1.0, numbers, limits, tables, is_strict)
+        if stuck >= 0:
+            raise InfeasibleRunError(_runaway(vehicle, course, len(step) - 1 - stuck))
+        if found[-1] >= start_mps**2 / 2 * (1 - 1e-10):
+            break
     found = found[::-1].copy()
     for speed, reached, what in ((start_mps, found[0], "start"), (end_mps, found[-1], "end")):
         if reached < speed**2 / 2 * (1 - 1e-9):
@@ -233,8 +242,11 @@ def changing_limits(vehicle: Vehicle, target: Array) -> Array:
 
 
 def with_fine_cells(vehicle: Vehicle, course: Course, target: Array) -> Course:
-    """The course with cells divided on which the limit of the force changes by more than FINE along a run."""
-    parts = np.clip(np.ceil(changing_limits(vehicle, target) / FINE), 1, MOST_PARTS).astype(int)
+    """The course with cells divided on which the limit of the force, or the line's force, changes by more than FINE of
+    the largest along a run: a cell has one acceleration, with which a train on a ramp pulls and brakes where it should
+    coast."""
+    line = np.abs(np.diff(course.force_n, axis=1)[:, 0]) / max(vehicle.traction.at(0.0), 1e-9)
+    parts = np.clip(np.ceil((changing_limits(vehicle, target) + line) / FINE), 1, MOST_PARTS).astype(int)
     x, step = course.position_m, np.diff(course.position_m)
     parts = np.where(step / parts > SHORTEST_CELL_M, parts, 1)
     inner = [x[k] + step[k] * np.arange(1, parts[k]) / parts[k] for k in np.flatnonzero(parts > 1)]

@@ -40,6 +40,11 @@ class OpenRows:
     pull_limit: Mask
     top: Mask
 
+    @property
+    def share(self) -> float:
+        """Of everything that may be open, how much is."""
+        return float(np.mean([mask.mean() for mask in (self.pull, self.brake, self.pull_limit, self.top)]))
+
 
 def all_open(grid: Grid) -> OpenRows:
     """Nothing is left out."""

@@ -67,8 +67,8 @@ def planned(asked: Asked, planner: Planner, grid: Grid, guess: Profile, near: fl
             is_last: bool) -> Planned | None:
     """What comes of planning on a mesh; None where the solver found no plan.
 
-    Where the run is off, the plan is made again with what the run takes longer, unless a finer mesh is to follow,
-    because the plan's energy lies apart from its bound by more than the share `near`.
+    Where the run is off, the plan is made again with what the run takes longer, or less where more time would save,
+    unless a finer mesh is to follow, because the plan's energy lies apart from its bound by more than the share `near`.
     """
     timetable = asked.timetable
     least = leg_times(timetable, asked.quickest)
@@ -81,13 +81,16 @@ def planned(asked: Asked, planner: Planner, grid: Grid, guess: Profile, near: fl
         except NoPlanError:
             break
         spent += plan.solve_s
-        profile, legs, off = _driven(asked, plan, least)
+        profile, now, legs = _driven(asked, plan, least)
+        off = now - (now if legs is None else legs)
         first = first or (plan, profile, solver, *_best_bound(asked, plan))
         priced = LATE * abs(plan.energy_j) / max(float(plan.interval_prices_w.max()), 1e-300)
-        if float(np.abs(off).sum()) <= min(allowed, priced) or not (
+        early = _early(timetable, now)
+        is_early = early * float(plan.prices_w[-1]) > LATE * abs(plan.energy_j)
+        if (not is_early and float(np.abs(off).sum()) <= min(allowed, priced)) or not (
                 is_last or abs(first[0].energy_j - first[3]) <= near * abs(first[0].energy_j)):
             break
-        extra = extra + off
+        extra = extra + off - (early if is_early else 0.0)
     if first is None:
         return None
     if legs is not None:
@@ -110,12 +113,16 @@ def _best_bound(asked: Asked, plan: Plan) -> tuple[float, Certificate]:
     return lower_bound(asked.vehicle, plan.grid.course, best, *given), best
 
 
-def _driven(asked: Asked, plan: Plan, least_s: Array) -> tuple[Profile, Array | None, Array]:
-    """The run of a plan, the legs that its timetable leaves it, s, and by how much its own are longer."""
+def _early(timetable: Timetable, now_s: Array) -> float:
+    """By how much a run that has only a time in all arrives too soon, s: what a plan with more time would save on."""
+    return 0.0 if timetable.trip_time_s is None else max(timetable.trip_time_s - float(now_s.sum()), 0.0)
+
+
+def _driven(asked: Asked, plan: Plan, least_s: Array) -> tuple[Profile, Array, Array | None]:
+    """The run of a plan, what its legs take, s, and what its timetable leaves them."""
     profile = refined(asked.vehicle, plan, PARTS, asked.start_mps, asked.end_mps)
     now = leg_times(asked.timetable, profile)
-    legs = nearest_legs(asked.timetable, now, least_s)
-    return profile, legs, now - (now if legs is None else legs)
+    return profile, now, nearest_legs(asked.timetable, now, least_s)
 
 
 def cone_plan(asked: Asked, grid: Grid, extra_s: Array, _: Profile) -> tuple[Plan, str]:

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.polynomial.legendre import leggauss
+from numpy.typing import NDArray
 
 from workbench.optimal.course import Array, Course
 from workbench.optimal.vehicle import ForceLimit, Vehicle
@@ -14,6 +15,8 @@ from workbench.trains.resistance import davis_resistance
 _NODES, _WEIGHTS = leggauss(3)
 # Points of the quadrature within a cell, from 0 to 1, and their weights.
 WITHIN, WEIGHT = (_NODES + 1) / 2, _WEIGHTS / 2
+# Parts of a cell on which what the force costs is no smooth function: traction turns to braking, or friction joins in.
+KINKED_PARTS = 16
 
 
 @dataclass(frozen=True)
@@ -79,14 +82,17 @@ def largest_force(limit: ForceLimit, speed_mps: Array) -> Array:
     return np.asarray(force, dtype=float)
 
 
-def forces(vehicle: Vehicle, profile: Profile) -> Forces:
-    """What the run needs at the wheel; what electric braking cannot give is left to friction."""
+def forces(vehicle: Vehicle, profile: Profile, within: Array = WITHIN) -> Forces:
+    """What the run needs at the wheel; what electric braking cannot give is left to friction.
+
+    within: the points of each cell, from 0 to 1.
+    """
     course, b = profile.course, profile.half_square
-    along = b[:-1, None] + WITHIN * np.diff(b)[:, None]
+    along = b[:-1, None] + within * np.diff(b)[:, None]
     speed = np.sqrt(2 * along)
     a, b_1, c = vehicle.davis_n
-    line = course.force_n[:, :1] + WITHIN * (course.force_n[:, 1:] - course.force_n[:, :1])
-    drag = course.drag[:, :1] + WITHIN * (course.drag[:, 1:] - course.drag[:, :1])
+    line = course.force_n[:, :1] + within * (course.force_n[:, 1:] - course.force_n[:, :1])
+    drag = course.drag[:, :1] + within * (course.drag[:, 1:] - course.drag[:, :1])
     needed = vehicle.inertia_kg * profile.acceleration_mps2[:, None] + davis_resistance(speed, a, b_1, c + drag) + line
     traction, braking = np.maximum(needed, 0.0), np.maximum(-needed, 0.0)
     regenerative = np.minimum(braking, largest_force(vehicle.regenerative, speed))
@@ -97,12 +103,36 @@ def forces(vehicle: Vehicle, profile: Profile) -> Forces:
 
 
 def energy_j(vehicle: Vehicle, profile: Profile) -> float:
-    """Energy at the supply for the run, with auxiliaries: exact but for the quadrature of order 6 in a cell."""
+    """Energy at the supply for the run, with auxiliaries: exact but for the quadrature of order 6 in a cell, or in
+    KINKED_PARTS of it where the cost of the force has a kink."""
     return float(cell_energy_j(vehicle, profile).sum()) + vehicle.auxiliary_w * profile.trip_time_s
 
 
 def cell_energy_j(vehicle: Vehicle, profile: Profile) -> Array:
     """Energy at the supply on each cell without auxiliaries, shape (n,)."""
+    found = _smooth_energy_j(vehicle, profile)
+    x, kinked = profile.position_m, np.flatnonzero(_kinked(vehicle, profile))
+    if not len(kinked):
+        return found
+    inner = x[kinked, None] + np.diff(x)[kinked, None] * np.arange(1, KINKED_PARTS) / KINKED_PARTS
+    course = profile.course.split(inner.ravel())
+    parts = Profile(course, np.interp(course.position_m, x, profile.half_square))
+    owner = np.searchsorted(x, course.position_m[:-1], side="right") - 1
+    found[kinked] = np.bincount(owner, _smooth_energy_j(vehicle, parts), len(found))[kinked]
+    return found
+
+
+def _smooth_energy_j(vehicle: Vehicle, profile: Profile) -> Array:
+    """Energy on each cell by one quadrature, J."""
     found = forces(vehicle, profile)
     supplied = found.traction_n / vehicle.traction_efficiency - vehicle.regenerative_efficiency * found.regenerative_n
     return np.asarray(np.diff(profile.position_m) * (supplied @ WEIGHT))
+
+
+def _kinked(vehicle: Vehicle, profile: Profile) -> NDArray[np.bool_]:
+    """The cells at whose ends and middle not all forces that act are the same ones."""
+    found = forces(vehicle, profile, np.array([0.0, 0.5, 1.0]))
+    kinked = np.zeros(len(found.traction_n), dtype=bool)
+    for acts in (found.traction_n > 0, found.friction_n > 0):
+        kinked |= acts.any(axis=1) & ~acts.all(axis=1)
+    return kinked

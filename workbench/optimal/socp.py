@@ -23,8 +23,9 @@ from workbench.optimal.open_rows import Mask, OpenRows, all_open, open_rows, rig
 from workbench.optimal.timetable import Timetable, as_timetable, counted
 from workbench.optimal.vehicle import ForceLimit, Vehicle
 
-# From so many intervals on a coarser program comes first.
-COARSE_FIRST = 2000
+# From so many intervals on a coarser program comes first. A program of which it leaves more than this share open is
+# solved whole: near the least time next to nothing can be left out, and what was would be needed after all.
+COARSE_FIRST, MOSTLY_OPEN = 2000, 0.5
 # A plan keeps this far above a least speed, so that the driven run, which may be a little slower, does.
 LEAST_MARGIN = 1.0001
 
@@ -74,10 +75,11 @@ def solve_socp(vehicle: Vehicle, grid: Grid, asked: Timetable | float, start_mps
             coarse, price = _solve(vehicle, thinned(grid), asked, ends, extra_s=extra_s)
             spent = coarse.solve_s
             rows = open_rows(vehicle, grid, coarse.grid, coarse.half_square, coarse.force_n, price)
-            plan, price = _solve(vehicle, grid, asked, ends, rows, extra_s)
-            spent += plan.solve_s
-            if rightly_closed(vehicle, grid, rows, plan.half_square, plan.force_n, price):
-                return replace(plan, solve_s=spent)
+            if rows.share <= MOSTLY_OPEN:
+                plan, price = _solve(vehicle, grid, asked, ends, rows, extra_s)
+                spent += plan.solve_s
+                if rightly_closed(vehicle, grid, rows, plan.half_square, plan.force_n, price):
+                    return replace(plan, solve_s=spent)
         except NoPlanError:
             pass  # the whole program says whether there is none
     plan, _ = _solve(vehicle, grid, asked, ends, extra_s=extra_s)
@@ -91,8 +93,8 @@ def _solve(vehicle: Vehicle, grid: Grid, asked: Timetable | float, ends_mps: tup
     rows = rows or all_open(grid)
     inertia, (a, b_1, c) = vehicle.inertia_kg, vehicle.davis_n
     # Scales: variables are around one.
-    speed = float(grid.limit_mps.max())
     force = max(vehicle.traction.at(0.0), vehicle.braking_n)
+    speed = _largest_speed(vehicle, grid, max(ends_mps))
     clock = clock_rows(as_timetable(grid.course, asked), grid.position_m, extra_s)
     mean_time = clock.horizon_s / n
     half = speed**2
@@ -152,6 +154,12 @@ def _solve(vehicle: Vehicle, grid: Grid, asked: Timetable | float, ends_mps: tup
                 found.cost * work + vehicle.auxiliary_w * clock.fixed_between_ends_s,
                 found.solve_s, found.status, vehicle.auxiliary_w)
     return plan, price
+
+
+def _largest_speed(vehicle: Vehicle, grid: Grid, ends_mps: float) -> float:
+    """A speed in m/s that no run passes: the highest limit, or less where the line is too short for the train."""
+    most = max(vehicle.traction.force_n - vehicle.davis_n[0] - float(grid.force_n.min()), 0.0) / vehicle.inertia_kg
+    return float(min(grid.limit_mps.max(), max(np.sqrt(ends_mps**2 + 2 * most * grid.course.length_m), ends_mps)))
 
 
 def _variables(vehicle: Vehicle, n: int, rows: OpenRows,
