@@ -1,5 +1,6 @@
 """What is marked in a generated module is what the parser finds, and everything else stays as it was."""
 
+import ast
 import importlib.util
 from itertools import pairwise
 
@@ -80,3 +81,11 @@ def test_a_loop_without_its_marker_is_refused(loop):
     with pytest.raises(CompileError, match=r"test_a_loop_without_its_marker_is_refused\.py: has no line"):
         loop_text(loop(LOOP.replace(MARKER, "")))
 
+
+
+def test_words_of_a_law_are_text_and_never_code(loop):
+    """As of a title in LaTeX, and of one that closes the text to run what follows."""
+    for words in (r"means of $\undefined$", '"""; import os; os._exit(3); """', "two\nlines", "a null \0", "an end \\"):
+        tree = ast.parse(module_text(words, [], loop()))
+        assert ast.get_docstring(tree, clean=False) == f"Generated from the sympy expressions of {words}."
+        assert [ast.unparse(node) for node in tree.body if isinstance(node, ast.Import)] == ["import math"]

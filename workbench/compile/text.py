@@ -60,9 +60,11 @@ def module_text(source: str, functions: Sequence[str], loop: ModuleType, shared:
     functions: their Python source; shared: the name of the module of `shared_text`, from which its functions come.
     Raises CompileError where no function has the name of an entry.
     """
+    # A law says in its own words where it stands: they are text here, whatever quotes and backslashes they hold.
+    stated = source.encode("unicode_escape").decode().replace('"', '\\"')
     common = [node.name for node in _functions(shared_functions(loop))]
     text = "\n".join([
-        f'"""Generated from the sympy expressions of {source}."""', "", "import math", "",
+        f'"""Generated from the sympy expressions of {stated}."""', "", "import math", "",
         "from numba import carray, njit", "", *([f"from {shared} import {', '.join(common)}", ""] if common else []),
         *functions, loop_text(loop),
     ])
