@@ -1,8 +1,8 @@
 """When Python looks for objects that only refer to each other: not before there can be many.
 
 What a command imports stays until it ends. To look through all of it again and again while it is being imported costs
-a seventh of a short command, and frees nothing. To look through all of it once more as it ends costs a quarter: what is
-left goes with the process.
+a seventh of a short command, and frees nothing. To look through all of it once more as it ends costs up to a fifth:
+what is left goes with the process.
 """
 
 from __future__ import annotations
