@@ -58,11 +58,14 @@ class Bench:
 
     def once(self, *arguments: object, cache: str = "cache", options: tuple[str, ...] = ()) -> Ended:
         """One command. options: of Python."""
-        said, before = self.place / "said.txt", seconds_of_all()
+        said = self.place / "said.txt"
+        # Where modules may not be kept compiled, each command would compile all of them: nobody who works so waits so.
+        kept = {name: value for name, value in os.environ.items() if name != "PYTHONDONTWRITEBYTECODE"}
+        before = seconds_of_all()
         with said.open("wb") as out:
             process = subprocess.Popen(
                 [sys.executable, *options, "-m", "workbench", *map(str, arguments)], cwd=self.place, stdout=out,
-                stderr=out, env={**os.environ, "PYTHONPATH": str(ROOT), "WORKBENCH_CACHE": str(self.place / cache)},
+                stderr=out, env={**kept, "PYTHONPATH": str(ROOT), "WORKBENCH_CACHE": str(self.place / cache)},
             )
             process.wait()
         return Ended(seconds_of_all() - before, process.returncode, said.read_text(encoding="utf-8"))

@@ -118,6 +118,29 @@ def test_collection_begins_late_and_then_is_as_it_was():
         gc.set_threshold(*before)
 
 
+def test_a_command_ends_without_looking_through_all_that_it_imported():
+    program = """
+import sys
+from workbench.cli.app import main
+
+class Ring:
+    def __del__(self):
+        print("searched")
+
+if len(sys.argv) > 1:
+    try:
+        main()
+    except SystemExit:
+        pass
+ring = Ring()
+ring.itself = ring
+del ring
+"""
+    told = [subprocess.run([sys.executable, "-c", program, *arguments], check=True, capture_output=True, text=True,
+                           timeout=300).stdout for arguments in ((), ("prove", "nowhere"))]
+    assert told == ["searched\n", ""]
+
+
 def test_a_run_needs_its_solver_and_no_modelling_tools():
     code, names = imported("reference", LINE, TRAIN, "--time", 2600)
     assert code == 0

@@ -17,7 +17,7 @@ from typer.core import TyperGroup
 from typer.exceptions import TyperException
 from typer.main import get_command
 
-from workbench.cli.collection import collect_later
+from workbench.cli.collection import collect_later, end_without_search
 from workbench.cli.console import err_console
 from workbench.cli.options import Version
 from workbench.errors import InputError, WorkbenchError, of_an_extra, printable
@@ -69,6 +69,7 @@ def main() -> None:
     """Run the command line; an error that is the caller's to mend is one line and exit code 2."""
     use_one_thread()
     collect_later()
+    end_without_search()
     if threading.current_thread() is threading.main_thread():
         signal.signal(signal.SIGTERM, signal.default_int_handler)  # what is finished is kept, as after Ctrl-C
     try:
