@@ -17,6 +17,8 @@ _NODES, _WEIGHTS = leggauss(3)
 WITHIN, WEIGHT = (_NODES + 1) / 2, _WEIGHTS / 2
 # Parts of a cell on which what the force costs is no smooth function: traction turns to braking, or friction joins in.
 KINKED_PARTS = 16
+IN_PARTS = ((np.arange(KINKED_PARTS)[:, None] + WITHIN) / KINKED_PARTS).ravel()
+PART_WEIGHT = np.tile(WEIGHT, KINKED_PARTS) / KINKED_PARTS
 
 
 @dataclass(frozen=True)
@@ -82,18 +84,19 @@ def largest_force(limit: ForceLimit, speed_mps: Array) -> Array:
     return np.asarray(force, dtype=float)
 
 
-def forces(vehicle: Vehicle, profile: Profile, within: Array = WITHIN) -> Forces:
+def forces(vehicle: Vehicle, profile: Profile, within: Array = WITHIN, cells: NDArray[np.intp] | None = None) -> Forces:
     """What the run needs at the wheel; what electric braking cannot give is left to friction.
 
-    within: the points of each cell, from 0 to 1.
+    within: the points of each cell, from 0 to 1; cells: of which cells, by their numbers, else of all.
     """
-    course, b = profile.course, profile.half_square
-    along = b[:-1, None] + within * np.diff(b)[:, None]
+    course, b, of = profile.course, profile.half_square, slice(None) if cells is None else cells
+    along = b[:-1][of, None] + within * np.diff(b)[of, None]
     speed = np.sqrt(2 * along)
     a, b_1, c = vehicle.davis_n
-    line = course.force_n[:, :1] + within * (course.force_n[:, 1:] - course.force_n[:, :1])
-    drag = course.drag[:, :1] + within * (course.drag[:, 1:] - course.drag[:, :1])
-    needed = vehicle.inertia_kg * profile.acceleration_mps2[:, None] + davis_resistance(speed, a, b_1, c + drag) + line
+    line = course.force_n[of, :1] + within * np.diff(course.force_n[of])
+    drag = course.drag[of, :1] + within * np.diff(course.drag[of])
+    needed = vehicle.inertia_kg * profile.acceleration_mps2[of, None] + davis_resistance(
+        speed, a, b_1, c + drag) + line
     traction, braking = np.maximum(needed, 0.0), np.maximum(-needed, 0.0)
     regenerative = np.minimum(braking, largest_force(vehicle.regenerative, speed))
     friction = braking - regenerative
@@ -110,23 +113,17 @@ def energy_j(vehicle: Vehicle, profile: Profile) -> float:
 
 def cell_energy_j(vehicle: Vehicle, profile: Profile) -> Array:
     """Energy at the supply on each cell without auxiliaries, shape (n,)."""
-    found = _smooth_energy_j(vehicle, profile)
-    x, kinked = profile.position_m, np.flatnonzero(_kinked(vehicle, profile))
-    if not len(kinked):
-        return found
-    inner = x[kinked, None] + np.diff(x)[kinked, None] * np.arange(1, KINKED_PARTS) / KINKED_PARTS
-    course = profile.course.split(inner.ravel())
-    parts = Profile(course, np.interp(course.position_m, x, profile.half_square))
-    owner = np.searchsorted(x, course.position_m[:-1], side="right") - 1
-    found[kinked] = np.bincount(owner, _smooth_energy_j(vehicle, parts), len(found))[kinked]
-    return found
+    length = np.diff(profile.position_m)
+    found = length * (_supplied_n(vehicle, forces(vehicle, profile)) @ WEIGHT)
+    if len(kinked := np.flatnonzero(_kinked(vehicle, profile))):
+        in_parts = forces(vehicle, profile, IN_PARTS, kinked)
+        found[kinked] = length[kinked] * (_supplied_n(vehicle, in_parts) @ PART_WEIGHT)
+    return np.asarray(found)
 
 
-def _smooth_energy_j(vehicle: Vehicle, profile: Profile) -> Array:
-    """Energy on each cell by one quadrature, J."""
-    found = forces(vehicle, profile)
-    supplied = found.traction_n / vehicle.traction_efficiency - vehicle.regenerative_efficiency * found.regenerative_n
-    return np.asarray(np.diff(profile.position_m) * (supplied @ WEIGHT))
+def _supplied_n(vehicle: Vehicle, found: Forces) -> Array:
+    """Energy at the supply for each metre, J/m."""
+    return found.traction_n / vehicle.traction_efficiency - vehicle.regenerative_efficiency * found.regenerative_n
 
 
 def _kinked(vehicle: Vehicle, profile: Profile) -> NDArray[np.bool_]:
