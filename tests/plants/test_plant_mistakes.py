@@ -61,3 +61,14 @@ def test_mpc_of_an_empty_tank_ends(start: float, goal: float) -> None:
     run = wb.compare(setting, [wb.entrant(wb.PlantMpc(20, {"h": 1.0}, {"q": 1e-3}, substeps=4), 0.5)]).runs[0]
     assert run.failed is None
     assert run["h"][-1] > 0.4 if goal else run["h"][-1] < 0.45
+
+
+def test_mpc_of_two_tanks_that_run_empty_ends():
+    """fatrop never came back from the derivatives of two roots at zero, and could not be interrupted."""
+    h, k, q = sp.symbols("h k q", real=True)
+    tanks = wb.Plant("tanks", (h, k), (q - sp.sqrt(h) / 10, (sp.sqrt(h) - sp.sqrt(k)) / 10), (q,),
+                     input_limits={q: (0, 0.5)})
+    setting = wb.Setting(tanks, 1.5, 0.01, references={"r": wb.Constant(value=0.0)}, tracks={"k": "r"},
+                         initial={"h": 0.5, "k": 0.5})
+    run = wb.compare(setting, [wb.entrant(wb.PlantMpc(20, {"k": 1.0}, {"q": 1e-3}), 0.5)]).runs[0]
+    assert run.failed is None and max(run["q"]) < 0.01

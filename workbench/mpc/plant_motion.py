@@ -23,7 +23,7 @@ LEAST_BASE = 1e-9  # of a root or logarithm in the model: below it neither they 
 def _within_domain(plant: Plant) -> Plant:
     """The plant with roots and logarithms that go on beyond their domain.
 
-    An empty tank's root has an endless slope, and from there fatrop searches for a step without end.
+    An empty tank's root has an endless slope there. The plant itself where none of them can leave its domain.
     """
     def leaves(e: sp.Basic) -> bool:
         return (isinstance(e, sp.log) and not e.args[0].is_positive) or (
@@ -44,11 +44,17 @@ class PlantMotion:
     def __init__(self, how: PlantMpcValues, setting: Setting) -> None:
         self._how, self._setting = how, setting
         self.estimated = [d for d in setting.plant.disturbances if str(d) in how.observer]
+        self._plant = _within_domain(setting.plant)
         self.function, self._with_slopes = cache(self._function), cache(self._slopes)
         x = ca.SX.sym("x", len(setting.plant.states))
         z = ca.vertcat(x, ca.SX.sym("w", len(self.estimated)))
         y = ca.vertcat(*casadi_of([*setting.plant.outputs.values()], self.known(x)))
         self._measured = ca.Function("measured", [z], [y, ca.jacobian(y, z)])
+
+    @property
+    def is_steep(self) -> bool:
+        """Whether a root or logarithm in the plant may come to the edge of its domain, where its slope has no bound."""
+        return self._plant is not self._setting.plant
 
     def known(self, x: Any) -> dict[Any, Any]:
         """What a casadi expression of states and parameters is made with."""
@@ -79,7 +85,7 @@ class PlantMotion:
 
     def _moved(self, seconds: float) -> tuple[Any, Any, Any, Any]:
         plant, how = self._setting.plant, self._how
-        f = _within_domain(plant).to_casadi(self._setting.parameters)
+        f = self._plant.to_casadi(self._setting.parameters)
         x, u, w = (ca.SX.sym(name, size) for name, size in (
             ("x", len(plant.states)), ("u", len(plant.inputs)), ("w", len(self.estimated))))
         d = ca.vertcat(*(w[self.estimated.index(s)] if s in self.estimated else 0.0 for s in plant.disturbances))

@@ -26,6 +26,7 @@ from workbench.mpc.plant_values import PlantMpcValues
 from workbench.systems.setting import Setting, limits_of
 
 Array = NDArray[np.float64]
+MOST_STEEP = 200  # steps of ipopt for a sample, where slopes have no bound and it may come to no end
 # A run ends where a state goes beyond it. Of residuals far beyond, fatrop looks for a first step without end.
 LARGEST_RESIDUAL = 1e12
 
@@ -102,7 +103,7 @@ def program(how: PlantMpcValues, setting: Setting, period_s: float, tracked: lis
     nlp = {"x": variables, "f": cost, "g": ca.vertcat(*rows.values),
            "p": ca.vertcat(start, push, estimated, ca.vec(desired), ca.vec(ahead))}
     of_rows = ca.Function("rows", [nlp["x"], nlp["p"]], [nlp["g"]])
-    return Program(_solver(how, nlp, rows.equal), of_rows, bounds, limited)
+    return Program(_solver(how, nlp, rows.equal, motion.is_steep), of_rows, bounds, limited)
 
 
 class _Rows:
@@ -153,7 +154,7 @@ def _metrics(how: PlantMpcValues, setting: Setting, period_s: float,
     return (ca.Function("stage", [x, u, ahead], [stage]), ca.Function("end", [x, u, ahead], [end]), 1 + len(symbols))
 
 
-def _solver(how: PlantMpcValues, nlp: dict[str, Any], equal: list[bool]) -> Any:
+def _solver(how: PlantMpcValues, nlp: dict[str, Any], equal: list[bool], is_steep: bool) -> Any:
     # An iterate beyond a function's domain is the solver's to step back from, and no warning to the user.
     common: dict[str, Any] = {"expand": True, "print_time": False, "error_on_fail": False,
                               "show_eval_warnings": False}
@@ -167,7 +168,8 @@ def _solver(how: PlantMpcValues, nlp: dict[str, Any], equal: list[bool]) -> Any:
         return ca.nlpsol("mpc", "sqpmethod", nlp, {
             **common, **quiet, "max_iter": 1, "max_iter_ls": 0, "hess_lag": hessian, "qpsol": "piqp",
             "qpsol_options": {"print_time": False, "error_on_fail": False}})
-    if how.solver == "fatrop":
+    if how.solver == "fatrop" and not is_steep:  # where slopes have no bound, fatrop may look for a step without end
         return ca.nlpsol("mpc", "fatrop", nlp, {**common, **structured,
                                                 "fatrop": {"print_level": 0, "tol": 1e-6, "max_iter": 200}})
-    return ca.nlpsol("mpc", "ipopt", nlp, {**common, "ipopt": {"print_level": 0, "sb": "yes", "tol": 1e-8}})
+    return ca.nlpsol("mpc", "ipopt", nlp, {**common, "ipopt": {
+        "print_level": 0, "sb": "yes", "tol": 1e-8, **({"max_iter": MOST_STEEP} if is_steep else {})}})
