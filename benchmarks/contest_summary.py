@@ -32,24 +32,35 @@ from workbench.paper.results import ResultTable
 CONTEST, MINIMAX = (Path(__file__).with_name(f"{name}.toml") for name in ("common", "minimax"))
 SHOWN = ("position_rms", "speed_rms", "stopping_error", "energy_J", "jerk_rms", "comfort_rms", "switchings_per_s")
 
-# What has changed since the journal of docs/contest.md was played, and what comes of it; empty once it is played anew.
-CHANGED = (
-    "Until then the line's resistance changed under a train in pieces of half a metre, whose small steps were "
-    "counted as jerk at every plant step. It changes evenly now. Of eleven leading rows of parameters ±10 %, driven "
-    "again on the same 16 draws, jerk RMS is 0.030 to 0.038 m/s³ instead of 0.046 to 0.052, its 95th percentile 0.013 "
-    "to 0.070 instead of 0.12 to 0.13; position RMS moves by 2.5 % (mpc_told+, 0.165 instead of 0.169 mm) or by less "
-    "than 0.2 %, the order is the same, energy and comfort are the same to three digits or nearly so. Every column "
-    "of jerk, every value of the objective and what was tuned by it, jerk being part of it, rest on the old line; "
-    "headlines by position stand.",)
+# What of the page is older than today's line, and what comes of it; empty once everyone is tuned and played anew.
+EARLIER = (
+    "The line's resistance changed under a train in pieces of half a metre then, whose small steps were counted as "
+    "jerk at every plant step: of eleven leading rows of parameters ±10 %, driven on both lines with the same draws, "
+    "jerk RMS was 0.046 to 0.052 instead of 0.030 to 0.038 m/s³ and its 95th percentile 0.12 to 0.13 instead of 0.013 "
+    "to 0.070; position RMS differs by 2.5 % (mpc_told+) or less than 0.2 %.")
+CARRIED = ("## What tracking costs", "## Tuned for the worst")
 
 
 def rests_on(folder: Path, contest: Contest) -> Iterator[str]:
-    """By which code a journal was played, and what is different now."""
+    """By which code a journal was played."""
     head = json.loads((folder / JOURNAL_NAME).read_text(encoding="utf-8").partition("\n")[0])
-    if contest_digest(contest, "pareto") in head.values():
-        yield from ("Played by the code and with the values that stand here.", "")
-    else:
-        yield from (f"**Played by earlier code or other values.** {' '.join(CHANGED)}", "")
+    played_by = "the code and with the values" if contest_digest(contest, "pareto") in head.values() else (
+        "an earlier state of the code or with other values than those")
+    yield f"- The matches were played by {played_by} that stand here."
+
+
+def carried(page_before: str) -> dict[str, list[str]]:
+    """Sections that have journals of their own, by their headings, as a page has them: what is not played again stays,
+    and is said to be older."""
+    found: dict[str, list[str]] = {}
+    heading = ""
+    for line in page_before.splitlines():
+        if line.startswith("## "):
+            heading = line
+        if heading.startswith(CARRIED):
+            found.setdefault(heading, []).append(line)
+    return {heading: lines if f"Played earlier. {EARLIER}" in lines else [
+        heading, "", f"Played earlier. {EARLIER}", *lines[1:]] for heading, lines in found.items()}
 
 
 def records(path: Path) -> list[dict[str, object]]:
@@ -104,15 +115,15 @@ def of_period(own: Told, condition: str) -> Iterator[str]:
     yield from table(["controller", *(COLUMNS[metric].heading for metric in SHOWN), "failed"], rows)
 
 
-def page(told: Told, contest: Contest, fronts: list[Front], folder: Path) -> Iterator[str]:
-    """Its lines."""
+def page(told: Told, contest: Contest, fronts: list[Front], folder: Path,
+         before: dict[str, list[str]]) -> Iterator[str]:
+    """Its lines; before: what stays of the page where no fronts are played."""
     left = [stated.title for name, stated in contest.conditions.items() if name not in told.contest.conditions]
     yield from (
         "# The common contest, as it was played", "",
         "All controllers on one train and line, under the same actuator, draws, noise and failures; ranked among those "
         "who command equally often. A + marks parameters that were tuned, by the same budget for all.", "",
         "## Headline", "", *(f"- {words}" for words in period_findings(told)), "")
-    yield from rests_on(folder, contest)
     groups = list(at_each_period(told))
     yield from ("## The best tracker by condition", "")
     rows = [[stated.title, str(told.runs(name)), *(", ".join(own.best(name, "position_rms")) for _, own in groups)]
@@ -127,18 +138,23 @@ def page(told: Told, contest: Contest, fronts: list[Front], folder: Path) -> Ite
         "it by Holm's correction over all metrics and conditions of those who sample alike.",
         "- Who learns shows the last of its trips, which all meet the same train, line and gusts; noise is drawn anew "
         "for each.",
-        "- Every number is from the runs; `benchmarks/contest_summary.py` writes this page.", "")
+        "- Every number is from the runs; `benchmarks/contest_summary.py` writes this page.")
+    yield from rests_on(folder, contest)
+    yield ""
     if left:
         yield from (f"Stated in the contest's file and not played here: {', '.join(left)}.", "")
     for period, own in groups:
         base = told.contest.tuning.condition
         yield from (f"## Commands every {1e3 * period:g} ms, {told.contest.conditions[base].title}", "")
         yield from of_period(own, base)
-    yield from ("## What tuning found", "")
+    yield from ("## What tuning found", "", f"Searched earlier. {EARLIER}", "")
     for found in tuning_table(told):
         yield from shown(found)
     for found in front_tables(contest, fronts):
         yield from (f"## {found.title}", "", *shown(found))
+    for heading, lines in before.items():
+        if not fronts and heading.startswith(CARRIED[0]):
+            yield from lines
     yield from ("## What they are told", "")
     yield from table(["controller", "is told"], [[name, information(told.scenario, name)]
                                                  for name in told.scenario.controllers])
@@ -170,8 +186,11 @@ def main() -> None:
     assert isinstance(contest, Contest) and isinstance(minimax, Contest)
     read = TypeAdapter(tuple[Front, ...])
     fronts = [front for record in records(folder / FRONTS_NAME) for front in read.validate_python(record["fronts"])]
-    lines = [*page(played(folder, contest), contest, fronts, folder),
+    before = carried(out.read_text(encoding="utf-8")) if out.exists() else {}
+    lines = [*page(played(folder, contest), contest, fronts, folder, before),
              *(line for other in others for line in worst(played(other, minimax)))]
+    if not others:
+        lines += [line for heading, kept in before.items() if heading.startswith(CARRIED[1]) for line in kept]
     out.write_text("\n".join(lines).rstrip() + "\n", encoding="utf-8")
 
 
