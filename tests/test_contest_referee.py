@@ -218,5 +218,5 @@ def test_the_next_is_told_apart_from_the_first_alone(contest: Contest, world) ->
     matches = tuple(played("ten", draw, entry, position_rms=float(of[draw]))
                     for draw in range(16) for entry, of in (*values.items(), ("late", base + 3)))
     words = next(words for words in period_findings(Told(whole, at_two, matches, None)) if "100 ms" in words)
-    assert words.index("pocrac 0.9") < words.index("pid 1.0")
-    assert "; told apart from the first, the next is mpc_linear 2.0" in words
+    assert words.index("pocrac, 0.9") < words.index("pid, 1.0")
+    assert "; the next that is told apart from the first is mpc_linear, 2.0" in words

@@ -40,7 +40,7 @@ def test_fatrop_and_ipopt_find_the_same_run(vehicle, stops):
     """Structure given by hand could be wrong without complaint: the sparse solver knows nothing of it."""
     course = hilly(stops)
     quick = least_time(vehicle, course)
-    grid = graded_grid(course, 120)
+    grid = graded_grid(course, 100)
     guess = np.interp(grid.position_m, quick.position_m, quick.half_square)
     plans = []
     for solver in ("fatrop", "ipopt"):

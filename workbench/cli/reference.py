@@ -9,7 +9,6 @@ import typer
 
 from workbench.cli.console import out_console
 from workbench.cli.options import Dask, JsonFile, Workers, on_cluster
-from workbench.cli.terminal import progress
 from workbench.errors import InputError
 
 
@@ -50,6 +49,7 @@ def command(track: Annotated[Path | None, typer.Argument(help="Line: TOML of thi
     if fleet:
         if track or train or time is not None or timetable:
             raise InputError("", "--fleet", "names lines, trains and times itself: leave TRACK, TRAIN and times out")
+        from workbench.cli.terminal import progress
         from workbench.report.fleet_command import FleetRequest, fleet_run
 
         with progress() as show, on_cluster(dask, workers):
