@@ -33,11 +33,13 @@ CONTEST, MINIMAX = (Path(__file__).with_name(f"{name}.toml") for name in ("commo
 SHOWN = ("position_rms", "speed_rms", "stopping_error", "energy_J", "jerk_rms", "comfort_rms", "switchings_per_s")
 
 # What of the page is older than today's line, and what comes of it; empty once everyone is tuned and played anew.
-EARLIER = (
-    "The line's resistance changed under a train in pieces of half a metre then, whose small steps were counted as "
-    "jerk at every plant step: of eleven leading rows of parameters ±10 %, driven on both lines with the same draws, "
-    "jerk RMS was 0.046 to 0.052 instead of 0.030 to 0.038 m/s³ and its 95th percentile 0.12 to 0.13 instead of 0.013 "
-    "to 0.070; position RMS differs by 2.5 % (mpc_told+) or less than 0.2 %.")
+EARLIER = "Played earlier, on the line in pieces: see “How it was played”."
+ON_PIECES = (
+    "What is said to be played or searched earlier met a line whose resistance changed under a train in pieces of half "
+    "a metre. Their small steps were counted as jerk at every plant step: of eleven leading rows of parameters ±10 %, "
+    "driven on both lines with the same draws, jerk RMS was 0.046 to 0.052 instead of 0.030 to 0.038 m/s³ and its 95th "
+    "percentile 0.12 to 0.13 instead of 0.013 to 0.070; position RMS differs by 2.5 % (mpc_told+) or less than 0.2 %. "
+    "Everyone plays with what was found there.")
 CARRIED = ("## What tracking costs", "## Tuned for the worst")
 
 
@@ -47,6 +49,15 @@ def rests_on(folder: Path, contest: Contest) -> Iterator[str]:
     played_by = "the code and with the values" if contest_digest(contest, "pareto") in head.values() else (
         "an earlier state of the code or with other values than those")
     yield f"- The matches were played by {played_by} that stand here."
+
+
+def earlier_rows(page_before: str, titles: list[str]) -> Iterator[str]:
+    """Rows of the table of best trackers for conditions that are not played again, marked as what they are."""
+    lines = page_before.splitlines()
+    for title in titles:
+        row = next((line for line in lines if line.startswith((f"| {title} |", f"| {title} † |"))), None)
+        if row:
+            yield f"| {title} † |{row.split('|', 2)[2]}"
 
 
 def carried(page_before: str) -> dict[str, list[str]]:
@@ -59,8 +70,8 @@ def carried(page_before: str) -> dict[str, list[str]]:
             heading = line
         if heading.startswith(CARRIED):
             found.setdefault(heading, []).append(line)
-    return {heading: lines if f"Played earlier. {EARLIER}" in lines else [
-        heading, "", f"Played earlier. {EARLIER}", *lines[1:]] for heading, lines in found.items()}
+    return {heading: lines if EARLIER in lines else [
+        heading, "", EARLIER, *lines[1:]] for heading, lines in found.items()}
 
 
 def records(path: Path) -> list[dict[str, object]]:
@@ -116,8 +127,8 @@ def of_period(own: Told, condition: str) -> Iterator[str]:
 
 
 def page(told: Told, contest: Contest, fronts: list[Front], folder: Path,
-         before: dict[str, list[str]]) -> Iterator[str]:
-    """Its lines; before: what stays of the page where no fronts are played."""
+         page_before: str) -> Iterator[str]:
+    """Its lines; page_before: the page as it was, of which stays what is not played again."""
     left = [stated.title for name, stated in contest.conditions.items() if name not in told.contest.conditions]
     yield from (
         "# The common contest, as it was played", "",
@@ -128,7 +139,9 @@ def page(told: Told, contest: Contest, fronts: list[Front], folder: Path,
     yield from ("## The best tracker by condition", "")
     rows = [[stated.title, str(told.runs(name)), *(", ".join(own.best(name, "position_rms")) for _, own in groups)]
             for name, stated in told.contest.conditions.items()]
-    yield from table(["condition", "draws", *(f"every {1e3 * period:g} ms" for period, _ in groups)], rows)
+    *best, _ = table(["condition", "draws", *(f"every {1e3 * period:g} ms" for period, _ in groups)], rows)
+    old = list(earlier_rows(page_before, left))
+    yield from (*best, *old, "", *((f"† {EARLIER}", "") if old else ()))
     yield from (
         "## How it was played", "",
         "- Behind the actuator of `benchmarks/common_run.toml`, unless the condition says otherwise.",
@@ -140,19 +153,19 @@ def page(told: Told, contest: Contest, fronts: list[Front], folder: Path,
         "for each.",
         "- Every number is from the runs; `benchmarks/contest_summary.py` writes this page.")
     yield from rests_on(folder, contest)
-    yield ""
-    if left:
+    yield from (f"- {ON_PIECES}", "")
+    if len(left) > len(old):
         yield from (f"Stated in the contest's file and not played here: {', '.join(left)}.", "")
     for period, own in groups:
         base = told.contest.tuning.condition
         yield from (f"## Commands every {1e3 * period:g} ms, {told.contest.conditions[base].title}", "")
         yield from of_period(own, base)
-    yield from ("## What tuning found", "", f"Searched earlier. {EARLIER}", "")
+    yield from ("## What tuning found", "", "Searched earlier, on the line in pieces: see “How it was played”.", "")
     for found in tuning_table(told):
         yield from shown(found)
     for found in front_tables(contest, fronts):
         yield from (f"## {found.title}", "", *shown(found))
-    for heading, lines in before.items():
+    for heading, lines in carried(page_before).items():
         if not fronts and heading.startswith(CARRIED[0]):
             yield from lines
     yield from ("## What they are told", "")
@@ -186,11 +199,11 @@ def main() -> None:
     assert isinstance(contest, Contest) and isinstance(minimax, Contest)
     read = TypeAdapter(tuple[Front, ...])
     fronts = [front for record in records(folder / FRONTS_NAME) for front in read.validate_python(record["fronts"])]
-    before = carried(out.read_text(encoding="utf-8")) if out.exists() else {}
+    before = out.read_text(encoding="utf-8") if out.exists() else ""
     lines = [*page(played(folder, contest), contest, fronts, folder, before),
              *(line for other in others for line in worst(played(other, minimax)))]
     if not others:
-        lines += [line for heading, kept in before.items() if heading.startswith(CARRIED[1]) for line in kept]
+        lines += [line for heading, kept in carried(before).items() if heading.startswith(CARRIED[1]) for line in kept]
     out.write_text("\n".join(lines).rstrip() + "\n", encoding="utf-8")
 
 
