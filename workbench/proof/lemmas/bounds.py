@@ -63,7 +63,7 @@ def finite_time(V: sp.Expr, rate: sp.Expr, power: sp.Expr, flow: Flow, assume: S
 
 def input_to_state(V: sp.Expr, state: Sequence[sp.Expr], lower: sp.Expr, upper: sp.Expr, rate: sp.Expr, gain: sp.Expr,
                    disturbance: Sequence[sp.Symbol | sp.Indexed], flow: Flow, assume: Sequence[Relation] = ()) -> Lemma:
-    """lower |x|^2 <= V <= upper |x|^2 and V' <= -rate V + gain |d|^2 make the state stable from the disturbance d.
+    """lower x'x <= V <= upper x'x and V' <= -rate V + gain d'd make the state stable from the disturbance d.
 
     Sontag and Wang, Systems & Control Letters 24 (1995), theorem 1, with quadratic bounds. Raises ClaimError where V
     does not move.

@@ -36,7 +36,7 @@ def barbalat(V: sp.Expr, W: sp.Expr, level: sp.Symbol, steepest: sp.Expr, flow: 
 
 def lasalle_yoshizawa(V: sp.Expr, state: Sequence[sp.Expr], lower: sp.Expr, upper: sp.Expr, W: sp.Expr, flow: Flow,
                       assume: Sequence[Relation] = (), inputs: Inputs = ()) -> Lemma:
-    """lower |x|^2 <= V <= upper |x|^2 and V' <= -W(x) <= 0: all states stay bounded, and W vanishes.
+    """lower x'x <= V <= upper x'x and V' <= -W(x) <= 0: all states stay bounded, and W vanishes.
 
     Krstic, Kanellakopoulos and Kokotovic, theorem A.8, with quadratic bounds. W: of the state alone, so that it is
     continuous where the state is bounded. Raises ClaimError where V does not move, or W is of more than the state.
@@ -55,7 +55,7 @@ def lasalle_yoshizawa(V: sp.Expr, state: Sequence[sp.Expr], lower: sp.Expr, uppe
 
 def razumikhin(V: sp.Expr, delayed: sp.Expr, state: Sequence[sp.Expr], lower: sp.Expr, upper: sp.Expr, factor: sp.Expr,
                rate: sp.Expr, flow: Flow, inputs: Inputs, assume: Sequence[Relation] = ()) -> Lemma:
-    """V' <= -rate |x|^2 wherever V of the delayed state is at most `factor` > 1 times V: the state decays.
+    """V' <= -rate x'x wherever V of the delayed state is at most `factor` > 1 times V: the state decays.
 
     Hale and Verduyn Lunel, theorem 5.4.2, with quadratic bounds. delayed: V with the delayed states in place of the
     states, which are `inputs`, since they have no rate of their own. Raises ClaimError where V does not move.
