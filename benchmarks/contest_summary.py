@@ -142,6 +142,10 @@ def page(told: Told, contest: Contest, fronts: list[Front], folder: Path,
     *best, _ = table(["condition", "draws", *(f"every {1e3 * period:g} ms" for period, _ in groups)], rows)
     old = list(earlier_rows(page_before, left))
     yield from (*best, *old, "", *((f"† {EARLIER}", "") if old else ()))
+    short = [row[0] for row in rows if any(", " in cell for cell in row[2:]) and 1 < int(row[1]) < contest.seeds]
+    if short:
+        yield from (f"Several stand in one place where more draws, up to {contest.seeds}, may part them and were not "
+                    f"played: {'; '.join(short)}.", "")
     yield from (
         "## How it was played", "",
         "- Behind the actuator of `benchmarks/common_run.toml`, unless the condition says otherwise.",
