@@ -36,10 +36,8 @@ SHOWN = ("position_rms", "speed_rms", "stopping_error", "energy_J", "jerk_rms", 
 EARLIER = "Played earlier, on the line in pieces: see “How it was played”."
 ON_PIECES = (
     "What is said to be played or searched earlier met a line whose resistance changed under a train in pieces of half "
-    "a metre. Their small steps were counted as jerk at every plant step: of eleven leading rows of parameters ±10 %, "
-    "driven on both lines with the same draws, jerk RMS was 0.046 to 0.052 instead of 0.030 to 0.038 m/s³ and its 95th "
-    "percentile 0.12 to 0.13 instead of 0.013 to 0.070; position RMS differs by 2.5 % (mpc_told+) or less than 0.2 %. "
-    "Everyone plays with what was found there.")
+    "a metre. Their small steps were counted as jerk at every plant step, so that jerk, and with it the objective of "
+    "tuning, is too large there. Everyone plays with what was found by it.")
 CARRIED = ("## What tracking costs", "## Tuned for the worst")
 
 

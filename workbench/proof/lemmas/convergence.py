@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 
 import sympy as sp
 
 from workbench.proof.claim import D, Relation, at_least, at_most, greater
 from workbench.proof.latex.write import latex
 from workbench.proof.lemmas.bounds import Inputs, quadratic_bounds
-from workbench.proof.lemmas.lemma import Flow, Hypothesis, Lemma, goal_of, require_constant, require_moving
+from workbench.proof.lemmas.lemma import Flow, Hypothesis, Lemma, goal_of, require_constant, require_moving, square_norm
 
 
 def barbalat(V: sp.Expr, W: sp.Expr, level: sp.Symbol, steepest: sp.Expr, flow: Flow, assume: Sequence[Relation] = (),
@@ -53,20 +53,21 @@ def lasalle_yoshizawa(V: sp.Expr, state: Sequence[sp.Expr], lower: sp.Expr, uppe
         "The rates are locally Lipschitz in the state and bounded where it is, at all times alike.")
 
 
-def razumikhin(V: sp.Expr, delayed: sp.Expr, state: Sequence[sp.Expr], lower: sp.Expr, upper: sp.Expr, factor: sp.Expr,
-               rate: sp.Expr, flow: Flow, inputs: Inputs, assume: Sequence[Relation] = ()) -> Lemma:
+def razumikhin(V: sp.Expr, past: Mapping[sp.Expr, sp.Symbol], lower: sp.Expr, upper: sp.Expr, factor: sp.Expr,
+               rate: sp.Expr, flow: Flow, assume: Sequence[Relation] = ()) -> Lemma:
     """V' <= -rate x'x wherever V of the delayed state is at most `factor` > 1 times V: the state decays.
 
-    Hale and Verduyn Lunel, theorem 5.4.2, with quadratic bounds. delayed: V with the delayed states in place of the
-    states, which are `inputs`, since they have no rate of their own. Raises ClaimError where V does not move.
+    Hale and Verduyn Lunel, theorem 5.4.2, with quadratic bounds. past: each state with the symbol of its delayed value,
+    which has no rate of its own. Raises ClaimError where V does not move.
     """
+    state, delayed = tuple(past), tuple(past.values())
     require_moving("razumikhin", flow, V)
-    require_constant("razumikhin", flow, inputs, lower, upper, factor, rate)
-    norm = sp.Add(*(x**2 for x in state))
+    require_constant("razumikhin", flow, delayed, lower, upper, factor, rate)
+    norm = square_norm(state)
     return Lemma("Razumikhin's theorem", (
         *quadratic_bounds(V, state, lower, upper, flow, assume),
-        Hypothesis("rate", "V falls where its past is not much larger",
-                   goal_of(at_most(D(V), -rate * norm), flow, (*assume, at_most(delayed, factor * V)), inputs)),
+        Hypothesis("rate", "V falls where its past is not much larger", goal_of(
+            at_most(D(V), -rate * norm), flow, (*assume, at_most(V.xreplace(dict(past)), factor * V)), delayed)),
         Hypothesis("factor", "The factor is above one", goal_of(greater(factor, 1), {})),
         Hypothesis("decay", "The rate is positive", goal_of(greater(rate, 0), {})),
     ), rf"\lim_{{t \to \infty}} {latex(norm)} = 0",
