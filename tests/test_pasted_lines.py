@@ -30,6 +30,10 @@ inputs = ['w']
 'W' = "vector"
 [definitions]
 'V' = '\tfrac12 x^2 + \frac{1}{2c}\theta^2'
+'s' = 'x + a'
+'U' = 'x s'
+'R' = 's^2 + b U'
+'H(x, a)' = 'x s'
 [flow]
 'x' = '-k x + w'
 'y' = 'z'
@@ -57,13 +61,16 @@ READ = {
     r"\dot{x}^2 = 1": "D(x)**2 == 1", r"\frac{d^2 y}{dt^2} = 1": "D(D(y)) == 1",
     r"\frac{\mathrm{d}}{\mathrm{d}t} x^2 = 1": "D(x**2) == 1", r"\frac{\partial V}{\partial x} = y": "x == y",
     "x(t)^2 = 1": "x**2 == 1", r"\frac{dy}{dt} = 1": "D(y) == 1",
+    r"\frac{d s^2}{d x} = 1": "2*a + 2*x == 1", r"\frac{\partial H(x, a)}{\partial x} = 1": "a + 2*x == 1",
+    r"\frac{\partial}{\partial x}\frac{\partial s^3}{\partial x} = 1": "6*a + 6*x == 1",
     # what is claimed, and of what
     r"0 < a \le b": "0 < a, a <= b", r"x^2 \ge 1 \quad (3)": "x**2 >= 1",
     r"x^2 \ge 1 \label{eq:1} \tag{3}": "x**2 >= 1", r"x^2 \ge 0 \quad \forall x \in \mathbb{R}, t \ge 0": "x**2 >= 0",
     r"x^2 \ge y \text{ for all } x, y": "x**2 >= y", r"\forall x > 0: x^3 > 0": "x > 0 |- x**3 > 0",
     r"\text{if } x > 0, \text{ then } x^3 > 0": "x > 0 |- x**3 > 0",
     r"\frac1x \le x \quad (x \ge 1)": "x >= 1 |- 1/x <= x", "x != 0 \\implies x^2 > 0": "x != 0 |- x**2 > 0",
-    "y := x^2": "y == x**2",
+    "y := x^2": "y == x**2", r"(x + y)^2 > 0 \text{ for } x, y > 0": "x > 0, y > 0 |- (x + y)**2 > 0",
+    r"(x + y)^2 > 0\ \forall x > 0, y \in [0, 1]": "x > 0, 0 <= y, y <= 1 |- (x + y)**2 > 0",
 }
 REFUSED = {
     "a/bc = 1": "slash", "a/2b = 1": "slash", "1/2 x^2 = 1": "slash", r"\sin x y = 1": "argument of 'sin'",
@@ -76,6 +83,9 @@ REFUSED = {
     r"\|v\|_\infty = 1": "norm", r"x \approx y": "none of a goal's",
     r"\operatorname{sat}(x) = 1": "without its limits", r"\sup_{x} x^2 = 1": "'sup'",
     r"\sum_{i=1}^n c = 1": "index 'i'", "x^a = 1": "its exponent",
+    # what a derivative by a letter holds: a definition that moves with it, beside the letter itself, at any depth
+    r"\frac{\partial U}{\partial x} = s": "holds 's'", r"\frac{\partial}{\partial x}(x s) = s": "holds 's'",
+    r"\frac{\partial R}{\partial x} = 2s": "holds 's'", r"(x + y)^2 > 0 \text{ for } x > 0, y > 0": "may be claimed",
 }
 
 

@@ -25,6 +25,8 @@ inputs = ['w']
 'W' = "vector"
 [definitions]
 'V' = '\tfrac12 x^2'
+'F' = 'x^2 + f(x)'
+'Q' = 'x^2 + y^2'
 [flow]
 'x' = '-x + w'
 'y' = '-y'
@@ -55,6 +57,8 @@ FALSE = {
     "time is one": r"(t)^2 = 1",
     # derivatives
     "by t alone": r"\frac{\partial V}{\partial t} = x w - x^2", "orders that differ": r"\frac{d^2 y}{dt} = y",
+    "by what a value moves with": r"\frac{\partial F}{\partial x} + y - y = 2x",
+    "by one of two that move": r"\frac{dQ}{dx} + a - a = 2x",
     "a rate at an instant": r"\dot e = 0 \Rightarrow \ddot e = 0",
     "a rate at an instant, otherwise": r"\ddot e = 0 \text{ if } \dot e = 0",
     # what is claimed of what
@@ -88,6 +92,10 @@ FALSE = {
     "two claims, joined": r"x^2 \ge 0 \text{ if } x > 0 \text{ and } y^3 \ge 0 \text{ if } y^2 > 0",
     "a claim behind a condition": r"x^3 > 0 \text{ for } x > 0, \quad y^3 \ge y",
     "a rate behind a condition": r"x^3 > 0\ \forall x > 0,\ \dot y \ge 0",
+    "a bound behind a condition": r"x^2 > 0 \text{ if } x > 0, y \ge 1",
+    "a bound of a size behind a condition": r"x^3 > 0 \text{ for } x > 0, \; |y| \le 1",
+    "an equation behind for all": r"x^2 > 0\ \forall x \ne 0, y = 0",
+    "a value's bound behind for all": r"x^2 > 0\ \forall x \ne 0, f(0) \ge 1",
     "a claim behind a semicolon": r"x^2 > 0 \text{ if } x > 0; y \ge 1",
     "a claim behind a full stop": r"x^2 > 0 \text{ for } x > 0. y \ge 1",
     "a claim in a new line": r"\begin{aligned} x^2 &> 0 \text{ for } x > 0, \\ y &\ge 1 \end{aligned}",
@@ -118,9 +126,10 @@ TRUE = (
     r"\frac{d}{dt}\frac{d}{dt} y = y", r"\sin{2x} = 2\sin x\cos x", r"\forall x > 1: x^2 > 1",
     r"0 < c \text{ and } -c < 1", r"\dot e = -e \Rightarrow \frac{d}{dt} e^2 = -2e^2", r"2\cdot\tfrac12 x + y^2 \ge x",
     r"f(x) = f(y) \text{ if } x = y", r"x = 0 \Rightarrow f(x) = f(0)", r"n \ge 1",
-    r"\sum_{i=1}^n (1 + v_i^2) \ge 1", r"v \in \mathbb{R}^n, \|v\| \ge 0", r"x^2 > 0 \text{ if } x > 0, y \ge 1",
+    r"\sum_{i=1}^n (1 + v_i^2) \ge 1", r"v \in \mathbb{R}^n, \|v\| \ge 0",
+    r"x^2 > 0 \text{ if } x > 0 \text{ and } y \ge 1",
     r"\sum_{k=1}^2 \sum_{i=1}^2 k x_i = 3x_1 + 3x_2 + 0 y", r"k(x + y) = kx + ky + 0 a",
-    r"\frac{d}{dt}\frac12 x^2 = x\dot x", r"x^3 > 0 \text{ for } x > 0, \; |y| \le 1", r"c^{(1/2)} > 0",
+    r"\frac{d}{dt}\frac12 x^2 = x\dot x", r"x^3 > 0\ \forall x > 0, \; |y| \le 1", r"c^{(1/2)} > 0",
     r"\begin{cases} x^2 \ge 0, \\ y^2 \ge 0 \end{cases}",
     r"\sqrt{x^2} = |x| + 0 y^2", r"v^T(v + W) = \|v\|^2 + v^TW", r"a{(b + c)} = ab + ac", r"\max\{x, y\} \ge x",
 )

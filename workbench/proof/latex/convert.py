@@ -18,9 +18,10 @@ from workbench.proof.latex.brackets import (
     require_letter_before,
     require_own_power,
 )
-from workbench.proof.latex.derivatives import Derivative, derivative, partial, rate, require_operand
+from workbench.proof.latex.derivatives import Derivative, derivative, rate, require_operand
 from workbench.proof.latex.error import LatexError
 from workbench.proof.latex.functions import Condition, applied, divided, power, require_kept, require_usual
+from workbench.proof.latex.held import by_letter
 from workbench.proof.latex.notation import Notation, without_dot
 from workbench.proof.latex.sums import big, require_component
 from workbench.proof.latex.tree import (
@@ -253,7 +254,7 @@ class Converter:
         value = self.product(found.of)
         if found.in_time:
             return rate(value, found.order)
-        return partial(value, self.product(found.by), found.order, position)
+        return by_letter(self.notation, found, value, self.product(found.by), position)
 
     @_value.register
     def _(self, node: Power) -> sp.Expr:

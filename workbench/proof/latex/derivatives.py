@@ -17,11 +17,12 @@ TIME = Letter("t")
 
 @dataclass(frozen=True)
 class Derivative:
-    """How often, of what (nothing where it stands behind the fraction), and by what."""
+    r"""How often, of what (nothing where it stands behind the fraction), and by what; partial: typed with \partial."""
 
     order: int
     of: tuple[Node, ...]
     by: tuple[Node, ...]
+    partial: bool = False
 
     @property
     def in_time(self) -> bool:
@@ -38,10 +39,11 @@ def derivative(node: Node) -> Derivative | None:
     if letter not in D_LETTERS or bottom[0] != letter or len(bottom) < 2:
         return None
     last, base = _power_of(bottom[-1])
-    found = Derivative(order, top[1:], (*bottom[1:-1], base if last == order else bottom[-1]))
+    found = Derivative(order, top[1:], (*bottom[1:-1], base if last == order else bottom[-1]),
+                       partial=letter != D_LETTERS[0])
     if last != order and len(bottom) == 2:
         raise LatexError("the orders above and below the line of a derivative differ: correct one", node.position)
-    if found.in_time and letter != D_LETTERS[0]:
+    if found.in_time and found.partial:
         raise LatexError(r"a derivative by t alone, other letters held, is none along the motion: write \frac{d}{dt}",
                          node.position)
     return found
@@ -85,12 +87,3 @@ def rate(value: sp.Expr, order: int) -> sp.Expr:
     for _ in range(order):
         value = D(value)
     return value
-
-
-def partial(value: sp.Expr, by: sp.Expr, order: int, position: int) -> sp.Expr:
-    """The derivative of an expression by one of its letters."""
-    if not isinstance(by, sp.Symbol) or not value.has(by) or value == by or value.has(
-            D, sp.Abs, sp.sign, sp.Max, sp.Min):
-        raise LatexError("a derivative other than one by t, or of a smooth function that is defined by its letter: "
-                         "write it out", position)
-    return sp.diff(value, by, order)

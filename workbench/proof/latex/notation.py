@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import difflib
 import re
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from dataclasses import replace
 from functools import lru_cache
 
@@ -22,10 +22,15 @@ class Notation:
     of a function (`V(0)`), a norm (`\\|e_2\\|`), an integral with its differential, a product such as `A s_i`. Within
     a product the longest piece that is known is taken first. A key never is a relation, nor a sum outside brackets.
     An argument that letters are printed with and that says nothing, as in `z_1(t)`, is a key of value 1: `(t)`.
-    Raises LatexError for a key that is none.
+    `definitions` gives the formulas by which some of the letters are defined, `moving` the symbols that vary in time,
+    where these are known. Raises LatexError for a key that is none.
     """
 
-    def __init__(self, letters: Mapping[str, sp.Expr]) -> None:
+    def __init__(self, letters: Mapping[str, sp.Expr], definitions: Mapping[str, str] | None = None,
+                 moving: Collection[sp.Expr] = ()) -> None:
+        self.bodies: dict[Node, Node] = {_key(typed): read_line(formula).chains[0].sides[0]
+                                         for typed, formula in (definitions or {}).items()}
+        self.moving = frozenset(moving)
         self.single: dict[Node, sp.Expr] = {}
         self.products: dict[Node, list[tuple[tuple[Node, ...], sp.Expr]]] = {}
         self.typed, self.given = tuple(letters), dict(letters)

@@ -16,7 +16,7 @@ from workbench.proof.latex.error import LatexError
 from workbench.proof.latex.function_values import apart, one_value_at_one_argument, values_of_one_function
 from workbench.proof.latex.notation import Notation
 from workbench.proof.latex.read import read_line
-from workbench.proof.latex.statement import relations, statement
+from workbench.proof.latex.statement import parted, relations, statement
 from workbench.proof.latex.symbols import Symbols
 from workbench.proof.latex.tree import PARTED, Chain, Letter, Line, Number, Terms, letters_of_node
 from workbench.proof.latex.varying import printed_of_time
@@ -50,8 +50,10 @@ class Answer:
 
 def asked(line: str, symbols: Symbols) -> Goal:
     """The goal that a line states; raises LatexError where it cannot be read."""
-    converter = Converter(Notation(symbols.notation), symbols.limits, declared=symbols.declared)
     tree = read_line(line)
+    notation = Notation(symbols.notation, symbols.definitions, {
+        *symbols.flow, *symbols.inputs, *printed_of_time(tree, Notation(symbols.notation))})
+    converter = Converter(notation, symbols.limits, declared=symbols.declared)
     if not {"=>", ":"} & {word for words in tree.separators for word in words}:
         _require_told_apart(tree)
     stated = statement(tree, converter)
@@ -84,8 +86,9 @@ def asked(line: str, symbols: Symbols) -> Goal:
 
 def _require_told_apart(line: Line) -> None:
     """Raise LatexError for a line such as `1/x <= x, x >= 1`: whether its end is claimed too, or a condition."""
+    claimed = {chain.position for chain in parted(line)[0]}
     for number, (chain, words) in enumerate(zip(line.chains, line.separators, strict=False)):
-        if number and words in PARTED and _is_bound(chain) and any(
+        if number and words in PARTED and chain.position in claimed and _is_bound(chain) and any(
                 earlier.signs and not _is_bound(earlier) and letters_of_node(chain) & letters_of_node(earlier)
                 for earlier in line.chains[:number]):
             raise LatexError(r"what stands behind the comma may be claimed or a condition: write \text{for} or "

@@ -21,8 +21,6 @@ _ALL = ("for all", "for every", "for any", "for each")
 _UNDER = ("for", "if", "when", "with", "where", "under", "at", "whenever", "provided that", "such that", *_ALL)
 _THEN = ("then", "we have", "then we have", "it holds that", "it follows that", "one has")
 _IMPLIES = ("implies", "imply", "implies that", "imply that")
-
-
 _AT_ALL_TIMES = tuple(Chain((Letter("t"), Number(Fraction(0))), (sign,)) for sign in (">=", ">"))
 
 
@@ -87,21 +85,23 @@ def parted(line: Line) -> tuple[list[Chain], list[Chain]]:
 class _Parts:
     """Chains claimed, and their conditions; `late` are those conditions behind a claim that a comma alone makes one.
 
-    behind: whether the conditions stand behind a claim; listed: how many of them the last word introduced.
+    behind: whether the conditions stand behind a claim; listed: how many of them the last word introduced; of_all:
+    whether that was `for all`.
     """
 
     claimed: list[Chain] = field(default_factory=list)
     conditions: list[Chain] = field(default_factory=list)
-    late: list[Chain] = field(default_factory=list)
+    late: list[tuple[Chain, bool]] = field(default_factory=list)
     behind: bool = False
     listed: int = 0
+    of_all: bool = False
 
-    def under(self) -> None:
+    def under(self, of_all: bool) -> None:
         """Conditions follow; raise LatexError where a list of them stands before, which may hold claims."""
         if self.behind and self.listed > 1:
             raise LatexError("several claims with a condition each, or one claim with all of them: write one line for "
                              "each claim")
-        self.behind, self.listed = bool(self.claimed), 0
+        self.behind, self.listed, self.of_all = bool(self.claimed), 0, of_all
 
     def turn(self) -> None:
         """What stood so far is the condition of what follows."""
@@ -115,8 +115,8 @@ class _Parts:
         if self.behind and END in words:
             raise LatexError("whether the condition goes on behind the full stop, semicolon or new line is open: write "
                              "one line for each claim", chain.position)
-        if self.behind and words == (",",):
-            self.late.append(chain)
+        if self.behind and words == (",",) and self.conditions[-1].signs:  # `x, y > 0` is one
+            self.late.append((chain, self.of_all))
         self.listed += bool(chain.signs)
         self.conditions.append(chain)
 
@@ -143,7 +143,7 @@ def _parts(line: Line) -> _Parts:
                 parts.turn()
                 conditional = False
             elif word == "\\forall" or _said_of(word) in _UNDER:
-                parts.under()
+                parts.under(word == "\\forall" or _said_of(word) in _ALL)
                 conditional = True
             elif _said_of(word) in _THEN and conditional and not parts.claimed:
                 conditional = False
@@ -162,12 +162,15 @@ def _parts(line: Line) -> _Parts:
     return parts
 
 
-def _require_conditions(late: list[Chain], converter: Converter) -> None:
-    """Raise LatexError for what stands behind a condition and a comma, unless it bounds a letter: it may be claimed."""
-    for chain in late:
+def _require_conditions(late: list[tuple[Chain, bool]], converter: Converter) -> None:
+    """Raise LatexError for what stands behind a condition and a comma, as in `x^2 > 0 if x > 0, y >= 1`: it may be
+    claimed. A list of the letters that `for all` is said of, with bounds that are no equations, has one reading."""
+    for chain, of_all in late:
         side = chain.sides[0]
         bounded = side.parts[0] if isinstance(side, Size) and len(side.parts) == 1 else side
-        if chain not in _AT_ALL_TIMES and not isinstance(converter.notation.meaning(bounded), (sp.Symbol, sp.Indexed)):
+        letter = isinstance(bounded, Letter) and isinstance(
+            converter.notation.meaning(bounded), (sp.Symbol, sp.Indexed))
+        if chain not in _AT_ALL_TIMES and not (of_all and letter and "=" not in chain.signs):
             raise LatexError(r"what stands behind the comma may be claimed or one more condition: write \text{and} "
                              "before a condition, another line for a claim", chain.position)
 

@@ -48,8 +48,8 @@ class SymbolsFile(FileRecord):
 
 @dataclass(frozen=True)
 class Symbols:
-    """Letters ready for use: the notation, LaTeX for the names of symbols, assumptions, rates, limits of sums, and the
-    symbols that vary without a rate."""
+    """Letters ready for use: the notation, LaTeX for the names of symbols, assumptions, rates, limits of sums, the
+    symbols that vary without a rate, and the formulas of definitions."""
 
     notation: Mapping[str, sp.Expr]
     letters: Mapping[str, str]
@@ -57,6 +57,7 @@ class Symbols:
     flow: Mapping[sp.Expr, sp.Expr] = field(default_factory=dict)
     limits: sp.Tuple | None = None
     inputs: tuple[sp.Symbol | sp.Indexed, ...] = ()
+    definitions: Mapping[str, str] = field(default_factory=dict)
     declared: bool = False  # whether each letter is known to be a number or a column
 
 
@@ -99,25 +100,29 @@ def symbols_in(record: SymbolsFile, path: Path) -> Symbols:
     if "t" not in record.symbols:
         notation["(t)"] = sp.S.One  # all is said of one instant
     _checked(path, "symbols", notation)
+    varying = {notation[typed] for typed in (*record.flow, *record.inputs) if typed in notation}
+    defined: dict[str, str] = {}
     for typed, formula in record.definitions.items():
-        meaning = _expression(path, f"definitions.{typed}", formula, notation, limits)
+        meaning = _expression(path, f"definitions.{typed}", formula, Notation(notation, defined, varying), limits)
         if typed in notation:
             raise InputError(path, f"definitions.{typed}", "is a symbol too: keep one of the two")
         notation[typed] = meaning
         _checked(path, f"definitions.{typed}", notation)
+        defined[typed] = formula
+    known = Notation(notation, defined, varying)
     flow: dict[sp.Expr, sp.Expr] = {}
     for typed, formula in record.flow.items():
         moving = notation.get(typed)
         if typed not in record.symbols or moving is None:
             raise InputError(path, f"flow.{typed}", "is none of the symbols: add it there, as it is typed here")
-        flow[moving] = _expression(path, f"flow.{typed}", formula, notation, limits,
+        flow[moving] = _expression(path, f"flow.{typed}", formula, known, limits,
                                    vector=isinstance(moving, sp.Indexed))
     _require_own_rates(path, record, notation, flow)
     inputs = _inputs(path, record, notation, flow)
     assume: list[Relation] = []
     for number, formula in enumerate(record.assumptions):
         try:
-            stated = statement(read_line(formula), Converter(Notation(notation), limits, declared=True))
+            stated = statement(read_line(formula), Converter(known, limits, declared=True))
         except LatexError as trouble:
             raise InputError(path, f"assumptions[{number}]", str(trouble)) from None
         if stated.conditions:
@@ -125,7 +130,7 @@ def symbols_in(record: SymbolsFile, path: Path) -> Symbols:
         assume += relations(stated.claimed)
     inputs = _with_varying(inputs, record, notation, flow)
     flow = _written_out(path, flow, inputs)
-    return Symbols(notation, letters, tuple(assume), flow, limits, inputs, declared=True)
+    return Symbols(notation, letters, tuple(assume), flow, limits, inputs, defined, declared=True)
 
 
 def _require_own_rates(path: Path, record: SymbolsFile, notation: Mapping[str, sp.Expr],
@@ -201,13 +206,13 @@ def _with_varying(inputs: tuple[sp.Symbol | sp.Indexed, ...], record: SymbolsFil
                        and isinstance(symbol, (sp.Symbol, sp.Indexed))))
 
 
-def _expression(path: Path, key: str, formula: str, notation: Mapping[str, sp.Expr], limits: sp.Tuple | None,
+def _expression(path: Path, key: str, formula: str, notation: Notation, limits: sp.Tuple | None,
                 vector: bool = False) -> sp.Expr:
     try:
         line = read_line(formula)
         if len(line.chains) != 1 or line.chains[0].signs:
             raise LatexError("a relation where an expression is expected: write its right side alone")
-        converter = Converter(Notation(notation), limits, declared=True)
+        converter = Converter(notation, limits, declared=True)
         side = line.chains[0].sides[0]
         return converter.expression(side) if vector else converter.side(side)
     except LatexError as trouble:

@@ -177,13 +177,21 @@ class Group(Node):
 
 def parts_of(node: Any) -> Iterator[Node]:
     """All nodes within one, itself first; of a tuple those of its members."""
-    if isinstance(node, tuple):
-        for part in node:
-            yield from parts_of(part)
-    elif isinstance(node, Node):
+    if isinstance(node, Node):
         yield node
-        for one in fields(node):
-            yield from parts_of(getattr(node, one.name))
+    for part in children(node):
+        yield from parts_of(part)
+
+
+def children(node: Any) -> Iterator[Node]:
+    """The nodes directly within one, or within a tuple."""
+    within = node if isinstance(node, tuple) else [getattr(node, one.name) for one in fields(node)] if isinstance(
+        node, Node) else ()
+    for part in within:
+        if isinstance(part, Node):
+            yield part
+        elif isinstance(part, tuple):
+            yield from children(part)
 
 
 def letters_of_node(node: Any) -> set[Letter]:
