@@ -43,7 +43,8 @@ CLOSING = {"rbrace": "}", "rbrack": "]", "}": "}"}
 BARS = {"lvert": "|", "rvert": "|", "vert": "|", "lVert": "||", "rVert": "||", "Vert": "||", "|": "||"}
 OPENS_BAR = frozenset(("lvert", "lVert", "left", "bigl", "Bigl", "biggl", "Biggl"))
 CLOSES_BAR = frozenset(("rvert", "rVert", "right", "bigr", "Bigr", "biggr", "Biggr"))
-WIDE = frozenset(("quad", "qquad", "enspace", " ", ";", ":", ">"))  # spaces that part two formulas
+# Spaces that part two formulas, and what ends a row.
+WIDE = frozenset(("quad", "qquad", "enspace", " ", ";", ":", ">", "nonumber", "notag"))
 # What changes the look of a line only.
 DROPPED = frozenset((
     ",", ";", ":", "!", ">", "quad", "qquad", "enspace", "thinspace", "left", "right", "middle", "big", "Big",

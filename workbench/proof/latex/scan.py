@@ -18,14 +18,16 @@ from workbench.proof.latex.commands import (
     SILENT,
     TEXTS,
     UPRIGHT,
+    WIDE,
 )
 from workbench.proof.latex.error import LatexError
 from workbench.proof.latex.limits import DEEPEST_NESTING, LONGEST_LINE
 
 _NAME = re.compile(r"\s*\{(?P<name>[a-z]+\*?)\}")
-_GOES_ON = re.compile(r"[\s&]*([=<>+\-/]|\.(?!\d)|"
+_INDENT = r"(?:[\s&]|\\(?:q?quad|enspace)(?![A-Za-z])|\\[,;:!> ])*"
+_GOES_ON = re.compile(_INDENT + r"([=<>+\-/]|\.(?!\d)|"
                       r"\\(end|le|leq|ge|geq|lt|gt|ne|neq|cdot|times|to|in|pm|Rightarrow)(?![A-Za-z]))")
-_SIGNED = re.compile(r"[\s&]*[+-]")
+_SIGNED = re.compile(_INDENT + r"[+-]")
 _RELATED = re.compile(r"[=<>]|\\(le|leq|leqslant|ge|geq|geqslant|lt|gt|ne|neq|in)(?![A-Za-z])")
 _PIECE = re.compile(r"\\tag\*|\\[A-Za-z]+|\\.|\s+|.", re.DOTALL)
 _NUMBERED = re.compile(r"\\q?quad[\s\\,;~]*\((\d+[a-z]?|[A-Z]\.?\d+)\)[\s.,]*$")  # an equation's number, at its end
@@ -33,9 +35,9 @@ _NUMBERED = re.compile(r"\\q?quad[\s\\,;~]*\((\d+[a-z]?|[A-Z]\.?\d+)\)[\s.,]*$")
 
 @dataclass(frozen=True)
 class Piece:
-    """A command (without its backslash), or a single character; `content` is what a text holds."""
+    """A command (without its backslash), a single character, or a text; one without text sets apart what follows."""
 
-    kind: str  # command, letter, digit, sign, open, close, text
+    kind: str  # command, letter, digit, sign, open, close, text, apart
     text: str
     position: int
 
@@ -47,6 +49,7 @@ def scan(line: str) -> list[Piece]:
     line = _NUMBERED.sub("", line)
     pieces: list[Piece] = []
     environments: list[str] = []
+    rows = [(0, 0)]  # of each environment's row: how many '&' stood in it so far, the piece with which it begins
     depth, at = 0, 0
     while at < len(line):
         found = _PIECE.match(line, at)
@@ -60,11 +63,13 @@ def scan(line: str) -> list[Piece]:
             text = "\\ "
         if text.startswith("\\") and text[1:] in TEXTS | SILENT:
             content, at = _text(line, at)
-            if text[1:] in TEXTS:  # \text{sgn} is \operatorname{sgn}
-                pieces.append(Piece("command" if content in FUNCTIONS else "text", content, start))
+            pieces += _said(text, content, start, bool(pieces))
             continue
         if text in ("\\begin", "\\end", "&", "\\\\"):
             at = _layout(line, text, start, at, environments, pieces)
+            pieces += [Piece("apart", "", start)] * _apart(text, rows, pieces)
+            continue
+        if 0 < len(pieces) == rows[-1][1] and text[1:] in WIDE:  # a row that goes on is set in
             continue
         kind = _kind(text, start)
         depth += {"open": 1, "close": -1}.get(kind, 0)
@@ -99,10 +104,41 @@ def _layout(line: str, text: str, start: int, at: int, environments: list[str], 
         if not environments or environments[-1] == "cases":
             raise LatexError("'&' tells cases apart, or columns: write one line for each case", start)
         return at
+    while pieces and _is_space(pieces[-1]):
+        pieces.pop()  # at the end of a row it parts nothing
     parted = bool(pieces) and pieces[-1].text in (",", ";")
     if pieces and not _goes_on(line, at, start, environments, parted):
         pieces[len(pieces) - parted:] = [Piece("sign", ";", start)]
     return at
+
+
+def _said(command: str, content: str, start: int, follows: bool) -> list[Piece]:
+    r"""The piece of a \text; of the number of an equation, or its label, that it stands at the end of a formula."""
+    if command[1:] in TEXTS:  # \text{sgn} is \operatorname{sgn}
+        return [Piece("command" if content in FUNCTIONS else "text", content, start)]
+    if not follows:
+        return []
+    return [Piece("command", "quad", start) if command == "\\label" else Piece("apart", "", start)]
+
+
+def _is_space(piece: Piece) -> bool:
+    return piece.kind == "apart" or (piece.kind == "command" and piece.text in WIDE)
+
+
+def _apart(text: str, rows: list[tuple[int, int]], pieces: list[Piece]) -> bool:
+    """Whether what stands next is set apart: the next pair of columns in a row, or what follows an environment."""
+    count, begins = rows[-1]
+    if text == "\\begin":
+        rows.append((0, len(pieces)))
+    elif text == "\\end":
+        rows.pop()
+        return True
+    elif text == "&":
+        rows[-1] = count + 1, begins
+        return count % 2 == 1 and len(pieces) > begins
+    else:
+        rows[-1] = 0, len(pieces)
+    return False
 
 
 def _begins(pieces: list[Piece]) -> bool:

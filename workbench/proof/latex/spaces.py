@@ -13,14 +13,24 @@ OPENING = frozenset(["OPEN", "LB", "BARS_OPEN"])
 CLOSING = frozenset(["CLOSE", "RB", "BARS_CLOSE"])
 # After these a value is complete.
 COMPLETE = frozenset(["LETTER", "NUMBER", "CLOSE", "RB", "SUB", "MARK", "TRANSPOSE", "BARS_CLOSE", "ELLIPSIS", "AT"])
-BEGINNING = frozenset(["LETTER", "NUMBER", "NAMED", "BIG", "FRAC", "SQRT", "ACCENT", "OPEN", "LB", "BARS_OPEN"])
+BEGINNING = frozenset(["LETTER", "NUMBER", "NAMED", "BIG", "FRAC", "SQRT", "ACCENT", "OPEN", "LB", "BARS_OPEN", "PLUS",
+                       "MINUS", "PLUS_MINUS"])
 
 
-def require_no_formula(words: list[Token], spaces: Iterable[int]) -> None:
-    """Raise LatexError for a wide space, before one of the words, as in `x = 0 \\quad y = 0`: no product is meant."""
-    for place in spaces:
-        if 0 < place < len(words) and words[place - 1].type in COMPLETE and words[place].type in BEGINNING and (
-                _related(reversed(words[:place]), CLOSING, OPENING) and _related(words[place:], OPENING, CLOSING)):
+def require_no_formula(words: list[Token], spaces: Iterable[tuple[int, bool]]) -> None:
+    """Raise LatexError for a wide space, before one of the words, as in `x = 0 \\quad y = 0`: no product is meant.
+
+    The second of each pair says that a column or the end of an environment stands there: between what has no relation,
+    too, no product is meant.
+    """
+    for place, is_apart in spaces:
+        if not (0 < place < len(words) and words[place - 1].type in COMPLETE and words[place].type in BEGINNING):
+            continue
+        related = _related(reversed(words[:place]), CLOSING, OPENING) and _related(words[place:], OPENING, CLOSING)
+        if is_apart and (related or words[place].type != "OPEN"):
+            raise LatexError("columns or environments stand side by side: write a comma between two relations, or "
+                             "each in a line of its own", words[place].start_pos)
+        if related:
             raise LatexError("a wide space stands between two relations: write a comma between them, or \\cdot for a "
                              "product", words[place].start_pos)
 

@@ -68,14 +68,14 @@ class _Words:
                              self.pieces[start].position)
         out: list[Token] = []
         opened: list[str] = []
-        spaces: list[int] = []
+        spaces: list[tuple[int, bool]] = []
         at = start
         while at < end:
             piece = self.pieces[at]
-            if piece.kind == "command" and piece.text in DROPPED:
+            if piece.kind == "apart" or (piece.kind == "command" and piece.text in DROPPED):
                 at += 1
-                if piece.text in WIDE:
-                    spaces.append(len(out))
+                if piece.kind == "apart" or piece.text in WIDE:
+                    spaces.append((len(out), piece.kind == "apart"))
                 # \left. and \right. are brackets that are not there.
                 if piece.text in ("left", "right") and at < end and self.pieces[at].text == ".":
                     at += 1
