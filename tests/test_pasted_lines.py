@@ -70,6 +70,7 @@ READ = {
     r"\text{if } x > 0, \text{ then } x^3 > 0": "x > 0 |- x**3 > 0",
     r"\frac1x \le x \quad (x \ge 1)": "x >= 1 |- 1/x <= x", "x != 0 \\implies x^2 > 0": "x != 0 |- x**2 > 0",
     "y := x^2": "y == x**2", r"(x + y)^2 > 0 \text{ for } x, y > 0": "x > 0, y > 0 |- (x + y)**2 > 0",
+    r"\forall x, y > 0: x y > -x": "x > 0, y > 0 |- x*y > -x", r"\forall x > 0, y: x y^2 \ge 0": "x > 0 |- x*y**2 >= 0",
     r"(x + y)^2 > 0\ \forall x > 0, y \in [0, 1]": "x > 0, 0 <= y, y <= 1 |- (x + y)**2 > 0",
 }
 REFUSED = {
@@ -85,6 +86,7 @@ REFUSED = {
     r"\sum_{i=1}^n c = 1": "index 'i'", "x^a = 1": "its exponent",
     # what a derivative by a letter holds: a definition that moves with it, beside the letter itself, at any depth
     r"\frac{\partial U}{\partial x} = s": "holds 's'", r"\frac{\partial}{\partial x}(x s) = s": "holds 's'",
+    r"\forall x, |y| \le 1: x^2 \ge y^2 - 1": "or none",
     r"\frac{\partial R}{\partial x} = 2s": "holds 's'", r"(x + y)^2 > 0 \text{ for } x > 0, y > 0": "may be claimed",
 }
 

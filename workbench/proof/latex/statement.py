@@ -11,8 +11,9 @@ import sympy as sp
 from workbench.proof.claim import Operator, Relation
 from workbench.proof.latex.brackets import says_nothing
 from workbench.proof.latex.convert import Converter
+from workbench.proof.latex.ends import is_all_numbers, is_constant, is_infinite, require_own_ends
 from workbench.proof.latex.error import LatexError
-from workbench.proof.latex.tree import END, Chain, Group, Letter, Line, Node, Number, Power, Product, Size, Terms
+from workbench.proof.latex.tree import END, Chain, Group, Letter, Line, Node, Number, Power, Product, Size
 from workbench.proof.latex.vectors import is_vector
 
 OPERATORS: dict[str, Operator] = {"=": "==", "<=": "<=", ">=": ">=", "<": "<", ">": ">", "!=": "!="}
@@ -55,10 +56,10 @@ def statement(line: Line, converter: Converter) -> Statement:
         _require_conditions(parts.late, converter)
     for (before, after), words in zip(pairwise(line.chains), line.separators[1:], strict=False):
         if words == (",",):
-            _require_own_ends(before, after)
+            require_own_ends(before, after)
     if not claimed:
         raise LatexError("the line claims nothing: write a relation, behind a colon where 'for all' stands first")
-    return Statement(_related(claimed, converter), _related(conditions, converter))
+    return Statement(_related(claimed, converter), _related(conditions, converter, converter.declared))
 
 
 def _require_quantified(line: Line) -> None:
@@ -107,7 +108,9 @@ class _Parts:
         """What stood so far is the condition of what follows."""
         if self.behind:
             raise LatexError("a claim and its condition stand before an arrow or a colon: write the conditions first")
-        self.conditions = [*(c for c in self.conditions if c.signs), *self.claimed]
+        while self.conditions and not self.conditions[-1].signs:
+            self.conditions.pop()  # `for all x`; in `x, y > 0` it shares the bound of the next one
+        self.conditions += self.claimed
         self.claimed = []
 
     def condition(self, chain: Chain, words: tuple[str, ...]) -> None:
@@ -206,37 +209,27 @@ def _unbracketed(chain: Chain) -> tuple[Chain, list[Chain]]:
     return replace(chain, sides=(*chain.sides[:-1], kept)), list(inner.chains)
 
 
-def _related(chains: list[Chain], converter: Converter) -> tuple[Related, ...]:
-    """Chains as relations; sides that commas part before a relation share it, as in `a, b > 0`."""
+def _related(chains: list[Chain], converter: Converter, of_letters: bool = False) -> tuple[Related, ...]:
+    """Chains as relations; sides that commas part before a relation share it, as in `a, b > 0`; of_letters: only where
+    they are of one sort."""
     found: list[Related] = []
     waiting: list[Chain] = []
     for chain in chains:
         if not chain.signs:
             waiting.append(chain)
             continue
-        if waiting and _is_constant(waiting[-1].sides[0]):
+        if waiting and is_constant(waiting[-1].sides[0]):
             raise LatexError("a number and a comma before a relation: write a point for a decimal comma",
                              waiting[-1].position)
+        if of_letters and any(type(one.sides[0]) is not type(chain.sides[0]) for one in waiting):
+            raise LatexError("what stands before the comma may have the bound behind it or none: write each with its "
+                             "own", waiting[0].position)
         for single in (*waiting, chain):
             found += _chain(replace(chain, sides=(single.sides[0], *chain.sides[1:])), converter)
         waiting = []
     if waiting:
         raise LatexError("no relation: write one with a relation sign", waiting[0].position)
     return tuple(found)
-
-
-def _require_own_ends(before: Chain, after: Chain) -> None:
-    """Raise LatexError for `0 < x, y < 1`: it may bound each of the two on both sides, or each on one."""
-    if len(before.sides) == len(after.sides) == 2 and _is_constant(before.sides[0]) and _is_constant(after.sides[1]) \
-            and before.signs[0][0] == after.signs[0][0] in "<>":
-        raise LatexError(r"whether the ends bound all that stands between them is open: write \text{and} between two "
-                         "relations, or each with both ends", after.position)
-
-
-def _is_constant(node: Node) -> bool:
-    """Whether a side is a number, or infinity, with its sign."""
-    terms = node.terms if isinstance(node, Terms) else ((1, node),)
-    return all(isinstance(term, Number) or term == Letter("\\infty") for _, term in terms)
 
 
 def _chain(chain: Chain, converter: Converter) -> list[Related]:
@@ -254,7 +247,7 @@ def _chain(chain: Chain, converter: Converter) -> list[Related]:
 def _interval(chain: Chain, converter: Converter) -> list[Related]:
     """`x \\in [a, b)` as a <= x, x < b, and the chain before it."""
     place, interval = chain.signs.index("in"), chain.sides[-1]
-    if place == len(chain.signs) - 1 and _is_all_numbers(interval):
+    if place == len(chain.signs) - 1 and is_all_numbers(interval):
         _require_letter(chain.sides[-2], interval, converter)
         return _chain(Chain(chain.sides[:-1], chain.signs[:-1]), converter) if place else []
     if place != len(chain.signs) - 1 or not isinstance(interval, Group):
@@ -266,7 +259,8 @@ def _interval(chain: Chain, converter: Converter) -> list[Related]:
     member, ends = chain.sides[-2], [part.sides[0] for part in line.chains]
     before = _chain(Chain(chain.sides[:-1], chain.signs[:-1]), converter) if place else []
     value = converter.side(member)
-    low, high = (None if _infinite(end, sign) else converter.side(end) for end, sign in zip(ends, (-1, 1), strict=True))
+    low, high = (None if is_infinite(end, sign) else converter.side(end)
+                 for end, sign in zip(ends, (-1, 1), strict=True))
     bounds = [] if low is None else [Related((low, value), ("<=" if interval.opening == "[" else "<",))]
     upper = [] if high is None else [Related((value, high), ("<=" if interval.closing == "]" else "<",))]
     return [*before, *bounds, *upper]
@@ -286,14 +280,3 @@ def _require_letter(member: Node, numbers: Node, converter: Converter) -> None:
             not is_vector(meaning) or numbers.exponent != Letter("n")):
         raise LatexError(r"the set of columns fits no declared kind: a vector is one of \mathbb{R}^n, a number of "
                          r"\mathbb{R}", member.position)
-
-
-def _infinite(node: Node, sign: int) -> bool:
-    """Whether an end is infinity with this sign."""
-    terms = node.terms if isinstance(node, Terms) else ((1, node),)
-    return terms == ((sign, Letter("\\infty")),)
-
-
-def _is_all_numbers(node: Node) -> bool:
-    """Whether a set is that of the real numbers or of columns of them: of a letter no more is said by that."""
-    return (node.base if isinstance(node, Power) else node) in (Letter(r"\mathbb{R}"), Letter(r"\Re"))
