@@ -112,11 +112,19 @@ def test_the_manifest_names_all_claims_and_what_stands_beside_it(paper, decision
 
 def test_document_has_the_stable_keys(decisions):
     document = claims_document(list(decisions.values()), PLACES)
-    assert set(document) == {"version", "claims", "summary", "totals", "fates", "proved_under"}
+    assert set(document) == {"version", "claims", "summary", "totals", "fates", "proved_under", "papers"}
     assert document["version"] == 2
     assert all(set(row) == KEYS for row in document["claims"])
     assert sum(document["summary"].values()) == len(CLAIMS)
     assert set(document["summary"]) == {"proved", "refuted", "violated", "gap", "assumed", "undecided"}
+    for paper, sums in document["papers"].items():
+        own = [row for row in document["claims"] if row["paper"] == paper]
+        printed = [row for row in own if row["origin"] == "printed"]
+        for origin, counted in sums["rows"].items():
+            assert counted == {verdict: sum((row["origin"], row["verdict"]) == (origin, verdict) for row in own)
+                               for verdict in document["summary"]}
+        assert sums["parsed"] == sum(row["match"] == "parsed" for row in printed) <= sums["formulas"]
+        assert [row["equation"] for row in own if row["fate"]] == [one["equation"] for one in sums["theorems"]]
 
 
 FALSE = [claim for claim in CLAIMS if claim.recorded in FAILED]

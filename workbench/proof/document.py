@@ -15,8 +15,8 @@ from workbench.files.outputs import check_outputs
 from workbench.files.own_files import MANIFEST, read_manifest, replace_files, sha256
 from workbench.files.writing import require_inside
 from workbench.proof.checker import THEOREMS, goal_digest
-from workbench.proof.document_format import ClaimRow, ClaimsDocument
-from workbench.proof.verdict import FATES, VERDICTS, Decision, Stated, Verdict, is_equation, is_paper_name
+from workbench.proof.document_format import ClaimRow, ClaimsDocument, PaperSums
+from workbench.proof.verdict import FATES, ORIGINS, VERDICTS, Decision, Stated, Verdict, is_equation, is_paper_name
 from workbench.proof.whole_theorem import composed, whole_theorems
 
 if TYPE_CHECKING:
@@ -187,7 +187,7 @@ def claims_document(decisions: Sequence[Decision], where: Places) -> ClaimsDocum
 
     `summary` counts all verdicts, `totals` those of the paper's lines (printed and implied) and of our own questions
     apart, `proved_under` how many of the proved ones are so only under claims that are not shown, `fates` what becomes
-    of the headline statements.
+    of the headline statements, `papers` each paper's rows.
     """
     rows: list[ClaimRow] = []
     for d in decisions:
@@ -214,7 +214,18 @@ def claims_document(decisions: Sequence[Decision], where: Places) -> ClaimsDocum
                              "ours": _under([d for d in decisions if d.claim.origin == "ours"])},
             "totals": {"paper": _counts([d for d in decisions if d.claim.origin != "ours"]),
                        "ours": _counts([d for d in decisions if d.claim.origin == "ours"])},
-            "fates": {word: sum(d.fate is not None and d.fate.word == word for d in decisions) for word in FATES}}
+            "fates": {word: sum(d.fate is not None and d.fate.word == word for d in decisions) for word in FATES},
+            "papers": {paper: _paper([d for d in decisions if d.claim.paper == paper])
+                       for paper in dict.fromkeys(d.claim.paper for d in decisions)}}
+
+
+def _paper(decisions: Sequence[Decision]) -> PaperSums:
+    """The sums of one paper."""
+    formulas = [d for d in decisions if d.claim.origin == "printed" and d.certificate and d.matched != "words"]
+    return {"rows": {origin: _counts([d for d in decisions if d.claim.origin == origin]) for origin in ORIGINS},
+            "formulas": len(formulas), "parsed": sum(d.matched == "parsed" for d in formulas),
+            "theorems": [{"equation": d.claim.equation, "title": d.claim.title, "fate": d.fate.word,
+                          "why": d.fate.why} for d in decisions if d.fate]}
 
 
 def _under(decisions: Sequence[Decision]) -> int:

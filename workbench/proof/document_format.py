@@ -73,6 +73,28 @@ class Totals(TypedDict):
     ours: dict[Verdict, int]
 
 
+class TheoremRow(TypedDict):
+    """What becomes of a headline statement of a paper."""
+
+    equation: str
+    title: str
+    fate: FateWord
+    why: str
+
+
+class PaperSums(TypedDict):
+    """A paper's rows counted.
+
+    rows: by origin and verdict; formulas: printed ones that are decided, no words alone; parsed: those of them that
+    were parsed and equal their goals; theorems: what becomes of each headline statement.
+    """
+
+    rows: dict[Origin, dict[Verdict, int]]
+    formulas: int
+    parsed: int
+    theorems: list[TheoremRow]
+
+
 class ClaimsDocument(TypedDict):
     """What `workbench prove --json` and `workbench show --json` write: a row a claim, and sums."""
 
@@ -82,6 +104,7 @@ class ClaimsDocument(TypedDict):
     proved_under: OfPaperAndOurs
     totals: Totals
     fates: dict[FateWord, int]
+    papers: dict[str, PaperSums]
 
 
 class AnswerGoal(TypedDict):
