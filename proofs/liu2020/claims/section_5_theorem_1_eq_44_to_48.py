@@ -29,6 +29,7 @@ from .section_5_theorem_1_eq_41_to_43 import mu_1_stated, slack
 paper.definition("44", "The bound mu_1 and the rate rho_1 of V_1",
                  r"\mu_1 := \frac{\sigma_f}{2}\|W_f - W_{f0}\|^2 + \frac{\beta_1}{2}(\delta - \delta_0)^2 + 0.2785\kappa_1|\delta|,\ "
                  r"\rho_1 := \min\left\{2k_1, 2k_3, \frac{\sigma_f}{\lambda_{\min}(\Gamma_u^{-1})}, \frac{\beta_1}{\alpha_1}\right\}",
+                 reading="The accent over delta in (delta - delta_0)^2 is read as in (43).",
                  note="Gamma_u stands for Gamma_f. That rho_1 is the rate of decay is decided entry by entry, see 44.weights and 44.estimate.")
 
 entry_1, entry_2 = sp.symbols("G_1 G_2", positive=True)

@@ -140,6 +140,7 @@ def _rate_53(learn: int, h_limited: bool = False) -> Goal:
 @paper.claim("53", "Rate of V_2, collected", "identity", PRINTED_53, "refuted", premises=("33.mended", "50.mended"),
              rests_on=("32.cancels", "52"), scope=EVERY_NETWORK, where=ERRORS, correction=lambda: _rate_53(1),
              corrected_statement=r"\text{the same with}\ +h_v(z_2)e_v\ \text{in (32)}",
+             reading="The accent over the last theta is a zero's, as in (35).",
              note="It follows from (52) as printed. In the loop as printed the term -2 e_v W_v_tilde^T h_v is missing; "
                   "with (32) turned, see 32.turned, (53) is what the loop gives. The text refers to (44) and (51) for (34) "
                   "and (52).")

@@ -120,6 +120,7 @@ paper.definition("56", "The bound mu and the rate rho of V_2",
                  r"\theta_0)^2 + \frac{\sigma_v}{2}\|W_v - W_{v0}\|^2 + 0.2785(\kappa_1|\delta| + \kappa_2|\theta|),\ "
                  r"\rho := \min\left\{2k_1, 2k_3, \frac{2\chi k_5}{M}, \frac{\sigma_f}{\lambda_{\min}(\Gamma_u^{-1})}, "
                  r"\alpha_1\beta_1, \frac{\sigma_v}{\lambda_{\min}(\Gamma_v^{-1})}, \alpha_2\beta_2\right\}",
+                 reading="The accents over delta and theta in the squares are read as in (43) and (55).",
                  note="(57) calls them mu_2 and rho_2. Here the entry of delta is alpha_1 beta_1, in (44) it is beta_1/alpha_1.")
 
 weights_decay_claim("56", "v", sigma_v, lambda_v, norm_v, square_v)
