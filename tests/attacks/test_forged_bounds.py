@@ -80,7 +80,32 @@ def added(name, value):
     return put(name, value)
 
 
+def of_p(change):
+    """Both sides of p, changed together: by a function of the number of a cell and of its value."""
+    def changed(values):
+        return [change(number, value) for number, value in enumerate(values)]
+    return both(put("p", "left", changed), put("p", "right", changed))
+
+
 FORGED = {
+    "sides of p swapped": lambda made: made["p"].update(left=made["p"]["right"], right=made["p"]["left"]),
+    "p too high": of_p(lambda _, value: value + 1.0), "p too low": of_p(lambda _, value: value - 1.0),
+    "p a saw": of_p(lambda cell, value: value + 0.5 * (-1)**cell),
+    "p a fine saw": of_p(lambda cell, value: value + 1e-6 * (-1)**cell), "p mirrored": of_p(lambda _, value: 1 - value),
+    "p of the start everywhere": of_p(lambda *_: 1.0), "p nested": put("p", "left", 0, [1.0]),
+    "p as an object": put("p", "left", {"0": 1.0}), "true as p": put("p", "left", 0, True),
+    "false as p": put("p", "right", -1, False), "true as a price": put("events", -1, "price_w", True),
+    "true as the origin": put("origin_s", True), "a text as a border": put("p", "position_m", 1, "100.0"),
+    "a border twice": put("p", "position_m", lambda v: [v[0], v[1], v[1], *v[2:]]),
+    "a part of p": put("p", "fixed_j", 1e12), "a part of p without a name": put("p", "", [1e12]),
+    "all price at the departure": both(put("events", 0, "price_w", 5e4), put("events", -1, "price_w", more(-5e4))),
+    "a price of nothing": put("events", -1, "price_w", 0.0), "twice the price": put(
+        "events", -1, "price_w", lambda price: 2 * price),
+    "the departure twice": put("events", lambda v: [v[0], *v]), "the arrival twice": put(
+        "events", lambda v: [*v, v[-1]]), "events in another order": put("events", lambda v: v[::-1]),
+    "an arrival without its price": drop("events", -1, "price_w"), "auxiliaries of nothing": put("auxiliary_w", None),
+    "a twin of the bound": put("lower_bound_j", 1e12), "a digest in capitals": put("digests", "line", str.upper),
+    "a digest more": put("digests", "more", "0" * 64), "a point of nothing": put("run", "points", [[]]),
     "nothing but a number": lambda made: made.update({"p": {key: [] for key in made["p"]}, "lower_bound_J": 1e12}),
     "no events": drop("events"), "no run": drop("run"), "no p": drop("p"), "no train": drop("train"),
     "a version of bounds without a line": put("version", 1), "the version whose terms were stated": put("version", 3),
@@ -256,7 +281,7 @@ def made_for():
 
 
 def test_there_are_enough_of_them():
-    assert len(FORGED) + len(FILES) + len(OTHERS) + len(NO_TRAIN) >= 130
+    assert len(FORGED) + len(FILES) + len(OTHERS) + len(NO_TRAIN) >= 160
 
 
 @given(st.integers(0, 2**31))

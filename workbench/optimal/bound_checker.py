@@ -70,6 +70,8 @@ def checked_bound(certificate: dict[str, Any]) -> Fraction:
     if certificate["digests"] != stated_digests(certificate):
         raise ValueError("its digests are not those of the line, train and times in it")
     run, p = certificate["run"], certificate["p"]
+    if p.keys() != {"position_m", "left", "right"}:
+        raise ValueError("p(s) has another part than its borders and its values at both sides of them")
     cells = list(_cells(run, p))
     train = _Train(certificate, max(cell.limit for cell in cells))
     auxiliary = Fraction(certificate.get("auxiliary_w", 0))
@@ -98,8 +100,8 @@ def _require_plain_numbers(part: Any, name: str = "", depth: int = 0) -> None:
     elif isinstance(part, list):
         for inner in part:
             _require_plain_numbers(inner, name, depth + 1)
-    elif isinstance(part, str) and name not in TEXTS:
-        raise ValueError(f"{name[:80]!r} holds a text where a number belongs")
+    elif (isinstance(part, str) and name not in TEXTS) or (isinstance(part, bool) and name != "waits"):
+        raise ValueError(f"{name[:80]!r} holds a text or a truth value where a number belongs")
     elif isinstance(part, int | float) and not -HUGE < part < HUGE:
         raise ValueError(f"holds a number that is not between -{HUGE:g} and {HUGE:g}")
 
