@@ -352,3 +352,19 @@ def test_a_formula_without_a_number_defines_only_what_nothing_else_does(tmp_path
         "display1": ("claim", "V = x^4"), "1": ("definition", "V = x^2"), "display2": ("claim", "W = y"),
         "display3": ("definition", "U = x^2 + 1"), "display4": ("claim", r"U \ge 1"), "display5": ("claim", "U > y")}
     assert (found.verdicts["display4"], found.verdicts["display5"]) == ("proved", "refuted")
+
+
+def test_a_rate_that_a_lemma_claims_moves_nothing_and_a_display_of_tex_hides_no_text(tmp_path):
+    r"""Nor are the d and t of \frac{d V}{d t} letters; $$ is no formula within the text; := defines by itself."""
+    (tmp_path / "s.tex").write_text(r"""\newtheorem{lemma}{Lemma}\newtheorem{definition}{Definition}
+        $$ \dot x = -a x \eqno(1) $$ with a gain $a > 0$ and $x, c \in \mathbb{R}$.
+        \begin{definition} The error is $e := x - 0 c$. \end{definition} Define the energy $V = e^2$.
+        \begin{lemma} \begin{equation} \dot V = -3 a e^2 \end{equation} \begin{equation} \dot W = -a e^2 \end{equation}
+        \begin{equation} \frac{\mathrm{d} V}{\mathrm{d} t} = -2 a e^2 \end{equation} \end{lemma}""")
+    found = write_from_source("p2029", tmp_path, tmp_path / "s.tex")
+    rows = rows_of(found.folder)
+    assert {name: row.role for name, row in rows.items() if row.role != "words"} == {
+        "text1": "definition", "text2": "definition", "1": "dynamics", "1-2": "claim", "2": "claim", "3": "claim"}
+    assert {name: found.verdicts[name] for name in ("1-2", "2", "3")} == {
+        "1-2": "refuted", "2": "undecided", "3": "proved"}
+    assert not {"d", "t"} & load_record(found.folder / SYMBOLS, LettersFile).letters.keys()

@@ -25,7 +25,7 @@ PROOFS = ("proof", "IEEEproof", "pf")
 _MARK = re.compile(r"\\(begin|end|section|appendix|eqref|[cC]ref|autoref|ref|label|setcounter)(?![A-Za-z])\*?"
                    r"|(?<!\\)(?:\\\[|\$\$)")
 _LABEL = re.compile(r"\\label\s*\{([^{}]*)\}")
-_TAG = re.compile(r"\\tag\*?\s*\{([^{}]*)\}")
+_TAG = re.compile(r"\\(?:tag\*?\s*\{|l?eqno(?![A-Za-z])\s*\{?\(?)([^{}()\\]*)[)}]*")
 _UNNUMBERED = re.compile(r"\\(?:nonumber|notag|IEEEnonumber)(?![A-Za-z])")
 _LAYOUT = re.compile(r"\\(?:IEEEyesnumber|IEEEeqnarraynumspace|displaybreak)(?![A-Za-z])\*?"
                      r"|\\(?:short)?intertext\s*\{[^{}$]*\}")

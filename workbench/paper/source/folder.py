@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 import re
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from dataclasses import dataclass
 from pathlib import Path, PurePath
 
@@ -76,8 +76,9 @@ def write_from_source(name: str, directory: Path, source: Path) -> FromSource:
     except SourceError as trouble:
         raise InputError(source, "", str(trouble)) from None
     made = [(row, entry) for row in found.rows for entry in entries(row, found)]
-    rows = _with_roles(_with_definitions([entry for _, entry in made], found.text),
-                       {entry.id: row for row, entry in made if row.what == "Equation" and not row.number})
+    asides = {entry.id for row, entry in made if row.aside}
+    rows = _with_roles(_with_definitions([entry for _, entry in made], found.text, asides),
+                       {entry.id: row for row, entry in made if row.what == "Equation" and not row.number}, asides)
     letters = table_of(rows, found.text)
     if len(rows_text(rows).encode()) > LARGEST_TEXT // 2:  # verdicts are added, and the table is read again
         raise InputError(source, "", "becomes tables of more than 2 MiB, as where a macro writes itself many times "
@@ -153,10 +154,11 @@ def _cases(printed: str) -> list[str]:
     return [" ".join(rf"{found['before']} {value} \text{{if}} {condition}".split()) for value, condition in parts]
 
 
-def _with_definitions(rows: list[RowEntry], text: str) -> list[RowEntry]:
+def _with_definitions(rows: list[RowEntry], text: str, asides: Collection[str]) -> list[RowEntry]:
     """The rows, behind those letters that they use and that the running text alone defines."""
     lines = [text_of(row) for row in rows if row.role != "words"]
-    given = {letter for line in lines for letter, _ in (*sides_of(line), *moving_sides(line))}
+    given = {letter for row in rows if row.role != "words" for letter, _ in (
+        *sides_of(text_of(row)), *(() if row.id in asides else moving_sides(text_of(row))))}
     known = {letter: formula for letter, formula in defined_in_text(text).items() if letter not in given}
     used: list[str] = []
     while more := [one for one in known if one not in used and any(one in letters_of_text(line) for line in lines)]:
@@ -166,9 +168,10 @@ def _with_definitions(rows: list[RowEntry], text: str) -> list[RowEntry]:
               for number, one in enumerate(used, 1)), *rows]
 
 
-def _with_roles(rows: list[RowEntry], unnumbered: Mapping[str, Row]) -> list[RowEntry]:
+def _with_roles(rows: list[RowEntry], unnumbered: Mapping[str, Row], asides: Collection[str]) -> list[RowEntry]:
     """The first line that gives a letter a value defines it, the first that gives it a rate moves it; one without a
-    number where no other does, and not in the text of a theorem, remark or proof."""
+    number where no other does. In the text of a theorem, remark or proof no line moves a letter, since a rate there is
+    what the text claims, and no line without a number defines one."""
     numbered = [text_of(row) for row in rows if row.role == "claim" and row.id not in unnumbered]
     given = {letter for line in numbered for letter in (*values_and_rates(line)[0], *values_and_rates(line)[1])}
     defined: set[str] = set()
@@ -187,7 +190,7 @@ def _with_roles(rows: list[RowEntry], unnumbered: Mapping[str, Row]) -> list[Row
             if values and not set(values) & (defined | states):
                 role = "definition"
                 defined |= set(values)
-            elif rates and set(rates) <= states - moved:
+            elif rates and row.id not in asides and set(rates) <= states - moved:
                 role = "dynamics"
                 moved |= set(rates)
         found.append(row.model_copy(update={"role": role}))

@@ -13,7 +13,7 @@ from workbench.proof.latex.sides import letter_latex, letters_of_text, moving_si
 from workbench.proof.latex.statement import parted
 from workbench.proof.latex.tree import Letter, Node, Number
 
-_INLINE = re.compile(r"(?<!\\)\$(?!\$)(.+?)(?<!\\)\$|\\\((.+?)\\\)", re.DOTALL)
+_INLINE = re.compile(r"(?<![\\$])\$(?!\$)(.+?)(?<!\\)\$(?!\$)|\\\((.+?)\\\)", re.DOTALL)
 _LIST = r"((?:\$[^$]+\$(?:\s*,\s*(?:and\s+)?|\s+and\s+)?)+)"
 _CONSTANTS = re.compile(r"\b(?:constants?|gains?|parameters?)\b[^.,;:$]{0,30}" + _LIST, re.IGNORECASE)
 _POSITIVE = re.compile(r"\b(?<!non)(?<!non-)positive\s+(?:\w+\s+){0,3}" + _LIST, re.IGNORECASE)
@@ -34,7 +34,8 @@ _AT_ALL_TIMES = re.compile(
 _FOR_ALL = re.compile(rf"\b{_ALL}\Z", re.IGNORECASE)
 _DEFINING = re.compile(r"\b(?:(?:let|defin(?:e|ing)|denot(?:e|ing)|introduc(?:e|ing))\b[^.;:$]{0,60}|where\s+)\Z",
                        re.IGNORECASE)
-_ENVIRONMENT = re.compile(r"\\begin\s*\{(\w+\*?)\}.*?\\end\s*\{\1\}", re.DOTALL)
+_ENVIRONMENT = re.compile(r"\\begin\s*\{((?!def)\w+\*?)\}.*?\\end\s*\{\1\}", re.DOTALL)  # a Definition is kept
+_DEFINED = re.compile(r":=|\\(?:triangleq|coloneqq|doteq)(?![A-Za-z])")
 _HOLDING = {"=", "<", ">", "<=", ">="}
 _SIGNS = {">": "positive", ">=": "nonnegative"}
 
@@ -100,7 +101,8 @@ def defined_in_text(text: str) -> dict[str, str]:
         values, _ = values_and_rates(formula)
         for letter, value in values.items():
             behind = letters_of_text(value)
-            if _DEFINING.search(text[:inline.start()]) and behind and letter not in behind and len(values) == 1:
+            says_so = _DEFINED.search(formula) or _DEFINING.search(text[:inline.start()])
+            if says_so and behind and letter not in behind and len(values) == 1:
                 found.setdefault(letter, set()).add(formula)
     return {letter: formulas.pop() for letter, formulas in found.items() if len(formulas) == 1}
 

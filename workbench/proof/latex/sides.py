@@ -7,10 +7,11 @@ from collections.abc import Iterator
 from dataclasses import fields, is_dataclass, replace
 from typing import Any
 
+from workbench.proof.latex.derivatives import derivative
 from workbench.proof.latex.error import LatexError
 from workbench.proof.latex.read import read_line
 from workbench.proof.latex.statement import parted
-from workbench.proof.latex.tree import PARTED, Chain, Letter, Node, Product
+from workbench.proof.latex.tree import PARTED, Chain, Letter, Node, Product, Quotient
 
 RATES = ("dot", "ddot", "dddot")
 _LAYOUT = re.compile(r"\\(?:begin|end)\s*\{(?:aligned|split|gathered)\}|(?<!\\)&")
@@ -45,6 +46,8 @@ def _letters(node: Any) -> Iterator[Letter]:
         yield node
     elif node == _OF_TIME:
         return
+    elif isinstance(node, Quotient) and (found := derivative(node)) is not None:  # its d and t are no letters
+        yield from _letters(found.of if found.in_time else (*found.of, *found.by))
     elif isinstance(node, tuple):
         for part in node:
             yield from _letters(part)
