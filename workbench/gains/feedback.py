@@ -11,9 +11,11 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from math import sqrt
+from math import log2, sqrt
 
+import numpy as np
 import sympy as sp
+from scipy.linalg import solve_continuous_are
 
 from workbench.errors import InputError, SolverError
 from workbench.gains.exact import fraction, rational, solve_exactly
@@ -21,6 +23,8 @@ from workbench.gains.linearised import LinearPlants
 from workbench.gains.problem import Problem
 from workbench.gains.search import Found, Infeasible, search
 from workbench.proof.claim import Relation, at_least, at_most
+
+ROOM = 5e-3  # of the least gain: at that itself gains are without bound
 
 
 @dataclass(frozen=True)
@@ -134,16 +138,46 @@ def attenuating(name: str, plants: LinearPlants, E: sp.Matrix, C: sp.Matrix, D: 
     By the bounded real lemma, one V for every plant of the polytope. Raises as `decaying`.
     """
     unknown, gamma = _Unknown(plants), sp.Symbol("gamma", positive=True)
+    radii, inputs, usual, speed = _optimal_sizes(plants, E, C, D)
     w, z = (sp.Matrix(sp.symbols(f"{letter}_1:{count + 1}", real=True))
             for letter, count in (("w", E.cols), ("z", C.rows)))
     passed = (z.T * (C * unknown.P + D * unknown.Y) * unknown.x)[0]
-    conditions: dict[str, Relation] = {"positive": at_least(unknown.size(), unknown.x.dot(unknown.x) / 10**6)}
+    least = sum((rational(r) ** 2 * x**2 for r, x in zip(radii, unknown.x, strict=True)), sp.Integer(0)) / 10**6
+    conditions: dict[str, Relation] = {"positive": at_least(unknown.size(), least)}
     for number, (A, B) in enumerate(plants.extremes):
         form = (unknown.moving(A, B) + 2 * (unknown.x.T * E * w)[0] + 2 * passed
                 - gamma * (w.dot(w) + z.dot(z)))
         conditions[f"gain {number + 1}"] = at_most(sp.expand(form), 0)
-    found = search(Problem(name, (*unknown.symbols, gamma), conditions, minimise=gamma))
+    scales = unknown.scales(radii, inputs) | {gamma: usual**2} | dict.fromkeys((*w, *z), 1 / usual) | {
+        x: 1 / (r * speed) for x, r in zip(unknown.x, radii, strict=True)}
+    found = search(Problem(name, (*unknown.symbols, gamma), conditions, minimise=gamma, scales=scales), ROOM)
     return Feedback(unknown.K(found), found, float(found.values[gamma]))
+
+
+def _optimal_sizes(plants: LinearPlants, E: sp.Matrix, C: sp.Matrix,
+                   D: sp.Matrix) -> tuple[list[Fraction], list[Fraction], Fraction, Fraction]:
+    """Typical sizes of states, inputs, the root of the gain, and the root of the fastest rate, of the first plant.
+
+    They are those of the regulator with the least integral of z^T z (the states of its V = x^T P^-1 x <= 1); ones
+    where it has none. They help the solver, which minds a gap in metres beside a voltage.
+    """
+    A, B, e, c, d = (np.array(part.tolist(), dtype=float).reshape(part.shape)
+                     for part in (*plants.extremes[0], E, C, D))
+    n, m = B.shape
+    ones = [Fraction(1)] * n, [Fraction(1)] * m, Fraction(1), Fraction(1)
+    try:
+        X = solve_continuous_are(A, B, c.T @ c, d.T @ d, s=c.T @ d)
+        K = -np.linalg.solve(d.T @ d, B.T @ X + d.T @ c)
+        gain = float(np.linalg.norm((c + d @ K) @ np.linalg.solve(A + B @ K, e), 2))
+        P = gain * np.linalg.inv(X)
+        fastest = np.abs(np.linalg.eigvals(A + B @ K)).max()
+        sizes = np.sqrt([*np.diag(P), *np.diag(K @ P @ K.T), gain, fastest])
+    except np.linalg.LinAlgError:
+        return ones
+    if not (np.isfinite(sizes).all() and (sizes > 0).all()):
+        return ones
+    near = [Fraction(2) ** round(log2(size)) for size in sizes.tolist()]
+    return near[:n], near[n:n + m], near[-2], near[-1]
 
 
 def proved_decay(name: str, plants: LinearPlants, K: Sequence[Sequence[Fraction]], rate: Fraction,
