@@ -182,3 +182,21 @@ def test_a_gain_of_metres_beside_volts_is_within_the_solvers_reach():
         peak = max(peak, *(np.linalg.norm((numbers(C) + numbers(D) @ K) @ np.linalg.solve(
             1j * rate * np.eye(3) - loop, numbers(E)), 2) for rate in np.logspace(-1, 4, 200)))
     assert 0.9 * found.bound < peak <= found.bound
+
+
+def test_a_point_of_rest_at_an_irrational_number_is_no_harder_than_one_beside_it():
+    """Its entry lies between two rationals that are all but equal, and both are proved."""
+    x, v, i, volts = sp.symbols("x v i U", real=True)
+    bounds = []
+    for weight in (sp.Rational(981, 100), sp.Rational(98, 10)):
+        ball = Plant("ball", (x, v, i), (v, weight - (i / x) ** 2 / 2000, 5 * (volts - 11 * i)), (volts,))
+        rest = sp.sqrt(2000 * weight) / 100
+        plants = linearised(ball, {"x": sp.Rational(1, 100), "i": rest, "U": 11 * rest})
+        found = decaying("mine:rest", plants, Fraction(5),
+                         {"x": Fraction(1, 1000), "v": Fraction(1, 50), "i": Fraction(1, 10)})
+        check(found.found.certificate)
+        A, B = (numbers(part) for part in plants.extremes[0])
+        assert np.linalg.eigvals(A + B @ numbers(found.K)).real.max() <= -5
+        bounds.append((len(plants.extremes), found.bound))
+    (two, beside), (one, alone) = bounds
+    assert (two, one) == (2, 1) and beside == pytest.approx(alone, rel=1e-2)

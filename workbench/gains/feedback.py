@@ -24,6 +24,7 @@ from workbench.gains.problem import Problem
 from workbench.gains.search import Found, Infeasible, search
 from workbench.proof.claim import Relation, at_least, at_most
 
+WIDEST = 30  # times the radii
 ROOM = 5e-3  # of the least gain: at that itself gains are without bound
 
 
@@ -65,6 +66,14 @@ class _Unknown:
         return at_least(self.size(), sum((rational(r) ** 2 * x**2 for r, x in zip(radii, self.x, strict=True)),
                                          sp.Integer(0)))
 
+    def within(self, radii: Sequence[Fraction]) -> Relation:
+        """x^T P^-1 x >= 1 wherever x is out of the ellipsoid of WIDEST times these semi-axes.
+
+        Where a direction costs no command P could grow in it without end, and the solver with it.
+        """
+        return at_most(self.size(), WIDEST**2 * sum((rational(r) ** 2 * x**2 for r, x in zip(
+            radii, self.x, strict=True)), sp.Integer(0)))
+
     def size(self) -> sp.Expr:
         """x^T P x."""
         return (self.x.T * self.P * self.x)[0]
@@ -83,8 +92,8 @@ def decaying(name: str, plants: LinearPlants, rate: Fraction, radius: Mapping[st
     """The feedback with the least command among those proved to decay.
 
     For every plant of the polytope V' <= -2 rate V, and from every state of the ellipsoid with the semi-axes `radius`
-    on, each input stays within `bound` times its size in `largest` (one unless given) for all times. Raises Infeasible
-    where there is none, SolverError, InputError.
+    on, each input stays within `bound` times its size in `largest` (one unless given) for all times, and each state
+    within WIDEST times its radius. Raises Infeasible where there is none, SolverError, InputError.
     """
     unknown, square = _Unknown(plants), sp.Symbol("U", positive=True)
     inputs = sp.Matrix(sp.symbols(f"omega_1:{len(plants.inputs) + 1}", real=True))
@@ -92,6 +101,7 @@ def decaying(name: str, plants: LinearPlants, rate: Fraction, radius: Mapping[st
     conditions = dict(_decay(unknown, plants, rate))
     radii = [radius[state] for state in plants.states]
     conditions["reach"] = unknown.reach(radii)
+    conditions["within"] = unknown.within(radii)
     for k, w in enumerate(inputs):
         both = unknown.size() + 2 * w * (unknown.Y[k, :] * unknown.x)[0] + square * rational(most[k]) ** 2 * w**2
         conditions[f"command {plants.inputs[k]}"] = at_least(both, 0)
@@ -118,12 +128,25 @@ def _decays_alone(name: str, plants: LinearPlants, rate: Fraction, radius: Mappi
 
 
 def _typical(plants: LinearPlants, rate: Fraction, radii: Sequence[Fraction]) -> list[Fraction]:
-    """How large an input is that moves a state of the size of its radius by the rate."""
-    _, B = plants.extremes[0]
+    """How large an input is that moves a state of the size of its radius by the rate.
+
+    By the regulator of least energy that decays so fast, where the first plant has one: an unstable plant takes more.
+    """
+    A, B = plants.extremes[0]
+    sizes = np.array([float(r) for r in radii])
+    a, b = (np.array(part.tolist(), dtype=float).reshape(part.shape) / sizes[:, None] for part in (A, B))
+    a = a * sizes + float(rate) * np.eye(len(sizes))
+    units = 1 / np.maximum(np.abs(b).max(axis=0), 1e-300)
+    try:
+        X = solve_continuous_are(a, b * units, 1e-6 * np.eye(len(sizes)), np.eye(len(units)))
+        moving = units * np.linalg.norm((b * units).T @ X, axis=1)
+    except np.linalg.LinAlgError:
+        moving = np.zeros(len(units))
     found = []
     for k in range(B.cols):
         ways = [rate * r / abs(fraction(B[i, k])) for i, r in enumerate(radii) if B[i, k]]
-        found.append(min(ways) if ways else Fraction(1))
+        least = min(ways) if ways else Fraction(1)
+        found.append(max(least, Fraction(2) ** round(log2(moving[k]))) if 0 < moving[k] < float("inf") else least)
     return found
 
 
