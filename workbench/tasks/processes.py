@@ -176,7 +176,7 @@ def script_left_out(unless: bool = False) -> Iterator[None]:
         yield
         return
     main = sys.modules["__main__"].__dict__
-    kept = {name: main.pop(name) for name in ("__file__", "__spec__") if name in main}
+    kept: dict[str, Any] = {name: main.pop(name) for name in ("__file__", "__spec__") if name in main}
     main["__spec__"] = None  # what multiprocessing finds the script by
     try:
         yield
