@@ -162,6 +162,33 @@ def test_certificates_and_references_of_the_examples_work(place):
     assert json.loads((place / "reference.json").read_text())
 
 
+# In one process, which imports the package once.
+VERBS = """
+import sys
+from workbench.cli.app import main
+for verb in (["prove"], ["compare", "--json", "g.json"], ["tune", "--runs", "2"], ["report", "--out", "gallery"]):
+    sys.argv = ["workbench", verb[0], "papers/gallery", *verb[1:], "--workers", "1"]
+    try:
+        main()
+    except SystemExit as end:
+        assert not end.code, (verb, end.code)
+"""
+
+
+def test_a_gallery_paper_takes_its_verbs(place):
+    """The smallest one, its runs shortened: a plant, laws and MPC of the paper's own folder."""
+    folder = place / "papers" / "gallery"
+    shutil.copytree(place / "given" / "proofs" / "goodwin1980", folder)
+    study = (folder / "study.toml").read_text()
+    (folder / "study.toml").write_text(study.replace("duration_s = 20.0", "duration_s = 1.0"))
+    told = run(place, "-c", VERBS, program="python")
+    assert "tuned: alpha" in told and "report: gallery/report.html" in told
+    rows = {row["controller"]: row for row in json.loads((place / "g.json").read_text())["rows"]}
+    assert set(rows) == {"projection", "frozen", "mpc"} and not any(row["failed"] for row in rows.values())
+    claims = json.loads((place / "gallery" / "claims.json").read_text())["claims"]
+    assert len(claims) > 5 and all(claim["verdict"] == claim["recorded"] for claim in claims)
+
+
 @pytest.fixture(scope="module")
 def copied(place):
     """yang2021's folder elsewhere, under another name, its line shortened."""

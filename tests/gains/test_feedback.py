@@ -163,3 +163,40 @@ def test_limits_that_the_proof_does_not_keep_are_told():
         plant = replace(PENDULUM, input_limits={u: (-limit, limit)})
         notes = feedback_search("mine", plant, "2", {"theta": "0.1", "omega": "0.1"}, UP).report(stated).notes
         assert any("saturates" in note for note in notes) == told
+
+
+def test_a_gain_of_metres_beside_volts_is_within_the_solvers_reach():
+    """A ball under a magnet: its sizes differ by thousands, and near the least gain itself K would grow to millions."""
+    x, v, i, volts = sp.symbols("x v i U", real=True)
+    R = sp.symbols("R", positive=True)
+    ball = Plant("ball", (x, v, i), (v, 1960 * x - 14 * i + w, 5 * volts - 5 * R * i), (volts,), (w,),
+                 parameters=(Parameter(R, 11.0, known=(9, 13)),))
+    plants = linearised(ball)
+    E, C, D = sp.Matrix([0, 1, 0]), sp.Matrix([[1000, 0, 0], [0, 0, 0]]), sp.Matrix([0, sp.Rational(1, 10)])
+    found = attenuating("mine:ball", plants, E, C, D)
+    check(found.found.certificate)
+    K, peak = numbers(found.K), 0.0
+    for A, B in plants.extremes:
+        loop = numbers(A) + numbers(B) @ K
+        assert np.linalg.eigvals(loop).real.max() < 0
+        peak = max(peak, *(np.linalg.norm((numbers(C) + numbers(D) @ K) @ np.linalg.solve(
+            1j * rate * np.eye(3) - loop, numbers(E)), 2) for rate in np.logspace(-1, 4, 200)))
+    assert 0.9 * found.bound < peak <= found.bound
+
+
+def test_a_point_of_rest_at_an_irrational_number_is_no_harder_than_one_beside_it():
+    """Its entry lies between two rationals that are all but equal, and both are proved."""
+    x, v, i, volts = sp.symbols("x v i U", real=True)
+    bounds = []
+    for weight in (sp.Rational(981, 100), sp.Rational(98, 10)):
+        ball = Plant("ball", (x, v, i), (v, weight - (i / x) ** 2 / 2000, 5 * (volts - 11 * i)), (volts,))
+        rest = sp.sqrt(2000 * weight) / 100
+        plants = linearised(ball, {"x": sp.Rational(1, 100), "i": rest, "U": 11 * rest})
+        found = decaying("mine:rest", plants, Fraction(5),
+                         {"x": Fraction(1, 1000), "v": Fraction(1, 50), "i": Fraction(1, 10)})
+        check(found.found.certificate)
+        A, B = (numbers(part) for part in plants.extremes[0])
+        assert np.linalg.eigvals(A + B @ numbers(found.K)).real.max() <= -5
+        bounds.append((len(plants.extremes), found.bound))
+    (two, beside), (one, alone) = bounds
+    assert (two, one) == (2, 1) and beside == pytest.approx(alone, rel=1e-2)

@@ -27,6 +27,10 @@ def _plant(push: sp.Expr = u, **more: object) -> wb.Plant:
     (lambda: wb.margins(LAW, _plant()), "give the Plant, then the law"),  # type: ignore[arg-type]
     (lambda: wb.PlantMpc(10.0, {"x": 1.0}), "whole numbers"),  # type: ignore[arg-type]
     (lambda: wb.Setting(_plant(), "1"), "duration_s = '1'"),  # type: ignore[arg-type]
+    (lambda: wb.Sine(amplitude=1, period_s=0), "^Sine: period_s: input should be greater than 0, not 0"),
+    (lambda: wb.Step(before=1), "^Step: after: is missing"),
+    (lambda: wb.Sine(1.0, 2.0), "^Sine takes its values by name: write Sine"),  # type: ignore[misc]
+    (lambda: wb.Setting(_plant(), 1.0, initial={"x": x / 4}), "initial.x = x/4: give a finite number"),
     (lambda: wb.Setting(_plant(), 1.0, references={"r": wb.Spline(file="none.csv", column="r")}), "no such file")])
 def test_a_mistake_is_one_line(made: object, told: str) -> None:
     with pytest.raises(Exception, match=told) as trouble:
@@ -72,3 +76,31 @@ def test_mpc_of_two_tanks_that_run_empty_ends():
                          initial={"h": 0.5, "k": 0.5})
     run = wb.compare(setting, [wb.entrant(wb.PlantMpc(20, {"k": 1.0}, {"q": 1e-3}), 0.5)]).runs[0]
     assert run.failed is None and max(run["q"]) < 0.01
+
+
+def test_numbers_may_be_exact():
+    """pi/4 in a table is the float that it stands for, wherever a number is asked for."""
+    k = sp.Symbol("k", positive=True)
+    told = []
+    for quarter, tenth in ((sp.pi / 4, sp.Rational(1, 10)), (math.pi / 4, 0.1)):
+        plant = wb.Plant("m", (x, v), (v, u - k * x), (u,), parameters=(wb.Parameter(k, quarter),))
+        law = wb.Law("p", {u: -k * (x - r.value)}, parameters=(k,), references=(r,))
+        setting = wb.Setting(plant, 10 * tenth, tenth / 100, initial={"x": quarter}, references={"r": tenth},
+                             tracks={"x": "r"}, noise={"x": tenth})
+        assert plant.linearise({"x": quarter}).A[1, 0] == -math.pi / 4
+        told.append([(run.metrics, run.failed) for run in wb.compare(setting, [
+            wb.entrant(law, tenth, {k: quarter}), wb.entrant(wb.PlantMpc(5, {"x": tenth}, {"u": tenth}), tenth)])])
+    assert told[0] == told[1]
+
+
+@pytest.mark.parametrize(("rate", "start"), [(sp.exp(x**3), 2.0), (-sp.sqrt(x), 1.0), (x**2, 1.0)])
+def test_a_solver_that_comes_to_no_end_is_one_line(rate: sp.Expr, start: float) -> None:
+    """Numbers that overflow, a root beyond its domain, and a state that grows beyond every bound, of which LSODA takes
+    steps without end; nothing of it is a warning."""
+    plant = wb.Plant("q", (x,), (rate,))
+    for integrator in ("radau", "bdf", "lsoda"):
+        run = wb.simulate(plant, None, period_s=0.1, step_s=0.1, duration_s=2.5, initial={"x": start},
+                          integrator=integrator)
+        assert run.failed is not None and run.found.reached_s < 2.3 and "\n" not in run.failed
+        assert "finite numbers" in run.failed or "domain" in run.failed
+        assert all(value is None for value in run.metrics.values())

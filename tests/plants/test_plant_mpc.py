@@ -9,6 +9,7 @@ import sympy as sp
 from scipy.linalg import expm, solve_discrete_are
 from shown_plants import CART, PENDULUM, u, v, x
 
+import workbench as wb
 from workbench.mpc.plant_tracking import PlantMpc
 from workbench.simulate.plants.run import Entrant, run
 from workbench.systems.law import Reference
@@ -49,6 +50,8 @@ def test_a_constant_beyond_all_measure_keeps_no_solver_busy():
     controller = PlantMpc(20, {"x": 1.0}, {"u": 0.01}).build(Setting(wild, 0.2, **AT_REST), 0.05)
     assert controller.command(0.0, np.array([0.3, 0.0])) == [0.0] and controller.fallbacks == 1
     assert abs(controller.command(0.05, np.array([0.0, 0.0]))) < 1e-6 and controller.fallbacks == 1
+    told = wb.compare(Setting(CART, 0.05, **AT_REST), [Entrant("mpc", 0.05, build=lambda setting, period: controller)])
+    assert told.rows[0]["fallbacks"] == 1 and "1 sample without a solution" in str(told)
 
 
 def test_with_a_long_horizon_it_is_the_regulator():

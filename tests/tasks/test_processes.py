@@ -1,6 +1,8 @@
 """Processes of this machine: what has begun is recorded, what dies is run again."""
 
 import operator
+import subprocess
+import sys
 
 import pytest
 from worker_tasks import end_the_process
@@ -32,3 +34,36 @@ def test_tasks_of_a_process_that_dies_are_run_again(tmp_path, capsys):
     run_tasks(end_the_process, str(tmp_path), range(8), 2, recorded.append)
     assert sorted(recorded) == list(range(8))
     assert "a worker process died" in capsys.readouterr().err
+
+
+SCRIPT = """
+import operator
+import workbench as wb
+from workbench.tasks.handing_out import run_tasks
+
+print("begun")
+found = []
+run_tasks(operator.add, 100, range(4), 2, found.append)
+print(sorted(found), wb.prove("mine.py", workers=2, cache=False).verdicts)
+"""
+PAPER = """
+import sympy as sp
+from workbench.proof.claim import Goal, at_least
+from workbench.proof.paper import Paper
+
+paper = Paper("mine", "A. Author, A title, 2026")
+x = sp.Symbol("x", real=True)
+
+@paper.claim("1", "A square", "inequality", "x^2 >= 0", "proved")
+def square() -> Goal:
+    return Goal((at_least(x**2, 0),))
+"""
+
+
+def test_a_plain_script_may_ask_for_several_processes(tmp_path):
+    """Without a guard: a process that imported the script would begin all of it again, and die of that."""
+    (tmp_path / "mine.py").write_text(PAPER)
+    (tmp_path / "script.py").write_text(SCRIPT)
+    done = subprocess.run([sys.executable, "script.py"], cwd=tmp_path, capture_output=True, text=True, check=False)
+    assert done.stdout.splitlines() == ["begun", "[100, 101, 102, 103] {'mine:1': 'proved'}"], done.stderr
+    assert not done.stderr

@@ -1,7 +1,6 @@
-"""The functions of the API. All run in this process unless more workers are asked for, so that a script needs no guard.
+"""The functions of the API. All run in this process unless more workers are asked for.
 
-With `workers` above one, processes are started that import the script again: it then needs the usual
-`if __name__ == "__main__":`.
+The processes of these do not import the script that calls the function: it needs no guard.
 """
 
 from __future__ import annotations

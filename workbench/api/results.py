@@ -40,6 +40,11 @@ class Run:
         return self.found.failed
 
     @property
+    def fallbacks(self) -> int:
+        """At how many samples an MPC's solver gave nothing usable, so that its last plan went on."""
+        return self.found.fallbacks
+
+    @property
     def columns(self) -> tuple[str, ...]:
         """The names of the log's columns."""
         return self.found.columns
@@ -50,7 +55,9 @@ class Run:
     def __str__(self) -> str:
         metrics = "\n".join(f"  {name} = {'none' if value is None else format(value, '.6g')}"
                             for name, value in self.metrics.items())
-        return f"{self.name} on {self.setting.plant.id}, {self.failed or f'to {self.found.reached_s:g} s'}\n{metrics}"
+        told = f", {self.fallbacks} sample{'s' * (self.fallbacks > 1)} without a solution" if self.fallbacks else ""
+        return (f"{self.name} on {self.setting.plant.id}, {self.failed or f'to {self.found.reached_s:g} s'}{told}\n"
+                f"{metrics}")
 
     __repr__ = __str__
 
@@ -101,9 +108,9 @@ class Comparison:
 
     @property
     def rows(self) -> list[dict[str, Any]]:
-        """A row a controller: its metrics, step time and failure."""
-        return [{"controller": run.name, **run.metrics, "step_us": run.found.step_us, "failed": run.failed}
-                for run in self.runs]
+        """A row a controller: its metrics, step time, samples without an answer of MPC's solver, and failure."""
+        return [{"controller": run.name, **run.metrics, "step_us": run.found.step_us, "fallbacks": run.fallbacks,
+                 "failed": run.failed} for run in self.runs]
 
     def to_pandas(self) -> Any:
         """The rows as a DataFrame; WorkbenchError without pandas."""

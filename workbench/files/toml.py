@@ -177,13 +177,18 @@ def validate_record(data: dict[str, Any], model: type[R], where: Path | str, rep
     try:
         return model.model_validate(data, context={REPRODUCTION: strict})
     except ValidationError as trouble:
-        errors = trouble.errors()
-        # A mistyped key shows up twice, as unknown and as missing: the unknown one is what to mend.
-        first = next((e for e in errors if e["type"] == "extra_forbidden"), errors[0])
-        others = list(dict.fromkeys(_key(dict(error), data) for error in errors if error is not first))
-        more = f" (and {len(errors) - 1} more: {', '.join(others[:MOST_NAMED])}" + (
-            ", ...)" if len(others) > MOST_NAMED else ")") if others else ""
-        raise InputError(where, _key(dict(first), data), _explain(dict(first), errors) + more) from None
+        raise InputError(where, *mistake(trouble, data)) from None
+
+
+def mistake(trouble: ValidationError, data: dict[str, Any]) -> tuple[str, str]:
+    """The first wrong key of what made a record, and in one line what is wrong with it and how many more there are."""
+    errors = trouble.errors()
+    # A mistyped key shows up twice, as unknown and as missing: the unknown one is what to mend.
+    first = next((e for e in errors if e["type"] == "extra_forbidden"), errors[0])
+    others = list(dict.fromkeys(_key(dict(error), data) for error in errors if error is not first))
+    more = f" (and {len(errors) - 1} more: {', '.join(others[:MOST_NAMED])}" + (
+        ", ...)" if len(others) > MOST_NAMED else ")") if others else ""
+    return _key(dict(first), data), _explain(dict(first), errors) + more
 
 
 def _key(error: dict[str, Any], data: Any) -> str:

@@ -19,6 +19,7 @@ from workbench.gains.problem import Block, Exponents, Family, Poly, Problem, aff
 
 TOLERANCES = tuple(10.0 ** (-n / 2) for n in range(2, 24))
 FACE = 1e-5  # entries of a dual below this part of the largest are zero
+SAME = 1e-9  # part of its largest coefficient by which two families that are all but equal differ
 BACKOFF = 1e-4  # by how much of itself an optimal value is given up for an interior answer
 
 
@@ -67,7 +68,9 @@ def search(problem: Problem, backoff: float = BACKOFF) -> Found:
     scales = [problem.scales.get(s, Fraction(1)) for s in states]
     units = [problem.scales.get(u, Fraction(1)) for u in problem.unknowns]
     data = scaled(families, scales, units)
-    answer, bound, goal = _numbers(problem, data, units, backoff)
+    answer, bound, goal = _numbers(problem, scaled(_distinct(data), scales, units), units, backoff)
+    if isinstance(answer, Refusal):
+        answer, bound, goal = _numbers(problem, data, units, backoff)
     if isinstance(answer, Refusal):
         raise _refused(problem, data, answer, scales)
     for tolerance in TOLERANCES:
@@ -120,6 +123,20 @@ def largest(make: Callable[[Fraction], Problem], low: Fraction, high: Fraction,
         except (Infeasible, SolverError):
             high = middle
     return best, found
+
+
+def _distinct(data: Scaled) -> list[Family]:
+    """The families without those that are all but equal to one before, which cost the solver its digits.
+
+    Such come of an irrational number between two rationals. The proof is of all families.
+    """
+    kept: list[int] = []
+    for k, (constant, slopes) in enumerate(data.rows):
+        if not any(data.families[k].blocks == data.families[j].blocks and constant.shape == data.rows[j][0].shape
+                   and np.allclose(constant, data.rows[j][0], rtol=0, atol=SAME)
+                   and np.allclose(slopes, data.rows[j][1], rtol=0, atol=SAME) for j in kept):
+            kept.append(k)
+    return [data.families[k] for k in kept]
 
 
 def _numbers(problem: Problem, data: Scaled, units: list[Fraction],

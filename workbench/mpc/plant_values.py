@@ -11,7 +11,7 @@ import numpy as np
 
 from workbench.model.law import time
 from workbench.systems.setting import Setting, first_inputs
-from workbench.systems.symbols import is_finite, named_values
+from workbench.systems.symbols import is_finite, named_values, plain
 
 Solver = Literal["fatrop", "ipopt"]
 MOST_STAGES = 1000
@@ -58,7 +58,7 @@ class PlantMpcValues:
 
     def __post_init__(self) -> None:
         for key in (*NOT_NEGATIVE, "input_targets", "objective", "first_estimate"):
-            table = {str(name): value for name, value in named_values(getattr(self, key), key).items()}
+            table = {str(name): plain(value) for name, value in named_values(getattr(self, key), key).items()}
             object.__setattr__(self, key, table)
         whole = all(isinstance(n, int | np.integer) and not isinstance(n, bool) for n in (self.horizon, self.substeps))
         if not whole or not 1 <= self.horizon <= MOST_STAGES or self.substeps < 1:

@@ -137,8 +137,7 @@ def monte_carlo(scenario: Scenario, scenario_path: Path, asked: Options,
 
     With `out` rows are kept there as they are made (`row_store`), and `resume` continues after a kill, also with more
     runs or other controllers. on_progress(finished, total) is called as runs finish. Rows depend on scenario, seed and
-    draws alone; a controller that has a compiled form runs in it. Workers are spawned: a script that calls this needs
-    the usual `if __name__ == "__main__":`.
+    draws alone; a controller that has a compiled form runs in it.
     Raises InputError for unusable options or a folder of another sweep, WorkbenchError when workers die.
     """
     check_controllers(scenario, scenario_path)

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 import sympy as sp
 
-from workbench.systems.symbols import Limits, interval, symbols_of
+from workbench.systems.symbols import Limits, interval, plain, symbols_of
 
 
 @dataclass(frozen=True)
@@ -38,7 +38,8 @@ class Parameter:
 
 def checked_value(symbol: sp.Symbol, value: Any, where: str) -> float:
     """A finite number that agrees with what sympy knows of the symbol's sign; ValueError otherwise."""
-    if isinstance(value, bool | complex | str) or not isinstance(value, int | float | sp.Number | np.number):
+    value = plain(value)
+    if isinstance(value, bool | complex | str) or not isinstance(value, int | float | np.number):
         raise ValueError(f"{where} = {value!r} is no real number: give one")
     try:
         number = float(value)

@@ -23,6 +23,7 @@ from workbench.systems.symbols import (
     interval,
     is_finite,
     named_values,
+    plain,
     require_distinct,
     require_known,
     several,
@@ -233,7 +234,8 @@ class Plant:
 
     def _point(self, at: Mapping[str, float] | None) -> dict[str, float]:
         point = {str(symbol): 0.0 for symbol in (*self.states, *self.inputs)}
-        for name, value in named_values(at or {}, "at").items():
+        for name, given in named_values(at or {}, "at").items():
+            value = plain(given)
             if str(name) not in point:
                 raise ValueError(f"'{name}' is no state and no input of plant '{self.id}': name one of "
                                  f"{', '.join(point)}")

@@ -15,7 +15,7 @@ from workbench.systems.law import Reference
 from workbench.systems.metric import Metric
 from workbench.systems.plant import Plant
 from workbench.systems.signals import AnySignal, Constant, signal_of
-from workbench.systems.symbols import CLOCK, is_finite, named_values, require_known, several, written
+from workbench.systems.symbols import CLOCK, is_finite, named_values, plain, require_known, several, written
 
 Array = NDArray[np.float64]
 Integrator = Literal["rk4", "radau", "bdf", "lsoda"]
@@ -55,6 +55,8 @@ class Setting:
 
     def __post_init__(self) -> None:
         plant = self.plant
+        for name in ("duration_s", "step_s", "log_every_s"):
+            object.__setattr__(self, name, plain(getattr(self, name)))
         object.__setattr__(self, "step_s", self._step())
         for name in ("duration_s", "step_s"):
             if not (is_finite(getattr(self, name)) and getattr(self, name) > 0):
@@ -78,7 +80,7 @@ class Setting:
                                  ("tracks", "output", outputs), ("noise", "output", outputs),
                                  ("late_s", "output", outputs), ("lag_s", "input", inputs),
                                  ("delay_s", "input", inputs)):
-            object.__setattr__(self, key, {_name(name): value
+            object.__setattr__(self, key, {_name(name): plain(value)
                                            for name, value in named_values(getattr(self, key), key).items()})
             self._require_names(key, kind, names)
         self._check_numbers()

@@ -14,13 +14,13 @@ from typing import Annotated, Any, Literal
 
 import numpy as np
 from numpy.typing import NDArray
-from pydantic import Field, model_validator
+from pydantic import Field, ValidationError, model_validator
 from scipy.interpolate import CubicSpline
 
 from workbench.errors import InputError
 from workbench.files.text import read_text
-from workbench.files.toml import Number, Positive, Record, Text
-from workbench.systems.symbols import is_finite, written
+from workbench.files.toml import Number, Positive, Record, Text, mistake
+from workbench.systems.symbols import is_finite, plain, written
 
 Array = NDArray[np.float64]
 # Kinds in a row of numbers: kind, offset, slope or height or amplitude, start or angular rate, phase, first piece, how
@@ -30,14 +30,32 @@ WIDTH = 7
 MOST_ROWS = 100_000
 
 
-class Constant(Record):
+class _Signal(Record):
+    """A signal made in Python: what is wrong with it is a ValueError of one line, as of all that a run is made with."""
+
+    def __init__(self, *given: Any, **values: Any) -> None:
+        kind = type(self).__name__
+        if given:
+            names = ", ".join(f"{name}=..." for name in type(self).model_fields if name != "kind")
+            raise ValueError(f"{kind} takes its values by name: write {kind}({names})")
+        try:
+            super().__init__(**values)
+        except ValidationError as trouble:
+            key, what = mistake(trouble, values)
+            raise ValueError(f"{kind}: {key}{': ' * bool(key)}{what}") from None
+
+    # So pydantic reads a file's tables without it, and a mistake there keeps its file and key.
+    __init__.__pydantic_base_init__ = True  # type: ignore[attr-defined]
+
+
+class Constant(_Signal):
     """The same value at all times."""
 
     kind: Literal["constant"] = "constant"
     value: Number
 
 
-class Step(Record):
+class Step(_Signal):
     """`before` until at_s, `after` from then on; its rates are zero."""
 
     kind: Literal["step"] = "step"
@@ -46,7 +64,7 @@ class Step(Record):
     at_s: Number = 0.0
 
 
-class Ramp(Record):
+class Ramp(_Signal):
     """offset + slope_per_s * t."""
 
     kind: Literal["ramp"] = "ramp"
@@ -54,7 +72,7 @@ class Ramp(Record):
     slope_per_s: Number
 
 
-class Sine(Record):
+class Sine(_Signal):
     """offset + amplitude * sin(2 pi t / period_s + phase_rad)."""
 
     kind: Literal["sine"] = "sine"
@@ -64,7 +82,7 @@ class Sine(Record):
     phase_rad: Number = 0.0
 
 
-class Spline(Record):
+class Spline(_Signal):
     """The natural cubic spline through points, constant rates beyond its ends; from a CSV file's columns or as given.
 
     file: CSV whose first line names its columns, relative to the file that names it; `t_s` and `column` are used.
@@ -99,6 +117,7 @@ def signal_of(value: Any, where: str) -> AnySignal:
     """A signal, a number as one that is constant; ValueError naming `where` for anything else."""
     if isinstance(value, AnySignal):
         return read_signal(value, Path())  # a study has read its files already, relative to its own
+    value = plain(value)
     if is_finite(value):
         return Constant(value=float(value))
     raise ValueError(f"{where} = {written(value)} is no signal: give a number, Constant, Step, Ramp, Sine, or a Spline "

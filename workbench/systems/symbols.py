@@ -43,6 +43,13 @@ def _complete(cases: sp.Piecewise, where: str) -> sp.Expr:
     return sp.Piecewise(*cases.args[:-1], (cases.args[-1].expr, True))
 
 
+def plain(value: Any) -> Any:
+    """The float of a number that sympy holds exactly, such as pi/4; anything else as it is."""
+    if isinstance(value, sp.Expr) and value.is_number and value.is_extended_real:
+        return float(value)
+    return value
+
+
 def is_finite(value: Any) -> bool:
     """Whether a value is one finite real number that a float can hold."""
     if isinstance(value, bool) or not isinstance(value, int | float | np.number):

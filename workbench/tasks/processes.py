@@ -29,6 +29,8 @@ WITHOUT_TASKS = ("cli", "api", "report")
 # Processes that may die in the course of a job; how long tasks that have begun may take after an interruption.
 MOST_LOSSES, GRACE_S = 5, 5.0
 
+SCRIPT = b"__main__"  # where pickle says that something is defined there
+
 T = TypeVar("T")
 R = TypeVar("R")
 
@@ -70,7 +72,7 @@ class LocalProcesses:
             def submit(count: int) -> None:
                 for task in islice(tasks, count):
                     unrecorded.append(task)
-                    with interruption_held():
+                    with interruption_held(), script_left_out(unless=SCRIPT in job):
                         running[pool.submit(_work, task)] = task
 
             def taken(future: Future[R]) -> None:
@@ -123,7 +125,8 @@ def _wait_for_server(context: BaseContext) -> None:
     waiting, for others are started while interruptions are held back."""
     process = context.Process(target=os.getpid, daemon=True)  # type: ignore[attr-defined]
     try:
-        process.start()
+        with script_left_out():
+            process.start()
         process.join()
     except BaseException:
         # It would see that it is alone only after all its imports; the standard library has no public way to end it.
@@ -160,6 +163,25 @@ def interruption_held() -> Iterator[None]:
         yield
     finally:
         signal.pthread_sigmask(signal.SIG_SETMASK, before)
+
+
+@contextmanager
+def script_left_out(unless: bool = False) -> Iterator[None]:
+    """Processes that are started meanwhile do not import the script that this one runs: where it calls the package
+    without a guard, each of them would do so again, and die of it.
+
+    unless: what they shall do is defined in the script.
+    """
+    if unless:
+        yield
+        return
+    main = sys.modules["__main__"].__dict__
+    kept: dict[str, Any] = {name: main.pop(name) for name in ("__file__", "__spec__") if name in main}
+    main["__spec__"] = None  # what multiprocessing finds the script by
+    try:
+        yield
+    finally:
+        main.update(kept)
 
 
 _job: list[Any] = []

@@ -7,6 +7,7 @@ import math
 from workbench.simulate.plants.arrays import Arrays
 from workbench.simulate.plants.event_loop import MOST_IN_A_RUN, MOST_IN_A_STEP, PILED_UP, TOO_MANY
 from workbench.simulate.plants.plant_loop import DIVERGED, LAW_OUTSIDE, NO_COMMAND, OUTSIDE, RUNNING
+from workbench.simulate.plants.solver import MOST_CALLS, SOLVER_FAILED
 from workbench.systems.law import StateLaw
 from workbench.systems.setting import Setting
 
@@ -30,10 +31,12 @@ def why(setting: Setting, name: str, law: StateLaw | None, status: int, t: float
     what = {PILED_UP: f"met event '{last}' more than {MOST_IN_A_STEP} times in a plant step, or too fast to tell apart "
             "(state a mode in which the plant rests), which was",
             TOO_MANY: f"met more than {MOST_IN_A_RUN} events, '{last}' last, which was",
-            DIVERGED: "diverged", OUTSIDE: f"left the plant's domain ({domain})",
+            SOLVER_FAILED: "was given up by the solver (its rates are no finite numbers, it grows beyond every bound, "
+            f"or step_s is too long: a step takes {MOST_CALLS} calls of the rates at most)", DIVERGED: "diverged",
+            OUTSIDE: f"left the plant's domain ({domain})",
             NO_COMMAND: "gave a command that is no number", LAW_OUTSIDE: f"left its domain ({domain})"}
     remedy = STIFF if status == DIVERGED and setting.integrator == "rk4" else ""
-    return f"{name} {what.get(status, 'was given up by the solver')} at t = {t:.4g} s, {where}{remedy}"
+    return f"{name} {what[status]} at t = {t:.4g} s, {where}{remedy}"
 
 
 def _last_logged(setting: Setting, t: float, a: Arrays) -> str:

@@ -18,7 +18,7 @@ from workbench.simulate.plants.plant_loop import LAW_OUTSIDE, NO_COMMAND, RUNNIN
 from workbench.simulate.plants.solver import advance_by_solver
 from workbench.systems.law import StateLaw
 from workbench.systems.setting import Setting, limits_of
-from workbench.systems.symbols import is_finite
+from workbench.systems.symbols import is_finite, plain
 
 Array = NDArray[np.float64]
 
@@ -47,6 +47,7 @@ class Entrant:
     def __post_init__(self) -> None:
         if (self.law is None) == (self.build is None):
             raise ValueError(f"controller '{self.name}': give either a law or what builds a controller")
+        object.__setattr__(self, "period_s", plain(self.period_s))
         if not (is_finite(self.period_s) and self.period_s > 0):
             raise ValueError(f"controller '{self.name}': period_s = {self.period_s}: give a positive number of seconds")
 

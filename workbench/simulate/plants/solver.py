@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import warnings
 from types import ModuleType
 
 import numpy as np
@@ -15,6 +16,11 @@ from workbench.systems.setting import Setting
 NAMES = {"radau": "Radau", "bdf": "BDF", "lsoda": "LSODA"}
 RELATIVE, ABSOLUTE = 1e-8, 1e-10
 SOLVER_FAILED = 5
+MOST_CALLS = 100_000  # of the rates in a step: where a state grows beyond every bound LSODA takes steps without end
+
+
+class _EndlessError(ValueError):
+    """More calls of the rates than MOST_CALLS."""
 
 
 def advance_by_solver(module: ModuleType, setting: Setting, first: int, count: int, a: Arrays) -> tuple[int, int]:
@@ -40,13 +46,25 @@ def advance_by_solver(module: ModuleType, setting: Setting, first: int, count: i
             fade = np.where(lags > 0, np.exp(-(at - t) / np.where(lags > 0, lags, 1.0)), 0.0)
             return held + fade * (a.u - held)
 
-        def rates(at: float, x: NDArray[np.float64], t: float = t, input_at: object = input_at) -> object:
+        left = [MOST_CALLS]
+
+        def rates(at: float, x: NDArray[np.float64], t: float = t, input_at: object = input_at,
+                  left: list[int] = left) -> object:
+            left[0] -= 1
+            if left[0] < 0:
+                raise _EndlessError
             module.signal_values(at, t, a.table, a.pieces, a.s_middle)
             return module.plant_rates(at, *x, input_at(at), a.s_middle, a.p)  # type: ignore[operator]
 
-        found = solve_ivp(rates, (t, t + h), a.x, method=NAMES[setting.integrator], rtol=RELATIVE, atol=ABSOLUTE)
+        try:
+            with np.errstate(all="ignore"), warnings.catch_warnings():  # what it tries on its way is no message
+                warnings.simplefilter("ignore")
+                found = solve_ivp(rates, (t, t + h), a.x, method=NAMES[setting.integrator], rtol=RELATIVE,
+                                  atol=ABSOLUTE)
+        except ValueError:  # scipy's linear algebra takes no number that is not finite
+            return SOLVER_FAILED, k - first
         if not found.success:
-            return SOLVER_FAILED, k + 1 - first
+            return SOLVER_FAILED, k - first
         a.x[:] = found.y[:, -1]
         a.u[:] = input_at(t + h)
         if not np.all(np.abs(a.x[:n]) < 1e12):
