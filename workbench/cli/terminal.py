@@ -126,27 +126,27 @@ def answer_card(answer: Mapping[str, Any]) -> Table:
 def claim_card(row: Mapping[str, Any]) -> Table:
     """One claim with all that is known of it."""
     from workbench.report.certificate_latex import assignments_latex
-    from workbench.report.plain_formulas import plain_formula
-    from workbench.report.worded import show, worded
+    from workbench.report.plain_formulas import plain_formula, plain_words
 
     table = Table.grid(padding=(0, 2))
     table.add_column(no_wrap=True, style="bold")
     table.add_column(overflow="fold")
     recorded = "" if row["recorded"] == row["verdict"] else f", but recorded {row['recorded']}"
     known = {
-        "claim": f"{row['id']}: {row['title']}", "statement": plain_formula(row["statement"]),
+        "claim": f"{row['id']}: {plain_words(row['title'])}", "statement": plain_formula(row["statement"]),
         "verdict": verdict_words(row["verdict"], row["proved_under"]) + recorded,
-        "shown by": row["method"], "value": row["computed"],
+        "shown by": row["method"], "value": plain_words(row["computed"] or "").replace("-", "−"),
         "counterexample": ", ".join(map(plain_formula, assignments_latex(row["counterexample"] or {}))),
         "corrected": plain_formula(row["correction"] or ""), "fate": _fate(row), "holds for": row["scope"],
         "stands in the paper as": f"{ORIGIN_WORDS[row['origin']]}, {row['severity']}",
-        "became a goal by": f"{MATCH_WORDS[row['match']]}{': ' if row['reading'] else ''}{row['reading']}",
+        "became a goal by": f"{MATCH_WORDS[row['match']]}{': ' if row['reading'] else ''}"
+                            f"{plain_words(row['reading'] or '')}",
         "decided as": None if row["match"] == "parsed" else plain_formula(row["goal"] or ""),
         "other reading": f"{row['glyph_claim']}: {plain_formula(row['glyph'])}" if row["glyph"] else None,
         "mends": row["mends"],
         "rests on": ", ".join(row["rests_on"]), "our proof uses": ", ".join(row["premises"]),
-        "failed below": ", ".join(row["tainted_by"]), "note": show(worded(row["note"]), plain_formula),
-        "certificate": row["certificate"],
+        "failed below": ", ".join(row["tainted_by"]), "note": plain_words(row["note"]),
+        "certificate": row["certificate"] and _from_here(Path(row["certificate"])),
     }
     for what, text in known.items():
         if text:

@@ -23,6 +23,8 @@ from workbench.report.finding_sentences import (
 from workbench.report.worded import math, worded
 
 MOST_STEPS = 120  # lines of a proof beyond which a reader is sent to the certificate
+LONGEST = 900  # characters of a condition beyond which a reader is sent to the certificate
+COMMA = r",\ "
 CHECKER = "checker.py"
 GRAVEST_FIRST: tuple[FateWord, ...] = ("falls", "stands with corrections", "open", "stands")
 ABOUT = """Every line was stated as mathematics, as it stands here, and decided by a machine. Each verdict \
@@ -108,15 +110,27 @@ def _correction(number: int, found: Finding) -> list[Block]:
 
 
 def _worked(point: Counterexample) -> list[Block]:
-    """The relation with its numbers put in, and both sides evaluated."""
-    if point.put_in is None or point.left is None or point.right is None or point.motion:
-        return [Formula(point.relation, "What fails at all times")] if point.motion else []
-    sides = []
-    for put_in, value in zip(point.put_in, (point.left, point.right), strict=True):
-        sides.append(put_in if put_in == value else
-                     f"{put_in} {value}" if value.startswith(r"\approx") else f"{put_in} = {value}")
-    return [Formula(point.relation, "Decided as"),
-            Formula(rf"\text{{left}}:\ {sides[0]}", "Numbers put in"), Formula(rf"\text{{right}}:\ {sides[1]}")]
+    """The relation, what is assumed there, its numbers put in, and both sides evaluated."""
+    if point.motion:
+        return [Formula(point.relation, "What fails at all times")]
+    if point.left is None or point.right is None:
+        return []
+    short = point.put_in is not None or len(point.relation) <= LONGEST
+    found: list[Block] = [Formula(point.relation, "Decided as")] if short else []
+    conditions = [COMMA.join(part) for part in (point.given, point.along) if part]
+    at = rf"\quad\text{{where}}\ {COMMA.join(point.beside)}" if point.beside else ""
+    if conditions and sum(map(len, conditions)) + len(at) <= LONGEST:
+        found.append(Formula(r"\quad\text{along}\ ".join(conditions) + at if point.given else conditions[0] + at,
+                             "Given" if point.given else "Along"))
+    elif conditions:
+        found.append(Paragraph("What else is assumed holds there too; the certificate spells it out."))
+    sides, label = [point.left, point.right], "At these numbers"
+    if point.put_in is not None:
+        label = "Numbers put in"
+        sides = [put_in if put_in == value else
+                 f"{put_in} {value}" if value.startswith(r"\approx") else f"{put_in} = {value}"
+                 for put_in, value in zip(point.put_in, (point.left, point.right), strict=True)]
+    return [*found, Formula(rf"\text{{left}}:\ {sides[0]}", label), Formula(rf"\text{{right}}:\ {sides[1]}")]
 
 
 def _readings(found: Sequence[Finding]) -> list[Block]:
