@@ -16,12 +16,11 @@ from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, T
 from rich.table import Table
 from rich.text import Text
 
-from workbench.cli.console import err_console, out_console
+from workbench.cli.console import err_console
 from workbench.proof.verdict import VERDICTS, verdict_words
 
 if TYPE_CHECKING:
     from workbench.paper.contents import Contents
-    from workbench.paper.results import ResultTable, StudyResult
 
 LINE_EVERY_S = 30.0
 COLOURS = {"proved": "green", "refuted": "red", "violated": "red", "gap": "yellow", "assumed": "cyan",
@@ -217,38 +216,6 @@ def summary_table(summaries: Sequence[Any], runs: int) -> Table:
                       _range(s.speed_error_min, s.speed_error_max), _number(s.mean_abs_stopping_error, 1e3),
                       f"{s.failed} of {s.runs}")
     return table
-
-
-def result_table(found: ResultTable) -> Table:
-    """A study's table, its source beside its title; one that is too wide for the screen with a row a column."""
-    table = Table(title=f"{found.title} ({found.source})", title_justify="left", box=SIMPLE_HEAD, pad_edge=False)
-    lines = [tuple(found.headings), *found.text]
-    turned = list(zip(*lines, strict=True))
-    if _width(lines) > out_console.width and _width(turned) < _width(lines):
-        lines = turned
-    for heading in lines[0]:
-        table.add_column(heading, overflow="fold")
-    for row in lines[1:]:
-        table.add_row(*row)
-    return table
-
-
-def _width(lines: Sequence[Sequence[str]]) -> int:
-    """How wide a table of these lines is where no cell is broken."""
-    columns = zip(*lines, strict=True)
-    return sum(max(len(part) for cell in column for part in cell.split("\n")) + 3 for column in columns)
-
-
-def print_study(result: StudyResult) -> None:
-    """Tables and findings of a study; on standard error a line for every run that failed."""
-    from workbench.report.plain_formulas import plain_words
-
-    for table in result.tables:
-        out_console.print(result_table(table))
-    for finding in result.findings:
-        out_console.print(f"• {plain_words(finding)}", highlight=False)
-    for run, why in result.failures:
-        err_console.print(f"{run}: {why}", style="red", soft_wrap=True, highlight=False)
 
 
 def print_failures(rows: Sequence[dict[str, Any]]) -> None:
