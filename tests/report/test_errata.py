@@ -4,6 +4,7 @@ import json
 import re
 import subprocess
 import sys
+from dataclasses import replace
 from html.parser import HTMLParser
 from importlib import import_module
 from pathlib import Path
@@ -48,6 +49,13 @@ def test_what_a_counterexample_is_given_can_be_followed():
         "assume": ["w <= V"], "show": ["w < 0"]}}).beside == ("V = 2",)
     text = markdown(errata(paper(), CITATION))
     assert "**Given:**\n\n$$\nz_{2} \\le k\\quad\\text{where}\\ z_{2} = -2\n$$" in text
+
+
+def test_a_note_names_lines_as_the_paper_does():
+    note = "See 6, theorem1.mended (7.glyph) and A4; 7.5 % of 4.2 remain."
+    decisions = [replace(d, claim=replace(d.claim, note=note)) if d.claim.equation == "4" else d for d in paper()]
+    assert ("**Note.** See 6, Theorem 1 “the line theorem1.mended” (equation (7) “the line 7.glyph”) and A4; 7.5 % of "
+            "4.2 remain.\n") in markdown(errata(decisions, CITATION))
 
 
 def test_the_commands_it_names_re_check_the_certificates(tmp_path):

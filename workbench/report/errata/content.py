@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+import re
 from collections import Counter
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 
 from workbench.proof.checker import goal_digest
 from workbench.proof.places import place_of, subject_of
@@ -37,8 +38,10 @@ def errata(decisions: Sequence[Decision], citation: str) -> list[Block]:
     """The errata of one paper: fates, numbered corrections, open readings, mended statements with their proofs, and
     how to re-check all of it. All claims of the paper must be among the decisions, as `judged` leaves them."""
     found = findings(decisions)
+    titles = {d.claim.equation: d.claim.title for d in decisions}
     return [Heading(1, "Corrections"), Paragraph(citation, "Paper"), Paragraph(ABOUT), Paragraph(_counts(decisions)),
-            *_fates(decisions), *_corrections(found), *_readings(found), *_mended(decisions), *_rechecking(decisions)]
+            *_fates(decisions), *_corrections(found, titles), *_readings(found), *_mended(decisions, titles),
+            *_rechecking(decisions)]
 
 
 def _counts(decisions: Sequence[Decision]) -> str:
@@ -76,7 +79,21 @@ def _verb_of(word: FateWord, count: int) -> str:
     return word if count == 1 else {"falls": "fall", "stands": "stand"}.get(word, word.replace("stands", "stand"))
 
 
-def _corrections(found: Sequence[Finding]) -> list[Block]:
+def _noted(note: str, titles: Mapping[str, str]) -> str:
+    """A note with the lines that it names as a reader of the paper calls them: 51.whole is a name of ours alone."""
+    names = [name for name in titles if not name.isdigit() and ("." in name or name[-1].isdigit())]
+    if not names:
+        return worded(note)
+    told = re.compile(rf"(?<![\w.])(?:{'|'.join(map(re.escape, sorted(names, key=len, reverse=True)))})(?!\.?\w)")
+    return worded(told.sub(lambda found: _in_sentence(place_of(found[0], titles[found[0]])), note))
+
+
+def _in_sentence(place: str) -> str:
+    small = ("Equation", "The ")
+    return place[0].lower() + place[1:] if place.startswith(small) else place
+
+
+def _corrections(found: Sequence[Finding], titles: Mapping[str, str]) -> list[Block]:
     blocks: list[Block] = []
     number = 0
     for gravity in GRAVITIES[:-1]:
@@ -85,11 +102,11 @@ def _corrections(found: Sequence[Finding]) -> list[Block]:
             blocks.append(Heading(2, HEADINGS[gravity]))
         for f in of_it:
             number += 1
-            blocks += _correction(number, f)
+            blocks += _correction(number, f, titles)
     return blocks or [Paragraph("No line of the paper was found to fail.")]
 
 
-def _correction(number: int, found: Finding) -> list[Block]:
+def _correction(number: int, found: Finding, titles: Mapping[str, str]) -> list[Block]:
     where = f" (section {found.section})" if found.section else ""
     title = subject_of(found.title)
     blocks: list[Block] = [Heading(3, f"{number}. {place_of(found.equation, '')}{where}: {worded(title)}"),
@@ -101,7 +118,7 @@ def _correction(number: int, found: Finding) -> list[Block]:
     if found.counterexample is not None:
         blocks += _worked(found.counterexample)
     for label, text in (("Other reading", reading_sentence(found)), ("Consequence", consequence_sentence(found)),
-                        ("Note", worded(found.note))):
+                        ("Note", _noted(found.note, titles))):
         if text:
             blocks.append(Paragraph(text, label))
     if found.digest is not None:
@@ -144,7 +161,7 @@ def _readings(found: Sequence[Finding]) -> list[Block]:
     return [Heading(2, HEADINGS["reading"]), Paragraph(intro), Items(lines)]
 
 
-def _mended(decisions: Sequence[Decision]) -> list[Block]:
+def _mended(decisions: Sequence[Decision], titles: Mapping[str, str]) -> list[Block]:
     """The mended headline statements, each with its proof."""
     by_id = {d.claim.id: d for d in decisions}
     headlines = {d.claim.id: d for d in decisions if d.fate is not None}
@@ -155,7 +172,7 @@ def _mended(decisions: Sequence[Decision]) -> list[Block]:
         blocks.append(Heading(3, f"{_told(headlines[d.claim.mends])}, mended"))
         blocks.append(Formula(d.claim.printed, "Statement"))
         if d.claim.note:
-            blocks.append(Paragraph(worded(d.claim.note), "Note"))
+            blocks.append(Paragraph(_noted(d.claim.note, titles), "Note"))
         used = [f"{_told(by_id[name])} ({verdict_words(by_id[name].verdict, by_id[name].proved_under)})"
                 for name in d.claim.premises if name in by_id]
         if used:
