@@ -27,6 +27,7 @@ ACCENTS = frozenset("˙¨^~¯ˇ´`→˘")
 BREAKS = frozenset("=≤≥<>+−⟹⇒⇔⟺∧∨∈")
 ENDS = frozenset(",;")  # behind which a line may break
 LONG = 40
+WORD = 4  # letters of a text from which on it is a word
 BRACKETED = 3  # pieces of a row from which on it may be a bracket with something in it
 # Converting takes time in proportion to the square of the length: beyond this, seconds of what nobody reads.
 MOST_CHARACTERS = 20_000
@@ -133,7 +134,7 @@ def _parts(root: ElementTree.Element) -> list[ElementTree.Element]:
         if child.tag == "mo" and child.text in BREAKS and rows[-1] and rows[-1][-1].tag != "mo":
             child.set("form", "infix")
             rows.append([])
-        elif child.tag == "mtext" and rows[-1] and (child.text or "")[:1].isspace():
+        elif child.tag == "mtext" and rows[-1] and rows[-1][-1].tag != "mo" and _is_word(child.text or ""):
             rows.append([])
         rows[-1].append(child)
         if child.tag == "mo" and child.text in ENDS:
@@ -144,6 +145,11 @@ def _parts(root: ElementTree.Element) -> list[ElementTree.Element]:
         ElementTree.SubElement(part, "mrow").extend(row)
         parts.append(part)
     return parts
+
+
+def _is_word(text: str) -> bool:
+    """Whether a text begins a line as well as it goes on with one: words, not the name of a function."""
+    return text[:1].isspace() or len(text.strip()) >= WORD
 
 
 def _opened(row: ElementTree.Element) -> Iterator[ElementTree.Element]:
