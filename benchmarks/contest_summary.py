@@ -102,6 +102,11 @@ def table(headings: list[str], rows: list[list[str]]) -> Iterator[str]:
     yield ""
 
 
+def short_name(name: str, period_s: float) -> str:
+    """A controller in a column of its period, broken where a telephone needs it."""
+    return name.replace(f"_{1e3 * period_s:g}ms", "").replace("_", "_<wbr>")
+
+
 def of_period(own: Told, condition: str) -> Iterator[str]:
     """Who samples alike under a condition, best tracker first: means with intervals, ● those that may be best."""
     names, rows = own.entries, []
@@ -134,13 +139,15 @@ def page(told: Told, contest: Contest, fronts: list[Front], folder: Path,
         "who command equally often. A + marks parameters that were tuned, by the same budget for all.", "",
         "## Headline", "", *(f"- {words}" for words in period_findings(told)), "")
     groups = list(at_each_period(told))
-    yield from ("## The best tracker by condition", "")
-    rows = [[stated.title, str(told.runs(name)), *(", ".join(own.best(name, "position_rms")) for _, own in groups)]
+    yield from ("## The best tracker by condition", "",
+                "The time between commands heads a column; names are without it.", "")
+    rows = [[stated.title, *(", ".join(short_name(best, period) for best in own.best(name, "position_rms"))
+                             for period, own in groups), str(told.runs(name))]
             for name, stated in told.contest.conditions.items()]
-    *best, _ = table(["condition", "draws", *(f"every {1e3 * period:g} ms" for period, _ in groups)], rows)
+    *best, _ = table(["condition", *(f"{1e3 * period:g} ms" for period, _ in groups), "draws"], rows)
     old = list(earlier_rows(page_before, left))
     yield from (*best, *old, "", *((f"† {EARLIER}", "") if old else ()))
-    short = [row[0] for row in rows if any(", " in cell for cell in row[2:]) and 1 < int(row[1]) < contest.seeds]
+    short = [row[0] for row in rows if any(", " in cell for cell in row[1:-1]) and 1 < int(row[-1]) < contest.seeds]
     if short:
         yield from (f"Several stand in one place where more draws, up to {contest.seeds}, may part them and were not "
                     f"played: {'; '.join(short)}.", "")

@@ -8,6 +8,9 @@ from command_line import one_line, run, run_apart
 from scenarios import LIGHT_TRAIN, ROOT
 
 from workbench.cli.app import VERBS, _verb
+from workbench.cli.console import out_console
+from workbench.cli.study_tables import result_table
+from workbench.paper.results import ResultTable
 
 ROW_KEYS = {"controller", "position_error_min", "position_error_max", "speed_error_min", "speed_error_max",
             "position_rms", "speed_rms", "stopping_error", "energy_J", "jerk_rms", "saturated_fraction",
@@ -199,3 +202,17 @@ def test_a_tampered_certificate_is_named(tmp_path):
 @pytest.mark.parametrize("verb", ["prove", "show", "compare", "gains"])
 def test_an_empty_name_is_not_the_folder_one_is_in(verb, tmp_path):
     assert "'.' for" in one_line(run(verb, "", folder=tmp_path))
+
+
+@pytest.mark.parametrize("width", [40, 60, 80, 200])
+def test_no_word_of_a_study_table_is_broken_however_narrow_the_screen(width, monkeypatch):
+    """Columns of one letter each were what was left of nine of them on 80; now a row stands below the other."""
+    monkeypatch.setattr(out_console, "_width", width)
+    words = ("Reading", "iCFDL-MFAILC", "diverges", "in", "trial", "122", "nonlinear", "offset-free", "samples")
+    table = ResultTable("every reading", "section 4", words, tuple((*words[n:], *words[:n]) for n in range(9)))
+    with out_console.capture() as shown:
+        out_console.print(result_table(table))
+    lines = shown.get().splitlines()
+    assert max(map(len, lines)) <= width
+    assert {word: shown.get().split().count(word) for word in words[1:]} == dict.fromkeys(words[1:], (
+        10 if width == 200 else 18))

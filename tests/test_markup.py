@@ -5,7 +5,9 @@ import json
 import pytest
 from command_line import run
 
-from workbench.cli.terminal import err_console, metrics_table, out_console, print_failures, print_study, progress
+from workbench.cli.console import err_console, out_console
+from workbench.cli.study_tables import print_study
+from workbench.cli.terminal import metrics_table, print_failures, progress
 from workbench.paper.results import ResultTable, StudyResult
 
 HOSTILE = ["o[/red]x", "[bold]x[/bold]", "[/]", ":smile:", "\\[x]", "[link=file:///x]y"]

@@ -11,7 +11,7 @@ from rich.console import Console
 from test_cli import one_line, run
 
 import workbench as wb
-from workbench.cli.terminal import result_table
+from workbench.cli.study_tables import result_table
 from workbench.errors import InputError, WorkbenchError
 from workbench.paper.loading import load
 from workbench.paper.new_paper import TEMPLATES, template_files, write_new_paper

@@ -190,4 +190,4 @@ def test_a_decision_says_whether_its_line_was_parsed_and_what_was_decided():
     assert decided(r"\dot V_1 = -r_1z_1^2 + z_1z_2", match="words", reading="as prose").matched == "words"
     line, _, along = parsed.goal.partition(r"\quad\text{given}\ ")
     assert match(line, {"z_1": z_1, "z_2": z_2, "r_1": r_1}, RATE).parsed
-    assert along == r"r_{1} > 0\quad\text{along}\ \frac{d}{dt} z_{1} = - r_{1} z_{1} + z_{2}"
+    assert along == r"r_{1} > 0\quad\text{along}\ \frac{d}{dt} z_{1} = z_{2} - r_{1} z_{1}"

@@ -10,6 +10,7 @@ from workbench.proof.latex.convert import Converter
 from workbench.proof.latex.letters import latex_name
 from workbench.proof.latex.notation import Notation
 from workbench.proof.latex.read import read_line
+from workbench.proof.latex.tidy import tidied
 from workbench.proof.latex.write import latex, letters_of
 
 FLOW = {x: -x, y: x, theta: -theta**2}
@@ -64,3 +65,31 @@ def test_no_two_symbols_look_alike():
     symbols = sp.symbols("x1 x_1 a_hat_b a_b_hat b_hat_", real=True)
     letters = letters_of(symbols)
     assert len(set(letters.values())) == len(letters) == len(symbols)
+
+
+def test_zeros_and_ones_put_in_are_not_shown_and_nothing_else_is_worked_out():
+    k, r = sp.symbols("k r", positive=True)
+    j = sp.Symbol("j", integer=True)
+    growth = sp.IndexedBase("log_m", real=True)[j]
+    with sp.evaluate(False):
+        shown = {
+            r"x_{1}^{2}": 0 * (x**2 + 1) + x**2 + 0, "0": 0 * (x + y) * sp.exp(0),
+            r"x_{1} \left(y + 1\right)": x * (y + sp.exp(0) + 0 * theta), r"\frac{x_{1}}{4}": x * 1 / (1 * sp.S(4)),
+            r"\frac{y}{k}": 0**2 / (k**2 - 0**2) + 1**2 * y / k,
+            r"y + \frac{0}{x_{1}}": y + 0 / x, r"y + 0 \ln\left(x_{1}\right)": y + 0 * sp.log(x),
+            r"\frac{d}{dt}\left[x_{1}\right]": D(x + 0) + D(0 * y) + sp.Sum(0 * growth, (j, 1, 3)),
+            r"x_{1} - 2 x_{1} + y": -2 * x + y + x, r"m_{j} + \frac{1}{m_{j}}": sp.exp(growth) + sp.exp(-growth)}
+    for text, typed in shown.items():
+        assert latex(tidied(typed)) == text
+    assert tidied(x * (y + k) ** 2) == x * (y + k) ** 2
+    # A letter with a star takes no second exponent without brackets: TeX refuses it.
+    starred = sp.IndexedBase("W_star", real=True)[j]
+    assert latex(starred**2 / r) == r"\frac{\left(W_{j}^{*}\right)^{2}}{r}"
+
+
+@settings(max_examples=60, deadline=None, derandomize=True)
+@given(expressions)
+def test_what_is_tidied_has_the_same_value(expr):
+    with sp.evaluate(False):
+        typed = (0 * x + expr * 1) * sp.exp(0 * sp.S(1)) + 0 * (x**2 + 1)
+    assert Comparison(FLOW).same(tidied(typed), expr), typed

@@ -4,6 +4,7 @@ import json
 import re
 import subprocess
 import sys
+from dataclasses import replace
 from html.parser import HTMLParser
 from importlib import import_module
 from pathlib import Path
@@ -13,6 +14,7 @@ from small_decisions import paper
 
 from workbench.proof import checker
 from workbench.proof.checker import goal_digest
+from workbench.report.counterexample import counterexample_of
 from workbench.report.errata import pdf
 from workbench.report.errata.blocks import Code, Formula, Heading, Item, Items, Paragraph
 from workbench.report.errata.content import errata
@@ -34,6 +36,26 @@ def test_every_failing_line_has_a_number_a_place_and_its_numbers(tmp_path):
     assert "Of 2 headline statements, 1 falls and 1 stands." in text
     assert text.index("falls: ") < text.index("stands: ")  # what falls is told first
     assert "Readings that the extracted text leaves open" in text and "Theorem 1, mended" in text
+
+
+def test_what_a_counterexample_is_given_can_be_followed():
+    """Premises, rates and the values of letters that stand in these alone: without them -1 = 0 is a riddle."""
+    found = counterexample_of({
+        "verdict": "gap", "point": {"w": "0", "V": "2", "mu": "1", "k": "3", "rate": "1/2"},
+        "goal": {"assume": ["k > 0", "w <= mu - V/2"], "show": ["D(V*mu) < w"], "flow": {"V": "rate*mu", "k": "0"}}})
+    assert found.given == (r"w \le \mu - \frac{V}{2}",) and found.along == (r"\frac{d}{dt} V = \mathrm{rate} \mu",)
+    assert found.beside == ("V = 2",) and set(found.values) == {r"\mathrm{rate} = 0.5", r"\mu = 1", "w = 0"}
+    assert counterexample_of({"verdict": "gap", "point": {"w": "0", "V": "2"}, "goal": {
+        "assume": ["w <= V"], "show": ["w < 0"]}}).beside == ("V = 2",)
+    text = markdown(errata(paper(), CITATION))
+    assert "**Given:**\n\n$$\nz_{2} \\le k\\quad\\text{where}\\ z_{2} = -2\n$$" in text
+
+
+def test_a_note_names_lines_as_the_paper_does():
+    note = "See 6, theorem1.mended (7.glyph) and A4; 7.5 % of 4.2 remain."
+    decisions = [replace(d, claim=replace(d.claim, note=note)) if d.claim.equation == "4" else d for d in paper()]
+    assert ("**Note.** See 6, Theorem 1 “the line theorem1.mended” (equation (7) “the line 7.glyph”) and A4; 7.5 % of "
+            "4.2 remain.\n") in markdown(errata(decisions, CITATION))
 
 
 def test_the_commands_it_names_re_check_the_certificates(tmp_path):

@@ -6,6 +6,7 @@ from importlib.resources import files
 import pytest
 from short_sweep import write_scenario
 
+from workbench.paper.results import ResultTable, StudyResult
 from workbench.report.charts.files import write_curves
 from workbench.report.page import ReportContent, build_page, scenario_charts
 from workbench.trains.scenario import load_scenario
@@ -39,7 +40,10 @@ CLAIMS = {
 @pytest.fixture(scope="module")
 def address(tmp_path_factory):
     folder = tmp_path_factory.mktemp("page")
-    content = ReportContent(scenario=load_scenario(write_scenario(folder)), claims=CLAIMS)
+    gains = ResultTable("Conditions", "paper", ("gains", "condition"), (("stated", "k < 2"), ("", "k < 3")))
+    content = ReportContent(scenario=load_scenario(write_scenario(folder)), claims=CLAIMS,
+                            gains=StudyResult((), (gains,), (), ()),
+                            commands=(f"workbench report {'/a-long-folder' * 9} --out out",))
     (folder / "report.html").write_text(build_page(content), encoding="utf-8")
     write_curves(list(scenario_charts(content).values()), folder)
     return (folder / "report.html").as_uri()

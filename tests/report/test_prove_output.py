@@ -6,7 +6,7 @@ import pytest
 from typer.testing import CliRunner
 
 from workbench.cli.app import app
-from workbench.cli.terminal import out_console
+from workbench.cli.console import out_console
 from workbench.errors import InputError
 
 TEXT = '''

@@ -1,6 +1,7 @@
 """The certificate language as a reader would write it, in LaTeX, in one line of Unicode and in Typst."""
 
 import ast
+import re
 from fractions import Fraction
 
 import pytest
@@ -98,3 +99,16 @@ def test_a_long_list_of_formulas_may_break_behind_its_commas():
     pieces = str(formula(f"{part}, {part}")).split("</math>")
     assert len(pieces) == 3 and pieces[0].endswith(",</mo></mrow>")
     assert str(formula("a, b")).count("<math") == 1
+
+
+def test_a_line_may_break_within_long_brackets_and_loses_nothing():
+    r"""As a whole `-c (a + ... )^2` was wider than a printed page, and cut there."""
+    inner = " + ".join(rf"\gamma x_{{{i}}} \left(y_{{{i}}} - \phi\right)" for i in range(9))
+    shown = formula(rf"-c_3\left({inner}\right)^2 \le k \quad\text{{given}}\ x")
+    pieces = shown.split("</math>")
+    assert len(pieces) > 10 and max(len(re.findall(r"<m[ion]\b", piece)) for piece in pieces) < 16
+    assert "<math" in shown[shown.index("k</mi>"):shown.index("given")]
+    letters = re.sub(r"<[^>]*>", "", shown)
+    assert letters.count("(") == letters.count(")") == 10 and letters.count("\u03b3") == 9
+    assert re.search(r"<msup><mo[^>]*>\)</mo><mn>2</mn></msup>", shown)  # the power stays at its bracket
+    assert formula(r"\left(a + b\right)^2").count("<math") == 1

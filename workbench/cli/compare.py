@@ -21,7 +21,8 @@ def command(paper: PaperOrFile, json: JsonFile = None,
     """Run all controllers of a scenario on the same train and line, and compare them; or all runs of a study."""
     loaded = load(paper)  # before what runs is imported: a mistake in the file is said at once
 
-    from workbench.cli.terminal import metrics_table, print_failures, print_study, progress
+    from workbench.cli.study_tables import print_study
+    from workbench.cli.terminal import metrics_table, print_failures, progress
     from workbench.files.json_output import write_json
     from workbench.files.outputs import check_outputs
     from workbench.report.runs import check_resumable, comparison_document, run_study, study_document

@@ -64,7 +64,7 @@ def _print_paper(paper: str, decisions: Sequence[Decision], found: Sequence[Find
 
 
 def _finding(found: Finding, verbose: bool) -> Text:
-    place = f"section {found.section}" if found.section else found.paper
+    place = f"(section {found.section}) " if found.section else ""
     parts = [verdict_sentence(found)]
     if verbose or found.fate is None:
         parts.append(printed_sentence(found))
@@ -72,7 +72,7 @@ def _finding(found: Finding, verbose: bool) -> Text:
     if verbose:
         parts.append(worded(found.note))
     text = " ".join(show(part, plain_formula) for part in parts if part)
-    return Text.assemble((f"{found.paper}:{found.equation} ", COLOURS[found.verdict]), (f"({place}) ", "dim"), text)
+    return Text.assemble((f"{found.paper}:{found.equation} ", COLOURS[found.verdict]), (place, "dim"), text)
 
 
 def print_rows(decisions: Sequence[Decision]) -> None:

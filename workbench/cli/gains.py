@@ -8,7 +8,8 @@ from typing import Annotated
 import typer
 
 from workbench.cli.options import Dask, JsonFile, PaperOrFile, Workers, load, on_cluster
-from workbench.cli.terminal import print_study, progress
+from workbench.cli.study_tables import print_study
+from workbench.cli.terminal import progress
 
 
 def command(paper: PaperOrFile, json: JsonFile = None,

@@ -9,7 +9,8 @@ import typer
 
 from workbench.cli.console import out_console
 from workbench.cli.options import Dask, PaperOrFile, Workers, load, on_cluster
-from workbench.cli.terminal import metrics_table, print_failures, print_study, progress, summary_table, verdict_lines
+from workbench.cli.study_tables import print_study
+from workbench.cli.terminal import metrics_table, print_failures, progress, summary_table, verdict_lines
 from workbench.errors import InputError
 
 if TYPE_CHECKING:

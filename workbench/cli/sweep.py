@@ -9,7 +9,8 @@ import typer
 
 from workbench.cli.console import out_console
 from workbench.cli.options import Dask, PaperOrFile, Workers, load, on_cluster
-from workbench.cli.terminal import progress, result_table, summary_table
+from workbench.cli.study_tables import result_table
+from workbench.cli.terminal import progress, summary_table
 from workbench.errors import InputError
 
 if TYPE_CHECKING:

@@ -16,12 +16,11 @@ from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, T
 from rich.table import Table
 from rich.text import Text
 
-from workbench.cli.console import err_console, out_console
+from workbench.cli.console import err_console
 from workbench.proof.verdict import VERDICTS, verdict_words
 
 if TYPE_CHECKING:
     from workbench.paper.contents import Contents
-    from workbench.paper.results import ResultTable, StudyResult
 
 LINE_EVERY_S = 30.0
 COLOURS = {"proved": "green", "refuted": "red", "violated": "red", "gap": "yellow", "assumed": "cyan",
@@ -126,27 +125,27 @@ def answer_card(answer: Mapping[str, Any]) -> Table:
 def claim_card(row: Mapping[str, Any]) -> Table:
     """One claim with all that is known of it."""
     from workbench.report.certificate_latex import assignments_latex
-    from workbench.report.plain_formulas import plain_formula
-    from workbench.report.worded import show, worded
+    from workbench.report.plain_formulas import plain_formula, plain_words
 
     table = Table.grid(padding=(0, 2))
     table.add_column(no_wrap=True, style="bold")
     table.add_column(overflow="fold")
     recorded = "" if row["recorded"] == row["verdict"] else f", but recorded {row['recorded']}"
     known = {
-        "claim": f"{row['id']}: {row['title']}", "statement": plain_formula(row["statement"]),
+        "claim": f"{row['id']}: {plain_words(row['title'])}", "statement": plain_formula(row["statement"]),
         "verdict": verdict_words(row["verdict"], row["proved_under"]) + recorded,
-        "shown by": row["method"], "value": row["computed"],
+        "shown by": row["method"], "value": plain_words(row["computed"] or "").replace("-", "−"),
         "counterexample": ", ".join(map(plain_formula, assignments_latex(row["counterexample"] or {}))),
         "corrected": plain_formula(row["correction"] or ""), "fate": _fate(row), "holds for": row["scope"],
         "stands in the paper as": f"{ORIGIN_WORDS[row['origin']]}, {row['severity']}",
-        "became a goal by": f"{MATCH_WORDS[row['match']]}{': ' if row['reading'] else ''}{row['reading']}",
+        "became a goal by": f"{MATCH_WORDS[row['match']]}{': ' if row['reading'] else ''}"
+                            f"{plain_words(row['reading'] or '')}",
         "decided as": None if row["match"] == "parsed" else plain_formula(row["goal"] or ""),
         "other reading": f"{row['glyph_claim']}: {plain_formula(row['glyph'])}" if row["glyph"] else None,
         "mends": row["mends"],
         "rests on": ", ".join(row["rests_on"]), "our proof uses": ", ".join(row["premises"]),
-        "failed below": ", ".join(row["tainted_by"]), "note": show(worded(row["note"]), plain_formula),
-        "certificate": row["certificate"],
+        "failed below": ", ".join(row["tainted_by"]), "note": plain_words(row["note"]),
+        "certificate": row["certificate"] and _from_here(Path(row["certificate"])),
     }
     for what, text in known.items():
         if text:
@@ -217,38 +216,6 @@ def summary_table(summaries: Sequence[Any], runs: int) -> Table:
                       _range(s.speed_error_min, s.speed_error_max), _number(s.mean_abs_stopping_error, 1e3),
                       f"{s.failed} of {s.runs}")
     return table
-
-
-def result_table(found: ResultTable) -> Table:
-    """A study's table, its source beside its title; one that is too wide for the screen with a row a column."""
-    table = Table(title=f"{found.title} ({found.source})", title_justify="left", box=SIMPLE_HEAD, pad_edge=False)
-    lines = [tuple(found.headings), *found.text]
-    turned = list(zip(*lines, strict=True))
-    if _width(lines) > out_console.width and _width(turned) < _width(lines):
-        lines = turned
-    for heading in lines[0]:
-        table.add_column(heading, overflow="fold")
-    for row in lines[1:]:
-        table.add_row(*row)
-    return table
-
-
-def _width(lines: Sequence[Sequence[str]]) -> int:
-    """How wide a table of these lines is where no cell is broken."""
-    columns = zip(*lines, strict=True)
-    return sum(max(len(part) for cell in column for part in cell.split("\n")) + 3 for column in columns)
-
-
-def print_study(result: StudyResult) -> None:
-    """Tables and findings of a study; on standard error a line for every run that failed."""
-    from workbench.report.plain_formulas import plain_words
-
-    for table in result.tables:
-        out_console.print(result_table(table))
-    for finding in result.findings:
-        out_console.print(f"• {plain_words(finding)}", highlight=False)
-    for run, why in result.failures:
-        err_console.print(f"{run}: {why}", style="red", soft_wrap=True, highlight=False)
 
 
 def print_failures(rows: Sequence[dict[str, Any]]) -> None:

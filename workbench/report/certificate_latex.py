@@ -8,7 +8,7 @@ from collections.abc import Callable, Mapping
 from fractions import Fraction
 
 from workbench.proof.checker import RATIONAL, parse, split_relation
-from workbench.proof.latex.letters import latex_name
+from workbench.proof.latex.letters import LOGARITHM, latex_name
 from workbench.report.number_style import Style, style_of, value_latex
 
 SUM, PRODUCT, POWER, ATOM = range(4)  # how tightly a text holds together
@@ -16,7 +16,6 @@ Written = tuple[str, int]
 SIGNS = {"==": "=", "<=": r"\le", ">=": r"\ge", "!=": r"\ne", "<": "<", ">": ">"}
 ZERO, ONE = ast.Constant(0), ast.Constant(1)
 _WORD = re.compile(r"(?<=[{,])(?<!\\mathrm\{)[A-Za-z]{2,}(?=[},])")  # an index of several letters
-LOGARITHM = "log_"  # a positive letter with an index is stated by its logarithm: e^log_m is m
 
 
 def relation_latex(text: str, style: Style = "exact") -> str:

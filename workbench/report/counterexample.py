@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ast
+import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
@@ -36,6 +37,8 @@ from workbench.report.certificate_latex import (
 )
 from workbench.report.number_style import Style, style_of, value_latex
 
+_SIGN = re.compile(r"\w+ (?:>=?|!=) 0")  # the sign of a letter
+_NAME = re.compile(r"[A-Za-z_]\w*")
 MANY = 6  # letters with one value, from which on they are called 'all others'
 
 
@@ -48,7 +51,8 @@ class Counterexample:
     where they are no numbers; everything: all that the certificate names, letter by letter; motion: whether the values
     are functions of time, with which the relation fails at all times; put_in: both sides with the numbers in place of
     the letters, where they are formulas without rates and sums; unbounded: what is greater than the time at all times
-    of a motion, where the relation denies that.
+    of a motion, where the relation denies that; given: what is assumed beyond the signs of single letters; along: the
+    rates of letters whose rate stands in the relation; beside: the values of letters that stand in these two alone.
     """
 
     relation: str
@@ -61,6 +65,9 @@ class Counterexample:
     motion: bool
     put_in: tuple[str, str] | None = None
     unbounded: str | None = None
+    given: tuple[str, ...] = ()
+    along: tuple[str, ...] = ()
+    beside: tuple[str, ...] = ()
 
 
 def counterexample_of(certificate: Mapping[str, Any]) -> Counterexample | None:
@@ -94,9 +101,34 @@ def counterexample_of(certificate: Mapping[str, Any]) -> Counterexample | None:
                     if name in deciding)
     every = tuple((name_latex(name), value) for name, value in shown.items()) + tuple(
         (_indexed(name, i), value) for i, row in enumerate(rows, 1) for name, value in row.items())
+    given, along, more = _conditions(goal, failing)
+    beside, many = _grouped({name: value for name, value in shown.items() if name in more - deciding})
     return Counterexample(relation_latex(failing, style), SIGNS[operator], values + in_sums, others,
                           *_values(sides, style), every, False,
-                          None if between else _put_in(left, right, certificate["point"], style))
+                          None if between else _put_in(left, right, certificate["point"], style), None,
+                          tuple(relation_latex(text, style) for text in given),
+                          tuple(rf"\frac{{d}}{{dt}} {name_latex(name)} = {expression_latex(rate, style)}"
+                                for name, rate in along.items()),
+                          beside + (() if many is None else (rf"\text{{all other letters}}\ {many}",)))
+
+
+def _conditions(goal: Mapping[str, Any], failing: str) -> tuple[list[str], dict[str, str], set[str]]:
+    """What a goal assumes beyond the signs of single letters, the rates that its relation takes, and their letters."""
+    given = [text for text in goal.get("assume", []) if not _SIGN.fullmatch(text)]
+    derived = {name for part in _derived(failing) for name in _names(part)}
+    along = {name: rate for name, rate in goal.get("flow", {}).items() if name in derived}
+    return given, along, {name for text in (*given, *along.values()) for name in _names(text)}
+
+
+def _derived(relation: str) -> list[str]:
+    """What the rates in a relation are taken of."""
+    left, _, right = split_relation(relation)
+    return [ast.unparse(node.args[0]) for side in (left, right) for node in ast.walk(ast.parse(side, mode="eval"))
+            if isinstance(node, ast.Call) and isinstance(node.func, ast.Name) and node.func.id == "D"]
+
+
+def _names(text: str) -> set[str]:
+    return set(_NAME.findall(text))
 
 
 def _put_in(left: str, right: str, point: Mapping[str, str], style: Style) -> tuple[str, str] | None:

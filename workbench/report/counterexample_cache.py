@@ -42,7 +42,8 @@ def _made(record: dict[str, Any] | None) -> Counterexample | None:
     if record is None:
         return None
     return Counterexample(**record | {
-        "values": tuple(record["values"]), "everything": tuple(map(tuple, record["everything"])),
+        **{name: tuple(record[name]) for name in ("values", "given", "along", "beside")},
+        "everything": tuple(map(tuple, record["everything"])),
         "put_in": None if record["put_in"] is None else tuple(record["put_in"])})
 
 

@@ -129,5 +129,5 @@ def findings_document(found: Sequence[Finding]) -> dict[str, Any]:
 def fate_sentence(equation: str, word: str, why: str, title: str = "") -> str:
     """What becomes of a headline statement, in one sentence; title: what it says, where the reader is to be told."""
     place = place_of(equation, title or None)
-    says = f" ({subject_of(title)})" if title and "“" not in place else ""
+    says = f" ({subject_of(title)})" if title and "“" not in place and subject_of(title) != place else ""
     return f"{place}{says} {'is ' if word == 'open' else ''}{word}: {why}."

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import html
 import re
+from collections.abc import Iterator
 from functools import cache
 from itertools import groupby
 from xml.etree import ElementTree
@@ -26,6 +27,8 @@ ACCENTS = frozenset("˙¨^~¯ˇ´`→˘")
 BREAKS = frozenset("=≤≥<>+−⟹⇒⇔⟺∧∨∈")
 ENDS = frozenset(",;")  # behind which a line may break
 LONG = 40
+WORD = 4  # letters of a text from which on it is a word
+BRACKETED = 3  # pieces of a row from which on it may be a bracket with something in it
 # Converting takes time in proportion to the square of the length: beyond this, seconds of what nobody reads.
 MOST_CHARACTERS = 20_000
 OPERATORS = frozenset("⟹⟸⟺⟶⟵⟷⇒⇐⇔→←↔↦:")
@@ -126,10 +129,12 @@ def _parts(root: ElementTree.Element) -> list[ElementTree.Element]:
     if len(root) != 1 or root[0].tag != "mrow" or sum(1 for _ in root.iter()) < LONG:
         return [root]
     rows: list[list[ElementTree.Element]] = [[]]
-    for child in root[0]:
+    for child in _opened(root[0]):
         # An operator after an operator is a sign, and a sign stays with what it belongs to.
         if child.tag == "mo" and child.text in BREAKS and rows[-1] and rows[-1][-1].tag != "mo":
             child.set("form", "infix")
+            rows.append([])
+        elif child.tag == "mtext" and rows[-1] and rows[-1][-1].tag != "mo" and _is_word(child.text or ""):
             rows.append([])
         rows[-1].append(child)
         if child.tag == "mo" and child.text in ENDS:
@@ -140,6 +145,26 @@ def _parts(root: ElementTree.Element) -> list[ElementTree.Element]:
         ElementTree.SubElement(part, "mrow").extend(row)
         parts.append(part)
     return parts
+
+
+def _is_word(text: str) -> bool:
+    """Whether a text begins a line as well as it goes on with one: words, not the name of a function."""
+    return text[:1].isspace() or len(text.strip()) >= WORD
+
+
+def _opened(row: ElementTree.Element) -> Iterator[ElementTree.Element]:
+    """The pieces of a row, long brackets in it opened: a line may break within them too."""
+    for child in row:
+        inside = child[0] if child.tag == "msup" and len(child) == 2 else child
+        if inside.tag != "mrow" or len(inside) < BRACKETED or sum(1 for _ in inside.iter()) < LONG:
+            yield child
+            continue
+        *within, last = _opened(inside)
+        yield from within
+        if inside is not child:  # the power stands at the closing bracket
+            child[0] = last
+            last = child
+        yield last
 
 
 def _clean(element: ElementTree.Element) -> None:

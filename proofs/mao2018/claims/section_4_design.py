@@ -228,7 +228,7 @@ CHOSEN_44 = ("Decided as what the paper chooses the law for: the rate for which 
              corrected_statement=LAW_44 % "" + r"\ \text{with the weight}\ m_ik_\nu\ \text{of}\ \tilde\rho_{k\nu}^2",
              note=CHOSEN_44 + "The sign is wrong: with (42) and (44) the terms of rho_tilde add up instead, and no "
                   "positive weight in V_2 makes them cancel. (44) drives the estimate the wrong way; see theorem2 for "
-                  "what it does. Taken for l = 1, so that 41 plays no part.")
+                  "what it does. Taken for l = 1, so that (41) plays no part.")
 def rho_k_law_cancels() -> Goal:
     """The coefficient of rho_tilde_knu: z_2 m_i k_nu xi_hat^T varpi from (42), and that of its square in (40)."""
     return at_instant(_law_44(m, -1), {k_v: sp.Integer(15)})

@@ -154,7 +154,7 @@ SUMS = "delta is the sum over the failed motors of delta_j, delta_0 that of delt
              "refuted", premises=("17", "39", "25.idle"), rests_on=("51.a", "49", "50"), scope=ALL_SIGNALS,
              where={"V_2": V_40}, closed_loop=True,
              note="The last line of (51), for |delta_j| <= delta_j^0, k_nu >= rho_knu^0 and what (45) asks. False for the "
-                  "reasons of 45 alone; mended as 51.mended. " + SUMS)
+                  "reasons of (45) alone; mended as 51.mended. " + SUMS)
 def v2_bound_unparameterized() -> Goal:
     """D(V_2) of (40) along (7), (8), (17) with (27)-(31), (37), (41), (44), (48)-(50)."""
     return at_instant(failing(_bound_51(mended=False)), {

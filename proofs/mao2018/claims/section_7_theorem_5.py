@@ -134,7 +134,8 @@ def errors_shrink() -> Goal:
              reading="Decided as what boundedness of V_2 would give, V_2 <= t from some time on; V_2 = 1 + 2t with z_1 = "
                      "z_2 = 0 and K = 2 obeys (65).",
              note="It is a solution of the inequality, not of the closed loop; leakage or projection in the adaptive laws, "
-                  "which the paper mentions in section VI, would close this step: leakage_proof.py shows it.")
+                  "which the paper mentions in section VI, would close this step, as certificates/gains/leakage.bounded.json "
+                  "shows.")
 def damped_bounded() -> Goal:
     """V_2 = 1 + 2 t."""
     always = (inequality_65, at_least(V_t, z_1**2 / 2 + z_2**2 / 2))
@@ -154,9 +155,9 @@ damped_constants: Flow = {lambda_0: sp.Integer(1), b_0: sp.Integer(1), c_0: sp.I
              rests_on=("65", "65.bounded"), scope=ALL_SIGNALS,
              reading="Decided as what a bounded xi_hat^T varpi would give, (xi_hat^T varpi)^2 <= t from some time on. "
                      "(61), (62) belong to the laws, which the theorem's list leaves out.",
-             note="False as printed: " + STEADY_STATE_ERROR + "Delta_b = Delta_c = 0 and k_1 = k_2 = 1. Mended as 45 and 65 "
+             note="False as printed: " + STEADY_STATE_ERROR + "Delta_b = Delta_c = 0 and k_1 = k_2 = 1. Mended as (45) and (65) "
                   "are, (65) holds, but boundedness of the estimates still does not follow from it (65.bounded); with "
-                  "leakage it does (leakage_proof.py).")
+                  "leakage it does, as certificates/gains/leakage.bounded.json shows.")
 def theorem_5() -> Goal:
     """The printed closed loop, with a motion along which xi_hat grows without end."""
     return steady_state_error(at_most(Xi_hat**2, t), nu_failed, {**damped_constants, k_1: sp.Integer(1), k_2: sp.Integer(1)},

@@ -6,7 +6,8 @@ import re
 
 from workbench.proof.latex.commands import GREEK
 
-ACCENTS = ("hat", "tilde", "bar", "dot", "ddot", "star")
+ACCENTS = ("hat", "tilde", "bar", "dot", "ddot", "dddot", "star")
+LOGARITHM = "log_"  # a positive letter with an index is stated by its logarithm: e^log_m is m
 _STEM = re.compile(r"(?P<letter>[A-Za-z]+?)(?P<accent>dddot|ddot|dot|hat|tilde|bar)?(?P<digits>\d*)")
 
 

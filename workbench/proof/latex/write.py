@@ -71,6 +71,18 @@ class _Printer(LatexPrinter):
             return f"{stem[:-1]},{index}}}{mark}"
         return f"{stem}_{{{index}}}{mark}"
 
+    def _helper_print_standard_power(self, expr: sp.Pow, template: str) -> str:
+        """A power of what has a mark above it is written with brackets: TeX takes no second exponent."""
+        if isinstance(expr.base, sp.Indexed) and "^" in (base := str(self._print(expr.base))):
+            return template % (rf"\left({base}\right)", self._print(expr.exp))
+        return str(super()._helper_print_standard_power(expr, template))
+
+    def _as_ordered_terms(self, expr: sp.Expr, order: str | None = None) -> list[sp.Expr]:
+        """A sum begins with a term that has no minus before it, where there is one."""
+        terms = list(super()._as_ordered_terms(expr, order))
+        first = next((i for i, term in enumerate(terms) if not term.could_extract_minus_sign()), 0)
+        return [terms[first], *terms[:first], *terms[first + 1:]]
+
     def _print_Mul(self, expr: sp.Expr) -> str:
         """A product as typed in one row: sympy loses a minus that a product within it begins with; or a fraction."""
         return str(super()._print_Mul(_in_one_row(expr) if isinstance(expr, sp.Mul) else expr))

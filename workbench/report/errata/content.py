@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+import re
 from collections import Counter
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 
 from workbench.proof.checker import goal_digest
 from workbench.proof.places import place_of, subject_of
@@ -23,6 +24,8 @@ from workbench.report.finding_sentences import (
 from workbench.report.worded import math, worded
 
 MOST_STEPS = 120  # lines of a proof beyond which a reader is sent to the certificate
+LONGEST = 900  # characters of a condition beyond which a reader is sent to the certificate
+COMMA = r",\ "
 CHECKER = "checker.py"
 GRAVEST_FIRST: tuple[FateWord, ...] = ("falls", "stands with corrections", "open", "stands")
 ABOUT = """Every line was stated as mathematics, as it stands here, and decided by a machine. Each verdict \
@@ -35,8 +38,10 @@ def errata(decisions: Sequence[Decision], citation: str) -> list[Block]:
     """The errata of one paper: fates, numbered corrections, open readings, mended statements with their proofs, and
     how to re-check all of it. All claims of the paper must be among the decisions, as `judged` leaves them."""
     found = findings(decisions)
+    titles = {d.claim.equation: d.claim.title for d in decisions}
     return [Heading(1, "Corrections"), Paragraph(citation, "Paper"), Paragraph(ABOUT), Paragraph(_counts(decisions)),
-            *_fates(decisions), *_corrections(found), *_readings(found), *_mended(decisions), *_rechecking(decisions)]
+            *_fates(decisions), *_corrections(found, titles), *_readings(found), *_mended(decisions, titles),
+            *_rechecking(decisions)]
 
 
 def _counts(decisions: Sequence[Decision]) -> str:
@@ -74,7 +79,21 @@ def _verb_of(word: FateWord, count: int) -> str:
     return word if count == 1 else {"falls": "fall", "stands": "stand"}.get(word, word.replace("stands", "stand"))
 
 
-def _corrections(found: Sequence[Finding]) -> list[Block]:
+def _noted(note: str, titles: Mapping[str, str]) -> str:
+    """A note with the lines that it names as a reader of the paper calls them: 51.whole is a name of ours alone."""
+    names = [name for name in titles if not name.isdigit() and ("." in name or name[-1].isdigit())]
+    if not names:
+        return worded(note)
+    told = re.compile(rf"(?<![\w.])(?:{'|'.join(map(re.escape, sorted(names, key=len, reverse=True)))})(?!\.?\w)")
+    return worded(told.sub(lambda found: _in_sentence(place_of(found[0], titles[found[0]])), note))
+
+
+def _in_sentence(place: str) -> str:
+    small = ("Equation", "The ")
+    return place[0].lower() + place[1:] if place.startswith(small) else place
+
+
+def _corrections(found: Sequence[Finding], titles: Mapping[str, str]) -> list[Block]:
     blocks: list[Block] = []
     number = 0
     for gravity in GRAVITIES[:-1]:
@@ -83,11 +102,11 @@ def _corrections(found: Sequence[Finding]) -> list[Block]:
             blocks.append(Heading(2, HEADINGS[gravity]))
         for f in of_it:
             number += 1
-            blocks += _correction(number, f)
+            blocks += _correction(number, f, titles)
     return blocks or [Paragraph("No line of the paper was found to fail.")]
 
 
-def _correction(number: int, found: Finding) -> list[Block]:
+def _correction(number: int, found: Finding, titles: Mapping[str, str]) -> list[Block]:
     where = f" (section {found.section})" if found.section else ""
     title = subject_of(found.title)
     blocks: list[Block] = [Heading(3, f"{number}. {place_of(found.equation, '')}{where}: {worded(title)}"),
@@ -99,7 +118,7 @@ def _correction(number: int, found: Finding) -> list[Block]:
     if found.counterexample is not None:
         blocks += _worked(found.counterexample)
     for label, text in (("Other reading", reading_sentence(found)), ("Consequence", consequence_sentence(found)),
-                        ("Note", worded(found.note))):
+                        ("Note", _noted(found.note, titles))):
         if text:
             blocks.append(Paragraph(text, label))
     if found.digest is not None:
@@ -108,15 +127,27 @@ def _correction(number: int, found: Finding) -> list[Block]:
 
 
 def _worked(point: Counterexample) -> list[Block]:
-    """The relation with its numbers put in, and both sides evaluated."""
-    if point.put_in is None or point.left is None or point.right is None or point.motion:
-        return [Formula(point.relation, "What fails at all times")] if point.motion else []
-    sides = []
-    for put_in, value in zip(point.put_in, (point.left, point.right), strict=True):
-        sides.append(put_in if put_in == value else
-                     f"{put_in} {value}" if value.startswith(r"\approx") else f"{put_in} = {value}")
-    return [Formula(point.relation, "Decided as"),
-            Formula(rf"\text{{left}}:\ {sides[0]}", "Numbers put in"), Formula(rf"\text{{right}}:\ {sides[1]}")]
+    """The relation, what is assumed there, its numbers put in, and both sides evaluated."""
+    if point.motion:
+        return [Formula(point.relation, "What fails at all times")]
+    if point.left is None or point.right is None:
+        return []
+    short = point.put_in is not None or len(point.relation) <= LONGEST
+    found: list[Block] = [Formula(point.relation, "Decided as")] if short else []
+    conditions = [COMMA.join(part) for part in (point.given, point.along) if part]
+    at = rf"\quad\text{{where}}\ {COMMA.join(point.beside)}" if point.beside else ""
+    if conditions and sum(map(len, conditions)) + len(at) <= LONGEST:
+        found.append(Formula(r"\quad\text{along}\ ".join(conditions) + at if point.given else conditions[0] + at,
+                             "Given" if point.given else "Along"))
+    elif conditions:
+        found.append(Paragraph("What else is assumed holds there too; the certificate spells it out."))
+    sides, label = [point.left, point.right], "At these numbers"
+    if point.put_in is not None:
+        label = "Numbers put in"
+        sides = [put_in if put_in == value else
+                 f"{put_in} {value}" if value.startswith(r"\approx") else f"{put_in} = {value}"
+                 for put_in, value in zip(point.put_in, (point.left, point.right), strict=True)]
+    return [*found, Formula(rf"\text{{left}}:\ {sides[0]}", label), Formula(rf"\text{{right}}:\ {sides[1]}")]
 
 
 def _readings(found: Sequence[Finding]) -> list[Block]:
@@ -130,7 +161,7 @@ def _readings(found: Sequence[Finding]) -> list[Block]:
     return [Heading(2, HEADINGS["reading"]), Paragraph(intro), Items(lines)]
 
 
-def _mended(decisions: Sequence[Decision]) -> list[Block]:
+def _mended(decisions: Sequence[Decision], titles: Mapping[str, str]) -> list[Block]:
     """The mended headline statements, each with its proof."""
     by_id = {d.claim.id: d for d in decisions}
     headlines = {d.claim.id: d for d in decisions if d.fate is not None}
@@ -141,7 +172,7 @@ def _mended(decisions: Sequence[Decision]) -> list[Block]:
         blocks.append(Heading(3, f"{_told(headlines[d.claim.mends])}, mended"))
         blocks.append(Formula(d.claim.printed, "Statement"))
         if d.claim.note:
-            blocks.append(Paragraph(worded(d.claim.note), "Note"))
+            blocks.append(Paragraph(_noted(d.claim.note, titles), "Note"))
         used = [f"{_told(by_id[name])} ({verdict_words(by_id[name].verdict, by_id[name].proved_under)})"
                 for name in d.claim.premises if name in by_id]
         if used:
