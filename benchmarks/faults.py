@@ -3,9 +3,9 @@
     python benchmarks/faults.py [--kills 20] [--signals 4] [--seed 1] [--job JOB]
 
 Sweeps of trains (in processes, and on a Dask cluster that it starts) and of a plant, a contest, a proof and a search
-for parameters are run whole; then again and again, killed with SIGKILL at instants spread by chance over that time, and resumed. Demanded: the
-bytes of the whole run, and no process left after 10 s. Likewise after SIGINT and SIGTERM, which end with 130, and where one
-of the worker processes is killed, which the command survives or says in a line; a second
+for parameters are run whole; then again and again, killed with SIGKILL at instants spread by chance over that time, and
+resumed. Demanded: the bytes of the whole run, and no process left after 10 s. Likewise after SIGINT and SIGTERM, which
+end with 130, and where one of the worker processes is killed, which a command survives or says in a line. A second
 writer is turned away, and on a small disk (a tmpfs, where one can be mounted) each ends with one line and goes on once
 there is room. Exit code 1 when something differs.
 """
