@@ -103,8 +103,9 @@ def contest_without_times(path: Path) -> bytes:
     return json.dumps(document).encode()
 
 
-def _claims_result(folder: Path) -> bytes:
-    document = json.loads((folder / "out.json").read_text(encoding="utf-8"))
+def claims_without_times(path: Path) -> bytes:
+    """The document of a proof without how long each claim took."""
+    document = json.loads(path.read_text(encoding="utf-8"))
     for row in document["claims"]:
         del row["seconds"]
     return json.dumps(document).encode()
@@ -127,7 +128,8 @@ def jobs(size: int = 1, workers: int = 2) -> dict[str, Job]:
             lambda folder: contest_without_times(folder / "out.json"),
             "kept",
         ),
-        Job("prove", lambda folder: _claims(folder, 2 * size), prove, prove, _claims_result),
+        Job("prove", lambda folder: _claims(folder, 2 * size), prove, prove,
+            lambda folder: claims_without_times(folder / "out.json")),
         Job(
             "tune", lambda folder: _study(folder, SEARCH.format(runs=40 * size)), f"{tune} --write",
             f"{tune} --write --resume", lambda folder: (folder / "study.toml").read_bytes(), "tuned",

@@ -275,3 +275,10 @@ def test_numbers_of_gains_may_be_of_any_kind_and_what_is_none_is_named(tmp_path)
     assert found["conditions"][0]["met"] is False and found["effects"][0]["rms"] == 2.0
     wrong = written(tmp_path / "wrong", gains=text.replace("np.float32(0.5)", "sp.Symbol('p')"))
     assert "gains.py: rate: proved: p is no finite number: give one" in one_line(run_command("gains", wrong))
+    raised = (("InputError('plant.mass', 'rate', 'is no number: give one')", "plant.mass: rate: is no number"),
+              ("SolverError('no values meet the conditions: loosen one')", "no values meet the conditions"))
+    for number, (error, words) in enumerate(raised):
+        text = GAINS.replace("    conditions = (", f"    raise {error}\n    conditions = (").replace(
+            "\nfrom", "\nfrom workbench.errors import InputError, SolverError\nfrom", 1)
+        own = written(tmp_path / f"raises{number}", gains=text)
+        assert f"{own / 'gains.py'}: {words}" in one_line(run_command("gains", own))

@@ -43,8 +43,8 @@ def gains_of(loaded: Loaded) -> GainReport:
             raise
         key = ": ".join(part for part in (trouble.where, trouble.key) if part)  # of a plant, which knows no file
         raise InputError(loaded.folder / "gains.py", key, trouble.problem) from None
-    except WorkbenchError:
-        raise
+    except WorkbenchError as trouble:  # of a solver, which knows no file
+        raise InputError(loaded.folder / "gains.py", "", str(trouble)) from trouble
     except Exception as trouble:  # a file may be well formed and still leave nothing to search
         what = " ".join(f"{type(trouble).__name__}: {trouble}".split())
         raise InputError(loaded.path, "", f"the search of gains fails on its numbers ({what}): take those of the "

@@ -125,7 +125,7 @@ def estimate(shared: tuple[Scenario, Event, int, int, float], task: Task) -> Est
         return np.array([of_run(point) for point in points.tolist()])
 
     generator = np.random.default_rng(np.random.SeedSequence(seed, spawn_key=(number,)))
-    return splitting(performance, len(spread), event.value, samples, generator, least)
+    return splitting(performance, len(spread), event.value, samples, generator, least, near=number == ESTIMATES)
 
 
 def _write(path: Path, found: dict[Task, Estimate]) -> None:

@@ -44,10 +44,12 @@ class Estimate:
 
 
 def splitting(performance: Performance, dimensions: int, beyond: float, samples: int,
-              generator: np.random.Generator, least: float = LEAST) -> Estimate:
+              generator: np.random.Generator, least: float = LEAST, near: bool = False) -> Estimate:
     """The probability that the performance of a point drawn evenly from [-1, 1]^dimensions is above a value.
 
-    least: the share of all points that is searched at last; with 1 points are drawn and counted, no more.
+    least: the share of all points that is searched at last; with 1 points are drawn and counted, no more. near: moves
+    begin near the points that are left, which takes a few runs where others take dozens, and is biased: for a search
+    that only has to find whether there is anything.
     """
     points = generator.uniform(-1.0, 1.0, (samples, dimensions))
     values, runs, weight = performance(points), samples, 1.0
@@ -61,23 +63,31 @@ def splitting(performance: Performance, dimensions: int, beyond: float, samples:
         weight *= len(left) / samples
         gone = np.flatnonzero(values <= level)
         chosen = generator.choice(left, len(gone))
-        points[gone], values[gone], tried = _moved(performance, level, points[chosen], values[chosen], generator)
+        low, high = _around(points[left]) if near else (np.full(dimensions, -1.0), np.full(dimensions, 1.0))
+        points[gone], values[gone], tried = _moved(performance, level, points[chosen], values[chosen], low, high,
+                                                   generator)
         runs += tried
     return Estimate(weight * float(np.mean(values > beyond)), runs, weight == 1.0)
 
 
-def _moved(performance: Performance, level: float, points: Array, values: Array,
+def _around(points: Array) -> tuple[Array, Array]:
+    """In each coordinate the span of some points, and as much on both sides of it."""
+    low, high = points.min(axis=0), points.max(axis=0)
+    return np.maximum(-1.0, 2 * low - high), np.minimum(1.0, 2 * high - low)
+
+
+def _moved(performance: Performance, level: float, points: Array, values: Array, least: Array, most: Array,
            generator: np.random.Generator) -> tuple[Array, Array, int]:
     """The points after a move along each coordinate, in an order by chance, their values, and the runs that it took.
 
-    A coordinate is drawn evenly from an interval, which begins as all of [-1, 1] and is cut at each draw that is not
+    A coordinate is drawn evenly from an interval, which begins as least to most, and is cut at each draw that is not
     above the level, towards the point (slice sampling, Neal 2003): so moves become as short as what is above the level
     is thin, in each coordinate by itself, and the even distribution above the level stays what it is.
     """
     points, values, runs = points.copy(), values.copy(), 0
     orders = generator.permuted(np.tile(np.arange(points.shape[1]), (len(points), 1)), axis=1)
     for axes in orders.T:
-        low, high, moving = np.full(len(points), -1.0), np.full(len(points), 1.0), np.arange(len(points))
+        low, high, moving = least[axes], most[axes], np.arange(len(points))
         for _ in range(NARROWED):
             axis, tried = axes[moving], points[moving]
             here, drawn = points[moving, axis], generator.uniform(low[moving], high[moving])
