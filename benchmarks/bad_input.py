@@ -113,7 +113,10 @@ def spoiled_arguments(rng: random.Random, command: Command) -> list[str]:
 
 def _few_runs(option: str, value: str) -> str:
     """A number of runs that may be asked for, and would take hours, as one that takes seconds."""
-    return "3" if option == "--runs" and value.isascii() and value.isdigit() and 3 < int(value[:10]) < 10**9 else value
+    try:
+        return "3" if option == "--runs" and 3 < float(value) <= 10**9 else value
+    except ValueError:
+        return value
 
 
 def prepared(case: Case, folders: Path, place: Path) -> tuple[str, list[str]]:
@@ -158,7 +161,8 @@ def run(case: Case, folders: Path, place: Path, apart: bool = False) -> Ended:
         )
         and not name.startswith("__pycache__")
     ]
-    beyond += [f"outside: {name}" for name in sorted(pictures_outside(place).items() ^ outside.items())]
+    if ".." not in wanted:
+        beyond += [f"outside: {name}" for name in sorted(pictures_outside(place).items() ^ outside.items())]
     base = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss if not apart else 0
     code = os.waitstatus_to_exitcode(status)
     return Ended(
@@ -170,6 +174,7 @@ def _outputs_of(arguments: list[str]) -> list[str]:
     """What options of the command line name as outputs."""
     options = ("--json", "--out", "--csv", "--figure", "--certificate", "--certificates", "--directory")
     named = [os.path.normpath(value) for option, value in pairwise(arguments) if option in options]
+    named += map(os.path.normpath, arguments[1:2] if arguments[0] == "examples" else ())
     # A reference writes its curves beside the file that is named, under the same stem.
     return [*named, *(str(Path(one).with_suffix("")) + end for one in named
                       if Path(one).name for end in (".csv", "_certified.csv"))]

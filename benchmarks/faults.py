@@ -2,9 +2,10 @@
 
     python benchmarks/faults.py [--kills 20] [--signals 4] [--seed 1] [--job JOB]
 
-A sweep (in processes, and on a Dask cluster that it starts), a contest, a proof and a search for parameters are run
-whole; then again and again, killed with SIGKILL at instants spread by chance over that time, and resumed. Demanded: the
-bytes of the whole run, and no process left after 10 s. Likewise after SIGINT and SIGTERM, which end with 130; a second
+Sweeps of trains (in processes, and on a Dask cluster that it starts) and of a plant, a contest, a proof and a search
+for parameters are run whole; then again and again, killed with SIGKILL at instants spread by chance over that time, and
+resumed. Demanded: the bytes of the whole run, and no process left after 10 s. Likewise after SIGINT and SIGTERM, which
+end with 130, and where one of the worker processes is killed, which a command survives or says in a line. A second
 writer is turned away, and on a small disk (a tmpfs, where one can be mounted) each ends with one line and goes on once
 there is room. Exit code 1 when something differs.
 """
@@ -22,6 +23,7 @@ import sys
 import tempfile
 import time
 from collections.abc import Callable, Iterator
+from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -30,6 +32,7 @@ from bad_input_texts import CLAIMS, CONTEST, PAPER, PID, RUN, UNCERTAINTY, line_
 from forked import forked
 
 from workbench.files.folder_lock import FolderLock
+from workbench.paper.new_paper import write_new_paper
 
 ROOT = Path(__file__).parents[1]
 LEFT_S, LONGEST_S = 10.0, 600.0
@@ -85,6 +88,10 @@ def _claims(folder: Path, copies: int) -> None:
         )
 
 
+def _plant(folder: Path) -> None:
+    write_new_paper("mine2030", folder, "plant")
+
+
 def contest_without_times(path: Path) -> bytes:
     """The document of a contest without the columns of how long a step took."""
     document = json.loads(path.read_text(encoding="utf-8"))
@@ -96,8 +103,9 @@ def contest_without_times(path: Path) -> bytes:
     return json.dumps(document).encode()
 
 
-def _claims_result(folder: Path) -> bytes:
-    document = json.loads((folder / "out.json").read_text(encoding="utf-8"))
+def claims_without_times(path: Path) -> bytes:
+    """The document of a proof without how long each claim took."""
+    document = json.loads(path.read_text(encoding="utf-8"))
     for row in document["claims"]:
         del row["seconds"]
     return json.dumps(document).encode()
@@ -120,10 +128,16 @@ def jobs(size: int = 1, workers: int = 2) -> dict[str, Job]:
             lambda folder: contest_without_times(folder / "out.json"),
             "kept",
         ),
-        Job("prove", lambda folder: _claims(folder, 2 * size), prove, prove, _claims_result),
+        Job("prove", lambda folder: _claims(folder, 2 * size), prove, prove,
+            lambda folder: claims_without_times(folder / "out.json")),
         Job(
             "tune", lambda folder: _study(folder, SEARCH.format(runs=40 * size)), f"{tune} --write",
             f"{tune} --write --resume", lambda folder: (folder / "study.toml").read_bytes(), "tuned",
+        ),
+        Job(
+            "plant", _plant, f"sweep mine2030 --runs {20 * size} --out mc {many}",
+            f"sweep mine2030 --runs {20 * size} --out mc {many} --resume",
+            lambda folder: (folder / "mc" / "sweep.csv").read_bytes(), "mc",
         ),
         Job(
             "dask", _study, f"{sweep} --dask local", f"{sweep} --resume --dask local",
@@ -238,6 +252,38 @@ def instants(rng: random.Random, count: int, seconds: float) -> list[float]:
     return [seconds * (part + rng.random()) / count for part in range(count)]
 
 
+def worker_lost(bench: Bench, job: Job, whole: bytes, after_s: float) -> str:
+    """What is wrong after the busiest of a job's worker processes was killed: it goes on, or says so in a line and goes
+    on when it is asked to."""
+    folder = bench.fresh(job)
+    number = bench.start(job, job.begin, folder)
+    until = time.monotonic() + after_s
+    while time.monotonic() < until or not (busy := [one for one in of_session(number) if one != number]):
+        if time.monotonic() > until + LEFT_S:
+            break
+        time.sleep(0.02)
+    if busy:
+        with suppress(ProcessLookupError):
+            os.kill(max(busy, key=_ticks), signal.SIGKILL)
+    code = ended(number)
+    said = [line for line in bench.said(job).read_text().splitlines() if line.startswith("workbench: ")]
+    if code not in (0, 2) or (code == 2 and sum(": note: " not in line for line in said) != 1):
+        return f"ends with {code}: {bench.said(job).read_text()[-300:]}"
+    if left := left_after(number, bench.left_s):
+        return f"leaves processes {left}"
+    trouble = bench.resumed(job, folder) if code else ""
+    return trouble or ("" if job.result(folder) == whole else "other bytes")
+
+
+def _ticks(number: int) -> int:
+    """The processor time of a process; none of one that has ended."""
+    try:
+        fields = Path(f"/proc/{number}/stat").read_text().rpartition(") ")[2].split()
+    except OSError:
+        return 0
+    return int(fields[11]) + int(fields[12])
+
+
 def second_writer(bench: Bench, job: Job) -> str:
     """What is wrong when a job's results are being written by another process, which holds the lock of their folder."""
     folder = bench.fresh(job)
@@ -268,7 +314,7 @@ def _holder(folder: Path) -> int:
 
 
 # What a job finds free beside its inputs, in KiB: for what it writes is small, less than all of it needs.
-ROOM = {"sweep": 28, "contest": 28, "tune": 4}
+ROOM = {"sweep": 28, "plant": 28, "contest": 28, "tune": 4, "dask": 28}
 
 
 def full_disk(bench: Bench, job: Job, whole: bytes) -> str | None:
@@ -333,6 +379,13 @@ def main() -> None:
                 bad = {after: trouble for after, trouble in found.items() if trouble}
                 wrong += len(bad)
                 print(f"  {how.name:10}{len(found) - len(bad)} of {len(found)} end in the same bytes", flush=True)
+                for after, trouble in bad.items():
+                    print(f"    after {after:.2f} s: {trouble}", flush=True)
+            if "--workers 1" not in job.begin and "--dask" not in job.begin:
+                lost = {after: worker_lost(bench, job, whole, after) for after in instants(rng, asked.signals, seconds)}
+                bad = {after: trouble for after, trouble in lost.items() if trouble}
+                wrong += len(bad)
+                print(f"  worker lost {len(lost) - len(bad)} of {len(lost)} end in the same bytes", flush=True)
                 for after, trouble in bad.items():
                     print(f"    after {after:.2f} s: {trouble}", flush=True)
             others = (

@@ -1,23 +1,24 @@
 """Mutation test of the deciders: claims changed in one place; what an independent search breaks must be refuted.
 
-    python benchmarks/mutation.py [PATHS] [--count 1500] [--seed 2021] [--jobs 2] [--limit 30] [--json FILE]
+    python benchmarks/mutation.py [PATHS] [--count 1500] [--seed 2021] [--jobs 2 | --dask ADDRESS] [--limit 30]
+                                  [--json FILE]
 
 Mutants are drawn evenly over all claims of all papers and over all kinds of change. A falsifier that shares no code
 with the deciders (tests/proof/falsifier.py) looks for a point where a mutant's assumptions hold and its statement
 fails, confirmed to as many digits as it takes. Mutants for which it finds one are `broken`; the deciders, which do not
 see that point, should then answer `refuted`, `gap` or `violated` with a counterexample of their own, and never
-`proved`. Exit code 1 when a broken mutant is proved.
+`proved`. Mutants are handed to the executors of every long command. Exit code 1 when a broken mutant is proved.
 """
 
 from __future__ import annotations
 
 import argparse
 import json
+import os
 import random
 import sys
 import time
 from collections import Counter
-from concurrent.futures import ProcessPoolExecutor, as_completed
 from contextlib import suppress
 from dataclasses import asdict, dataclass
 from fractions import Fraction
@@ -25,22 +26,23 @@ from itertools import zip_longest
 from pathlib import Path
 from typing import Any
 
+import sympy as sp
+
+from workbench.cli.options import on_cluster
+from workbench.errors import ClaimError
+from workbench.files.modules import module_in, package_of
+from workbench.files.time_limit import OutOfTime, at_most_seconds
+from workbench.proof.building import built
+from workbench.proof.checker import CertificateError, margin, read_goal
+from workbench.proof.claim import FAILED, Claim, Goal, Kind, name_of
+from workbench.proof.decide.engine import decide, pinned, prove_goal
+from workbench.proof.mutate import KINDS, Mutation, mutations
+from workbench.proof.paper import collect_papers
+from workbench.proof.text import goal_text, relation_text
+from workbench.tasks.handing_out import run_tasks
+
 ROOT = Path(__file__).parents[1]
-sys.path.insert(0, str(ROOT / "tests" / "proof"))
-
-import sympy as sp  # noqa: E402
-from falsifier import falsified  # noqa: E402
-
-from workbench.errors import ClaimError  # noqa: E402
-from workbench.files.time_limit import OutOfTime, at_most_seconds  # noqa: E402
-from workbench.proof.building import built  # noqa: E402
-from workbench.proof.checker import CertificateError, margin, read_goal  # noqa: E402
-from workbench.proof.claim import FAILED, Claim, Goal, Kind, name_of  # noqa: E402
-from workbench.proof.decide.engine import decide, pinned, prove_goal  # noqa: E402
-from workbench.proof.mutate import KINDS, Mutation, mutations  # noqa: E402
-from workbench.proof.paper import collect_papers  # noqa: E402
-from workbench.proof.text import goal_text, relation_text  # noqa: E402
-
+FALSIFIER = ROOT / "tests" / "proof"
 WANTED_SHARE = 0.99
 
 
@@ -135,8 +137,18 @@ def _says_something(goal: Goal) -> bool:
     return True
 
 
+def judged(shared: tuple[Path, int, float], task: Task) -> Outcome:
+    """`judge`, wherever it is run; shared: the folder of the falsifier, and what `judge` takes."""
+    falsifier, seed, limit = shared
+    if str(falsifier) not in sys.path:
+        sys.path.insert(0, str(falsifier))
+    return judge(task, seed, limit)
+
+
 def judge(task: Task, seed: int, limit: float) -> Outcome:
     """Falsifier and deciders on one mutant, neither knowing of the other."""
+    from falsifier import falsified  # noqa: PLC0415 - lies where the tests do
+
     started = time.perf_counter()
     goal = task.goal
     witness: Any = None
@@ -170,12 +182,14 @@ def _provable(task: Task) -> bool:
 def run(tasks: list[Task], seed: int, jobs: int, limit: float) -> list[Outcome]:
     """All mutants judged, with a line of progress now and then; in the order of the plan."""
     outcomes: list[Outcome] = []
-    with ProcessPoolExecutor(jobs) as pool:
-        waiting = [pool.submit(judge, task, seed, limit) for task in tasks]
-        for done in as_completed(waiting):
-            outcomes.append(done.result())
-            if len(outcomes) % 50 == 0 or len(outcomes) == len(tasks):
-                print(f"{len(outcomes)} of {len(tasks)} mutants", file=sys.stderr, flush=True)
+
+    def record(outcome: Outcome) -> None:
+        outcomes.append(outcome)
+        if len(outcomes) % 50 == 0 or len(outcomes) == len(tasks):
+            print(f"{len(outcomes)} of {len(tasks)} mutants", file=sys.stderr, flush=True)
+
+    package_of(FALSIFIER)  # so that it is sent to a cluster
+    run_tasks(judged, (FALSIFIER, seed, limit), tasks, jobs, record)
     return sorted(outcomes, key=lambda o: o.number)
 
 
@@ -225,13 +239,15 @@ def main() -> int:
     parser.add_argument("paths", nargs="*", type=Path, default=[ROOT / "proofs"], help="proof files or folders")
     parser.add_argument("--count", type=int, default=1500)
     parser.add_argument("--seed", type=int, default=2021)
-    parser.add_argument("--jobs", type=int, default=2)
+    parser.add_argument("--jobs", type=int, default=2, help="processes of this machine")
+    parser.add_argument("--dask", help="the address of a Dask cluster, or 'local'")
     parser.add_argument("--limit", type=float, default=30.0, help="seconds to falsify, to decide and to prove a mutant")
     parser.add_argument("--json", type=Path, help="also write tables and outcomes here")
     arguments = parser.parse_args()
     started = time.perf_counter()
     tasks = plan(arguments.paths, arguments.count, arguments.seed)
-    outcomes = run(tasks, arguments.seed, arguments.jobs, arguments.limit)
+    with on_cluster(arguments.dask, None):
+        outcomes = run(tasks, arguments.seed, arguments.jobs, arguments.limit)
     by_paper, by_change = table(outcomes, "paper"), table(outcomes, "change")
     print_table(by_paper)
     print_table(by_change)
@@ -250,4 +266,7 @@ def main() -> int:
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    if os.environ.get("PYTHONHASHSEED") != "0":  # which mutants are drawn depends on the order of sets
+        os.execve(sys.executable, [sys.executable, *sys.argv], os.environ | {"PYTHONHASHSEED": "0"})
+    # As a module of a folder, under whose name other machines import it too.
+    sys.exit(module_in(Path(__file__).parent, "mutation").main())

@@ -2,6 +2,7 @@
 
 import json
 import os
+import re
 import resource
 import sys
 
@@ -138,7 +139,7 @@ def test_a_limit_within_another_is_the_outer_one():
             pass
 
 
-def test_deep_brackets_in_a_journal_are_a_damaged_record(tmp_path, capsys):
+def test_deep_brackets_and_what_is_no_number_in_a_journal_are_damaged_records(tmp_path, capsys):
     path = tmp_path / "a.jsonl"
     with Journal(path, {"job": 1}, False) as journal:
         journal.append({"run": 1})
@@ -146,6 +147,10 @@ def test_deep_brackets_in_a_journal_are_a_damaged_record(tmp_path, capsys):
     with Journal(path, {"job": 1}, True) as journal:
         assert journal.records == [{"run": 1}]
     assert "1 of 2 records are not what was written" in capsys.readouterr().err
+    path.write_bytes(path.read_bytes().replace(b'{"run": 1', b'{"run": NaN'))
+    with Journal(path, {"job": 1}, True) as journal:
+        assert journal.records == []
+    assert "2 of 2 records are not what was written" in capsys.readouterr().err
 
 
 @pytest.mark.parametrize(("old", "new", "words"), [
@@ -223,6 +228,14 @@ def test_a_line_that_is_not_there_is_told_with_the_key_that_names_it(tmp_path):
     study.write_text(changed(study.read_text(), 'track = "line.toml"', 'track = "nowhere.toml"'))
     said = one_line(run("compare", study))
     assert "nowhere.toml: no such file: check the path, 'track' in" in said and str(study) in said
+    text = study.read_text()
+    study.write_text(changed(text, '"nowhere.toml"', '"no\\u0000where.toml"'))
+    said = one_line(run("compare", study))
+    assert "is no path" in said and f"'track' in {study}" in said
+    curve = '[reference]\nkind = "table"\nfile = "nowhere.csv"\n'
+    study.write_text(re.sub(r"(?ms)^\[reference\].*?(?=^\[)", curve, changed(text, '"nowhere.toml"', '"line.toml"')))
+    said = one_line(run("compare", study))
+    assert "nowhere.csv: no such file" in said and f"'reference.file' in {study}" in said
 
 
 def test_a_contest_says_so_of_its_scenario(tmp_path):

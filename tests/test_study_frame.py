@@ -7,6 +7,8 @@ import sys
 
 import numpy as np
 import pytest
+from command_line import one_line
+from command_line import run as run_command
 from refusals import refusal
 from scenarios import PROOFS
 from test_report import read, without_scripts
@@ -258,3 +260,25 @@ def test_what_is_known_of_gains_stands_on_the_page(tiny, made, tmp_path):
     assert 'id="gains"' not in made[0].page.read_text(encoding="utf-8")
     assert json.loads((tmp_path / "with" / "gains.json").read_text(encoding="utf-8"))["conditions"][0]["met"] is False
     assert not (made[1] / "gains.json").exists()
+
+
+def test_numbers_of_gains_may_be_of_any_kind_and_what_is_none_is_named(tmp_path):
+    """A module that reckons in sympy or numpy gives their numbers, which are no floats."""
+    quantity = 'Quantity("rate", "1/s", sp.Float("1.5"), np.float32(0.5), "", check=sp.Rational(1, 4))'
+    text = ("import numpy as np\nimport sympy as sp\nfrom workbench.gains.result import Quantity\n" + GAINS).replace(
+        "conditions, (), (found,)", f"conditions, ({quantity},), (found,)").replace(
+        '"k = 3", False', '"k = 3", sp.false').replace('{"rms": 2.0', '{"rms": sp.Float(2)')
+    own = written(tmp_path / "tiny", gains=text)
+    assert run_command("gains", own, "--json", tmp_path / "gains.json", "--workers", 1).returncode == 0
+    found = json.loads((tmp_path / "gains.json").read_text())
+    assert [found["quantities"][0][key] for key in ("papers", "proved", "check")] == [1.5, 0.5, 0.25]
+    assert found["conditions"][0]["met"] is False and found["effects"][0]["rms"] == 2.0
+    wrong = written(tmp_path / "wrong", gains=text.replace("np.float32(0.5)", "sp.Symbol('p')"))
+    assert "gains.py: rate: proved: p is no finite number: give one" in one_line(run_command("gains", wrong))
+    raised = (("InputError('plant.mass', 'rate', 'is no number: give one')", "plant.mass: rate: is no number"),
+              ("SolverError('no values meet the conditions: loosen one')", "no values meet the conditions"))
+    for number, (error, words) in enumerate(raised):
+        text = GAINS.replace("    conditions = (", f"    raise {error}\n    conditions = (").replace(
+            "\nfrom", "\nfrom workbench.errors import InputError, SolverError\nfrom", 1)
+        own = written(tmp_path / f"raises{number}", gains=text)
+        assert f"{own / 'gains.py'}: {words}" in one_line(run_command("gains", own))

@@ -1,6 +1,7 @@
 """Laws as units of FMI 3.0, called by another library's importer and held against the law's own expressions."""
 
 import shutil
+from dataclasses import replace
 from pathlib import Path
 
 import fmpy
@@ -128,6 +129,15 @@ def test_parameters_can_be_set_and_the_script_is_the_same_each_time(loaded_unit)
     assert unit.get("command_mps2")[0] != before
     once, again = (slave_text(unit_of(load(ROOT / "proofs" / "yang2021"), "pid")) for _ in range(2))
     assert once == again
+
+
+def test_a_title_with_control_characters_makes_a_unit_all_the_same(tmp_path):
+    """A unit's description is XML, which has none."""
+    unit = unit_of(load(ROOT / "proofs" / "yang2021"), "pid")
+    path = tmp_path / "law.fmu"
+    path.write_bytes(fmu_bytes(replace(unit, about="a\x1b[31m<b>\x00&", inputs=dict.fromkeys(unit.inputs, "\x07 m"))))
+    assert validate_fmu(str(path)) == []
+    assert fmpy.read_model_description(str(path)).description == "a [31m<b> &"
 
 
 @pytest.mark.parametrize(("paper", "controller", "why"), [

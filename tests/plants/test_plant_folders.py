@@ -6,9 +6,10 @@ import subprocess
 import sys
 from pathlib import Path
 
+import pyarrow.parquet
 import pytest
 from rich.console import Console
-from test_cli import one_line, run
+from test_cli import run
 
 import workbench as wb
 from workbench.cli.study_tables import result_table
@@ -16,6 +17,7 @@ from workbench.errors import InputError, WorkbenchError
 from workbench.paper.loading import load
 from workbench.paper.new_paper import TEMPLATES, template_files, write_new_paper
 from workbench.paper.plants.sweep import PlantSweep, sweep
+from workbench.simulate import parts, row_store
 from workbench.systems.metric import Metric
 
 FILES = ["claims/section_2.py", "gains.py", "laws.py", "paper.py", "plant.py", "study.toml"]
@@ -66,7 +68,35 @@ def test_every_verb_takes_it(mine):
     assert "m/s²" in page and page.index('id="figure-1"') < page.index('id="tables"')
     curves = sorted(path.name for path in (folder / "page" / "curves").glob("*.csv"))
     assert curves == ["01-x.csv", "02-v.csv", "03-u.csv"]
-    assert "--resume: is for scenarios" in one_line(run("sweep", "mine2026", "--out", "mc", "--resume", folder=folder))
+
+
+def test_a_sweep_goes_on_where_it_stopped_to_the_same_bytes(mine, tmp_path, monkeypatch, capsys):
+    """A stop after some parts, two processes, more runs, a chunk with a NaN: the bytes of a run in one go."""
+    monkeypatch.setattr(row_store, "CHUNK_S", 0.0)
+    monkeypatch.setattr(parts, "TASK_S", 0.0)
+    study, out = load(mine).study, tmp_path / "mc"
+    whole = sweep(study, 4, 1, ["adaptive"], workers=1).csv.encode()
+
+    def stop(done, *_):
+        if done == 2:
+            raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        sweep(study, 3, 1, ["adaptive"], out, 1, stop)
+    assert not (out / "sweep.csv").exists() and len(list((out / "sweep").glob("*.parquet"))) == 2
+    made = []
+    sweep(study, 4, 1, ["adaptive"], out, 2, lambda done, *_: made.append(done), resume=True)
+    assert made == [3, 4] and (out / "sweep.csv").read_bytes() == whole
+    path = min((out / "sweep").glob("*.parquet"))
+    table = pyarrow.parquet.read_table(path)
+    assert {"drawn_a", "x_error_rms", "failed"} < set(table.column_names)
+    spoiled = table.set_column(table.column_names.index("x_error_rms"), "x_error_rms", pyarrow.array([float("nan")]))
+    pyarrow.parquet.write_table(spoiled, path)
+    sweep(study, 4, 1, ["adaptive"], out, 1, resume=True)
+    assert (out / "sweep.csv").read_bytes() == whole and "is not what was written" in capsys.readouterr().err
+    for other in ({"seed": 2}, {"study": study.model_copy(update={"duration_s": study.duration_s + 1})}):
+        with pytest.raises(InputError, match="belongs to another job"):
+            sweep(**{"study": study, "runs": 4, "seed": 1, "out": out, "workers": 1, "resume": True} | other)
 
 
 def test_a_sweep_is_the_same_for_the_same_seed_and_draws_what_is_known(mine):

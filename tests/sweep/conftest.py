@@ -3,8 +3,7 @@
 import pytest
 from short_sweep import RUNS, SEED, sweep_of, write_scenario
 
-from workbench.simulate import row_store
-from workbench.simulate import sweep as sweep_module
+from workbench.simulate import parts, row_store
 
 
 @pytest.fixture(scope="package")
@@ -22,4 +21,4 @@ def whole(scenario_path, tmp_path_factory):
 @pytest.fixture
 def every_run_is_a_chunk(monkeypatch):
     monkeypatch.setattr(row_store, "CHUNK_S", 0.0)
-    monkeypatch.setattr(sweep_module, "TASK_S", 0.0)
+    monkeypatch.setattr(parts, "TASK_S", 0.0)

@@ -13,8 +13,7 @@ from scenarios import ROOT
 from short_sweep import RUNS, SEED, sweep_of, write_scenario
 
 from workbench.errors import InputError
-from workbench.simulate import row_store
-from workbench.simulate import sweep as sweep_module
+from workbench.simulate import parts, row_store
 from workbench.simulate.row_store import MANIFEST_NAME
 
 
@@ -88,7 +87,7 @@ def in_chunks(scenario_path, tmp_path_factory):
     out = tmp_path_factory.mktemp("chunks")
     with pytest.MonkeyPatch.context() as patched:
         patched.setattr(row_store, "CHUNK_S", 0.0)
-        patched.setattr(sweep_module, "TASK_S", 0.0)
+        patched.setattr(parts, "TASK_S", 0.0)
         sweep_of(scenario_path, RUNS, SEED, out=out, workers=1)
     (out / "sweep.csv").unlink()
     assert len(chunks_written(out)) == 9

@@ -17,13 +17,14 @@ from small_folders import CLAIMS, PAPER, small_folder
 
 sys.path.insert(0, str(ROOT / "benchmarks"))
 from bad_input_texts import CONTEST, FLEET, LINE_MORE, TRAIN, line_text
-from faults import SEARCH, contest_without_times
+from faults import SEARCH, claims_without_times, contest_without_times
 
 from workbench.proof.prove import prove
 from workbench.proof.selection import targets
 from workbench.tasks.executor import ThisProcess, on
 
 SEARCHED = SEARCH.format(runs=4).replace("good", "own")
+PLACES = ("here", "processes", "cluster")
 PATIENCE_S = 120.0  # a busy machine may take long; nothing waits longer than it must
 # A variable of the environment that every process started from here inherits: others of the machine are not looked at.
 OURS = {"WORKBENCH_TEST_OF": f"cluster {os.getpid()} {time.monotonic_ns()}"}
@@ -71,6 +72,7 @@ from pathlib import Path
 from workbench.cli.app import main
 from workbench.errors import WorkbenchError
 from workbench.files.modules import module_in
+from workbench.paper.stages import Stage, run_stages
 from workbench.tasks import cluster as module
 from workbench.tasks.cluster import cluster
 from workbench.tasks.executor import on
@@ -98,15 +100,32 @@ def tried(function, shared, tasks=2):
 def jobs():
     for place, where in (("here", ["--workers", 1]), ("processes", ["--workers", 2]), ("cluster", ["--dask", address])):
         said[place] = [command("sweep", folder, "--runs", 4, "--out", out / place, *where)]
+        said[place].append(command("compare", folder / "contest.toml", "--json", out / f"{place}.json", *where))
+        tuned = folder / f"{place}.toml"
+        tuned.write_text((folder / "study.toml").read_text() + (folder / "search").read_text())
+        said[place].append(command("tune", tuned, "--write", *where))
+        said[place].append(command("reference", "--fleet", folder / "fleet.toml", "--json",
+                                   out / f"{place}_day.json", *where))
         if place != "processes":
-            said[place].append(command("compare", folder / "contest.toml", "--json", out / f"{place}.json", *where))
-            tuned = folder / f"{place}.toml"
-            tuned.write_text((folder / "study.toml").read_text() + (folder / "search").read_text())
-            said[place].append(command("tune", tuned, "--write", *where))
-            said[place].append(command("reference", "--fleet", folder / "fleet.toml", "--json",
-                                       out / f"{place}_day.json", *where))
+            said[place].append(command("prove", folder, "--no-cache", "--json", out / f"{place}_claims.json", *where))
+    said["more here"] = more(1)
+    with cluster(address) as found, on(found):
+        said["more cluster"] = more(found.workers)
     said["two kinds"] = command("sweep", folder, "--out", out / "no", "--dask", address, "--workers", 2)
     said["one run"] = command("reference", "a", "b", "--dask", address)
+
+
+def more(workers):
+    """The stages of a study, and mutants of the folder's claims."""
+    stage = Stage(module_in(folder, "tasks").where, folder, (3, 1, 2), lambda task, result: str(task))
+    stages = [list(one.items()) for one in run_stages((stage, stage), workers, lambda *_: None)]
+    for one in stages:  # where the code lies differs
+        one[:] = [(task, number, text) for task, (number, text, _) in one]
+    mutation = module_in(benchmarks, "mutation")
+    with contextlib.redirect_stderr(io.StringIO()):
+        found = mutation.run(mutation.plan([folder], 2, 1), 1, workers, 60)
+    mutants = [{**vars(one), "seconds": 0} for one in found]
+    return stages, mutants
 
 
 def losses():
@@ -137,8 +156,9 @@ def losses():
 
 
 if __name__ == "__main__":
-    address, number, folder, out = sys.argv[1], int(sys.argv[2]), Path(sys.argv[3]), Path(sys.argv[4])
-    module.ANSWER_S = patience_s = float(sys.argv[5])
+    address, number = sys.argv[1], int(sys.argv[2])
+    folder, out, benchmarks = map(Path, sys.argv[3:6])
+    module.ANSWER_S = patience_s = float(sys.argv[6])
     jobs()
     losses()
     print(json.dumps(said))
@@ -198,7 +218,7 @@ def found(dask, paper, tmp_path_factory):
     out = tmp_path_factory.mktemp("out")
     (out / "program.py").write_text(PROGRAM)
     done = subprocess.run([sys.executable, out / "program.py", address, str(scheduler.pid), str(paper), str(out),
-                           str(PATIENCE_S)],
+                           str(ROOT / "benchmarks"), str(PATIENCE_S)],
                           env={**os.environ, **OURS, "PYTHONPATH": str(ROOT)}, capture_output=True, text=True,
                           timeout=1000, check=False)
     assert (done.returncode, done.stderr) == (0, "")
@@ -217,18 +237,29 @@ def test_a_sweep_has_the_same_bytes_wherever_it_is_run(found):
 
 def test_so_has_a_contest(found):
     said, out = found
-    for place in ("here", "cluster"):
+    for place in PLACES:
         assert {code for code, _ in said[place]} == {0}, said[place]
-    assert contest_without_times(out / "here.json") == contest_without_times(out / "cluster.json")
+    here, *others = (contest_without_times(out / f"{place}.json") for place in PLACES)
+    assert others == [here, here]
 
 
 def test_so_have_a_search_and_a_days_trips(found, paper):
     _, out = found
-    here, there = ((paper / f"{place}.toml").read_bytes() for place in ("here", "cluster"))
-    assert here == there and here != (paper / "study.toml").read_bytes() + SEARCHED.encode()
-    here, there = ((out / f"{place}_day.json").read_bytes() for place in ("here", "cluster"))
-    assert here == there
+    here, *others = ((paper / f"{place}.toml").read_bytes() for place in PLACES)
+    assert others == [here, here] and here != (paper / "study.toml").read_bytes() + SEARCHED.encode()
+    here, *others = ((out / f"{place}_day.json").read_bytes() for place in PLACES)
+    assert others == [here, here]
     assert [row["status"] for row in json.loads(here)["trips"]] == ["optimal", "refused", "optimal"]
+
+
+def test_so_have_a_proof_the_stages_of_a_study_and_a_mutation_test(found):
+    said, out = found
+    here, there = (claims_without_times(out / f"{place}_claims.json") for place in ("here", "cluster"))
+    assert here == there and b'"proved"' in here
+    assert said["more here"] == said["more cluster"]
+    (first, second), mutants = said["more here"]
+    assert first == second and [row[:2] for row in first] == [[3, 3], [1, 1], [2, 2]]
+    assert [(one["broken"], one["verdict"]) for one in mutants] == [(False, "proved")] * 2, "powers of positive numbers"
 
 
 def test_claims_are_decided_alike_by_a_named_executor_which_keeps_nothing(paper, monkeypatch, tmp_path):

@@ -7,6 +7,8 @@ import sys
 import pytest
 from worker_tasks import end_the_process
 
+from workbench.errors import WorkbenchError
+from workbench.tasks import processes
 from workbench.tasks.handing_out import run_tasks
 
 
@@ -22,6 +24,21 @@ def test_what_workers_have_started_is_recorded_before_an_interruption_goes_on():
         run_tasks(operator.add, 100, range(50), 2, record)
     assert 1 < len(recorded) < 10
     assert set(recorded) <= set(range(100, 150))
+
+
+def test_a_server_of_processes_that_has_died_is_said_in_a_line(monkeypatch):
+    """As the standard library tells of it: by the end of what it reads, which a command line takes for Ctrl-D."""
+    class Context:
+        class Process:
+            def __init__(self, **_):
+                pass
+
+            def start(self):
+                raise EOFError("unexpected EOF")
+
+    monkeypatch.setattr(processes.os, "kill", lambda *_: None)  # the server of this process lives
+    with pytest.raises(WorkbenchError, match=r"has died .*: run again, and resume"):
+        processes._wait_for_server.__wrapped__(Context())
 
 
 def test_an_exception_in_a_worker_is_raised_here():

@@ -116,16 +116,15 @@ def _sweep_plant(loaded: Loaded, out: Path, runs: int | None, seed: int | None, 
                  resume: bool, workers: int | None) -> None:
     from workbench.files.outputs import check_outputs
     from workbench.paper.plants.sweep import CSV_NAME, sweep
+    from workbench.simulate.row_store import CHUNKS, MANIFEST_NAME
 
-    if resume:
-        raise InputError("", "--resume", "is for scenarios of trains: the sweep of a plant's study keeps no journal")
-    check_outputs({}, folders={"--out": (out, (CSV_NAME,))})
+    check_outputs({}, folders={"--out": (out, (CSV_NAME, MANIFEST_NAME, CHUNKS))})
     study: Any = loaded.study
     with progress() as show:
         found = sweep(study, runs, seed, controllers, out, workers,
-                      lambda done, total, _: show("Monte Carlo", done, total))
+                      lambda done, total, _: show("Monte Carlo", done, total), resume)
     out_console.print(result_table(found.table()))
-    out_console.print(f"rows: {out / CSV_NAME}")
+    out_console.print(f"rows: {out / CSV_NAME}", markup=False, highlight=False)
 
 
 def _joint(loaded: Loaded, out: Path, resume: bool, workers: int | None) -> None:

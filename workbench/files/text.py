@@ -115,7 +115,7 @@ def _contents(path: Path, kind: str, where: str) -> bytes:
         remedy = where if trouble.errno in NO_NAME else "check its permissions"
         raise InputError(path, "", f"cannot be read ({trouble.strerror}): {remedy}") from None
     except ValueError as trouble:  # a null character in the path
-        raise InputError(path, "", f"is no path ({trouble}): correct the name") from None
+        raise InputError(path, "", f"is no path ({trouble}): {where}") from None
 
 
 MOST_LISTED = 5_000  # names in a folder beyond which none is looked for

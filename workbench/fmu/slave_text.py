@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+
 import numpy as np
 
+from workbench.errors import printable
 from workbench.fmu.unit import LawUnit
 
 _CLASS = '''\
@@ -70,7 +73,12 @@ def slave_text(unit: LawUnit) -> str:
         *(["import numpy"] if neurons else []),
         "from pythonfmu3 import (CoSimulation, DefaultExperiment, Float64, Fmi3Causality, Fmi3Slave, Fmi3Status,",
         "                        Fmi3StepResult, Fmi3Variability)", "",
-        f"PERIOD_S = {unit.period_s!r}", f"INPUTS = {dict(unit.inputs)!r}", f"COMMANDS = {dict(unit.commands)!r}",
+        f"PERIOD_S = {unit.period_s!r}", f"INPUTS = {_in_xml(unit.inputs)!r}", f"COMMANDS = {_in_xml(unit.commands)!r}",
         f"PARAMETERS = {dict(unit.parameters)!r}", f"STATES = {list(unit.states)!r}", "", "",
         "def started():", f"    return [{', '.join(memory)}]", "", "", unit.code, "",
-        _CLASS.format(name=unit.name, about=unit.about)])
+        _CLASS.format(name=unit.name, about=printable(unit.about))])
+
+
+def _in_xml(texts: Mapping[str, str]) -> dict[str, str]:
+    """Texts for the unit's description, which is XML and has no control characters."""
+    return {name: printable(text) for name, text in texts.items()}

@@ -20,6 +20,7 @@ from workbench.files.text import read_text
 from workbench.files.toml import SourcedRecord, Text
 from workbench.model.desired_curve import FASTEST_MPS, DesiredCurve
 
+WRITES_ONE = "`workbench reference LINE TRAIN --time S --csv FILE` writes one"
 COLUMNS = ("t_s", "s_m", "v_mps", "a_mps2")
 MOST_ROWS = 100_000
 # Speeds and accelerations below it at an end are a standstill that was rounded.
@@ -45,9 +46,10 @@ class TableCurve(SourcedRecord):
     file: Text
     rows: Annotated[tuple[Row, ...], Field(max_length=0)] = ()
 
-    def read(self, folder: Path) -> TableCurve:
+    def read(self, named_in: Path) -> TableCurve:
         """The same with the file's rows; raises InputError naming the file, the row and the remedy."""
-        return self.model_copy(update={"rows": read_rows(folder / self.file)})
+        rows = read_rows(named_in.parent / self.file, f"{WRITES_ONE}, or check 'reference.file' in {named_in}")
+        return self.model_copy(update={"rows": rows})
 
     def curve(self, length_m: float) -> DesiredCurve:
         """The curve; raises WorkbenchError where it is none, or does not end after length_m."""
@@ -58,12 +60,12 @@ class TableCurve(SourcedRecord):
         return found
 
 
-def read_rows(path: Path) -> tuple[Row, ...]:
-    """The rows of a CSV file with a header; columns beside COLUMNS are passed over.
+def read_rows(path: Path, where: str = WRITES_ONE) -> tuple[Row, ...]:
+    """The rows of a CSV file with a header; columns beside COLUMNS are passed over. where: what to do without the file.
 
     Raises InputError naming the file, the row and the remedy.
     """
-    text = read_text(path, "CSV", "`workbench reference LINE TRAIN --time S --csv FILE` writes one")
+    text = read_text(path, "CSV", where)
     try:
         lines = csv.DictReader(io.StringIO(text))
         missing = [name for name in COLUMNS if name not in (lines.fieldnames or ())]

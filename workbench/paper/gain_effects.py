@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from numbers import Real
+from pathlib import Path
 
 from workbench.errors import InputError, WorkbenchError
-from workbench.gains.result import GainReport
+from workbench.gains.result import GainReport, Quantity
 from workbench.gains.stated import Stated
 from workbench.paper.gain_search import Row, Runs, Task, gain_search_of
 from workbench.paper.loading import Loaded
@@ -14,6 +16,8 @@ from workbench.paper.study import Progress
 from workbench.tasks.handing_out import places, run_tasks
 
 NONE_YET: Runs = {}
+# What names a file in an error, as no plant's name does.
+FILES = (".py", ".toml", ".csv", ".json")
 
 
 @dataclass(frozen=True)
@@ -33,13 +37,39 @@ def gains_of(loaded: Loaded) -> GainReport:
         raise InputError(loaded.folder, "gains.py", "is missing, or holds no GainSearch: the folder of a paper says "
                          "there what is searched")
     try:
-        return search.report(Stated(loaded.path, loaded.data))
-    except WorkbenchError:
-        raise
+        report = search.report(Stated(loaded.path, loaded.data))
+    except InputError as trouble:
+        if Path(trouble.where).suffix in FILES:
+            raise
+        key = ": ".join(part for part in (trouble.where, trouble.key) if part)  # of a plant, which knows no file
+        raise InputError(loaded.folder / "gains.py", key, trouble.problem) from None
+    except WorkbenchError as trouble:  # of a solver, which knows no file
+        raise InputError(loaded.folder / "gains.py", "", str(trouble)) from trouble
     except Exception as trouble:  # a file may be well formed and still leave nothing to search
         what = " ".join(f"{type(trouble).__name__}: {trouble}".split())
         raise InputError(loaded.path, "", f"the search of gains fails on its numbers ({what}): take those of the "
                                           "paper's own file as a model") from trouble
+    quantities = tuple(_plain(loaded, one) for one in report.quantities)
+    conditions = tuple(replace(one, met=bool(one.met)) for one in report.conditions)
+    return replace(report, quantities=quantities, conditions=conditions)
+
+
+def _plain(loaded: Loaded, quantity: Quantity) -> Quantity:
+    """The same with floats: a folder's own module may give numbers of sympy or numpy. InputError for what is none."""
+
+    def number(key: str) -> float:
+        value = getattr(quantity, key)
+        try:
+            found = float(value)
+        except (TypeError, ValueError):
+            found = math.nan
+        if not math.isfinite(found):
+            raise InputError(loaded.folder / "gains.py", f"{quantity.name}: {key}", f"{str(value)[:60]} is no finite "
+                             "number: give one")
+        return found
+
+    return replace(quantity, proved=number("proved"), papers=None if quantity.papers is None else number("papers"),
+                   check=None if quantity.check is None else number("check"))
 
 
 def effects(loaded: Loaded, report: GainReport, workers: int | None = None,
@@ -70,5 +100,6 @@ def _run(loaded: Loaded, numbered: tuple[int, Task]) -> tuple[int, Effect]:
 
 
 def _effect(task: Task, numbers: Row, failed: str | None) -> Effect:
-    finite: Row = {k: None if isinstance(v, float) and not math.isfinite(v) else v for k, v in numbers.items()}
+    plain = {k: float(v) if isinstance(v, Real) else v for k, v in numbers.items()}
+    finite: Row = {k: None if isinstance(v, float) and not math.isfinite(v) else v for k, v in plain.items()}
     return Effect(task.gains, task.setting, finite, failed)

@@ -21,8 +21,8 @@ from workbench.trains.scenario import Scenario
 
 JOURNAL_NAME = "tuning.journal.jsonl"
 # On which modules of the package what is found depends.
-SEARCHING = ("files/*.py", "model/*.py", "trains/*.py", "compile/*.py", "mpc/*.py", "simulate/*.py", "paper/*.py",
-             "contest/*.py")
+SEARCHING = ("files/*.py", "model/*.py", "systems/*.py", "trains/*.py", "compile/*.py", "mpc/*.py", "simulate/*.py",
+             "simulate/plants/*.py", "paper/*.py", "paper/plants/*.py", "contest/*.py")
 
 
 def tuning_journal(folder: Path, loaded: Loaded, record: Any, resume: bool) -> Journal:

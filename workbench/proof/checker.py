@@ -1555,6 +1555,7 @@ def _require_digest(certificate: dict[str, Any]) -> str:
 
 
 MANIFEST, THEOREMS = "manifest.json", "theorems"
+LONGEST_NAME = 200  # of a claim, which names a file
 Row = tuple[Path, str, "str | None"]
 File = tuple[Path, "Manifest | None"]
 
@@ -1688,7 +1689,7 @@ def read_manifest(path: Path) -> Manifest:
                 DIGEST.fullmatch(entry["goal_digest"]) and DIGEST.fullmatch(entry["certificate"])
                 if entry["verdict"] in CHECKS else
                 entry["verdict"] in UNDECIDED and entry["goal_digest"] is None and entry["certificate"] is None)
-            if not whole or not EQUATION.fullmatch(name):
+            if not whole or not EQUATION.fullmatch(name) or len(name) > LONGEST_NAME:
                 raise CertificateError(f"claim {name[:80]}: verdict, goal_digest and certificate do not go together")
     except (ValueError, KeyError, TypeError, AttributeError, RecursionError, OSError):
         raise CertificateError("is no manifest of certificates") from None

@@ -30,8 +30,9 @@ from workbench.trains.scenario import Scenario
 CSV_NAME = "rare.csv"
 # Independent estimates, of which the interval is made, and the points of each.
 ESTIMATES, SAMPLES = 10, 200
-# Where none of the first estimates meets the event, the others draw and count their points, and search no deeper.
-PILOTS = 2
+# A search of so few points looks first whether the event is met at all: where it is not, the estimates draw and count
+# their points, and search no deeper.
+SCOUTS = 40
 LARGEST = "largest_position_error"
 
 Task = tuple[str, int]  # controller, number of the estimate
@@ -56,7 +57,7 @@ class Event:
 
 @dataclass(frozen=True)
 class Rare:
-    """The probability of the event under a controller, and the runs of all its estimates."""
+    """The probability of the event under a controller, and the runs of all its estimates and of the search before."""
 
     controller: str
     probability: Probability
@@ -66,9 +67,8 @@ class Rare:
         """As people read it; of an event that no run has met what its independent draws say, and they alone."""
         p, what = self.probability, f"{self.controller}: {event.metric} > {event.value:g}, or a run that fails, "
         if p.mean == 0.0:
-            return (f"{what}was met by none of {self.runs} runs, though {PILOTS} estimates searched the worst "
-                    f"{LEAST:g} of all; after {ESTIMATES * SAMPLES} independent draws the probability is below "
-                    f"{p.high:.2g} at 95 %")
+            return (f"{what}was met by none of {self.runs} runs, though a search went to the worst {LEAST:g} of all; "
+                    f"after {ESTIMATES * SAMPLES} independent draws the probability is below {p.high:.2g} at 95 %")
         return (f"{what}with probability {p.mean:.3g}, 95 % interval {p.low:.3g} to {p.high:.3g} ({ESTIMATES} "
                 f"estimates, {self.runs} runs)")
 
@@ -88,37 +88,32 @@ def probabilities(scenario: Scenario, scenario_path: Path, event: Event, seed: i
                          "spread")
     seed = scenario.uncertainty.seed if seed is None else seed
     shared = compiled(scenario.model_copy(update={"controllers": {n: scenario.controllers[n] for n in names}}))
-    total, ended = len(names) * ESTIMATES, 0
+    total, ended = len(names) * (1 + ESTIMATES), 0
 
-    def made(tasks: list[Task], least: float) -> dict[Task, Estimate]:
-        return results_of(estimate, (shared, event, seed, least), tasks, places(workers),
-                          lambda done, *_: on_progress(ended + done, total))
+    def made(names: Sequence[str], numbers: Sequence[int], samples: int, least: float) -> dict[Task, Estimate]:
+        nonlocal ended
+        tasks = [(name, number) for name in names for number in numbers]
+        found = results_of(estimate, (shared, event, seed, samples, least), tasks, places(workers),
+                           lambda done, *_: on_progress(ended + done, total))
+        ended += len(found)
+        return found
 
-    found = made([(name, number) for name in names for number in range(PILOTS)], LEAST)
-    ended = len(found)
-    others = range(PILOTS, ESTIMATES)
-    unmet = [name for name in names if not any(found[name, number].probability for number in range(PILOTS))]
-    drawn = made([(name, number) for name in unmet for number in others], 1.0)
-    unmet = [name for name in unmet if not any(drawn[name, number].probability for number in others)]
-    ended = len(names) * PILOTS + len(unmet) * len(others)
-    found |= made([(name, number) for name in names if name not in unmet for number in others], LEAST)
-    found |= {task: one for task, one in drawn.items() if task[0] in unmet}
+    scouts = made(names, [ESTIMATES], SCOUTS, LEAST)
+    unmet = [name for name in names if not scouts[name, ESTIMATES].probability]
+    found = made(unmet, range(ESTIMATES), SAMPLES, 1.0)
+    unmet = [name for name in unmet if not any(found[name, number].probability for number in range(ESTIMATES))]
+    ended = len(names) + len(unmet) * ESTIMATES
+    found |= made([name for name in names if name not in unmet], range(ESTIMATES), SAMPLES, LEAST)
     if out is not None:
         _write(out, {(name, number): found[name, number] for name in names for number in range(ESTIMATES)})
     rows = [[found[name, number] for number in range(ESTIMATES)] for name in names]
-    return [Rare(name, _probability(row), sum(one.runs for one in row)) for name, row in zip(names, rows, strict=True)]
+    return [Rare(name, Probability.of(row, SAMPLES), sum(one.runs for one in (*row, scouts[name, ESTIMATES])))
+            for name, row in zip(names, rows, strict=True)]
 
 
-def _probability(estimates: Sequence[Estimate]) -> Probability:
-    """Of estimates; of such as have not met the event what as many independent draws without it allow (exact)."""
-    if any(one.probability for one in estimates):
-        return Probability.of(np.array([one.probability for one in estimates]))
-    return Probability(0.0, 0.0, 1.0 - 0.05 ** (1.0 / (SAMPLES * len(estimates))))
-
-
-def estimate(shared: tuple[Scenario, Event, int, float], task: Task) -> Estimate:
+def estimate(shared: tuple[Scenario, Event, int, int, float], task: Task) -> Estimate:
     """One estimate under one controller; every controller's estimates begin with the same draws."""
-    (scenario, event, seed, least), (name, number) = shared, task
+    (scenario, event, seed, samples, least), (name, number) = shared, task
     drive, nominal, spread = prepared(scenario, name), setting_of(scenario), spreads(scenario)
 
     def of_run(point: Sequence[float]) -> float:
@@ -130,7 +125,7 @@ def estimate(shared: tuple[Scenario, Event, int, float], task: Task) -> Estimate
         return np.array([of_run(point) for point in points.tolist()])
 
     generator = np.random.default_rng(np.random.SeedSequence(seed, spawn_key=(number,)))
-    return splitting(performance, len(spread), event.value, SAMPLES, generator, least)
+    return splitting(performance, len(spread), event.value, samples, generator, least, near=number == ESTIMATES)
 
 
 def _write(path: Path, found: dict[Task, Estimate]) -> None:

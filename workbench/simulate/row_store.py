@@ -14,7 +14,7 @@ import io
 import time
 from bisect import bisect_right
 from collections import OrderedDict
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from operator import itemgetter
 from pathlib import Path
 from types import TracebackType
@@ -70,6 +70,10 @@ class RowStore:
         if reached < runs:
             yield Part(controller, reached, runs - reached)
 
+    def lacks(self, controllers: Sequence[str], runs: int) -> bool:
+        """Whether a run is missing, of so many of each controller."""
+        return any(True for name in controllers for _ in self.missing(name, runs))
+
     def rows(self, controller: str, first: int, end: int) -> list[Values]:
         """The rows of the runs from `first` to before `end`, which are all there."""
         parts, found = self._parts[controller], list[Values]()
@@ -101,13 +105,16 @@ class RowStore:
 
 
 class ChunkStore(RowStore):
-    """Rows in a folder, those that are in no chunk yet in memory; settings, resume: as of `Journal`.
+    """Rows in a folder, those that are in no chunk yet in memory; settings, resume: as of `Journal`; columns: their
+    names and types, "int", "float" or "str".
 
     Raises InputError as a journal does, and where a chunk cannot be read or written.
     """
 
-    def __init__(self, folder: Path, settings: dict[str, Any], resume: bool) -> None:
+    def __init__(self, folder: Path, settings: dict[str, Any], resume: bool,
+                 columns: Mapping[str, str] = COLUMNS) -> None:
         super().__init__()
+        self._columns = columns
         self._folder = folder / CHUNKS
         require_inside(self._folder, folder, REMEDY)
         self._places: dict[Part, tuple[int, int]] = {}  # chunk and row group
@@ -143,7 +150,7 @@ class ChunkStore(RowStore):
             return
         together = [(_joined(parts), parts) for parts in _adjacent(sorted(self._rows))]
         groups = [[row for part in parts for row in self._rows[part]] for _, parts in together]
-        data, number = _parquet(groups), self._journal.lines
+        data, number = _parquet(groups, self._columns), self._journal.lines
         self._journal.append({"chunk": number, "sha256": hashlib.sha256(data).hexdigest(),
                               "parts": [list(part) for part, _ in together]})
         write_bytes(self._path(number), data, REMEDY)
@@ -204,7 +211,7 @@ class ChunkStore(RowStore):
         number, place = self._places[part]
         try:
             with limited_memory():  # a small file may say that it holds any number of rows
-                return _rows_of(self._chunk(number), place, part.runs)
+                return _rows_of(self._chunk(number), place, part.runs, self._columns)
         except (ValueError, IndexError, OSError, MemoryError) as trouble:  # those of pyarrow are of these kinds
             raise InputError(self._path(number), "", f"is no chunk of a sweep ({str(trouble)[:80] or 'too large'}): "
                              f"{WITHOUT}") from None
@@ -245,31 +252,31 @@ def _joined(parts: list[Part]) -> Part:
     return Part(parts[0].controller, parts[0].first, sum(part.runs for part in parts))
 
 
-def _rows_of(chunk: Any, place: int, count: int) -> list[Values]:
+def _rows_of(chunk: Any, place: int, count: int, columns: Mapping[str, str]) -> list[Values]:
     """The rows of a group, so many; ValueError where it has others, or other columns."""
-    if chunk.schema_arrow != _schema() or chunk.metadata.row_group(place).num_rows != count:
+    if chunk.schema_arrow != _schema(columns) or chunk.metadata.row_group(place).num_rows != count:
         raise ValueError("its rows or columns are others")
     return list(zip(*chunk.read_row_group(place).to_pydict().values(), strict=True))
 
 
-def _schema() -> Any:
+def _schema(columns: Mapping[str, str]) -> Any:
     """The columns of a chunk and their types."""
     import pyarrow as pa  # noqa: PLC0415 - as above
 
     types = {"int": pa.int64(), "str": pa.string(), "float": pa.float64()}
-    return pa.schema([(name, types[kind.partition(" ")[0]]) for name, kind in COLUMNS.items()])
+    return pa.schema([(name, types[kind.partition(" ")[0]]) for name, kind in columns.items()])
 
 
-def _parquet(groups: Sequence[Sequence[Values]]) -> bytes:
+def _parquet(groups: Sequence[Sequence[Values]], columns: Mapping[str, str]) -> bytes:
     """The bytes of a Parquet file with a row group for each of the groups."""
     import pyarrow as pa  # noqa: PLC0415 - as above
     from pyarrow.parquet import ParquetWriter  # noqa: PLC0415 - as above
 
-    schema = _schema()
+    schema = _schema(columns)
     stream = io.BytesIO()
     with ParquetWriter(stream, schema, compression="zstd") as writer:
         for rows in groups:
-            columns = [pa.array(values, field.type) for values, field in zip(zip(*rows, strict=True), schema,
-                                                                             strict=True)]
-            writer.write_table(pa.Table.from_arrays(columns, schema=schema), row_group_size=max(1, len(rows)))
+            arrays = [pa.array(values, field.type) for values, field in zip(zip(*rows, strict=True), schema,
+                                                                            strict=True)]
+            writer.write_table(pa.Table.from_arrays(arrays, schema=schema), row_group_size=max(1, len(rows)))
     return stream.getvalue()

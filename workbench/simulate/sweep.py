@@ -19,6 +19,7 @@ from workbench.simulate.controllers import compiled
 from workbench.simulate.draws import Draws, factors_of
 from workbench.simulate.journal import code_digest, laws_digest
 from workbench.simulate.metrics import measure
+from workbench.simulate.parts import run_missing
 from workbench.simulate.row_store import REMEDY, ChunkStore, Part, RowStore
 from workbench.simulate.setting import Setting, setting_of
 from workbench.simulate.stopping import Mean, UntilWidth, looks, metric_of
@@ -33,7 +34,6 @@ from workbench.simulate.sweep_rows import (
     summarised,
     sweep_row,
 )
-from workbench.tasks.handing_out import places, run_tasks
 from workbench.tasks.versions import versions
 from workbench.trains.scenario import Scenario
 from workbench.trains.track import CurveSection, GradeSection, Track
@@ -41,8 +41,6 @@ from workbench.trains.track import CurveSection, GradeSection, Track
 CSV_NAME = "sweep.csv"
 # On which modules of the package a row depends.
 SIMULATING = ("files/*.py", "model/*.py", "trains/*.py", "compile/*.py", "mpc/*.py", "simulate/*.py")
-# A task takes about so long: less, and handing it out costs more than a share of it; more, and a kill costs more.
-TASK_S = 0.5
 
 Shared = tuple[Scenario, int, Draws]
 Progress = Callable[[int, int], None]
@@ -173,42 +171,10 @@ def monte_carlo(scenario: Scenario, scenario_path: Path, asked: Options,
 def _run_missing(shared: Shared, names: Sequence[str], runs: int, asked: Options, store: RowStore,
                  on_progress: Progress) -> None:
     """Make the rows of the first runs that the store does not have."""
-    gaps = {name: list(store.missing(name, runs)) for name in names}
-    left, total = sum(part.runs for parts in gaps.values() for part in parts), asked.runs * len(names)
-    done = runs * len(names) - left
-    pace: dict[str, float] = {}  # seconds a run, as measured last
-
-    def record(made: tuple[Part, float, list[Values]]) -> None:
-        nonlocal done
-        part, seconds, rows = made
-        store.add(part, rows)
-        pace[part.controller] = seconds / part.runs
-        done += part.runs
-        on_progress(done, total)
-
-    if left:
+    if store.lacks(names, runs):
         _compile_kernels(shared[0])
-        workers = min(places(asked.workers), left)
-        run_tasks(run_part, shared, _parts(gaps, pace, workers), workers, record)
-
-
-def _parts(gaps: dict[str, list[Part]], pace: dict[str, float], workers: int) -> Iterator[Part]:
-    """The gaps in parts of about TASK_S, the earliest runs first; none reaches over the end of a block."""
-    ahead = {name: iter(parts) for name, parts in gaps.items()}
-    now = {name: part for name, parts in ahead.items() if (part := next(parts, None)) is not None}
-    while now:
-        name = min(now, key=lambda name: now[name].first)
-        gap = now[name]
-        fair = -(-gap.runs // workers)  # so that no process is left with much at the end
-        fitting = int(TASK_S / max(pace[name], 1e-9)) if name in pace else 1
-        count = max(1, min(fitting, fair, gap.runs, BLOCK - gap.first % BLOCK))
-        yield Part(name, gap.first, count)
-        if count < gap.runs:
-            now[name] = Part(name, gap.first + count, gap.runs - count)
-        elif (following := next(ahead[name], None)) is not None:
-            now[name] = following
-        else:
-            del now[name]
+    run_missing(run_part, shared, names, runs, store, asked.workers,
+                lambda done: on_progress(done, asked.runs * len(names)))
 
 
 def summarise(rows: Sequence[SweepRow], scenario: Scenario) -> list[SweepSummary]:

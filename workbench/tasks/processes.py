@@ -10,7 +10,7 @@ import threading
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from concurrent.futures import FIRST_COMPLETED, Future, ProcessPoolExecutor, wait
 from concurrent.futures.process import BrokenProcessPool
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from dataclasses import dataclass
 from functools import cache
 from itertools import chain, islice
@@ -72,7 +72,7 @@ class LocalProcesses:
             def submit(count: int) -> None:
                 for task in islice(tasks, count):
                     unrecorded.append(task)
-                    with interruption_held(), script_left_out(unless=SCRIPT in job):
+                    with interruption_held(), server_alive(), script_left_out(unless=SCRIPT in job):
                         running[pool.submit(_work, task)] = task
 
             def taken(future: Future[R]) -> None:
@@ -119,20 +119,31 @@ def start_method(*needed: str) -> BaseContext:
     return found
 
 
+@contextmanager
+def server_alive() -> Iterator[None]:
+    """WorkbenchError where the server that processes come from has died; Python's own error says nothing of it."""
+    try:
+        yield
+    except (EOFError, ConnectionError):
+        raise WorkbenchError("the process that starts the workers has died (out of memory, or killed): run again, and "
+                             "resume") from None
+
+
 @cache
 def _wait_for_server(context: BaseContext) -> None:
     """Wait until the server has imported what it shall, by its first process: here, where an interruption ends the
     waiting, for others are started while interruptions are held back."""
     process = context.Process(target=os.getpid, daemon=True)  # type: ignore[attr-defined]
     try:
-        with script_left_out():
+        with server_alive(), script_left_out():
             process.start()
         process.join()
     except BaseException:
         # It would see that it is alone only after all its imports; the standard library has no public way to end it.
         number = getattr(getattr(forkserver, "_forkserver", None), "_forkserver_pid", None)
         if number is not None:
-            os.kill(number, signal.SIGKILL)
+            with suppress(ProcessLookupError):
+                os.kill(number, signal.SIGKILL)
         raise
 
 

@@ -270,7 +270,7 @@ def build_scenario(path: Path, data: dict[str, Any], like: Scenario | None = Non
     scenario = validate_record(data | {"track": track}, Scenario, path).in_folder(path.parent)
     if isinstance(scenario.reference, TableCurve):
         same = like and isinstance(like.reference, TableCurve) and like.reference.file == scenario.reference.file
-        reference = like.reference if like and same else scenario.reference.read(path.parent)
+        reference = like.reference if like and same else scenario.reference.read(path)
         scenario = scenario.model_copy(update={"reference": reference})
     try:
         curve = scenario.desired_curve()
