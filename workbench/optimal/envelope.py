@@ -25,7 +25,7 @@ PART_M, MOST_PARTS = 20.0, 100_000
 # Times a cell's acceleration is lowered until every point of the cell allows it, and what rounding may add to b.
 STRICT_ROUNDS, ROUNDING = 12, 5e-16
 # A cell on which the limit of the force changes by more than this share is divided, into so many at most.
-FINE, MOST_PARTS, SHORTEST_CELL_M = 1e-3, 16, 1e-2
+FINE, MOST_DIVIDED, SHORTEST_CELL_M = 1e-3, 16, 1e-2
 NO_TABLE = np.zeros((0, 2))
 compiled_resistance = njit(cache=True)(davis_resistance)
 
@@ -246,7 +246,7 @@ def with_fine_cells(vehicle: Vehicle, course: Course, target: Array) -> Course:
     the largest along a run: a cell has one acceleration, with which a train on a ramp pulls and brakes where it should
     coast."""
     line = np.abs(np.diff(course.force_n, axis=1)[:, 0]) / max(vehicle.traction.at(0.0), 1e-9)
-    parts = np.clip(np.ceil((changing_limits(vehicle, target) + line) / FINE), 1, MOST_PARTS).astype(int)
+    parts = np.clip(np.ceil((changing_limits(vehicle, target) + line) / FINE), 1, MOST_DIVIDED).astype(int)
     x, step = course.position_m, np.diff(course.position_m)
     parts = np.where(step / parts > SHORTEST_CELL_M, parts, 1)
     inner = [x[k] + step[k] * np.arange(1, parts[k]) / parts[k] for k in np.flatnonzero(parts > 1)]
