@@ -42,7 +42,7 @@ class InfeasibleRunError(WorkbenchError):
 
 
 @njit(cache=True)
-def _force(limit: Array, table: Array, v: float) -> float:
+def force_within(limit: Array, table: Array, v: float) -> float:
     """The least of force limit[0], power limit[1] and the table, at speed v."""
     force = limit[0] if v * limit[0] <= limit[1] else limit[1] / v
     if len(table):
@@ -58,17 +58,17 @@ def _slope(b: float, sign: float, line: float, drag: float, numbers: Array, limi
     v = np.sqrt(2.0 * max(b, 0.0))
     resistance = compiled_resistance(v, a, b_1, c + drag) + line
     if sign > 0:
-        return float(min((_force(limits[0], tables[0], v) - resistance) / inertia, fastest))
-    return float(min((_force(limits[1], tables[1], v) + friction + resistance) / inertia, hardest))
+        return float(min((force_within(limits[0], tables[0], v) - resistance) / inertia, fastest))
+    return float(min((force_within(limits[1], tables[1], v) + friction + resistance) / inertia, hardest))
 
 
 @njit(cache=True)
 def _least_force(limit: Array, table: Array, slow: float, fast: float) -> float:
     """The least of the limit over speeds from slow to fast."""
-    least = min(_force(limit, table, slow), _force(limit, table, fast))
+    least = min(force_within(limit, table, slow), force_within(limit, table, fast))
     for k in range(len(table)):
         if slow < table[k, 0] < fast:
-            least = min(least, _force(limit, table, table[k, 0]))
+            least = min(least, force_within(limit, table, table[k, 0]))
     return least
 
 
@@ -248,9 +248,12 @@ def with_fine_cells(vehicle: Vehicle, course: Course, target: Array) -> Course:
     line = np.abs(np.diff(course.force_n, axis=1)[:, 0]) / max(vehicle.traction.at(0.0), 1e-9)
     parts = np.clip(np.ceil((changing_limits(vehicle, target) + line) / FINE), 1, MOST_DIVIDED).astype(int)
     x, step = course.position_m, np.diff(course.position_m)
-    parts = np.where(step / parts > SHORTEST_CELL_M, parts, 1)
-    inner = [x[k] + step[k] * np.arange(1, parts[k]) / parts[k] for k in np.flatnonzero(parts > 1)]
-    return course.split(np.concatenate(inner)) if inner else course
+    more = np.where(step / parts > SHORTEST_CELL_M, parts, 1) - 1
+    if not more.any():
+        return course
+    of = np.repeat(np.arange(len(more)), more)
+    number = np.arange(1, len(of) + 1) - np.repeat(np.cumsum(more) - more, more)
+    return course.split(x[of] + step[of] * number / (more[of] + 1))
 
 
 def device_limits(vehicle: Vehicle) -> tuple[tuple[Array, Array], tuple[Array, Array]]:

@@ -131,13 +131,13 @@ def find_timed_reference(vehicle: Vehicle, course: Course, timetable: Timetable,
     if solver != "nlp":
         best = _rounds(asked, cone_plan, grid, best, 1 if intervals else ROUNDS)
     # Where the cones have no plan on a mesh the nonlinear program, which has all of their limits, has none either.
-    if solver == "nlp" or (solver == "auto" and best.gap(vehicle) > GAP_OF_CONES and not best.tight):
+    if solver == "nlp" or (solver == "auto" and best.gap > GAP_OF_CONES and not best.tight):
         best = _rounds(asked, nonlinear_plan, grid, best, 1)
     if best.run is None:
         raise InfeasibleRunError(not_found(timetable, best.miss))
     profile, simulated = best.run.profile, check(vehicle, best.run.profile)
     simulated = replace(simulated, energy_j=simulated.energy_j + vehicle.auxiliary_w * best.run.waited_s)
-    return Reference(vehicle, profile, best.run.energy_j(vehicle), best.bound_j, best.certificate, timetable,
+    return Reference(vehicle, profile, best.run.energy_j, best.bound_j, best.certificate, timetable,
                      best.run.clock_s, quickest.trip_time_s, best.solver, best.solve_s, simulated)
 
 
@@ -169,17 +169,18 @@ class _Found:
     miss: Miss | None = None
     tight: bool = False
 
-    def gap(self, vehicle: Vehicle) -> float:
-        return math.inf if self.run is None else _gap(self.run.energy_j(vehicle), self.bound_j)
+    @property
+    def gap(self) -> float:
+        return math.inf if self.run is None else _gap(self.run.energy_j, self.bound_j)
 
-    def improved(self, vehicle: Vehicle, found: Planned) -> _Found:
+    def improved(self, found: Planned) -> _Found:
         run, bound = found.timed, found.bound_j
         proven = max(bound, self.bound_j)
         more = replace(self, bound_j=proven, solve_s=self.solve_s + found.solve_s,
                        certificate=found.certificate if bound > self.bound_j else self.certificate)
         if run is None or isinstance(run, Miss):
             return replace(more, miss=run or self.miss)
-        new, old = run.energy_j(vehicle), math.inf if self.run is None else self.run.energy_j(vehicle)
+        new, old = run.energy_j, math.inf if self.run is None else self.run.energy_j
         # On a coarse mesh a run may pass its limits within cells, and seem to take less than any run can.
         floor = proven - CELLS_ERROR * abs(proven)
         less = new < old if (new >= floor) == (old >= floor) else new >= floor
@@ -195,7 +196,7 @@ def _rounds(asked: Asked, planner: Planner, grid: Grid, best: _Found, rounds: in
     vehicle, course = asked.vehicle, grid.course
     number = failures = 0
     while number < rounds:
-        before = best.gap(vehicle)
+        before = best.gap
         found = planned(asked, planner, grid, best.run.profile if best.run else asked.quickest, GAP_OF_CONES,
                         is_last=number == rounds - 1)
         if found is None:
@@ -206,11 +207,11 @@ def _rounds(asked: Asked, planner: Planner, grid: Grid, best: _Found, rounds: in
             best = replace(best, tight=planner is cone_plan)
             grid = tight_grid(course, asked.quickest, FINER * len(grid.limit_mps))
             continue
-        best = best.improved(vehicle, found)
+        best = best.improved(found)
         # A plan that takes less than is proven of every run is one that cones allow and the train does not.
         loose = found.bound_j - found.plan.energy_j > GAP_OF_CONES * abs(found.plan.energy_j)
-        if best.gap(vehicle) <= (GAP_OF_CONES if best.tight or number else GAP_WANTED) or loose or (
-                number and best.gap(vehicle) > NO_GAIN * before and best.run):
+        if best.gap <= (GAP_OF_CONES if best.tight or number else GAP_WANTED) or loose or (
+                number and best.gap > NO_GAIN * before and best.run):
             break
         number += 1
         if number < rounds:
