@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -38,6 +39,12 @@ def certificate_from(vehicle: Vehicle, plan: Plan, near_limit: float = NEAR_LIMI
     a standstill by the adjoint equation, by which p rises with mu / (inertia acceleration) times 1/v. near_limit,
     bent_from: one of NEAR_LIMIT and of BENT_FROM; which proves more is seen from the bound.
     """
+    return certificates_from(vehicle, plan, near_limit, (bent_from,))[0]
+
+
+def certificates_from(vehicle: Vehicle, plan: Plan, near_limit: float,
+                      bent_from: Sequence[float] = BENT_FROM) -> list[Certificate]:
+    """One for each of bent_from, on the same cells."""
     grid = plan.grid
     s, b = grid.position_m, plan.half_square
     reached = b >= (near_limit * grid.node_limit_mps) ** 2 / 2
@@ -46,12 +53,12 @@ def certificate_from(vehicle: Vehicle, plan: Plan, near_limit: float = NEAR_LIMI
     breaks[[0, -1]] = True
     halves = _halves(plan, breaks)
     points, of = _points(halves, plan)
-    values = _values(vehicle, plan, halves, points, of, bent_from)
     first = np.insert(np.diff(of) > 0, 0, True)
     drawn = counted(vehicle.auxiliary_w)
     *earlier, last = plan.timetable.fair(plan.prices_w, drawn).tolist()
-    return Certificate(np.append(s[0], points[~first]), values[np.append(~first[1:], False)], values[~first],
-                       last + drawn, tuple(earlier), drawn)
+    found = (_values(vehicle, plan, halves, points, of, bent) for bent in bent_from)
+    return [Certificate(np.append(s[0], points[~first]), values[np.append(~first[1:], False)], values[~first],
+                        last + drawn, tuple(earlier), drawn) for values in found]
 
 
 @dataclass(frozen=True)
