@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from workbench.optimal.adjoint import NEAR_LIMIT, certificates_from, middles
+from workbench.optimal.adjoint import NEAR_FOR_RISES, NEAR_LIMIT, certificates_from, middles
 from workbench.optimal.best_forms import best_forms
 from workbench.optimal.bound import lower_bound
 from workbench.optimal.certificate import Certificate
@@ -107,6 +107,7 @@ def _too_slow(timetable: Timetable, profile: Profile) -> bool:
 def _best_bound(asked: Asked, plan: Plan) -> tuple[float, Certificate]:
     """The highest bound, J, that the plan's multipliers give, and what proves it."""
     of_each = [certificates_from(asked.vehicle, plan, near) for near in NEAR_LIMIT]
+    of_each.append(certificates_from(asked.vehicle, plan, NEAR_FOR_RISES, rises=True))
     forms = [form for same in zip(*of_each, strict=True) for form in same]  # of equals the first one is taken
     given = asked.timetable, asked.start_mps, asked.end_mps
     best = best_forms(asked.vehicle, plan.grid.course, forms, middles(plan), *given)
