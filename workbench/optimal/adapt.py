@@ -13,8 +13,10 @@ from workbench.optimal.socp import Plan
 from workbench.optimal.vehicle import Vehicle
 from workbench.trains.resistance import davis_resistance
 
-# Intervals that a finer mesh has more, as a share.
-GROWTH = 0.7
+# Intervals that a finer mesh has more, as a share: at least, where nothing is known of the gap, and at most.
+LEAST_GROWTH, GROWTH, MOST_GROWTH = 0.3, 0.7, 1.5
+# A finer mesh aims at this share of the gap wanted.
+AIM = 0.7
 # Where p changes by more than this share from one interval to the next, none is so many times as long as its neighbour:
 # p falls by what the longer one has, and the bound loses it on the shorter one.
 P_CHANGE, LONGER, GRADINGS = 0.02, 2.5, 8
@@ -60,8 +62,15 @@ def driven_apart(vehicle: Vehicle, plan: Plan, run: Profile) -> Array:
     return np.abs(np.bincount(owner, weights=driven, minlength=len(u)) - planned)
 
 
-def finer_grid(vehicle: Vehicle, plan: Plan, certificate: Certificate, run: Profile) -> Grid:
-    """The plan's mesh with intervals divided in proportion to the root of what is apart, GROWTH more in all."""
+def growth(gap: float, wanted: float) -> float:
+    """By which share more intervals lead from a gap to the one wanted: a gap is about as an interval's square."""
+    if not np.isfinite(gap):
+        return GROWTH
+    return float(np.clip(np.sqrt(gap / (AIM * wanted)) - 1, LEAST_GROWTH, MOST_GROWTH))
+
+
+def finer_grid(vehicle: Vehicle, plan: Plan, certificate: Certificate, run: Profile, more: float = GROWTH) -> Grid:
+    """The plan's mesh with intervals divided in proportion to the root of what is apart, by the share `more` in all."""
     s, count = plan.grid.position_m, len(plan.force_n)
     b = plan.half_square
     divisible = np.maximum(b[1:], b[:-1]) > SLOW**2 * b.max()
@@ -69,7 +78,7 @@ def finer_grid(vehicle: Vehicle, plan: Plan, certificate: Certificate, run: Prof
     weight /= max(float(weight.sum()), 1e-300)
     # What rounding leaves is carried on, so that slack that is spread evenly makes a finer mesh too. Halves go up, also
     # where the last digit of the sum is a little lower.
-    parts = 1 + np.diff(np.floor(np.cumsum(GROWTH * count * weight) + 0.5 + 1e-9), prepend=0.0).astype(int)
+    parts = 1 + np.diff(np.floor(np.cumsum(more * count * weight) + 0.5 + 1e-9), prepend=0.0).astype(int)
     parts = np.clip(parts, 1, np.maximum(plan.grid.step_m // SHORTEST_M, 1).astype(int))
     nodes = np.concatenate([s[:1], *(np.linspace(s[k], s[k + 1], parts[k] + 1)[1:] for k in range(count))])
     course = plan.grid.course

@@ -9,7 +9,7 @@ from typing import Literal
 import numpy as np
 
 from workbench.errors import InputError
-from workbench.optimal.adapt import finer_grid
+from workbench.optimal.adapt import finer_grid, growth
 from workbench.optimal.bound import lower_bound
 from workbench.optimal.certificate import Certificate
 from workbench.optimal.course import Array, Course
@@ -215,5 +215,5 @@ def _rounds(asked: Asked, planner: Planner, grid: Grid, best: _Found, rounds: in
             break
         number += 1
         if number < rounds:
-            grid = finer_grid(vehicle, found.plan, found.certificate, found.run)
+            grid = finer_grid(vehicle, found.plan, found.certificate, found.run, growth(best.gap, GAP_OF_CONES))
     return best
