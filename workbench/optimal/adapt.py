@@ -8,7 +8,7 @@ from workbench.optimal.bound import cell_bounds
 from workbench.optimal.certificate import Certificate
 from workbench.optimal.course import Array
 from workbench.optimal.grid import Grid, grid_on, kept_borders, with_force_borders
-from workbench.optimal.profile import Profile, cell_energy_j
+from workbench.optimal.profile import Profile, cell_energy_j, largest_force
 from workbench.optimal.socp import Plan
 from workbench.optimal.vehicle import Vehicle
 from workbench.trains.resistance import davis_resistance
@@ -16,7 +16,7 @@ from workbench.trains.resistance import davis_resistance
 # Intervals that a finer mesh has more, as a share: at least, where nothing is known of the gap, and at most.
 LEAST_GROWTH, GROWTH, MOST_GROWTH = 0.3, 0.7, 1.5
 # A finer mesh aims at this share of the gap wanted.
-AIM = 0.7
+AIM = 0.9
 # Where p changes by more than this share from one interval to the next, none is so many times as long as its neighbour:
 # p falls by what the longer one has, and the bound loses it on the shorter one.
 P_CHANGE, LONGER, GRADINGS = 0.02, 2.5, 8
@@ -34,8 +34,7 @@ def slack(vehicle: Vehicle, plan: Plan, certificate: Certificate) -> Array:
     owner = np.searchsorted(grid.position_m, (x[1:] + x[:-1]) / 2) - 1
     b = np.interp(x, grid.position_m, plan.half_square)
     u = plan.force_n[owner]
-    cost = np.where(u > 0, u / vehicle.traction_efficiency,
-                    vehicle.regenerative_efficiency * np.maximum(u, -vehicle.regenerative.force_n))
+    cost = _cost(vehicle, plan)[owner]
     a, b_1, c = vehicle.davis_n
     own = np.zeros(len(h))
     for share in _GAUSS:
@@ -49,13 +48,20 @@ def slack(vehicle: Vehicle, plan: Plan, certificate: Certificate) -> Array:
     return np.asarray(np.bincount(owner, weights=above, minlength=len(plan.force_n)), dtype=float)
 
 
+def _cost(vehicle: Vehicle, plan: Plan) -> Array:
+    """What the plan's force takes at the supply on each interval, J/m: of braking what its mean speed lets return."""
+    speed, u = np.sqrt(2 * plan.half_square), plan.force_n
+    electric = largest_force(vehicle.regenerative, (speed[1:] + speed[:-1]) / 2)
+    return np.where(u > 0, u / vehicle.traction_efficiency,
+                    vehicle.regenerative_efficiency * np.maximum(u, -electric))
+
+
 def driven_apart(vehicle: Vehicle, plan: Plan, run: Profile) -> Array:
     """By how much each interval takes more or less of the run than of the plan, in energy and priced time, J."""
     s, h, u = plan.grid.position_m, plan.grid.step_m, plan.force_n
     owner = np.clip(np.searchsorted(s, (run.position_m[1:] + run.position_m[:-1]) / 2) - 1, 0, len(u) - 1)
     speed = np.sqrt(2 * plan.half_square)
-    planned = h * np.where(u > 0, u / vehicle.traction_efficiency,
-                           vehicle.regenerative_efficiency * np.maximum(u, -vehicle.regenerative.force_n))
+    planned = h * _cost(vehicle, plan)
     price = plan.interval_prices_w
     planned += price * 2 * h / (speed[1:] + speed[:-1])
     driven = cell_energy_j(vehicle, run) + price[owner] * np.diff(run.time_s)

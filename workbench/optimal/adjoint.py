@@ -25,7 +25,7 @@ NEAR_LIMIT = (0.995, 1 - 1e-6)
 # position. Near a stop a line in position is poor. Where a run leaves its limit, or reaches it, all of the change lies
 # on one side of a border, and in 1/v all of p's would lie there too.
 BENT_FROM = (1e-3, 0.15)
-# A rise of p from one interval to the next that is a jump, and the share of the limit from which on a run is at it then.
+# A rise of p from one interval to the next that is a jump, and from which share of its limit on a run is at it then.
 RISE, NEAR_FOR_RISES = 1e-2, 0.9999
 # Cells are no shorter.
 SHORTEST_M = 1e-9
