@@ -1,5 +1,6 @@
 """Speeds that ETCS permits: against the closed form of constant deceleration, and as limits of runs and bounds."""
 
+import json
 from pathlib import Path
 
 import numpy as np
@@ -91,6 +92,33 @@ emergency_s = 4.0
 """, encoding="utf-8")
     read = load_supervision(path, tmp_path / "line.toml")
     assert read.safe_mps2(25.0) == 0.8 and read.safe_mps2(19.9) == 0.9 and read.emergency_s == 4.0
+    text = path.read_text(encoding="utf-8")
+    for key, more in (("emergency_s", ("emergency_s = 4.0", "emergency_s = 4000.0")),
+                      ("dry", ("[etcs]", "[etcs]\ndry = 1e-3"))):
+        path.write_text(text.replace(*more), encoding="utf-8")
+        with pytest.raises(InputError, match=f"train.toml: etcs.{key}: .* correct it or its unit"):
+            load_supervision(path, tmp_path / "line.toml")
+
+
+def test_shares_delays_and_errors_that_would_permit_more_than_the_brakes_hold_are_refused(tmp_path):
+    """A factor in per cent, a negative delay or error: each lets a train go faster than it can brake."""
+    def number(value: float, unit: str = "-") -> dict[str, object]:
+        return {"value": value, "unit": unit}
+
+    steps = {"units": {"velocity": "m/s", "deceleration": "m/s^2"}, "values": [[0, 0.9], [20, 0.8]]}
+    good = {"A_brake_emergency": steps, "A_brake_service": steps, "K_dry_rst": number(0.8), "K_wet_rst": number(0.9),
+            "T_traction": number(1, "s"), "T_be": number(4, "s"), "T_bs": number(3, "s"),
+            "v_uncertainty": number(3, "%")}
+    path = tmp_path / "train.json"
+    for name, wrong in ((None, None), ("K_dry_rst", number(80)), ("K_dry_rst", number(-1)), ("K_wet_rst", number(1.5)),
+                        ("T_traction", number(-1, "s")), ("T_be", number(4000, "s")), ("T_bs", number(-3, "s")),
+                        ("v_uncertainty", number(-3, "%")), ("v_uncertainty", number(298, "%"))):
+        path.write_text(json.dumps({"ETCS braking data": good | ({name: wrong} if name else {})}), encoding="utf-8")
+        if name is None:
+            assert load_supervision(path, tmp_path / "line.toml").safe_mps2(0.0) == pytest.approx(0.8 * 0.9 * 0.9)
+            continue
+        with pytest.raises(InputError, match=f"train.json: ETCS braking data.{name}: .* correct it or its unit"):
+            load_supervision(path, tmp_path / "line.toml")
 
 
 @pytest.mark.skipif(not SHARED.exists(), reason="the public instances are not beside this checkout")

@@ -5,7 +5,7 @@ import json
 from pathlib import Path
 
 import pytest
-from command_line import said
+from command_line import run, said
 from scenarios import SHARED
 
 from workbench.errors import WorkbenchError
@@ -86,6 +86,19 @@ def test_no_name_of_a_trip_is_a_formula_in_a_spreadsheet(tmp_path):
         rows = list(csv.DictReader(file))
     assert [row["id"] for row in rows] == [*("'" + name for name in names[:-1]), "a=1"]
     assert {(row["trouble"], row["length_m"], row["gap"]) for row in rows} == {("'=x", "1", "")}
+
+
+def test_a_day_of_which_no_trip_can_be_run_ends_as_a_mistake_below_its_table(tmp_path):
+    path = tmp_path / "fleet.toml"
+    path.write_text(FLEET.replace("jiao2025.toml", "nothing.toml"), encoding="utf-8")
+    ended = run("reference", "--fleet", path, "--csv", tmp_path / "a.csv")
+    assert ended.returncode == 2 and "0 of 4 trips solved" in ended.stdout
+    error = ended.stderr.splitlines()[-1]
+    assert "fleet.toml: trips: none of 4 could be run, trip 'a' because of" in error and "no such file" in error
+    assert len((tmp_path / "a.csv").read_text(encoding="utf-8").splitlines()) == 5
+    # What a trip waits at its stops is told where the time left is too short.
+    path.write_text(FLEET.replace("time_s = 20.0, to_m = 1250.0", "time_s = 20.0, stops = true"), encoding="utf-8")
+    assert "20 s is no more than the 60 s of waiting at stops" in run("reference", "--fleet", path).stdout
 
 
 def test_whole_numbers_stay_numbers_in_a_table(tmp_path):

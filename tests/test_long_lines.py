@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from workbench.optimal.course import Course
-from workbench.optimal.envelope import InfeasibleRunError, fastest
+from workbench.optimal.envelope import InfeasibleRunError, _slope_in_parts, device_limits, fastest
 from workbench.optimal.grid import graded_grid
 from workbench.optimal.inputs.line import Line, course
 from workbench.optimal.vehicle import ForceLimit, Vehicle
@@ -34,3 +34,13 @@ def test_a_line_too_steep_is_refused_where_it_begins_to_be() -> None:
     train = vehicle(1.2e5)
     with pytest.raises(InfeasibleRunError, match="cannot climb beyond 10"):
         fastest(train, meshed(line, train))
+
+
+@pytest.mark.parametrize("length_m", [1e5, 4e5])
+def test_a_cell_of_many_kilometres_is_driven_in_parts_of_metres(length_m: float) -> None:
+    """On a climb of 100 kN traction leaves 40 kN: at 800 v + 32 v^2 = 40 kN all cells of any length end."""
+    train = vehicle(2e5)
+    numbers = np.array([train.inertia_kg, *train.davis_n, 0.0, np.inf, np.inf])
+    slope = _slope_in_parts(10.0, 1e4, length_m, 1.0, np.full(2, 1e5), np.zeros(2), numbers, *device_limits(train))
+    balance = (-800.0 + np.sqrt(800.0**2 + 4 * 32.0 * 4e4)) / (2 * 32.0)
+    assert np.sqrt(2 * (10.0 + length_m * slope)) == pytest.approx(balance, rel=1e-6)

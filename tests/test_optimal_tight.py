@@ -6,8 +6,25 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from workbench.optimal.adapt import LONGER, P_CHANGE, _graded
-from workbench.optimal.adjoint import BENT_FROM, NEAR_LIMIT, certificate_from, middles
+from workbench.optimal.adapt import (
+    AIM,
+    GROWTH,
+    LEAST_GROWTH,
+    LONGER,
+    MOST_GROWTH,
+    P_CHANGE,
+    _graded,
+    driven_apart,
+    growth,
+)
+from workbench.optimal.adjoint import (
+    BENT_FROM,
+    NEAR_FOR_RISES,
+    NEAR_LIMIT,
+    certificate_from,
+    certificates_from,
+    middles,
+)
 from workbench.optimal.best_forms import best_forms
 from workbench.optimal.bound import lower_bound
 from workbench.optimal.course import Course
@@ -139,3 +156,39 @@ def test_a_run_below_the_least_speed_of_a_timing_point_is_none():
     asked = SimpleNamespace(points=points, position_m=np.array([0.0, 500.0, 1000.0]))
     for speed, expected in ((20.0, False), (20.0 - 2 * SPEED_ERROR_MPS, True), (25.0, False)):
         assert _too_slow(asked, Profile(course, np.array([0.0, speed**2 / 2, 0.0]))) == expected
+
+
+# Returns what braking gives, up to a power that is reached at 17 m/s.
+REGIO = Vehicle("regional", 1.5e5, (2500.0, 60.0, 8.0), ForceLimit(2e5, 2.6e6), ForceLimit(1.5e5, 2.6e6), 1e5, 0.08,
+                traction_efficiency=0.85, regenerative_efficiency=0.7, max_acceleration_mps2=1.0)
+
+
+@pytest.fixture(scope="module")
+def waves():
+    """Up and down by turns, held at the limit: braking down, pulling up."""
+    count = 40
+    grade = np.repeat(np.where(np.arange(count) % 2, 9.0, -15.0) * REGIO.mass_kg * 9.81e-3, 2).reshape(-1, 2)
+    return Course(np.linspace(0.0, 12e3, count + 1), np.full(count, 25.0), grade, np.zeros((count, 2)), ())
+
+
+def test_p_may_rise_at_once_where_a_run_is_at_its_limit(waves):
+    """From braking down to pulling up it rises from what is returned to what is paid: as a jump it costs nothing."""
+    asked = as_timetable(waves, 1.002 * least_time(REGIO, waves).trip_time_s)
+    plan = solve_socp(REGIO, graded_grid(waves, 400), asked)
+    plain, rising = ([lower_bound(REGIO, waves, form, asked) for form in certificates_from(
+        REGIO, plan, NEAR_FOR_RISES, rises=rises)] for rises in (False, True))
+    assert max(plain) < max(rising) < plan.energy_j
+    assert plan.energy_j - max(rising) < 0.8 * (plan.energy_j - max(plain))
+
+
+def test_brakes_beyond_the_power_that_returns_are_no_reason_for_a_finer_mesh(waves):
+    """A plan and its run take the same while braking hard: next to nothing is apart there."""
+    plan = solve_socp(REGIO, graded_grid(waves, 400), 1.002 * least_time(REGIO, waves).trip_time_s)
+    apart = driven_apart(REGIO, plan, refined(REGIO, plan, 8))
+    hard = plan.force_n < -REGIO.regenerative.force_n
+    assert hard.sum() > 20 and apart[hard].sum() < 1e-4 * plan.energy_j
+
+
+def test_a_mesh_is_as_fine_as_the_gap_asks_for():
+    assert growth(np.inf, 1e-3) == GROWTH and growth(1.1e-3, 1e-3) == LEAST_GROWTH
+    assert growth(AIM * 4e-3, 1e-3) == pytest.approx(1.0) and growth(1.0, 1e-3) == MOST_GROWTH

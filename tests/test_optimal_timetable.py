@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 from optimal_instances import numbers
 from scipy.optimize import minimize_scalar
 
-from workbench.errors import WorkbenchError
+from workbench.errors import InputError, WorkbenchError
 from workbench.optimal.course import Course
 from workbench.optimal.envelope import InfeasibleRunError
 from workbench.optimal.profile import energy_j
@@ -271,3 +271,14 @@ def test_a_downhill_run_that_has_more_time_than_use_for_waits_or_slows_down():
         require_kept(found, timetable)
         assert found.energy_j >= found.lower_bound_j
         assert math.isclose(energy_j(vehicle, found.profile), found.energy_j, rel_tol=1e-9, abs_tol=1.0)
+
+
+def test_windows_that_make_a_train_crawl_all_along_are_in_another_unit():
+    """Positions in km read as m: 9 m, which take 900 s; a long wait before one signal is a timetable."""
+    course = Course(np.array([0.0, 4.0, 9.0]), np.full(2, 20.0), np.zeros((2, 2)), np.zeros((2, 2)))
+    crawl = Timetable((TimingPoint(0.0, departure=Window(0.0, 0.0)), TimingPoint(4.0, Window(400.0, 450.0)),
+                       TimingPoint(9.0, arrival=Window(900.0, 950.0))))
+    with pytest.raises(InputError, match=r"timetable: its windows make 9 m take 850 s of running.*positions in m"):
+        find_timed_reference(TRAIN, course, crawl)
+    waits = by(Window(free_s() + 400.0, free_s() + 420.0), Window(latest_s=TIME_S + 500.0))
+    assert find_timed_reference(TRAIN, COURSE, waits, intervals=40).energy_j > 0

@@ -14,7 +14,7 @@ from scipy.optimize import linprog
 from test_optimal_bound import own_energy
 from test_optimal_timetable import COURSE, END_M, MIDDLE_M, TIME_S, TRAIN, by, free_s, require_kept
 
-from workbench.errors import WorkbenchError
+from workbench.errors import InputError, WorkbenchError
 from workbench.optimal.bound import lower_bound
 from workbench.optimal.bound_checker import checked_bound, proven_bound
 from workbench.optimal.bound_document import bound_document
@@ -142,6 +142,28 @@ def test_a_stop_with_a_late_departure_costs_what_two_separate_runs_cost():
     assert found.energy_j == pytest.approx(apart, rel=1e-3)
     assert found.lower_bound_j <= apart and found.gap <= 1e-3
     assert found.lower_bound_j >= (first.lower_bound_j + 2e5 * departure + second.lower_bound_j) * (1 - 1e-3)
+
+
+def test_what_auxiliaries_draw_at_stops_counts_in_a_trip_time_as_in_a_timetable():
+    """The same trip asked in two ways: 60 s of waiting at a stop, within 900 s in all."""
+    serving, waited = COURSE.split(np.array([MIDDLE_M])), 60.0
+    serving = replace(serving, stops_m=(MIDDLE_M,))
+    in_all = find_reference(DRAWING, serving, 900.0, waited_s=waited)
+    stop = Timetable((TimingPoint(0.0, departure=Window(0.0, 0.0)),
+                      TimingPoint(MIDDLE_M, stands=True, dwell_s=waited),
+                      TimingPoint(END_M, arrival=Window(latest_s=900.0))))
+    timed = find_timed_reference(DRAWING, serving, stop)
+    assert in_all.energy_j == pytest.approx(timed.energy_j, rel=1e-3)
+    assert in_all.lower_bound_j == pytest.approx(timed.lower_bound_j, rel=1e-3)
+    assert in_all.check.energy_j == pytest.approx(in_all.energy_j, rel=1e-4)
+    assert in_all.waits_j == 2e5 * waited
+    # The certificate is of the time without stops.
+    proven = bound_document(DRAWING, serving, in_all, 0.0, 0.0)["lower_bound_J"]
+    assert proven + in_all.waits_j == pytest.approx(in_all.lower_bound_j, rel=1e-9)
+    with pytest.raises(InputError, match=r"50 s is no more than the 60 s of waiting at stops"):
+        find_reference(DRAWING, serving, 50.0, waited_s=waited)
+    with pytest.raises(WorkbenchError, match=r"40 s is too short.*; waiting at stops adds 60 s"):
+        find_reference(DRAWING, serving, 100.0, waited_s=waited)
 
 
 def test_a_tampered_count_of_auxiliaries_is_refused():

@@ -151,6 +151,18 @@ def test_options_that_a_timetable_says_are_refused(options, words):
 
 
 @pytest.mark.skipif(not JOURNEYS, reason="the public instances lie beside the checkout")
+def test_the_public_journey_asks_for_more_than_its_speed_limits_allow_any_train():
+    """By the files' own numbers: its last leg at the limits all along, without a second for starting or braking."""
+    rows = json.loads(JOURNEYS[0].read_text())["timing points"]["values"]
+    (from_m, since_s, *_), (to_m, _, by_s, *_) = rows[-2:]
+    limits = json.loads((SHARED / "tracks" / "CH_StGallen_Wil.json").read_text())["speed limits"]["values"]
+    ends = [*(x for x, _ in limits[1:]), to_m]
+    least_s = sum(max(min(end, to_m) - max(x, from_m), 0.0) / (kmh / 3.6) for (x, kmh), end in zip(limits, ends,
+                                                                                                strict=True))
+    assert least_s == pytest.approx(345.3, abs=0.1) and by_s - since_s == 250.0
+
+
+@pytest.mark.skipif(not JOURNEYS, reason="the public instances lie beside the checkout")
 @pytest.mark.parametrize("train", sorted((SHARED / "trains").glob("*.json")), ids=lambda path: path.stem)
 @pytest.mark.parametrize("path", JOURNEYS, ids=lambda path: path.stem)
 def test_every_public_journey_is_solved_or_refused_for_a_true_reason(path, train, tmp_path):

@@ -193,6 +193,7 @@ def test_a_mutated_train_file_loads_or_is_refused_in_one_line(tmp_path_factory, 
 def test_what_a_vehicle_cannot_be_is_refused():
     good = load_vehicle(SHARED / "trains" / "jiao2025.toml")[0]
     for change in ({"tunnel_drag": ((24.0, 8.0), (24.0, 9.0))}, {"tunnel_drag": ((0.0, 8.0),)},
-                   {"traction": ForceLimit(math.nan)}, {"length_m": math.nan}, {"mass_kg": math.inf}):
+                   {"traction": ForceLimit(math.nan)}, {"length_m": math.nan}, {"mass_kg": math.inf},
+                   {"traction_efficiency": 0.009}):
         with pytest.raises(InputError):
             plausible(replace(good, **change))

@@ -52,11 +52,14 @@ def command(track: Annotated[Path | None, typer.Argument(help="Line: TOML of thi
         from workbench.cli.terminal import progress
         from workbench.report.fleet_command import FleetRequest, fleet_run
 
-        with progress() as show, on_cluster(dask, workers):
-            lines = list(fleet_run(FleetRequest(fleet, json, csv, workers, resume),
-                                   lambda done, total: show("trips", done, total)))
-        for line in lines:
-            out_console.print(line, soft_wrap=True, highlight=False)
+        lines: list[str] = []
+        try:
+            with progress() as show, on_cluster(dask, workers):
+                lines.extend(fleet_run(FleetRequest(fleet, json, csv, workers, resume),
+                                       lambda done, total: show("trips", done, total)))
+        finally:  # where no trip could be run, too: the table says why
+            for line in lines:
+                out_console.print(line, soft_wrap=True, highlight=False)
         return
     if dask is not None:
         raise InputError("", "--dask", "is for the trips of --fleet; one run is computed here: leave it out")

@@ -8,13 +8,15 @@ from workbench.optimal.bound import cell_bounds
 from workbench.optimal.certificate import Certificate
 from workbench.optimal.course import Array
 from workbench.optimal.grid import Grid, grid_on, kept_borders, with_force_borders
-from workbench.optimal.profile import Profile, cell_energy_j
+from workbench.optimal.profile import Profile, cell_energy_j, largest_force
 from workbench.optimal.socp import Plan
 from workbench.optimal.vehicle import Vehicle
 from workbench.trains.resistance import davis_resistance
 
-# Intervals that a finer mesh has more, as a share.
-GROWTH = 0.7
+# Intervals that a finer mesh has more, as a share: at least, where nothing is known of the gap, and at most.
+LEAST_GROWTH, GROWTH, MOST_GROWTH = 0.3, 0.7, 1.5
+# A finer mesh aims at this share of the gap wanted.
+AIM = 0.9
 # Where p changes by more than this share from one interval to the next, none is so many times as long as its neighbour:
 # p falls by what the longer one has, and the bound loses it on the shorter one.
 P_CHANGE, LONGER, GRADINGS = 0.02, 2.5, 8
@@ -32,8 +34,7 @@ def slack(vehicle: Vehicle, plan: Plan, certificate: Certificate) -> Array:
     owner = np.searchsorted(grid.position_m, (x[1:] + x[:-1]) / 2) - 1
     b = np.interp(x, grid.position_m, plan.half_square)
     u = plan.force_n[owner]
-    cost = np.where(u > 0, u / vehicle.traction_efficiency,
-                    vehicle.regenerative_efficiency * np.maximum(u, -vehicle.regenerative.force_n))
+    cost = _cost(vehicle, plan)[owner]
     a, b_1, c = vehicle.davis_n
     own = np.zeros(len(h))
     for share in _GAUSS:
@@ -47,21 +48,35 @@ def slack(vehicle: Vehicle, plan: Plan, certificate: Certificate) -> Array:
     return np.asarray(np.bincount(owner, weights=above, minlength=len(plan.force_n)), dtype=float)
 
 
+def _cost(vehicle: Vehicle, plan: Plan) -> Array:
+    """What the plan's force takes at the supply on each interval, J/m: of braking what its mean speed lets return."""
+    speed, u = np.sqrt(2 * plan.half_square), plan.force_n
+    electric = largest_force(vehicle.regenerative, (speed[1:] + speed[:-1]) / 2)
+    return np.where(u > 0, u / vehicle.traction_efficiency,
+                    vehicle.regenerative_efficiency * np.maximum(u, -electric))
+
+
 def driven_apart(vehicle: Vehicle, plan: Plan, run: Profile) -> Array:
     """By how much each interval takes more or less of the run than of the plan, in energy and priced time, J."""
     s, h, u = plan.grid.position_m, plan.grid.step_m, plan.force_n
     owner = np.clip(np.searchsorted(s, (run.position_m[1:] + run.position_m[:-1]) / 2) - 1, 0, len(u) - 1)
     speed = np.sqrt(2 * plan.half_square)
-    planned = h * np.where(u > 0, u / vehicle.traction_efficiency,
-                           vehicle.regenerative_efficiency * np.maximum(u, -vehicle.regenerative.force_n))
+    planned = h * _cost(vehicle, plan)
     price = plan.interval_prices_w
     planned += price * 2 * h / (speed[1:] + speed[:-1])
     driven = cell_energy_j(vehicle, run) + price[owner] * np.diff(run.time_s)
     return np.abs(np.bincount(owner, weights=driven, minlength=len(u)) - planned)
 
 
-def finer_grid(vehicle: Vehicle, plan: Plan, certificate: Certificate, run: Profile) -> Grid:
-    """The plan's mesh with intervals divided in proportion to the root of what is apart, GROWTH more in all."""
+def growth(gap: float, wanted: float) -> float:
+    """By which share more intervals lead from a gap to the one wanted: a gap is about as an interval's square."""
+    if not np.isfinite(gap):
+        return GROWTH
+    return float(np.clip(np.sqrt(gap / (AIM * wanted)) - 1, LEAST_GROWTH, MOST_GROWTH))
+
+
+def finer_grid(vehicle: Vehicle, plan: Plan, certificate: Certificate, run: Profile, more: float = GROWTH) -> Grid:
+    """The plan's mesh with intervals divided in proportion to the root of what is apart, by the share `more` in all."""
     s, count = plan.grid.position_m, len(plan.force_n)
     b = plan.half_square
     divisible = np.maximum(b[1:], b[:-1]) > SLOW**2 * b.max()
@@ -69,7 +84,7 @@ def finer_grid(vehicle: Vehicle, plan: Plan, certificate: Certificate, run: Prof
     weight /= max(float(weight.sum()), 1e-300)
     # What rounding leaves is carried on, so that slack that is spread evenly makes a finer mesh too. Halves go up, also
     # where the last digit of the sum is a little lower.
-    parts = 1 + np.diff(np.floor(np.cumsum(GROWTH * count * weight) + 0.5 + 1e-9), prepend=0.0).astype(int)
+    parts = 1 + np.diff(np.floor(np.cumsum(more * count * weight) + 0.5 + 1e-9), prepend=0.0).astype(int)
     parts = np.clip(parts, 1, np.maximum(plan.grid.step_m // SHORTEST_M, 1).astype(int))
     nodes = np.concatenate([s[:1], *(np.linspace(s[k], s[k + 1], parts[k] + 1)[1:] for k in range(count))])
     course = plan.grid.course

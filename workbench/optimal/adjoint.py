@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -24,6 +25,8 @@ NEAR_LIMIT = (0.995, 1 - 1e-6)
 # position. Near a stop a line in position is poor. Where a run leaves its limit, or reaches it, all of the change lies
 # on one side of a border, and in 1/v all of p's would lie there too.
 BENT_FROM = (1e-3, 0.15)
+# A rise of p from one interval to the next that is a jump, and from which share of its limit on a run is at it then.
+RISE, NEAR_FOR_RISES = 1e-2, 0.9999
 # Cells are no shorter.
 SHORTEST_M = 1e-9
 # Half the squared speed below this share of an interval's is a standstill that rounding has touched.
@@ -38,20 +41,34 @@ def certificate_from(vehicle: Vehicle, plan: Plan, near_limit: float = NEAR_LIMI
     a standstill by the adjoint equation, by which p rises with mu / (inertia acceleration) times 1/v. near_limit,
     bent_from: one of NEAR_LIMIT and of BENT_FROM; which proves more is seen from the bound.
     """
+    return certificates_from(vehicle, plan, near_limit, (bent_from,))[0]
+
+
+def certificates_from(vehicle: Vehicle, plan: Plan, near_limit: float, bent_from: Sequence[float] = BENT_FROM, *,
+                      rises: bool = False) -> list[Certificate]:
+    """One for each of bent_from, on the same cells.
+
+    rises: p may also jump upwards wherever the run is at its limit, which costs the bound nothing there: as it does
+    where the line, from down to up, asks for traction instead of braking.
+    """
     grid = plan.grid
     s, b = grid.position_m, plan.half_square
     reached = b >= (near_limit * grid.node_limit_mps) ** 2 / 2
     reached |= (grid.node_least_mps > 0) & (b <= (grid.node_least_mps / near_limit) ** 2 / 2)
     breaks = np.isin(s, kept_borders(grid.course)) & (reached | grid.stands)
+    rise = np.zeros(len(s), dtype=bool)
+    if rises:
+        rise[1:-1] = reached[1:-1] & ~breaks[1:-1] & (np.diff(plan.adjoint) > RISE)
+        breaks |= rise
     breaks[[0, -1]] = True
-    halves = _halves(plan, breaks)
+    halves = _halves(plan, breaks, rise)
     points, of = _points(halves, plan)
-    values = _values(vehicle, plan, halves, points, of, bent_from)
     first = np.insert(np.diff(of) > 0, 0, True)
     drawn = counted(vehicle.auxiliary_w)
     *earlier, last = plan.timetable.fair(plan.prices_w, drawn).tolist()
-    return Certificate(np.append(s[0], points[~first]), values[np.append(~first[1:], False)], values[~first],
-                       last + drawn, tuple(earlier), drawn)
+    found = (_values(vehicle, plan, halves, points, of, bent) for bent in bent_from)
+    return [Certificate(np.append(s[0], points[~first]), values[np.append(~first[1:], False)], values[~first],
+                        last + drawn, tuple(earlier), drawn) for values in found]
 
 
 @dataclass(frozen=True)
@@ -69,13 +86,14 @@ class _Halves:
     stands: NDArray[np.bool_]
 
 
-def _halves(plan: Plan, breaks: NDArray[np.bool_]) -> _Halves:
+def _halves(plan: Plan, breaks: NDArray[np.bool_], rises: NDArray[np.bool_]) -> _Halves:
+    """Where p rises at the limit it is as it is in the middle on either side: what it costs to hold the speed there."""
     s, count = plan.grid.position_m, len(plan.adjoint)
     k, later = np.repeat(np.arange(count), 2), np.tile([False, True], count)
     middle = middles(plan)[k]
     near, behind = np.where(later, k + 1, k), np.where(later, k, k + 1)
     next_one, one_behind = np.where(later, k + 1, k - 1), np.where(later, k - 1, k + 1)
-    inside = (one_behind >= 0) & (one_behind < count) & ~breaks[behind]
+    inside = (one_behind >= 0) & (one_behind < count) & ~breaks[behind] & ~rises[near]
     far = np.where(breaks[near], np.where(inside, one_behind, k), next_one)
     return _Halves(k, np.where(later, middle, s[k]), np.where(later, s[k + 1], middle), far,
                    breaks[near] & (plan.half_square[near] == 0.0))

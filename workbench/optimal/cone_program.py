@@ -45,7 +45,9 @@ class Linear:
 
     def __rmul__(self, factor: Array | float) -> Linear:
         rows = np.broadcast_to(np.asarray(factor, dtype=float), self.constant.shape)
-        return Linear(sparse.csr_array(sparse.diags_array(rows) @ self.matrix), rows * self.constant)
+        of = self.matrix
+        scaled = sparse.csr_array((of.data * np.repeat(rows, np.diff(of.indptr)), of.indices, of.indptr), of.shape)
+        return Linear(scaled, rows * self.constant)
 
     __array_ufunc__ = None  # so that numpy leaves `array * Linear` to this class
 

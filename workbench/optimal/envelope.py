@@ -25,7 +25,7 @@ PART_M, MOST_PARTS = 20.0, 100_000
 # Times a cell's acceleration is lowered until every point of the cell allows it, and what rounding may add to b.
 STRICT_ROUNDS, ROUNDING = 12, 5e-16
 # A cell on which the limit of the force changes by more than this share is divided, into so many at most.
-FINE, MOST_PARTS, SHORTEST_CELL_M = 1e-3, 16, 1e-2
+FINE, MOST_DIVIDED, SHORTEST_CELL_M = 1e-3, 16, 1e-2
 NO_TABLE = np.zeros((0, 2))
 compiled_resistance = njit(cache=True)(davis_resistance)
 
@@ -42,7 +42,7 @@ class InfeasibleRunError(WorkbenchError):
 
 
 @njit(cache=True)
-def _force(limit: Array, table: Array, v: float) -> float:
+def force_within(limit: Array, table: Array, v: float) -> float:
     """The least of force limit[0], power limit[1] and the table, at speed v."""
     force = limit[0] if v * limit[0] <= limit[1] else limit[1] / v
     if len(table):
@@ -58,17 +58,17 @@ def _slope(b: float, sign: float, line: float, drag: float, numbers: Array, limi
     v = np.sqrt(2.0 * max(b, 0.0))
     resistance = compiled_resistance(v, a, b_1, c + drag) + line
     if sign > 0:
-        return float(min((_force(limits[0], tables[0], v) - resistance) / inertia, fastest))
-    return float(min((_force(limits[1], tables[1], v) + friction + resistance) / inertia, hardest))
+        return float(min((force_within(limits[0], tables[0], v) - resistance) / inertia, fastest))
+    return float(min((force_within(limits[1], tables[1], v) + friction + resistance) / inertia, hardest))
 
 
 @njit(cache=True)
 def _least_force(limit: Array, table: Array, slow: float, fast: float) -> float:
     """The least of the limit over speeds from slow to fast."""
-    least = min(_force(limit, table, slow), _force(limit, table, fast))
+    least = min(force_within(limit, table, slow), force_within(limit, table, fast))
     for k in range(len(table)):
         if slow < table[k, 0] < fast:
-            least = min(least, _force(limit, table, table[k, 0]))
+            least = min(least, force_within(limit, table, table[k, 0]))
     return least
 
 
@@ -246,11 +246,14 @@ def with_fine_cells(vehicle: Vehicle, course: Course, target: Array) -> Course:
     the largest along a run: a cell has one acceleration, with which a train on a ramp pulls and brakes where it should
     coast."""
     line = np.abs(np.diff(course.force_n, axis=1)[:, 0]) / max(vehicle.traction.at(0.0), 1e-9)
-    parts = np.clip(np.ceil((changing_limits(vehicle, target) + line) / FINE), 1, MOST_PARTS).astype(int)
+    parts = np.clip(np.ceil((changing_limits(vehicle, target) + line) / FINE), 1, MOST_DIVIDED).astype(int)
     x, step = course.position_m, np.diff(course.position_m)
-    parts = np.where(step / parts > SHORTEST_CELL_M, parts, 1)
-    inner = [x[k] + step[k] * np.arange(1, parts[k]) / parts[k] for k in np.flatnonzero(parts > 1)]
-    return course.split(np.concatenate(inner)) if inner else course
+    more = np.where(step / parts > SHORTEST_CELL_M, parts, 1) - 1
+    if not more.any():
+        return course
+    of = np.repeat(np.arange(len(more)), more)
+    number = np.arange(1, len(of) + 1) - np.repeat(np.cumsum(more) - more, more)
+    return course.split(x[of] + step[of] * number / (more[of] + 1))
 
 
 def device_limits(vehicle: Vehicle) -> tuple[tuple[Array, Array], tuple[Array, Array]]:

@@ -18,6 +18,8 @@ ROUNDS = 60
 # Shares of a leg's time by which it may be shorter than asked: where that costs nothing but energy, and where the
 # windows ask for the time itself.
 SHORT, EXACT = 1e-6, 1e-11
+# Of so many mixtures that are tried one is the middle.
+BISECTED = 5
 # A run is made slower on a leg by this share of half the squared speed at most.
 MOST_SLOWER = 0.98
 
@@ -97,22 +99,23 @@ def _slower(vehicle: Vehicle, profile: Profile, asked_s: float, ends_mps: tuple[
 
 def _mixture(mixed: _Mixed, slow: Profile, fast: Profile, asked_s: float, short: float) -> Profile:
     """The run nearest to the slow one that takes asked_s at most; fast itself where no mixture does."""
-    low, high, best = 0.0, 1.0, fast
-    for _ in range(ROUNDS):
-        share = _secant(low, high, slow, best, asked_s) if low == 0.0 else (low + high) / 2
+    aim, low, high, best = asked_s * (1 - short / 2), 0.0, 1.0, fast
+    late, early = slow.trip_time_s - aim, aim - fast.trip_time_s  # at low and at high
+    was_late: bool | None = None
+    for number in range(ROUNDS):
+        # The line between both times, and now and then the middle, where times are no line.
+        line = low + (high - low) * late / (late + early) if late > 0 < early else low
+        share = line if low < line < high and (number + 1) % BISECTED else (low + high) / 2
         run = mixed(share)
-        if run.trip_time_s <= asked_s:
-            high, best = share, run
+        off, is_late = run.trip_time_s - aim, run.trip_time_s > asked_s
+        if is_late:
+            # An end that stays counts half, else the other one alone would move.
+            low, late, early = share, off, early / 2 if was_late else early
+        else:
+            high, early, best, late = share, -off, run, late / 2 if was_late is False else late
             if asked_s - run.trip_time_s <= short * asked_s:
                 break
-        else:
-            low = share
+        was_late = is_late
         if high - low < (1e-9 if short == SHORT else 1e-15):
             break
     return best
-
-
-def _secant(low: float, high: float, slow: Profile, fast: Profile, asked_s: float) -> float:
-    """A share that is a little more than the line between both runs asks for."""
-    late, early = slow.trip_time_s - asked_s, asked_s - fast.trip_time_s
-    return low + (high - low) * min(0.5, 1.2 * late / (late + early))

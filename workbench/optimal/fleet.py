@@ -89,7 +89,7 @@ def solved_trip(_: None, asked: FleetTrip) -> TripRow:
         to_m = line.length_m if trip.to_m is None else trip.to_m
         stops = line.stops_between(trip.from_m, to_m) if trip.stops else ()
         run, waits = course(line, vehicle, trip.from_m, to_m, stops), trip.dwell_s * len(stops)
-        found = find_reference(vehicle, run, trip.time_s - waits, trip.from_speed_mps, trip.to_speed_mps)
+        found = find_reference(vehicle, run, trip.time_s, trip.from_speed_mps, trip.to_speed_mps, waited_s=waits)
     except WorkbenchError as trouble:
         return TripRow(*names, trouble=" ".join(str(trouble).split()))
     return TripRow(*names, run.length_m, found.profile.trip_time_s + waits, found.least_time_s + waits,

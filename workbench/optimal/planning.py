@@ -4,11 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from itertools import product
 
 import numpy as np
 
-from workbench.optimal.adjoint import BENT_FROM, NEAR_LIMIT, certificate_from, middles
+from workbench.optimal.adjoint import NEAR_FOR_RISES, NEAR_LIMIT, certificates_from, middles
 from workbench.optimal.best_forms import best_forms
 from workbench.optimal.bound import lower_bound
 from workbench.optimal.certificate import Certificate
@@ -107,7 +106,9 @@ def _too_slow(timetable: Timetable, profile: Profile) -> bool:
 
 def _best_bound(asked: Asked, plan: Plan) -> tuple[float, Certificate]:
     """The highest bound, J, that the plan's multipliers give, and what proves it."""
-    forms = [certificate_from(asked.vehicle, plan, near, bent) for bent, near in product(BENT_FROM, NEAR_LIMIT)]
+    of_each = [certificates_from(asked.vehicle, plan, near) for near in NEAR_LIMIT]
+    of_each.append(certificates_from(asked.vehicle, plan, NEAR_FOR_RISES, rises=True))
+    forms = [form for same in zip(*of_each, strict=True) for form in same]  # of equals the first one is taken
     given = asked.timetable, asked.start_mps, asked.end_mps
     best = best_forms(asked.vehicle, plan.grid.course, forms, middles(plan), *given)
     return lower_bound(asked.vehicle, plan.grid.course, best, *given), best

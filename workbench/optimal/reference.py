@@ -9,7 +9,7 @@ from typing import Literal
 import numpy as np
 
 from workbench.errors import InputError
-from workbench.optimal.adapt import finer_grid
+from workbench.optimal.adapt import finer_grid, growth
 from workbench.optimal.bound import lower_bound
 from workbench.optimal.certificate import Certificate
 from workbench.optimal.course import Array, Course
@@ -17,7 +17,7 @@ from workbench.optimal.envelope import InfeasibleRunError, fastest, with_fine_ce
 from workbench.optimal.grid import Grid, graded_grid, kept_borders
 from workbench.optimal.planning import Asked, Planned, Planner, cone_plan, nonlinear_plan, planned
 from workbench.optimal.profile import Profile
-from workbench.optimal.schedule import Miss, require_possible
+from workbench.optimal.schedule import SLOWER, SLOWEST_MEAN_MPS, Miss, require_plausible, require_possible
 from workbench.optimal.tight_grid import tight_grid
 from workbench.optimal.timed_run import TimedRun, not_found, timed_run
 from workbench.optimal.timetable import Timetable, counted, in_time
@@ -41,8 +41,6 @@ OPTIMAL_GAP = 0.01
 CELLS_ERROR = 1e-6
 # What is found before any solver has found something.
 FASTEST = "the fastest run"
-# Slower than this on average, and so many times slower than the fastest run, is no train.
-SLOWEST_MEAN_MPS, SLOWER = 0.5, 10.0
 
 
 @dataclass(frozen=True)
@@ -50,7 +48,9 @@ class Reference:
     """A run, its energy at the supply in J, and a proven lower bound on that of every run in the same timetable.
 
     clock_s: the time of each event of the timetable. solver: what planned it; solve_s: its time. least_time_s: of the
-    fastest run, without waiting. status: 'optimal' where the gap is at most 1 per cent, else 'feasible'.
+    fastest run, without waiting. waits_j: what auxiliaries draw at stops where only a trip time was asked: part of both
+    energies, not of what the certificate proves. status: 'optimal' where the gap is at most 1 per cent, else
+    'feasible'.
     """
 
     vehicle: Vehicle
@@ -64,6 +64,7 @@ class Reference:
     solver: str
     solve_s: float
     check: Check
+    waits_j: float = 0.0
 
     @property
     def gap(self) -> float:
@@ -77,8 +78,10 @@ class Reference:
 
 
 def find_reference(vehicle: Vehicle, course: Course, trip_time_s: float, start_mps: float = 0.0, end_mps: float = 0.0,
-                   intervals: int | None = None, solver: Solver = "auto") -> Reference:
+                   intervals: int | None = None, solver: Solver = "auto", waited_s: float = 0.0) -> Reference:
     """The run of least energy that arrives within trip_time_s, on about so many intervals.
+
+    waited_s: how much of that time it waits at its stops, while auxiliaries draw.
 
     Where no number is given the mesh is refined, up to ROUNDS times, until the gap is at most GAP_OF_CONES, unless the
     first mesh leaves GAP_WANTED. `auto` plans by the cone program, and by the nonlinear one too where more is left.
@@ -87,21 +90,35 @@ def find_reference(vehicle: Vehicle, course: Course, trip_time_s: float, start_m
     """
     if not (math.isfinite(trip_time_s) and trip_time_s > 0):
         raise InputError("", "time", f"{trip_time_s:g} s is no trip time: give a positive number of seconds")
-    if course.length_m / trip_time_s < SLOWEST_MEAN_MPS and (
-            trip_time_s > SLOWER * least_time(vehicle, course, start_mps, end_mps).trip_time_s):
+    running_s = trip_time_s - waited_s
+    if running_s <= 0:
+        raise InputError("", "time", f"{trip_time_s:g} s is no more than the {waited_s:g} s of waiting at stops: allow "
+                         "more time or shorter waits")
+    if course.length_m / running_s < SLOWEST_MEAN_MPS and (
+            running_s > SLOWER * least_time(vehicle, course, start_mps, end_mps).trip_time_s):
         raise InputError("", "time", f"{trip_time_s:g} s for {course.length_m:.0f} m is less than {SLOWEST_MEAN_MPS:g} "
                          "m/s on average: is it in seconds?")
-    return find_timed_reference(vehicle, course, in_time(course, trip_time_s), start_mps, end_mps, intervals, solver)
+    try:
+        found = find_timed_reference(vehicle, course, in_time(course, running_s), start_mps, end_mps, intervals, solver)
+    except InfeasibleRunError as trouble:
+        if trouble.least_time_s is None or not waited_s:
+            raise
+        raise InfeasibleRunError(f"{trouble}; waiting at stops adds {waited_s:g} s", trouble.least_time_s) from None
+    drawn = vehicle.auxiliary_w * waited_s
+    return replace(found, energy_j=found.energy_j + drawn, lower_bound_j=found.lower_bound_j + drawn,
+                   check=replace(found.check, energy_j=found.check.energy_j + drawn), waits_j=drawn)
 
 
 def find_timed_reference(vehicle: Vehicle, course: Course, timetable: Timetable, start_mps: float = 0.0,
                          end_mps: float = 0.0, intervals: int | None = None, solver: Solver = "auto") -> Reference:
     """The run of least energy that meets every window of a timetable, as `find_reference`.
 
-    Raises InfeasibleRunError where no run meets the timetable, and where none was found that does.
+    Raises InputError for windows in another unit, InfeasibleRunError where no run meets the timetable, and where none
+    was found that does.
     """
     course = timetable.on(course)
     quickest, ideal = _quickest(vehicle, course, start_mps, end_mps)
+    require_plausible(timetable, quickest)
     require_possible(vehicle, timetable, quickest, ideal)
     borders = kept_borders(course)
     drawn = counted(vehicle.auxiliary_w)
@@ -114,13 +131,13 @@ def find_timed_reference(vehicle: Vehicle, course: Course, timetable: Timetable,
     if solver != "nlp":
         best = _rounds(asked, cone_plan, grid, best, 1 if intervals else ROUNDS)
     # Where the cones have no plan on a mesh the nonlinear program, which has all of their limits, has none either.
-    if solver == "nlp" or (solver == "auto" and best.gap(vehicle) > GAP_OF_CONES and not best.tight):
+    if solver == "nlp" or (solver == "auto" and best.gap > GAP_OF_CONES and not best.tight):
         best = _rounds(asked, nonlinear_plan, grid, best, 1)
     if best.run is None:
         raise InfeasibleRunError(not_found(timetable, best.miss))
     profile, simulated = best.run.profile, check(vehicle, best.run.profile)
     simulated = replace(simulated, energy_j=simulated.energy_j + vehicle.auxiliary_w * best.run.waited_s)
-    return Reference(vehicle, profile, best.run.energy_j(vehicle), best.bound_j, best.certificate, timetable,
+    return Reference(vehicle, profile, best.run.energy_j, best.bound_j, best.certificate, timetable,
                      best.run.clock_s, quickest.trip_time_s, best.solver, best.solve_s, simulated)
 
 
@@ -152,17 +169,18 @@ class _Found:
     miss: Miss | None = None
     tight: bool = False
 
-    def gap(self, vehicle: Vehicle) -> float:
-        return math.inf if self.run is None else _gap(self.run.energy_j(vehicle), self.bound_j)
+    @property
+    def gap(self) -> float:
+        return math.inf if self.run is None else _gap(self.run.energy_j, self.bound_j)
 
-    def improved(self, vehicle: Vehicle, found: Planned) -> _Found:
+    def improved(self, found: Planned) -> _Found:
         run, bound = found.timed, found.bound_j
         proven = max(bound, self.bound_j)
         more = replace(self, bound_j=proven, solve_s=self.solve_s + found.solve_s,
                        certificate=found.certificate if bound > self.bound_j else self.certificate)
         if run is None or isinstance(run, Miss):
             return replace(more, miss=run or self.miss)
-        new, old = run.energy_j(vehicle), math.inf if self.run is None else self.run.energy_j(vehicle)
+        new, old = run.energy_j, math.inf if self.run is None else self.run.energy_j
         # On a coarse mesh a run may pass its limits within cells, and seem to take less than any run can.
         floor = proven - CELLS_ERROR * abs(proven)
         less = new < old if (new >= floor) == (old >= floor) else new >= floor
@@ -178,7 +196,7 @@ def _rounds(asked: Asked, planner: Planner, grid: Grid, best: _Found, rounds: in
     vehicle, course = asked.vehicle, grid.course
     number = failures = 0
     while number < rounds:
-        before = best.gap(vehicle)
+        before = best.gap
         found = planned(asked, planner, grid, best.run.profile if best.run else asked.quickest, GAP_OF_CONES,
                         is_last=number == rounds - 1)
         if found is None:
@@ -189,13 +207,13 @@ def _rounds(asked: Asked, planner: Planner, grid: Grid, best: _Found, rounds: in
             best = replace(best, tight=planner is cone_plan)
             grid = tight_grid(course, asked.quickest, FINER * len(grid.limit_mps))
             continue
-        best = best.improved(vehicle, found)
+        best = best.improved(found)
         # A plan that takes less than is proven of every run is one that cones allow and the train does not.
         loose = found.bound_j - found.plan.energy_j > GAP_OF_CONES * abs(found.plan.energy_j)
-        if best.gap(vehicle) <= (GAP_OF_CONES if best.tight or number else GAP_WANTED) or loose or (
-                number and best.gap(vehicle) > NO_GAIN * before and best.run):
+        if best.gap <= (GAP_OF_CONES if best.tight or number else GAP_WANTED) or loose or (
+                number and best.gap > NO_GAIN * before and best.run):
             break
         number += 1
         if number < rounds:
-            grid = finer_grid(vehicle, found.plan, found.certificate, found.run)
+            grid = finer_grid(vehicle, found.plan, found.certificate, found.run, growth(best.gap, GAP_OF_CONES))
     return best

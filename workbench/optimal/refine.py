@@ -8,10 +8,17 @@ under the plan's force, or under the limit itself, and meets the plan's speed at
 from __future__ import annotations
 
 import numpy as np
+from numba import njit
 from numpy.typing import NDArray
 
 from workbench.optimal.course import Array, Course
-from workbench.optimal.envelope import drivable, with_fine_cells
+from workbench.optimal.envelope import (
+    compiled_resistance,
+    device_limits,
+    drivable,
+    force_within,
+    with_fine_cells,
+)
 from workbench.optimal.profile import Profile, largest_force
 from workbench.optimal.socp import Plan
 from workbench.optimal.vehicle import Vehicle
@@ -51,27 +58,13 @@ def refined(vehicle: Vehicle, plan: Plan, parts: int, start_mps: float = 0.0, en
 
 def _target(vehicle: Vehicle, plan: Plan, course: Course) -> Array:
     """Half the squared speed at a course's borders: cell by cell on all intervals, then drawn to the plan's nodes."""
-    x, line, drag = course.position_m, course.force_n, course.drag
+    x = course.position_m
     s, b_plan = plan.grid.position_m, plan.half_square
     owner = np.searchsorted(s, (x[1:] + x[:-1]) / 2) - 1
     first = np.searchsorted(x, s)
-    count = np.diff(first)
-    b = np.empty(len(x))
-    b[first] = b_plan
-    reached = b_plan[:-1].copy()
-    rows: list[tuple[NDArray[np.intp], Array]] = []
-    for k in range(int(count.max())):
-        live = np.flatnonzero(count > k)
-        cell = first[live] + k
-        width = x[cell + 1] - x[cell]
-        slope = _slope(vehicle, plan, live, reached[live], line[cell, 0], drag[cell, 0])
-        middle = np.maximum(reached[live] + width / 2 * slope, 0.0)
-        slope = _slope(vehicle, plan, live, middle, line[cell].mean(axis=1), drag[cell].mean(axis=1))
-        reached[live] += width * slope
-        rows.append((cell + 1, reached[live].copy()))
-    for node, value in rows:
-        b[node] = value
-    missed = b_plan[1:] - reached
+    b = _followed(x, course.force_n, course.drag, first, b_plan, plan.force_n, np.array(
+        [vehicle.inertia_kg, *vehicle.davis_n, vehicle.friction_brake_n]), *device_limits(vehicle))
+    missed = b_plan[1:] - b[first[1:]]
     share = (x[1:] - s[owner]) / (s[owner + 1] - s[owner])
     b[1:] += missed[owner] * share
     # Near a standstill the correction may be as large as b itself: there the plan's straight line serves.
@@ -104,22 +97,46 @@ def _held(vehicle: Vehicle, plan: Plan, course: Course, owner: NDArray[np.intp])
     return np.asarray(at_top & ((least >= 0) | (most <= 0)))
 
 
-def _slope(vehicle: Vehicle, plan: Plan, interval: NDArray[np.intp], b: Array, line: Array, drag: Array) -> Array:
-    """db/ds under the plan's force on the given intervals, or under the limit where the plan is at it."""
-    v = np.sqrt(2 * np.maximum(b, 0.0))
-    ends = plan.half_square
-    mean_speed = np.sqrt(ends[interval] + ends[interval + 1])
-    planned = plan.force_n[interval]
-    a, b_1, c = vehicle.davis_n
-    most = largest_force(vehicle.traction, mean_speed)
-    least = -largest_force(vehicle.regenerative, mean_speed) - vehicle.friction_brake_n
-    pull = planned * largest_force(vehicle.traction, v) / np.maximum(most, 1e-9)
-    brake_now = -largest_force(vehicle.regenerative, v) - vehicle.friction_brake_n
-    brake = planned * brake_now / np.minimum(least, -1e-9)
-    # At the limit of the electric brake too: what it cannot give friction would have to.
-    electric, electric_now = (largest_force(vehicle.regenerative, speed) for speed in (mean_speed, v))
-    regenerating = (planned < -NEAR_LIMIT * electric) & (planned > -electric / NEAR_LIMIT)
-    force = np.where(planned > NEAR_LIMIT * most, pull,
-                     np.where(planned < NEAR_LIMIT * least, brake,
-                              np.where(regenerating, planned * electric_now / np.maximum(electric, 1e-9), planned)))
-    return np.asarray((force - davis_resistance(v, a, b_1, c + drag) - line) / vehicle.inertia_kg)
+@njit(cache=True)
+def _followed(x: Array, line: Array, drag: Array, first: NDArray[np.intp], b_plan: Array, planned: Array,
+              numbers: Array, limits: tuple[Array, Array], tables: tuple[Array, Array]) -> Array:
+    """Half the squared speed at x, where each interval is driven from the plan's speed at its start on.
+
+    first: where the plan's nodes are in x; planned: its forces, N.
+    """
+    b = np.empty(len(x))
+    b[0] = b_plan[0]
+    for k in range(len(planned)):
+        mean_speed = np.sqrt(b_plan[k] + b_plan[k + 1])
+        at_mean = (force_within(limits[0], tables[0], mean_speed), force_within(limits[1], tables[1], mean_speed))
+        now = b_plan[k]
+        for cell in range(first[k], first[k + 1]):
+            width = x[cell + 1] - x[cell]
+            slope = _slope(now, line[cell, 0], drag[cell, 0], planned[k], at_mean, numbers, limits, tables)
+            middle = max(now + width / 2 * slope, 0.0)
+            slope = _slope(middle, (line[cell, 0] + line[cell, 1]) / 2, (drag[cell, 0] + drag[cell, 1]) / 2,
+                           planned[k], at_mean, numbers, limits, tables)
+            now += width * slope
+            b[cell + 1] = now
+    return b
+
+
+@njit(cache=True)
+def _slope(b: float, line: float, drag: float, planned: float, at_mean: tuple[float, float], numbers: Array,
+           limits: tuple[Array, Array], tables: tuple[Array, Array]) -> float:
+    """db/ds under the plan's force, or under the limit where the plan is at it.
+
+    at_mean: the limits of traction and of the electric brake at the interval's mean speed, N.
+    """
+    inertia, a, b_1, c, friction = numbers
+    v = np.sqrt(2.0 * max(b, 0.0))
+    most, electric = at_mean
+    force, electric_now = planned, force_within(limits[1], tables[1], v)
+    if planned > NEAR_LIMIT * most:
+        force = planned * force_within(limits[0], tables[0], v) / max(most, 1e-9)
+    elif planned < -NEAR_LIMIT * (electric + friction):
+        force = planned * (electric_now + friction) / max(electric + friction, 1e-9)
+    elif -electric / NEAR_LIMIT < planned < -NEAR_LIMIT * electric:
+        # At the limit of the electric brake too: what it cannot give friction would have to.
+        force = planned * electric_now / max(electric, 1e-9)
+    return float((force - compiled_resistance(v, a, b_1, c + drag) - line) / inertia)

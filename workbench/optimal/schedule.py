@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from workbench.errors import InputError
 from workbench.optimal.course import Array
 from workbench.optimal.envelope import InfeasibleRunError
 from workbench.optimal.profile import Profile
@@ -16,6 +17,8 @@ from workbench.optimal.vehicle import Vehicle
 
 # How much more the largest change of a leg's time weighs than the sum of all.
 WORST_WEIGHT = 100.0
+# Slower than this on average, and so many times slower than the fastest run, is no train.
+SLOWEST_MEAN_MPS, SLOWER = 0.5, 10.0
 # Times are aimed at this far inside their windows, for the accuracy of the linear program that does so.
 INSIDE_S = 5e-7
 
@@ -109,6 +112,19 @@ def nearest_legs(timetable: Timetable, leg_s: Array, least_s: Array) -> Array | 
     if found.status != 0:
         return None
     return np.asarray(leg_s + found.x[:legs] - found.x[legs:2 * legs])
+
+
+def require_plausible(timetable: Timetable, quickest: Profile) -> None:
+    """Raises InputError where windows make a train crawl all along: positions or times are in another unit then."""
+    least_s = leg_times(timetable, quickest)
+    forced_s, before = 0.0, timetable.points[0].departure
+    for point, least in zip(timetable.points[1:], least_s.tolist(), strict=True):
+        forced_s += max(point.arrival.earliest_s - before.latest_s, least)
+        before = point.departure if point.stands else point.arrival
+    length_m = quickest.course.length_m
+    if length_m < SLOWEST_MEAN_MPS * forced_s and forced_s > SLOWER * float(least_s.sum()):
+        raise InputError("", "timetable", f"its windows make {length_m:g} m take {forced_s:.0f} s of running, less "
+                         f"than {SLOWEST_MEAN_MPS:g} m/s on average: are its positions in m and its times in s?")
 
 
 def require_possible(vehicle: Vehicle, timetable: Timetable, quickest: Profile, ideal: Profile) -> None:

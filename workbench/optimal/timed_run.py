@@ -13,19 +13,15 @@ from workbench.optimal.vehicle import Vehicle
 
 @dataclass(frozen=True)
 class TimedRun:
-    """A run and the clock at the events of its timetable, s, shape (m,)."""
+    """A run and the clock at the events of its timetable, s, shape (m,).
+
+    energy_j: at the supply, with auxiliaries from departure to arrival; waited_s: at stops between both.
+    """
 
     profile: Profile
     clock_s: Array
-
-    @property
-    def waited_s(self) -> float:
-        """At stops from departure to arrival."""
-        return float(self.clock_s[-1] - self.clock_s[0]) - self.profile.trip_time_s if len(self.clock_s) > 2 else 0.0
-
-    def energy_j(self, vehicle: Vehicle) -> float:
-        """At the supply, with auxiliaries from departure to arrival."""
-        return energy_j(vehicle, self.profile) + vehicle.auxiliary_w * self.waited_s
+    energy_j: float
+    waited_s: float
 
 
 def timed_run(vehicle: Vehicle, timetable: Timetable, profile: Profile) -> TimedRun | Miss:
@@ -34,7 +30,10 @@ def timed_run(vehicle: Vehicle, timetable: Timetable, profile: Profile) -> Timed
     clock = schedule(timetable, legs, brief=brief)
     if isinstance(clock, Miss) and timetable.trip_time_s is None:
         clock = schedule(timetable, legs, TOUCH_S, brief)
-    return clock if isinstance(clock, Miss) else TimedRun(profile, clock)
+    if isinstance(clock, Miss):
+        return clock
+    waited = float(clock[-1] - clock[0]) - profile.trip_time_s if len(clock) > 2 else 0.0
+    return TimedRun(profile, clock, energy_j(vehicle, profile) + vehicle.auxiliary_w * waited, waited)
 
 
 def not_found(timetable: Timetable, miss: Miss | None) -> str:

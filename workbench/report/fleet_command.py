@@ -35,7 +35,8 @@ class FleetRequest:
 
 
 def fleet_run(asked: FleetRequest, on_progress: Callable[[int, int], None] = lambda done, total: None) -> Iterator[str]:
-    """Lines for the reader: one a trip in the order of the file, and sums; raises InputError for the file itself.
+    """Lines for the reader: one a trip in the order of the file, and sums; raises InputError for the file itself, and
+    at the end where no trip could be run.
 
     on_progress: is called with the trips done and all of them, when they begin and after each.
     """
@@ -82,6 +83,9 @@ def fleet_run(asked: FleetRequest, on_progress: Callable[[int, int], None] = lam
     if asked.csv:
         _write_csv(asked.csv, COLUMNS, [row.document() for row in found])
         yield f"table: {asked.csv}"
+    if not solved:
+        raise InputError(asked.fleet, "trips", f"none of {len(found)} could be run, trip '{found[0].id}' because of "
+                         f"{found[0].trouble}")
 
 
 def _line(row: dict[str, Any]) -> str:

@@ -131,16 +131,7 @@ def _told(asked: Request, line: Line, vehicle: Vehicle, run: Course, notes: tupl
 def _solve(asked: Request, vehicle: Vehicle, run: Course, dwell_s: float) -> tuple[Reference, SmoothReference]:
     assert asked.trip_time_s is not None
     ends = asked.start_mps, asked.end_mps
-    running = asked.trip_time_s - dwell_s
-    if dwell_s and running <= 0:
-        raise InputError("", "--time", f"{asked.trip_time_s:g} s is less than the {dwell_s:g} s of waiting at stops: "
-                         "allow more time or a shorter --dwell")
-    try:
-        found = find_reference(vehicle, run, running, *ends, asked.intervals, asked.solver)
-    except InfeasibleRunError as trouble:
-        if trouble.least_time_s is None or not dwell_s:
-            raise
-        raise InfeasibleRunError(f"{trouble}; waiting at stops adds {dwell_s:g} s", trouble.least_time_s) from None
+    found = find_reference(vehicle, run, asked.trip_time_s, *ends, asked.intervals, asked.solver, dwell_s)
     return found, _smooth(asked, vehicle, run, asked.trip_time_s)
 
 
@@ -170,6 +161,8 @@ def _summary(asked: Request, line: Line, vehicle: Vehicle, found: Reference,
                f"{found.least_time_s + asked.dwell_s * len(stops):.1f} s")
     yield (f"energy        {found.energy_j / KWH_J:.3f} kWh, any run takes at least "
            f"{found.lower_bound_j / KWH_J:.3f} kWh: gap {100 * found.gap:.3f} %, {found.status}")
+    if found.waits_j:
+        yield f"waiting       auxiliaries draw {found.waits_j / KWH_J:.3f} kWh of it at stops"
     yield (f"solved        by {found.solver} in {1e3 * found.solve_s:.0f} ms, "
            f"{len(found.profile.half_square) - 1} cells in the driven run")
     shares = ", ".join(f"{what} {100 * share:.0f} %" for what, share in time_shares(vehicle, found.profile).items())
@@ -235,7 +228,8 @@ def _written(asked: Request, vehicle: Vehicle, run: Course, answer: _Answer) -> 
         yield f"result: {asked.json}"
     if asked.certificate:
         proven = write_certificate(asked.certificate, vehicle, run, found, asked.start_mps, asked.end_mps)
-        yield f"certificate: {asked.certificate} proves {proven / KWH_J:.6g} kWh in exact arithmetic"
+        yield (f"certificate: {asked.certificate} proves {proven / KWH_J:.6g} kWh in exact arithmetic"
+               f"{' of the time without stops' if found.waits_j else ''}")
     if asked.figure:
         # Matplotlib takes as long to import as a run takes to be solved.
         from workbench.report.cars_figure import couplers_figure  # noqa: PLC0415

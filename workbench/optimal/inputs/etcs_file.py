@@ -16,6 +16,13 @@ from workbench.optimal.inputs.etcs import Supervision
 from workbench.optimal.inputs.train_file import TrainFile
 
 BLOCK = "ETCS braking data"
+# The least share of a brake that is relied on, the longest delay of one, and the largest error of a measured speed.
+LEAST_FACTOR, LONGEST_S, MOST_UNCERTAIN = 0.05, 60.0, 0.3
+# What files call them, by their kind: factors on dry and wet rail, delays, uncertainty.
+NAMES = {".json": tuple(f"{BLOCK}.{name}" for name in (
+             "K_dry_rst", "K_wet_rst", "T_traction", "T_be", "T_bs", "v_uncertainty")),
+         ".toml": tuple(f"etcs.{name}" for name in (
+             "dry", "wet", "traction_s", "emergency_s", "service_s", "speed_uncertainty"))}
 
 
 class Factor(Quantity):
@@ -91,12 +98,26 @@ def _of_train(path: Path, wet_share: float) -> Supervision:
                  for steps in (table.emergency, table.service)]
         made = Supervision(pairs[0], pairs[1], table.dry, table.wet, table.traction_s, table.emergency_s,
                            table.service_s, table.speed_uncertainty, wet_share, table.release_mps)
+    _require_plausible(path, made, NAMES[path.suffix.lower()])
     for name, steps in (("emergency", made.emergency), ("service", made.service)):
         speeds = [speed for speed, _ in steps]
         if speeds[0] != 0 or speeds != sorted(set(speeds)) or not all(0.05 <= rate <= 5 for _, rate in steps):
             raise InputError(path, name, "its speeds must increase from 0 and its decelerations lie between 0.05 and 5 "
                              "m/s^2: correct them")
     return made
+
+
+def _require_plausible(path: Path, made: Supervision, names: tuple[str, ...]) -> None:
+    """What is no share and no delay would permit more than the brakes hold; raises InputError for it.
+
+    names: what the file calls the factors, times and uncertainty.
+    """
+    share, delay = (LEAST_FACTOR, 1.0, "share of a brake"), (0.0, LONGEST_S, "delay in s")
+    held = ((made.dry, *share), (made.wet, *share), (made.traction_s, *delay), (made.emergency_s, *delay),
+            (made.service_s, *delay), (made.speed_uncertainty, 0.0, MOST_UNCERTAIN, "uncertainty of a speed"))
+    for name, (value, low, high, what) in zip(names, held, strict=True):
+        if not low <= value <= high:
+            raise InputError(path, name, f"{value:g} is no {what}, {low:g} to {high:g}: correct it or its unit")
 
 
 def _wet_share(track: Path) -> float:

@@ -17,6 +17,7 @@ def plausible(vehicle: Vehicle) -> Vehicle:
     _require("rotating mass", vehicle.rotating_fraction, 0, 0.5, "of the mass")
     if vehicle.length_m != 0:
         _require("length", vehicle.length_m, SHORTEST_TRAIN_M, LONGEST_TRAIN_M, "m")
+    _require("traction efficiency", vehicle.traction_efficiency, 0.2, 1, "of what is drawn")
     _require_limit("max speed", vehicle.max_speed_mps, 1, FASTEST_MPS, "m/s")
     _require_limit("max acceleration", vehicle.max_acceleration_mps2, 0.01, 20, "m/s^2")
     _require_limit("max deceleration", vehicle.max_deceleration_mps2, 0.01, 20, "m/s^2")
