@@ -16,14 +16,16 @@ from workbench.kernel import points, proved, theorem
 from workbench.kernel.syntax import NotExportedError
 from workbench.proof.checker import CertificateError, check
 
-LIBRARY = ("Workbench.v", "WorkbenchFlow.v")
+LIBRARY = ("Workbench.v", "WorkbenchFlow.v", "WorkbenchFractions.v")
 INDEX = "index.json"
 HERE = Path(__file__).resolve().parent
 IMPORTS = {
     "WorkbenchFlow": "From Coquelicot Require Import Coquelicot.\nRequire Import WorkbenchFlow.\n",
     "Interval": "From Interval Require Import Tactic.\n",
+    "WorkbenchFractions": "Require Import WorkbenchFractions.\n",
 }
 WRITE_AGAIN = "write it again with 'workbench prove --write'"
+LONG_FRACTION = re.compile(r"/ \d{12}")  # from here on rational coefficients cost less than whole ones
 UNLIKE_A_NAME = re.compile(r"[^A-Za-z0-9_]")
 
 
@@ -84,6 +86,8 @@ def document(certificate: dict[str, Any]) -> str:
             statement, script = goal.statement(), proved.proof_of(goal, part)
         libraries |= script.libraries | ({"WorkbenchFlow"} if goal.kind != "static" else set())
         lines = "\n".join(script.lines)
+        if LONG_FRACTION.search(lines):
+            libraries.add("WorkbenchFractions")
         theorems.append(f"{_comment(part['goal'])}Definition {name}_states : Prop :=\n  {statement}.\n\n"
                         f"Theorem {name}_holds : {name}_states.\nProof.\nunfold {name}_states.\n{lines}\nQed.\n"
                         f"Print Assumptions {name}_holds.\n")
