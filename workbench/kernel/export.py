@@ -19,9 +19,10 @@ from workbench.proof.checker import CertificateError, check
 LIBRARY = ("Workbench.v", "WorkbenchFlow.v", "WorkbenchFractions.v")
 INDEX = "index.json"
 HERE = Path(__file__).resolve().parent
-IMPORTS = {
+IMPORTS = {  # in this order: what is loaded last changes a tactic of what is loaded before it
     "WorkbenchFlow": "From Coquelicot Require Import Coquelicot.\nRequire Import WorkbenchFlow.\n",
     "Interval": "From Interval Require Import Tactic.\n",
+    "Workbench": "Require Import Workbench.\n",
     "WorkbenchFractions": "Require Import WorkbenchFractions.\n",
 }
 WRITE_AGAIN = "write it again with 'workbench prove --write'"
@@ -94,8 +95,8 @@ def document(certificate: dict[str, Any]) -> str:
     head = (f"(* {_harmless(str(certificate['claim']))}: {certificate['verdict']}\n   goal digest "
             f"{_harmless(str(certificate.get('goal_digest')))} *)\n"
             "Require Import Reals Lra.\n")
-    imports = "".join(text for name, text in IMPORTS.items() if name in libraries)
-    return head + imports + "Require Import Workbench.\nOpen Scope R_scope.\n\n" + "\n".join(theorems)
+    imports = "".join(text for name, text in IMPORTS.items() if name in libraries | {"Workbench"})
+    return head + imports + "Open Scope R_scope.\n\n" + "\n".join(theorems)
 
 
 def _comment(goal: dict[str, Any]) -> str:

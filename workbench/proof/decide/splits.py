@@ -72,7 +72,7 @@ def _candidates(shown: Relation, given: Given) -> list[sp.Expr]:
     factors = [f for r in (shown, *given) for f in _factors(r.margin)[1] if len(_factors(r.margin)[1]) > 1]
     polynomials = [f for f in factors if f.is_polynomial(*f.free_symbols) and not f.is_Symbol]
     tried: list[sp.Expr] = []
-    for of in (*[f for f in factors if f.is_Symbol], *symbols, *polynomials):
+    for of in (*[f for f in factors if f.is_Symbol], *polynomials, *symbols):
         told = [r.margin for r in given if r.operator not in ("==", "!=")] + tried
         if of not in known and not any(0 in (sp.expand(t - of), sp.expand(t + of)) for t in told):
             tried.append(of)
