@@ -40,6 +40,10 @@ def monotone(start, derivative, at_start, variable="x"):
     return {"rule": "monotone", "variable": variable, "from": start, "derivative": derivative, "at_start": at_start}
 
 
+def down(start, derivative, at_start):
+    return {"rule": "monotone", "variable": "x", "to": start, "derivative": derivative, "at_start": at_start}
+
+
 def falls(function, decrease, then):
     return {"rule": "nonincreasing", "function": function, "decrease": decrease, "then": then}
 
@@ -118,6 +122,25 @@ FORGED = {
     "over a corner": of("1 - abs(x - 1) >= 0", monotone("0", IDENTITY, IDENTITY), "x >= 0"),
     "the end's assumption between": of("x*(y - x) >= 0", monotone("0", add(("1", [{"assume": 1}])), IDENTITY), "x >= 0",
                                        "y - 2*x >= 0 - 5", "y - x + 1 >= 0", example={"x": "0", "y": "0"}),
+    "a bound from below, on the way up": of("x**2 - 2*x + 1/2 >= 0", monotone("0", add(("2", [{"assume": 3}])), add((
+        "1/2", []))), "x >= 0", "x >= 1", example={"x": "2"}),
+    "a bound from above, on the way down": of("x**2 + 2*x + 1/2 >= 0", down("0", add(("2", [{"assume": 3}])), add((
+        "1/2", []))), "x <= 0", "x <= -1", example={"x": "-2"}),
+    "a bound that moves, on the way up": of(
+        "y**2 - (x - y)**2 >= 0", monotone("0", add(("2", [{"assume": 3}])), IDENTITY), "x >= 0", "y - 2*x + 1 >= 0",
+        example={"x": "0", "y": "0"}),
+    "down to nowhere": of("-x >= 0", down("0", ONE, IDENTITY)),
+    "down the wrong way": of("x >= 0", down("0", ONE, IDENTITY), "x <= 0", example={"x": "0"}),
+    "down where it is assumed to be up": of("1 - x >= 0", down("1", ONE, IDENTITY), "x >= 1"),
+    "up and down": of("x >= 0", monotone("0", ONE, IDENTITY) | {"to": "0"}, "x <= 0", example={"x": "0"}),
+    "neither up nor down": of("x >= 0", {"rule": "monotone", "variable": "x", "derivative": ONE, "at_start": IDENTITY}),
+    "down over a pole": of("1/x + 10 >= 0", down("1", add(("1", [{"square": "1/x"}])), add(("11", []))), "x <= 1",
+                           "x != 0"),
+    "down to itself": of("-x >= 0", down("x", ONE, IDENTITY), "x - x >= 0"),
+    "down over a corner": of("1 - abs(x + 1) >= 0", down("0", IDENTITY, IDENTITY), "x <= 0", example={"x": "0"}),
+    "the end's assumption between, downwards": of(
+        "-x*(y + x) >= 0", down("0", add(("1", [{"assume": 1}])), IDENTITY), "x <= 0", "y + 2*x >= 0 - 5",
+        "y + x + 1 >= 0", example={"x": "0", "y": "0"}),
     # nonincreasing
     "from no start": of("x <= 0", falls("x", ONE, FIRST), flow={"x": "-1"}, example={"x": "0"}),
     "the end's assumption before": of("x <= 0", falls("x", FIRST, add(("1", [{"assume": 1}]))), "y <= 1", flow={
@@ -162,6 +185,9 @@ def test_what_does_not_follow_is_refused(name):
     of("abs(x)**2 == x**2", cases("x", **BOTH)),
     of("x >= 0", contra(("1", [{"assume": 0}]), ("1", [{"assume": 1}])), "x > 0"),
     of("exp(x) - 1 >= 0", monotone("0", fact("exp_positive", of="x"), IDENTITY), "x >= 0"),
+    of("2*x - x**2 >= 0", monotone("0", add(("2", [{"assume": 3}])), IDENTITY), "x >= 0", "x <= 1"),
+    of("-2*x - x**2 >= 0", down("0", add(("2", [{"assume": 3}])), IDENTITY), "x <= 0", "x >= -1", example={"x": "-1"}),
+    of("1 - exp(x) >= 0", down("0", fact("exp_positive", of="x"), IDENTITY), "x <= 0", example={"x": "-1"}),
     of("x <= 0", falls("x", ONE, FIRST), flow={"x": "-1"}, initial={"x": "0"}, example={"x": "0"}),
     of("y**2 >= 0", add(("1", [{"square": "y"}])), example=REST, always=["x >= 0"], initial=REST,
        flow={"x": "y", "y": "1", "t": "1"}),

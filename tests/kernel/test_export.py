@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import copy
 import re
+from fractions import Fraction
 from pathlib import Path
 from typing import Any
 
@@ -93,8 +94,19 @@ SATURATED = {"version": 2, "claim": "mine:14", "verdict": "proved", "example": {
              "goal": {"flow": {"x": "tanh(z)", "y": "(1 - exp(2*z))/(1 + exp(2*z))"}, "show": ["D(x + y) == 0"]},
              "proofs": [IDENTITY]}
 
+# Coefficients of many digits, and more parts than are written as one term.
+LONG = {"version": 2, "claim": "mine:15", "verdict": "proved", "example": {"x": "1", "y": "1"},
+        "goal": {"assume": ["y > 0", "x/y >= 1/1000000000003"], "show": [
+            " + ".join(f"x**2/{10**12 + k}" for k in range(25)) + " >= 0",
+            "x**2/1000000000006000000000009 - 2*x*y/7000000000042000000000063 + y**2/49000000000294000000000441 >= 0",
+            "x >= y/1000000000003"]},
+        "proofs": [{"rule": "combination", "terms": [{"coefficient": c, "factors": f}]} for c, f in (
+            (str(sum(Fraction(1, 10**12 + k) for k in range(25))), [{"square": "x"}]),
+            ("1", [{"square": "x/1000000000003 - y/7000000000021"}]), ("1", [{"assume": 0}, {"assume": 1}]))]}
 
-CERTIFICATES = (PRODUCT, SUMS, POINT, OPPOSITES, ANGLES, PENDULUM, ANGLE, STEADY, CAUCHY, TURNED, RATES, SATURATED)
+
+CERTIFICATES = (PRODUCT, SUMS, POINT, OPPOSITES, ANGLES, PENDULUM, ANGLE, STEADY, CAUCHY, TURNED, RATES, SATURATED,
+                LONG)
 
 
 def digested(certificate: dict[str, Any]) -> dict[str, Any]:
@@ -208,6 +220,8 @@ def test_a_file_with_a_sentence_that_no_export_has_is_not_shown_to_coq(sentence:
     (TURNED, TURNED["goal"]["show"][0], "D(Sum(b**2*exp(-g)/2)) == Sum(b*h*exp(g))"),
     (RATES, RATES["goal"]["show"][0], "D(z**2 + Sum(w**2)) <= Sum(h*D(w)) + Sum(h/w)"),
     (CAUCHY, "Sum(x*Sum(y)) == Sum(x)*Sum(y)", "Sum(x*Sum(y)) == Sum(x*y)"),
+    (LONG, "x >= y/1000000000003", "x >= y/1000000000002"),
+    (LONG, LONG["goal"]["show"][1], LONG["goal"]["show"][1].replace("7000000000042", "7000000000041")),
 ])
 def test_kernel_refuses_a_goal_that_is_not_so(library: Path, certificate: dict[str, Any], old: str, new: str) -> None:
     """A changed goal has no Coq text, or one that coqc refuses: the checker is not asked."""

@@ -1,5 +1,5 @@
-"""Facts of textbooks that need a tangent at the right place, a quotient of logarithms, the square of a margin, or the
-sign of what is divided by shown first."""
+"""Facts of textbooks that need a tangent at the right place, a quotient of logarithms, the square of a margin, the sign
+of what is divided by shown first, or cases by the signs of factors."""
 
 import json
 from pathlib import Path
@@ -10,11 +10,17 @@ from workbench.errors import ClaimError
 from workbench.proof.checker import check
 from workbench.proof.decide.obligations import belongs, decide_obligation
 
-FACTS = json.loads((Path(__file__).parents[2] / "benchmarks" / "textbook" / "facts.json").read_text(encoding="utf-8"))
+BOOKS = Path(__file__).parents[2] / "benchmarks" / "textbook"
+FACTS = [fact for name in ("facts.json", "control_books.json")
+         for fact in json.loads((BOOKS / name).read_text(encoding="utf-8"))]
 NEEDED = ("log grows", "abs and tanh, with 0.2785", "Minkowski in two dimensions", "trace bounds the form",
           "a transient below its supremum", "Minkowski in every dimension",
           "class K: a root grows", "class K: x/(1+x) grows", "interconnection: a composite function",
-          "convexity: the inverse", "Lipschitz: sizes", "boundary layer: rate outside")
+          "convexity: the inverse", "Lipschitz: sizes", "boundary layer: rate outside",
+          # a margin that grows towards zero from below; signs of factors; an upper bound on the way; sizes below a bar;
+          # the square of a number's root
+          "tanh is smaller than its argument", "tanh lies in the sector [0, 1]",
+          "energy bounds the angle from below", "twisting: the energy falls", "scattering keeps the power")
 
 
 @pytest.mark.parametrize("name", NEEDED)
@@ -50,3 +56,8 @@ def test_what_is_a_little_too_sharp_is_refuted():
     assert decide_obligation(smoothing).verdict == "refuted"
     transient = {"assume": [[">=", "x", "0"]], "show": ["<=", "x*exp(-x)", "367/1000"]}
     assert decide_obligation(transient).verdict == "refuted"
+    for show in (["<=", "abs(tanh(x))", "abs(x)/2"], [">=", "tanh(x)*(x/2 - tanh(x))", "0"],
+                 ["=", "(x/sqrt(2))**2", "x**2/3"]):
+        assert decide_obligation({"assume": [], "show": show}).verdict == "refuted"
+    size = {"assume": [["!=", "s", "1"]], "show": ["=", "s/abs(s)*abs(s)", "s"]}  # undefined where s is zero
+    assert decide_obligation(size).verdict != "proved"

@@ -148,6 +148,16 @@ Proof.
     apply Rmult_le_compat_r; [lra|]. apply Rge_le, N. lra.
 Qed.
 
+(* the same down to x, where the derivative is not positive *)
+Lemma monotone_down : forall (f d : R -> R) (a x : R), x <= a ->
+  (forall s, x <= s <= a -> is_derive f s (d s)) -> (forall s, x <= s <= a -> d s <= 0) -> f a <= f x.
+Proof.
+  intros f d a x A D N. apply Ropp_le_cancel.
+  apply (monotone (fun s => - f s) (fun s => - d s) x a A); intros s S.
+  - apply D_opp, D, S.
+  - specialize (N s S). lra.
+Qed.
+
 Lemma monotone_ge : forall (f d : R -> R) (a x : R), a <= x ->
   (forall s, a <= s <= x -> is_derive f s (d s)) -> (forall s, a <= s <= x -> d s >= 0) -> f a >= 0 -> f x >= 0.
 Proof. intros f d a x A D N S. pose proof (monotone f d a x A D N). lra. Qed.

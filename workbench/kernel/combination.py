@@ -44,7 +44,7 @@ def combination(script: Script, value: Ratio, operator: str, proof: dict[str, An
         adds_up = script.show("Q", f"{scale} * {whole} = {total}", "same.")
     else:
         adds_up = _adds_up_with_sums(script, scale, outside, inside, whole, total, terms)
-    script.say(f"exact ({lemma} {scale} {whole} {total} {positive} {sign} {adds_up}).")
+    script.say(f"exact ({lemma} _ _ _ {positive} {sign} {adds_up}).")
 
 
 # Text, sign, proof, and what stands outside of the sum, the sum's term, the equation that says so.

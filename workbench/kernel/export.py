@@ -16,14 +16,17 @@ from workbench.kernel import points, proved, theorem
 from workbench.kernel.syntax import NotExportedError
 from workbench.proof.checker import CertificateError, check
 
-LIBRARY = ("Workbench.v", "WorkbenchFlow.v")
+LIBRARY = ("Workbench.v", "WorkbenchFlow.v", "WorkbenchFractions.v")
 INDEX = "index.json"
 HERE = Path(__file__).resolve().parent
-IMPORTS = {
+IMPORTS = {  # in this order: what is loaded last changes a tactic of what is loaded before it
     "WorkbenchFlow": "From Coquelicot Require Import Coquelicot.\nRequire Import WorkbenchFlow.\n",
     "Interval": "From Interval Require Import Tactic.\n",
+    "Workbench": "Require Import Workbench.\n",
+    "WorkbenchFractions": "Require Import WorkbenchFractions.\n",
 }
 WRITE_AGAIN = "write it again with 'workbench prove --write'"
+LONG_FRACTION = re.compile(r"/ \d{12}")  # from here on rational coefficients cost less than whole ones
 UNLIKE_A_NAME = re.compile(r"[^A-Za-z0-9_]")
 
 
@@ -84,14 +87,16 @@ def document(certificate: dict[str, Any]) -> str:
             statement, script = goal.statement(), proved.proof_of(goal, part)
         libraries |= script.libraries | ({"WorkbenchFlow"} if goal.kind != "static" else set())
         lines = "\n".join(script.lines)
+        if LONG_FRACTION.search(lines):
+            libraries.add("WorkbenchFractions")
         theorems.append(f"{_comment(part['goal'])}Definition {name}_states : Prop :=\n  {statement}.\n\n"
                         f"Theorem {name}_holds : {name}_states.\nProof.\nunfold {name}_states.\n{lines}\nQed.\n"
                         f"Print Assumptions {name}_holds.\n")
     head = (f"(* {_harmless(str(certificate['claim']))}: {certificate['verdict']}\n   goal digest "
             f"{_harmless(str(certificate.get('goal_digest')))} *)\n"
             "Require Import Reals Lra.\n")
-    imports = "".join(text for name, text in IMPORTS.items() if name in libraries)
-    return head + imports + "Require Import Workbench.\nOpen Scope R_scope.\n\n" + "\n".join(theorems)
+    imports = "".join(text for name, text in IMPORTS.items() if name in libraries | {"Workbench"})
+    return head + imports + "Open Scope R_scope.\n\n" + "\n".join(theorems)
 
 
 def _comment(goal: dict[str, Any]) -> str:

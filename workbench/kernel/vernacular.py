@@ -8,7 +8,7 @@ import re
 from workbench.kernel.export import IMPORTS
 
 COMMANDS = ("Definition", "Theorem", "Proof", "Qed", "Print Assumptions")
-WHOLE = frozenset(("Require Import Reals Lra", "Require Import Workbench", "Open Scope R_scope",
+WHOLE = frozenset(("Require Import Reals Lra", "Open Scope R_scope",
                    *(line.removesuffix(".") for text in IMPORTS.values() for line in text.splitlines())))
 _MARK = re.compile(r"\(\*|\*\)")
 _END = re.compile(r"\.(?:\s+|$)")

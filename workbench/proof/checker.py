@@ -771,21 +771,29 @@ def _cases(value: Ratio, operator: str, given: Relations, proof: dict[str, Any])
 
 
 def _monotone(value: Ratio, operator: str, given: Relations, proof: dict[str, Any]) -> None:
-    """value(x) >= value(start) for x >= start, when value is defined and d value/dx >= 0 from start on."""
+    """value(x) >= value(start) where value is defined from start to x and does not fall on the way there.
+
+    For x >= start (`from`) d value/dx >= 0 is shown between them, for x <= start (`to`) d value/dx <= 0.
+    """
     context, name = given.context, read_name(proof["variable"])
     if operator not in (">", ">="):
         raise CertificateError("a value that does not decrease is at least that at the start, no more")
-    start = context.read(proof["from"])
-    step = symbol(name) + -start
+    if (upwards := "from" in proof) == ("to" in proof):
+        raise CertificateError("a start is named with 'from' or with 'to'")
+    start = context.read(proof["from" if upwards else "to"])
+    step = symbol(name) + -start if upwards else start + -symbol(name)
     if not any(same(known, step) and op in (">=", ">") for known, op in given.margins):
-        raise CertificateError(f"{name} >= {proof['from']} is not among the assumptions")
+        raise CertificateError(f"{name} {'>=' if upwards else '<='} the start is not among the assumptions")
     if name in symbols_of(context, start):
         raise CertificateError("the start depends on the variable")
-    elsewhere = given.free_of({name})  # what is assumed of x itself need not hold between start and x
-    between = elsewhere.with_margins([*elsewhere.margins, (step, ">=")])
+    elsewhere = given.free_of({name})  # what is assumed of x itself need not hold between start and x,
+    away = symbol(name) if upwards else -symbol(name)  # but that x lies below a bound, or above one where it falls
+    bounded = [(known, op) for known, op in given.margins
+               if op in (">=", ">") and name not in symbols_of(context, known + away)]
+    between = elsewhere.with_margins([*elsewhere.margins, (step, ">="), *bounded])
     between.initial = {}  # there x is no value that the flow takes
     between.require_defined_value(value)
-    prove(context.derivative(value, {name: number(1)}), ">=", between, proof["derivative"])
+    prove(context.derivative(value, {name: number(1 if upwards else -1)}), ">=", between, proof["derivative"])
     prove(substitute(context, value, {name: start}), operator, elsewhere, proof["at_start"])
 
 

@@ -31,6 +31,7 @@ def first_lemmas(goal: Goal, shown: Relation, given: Given) -> list[Lemma]:
         if squares is not None:
             proof = _positive_if_not_zero(squares, place, len(given) + len(found))
             found.append((greater(relation.margin, 0), proof))
+    found += _sizes_below(shown, given, len(given) + len(found))
     for wanted in _partial(shown):
         known = (*given, *(lemma for lemma, _ in found))
         if not _seen_at_once(wanted, known):
@@ -51,6 +52,31 @@ def roots_below(goal: Goal, shown: Relation, given: Given) -> list[Lemma]:
             known = (*given, *(other for other, _ in found))
             proof = find_combination(goal, lemma, known, quick=True) or find_squares(goal, lemma, known)
             found += [] if proof is None else [(lemma, proof)]
+    return found
+
+
+def _sizes_below(shown: Relation, given: Given, last: int) -> list[Lemma]:
+    """abs(v) > 0 for every size that a relation divides by, where v is assumed to have a sign or not to be zero.
+
+    Were abs(v) <= 0, then v**2 + abs(v) (-abs(v)) + (abs(v)**2 - v**2) = 0 > 0.
+    """
+    bases = [power.base for side in (shown.left, shown.right) for power in side.atoms(sp.Pow)
+             if power.exp.is_Rational and power.exp < 0]
+    sizes = set().union(*(base.atoms(sp.Abs) for base in bases)) if bases else set()
+    found: list[Lemma] = []
+    for size in sorted(sizes, key=sp.default_sort_key):
+        inner = size.args[0]
+        known = [place for place, r in enumerate(given) if r.operator in ("!=", "<", ">") and not inner.has(*OTHERS)
+                 and not r.margin.has(*OTHERS) and (vanishes(r.margin - inner) or vanishes(r.margin + inner))]
+        if not known:
+            continue
+        place = known[0]
+        square = [{"square_of": place}] if given[place].operator == "!=" else [{"assume": place}, {"assume": place}]
+        factors: list[list[dict[str, Any]]] = [
+            square, [{"fact": "abs_nonnegative", "of": text(inner)}, {"assume": last + len(found)}],
+            [{"fact": "abs_square", "of": text(inner)}]]
+        found.append((greater(size, 0), {"rule": "contradiction", "terms": [
+            {"coefficient": "1", "factors": each} for each in factors]}))
     return found
 
 

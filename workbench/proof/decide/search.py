@@ -13,6 +13,7 @@ from workbench.proof.decide.first_lemmas import first_lemmas, roots_below
 from workbench.proof.decide.ideals import find_by_ideal
 from workbench.proof.decide.identity import find_identity
 from workbench.proof.decide.pivots import find_by_pivots
+from workbench.proof.decide.splits import find_by_splits
 from workbench.proof.decide.squares import find_squares
 from workbench.proof.decide.tangents import find_by_tangents
 from workbench.proof.decide.totals import find_by_totals
@@ -40,7 +41,10 @@ def prove_relation(goal: Goal, shown: Relation) -> Found:
         found = search(goal, shown, known, goal.lemmas)
         if found is None and (roots := roots_below(goal, shown, known)):
             first += roots
-            found = search(goal, shown, (*known, *(lemma for lemma, _ in roots)), goal.lemmas)
+            known = (*known, *(lemma for lemma, _ in roots))
+            found = search(goal, shown, known, goal.lemmas)
+        if found is None:
+            found = find_by_splits(goal, shown, known, search)
         return None if found is None else after(first, found)
     return _by_decrease(goal, shown)
 
@@ -119,12 +123,12 @@ def _by_both_bounds(goal: Goal, shown: Relation, given: Given, lemmas: Given, de
 
 
 def _by_growth(goal: Goal, shown: Relation, given: Given, steps: int = MOST_STEPS) -> Found:
-    """A margin with log, exp, sin or cos in it that is not negative where a symbol starts, and grows with it."""
+    """A margin with log, exp, sin or cos in it that is not negative where a symbol starts, and grows as it leaves."""
     margin = shown.margin
     if shown.operator in ("==", "!=") or not margin.has(sp.log, sp.exp, sp.sin, sp.cos) or margin.has(
             sp.Sum, sp.Indexed, Size, Side) or steps == 0:
         return None
-    for symbol, start in _starts(margin, given):
+    for symbol, start, way in _starts(margin, given):
         elsewhere = tuple(EMPTY if r.margin.has(symbol) else r for r in given)
         place, begins = Goal((EMPTY,), facts=goal.facts), margin.xreplace({symbol: start})
         if begins.has(sp.nan, sp.zoo, sp.oo, -sp.oo):  # it has no value where it would begin
@@ -133,21 +137,26 @@ def _by_growth(goal: Goal, shown: Relation, given: Given, steps: int = MOST_STEP
                           elsewhere, steps)
         if at_start is None:
             continue
-        rising = _grown(place, at_least(sp.diff(margin, symbol), 0), (*elsewhere, at_least(symbol, start)), steps)
+        bounded = tuple(r for r in given if r.operator not in ("==", "!=")
+                        and not sp.expand(r.margin + way * symbol).has(symbol))  # it lies below them on the way as well
+        rising = _grown(place, at_least(way * sp.diff(margin, symbol), 0),
+                        (*elsewhere, at_least(way * (symbol - start), 0), *bounded), steps)
         if rising is not None:
-            return {"rule": "monotone", "variable": text(symbol), "from": text(start), "derivative": rising,
-                    "at_start": at_start}
+            return {"rule": "monotone", "variable": text(symbol), "from" if way > 0 else "to": text(start),
+                    "derivative": rising, "at_start": at_start}
     return None
 
 
-def _starts(margin: sp.Expr, given: Given) -> list[tuple[sp.Symbol, sp.Expr]]:
-    """(symbol, start) of the symbols in a margin that are known not to lie below an expression of others."""
+def _starts(margin: sp.Expr, given: Given) -> list[tuple[sp.Symbol, sp.Expr, int]]:
+    """(symbol, start, way) of the symbols in a margin that are known not to lie below (way 1) or above (-1) an
+    expression of others."""
     found = []
     for relation in given:
         for symbol in sorted(margin.free_symbols, key=str) if relation.operator not in ("==", "!=") else ():
-            start = sp.expand(symbol - relation.margin)
-            if not start.has(symbol) and not start.has(sp.Sum, sp.Indexed):
-                found.append((symbol, start))
+            for way in (1, -1):
+                start = sp.expand(symbol - way * relation.margin)
+                if not start.has(symbol) and not start.has(sp.Sum, sp.Indexed):
+                    found.append((symbol, start, way))
     return found
 
 

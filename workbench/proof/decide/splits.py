@@ -1,0 +1,142 @@
+"""Cases by the signs of factors and symbols: what is one inequality in each quadrant is often none over all of them.
+
+The expressions whose signs are told apart are factors of what is shown and of what is assumed, then single symbols of
+no known sign. In each case the margin is shown by the signs of its factors, or by the usual search.
+"""
+
+from __future__ import annotations
+
+import math
+import random
+from collections.abc import Callable
+from typing import Any
+
+import sympy as sp
+
+from workbench.proof.claim import Goal, Relation, at_least, at_most, greater, less
+from workbench.proof.decide.combination import find_combination
+from workbench.proof.decide.cuts import after
+from workbench.proof.text import text
+
+Proof = dict[str, Any]
+Given = tuple[Relation, ...]
+Search = Callable[[Goal, Relation, Given], "Proof | None"]
+
+MOST_SPLITS = 6  # expressions tried
+DEEPEST = 2  # cases one inside the other
+MOST_SEARCHES = 12  # of each depth, since most that fail have no proof in cases either
+POINTS = 60  # at which factors are looked at before a proof of their signs is sought
+OF_SIGN = {1: at_least, -1: at_most}
+
+
+def find_by_splits(goal: Goal, shown: Relation, given: Given, search: Search) -> Proof | None:
+    """A proof of an inequality in cases; None where none was found. `search` proves what is plain in one case."""
+    margin = shown.margin
+    if shown.operator in ("==", "!=") or any(r.margin.has(sp.Sum, sp.Indexed, sp.Derivative) for r in (shown, *given)):
+        return None
+    if not margin.free_symbols or len(set().union(*(r.margin.free_symbols for r in (shown, *given)))) > 6:
+        return None
+    for depth in range(1, DEEPEST + 1):
+        left = [MOST_SEARCHES]
+
+        def limited(goal: Goal, shown: Relation, given: Given, left: list[int] = left) -> Proof | None:
+            left[0] -= 1
+            return search(goal, shown, given) if left[0] >= 0 else None
+
+        if (found := _in_cases(goal, shown, given, limited, depth)) is not None:
+            return found
+    return None
+
+
+def _in_cases(goal: Goal, shown: Relation, given: Given, search: Search, depth: int) -> Proof | None:
+    points = _points(shown, given)
+    for of in _candidates(shown, given):
+        proof: Proof = {"rule": "cases", "of": text(of)}
+        for name, case in (("nonnegative", at_least(of, 0)), ("nonpositive", at_most(of, 0))):
+            here, near = (*given, case), [point for point in points if _holds(case, point)]
+            found = (_by_factors(goal, shown, here, near, search) or search(goal, shown, here)
+                     or (_in_cases(goal, shown, here, search, depth - 1) if depth > 1 else None))
+            if found is None:
+                break
+            proof[name] = found
+        else:
+            return proof
+    return None
+
+
+def _candidates(shown: Relation, given: Given) -> list[sp.Expr]:
+    """Expressions to tell the signs of, each once."""
+    known = {symbol for r in given if r.operator not in ("!=",) for symbol in r.margin.free_symbols
+             if not sp.cancel(r.margin / symbol).free_symbols}
+    symbols = [s for s in sorted(shown.margin.free_symbols, key=str) if s not in known]
+    factors = [f for r in (shown, *given) for f in _factors(r.margin)[1] if len(_factors(r.margin)[1]) > 1]
+    polynomials = [f for f in factors if f.is_polynomial(*f.free_symbols) and not f.is_Symbol]
+    tried: list[sp.Expr] = []
+    for of in (*[f for f in factors if f.is_Symbol], *polynomials, *symbols):
+        told = [r.margin for r in given if r.operator not in ("==", "!=")] + tried
+        if of not in known and not any(0 in (sp.expand(t - of), sp.expand(t + of)) for t in told):
+            tried.append(of)
+    return tried[:MOST_SPLITS]
+
+
+def _factors(margin: sp.Expr) -> tuple[sp.Expr, list[sp.Expr]]:
+    """The number and the factors of odd power of a margin; those of even power have no sign to show."""
+    number, odd = sp.S.One, []
+    for factor in sp.Mul.make_args(sp.factor(margin)):
+        base, power = factor.as_base_exp()
+        if factor.is_number:
+            number *= factor
+        elif power.is_Integer and power % 2:
+            odd.append(base)
+        elif not power.is_Integer:
+            odd.append(factor)
+    return number, odd
+
+
+def _by_factors(goal: Goal, shown: Relation, given: Given, points: list[dict[sp.Symbol, float]], search: Search,
+                ) -> Proof | None:
+    """A margin that is a product, from the sign of each of its factors."""
+    _, odd = _factors(shown.margin)
+    if len(odd) < 2 or not points:
+        return None
+    lemmas: list[tuple[Relation, Proof]] = []
+    for factor in odd:
+        values = [v for point in points if (v := _value(factor, point)) is not None]
+        sign = 1 if all(v > -1e-9 for v in values) else -1 if all(v < 1e-9 for v in values) else 0
+        if not sign:
+            return None
+        strict = shown.strict and (greater if sign > 0 else less)
+        lemma = strict(factor, 0) if strict else OF_SIGN[sign](factor, 0)
+        proof = search(goal, lemma, (*given, *(known for known, _ in lemmas)))
+        if proof is None:
+            return None
+        lemmas.append((lemma, proof))
+    last = find_combination(goal, shown, (*given, *(known for known, _ in lemmas)))
+    return None if last is None else after(lemmas, last)
+
+
+def _points(shown: Relation, given: Given) -> list[dict[sp.Symbol, float]]:
+    """Some points at which what is given holds, the same ones at every call."""
+    symbols = sorted(set().union(*(r.margin.free_symbols for r in (shown, *given))), key=str)
+    drawn = random.Random(1)
+    found = []
+    for _ in range(10 * POINTS):
+        point = {s: drawn.uniform(-1, 1) * 10 ** drawn.uniform(-1, 1) for s in symbols}
+        if all(_holds(r, point) for r in given):
+            found.append(point)
+        if len(found) == POINTS:
+            break
+    return found
+
+
+def _holds(relation: Relation, point: dict[sp.Symbol, float]) -> bool:
+    value = _value(relation.margin, point)
+    return value is not None and (value > 0 if relation.strict else value >= 0)
+
+
+def _value(expr: sp.Expr, point: dict[sp.Symbol, float]) -> float | None:
+    try:
+        value = complex(expr.subs(point))
+    except (TypeError, ValueError, OverflowError, ZeroDivisionError):
+        return None
+    return value.real if math.isfinite(value.real) and abs(value.imag) < 1e-12 else None
