@@ -10,9 +10,12 @@ import compiled_apart
 import one_thread  # noqa: F401 - before anything imports numpy
 import papers_import  # noqa: F401 - tests import from proofs
 import pytest
+from _pytest import runner
 from hypothesis import settings
 from hypothesis.internal.conjecture import providers
 from shared_work import scheduler_of_files
+
+from workbench.tasks.room_for_calls import with_room_for_calls
 
 READ = {"workbench.files.text": ("_read", "_sources", "_digests"), "workbench.proof.dependencies": ("_data",)}
 
@@ -38,6 +41,12 @@ def pytest_collection_finish():
     gc.freeze()
     gc.set_threshold(50_000, 20, 20)
     gc.enable()
+
+
+@pytest.hookimpl(tryfirst=True)
+def pytest_runtest_protocol(item, nextitem):
+    """As pytest's own, on a stack without an edge, where kernels took nearly twice as long to compile."""
+    return with_room_for_calls(runner.pytest_runtest_protocol, item, nextitem)
 
 
 @pytest.fixture(scope="module", autouse=True)

@@ -21,6 +21,7 @@ from typing import Any, TypeVar
 from workbench.errors import WorkbenchError
 from workbench.files.cache_folder import note
 from workbench.files.modules import KnownFolders
+from workbench.tasks.room_for_calls import with_room_for_calls
 from workbench.tasks.sent import job_bytes, job_of
 from workbench.tasks.threads import THREAD_LIMITS
 
@@ -191,4 +192,4 @@ def _leave_with_parent() -> None:
 
 def _work(task: Any) -> Any:
     function, shared = _job
-    return function(shared, task)
+    return with_room_for_calls(function, shared, task)
