@@ -91,7 +91,8 @@ class LocalProcesses:
                 raise
             except BaseException:
                 pool.shutdown(wait=False, cancel_futures=True)
-                wait(running, timeout=GRACE_S)
+                # Who has not begun never will: to wait for those, too, is to wait to the end.
+                wait([future for future in running if not future.cancel()], timeout=GRACE_S)
                 for process in set(multiprocessing.active_children()) - others:
                     process.terminate()
                 for future in list(running):
