@@ -20,6 +20,7 @@ from typer.main import get_command
 from workbench.cli.collection import collect_later, end_without_search
 from workbench.cli.console import err_console
 from workbench.cli.options import Version
+from workbench.cli.unused import import_unused_later
 from workbench.errors import InputError, WorkbenchError, of_an_extra, printable
 from workbench.tasks.room_for_calls import with_room_for_calls
 from workbench.tasks.threads import use_one_thread
@@ -71,6 +72,7 @@ def main() -> None:
     use_one_thread()
     collect_later()
     end_without_search()
+    import_unused_later()
     if threading.current_thread() is threading.main_thread():
         signal.signal(signal.SIGTERM, signal.default_int_handler)  # what is finished is kept, as after Ctrl-C
     try:
