@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import sys
 from collections.abc import Sequence
-from importlib.abc import MetaPathFinder
 from importlib.machinery import ModuleSpec, PathFinder
 from importlib.util import LazyLoader
 from types import ModuleType
@@ -13,11 +12,14 @@ from types import ModuleType
 UNUSED = ("numpy.f2py",)
 
 
-class _Later(MetaPathFinder):
-    """Finds these modules as others, and has them run when they are used."""
+class _Later:
+    """Finds these modules as others, and has them run when they are used.
 
-    def find_spec(self, fullname: str, path: Sequence[str] | None, target: ModuleType | None = None
-                  ) -> ModuleSpec | None:
+    It inherits from nothing: to import the class that it would takes longer than what it spares.
+    """
+
+    @staticmethod
+    def find_spec(fullname: str, path: Sequence[str] | None, target: ModuleType | None = None) -> ModuleSpec | None:
         """As the import system asks for it."""
         found = PathFinder.find_spec(fullname, path, target) if fullname in UNUSED else None
         if found is not None and found.loader is not None:
@@ -27,5 +29,5 @@ class _Later(MetaPathFinder):
 
 def import_unused_later() -> None:
     """Have this process import UNUSED when they are used; asked for twice, it is done once."""
-    if not any(isinstance(finder, _Later) for finder in sys.meta_path):
-        sys.meta_path.insert(0, _Later())
+    if _Later not in sys.meta_path:
+        sys.meta_path.insert(0, _Later)
