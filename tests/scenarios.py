@@ -44,8 +44,9 @@ def line_name(path: Path) -> str:
 
 
 # Every compiled law that ships and runs with plain values, by its id; liu2020's own tests run its laws with its values.
-LAWS = GENERAL | {law.id: law for paper in PAPERS if paper != "liu2020"
-                  for law in held_in(PROOFS / paper, "laws", ControlLaw).values()}
+LAWS = {name: make() for name, make in GENERAL.items()} | {
+    law.id: law for paper in PAPERS if paper != "liu2020"
+    for law in held_in(PROOFS / paper, "laws", ControlLaw).values()}
 
 SHORT_LINE = {
     "name": "short line",

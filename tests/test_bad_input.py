@@ -12,6 +12,8 @@ from bad_input import ARGUMENT, cases, faults, run
 from bad_input_folders import COMMANDS, write_folders
 from bad_input_texts import line_text
 
+from workbench.files import time_limit
+
 # Those that are written and read in no time.
 FOLDERS = ("claims", "source")
 VERBS = ("prove", "check", "check-certificates", "diff", "export-coq", "list", "new-paper")
@@ -24,7 +26,8 @@ def folders(tmp_path_factory):
     return place
 
 
-def test_a_sample_of_bad_input_is_refused_in_one_line_each_or_ends_well(folders, tmp_path):
+def test_a_sample_of_bad_input_is_refused_in_one_line_each_or_ends_well(folders, tmp_path, monkeypatch):
+    monkeypatch.setattr(time_limit, "WAITING_S", 2.0)  # a pipe is waited for so long
     commands = [command for command in COMMANDS if command.folder in FOLDERS and command.verb in VERBS]
     found = {}
     for case in cases(60, 20, commands):

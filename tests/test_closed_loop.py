@@ -210,7 +210,7 @@ BAD_LAWS = {
 
 @pytest.mark.parametrize("law", BAD_LAWS.values(), ids=BAD_LAWS.keys())
 def test_a_law_that_diverges_stops_its_run_and_is_reported(law, monkeypatch):
-    monkeypatch.setitem(GENERAL, law.id, law)
+    monkeypatch.setitem(GENERAL, law.id, lambda: law)
     scenario = with_law(short_scenario(), law, 0.01)
     run = simulate(scenario, "only")
     assert re.match(rf"{re.escape(law.id)} diverged at t = \d", run.failed)
@@ -229,7 +229,7 @@ def test_a_controller_that_is_not_there_is_named_with_those_that_are():
 def test_timing_counts_steps_and_not_the_compiler(monkeypatch, tmp_path):
     law = ControlLaw("test.fresh", "fresh", "a test", "full state, model unknown",
                      (desired_position - position) / 8)
-    monkeypatch.setitem(GENERAL, law.id, law)
+    monkeypatch.setitem(GENERAL, law.id, lambda: law)
     monkeypatch.setenv("WORKBENCH_CACHE", str(tmp_path))  # so that this kernel must be compiled here and now
     monkeypatch.setattr(time, "perf_counter", time.process_time)  # what else the machine does is no matter
     monkeypatch.setattr(compiled_apart, "kept", lambda *_: True)  # and in this process

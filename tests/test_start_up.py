@@ -20,6 +20,7 @@ HEAVY = ("scipy.optimize", "control", "cvxpy", "casadi", "matplotlib", "sympy", 
 READERS = ("numpy", "multiprocessing", "rich.progress", "workbench.trains.scenario", "workbench.paper.study",
            "workbench.proof.document", "workbench.optimal.inputs.line")
 PAGE = ("jinja2", "plotly", "grandalf", "workbench.report.page", "workbench.contest.matches")
+BROUGHT_ALONG = ("numpy.f2py.f2py2e", "numpy.f2py.crackfortran")
 OTHER_VERBS = tuple(f"workbench.cli.{verb}" for verb in ("show", "sweep", "report", "gains", "errata", "check_coq"))
 LINE, TRAIN = SHARED / "lines" / "hills.toml", SHARED / "trains" / "yang2021.toml"
 CLAIM = """
@@ -48,7 +49,7 @@ print(json.dumps([code, [name for name in json.loads(sys.stdin.read()) if name i
 
 def imported(*arguments: object) -> tuple[int, set[str]]:
     """The exit code of a command in a process of its own, and what it imported of what is named above."""
-    names = (*HEAVY, *READERS, *PAGE, *OTHER_VERBS)
+    names = (*HEAVY, *READERS, *PAGE, *OTHER_VERBS, *BROUGHT_ALONG)
     done = subprocess.run([sys.executable, "-c", PROGRAM, json.dumps(list(map(str, arguments)))], check=True,
                           input=json.dumps(names), capture_output=True, text=True, timeout=300)
     code, found = json.loads(done.stdout.splitlines()[-1])
@@ -85,7 +86,7 @@ def test_a_small_comparison_needs_no_page_no_other_verb_and_no_other_process(tmp
     folder = small_folder(tmp_path / "doe2030")
     code, names = imported("compare", folder)
     assert code == 0
-    assert names.isdisjoint({"control", "cvxpy", "matplotlib", "clarabel", *PAGE, *OTHER_VERBS})
+    assert names.isdisjoint({"control", "cvxpy", "matplotlib", "clarabel", *PAGE, *OTHER_VERBS, *BROUGHT_ALONG})
 
 
 def test_a_small_comparison_is_run_where_it_is_asked_for(tmp_path, monkeypatch):
@@ -145,4 +146,18 @@ def test_a_run_needs_its_solver_and_no_modelling_tools():
     code, names = imported("reference", LINE, TRAIN, "--time", 2600)
     assert code == 0
     assert "clarabel" in names
-    assert names.isdisjoint({"control", "cvxpy", "casadi", "matplotlib", "sympy", "scipy.optimize"})
+    assert names.isdisjoint({"control", "cvxpy", "casadi", "matplotlib", "sympy", "scipy.optimize", *BROUGHT_ALONG})
+
+
+def test_what_is_imported_later_is_there_when_it_is_used():
+    program = """
+import sys
+from workbench.cli.unused import UNUSED, import_unused_later
+import_unused_later()
+import_unused_later()
+import scipy.linalg
+import numpy
+print("numpy.f2py.f2py2e" in sys.modules, callable(numpy.f2py.get_include), "numpy.f2py.f2py2e" in sys.modules)
+"""
+    done = subprocess.run([sys.executable, "-c", program], check=True, capture_output=True, text=True, timeout=300)
+    assert done.stdout.split() == ["False", "True", "True"]

@@ -11,9 +11,11 @@ from scenarios import short_scenario
 from scipy.integrate import solve_ivp
 from scipy.linalg import solve_discrete_are
 
+from workbench.compile.code_cache import kept_texts
 from workbench.errors import InputError
+from workbench.mpc import model as model_module
 from workbench.mpc.kernels import kernels
-from workbench.mpc.model import ACTUATORS, model
+from workbench.mpc.model import ACTUATORS, kernel_functions, model
 from workbench.mpc.preview import preview
 from workbench.mpc.problem import Problem, Weights
 from workbench.mpc.terminal import lqr
@@ -127,3 +129,28 @@ def test_weights_too_far_apart_are_refused():
     problem = Problem(10, 0.1, (0.1, 0.0, 0.0), -1.0, 1.0, Weights(1e-9, 0.0, 1e12))
     with pytest.raises(InputError, match="choose weights nearer"):
         lqr(problem)
+
+
+def test_its_texts_are_made_once_and_anew_when_anything_that_they_depend_on_has_changed(tmp_path, monkeypatch, capsys):
+    monkeypatch.setenv("WORKBENCH_CACHE", str(tmp_path / "cache"))
+    source, made = tmp_path / "source.py", []
+    source.write_text("a")
+
+    def texts(*made_of):
+        return kept_texts(made_of, (source,), lambda: (str(made.append(made_of)), *made_of))
+
+    for made_of, times in ((("x",), 1), (("x",), 1), (("x", ""), 2), (("", "x"), 3), (("x\n0 ",), 4), (("x",), 4)):
+        assert texts(*made_of) == ("None", *made_of)
+        assert len(made) == times
+    source.write_text("b")
+    assert texts("x") == ("None", "x") and len(made) == 5
+    for path in (tmp_path / "cache").rglob("*.sealed-texts"):
+        path.write_bytes(path.read_bytes()[:-1] + b"?")
+    assert texts("x") == ("None", "x") and len(made) == 6
+    assert "damaged" in capsys.readouterr().err
+    # The model's own: another process takes derivatives of nothing.
+    first = kernel_functions.__wrapped__("lag")
+    monkeypatch.setattr(model_module, "_kernel_functions", lambda actuator: pytest.fail("derived again"))
+    assert kernel_functions.__wrapped__("lag") == first
+    with pytest.raises(pytest.fail.Exception, match="derived again"):
+        kernel_functions.__wrapped__("direct")

@@ -3,6 +3,7 @@
 import operator
 import subprocess
 import sys
+import time
 
 import pytest
 from worker_tasks import end_the_process
@@ -12,16 +13,19 @@ from workbench.tasks import processes
 from workbench.tasks.handing_out import run_tasks
 
 
-def test_what_workers_have_started_is_recorded_before_an_interruption_goes_on():
-    recorded = []
+def test_what_workers_have_started_is_recorded_before_an_interruption_goes_on(monkeypatch):
+    recorded, interrupted = [], []
+    monkeypatch.setattr(processes, "GRACE_S", 100.0)
 
     def record(value):
         recorded.append(value)
         if len(recorded) == 1:
+            interrupted.append(time.monotonic())
             raise KeyboardInterrupt
 
     with pytest.raises(KeyboardInterrupt):
         run_tasks(operator.add, 100, range(50), 2, record)
+    assert time.monotonic() - interrupted[0] < processes.GRACE_S / 2  # which is for tasks that have begun
     assert 1 < len(recorded) < 10
     assert set(recorded) <= set(range(100, 150))
 

@@ -20,7 +20,9 @@ from typer.main import get_command
 from workbench.cli.collection import collect_later, end_without_search
 from workbench.cli.console import err_console
 from workbench.cli.options import Version
+from workbench.cli.unused import import_unused_later
 from workbench.errors import InputError, WorkbenchError, of_an_extra, printable
+from workbench.tasks.room_for_calls import with_room_for_calls
 from workbench.tasks.threads import use_one_thread
 
 INTERRUPTED = 130  # with which typer ends after Ctrl-C
@@ -70,11 +72,13 @@ def main() -> None:
     use_one_thread()
     collect_later()
     end_without_search()
+    import_unused_later()
     if threading.current_thread() is threading.main_thread():
         signal.signal(signal.SIGTERM, signal.default_int_handler)  # what is finished is kept, as after Ctrl-C
     try:
         _require_folder()
-        code = _command()(sys.argv[1:] or ["--help"], prog_name="workbench", standalone_mode=False) or 0
+        code = with_room_for_calls(_command(), sys.argv[1:] or ["--help"], prog_name="workbench",
+                                   standalone_mode=False) or 0
     except WorkbenchError as trouble:
         code = _refused(str(trouble))
     except ImportError as trouble:

@@ -9,6 +9,7 @@ from __future__ import annotations
 import hashlib
 import pickle
 import sys
+from collections.abc import Callable, Sequence
 from importlib.abc import SourceLoader
 from importlib.util import module_from_spec, spec_from_loader
 from pathlib import Path
@@ -16,6 +17,7 @@ from types import ModuleType
 from typing import Any
 
 import numba
+import sympy
 from numba.core.caching import IndexDataCacheFile
 from numba.core.ccallback import CFunc
 from numba.core.dispatcher import Dispatcher
@@ -65,6 +67,21 @@ def c_function(module: ModuleType, name: str, prototype: Any) -> Any:
     pointer = prototype(found.address)
     pointer.code = found  # lives as long as it may be called
     return pointer
+
+
+def kept_texts(made_of: Sequence[str], sources: Sequence[Path], make: Callable[[], tuple[str, ...]]) -> tuple[str, ...]:
+    """What make() gives, kept between runs like compiled code.
+
+    made_of: all that the texts depend on, in words; sources: the files of the code that makes them.
+    """
+    whole = [sympy.__version__, *made_of, *(hashlib.sha256(contents(path)).hexdigest() for path in sources)]
+    key = hashlib.sha256("\n".join(f"{len(one)} {one}" for one in whole).encode()).hexdigest()
+    path = _folder() / f"{key[:20]}.sealed-texts"
+    found = _unsealed(path)
+    if found is None or found[0] != key:
+        found = key, make()
+        _write(path, pickle.dumps(found))
+    return found[1]
 
 
 def _seal(function: Any, folder: Path) -> None:

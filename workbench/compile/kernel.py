@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import hashlib
+import inspect
 import keyword
 import sys
 from collections.abc import Callable, Iterable, Sequence
+from pathlib import Path
 from types import ModuleType
 from typing import Any, Literal
 
@@ -23,6 +25,9 @@ from workbench.trains.multi_particle import cars
 from workbench.trains.train import Plant
 
 Estimates = Literal["corrected", "explicit"]
+
+# Whose functions make text of expressions, this file first.
+KERNEL_SOURCES = (Path(__file__), Path(inspect.getfile(require_short)))
 
 _CASADI: dict[str, Any] = {
     "exp": ca.exp, "log": ca.log, "sqrt": ca.sqrt, "tanh": ca.tanh, "sin": ca.sin, "cos": ca.cos,

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any, TypeVar
 
@@ -12,7 +13,8 @@ from workbench.model.cascaded_pid import cascaded_pid
 from workbench.model.law import ControlLaw
 from workbench.model.pid import pid
 
-GENERAL: dict[str, ControlLaw] = {law.id: law for law in (pid, cascaded_pid())}
+# By what makes them: few commands ask for the second, whose expressions take sympy as long as reading a scenario.
+GENERAL: dict[str, Callable[[], ControlLaw]] = {"pid": lambda: pid, "cascaded_pid": cascaded_pid}
 
 T = TypeVar("T")
 
@@ -26,7 +28,8 @@ def law_named(name: str, near: Path) -> ControlLaw | None:
     `<paper>.<law>` is looked up in the folder itself, then as `paper_named` finds the paper; `FILE.py::name` relative
     to the folder. Raises InputError where a module cannot be imported, or a named file holds no such law.
     """
-    return GENERAL.get(name) or named(name, near, "laws", ControlLaw)
+    make = GENERAL.get(name)
+    return make() if make else named(name, near, "laws", ControlLaw)
 
 
 def laws_near(near: Path) -> list[str]:

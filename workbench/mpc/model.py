@@ -9,11 +9,13 @@ from __future__ import annotations
 
 import functools
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Any, Literal
 
 import sympy as sp
 
-from workbench.compile.kernel import casadi_function, function_source
+from workbench.compile.code_cache import kept_texts
+from workbench.compile.kernel import KERNEL_SOURCES, casadi_function, function_source
 from workbench.trains.train import single_particle_per_mass
 
 Actuator = Literal["direct", "lag"]
@@ -44,16 +46,21 @@ def rk4(rates: dict[sp.Symbol, sp.Expr], period: sp.Expr) -> dict[sp.Symbol, sp.
 
 @dataclass(frozen=True)
 class Model:
-    """One period as expressions: the state that follows, its derivatives, and where these are not constant.
+    """One period as expressions: the state that follows, and its derivatives.
 
-    following: of (p, v, F); entries: ((row, column), expression) of the derivatives with respect to (p, v, F, u) that
-    are not zero, those that are one included.
+    following: of (p, v, F).
     """
 
     actuator: Actuator
     following: tuple[sp.Expr, ...]
-    entries: tuple[tuple[tuple[int, int], sp.Expr], ...]
     parameters: tuple[sp.Symbol, ...]
+
+    @functools.cached_property
+    def entries(self) -> tuple[tuple[tuple[int, int], sp.Expr], ...]:
+        """((row, column), expression) of the derivatives with respect to (p, v, F, u) that are not zero, those that are
+        one included."""
+        every = {(i, j): sp.diff(expr, x) for i, expr in enumerate(self.following) for j, x in enumerate((*STATE, u))}
+        return tuple((at, d) for at, d in every.items() if d != 0)
 
     def casadi_step(self) -> Any:
         """casadi Function of (p, v, F, u, f, parameters...) that gives the following state."""
@@ -72,9 +79,7 @@ def model(actuator: Actuator) -> Model:
         rates[F] = (u - F) / tau
     after = rk4(rates, T)
     following = tuple(after.get(x, u) for x in STATE)
-    derivatives = {(i, j): sp.diff(expr, x) for i, expr in enumerate(following) for j, x in enumerate((*STATE, u))}
-    parameters = (*plant.parameters, T, tau)
-    return Model(actuator, following, tuple((at, d) for at, d in derivatives.items() if d != 0), parameters)
+    return Model(actuator, following, (*plant.parameters, T, tau))
 
 
 SHARED = "P00 P01 P02 P11 P12 P22"
@@ -87,8 +92,15 @@ def kernel_functions(actuator: Actuator) -> tuple[str, ...]:
     """Python source of `follow`, `linearise`, `soften` and `backward`, which `solver_kernel.py` is joined with.
 
     `backward` is the step of Riccati's recursion before the command is chosen: B'PB, A'PB, A'PA, B'y, A'y.
-    The zeros of the model are left out of it.
+    The zeros of the model are left out of it. The texts are kept: to find them takes longer than a short run.
     """
+    plant = single_particle_per_mass()
+    made_of = (actuator, sp.srepr(list(plant.rates.items())), sp.srepr([plant.command, plant.disturbance]),
+               sp.srepr(plant.parameters))
+    return kept_texts(made_of, (Path(__file__), *KERNEL_SOURCES), functools.partial(_kernel_functions, actuator))
+
+
+def _kernel_functions(actuator: Actuator) -> tuple[str, ...]:
     of = model(actuator)
     symbols = {at: sp.Symbol(f"j{at[0]}{at[1]}", real=True) for at, _ in of.entries}
     one = {at for at, d in of.entries if d == 1}

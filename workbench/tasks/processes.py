@@ -21,6 +21,7 @@ from typing import Any, TypeVar
 from workbench.errors import WorkbenchError
 from workbench.files.cache_folder import note
 from workbench.files.modules import KnownFolders
+from workbench.tasks.room_for_calls import with_room_for_calls
 from workbench.tasks.sent import job_bytes, job_of
 from workbench.tasks.threads import THREAD_LIMITS
 
@@ -92,7 +93,8 @@ class LocalProcesses:
                 raise
             except BaseException:
                 pool.shutdown(wait=False, cancel_futures=True)
-                wait(running, timeout=GRACE_S)
+                # Who has not begun never will: to wait for those, too, is to wait to the end.
+                wait([future for future in running if not future.cancel()], timeout=GRACE_S)
                 for process in set(multiprocessing.active_children()) - others:
                     process.terminate()
                 for future in list(running):
@@ -224,4 +226,4 @@ def _leave_with_parent() -> None:
 
 def _work(task: Any) -> Any:
     function, shared = _job
-    return function(shared, task)
+    return with_room_for_calls(function, shared, task)

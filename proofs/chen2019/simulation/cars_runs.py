@@ -131,8 +131,10 @@ class _Arrays:
         return cls(plan.reference, start, values, plan.cars, slope, variation, memory, shared)
 
     def spread(self, lanes: int) -> Self:
-        """The same in so many lanes."""
-        return type(self)(*(np.repeat(x[..., None], lanes, axis=-1) for x in self.every()))
+        """The same in so many lanes; in one, what is learned stays where it is: a long run has little room for two."""
+        learned = (id(self.memory), id(self.shared)) if lanes == 1 else ()
+        return type(self)(*(x[..., None] if id(x) in learned else np.repeat(x[..., None], lanes, axis=-1)
+                            for x in self.every()))
 
     def put(self, lane: int, other: Self) -> None:
         """Another plan's own arrays into a lane."""
@@ -159,7 +161,9 @@ def _run_alike(plans: Sequence[CarsPlan], lanes_at_most: int) -> list[CarsRun]:
                 lanes[place], own = _Lane(number, plan), _Arrays.of(plan)
                 if arrays is None:
                     arrays = own.spread(width)
-                arrays.put(place, own)
+                else:
+                    arrays.put(place, own)
+                del own  # as large as what is learned
         if arrays is None or not any(lanes):
             return [found[number] for number in range(len(plans))]
         _trial(lanes, arrays)
