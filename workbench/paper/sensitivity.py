@@ -25,7 +25,7 @@ from workbench.model.sensitivity import Sensitivity
 from workbench.paper.loading import Loaded
 from workbench.paper.results import ResultTable
 from workbench.paper.sobol import Indices, design, indices
-from workbench.paper.study import with_values
+from workbench.paper.study import varied, with_values
 from workbench.paper.tuning_journal import SEARCHING
 from workbench.simulate.closed_loop import simulate
 from workbench.simulate.journal import REMEDY, Journal, code_digest
@@ -109,9 +109,12 @@ def _evaluate(shared: Shared, values: dict[str, Any]) -> float | None:
     if loaded.kind is None:
         return _of_scenario(loaded, stated, values)
     try:
-        changed: Any = with_values(loaded.study, stated.set | values, "joint_sensitivity.ranges")
+        changed: Any = (varied if stated.case else with_values)(
+            loaded.study, stated.set | values, "joint_sensitivity.ranges")
     except ValueError as trouble:
         raise InputError(loaded.path, "", str(trouble)) from None
+    if stated.case:
+        return _number(loaded.path, _one_run(loaded, changed, stated.case), stated.metric)
     if loaded.kind.located:
         changed = loaded.kind.located(changed, loaded.path)
     rows = loaded.kind.run(changed, 1, lambda *_: None).rows
@@ -120,6 +123,15 @@ def _evaluate(shared: Shared, values: dict[str, Any]) -> float | None:
         raise InputError(loaded.path, "joint_sensitivity.row", f"fits {len(chosen)} rows of the study: name keys and "
                          "values that one row alone has")
     return _number(loaded.path, chosen[0], stated.metric)
+
+
+def _one_run(loaded: Loaded, changed: Any, case: dict[str, Any]) -> dict[str, Any]:
+    if loaded.kind is None or loaded.kind.run_one is None:
+        raise InputError(loaded.path, "joint_sensitivity.case", "is for a paper's study that runs it again: name `row`")
+    try:
+        return loaded.kind.run_one(changed, case)
+    except ValueError as trouble:
+        raise InputError(loaded.path, "joint_sensitivity.case", str(trouble)) from None
 
 
 def _of_scenario(loaded: Loaded, stated: Sensitivity, values: dict[str, Any]) -> float | None:
