@@ -2,6 +2,7 @@
 
 import json
 import math
+from copy import copy
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -16,7 +17,15 @@ from workbench.errors import InputError
 from workbench.files.toml import read_toml
 from workbench.model.sensitivity import Sensitivity
 from workbench.paper.reproduction import Reproduction, _run_one
-from workbench.paper.sensitivity import CSV_NAME, JOURNAL_NAME, drawn, sensitivity, sensitivity_lines, sensitivity_table
+from workbench.paper.sensitivity import (
+    CSV_NAME,
+    JOURNAL_NAME,
+    _evaluate,
+    drawn,
+    sensitivity,
+    sensitivity_lines,
+    sensitivity_table,
+)
 from workbench.paper.sobol import design, indices
 from workbench.paper.study import varied
 from workbench.simulate.journal import Journal
@@ -144,6 +153,16 @@ def test_of_a_papers_study_the_one_run_is_made_that_the_table_names():
                           ({"change": -1}, "give factor, too")):
         with pytest.raises(ValueError, match=words):
             _run_one(kind, {"x": 5.0}, fields)
+
+
+def test_a_study_is_run_as_it_reaches_a_worker_process():
+    """How a study is run does not travel: a worker finds it beside the file."""
+    loaded = load(PROOFS / "jiao2025")
+    stated = loaded.record.joint_sensitivity.model_copy(update={"metric": "mse_0"})
+    values = {key: ends[0] for key, ends in stated.ranges.items()}
+    sent = copy(loaded)  # by what goes to a worker
+    assert sent.kind is None
+    assert _evaluate((sent, stated), values) == _evaluate((loaded, stated), values) > 0
 
 
 @pytest.mark.parametrize("name", [path.parent.name for path in sorted(PROOFS.glob("*/study.toml"))

@@ -22,10 +22,10 @@ from workbench.files.numbers import number
 from workbench.files.regular import contents
 from workbench.files.writing import write_text
 from workbench.model.sensitivity import Sensitivity
-from workbench.paper.loading import Loaded
+from workbench.paper.loading import Loaded, kind_of
 from workbench.paper.results import ResultTable
 from workbench.paper.sobol import Indices, design, indices
-from workbench.paper.study import varied, with_values
+from workbench.paper.study import StudyKind, varied, with_values
 from workbench.paper.tuning_journal import SEARCHING
 from workbench.simulate.closed_loop import simulate
 from workbench.simulate.journal import REMEDY, Journal, code_digest
@@ -106,7 +106,8 @@ def _one(given: tuple[Evaluate, Shared], task: tuple[int, dict[str, Any]]) -> tu
 
 def _evaluate(shared: Shared, values: dict[str, Any]) -> float | None:
     loaded, stated = shared
-    if loaded.kind is None:
+    kind = kind_of(loaded)
+    if kind is None:
         return _of_scenario(loaded, stated, values)
     try:
         changed: Any = (varied if stated.case else with_values)(
@@ -114,10 +115,10 @@ def _evaluate(shared: Shared, values: dict[str, Any]) -> float | None:
     except ValueError as trouble:
         raise InputError(loaded.path, "", str(trouble)) from None
     if stated.case:
-        return _number(loaded.path, _one_run(loaded, changed, stated.case), stated.metric)
-    if loaded.kind.located:
-        changed = loaded.kind.located(changed, loaded.path)
-    rows = loaded.kind.run(changed, 1, lambda *_: None).rows
+        return _number(loaded.path, _one_run(loaded, kind, changed, stated.case), stated.metric)
+    if kind.located:
+        changed = kind.located(changed, loaded.path)
+    rows = kind.run(changed, 1, lambda *_: None).rows
     chosen = [row for row in rows if all(row.get(key) == value for key, value in stated.row.items())]
     if len(chosen) != 1:
         raise InputError(loaded.path, "joint_sensitivity.row", f"fits {len(chosen)} rows of the study: name keys and "
@@ -125,11 +126,11 @@ def _evaluate(shared: Shared, values: dict[str, Any]) -> float | None:
     return _number(loaded.path, chosen[0], stated.metric)
 
 
-def _one_run(loaded: Loaded, changed: Any, case: dict[str, Any]) -> dict[str, Any]:
-    if loaded.kind is None or loaded.kind.run_one is None:
+def _one_run(loaded: Loaded, kind: StudyKind, changed: Any, case: dict[str, Any]) -> dict[str, Any]:
+    if kind.run_one is None:
         raise InputError(loaded.path, "joint_sensitivity.case", "is for a paper's study that runs it again: name `row`")
     try:
-        return loaded.kind.run_one(changed, case)
+        return kind.run_one(changed, case)
     except ValueError as trouble:
         raise InputError(loaded.path, "joint_sensitivity.case", str(trouble)) from None
 
