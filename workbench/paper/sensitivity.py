@@ -22,9 +22,10 @@ from workbench.files.numbers import number
 from workbench.files.regular import contents
 from workbench.files.writing import write_text
 from workbench.model.sensitivity import Sensitivity
+from workbench.paper.cells import Phrase, Quantity
 from workbench.paper.loading import Loaded, kind_of
 from workbench.paper.results import ResultTable
-from workbench.paper.sobol import Indices, design, indices
+from workbench.paper.sobol import Index, Indices, design, indices
 from workbench.paper.study import StudyKind, varied, with_values
 from workbench.paper.tuning_journal import SEARCHING
 from workbench.simulate.closed_loop import simulate
@@ -192,16 +193,20 @@ def sensitivity_table(found: Found) -> ResultTable:
     if found.indices.first is not None and found.indices.total is not None:
         for (key, ends), first, total in zip(stated.ranges.items(), found.indices.first, found.indices.total,
                                              strict=True):
-            rows.append((total.value, (key, *ends, first.value, first.low, first.high, total.value, total.low,
-                                       total.high)))
+            rows.append((total.value, (key, *ends, _share(first), _share(total))))
     rows.sort(key=lambda row: -row[0])
     return ResultTable(
         f"Which assumption decides {stated.metric}", "sensitivity, not in the paper",
-        ("assumed value", "from", "to", "alone", "alone, low", "alone, high", "in all", "in all, low", "in all, high"),
-        tuple(row for _, row in rows),
-        f"Sobol' indices from {len(found.values)} runs with all values drawn at once, and their 95 % bootstrap "
+        ("assumed value", "from", "to", "alone (%)", "in all (%)"), tuple(row for _, row in rows),
+        f"Sobol' indices from {len(found.values)} runs with all values drawn at once, in brackets their 95 % bootstrap "
         "intervals: the share of the variance that a value decides alone, and in all with what it does together "
         "with others.")
+
+
+def _share(index: Index) -> Phrase:
+    """An index in per cent, with its interval."""
+    return Phrase("{} [{}, {}]", tuple(Quantity(part, si=0.01, decimals=0) for part in (index.value, index.low,
+                                                                                       index.high)))
 
 
 def sensitivity_lines(found: Found) -> Iterator[str]:
