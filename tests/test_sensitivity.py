@@ -2,21 +2,34 @@
 
 import json
 import math
-from dataclasses import replace
+from copy import copy
+from dataclasses import dataclass, replace
 
 import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from pydantic import ValidationError
-from scenarios import YANG
+from scenarios import PROOFS, YANG
 
 from workbench.cli.loading import load
 from workbench.errors import InputError
+from workbench.files.toml import read_toml
 from workbench.model.sensitivity import Sensitivity
-from workbench.paper.sensitivity import CSV_NAME, JOURNAL_NAME, drawn, sensitivity, sensitivity_lines, sensitivity_table
+from workbench.paper.reproduction import Reproduction, _run_one
+from workbench.paper.sensitivity import (
+    CSV_NAME,
+    JOURNAL_NAME,
+    _evaluate,
+    drawn,
+    sensitivity,
+    sensitivity_lines,
+    sensitivity_table,
+)
 from workbench.paper.sobol import design, indices
+from workbench.paper.study import varied
 from workbench.simulate.journal import Journal
+from workbench.trains.scenario import Variant, changed_scenario
 
 ENDS = (-math.pi, math.pi)
 
@@ -114,8 +127,63 @@ def test_a_scenario_is_run_with_all_values_at_once():
             sensitivity(wrong, workers=1)
 
 
+@dataclass(frozen=True)
+class Case:
+    """A run of a study made up for the test: y = a x, negative where mended is not stated."""
+
+    factor: float
+    mended: tuple[str, ...] = ()
+    change: int = -1
+
+
+def test_of_a_papers_study_the_one_run_is_made_that_the_table_names():
+    made = []
+
+    def run(study, case):
+        made.append(case)
+        return case.factor * study["x"] * (1 if case.mended else -1)
+
+    kind = Reproduction(None, lambda study: [Case(2.0), Case(2.0, ("4",)), Case(3.0), Case(2.0, change=0)], run, None,
+                        lambda study, case, found: {"y": found}, None, (), (), (), None, None)
+    assert _run_one(kind, {"x": 5.0}, {"factor": 2.0}) == {"y": -10.0}  # else as stated
+    assert _run_one(kind, {"x": 5.0}, {"factor": 2.0, "mended": ["4"]}) == {"y": 10.0}
+    assert made == [Case(2.0), Case(2.0, ("4",))]  # and no other
+    for fields, words in (({"gain": 1.0}, "has no 'gain': choose among factor, mended, change"),
+                          ({"factor": 4.0}, "no run has factor = 4.0: choose among 2.0, 3.0"),
+                          ({"change": -1}, "give factor, too")):
+        with pytest.raises(ValueError, match=words):
+            _run_one(kind, {"x": 5.0}, fields)
+
+
+def test_a_study_is_run_as_it_reaches_a_worker_process():
+    """How a study is run does not travel: a worker finds it beside the file."""
+    loaded = load(PROOFS / "jiao2025")
+    stated = loaded.record.joint_sensitivity.model_copy(update={"metric": "mse_0"})
+    values = {key: ends[0] for key, ends in stated.ranges.items()}
+    sent = copy(loaded)  # by what goes to a worker
+    assert sent.kind is None
+    assert _evaluate((sent, stated), values) == _evaluate((loaded, stated), values) > 0
+
+
+@pytest.mark.parametrize("name", [path.parent.name for path in sorted(PROOFS.glob("*/study.toml"))
+                                  if "joint_sensitivity" in read_toml(path)])
+def test_each_table_of_a_paper_names_values_and_a_number_that_are_there(name):
+    """Every end of every range fits the study; what the runs give is for the benchmark to say."""
+    loaded = load(PROOFS / name)
+    stated = loaded.record.joint_sensitivity
+    for end in (0, 1):
+        values = {key: ends[end] for key, ends in stated.ranges.items()}
+        if loaded.kind is None:
+            assert stated.controller in loaded.scenario.controllers
+            changed_scenario(loaded.path, dict(loaded.data), Variant(title="end", set=stated.set | values),
+                             loaded.scenario)
+        else:
+            varied(loaded.study, stated.set | values, "joint_sensitivity.ranges")
+
+
 @pytest.mark.parametrize(("changes", "words"), [
-    ({"samples": 100}, "no power of two"), ({"ranges": {}}, "none given"),
+    ({"samples": 1}, "greater than or equal to 2"), ({"samples": 100}, "no power of two"),
+    ({"ranges": {}}, "none given"),
     ({"ranges": {"x": (2.0, 1.0)}}, "is no range"),
     ({"logarithmic": ("x1",)}, "no range of positive numbers")])
 def test_tables_that_cannot_be_drawn_are_refused(changes, words):

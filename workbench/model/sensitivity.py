@@ -14,17 +14,19 @@ class Sensitivity(SourcedRecord):
     """A joint sweep: all values are drawn at once, each between its two ends, evenly or (`logarithmic`) on a log scale.
 
     ranges: dotted key of the file -> from where to where. metric: a number of a run's row; controller: of a scenario,
-    whose run; row: of a study, key -> value by which its row is found. samples: a power of two; the file is run
-    samples * (ranges + 2) times. set: other values of the file, to run less of it. failed: what a run that fails counts
-    as; without it such a run is an error.
+    whose run; row: of a study, key -> value by which its row is found. case: of a paper's study, field -> value of the
+    one run that is made for a draw; without it the whole study is run for each. samples: a power of two; the file is
+    run samples * (ranges + 2) times. set: other values of the file, to run less of it. failed: what a run that fails
+    counts as; without it such a run is an error.
     """
 
     ranges: dict[Text, tuple[Number, Number]]
     metric: Text
-    samples: Annotated[int, Strict(), Field(ge=1, le=2**20)]
+    samples: Annotated[int, Strict(), Field(ge=2, le=2**20)]
     seed: Seed
     controller: Text | None = None
     row: dict[Text, Any] = Field(default_factory=dict)
+    case: dict[Text, Any] = Field(default_factory=dict)
     logarithmic: tuple[Text, ...] = ()
     set: dict[Text, Any] = Field(default_factory=dict)
     failed: Number | None = None

@@ -94,6 +94,14 @@ def load(path: Path, kinds: Kinds | None = None) -> Loaded:
     return Loaded(path, data, kind.located(study, path) if kind.located else study, kind)
 
 
+def kind_of(loaded: Loaded) -> StudyKind | None:
+    """How a paper's study is run, in a worker process too, where it is looked up beside the file; None for a scenario.
+    """
+    if loaded.kind is not None or loaded.data.get("kind") is None:
+        return loaded.kind
+    return _plant_kind() if loaded.data["kind"] == PLANT else study_kind(loaded.path)
+
+
 def _plant_kind() -> StudyKind:
     from workbench.paper.plants.study import KIND  # noqa: PLC0415 - casadi, which other files do without
 

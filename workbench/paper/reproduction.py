@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 from collections.abc import Callable, Hashable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
@@ -78,7 +79,8 @@ class Reproduction:
     def kind(self) -> StudyKind:
         """The contract that every verb reads."""
         drivers = self.beside.drivers
-        return StudyKind(self.record, partial(_run, self), checked(drivers), tune_with(drivers), track=self.track)
+        return StudyKind(self.record, partial(_run, self), checked(drivers), tune_with(drivers), track=self.track,
+                         run_one=partial(_run_one, self))
 
     def own_stage(self, study: Any) -> Stage:
         """The runs of all cases."""
@@ -94,6 +96,25 @@ def _each(makers: Sequence[Callable[[Any], Any]], results: Any) -> Iterator[Any]
     for maker in makers:
         made = maker(results)
         yield from (made,) if isinstance(made, ResultTable | Plot) else made
+
+
+def _run_one(of: Reproduction, study: Any, fields: Mapping[str, Any]) -> dict[str, Any]:
+    """The row of the case with these fields; where several have them, of that which is else as stated."""
+    cases: list[Any] = list(of.cases(study))
+    for key, value in fields.items():
+        if not hasattr(cases[0], key):
+            raise ValueError(f"a run has no {key!r}: choose among {', '.join(vars(cases[0]))}")
+        wanted = tuple(value) if isinstance(value, list) else value
+        known = dict.fromkeys(getattr(case, key) for case in cases)
+        cases = [case for case in cases if getattr(case, key) == wanted]
+        if not cases:
+            raise ValueError(f"no run has {key} = {value!r}: choose among {', '.join(map(repr, known))}")
+    for field in dataclasses.fields(cases[0]):
+        cases = [case for case in cases if getattr(case, field.name) == field.default] or cases
+    if len(cases) > 1:
+        differing = [key for key in vars(cases[0]) if len({getattr(case, key) for case in cases}) > 1]
+        raise ValueError(f"{len(cases)} runs have these fields: give {' and '.join(differing)}, too")
+    return of.row(study, cases[0], of.run(study, cases[0]))
 
 
 def _run(of: Reproduction, study: Any, workers: int, on_progress: Progress) -> StudyResult:

@@ -22,10 +22,11 @@ from workbench.files.numbers import number
 from workbench.files.regular import contents
 from workbench.files.writing import write_text
 from workbench.model.sensitivity import Sensitivity
-from workbench.paper.loading import Loaded
+from workbench.paper.cells import Phrase, Quantity
+from workbench.paper.loading import Loaded, kind_of
 from workbench.paper.results import ResultTable
-from workbench.paper.sobol import Indices, design, indices
-from workbench.paper.study import with_values
+from workbench.paper.sobol import Index, Indices, design, indices
+from workbench.paper.study import StudyKind, varied, with_values
 from workbench.paper.tuning_journal import SEARCHING
 from workbench.simulate.closed_loop import simulate
 from workbench.simulate.journal import REMEDY, Journal, code_digest
@@ -106,20 +107,33 @@ def _one(given: tuple[Evaluate, Shared], task: tuple[int, dict[str, Any]]) -> tu
 
 def _evaluate(shared: Shared, values: dict[str, Any]) -> float | None:
     loaded, stated = shared
-    if loaded.kind is None:
+    kind = kind_of(loaded)
+    if kind is None:
         return _of_scenario(loaded, stated, values)
     try:
-        changed: Any = with_values(loaded.study, stated.set | values, "joint_sensitivity.ranges")
+        changed: Any = (varied if stated.case else with_values)(
+            loaded.study, stated.set | values, "joint_sensitivity.ranges")
     except ValueError as trouble:
         raise InputError(loaded.path, "", str(trouble)) from None
-    if loaded.kind.located:
-        changed = loaded.kind.located(changed, loaded.path)
-    rows = loaded.kind.run(changed, 1, lambda *_: None).rows
+    if stated.case:
+        return _number(loaded.path, _one_run(loaded, kind, changed, stated.case), stated.metric)
+    if kind.located:
+        changed = kind.located(changed, loaded.path)
+    rows = kind.run(changed, 1, lambda *_: None).rows
     chosen = [row for row in rows if all(row.get(key) == value for key, value in stated.row.items())]
     if len(chosen) != 1:
         raise InputError(loaded.path, "joint_sensitivity.row", f"fits {len(chosen)} rows of the study: name keys and "
                          "values that one row alone has")
     return _number(loaded.path, chosen[0], stated.metric)
+
+
+def _one_run(loaded: Loaded, kind: StudyKind, changed: Any, case: dict[str, Any]) -> dict[str, Any]:
+    if kind.run_one is None:
+        raise InputError(loaded.path, "joint_sensitivity.case", "is for a paper's study that runs it again: name `row`")
+    try:
+        return kind.run_one(changed, case)
+    except ValueError as trouble:
+        raise InputError(loaded.path, "joint_sensitivity.case", str(trouble)) from None
 
 
 def _of_scenario(loaded: Loaded, stated: Sensitivity, values: dict[str, Any]) -> float | None:
@@ -179,16 +193,20 @@ def sensitivity_table(found: Found) -> ResultTable:
     if found.indices.first is not None and found.indices.total is not None:
         for (key, ends), first, total in zip(stated.ranges.items(), found.indices.first, found.indices.total,
                                              strict=True):
-            rows.append((total.value, (key, *ends, first.value, first.low, first.high, total.value, total.low,
-                                       total.high)))
+            rows.append((total.value, (key, *ends, _share(first), _share(total))))
     rows.sort(key=lambda row: -row[0])
     return ResultTable(
         f"Which assumption decides {stated.metric}", "sensitivity, not in the paper",
-        ("assumed value", "from", "to", "alone", "alone, low", "alone, high", "in all", "in all, low", "in all, high"),
-        tuple(row for _, row in rows),
-        f"Sobol' indices from {len(found.values)} runs with all values drawn at once, and their 95 % bootstrap "
+        ("assumed value", "from", "to", "alone (%)", "in all (%)"), tuple(row for _, row in rows),
+        f"Sobol' indices from {len(found.values)} runs with all values drawn at once, in brackets their 95 % bootstrap "
         "intervals: the share of the variance that a value decides alone, and in all with what it does together "
         "with others.")
+
+
+def _share(index: Index) -> Phrase:
+    """An index in per cent, with its interval."""
+    return Phrase("{} [{}, {}]", tuple(Quantity(part, si=0.01, decimals=0) for part in (index.value, index.low,
+                                                                                       index.high)))
 
 
 def sensitivity_lines(found: Found) -> Iterator[str]:

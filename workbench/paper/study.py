@@ -55,8 +55,8 @@ def with_values(study: S, values: Mapping[str, Any], where: str) -> S:
         return type(study).model_validate(data).in_folder(study.folder)
     except ValidationError as trouble:
         first = trouble.errors()[0]
-        what = first["msg"].removeprefix("Value error, ")
-        raise ValueError(f"{where}: {'.'.join(map(str, first['loc']))}: {what}: correct it") from None
+        parts = (where, ".".join(map(str, first["loc"])), first["msg"].removeprefix("Value error, "), "correct it")
+        raise ValueError(": ".join(filter(None, parts))) from None
 
 
 def varied(study: S, values: Mapping[str, Any], where: str) -> S:
@@ -76,6 +76,8 @@ class StudyKind:
     run_kept(study, workers, on_progress, folder, resume): of studies that take long, `run` with what is finished kept
     in a folder, from which `resume` goes on; InputError where the folder is another's or cannot be written.
     track(study, curve): of papers with a main controller, how it follows a reference, its own where curve is None.
+    run_one(study, case): of papers run again, the row of the one run whose case has these fields, and of the others the
+    values that they have by default; ValueError where that is none or several.
     """
 
     record: type[Study]
@@ -85,3 +87,4 @@ class StudyKind:
     run_kept: Callable[[Any, int, Progress, Path, bool], StudyResult] | None = None
     track: Callable[[Any, DesiredCurve | None], Tracked] | None = None
     depends: Callable[[Any], str] | None = None
+    run_one: Callable[[Any, Mapping[str, Any]], dict[str, Any]] | None = None

@@ -193,6 +193,7 @@ def run_row(study: ChenStudy, case: RunCase, run: CarsRun) -> dict[str, Any]:
             "saturated_fraction": last.get("at_limit"),
             "difference_max_N": float(run.difference[-1]) if ended else None,
             "position_error_first": float(run.position_error[0]) if ended else None,
+            "position_error_last": float(run.position_error[-1]) if ended else None,
             "speed_error_first": float(run.speed_error[0]) if ended else None, "outcome": outcome(run),
             "step_us_median": float(np.median(run.step_us)), "failed": run.failed}
 
