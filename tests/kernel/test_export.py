@@ -94,7 +94,7 @@ SATURATED = {"version": 2, "claim": "mine:14", "verdict": "proved", "example": {
              "goal": {"flow": {"x": "tanh(z)", "y": "(1 - exp(2*z))/(1 + exp(2*z))"}, "show": ["D(x + y) == 0"]},
              "proofs": [IDENTITY]}
 
-# Coefficients of many digits, and more parts than are written as one term.
+# Coefficients of many digits, and many parts.
 LONG = {"version": 2, "claim": "mine:15", "verdict": "proved", "example": {"x": "1", "y": "1"},
         "goal": {"assume": ["y > 0", "x/y >= 1/1000000000003"], "show": [
             " + ".join(f"x**2/{10**12 + k}" for k in range(25)) + " >= 0",

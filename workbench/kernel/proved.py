@@ -12,8 +12,6 @@ from workbench.kernel.totals import read_closed
 from workbench.kernel.writing import conjunction
 from workbench.proof.checker import Context, Relations, calls, margin, read_goal, split_relation
 
-MANY_PARTS = 20  # of a conjunction: as one term each part's type would be compared with all that follow it
-
 
 def proof_of(goal: Goal, certificate: dict[str, Any]) -> Script:
     """The script that proves what `goal.statement()` says, step by step as the certificate does.
@@ -53,9 +51,5 @@ def _proof_of(goal: Goal, certificate: dict[str, Any], context: Context, given: 
             prove(script, value, operator, proof)
         shown += [script.facts.conditions[condition] for condition in goal.conditions(text)]
         shown.append(f"({MARGINS[split_relation(text)[1]]}_of _ _ _ {equation} {name})")
-    if len(shown) > MANY_PARTS:
-        for part in shown[:-1]:
-            script.say(f"split; [exact {part}|].")
-        shown = shown[-1:]
     script.say(f"exact {conjunction(shown)}.")
     return script
