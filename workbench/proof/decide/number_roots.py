@@ -5,7 +5,7 @@ from __future__ import annotations
 from fractions import Fraction
 from typing import Any
 
-from workbench.proof.checker import Context, Poly, Ratio, constant, margin, read_goal
+from workbench.proof.checker import CertificateError, Context, Poly, Ratio, constant, margin, read_goal
 
 Proof = dict[str, Any]
 
@@ -19,8 +19,11 @@ def with_root_squares(record: dict[str, Any], proofs: list[Proof]) -> list[Proof
 
 def _by_squares(record: dict[str, Any], place: int) -> Proof | None:
     """A proof that an equality holds: its numerator is a sum of multiples of root**2 - number."""
-    context, _ = read_goal(record)
-    value, operator = margin(context, record["show"][place])
+    try:
+        context, _ = read_goal(record)
+        value, operator = margin(context, record["show"][place])
+    except CertificateError:  # a rate of what has none everywhere: not for an identity to show
+        return None
     roots = {atom: number for atom, (kind, of) in context.functions.items()
              if kind == "sqrt" and (number := _number(of)) is not None and number > 0}
     if operator != "==" or value.is_zero() or not roots:

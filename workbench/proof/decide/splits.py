@@ -36,6 +36,10 @@ def find_by_splits(goal: Goal, shown: Relation, given: Given, search: Search) ->
         return None
     if not margin.free_symbols or len(set().union(*(r.margin.free_symbols for r in (shown, *given)))) > 6:
         return None
+    if _is_quadratic(margin, given):
+        return None
+    if not all(value is None or value >= 0 for value in (_value(margin, point) for point in _points(shown, given))):
+        return None
     for depth in range(1, DEEPEST + 1):
         left = [MOST_SEARCHES]
 
@@ -46,6 +50,17 @@ def find_by_splits(goal: Goal, shown: Relation, given: Given, search: Search) ->
         if (found := _in_cases(goal, shown, given, limited, depth)) is not None:
             return found
     return None
+
+
+def _is_quadratic(margin: sp.Expr, given: Given) -> bool:
+    """Whether a margin is a quadratic form in the symbols of no known sign, of which nothing else is assumed: one that
+    is nowhere negative is a sum of squares, with no need of cases."""
+    signed = {s for s in margin.free_symbols if s.is_nonnegative or s.is_nonpositive} | {
+        s for r in given for s in r.margin.free_symbols if r.margin.free_symbols == {s}}
+    symbols = sorted(margin.free_symbols - signed, key=str)
+    if not symbols or any(not r.margin.free_symbols.isdisjoint(symbols) for r in given):
+        return False
+    return bool(margin.is_polynomial(*symbols)) and sp.Poly(margin, *symbols).total_degree() <= 2
 
 
 def _in_cases(goal: Goal, shown: Relation, given: Given, search: Search, depth: int) -> Proof | None:
