@@ -16,7 +16,7 @@ static double opposing(double t, double p, double v, long *hint, const double *e
         if (row[6] >= 2.0) value *= v;
         total += value;
     }
-    return mass * (values[*hint] + total);
+    return mass * (values[2 * *hint] + values[2 * *hint + 1] * (p - edges[*hint]) + total);
 }
 
 static double rate(double v, double force, double against, const double *plant) {
