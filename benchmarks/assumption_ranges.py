@@ -1,6 +1,6 @@
 """In what range the papers' headline numbers lie over all that is assumed, as a page of Markdown.
 
-    python benchmarks/assumption_ranges.py DIR docs/assumptions.md      # goes on with the runs that DIR has
+    python benchmarks/assumption_ranges.py DIR docs/assumptions.md [PAPER ...]     # goes on with the runs that DIR has
 """
 
 from __future__ import annotations
@@ -33,26 +33,32 @@ def section(loaded: Loaded, found: Found) -> Iterator[str]:
     yield from (f"## {loaded.record.name}: {table.metric}", "")
     told = (table.case and source.get("case"), table.controller and source.get("controller"), source.get("metric"),
             source.get("failed"), source.get("ranges"))
-    words = (text.partition(": ")[2] for text in told if text)
-    yield from (f"{'. '.join(text[0].upper() + text[1:] for text in words)}.", "")
+    words = "; ".join(text.partition(": ")[2] for text in told if text)
+    yield from (f"{words[0].upper()}{words[1:]}.", "")
     yield from (*(f"- {line}" for line in sensitivity_lines(found)), "")
     yield from shown(sensitivity_table(found))
 
 
 def main() -> None:
     """Run what is not run yet, and write the page."""
-    folder, out = map(Path, sys.argv[1:])
+    folder, out = map(Path, sys.argv[1:3])
+    wanted, left = sys.argv[3:], []
     lines = ["# What the assumptions decide", "",
              "A paper that does not print a gain, a curve or a step leaves a reader to assume it. Here all assumed "
              "values of a study are drawn at once, each from its range, and the number that carries the paper's "
              "headline is computed anew: `workbench sweep proofs/PAPER --sensitivity` runs one of these sweeps, "
              "`benchmarks/assumption_ranges.py` all of them, and writes this page.", ""]
     for loaded in stated():
+        if wanted and loaded.record.name not in wanted:
+            left.append(loaded.record.name)
+            continue
         own = folder / loaded.record.name
         with progress() as show:
             found = sensitivity(loaded, own, (own / JOURNAL_NAME).exists(), None,
                                 lambda done, total, name=loaded.record.name: show(name, done, total))
         lines += section(loaded, found)
+    if left:
+        lines.append(f"Stated in its file and not run for this page: {', '.join(left)}.")
     out.write_text("\n".join(lines).rstrip() + "\n", encoding="utf-8")
 
 
