@@ -28,7 +28,8 @@ from pathlib import Path
 import pyarrow.parquet
 
 sys.path.insert(0, str(Path(__file__).parent))
-from faults import Bench, Job, ended, instants, jobs, left_after
+from faults import Bench, ended, instants, left_after
+from long_jobs import Job, jobs
 
 START_S = 60.0
 

@@ -57,6 +57,7 @@ class Task:
     change: str
     place: str
     goal: Goal
+    text: str
 
 
 @dataclass(frozen=True)
@@ -88,14 +89,17 @@ def plan(paths: list[Path], count: int, seed: int) -> list[Task]:
     in_turn = [claim for nth in zip_longest(*papers) for claim in nth if claim is not None]
     waiting = [_Pile(claim, rng) for claim in in_turn[:count]]
     tasks: list[Task] = []
+    drawn: Counter[str] = Counter()
     while len(tasks) < count and waiting:
         for pile in tuple(waiting):
-            mutation = next(pile.mutants, None)
+            mutation = pile.next(drawn)
             if mutation is None:
                 waiting.remove(pile)
             elif len(tasks) < count:
+                drawn[mutation[0]] += 1
                 claim, goal = pile.claim, mutation[2]
-                tasks.append(Task(len(tasks), claim.id, claim.kind, _stated(claim, goal), *mutation))
+                shown = "; ".join(relation_text(r) for r in goal.show)
+                tasks.append(Task(len(tasks), claim.id, claim.kind, _stated(claim, goal), *mutation, shown))
     return tasks
 
 
@@ -108,7 +112,7 @@ def _stated(claim: Claim, goal: Goal) -> dict[sp.Expr, Fraction] | None:
 
 
 class _Pile:
-    """The mutants of a claim that say something, in random order, the kinds taking turns."""
+    """The mutants of a claim that say something, of each kind in random order."""
 
     def __init__(self, claim: Claim, rng: random.Random) -> None:
         assert claim.build is not None
@@ -116,13 +120,19 @@ class _Pile:
         by_kind: dict[str, list[Mutation]] = {kind: [] for kind in KINDS}
         for mutation in mutations(goal):
             by_kind[mutation.kind].append(mutation)
-        turns = [pile for pile in by_kind.values() if pile]
-        rng.shuffle(turns)
-        for pile in turns:
+        for pile in by_kind.values():
             rng.shuffle(pile)
-        order = (m for turn in zip_longest(*turns) for m in turn if m is not None)
-        self.mutants = ((m.kind, m.place, mutant) for m in order
-                        if (mutant := m.of(goal)) is not None and _says_something(mutant))
+        self.order = {kind: rng.random() for kind in KINDS}
+        self.mutants = {kind: ((m.kind, m.place, mutant) for m in pile
+                               if (mutant := m.of(goal)) is not None and _says_something(mutant))
+                        for kind, pile in by_kind.items()}
+
+    def next(self, drawn: Counter[str]) -> tuple[str, str, Goal] | None:
+        """The next one, of the kind that was drawn least so far; None where there is no other."""
+        for kind in sorted(KINDS, key=lambda kind: (drawn[kind], self.order[kind])):
+            if (mutant := next(self.mutants[kind], None)) is not None:
+                return mutant
+        return None
 
 
 def _says_something(goal: Goal) -> bool:
@@ -167,9 +177,8 @@ def judge(task: Task, seed: int, limit: float) -> Outcome:
     if witness is not None and verdict != "proved":  # refuted or not: would the provers have believed it?
         with suppress(OutOfTime), at_most_seconds(limit):
             verdict = "proved" if _provable(task) else verdict
-    shown = "; ".join(relation_text(r) for r in goal.show)
     return Outcome(task.number, task.claim, task.change, task.place, witness is not None,
-                   "" if witness is None else str(witness), verdict, time.perf_counter() - started, shown)
+                   "" if witness is None else str(witness), verdict, time.perf_counter() - started, task.text)
 
 
 def _provable(task: Task) -> bool:

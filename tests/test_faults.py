@@ -10,7 +10,8 @@ from command_line import one_line, run
 from scenarios import ROOT
 
 sys.path.insert(0, str(ROOT / "benchmarks"))
-from faults import Bench, full_disk, instants, jobs, trouble_of
+from faults import Bench, full_disk, instants, trouble_of
+from long_jobs import jobs
 
 import workbench.proof.worker  # noqa: F401 - forked processes need not import it
 

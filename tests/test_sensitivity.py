@@ -189,3 +189,9 @@ def test_each_table_of_a_paper_names_values_and_a_number_that_are_there(name):
 def test_tables_that_cannot_be_drawn_are_refused(changes, words):
     with pytest.raises(ValidationError, match=words):
         with_table(**changes)
+
+
+def test_a_contest_has_no_such_sweep_and_says_so_before_any_run():
+    one = with_table()
+    with pytest.raises(InputError, match="joint_sensitivity: is for scenarios and studies"):
+        sensitivity(replace(one, data={**one.data, "kind": "contest"}))

@@ -21,7 +21,7 @@ ROOT = Path(__file__).parents[2]
 sys.path.insert(0, str(ROOT / "benchmarks"))
 from mutation import FAILED, judge, plan  # noqa: E402
 
-WANTED, SEED, LIMIT = 24, 3, 1.5
+WANTED, SEED, LIMIT = 24, 2, 1.5
 
 
 @pytest.fixture(scope="module")

@@ -17,7 +17,7 @@ from small_folders import CLAIMS, PAPER, small_folder
 
 sys.path.insert(0, str(ROOT / "benchmarks"))
 from bad_input_texts import CONTEST, FLEET, LINE_MORE, TRAIN, line_text
-from faults import SEARCH, claims_without_times, contest_without_times
+from long_jobs import SEARCH, claims_without_times, contest_without_times
 
 from workbench.proof.prove import prove
 from workbench.proof.selection import targets

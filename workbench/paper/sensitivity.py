@@ -73,6 +73,8 @@ def sensitivity(loaded: Loaded, out: Path | None = None, resume: bool = False, w
     stated: Sensitivity | None = loaded.record.joint_sensitivity
     if stated is None:
         raise InputError(loaded.path, "joint_sensitivity", "is missing: name ranges, metric and samples in this table")
+    if loaded.data.get("kind") == "contest":
+        raise InputError(loaded.path, "joint_sensitivity", "is for scenarios and studies: state it in one of these")
     points = drawn(stated)
     shared, task = (loaded, stated), evaluate or _evaluate
     values: dict[int, float | None]

@@ -25,6 +25,7 @@ Search = Callable[[Goal, Relation, Given], "Proof | None"]
 MOST_SPLITS = 6  # expressions tried
 DEEPEST = 2  # cases one inside the other
 MOST_SEARCHES = 12  # of each depth, since most that fail have no proof in cases either
+NEAR_ZERO = 1e-9  # what rounding may leave
 POINTS = 60  # at which factors are looked at before a proof of their signs is sought
 OF_SIGN = {1: at_least, -1: at_most}
 
@@ -36,9 +37,9 @@ def find_by_splits(goal: Goal, shown: Relation, given: Given, search: Search) ->
         return None
     if not margin.free_symbols or len(set().union(*(r.margin.free_symbols for r in (shown, *given)))) > 6:
         return None
-    if _is_quadratic(margin, given):
-        return None
-    if not all(value is None or value >= 0 for value in (_value(margin, point) for point in _points(shown, given))):
+    points = _points(shown, given)
+    met = () if any(r.operator == "==" for r in given) else points  # an equality holds at none that is drawn
+    if any(value is not None and value < -NEAR_ZERO for value in (_value(margin, point) for point in met)):
         return None
     for depth in range(1, DEEPEST + 1):
         left = [MOST_SEARCHES]
@@ -47,30 +48,19 @@ def find_by_splits(goal: Goal, shown: Relation, given: Given, search: Search) ->
             left[0] -= 1
             return search(goal, shown, given) if left[0] >= 0 else None
 
-        if (found := _in_cases(goal, shown, given, limited, depth)) is not None:
+        if (found := _in_cases(goal, shown, given, points, limited, depth)) is not None:
             return found
     return None
 
 
-def _is_quadratic(margin: sp.Expr, given: Given) -> bool:
-    """Whether a margin is a quadratic form in the symbols of no known sign, of which nothing else is assumed: one that
-    is nowhere negative is a sum of squares, with no need of cases."""
-    signed = {s for s in margin.free_symbols if s.is_nonnegative or s.is_nonpositive} | {
-        s for r in given for s in r.margin.free_symbols if r.margin.free_symbols == {s}}
-    symbols = sorted(margin.free_symbols - signed, key=str)
-    if not symbols or any(not r.margin.free_symbols.isdisjoint(symbols) for r in given):
-        return False
-    return bool(margin.is_polynomial(*symbols)) and sp.Poly(margin, *symbols).total_degree() <= 2
-
-
-def _in_cases(goal: Goal, shown: Relation, given: Given, search: Search, depth: int) -> Proof | None:
-    points = _points(shown, given)
+def _in_cases(goal: Goal, shown: Relation, given: Given, points: list[dict[sp.Symbol, float]], search: Search,
+              depth: int) -> Proof | None:
     for of in _candidates(shown, given):
         proof: Proof = {"rule": "cases", "of": text(of)}
         for name, case in (("nonnegative", at_least(of, 0)), ("nonpositive", at_most(of, 0))):
             here, near = (*given, case), [point for point in points if _holds(case, point)]
             found = (_by_factors(goal, shown, here, near, search) or search(goal, shown, here)
-                     or (_in_cases(goal, shown, here, search, depth - 1) if depth > 1 else None))
+                     or (_in_cases(goal, shown, here, near, search, depth - 1) if depth > 1 else None))
             if found is None:
                 break
             proof[name] = found
@@ -81,17 +71,34 @@ def _in_cases(goal: Goal, shown: Relation, given: Given, search: Search, depth: 
 
 def _candidates(shown: Relation, given: Given) -> list[sp.Expr]:
     """Expressions to tell the signs of, each once."""
-    known = {symbol for r in given if r.operator not in ("!=",) for symbol in r.margin.free_symbols
-             if not sp.cancel(r.margin / symbol).free_symbols}
-    symbols = [s for s in sorted(shown.margin.free_symbols, key=str) if s not in known]
+    known = _of_known_sign(shown, given)
+    unknown = [s for s in sorted(shown.margin.free_symbols, key=str) if s not in known]
     factors = [f for r in (shown, *given) for f in _factors(r.margin)[1] if len(_factors(r.margin)[1]) > 1]
     polynomials = [f for f in factors if f.is_polynomial(*f.free_symbols) and not f.is_Symbol]
+    candidates = [*[f for f in factors if f.is_Symbol], *polynomials, *unknown]
+    if _is_quadratic(shown.margin, unknown, given):
+        candidates = [of for of in candidates if of.free_symbols <= known]
     tried: list[sp.Expr] = []
-    for of in (*[f for f in factors if f.is_Symbol], *polynomials, *symbols):
+    for of in candidates:
         told = [r.margin for r in given if r.operator not in ("==", "!=")] + tried
         if of not in known and not any(0 in (sp.expand(t - of), sp.expand(t + of)) for t in told):
             tried.append(of)
     return tried[:MOST_SPLITS]
+
+
+def _of_known_sign(shown: Relation, given: Given) -> set[sp.Expr]:
+    """Symbols that are positive or negative by what is given, or as they are."""
+    return {s for r in (shown, *given) for s in r.margin.free_symbols if s.is_nonnegative or s.is_nonpositive} | {
+        s for r in given if r.operator != "!=" for s in r.margin.free_symbols
+        if not sp.cancel(r.margin / s).free_symbols}
+
+
+def _is_quadratic(margin: sp.Expr, unknown: list[sp.Symbol], given: Given) -> bool:
+    """Whether a margin is a quadratic form in symbols of which nothing is known: their signs matter to none, and where
+    it is nowhere negative it is a sum of squares."""
+    if not unknown or any(not r.margin.free_symbols.isdisjoint(unknown) for r in given):
+        return False
+    return bool(margin.is_polynomial(*unknown)) and sp.Poly(margin, *unknown).total_degree() <= 2
 
 
 def _factors(margin: sp.Expr) -> tuple[sp.Expr, list[sp.Expr]]:
@@ -117,7 +124,7 @@ def _by_factors(goal: Goal, shown: Relation, given: Given, points: list[dict[sp.
     lemmas: list[tuple[Relation, Proof]] = []
     for factor in odd:
         values = [v for point in points if (v := _value(factor, point)) is not None]
-        sign = 1 if all(v > -1e-9 for v in values) else -1 if all(v < 1e-9 for v in values) else 0
+        sign = 1 if all(v > -NEAR_ZERO for v in values) else -1 if all(v < NEAR_ZERO for v in values) else 0
         if not sign:
             return None
         strict = shown.strict and (greater if sign > 0 else less)
