@@ -15,8 +15,8 @@ from workbench.compile.kernel import law_source, loop_module
 from workbench.errors import InputError, WorkbenchError
 from workbench.model.law import ControlLaw, LawState, desired_position, position, speed
 from workbench.model.laws import GENERAL
-from workbench.simulate import closed_loop
-from workbench.simulate.closed_loop import Factors, setting_of, simulate
+from workbench.simulate import closed_loop, law_time
+from workbench.simulate.closed_loop import Factors, prepared, setting_of, simulate
 from workbench.simulate.law_values import law_values
 from workbench.simulate.metrics import measure
 from workbench.trains.scenario import load_scenario
@@ -235,9 +235,23 @@ def test_timing_counts_steps_and_not_the_compiler(monkeypatch, tmp_path):
     monkeypatch.setattr(compiled_apart, "kept", lambda *_: True)  # and in this process
     run = simulate(with_law(short_scenario(), law, 0.01), "only")
     assert run.failed is None
-    # Compiling a kernel takes some tenths of a second; a thousand steps of it take less than a millisecond.
-    assert run.step_us.max() < 100.0
-    assert len(run.step_us) == np.ceil(run.totals["commands"] / 1000)
+    # Compiling a kernel takes some tenths of a second; some hundred steps of it take less than a millisecond.
+    assert 0.0 <= run.step_us.max() < 100.0 and len(run.step_us) == law_time.BLOCKS
+
+
+def test_a_step_is_timed_without_the_plant_and_leaves_what_the_run_gave(monkeypatch):
+    """The same law under a plant of ten times as many steps a sample: the loop takes longer, a step of the law not."""
+    monkeypatch.setattr(time, "perf_counter", time.process_time)
+    scenario = short_scenario()
+    slow = scenario.model_copy(update={"simulation": scenario.simulation.model_copy(
+        update={"plant_step_s": scenario.simulation.plant_step_s / 10})})
+    for name in ("rbfnn_pocrac", "pocrac"):
+        run, fine = simulate(scenario, name), simulate(slow, name)
+        assert len(run.step_us) == len(fine.step_us) == law_time.BLOCKS
+        assert 0.0 <= np.median(fine.step_us) < 3 * np.median(run.step_us) + 1.0
+        setting = setting_of(scenario)
+        untimed = prepared(scenario, name)(setting)
+        assert len(untimed.step_us) == 0 and np.array_equal(untimed.log, run.log) and untimed.totals == run.totals
 
 
 @pytest.mark.parametrize(("path", "name"), [

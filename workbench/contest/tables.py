@@ -103,8 +103,9 @@ def contestants_table(told: Told) -> ResultTable:
     return ResultTable("The contestants", "the contest's file", (
         "controller", "law", "is told", Column("period", "ms", 1e-3, None), STEP, "objective", "parameters"),
         tuple(rows),
-        "Time a step: a compiled law in blocks with the plant, MPC call by call without it. Objective: what tuning "
-        "minimises, on the draws of the search; of who has other parameters in each condition the least and the most.")
+        "Time a step: of the controller alone, without the plant; a compiled law in blocks, MPC call by call. "
+        "Objective: what tuning minimises, on the draws of the search; of who has other parameters in each condition "
+        "the least and the most.")
 
 
 def _objective(told: Told, entry: Entry) -> Cell:

@@ -20,6 +20,7 @@ from workbench.simulate import sensing_loop
 from workbench.simulate.controllers import SAMPLED, SampledController, compiled_law, held_command
 from workbench.simulate.kernel_loop import ACCUMULATORS, DIVERGED, LEFT_DOMAIN, LOG_COLUMNS, RUNNING
 from workbench.simulate.law_loop import LawLoop, law_loop, mpc_loop
+from workbench.simulate.law_time import law_step_us
 from workbench.simulate.law_values import check_controllers, controller_spec, law_values
 from workbench.simulate.ride import Ride, ride
 from workbench.simulate.setting import LEVEL, NOMINAL, UNLIMITED, Factors, Setting, setting_of
@@ -27,7 +28,7 @@ from workbench.trains.actuator import Known, drive, drive_totals
 from workbench.trains.scenario import ControllerSpec, Scenario
 from workbench.trains.train import Plant
 
-TIMED_BLOCK = 1000
+BLOCK = 10_000  # samples
 
 Array = NDArray[np.float64]
 Told = tuple[Array, Array, Array, Array]
@@ -101,7 +102,8 @@ def prepared(scenario: Scenario, name: str) -> Callable[[Setting], Run]:
     if law is None:
         return partial(simulate_in, scenario, name)
     return partial(run_law, law, law_values(law, spec, name), period_s=spec.period_s, name=name,
-                   title=spec.title or law.title, loop=law_loop(law, spec.estimates), predictor=spec.predictor)
+                   title=spec.title or law.title, loop=law_loop(law, spec.estimates), predictor=spec.predictor,
+                   timed=False)
 
 
 def simulate_in(scenario: Scenario, name: str, setting: Setting, plant: Plant | None = None,
@@ -135,7 +137,7 @@ def _run_whole(whole: WholeRun, setting: Setting, spec: ControllerSpec, name: st
     arrays, plan = _arrays(setting, spec.period_s, held_command), setting.plan(spec.period_s)
     values = whole.parameters, np.zeros(0), np.zeros((0, 0)), whole.numbers
     kernel = mpc_loop(whole.controller.problem.actuator, plant).closed_loop
-    status, reached, _ = _run_compiled(kernel, arrays, values, _fixed(setting), plan)
+    status, reached = _run_compiled(kernel, arrays, values, _fixed(setting), plan)
     whole.take_over()
     return _run(name, title, held_command, arrays, plan, (status, reached, whole.taken_us(-(-reached // plan[1]))),
                 _why(status, reached * plan[2], arrays.state, held_command, spec.law), whole.controller.counters)
@@ -143,14 +145,15 @@ def _run_whole(whole: WholeRun, setting: Setting, spec: ControllerSpec, name: st
 
 def run_law(law: ControlLaw, values: tuple[Array, Array, Array, Array], setting: Setting, period_s: float,
             estimates: Estimates = "corrected", name: str = "", title: str = "", plant: Plant | None = None,
-            loop: LawLoop | None = None, predictor: bool = False) -> Run:
+            loop: LawLoop | None = None, predictor: bool = False, timed: bool = True) -> Run:
     """Run a compiled law once; one that leaves its domain or diverges is reported failed.
 
     values: the law's parameters, initial scalar states, initial neuron states and neuron data, as `law_values` gives
     them; plant: of position, speed, force, opposing force, mass and Davis coefficients, in the order of
     `single_particle`, which it is unless given; the setting's plant_values come after these. loop: compiled already,
     of a law that is more than its expressions; it may write into the neuron data. predictor: the law is told the state
-    at which its command takes effect, predicted over the delay of the setting's actuator.
+    at which its command takes effect, predicted over the delay of the setting's actuator. timed: afterwards the law is
+    asked again at states that the run met, so that the time of its step is known; else the run says none.
     Raises WorkbenchError where the values are not those of the law's states.
     """
     if len(values[1]) != len(law.scalar_states):  # a kernel writes them into rows of the log, whose width the law says
@@ -161,12 +164,16 @@ def run_law(law: ControlLaw, values: tuple[Array, Array, Array, Array], setting:
     if data.dtype != np.float64 or not data.flags.c_contiguous:  # the law gets them by their address
         raise WorkbenchError(f"{law.id}: neuron data must be floats that lie row by row in memory: "
                              "take numpy.ascontiguousarray of them")
-    kernel = (loop or law_loop(law, estimates, plant)).closed_loop
+    loop = loop or law_loop(law, estimates, plant)
     # The kernel advances states in place, and the caller's values are for other runs too.
     own = (np.ascontiguousarray(parameters), scalars.copy(), neurons.copy(), data)
-    status, reached, step_us = _run_compiled(kernel, arrays, own, _fixed(setting), plan)
-    return _run(name or law.id, title or law.title, law, arrays, plan, (status, reached, step_us),
-                _why(status, reached * plan[2], arrays.state, law, law.id), {})
+    status, reached = _run_compiled(loop.closed_loop, arrays, own, _fixed(setting), plan)
+    run = _run(name or law.id, title or law.title, law, arrays, plan, (status, reached, np.zeros(0)),
+               _why(status, reached * plan[2], arrays.state, law, law.id), {})
+    if not timed:
+        return run
+    again = own[0], scalars, neurons, data
+    return replace(run, step_us=law_step_us(loop.answer, run.log, plan[1] * plan[2], again))
 
 
 @cache
@@ -217,21 +224,15 @@ def _arrays(setting: Setting, period_s: float, law: ControlLaw, predictor: bool 
 
 
 def _run_compiled(kernel: Any, arrays: _Arrays, law: tuple[Array, Array, Array, Array],
-                  fixed: tuple[float, float], plan: tuple[int, int, float, int]) -> tuple[int, int, Array]:
-    """Whole blocks of samples at a time, so that the time per control step can be told."""
+                  fixed: tuple[float, float], plan: tuple[int, int, float, int]) -> tuple[int, int]:
+    """Whole blocks of samples at a time, so that a run can be interrupted; how it ended, and the steps done."""
     steps, per_sample, dt, log_every = plan
-    block = per_sample * TIMED_BLOCK
     before_law, after_law = arrays.before_law(), arrays.after_law()
-    # No step at all, so that loading or compiling the kernel is not timed as part of the first block.
-    kernel(0, 0, per_sample, dt, *before_law, *fixed, *law, *after_law, log_every)
-    taken, first, status = [], 0, RUNNING
+    first, status = 0, RUNNING
     while first < steps and status == RUNNING:
-        count = min(block, steps - first)
-        before = time.perf_counter()
-        status, reached = kernel(first, count, per_sample, dt, *before_law, *fixed, *law, *after_law, log_every)
-        taken.append((time.perf_counter() - before) * 1e6 / max(1, (reached - first) // per_sample))
-        first = reached
-    return status, first, np.array(taken)
+        count = min(per_sample * BLOCK, steps - first)
+        status, first = kernel(first, count, per_sample, dt, *before_law, *fixed, *law, *after_law, log_every)
+    return status, first
 
 
 def _run_sampled(kernel: Any, arrays: _Arrays, controller: SampledController, fixed: tuple[float, float],

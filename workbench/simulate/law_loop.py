@@ -22,8 +22,12 @@ from workbench.trains.train import Plant, single_particle
 
 @dataclass(frozen=True)
 class LawLoop:
-    """A plant's closed loop under a law; closed_loop: as in `kernel_loop`, without its first argument."""
+    """A plant's closed loop under a law.
 
+    answer: the law, as the loop calls it; closed_loop: as in `kernel_loop`, without its first argument.
+    """
+
+    answer: Any
     closed_loop: Callable[..., Any]
     plant: ModuleType
     law: ModuleType
@@ -52,7 +56,8 @@ def written_loop(source: str, functions: Sequence[str], plant: Plant | None = No
     plant = plant or single_particle()
     driven = loop_module(plant.source, [plant_source(plant)], kernel_loop)
     law = loop_module(source, functions, law_call)
-    return LawLoop(partial(driven.closed_loop, c_function(law, "answer", law_call.ANSWER)), driven, law)
+    answer = c_function(law, "answer", law_call.ANSWER)
+    return LawLoop(answer, partial(driven.closed_loop, answer), driven, law)
 
 
 # By plant itself, as above, and by what MPC takes for its actuator.

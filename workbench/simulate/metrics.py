@@ -23,8 +23,8 @@ class Metrics:
     limit_violations: plant steps outside the position band; failed: why the run ended early, or None. Of a
     failed run the extrema hold up to its end, and what only a whole run has (RMS, stopping error, energy, ride) is
     NaN, in rows None.
-    step_us: a compiled law is timed in blocks of 1,000 samples, plant included; MPC call by call, plant
-    excluded.
+    step_us_median, step_us_p99: of the controller alone, the plant excluded; MPC call by call, a compiled law in
+    blocks, asked again at states that its run met; NaN where none was timed.
     """
 
     controller: str
@@ -81,7 +81,8 @@ def measure_run(run: Run, length_m: float) -> Metrics:
     whole = np.nan if run.failed else 1.0  # what only makes sense for a whole run is no number for a failed one
     samples = max(1.0, total["samples"])
     seconds = max(run.end_s, run.period_s)
-    step_us_median, step_us_p99 = np.percentile(run.step_us, (50, 99)).tolist()
+    timed = run.step_us if len(run.step_us) else np.full(1, np.nan)
+    step_us_median, step_us_p99 = np.percentile(timed, (50, 99)).tolist()
     # The log's rows are a whole number of plant steps apart, which log_every_s need not be.
     logged_jerk = np.diff(run.column("v_mps"), 2) / np.diff(run.column("t_s")[:2]) ** 2
     return Metrics(
