@@ -32,44 +32,12 @@ from workbench.paper.results import ResultTable
 CONTEST, MINIMAX = (Path(__file__).with_name(f"{name}.toml") for name in ("common", "minimax"))
 SHOWN = ("position_rms", "speed_rms", "stopping_error", "energy_J", "jerk_rms", "comfort_rms", "switchings_per_s")
 
-# What of the page is older than today's line, and what comes of it; empty once everyone is tuned and played anew.
-EARLIER = "Played earlier, on the line in pieces: see “How it was played”."
-ON_PIECES = (
-    "What is said to be played or searched earlier met a line whose resistance changed under a train in pieces of half "
-    "a metre. Their small steps were counted as jerk at every plant step, so that jerk, and with it the objective of "
-    "tuning, is too large there. Everyone plays with what was found by it.")
-CARRIED = ("## What tracking costs", "## Tuned for the worst")
-
-
 def rests_on(folder: Path, contest: Contest) -> Iterator[str]:
     """By which code a journal was played."""
     head = json.loads((folder / JOURNAL_NAME).read_text(encoding="utf-8").partition("\n")[0])
     played_by = "the code and with the values" if contest_digest(contest, "pareto") in head.values() else (
         "an earlier state of the code or with other values than those")
     yield f"- The matches were played by {played_by} that stand here."
-
-
-def earlier_rows(page_before: str, titles: list[str]) -> Iterator[str]:
-    """Rows of the table of best trackers for conditions that are not played again, marked as what they are."""
-    lines = page_before.splitlines()
-    for title in titles:
-        row = next((line for line in lines if line.startswith((f"| {title} |", f"| {title} † |"))), None)
-        if row:
-            yield f"| {title} † |{row.split('|', 2)[2]}"
-
-
-def carried(page_before: str) -> dict[str, list[str]]:
-    """Sections that have journals of their own, by their headings, as a page has them: what is not played again stays,
-    and is said to be older."""
-    found: dict[str, list[str]] = {}
-    heading = ""
-    for line in page_before.splitlines():
-        if line.startswith("## "):
-            heading = line
-        if heading.startswith(CARRIED):
-            found.setdefault(heading, []).append(line)
-    return {heading: lines if EARLIER in lines else [
-        heading, "", EARLIER, *lines[1:]] for heading, lines in found.items()}
 
 
 def records(path: Path) -> list[dict[str, object]]:
@@ -129,9 +97,8 @@ def of_period(own: Told, condition: str) -> Iterator[str]:
     yield from table(["controller", *(COLUMNS[metric].heading for metric in SHOWN), "failed"], rows)
 
 
-def page(told: Told, contest: Contest, fronts: list[Front], folder: Path,
-         page_before: str) -> Iterator[str]:
-    """Its lines; page_before: the page as it was, of which stays what is not played again."""
+def page(told: Told, contest: Contest, fronts: list[Front], folder: Path) -> Iterator[str]:
+    """Its lines."""
     left = [stated.title for name, stated in contest.conditions.items() if name not in told.contest.conditions]
     yield from (
         "# The common contest, as it was played", "",
@@ -144,9 +111,7 @@ def page(told: Told, contest: Contest, fronts: list[Front], folder: Path,
     rows = [[stated.title, *(", ".join(short_name(best, period) for best in own.best(name, "position_rms"))
                              for period, own in groups), str(told.runs(name))]
             for name, stated in told.contest.conditions.items()]
-    *best, _ = table(["condition", *(f"{1e3 * period:g} ms" for period, _ in groups), "draws"], rows)
-    old = list(earlier_rows(page_before, left))
-    yield from (*best, *old, "", *((f"† {EARLIER}", "") if old else ()))
+    yield from table(["condition", *(f"{1e3 * period:g} ms" for period, _ in groups), "draws"], rows)
     short = [row[0] for row in rows if any(", " in cell for cell in row[1:-1]) and 1 < int(row[-1]) < contest.seeds]
     if short:
         yield from (f"Several stand in one place where more draws, up to {contest.seeds}, may part them and were not "
@@ -162,21 +127,18 @@ def page(told: Told, contest: Contest, fronts: list[Front], folder: Path,
         "for each.",
         "- Every number is from the runs; `benchmarks/contest_summary.py` writes this page.")
     yield from rests_on(folder, contest)
-    yield from (f"- {ON_PIECES}", "")
-    if len(left) > len(old):
+    yield ""
+    if left:
         yield from (f"Stated in the contest's file and not played here: {', '.join(left)}.", "")
     for period, own in groups:
         base = told.contest.tuning.condition
         yield from (f"## Commands every {1e3 * period:g} ms, {told.contest.conditions[base].title}", "")
         yield from of_period(own, base)
-    yield from ("## What tuning found", "", "Searched earlier, on the line in pieces: see “How it was played”.", "")
+    yield from ("## What tuning found", "")
     for found in tuning_table(told):
         yield from shown(found)
     for found in front_tables(contest, fronts):
         yield from (f"## {found.title}", "", *shown(found))
-    for heading, lines in carried(page_before).items():
-        if not fronts and heading.startswith(CARRIED[0]):
-            yield from lines
     yield from ("## What they are told", "")
     yield from table(["controller", "is told"], [[name, information(told.scenario, name)]
                                                  for name in told.scenario.controllers])
@@ -208,11 +170,8 @@ def main() -> None:
     assert isinstance(contest, Contest) and isinstance(minimax, Contest)
     read = TypeAdapter(tuple[Front, ...])
     fronts = [front for record in records(folder / FRONTS_NAME) for front in read.validate_python(record["fronts"])]
-    before = out.read_text(encoding="utf-8") if out.exists() else ""
-    lines = [*page(played(folder, contest), contest, fronts, folder, before),
+    lines = [*page(played(folder, contest), contest, fronts, folder),
              *(line for other in others for line in worst(played(other, minimax)))]
-    if not others:
-        lines += [line for heading, kept in carried(before).items() if heading.startswith(CARRIED[1]) for line in kept]
     out.write_text("\n".join(lines).rstrip() + "\n", encoding="utf-8")
 
 
