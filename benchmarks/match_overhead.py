@@ -3,10 +3,10 @@
     python benchmarks/match_overhead.py [CONTROLLER ...]
 
 Seconds are of the processor, of the second match of a controller, so that nothing is compiled or imported in it. What
-is inside: the compiled loop with the law or MPC that it calls, the compiled solvers and models that Python calls, and
-casadi's programs. All else, the metrics of the run and the building of its controller too, is outside. `called` is the
-same match with its controller called by Python at every sample, where the compiled loop drives it by itself. Compare
-shares and ratios between machines and versions, not seconds.
+is inside: the compiled loop with the law or MPC that it calls, the law where its step is timed, the compiled solvers
+and models that Python calls, and casadi's programs. All else, the metrics of the run and the building of its controller
+too, is outside. `called` is the same match with its controller called by Python at every sample, where the compiled
+loop drives it by itself. Compare shares and ratios between machines and versions, not seconds.
 """
 
 from __future__ import annotations
@@ -27,6 +27,7 @@ from workbench.mpc.kernels import kernels
 from workbench.mpc.model import ACTUATORS
 from workbench.mpc.transcription import CasadiMpc
 from workbench.simulate.law_loop import mpc_loop
+from workbench.simulate.law_time import law_step_us
 
 CONTEST = Path(__file__).with_name("common.toml")
 KINDS = ("pid", "pocrac", "cascaded_pid_predicted", "mpc_linear", "mpc_linear_20ms", "mpc_offset_free", "mpc_told",
@@ -65,6 +66,7 @@ def counted() -> Iterator[Inside]:
     with ExitStack() as patches:
         for name in ("_run_compiled", "_run_sampled"):
             patches.enter_context(patch.object(module, name, _driving(getattr(module, name), inside)))
+        patches.enter_context(patch.object(module, "law_step_us", inside.of(law_step_us)))
         patches.enter_context(patch.object(CasadiMpc, "_solve_from", inside.of(CasadiMpc._solve_from)))
         for actuator, name in product(ACTUATORS, SOLVERS):
             compiled = kernels(actuator)

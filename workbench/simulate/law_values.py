@@ -23,8 +23,8 @@ def law_values(law: ControlLaw, spec: ControllerSpec, name: str) -> tuple[Array,
 
     Raises InputError naming the parameter, initial value or neuron grid that is missing, unknown or unfit.
     """
-    parameters = [str(s) for s in law.parameters]
-    scalars = [str(s.symbol) for s in law.scalar_states]
+    parameters = [s.name for s in law.parameters]
+    scalars = [s.symbol.name for s in law.scalar_states]
     neurons = [str(s.symbol.base.label) for s in law.neuron_states]
     data = [str(s.base.label) for s in law.neuron_data]
     _require_grid(law, [*neurons, *data], spec.neurons, f"controllers.{name}.neurons")

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from functools import cache
+from functools import cache, lru_cache
 from itertools import pairwise
 from pathlib import Path
 from typing import Annotated, Self
@@ -155,15 +155,22 @@ def resistance_table(track: Track, length_m: float | None = None) -> ResistanceT
 
     length_m: of a train with its front at a position, over which it is averaged.
     """
-    layers: tuple[Sequence[Section], ...] = (track.grade, track.curve, track.tunnel)
+    return _resistance_table(track.grade, track.curve, track.tunnel, track.length_m, length_m)
+
+
+# The same for every run on a line; nobody writes into its arrays.
+@lru_cache(maxsize=32)
+def _resistance_table(grade: tuple[GradeSection, ...], curve: tuple[CurveSection, ...],
+                      tunnel: tuple[TunnelSection, ...], end_m: float, length_m: float | None) -> ResistanceTable:
+    layers: tuple[Sequence[Section], ...] = (grade, curve, tunnel)
     borders = {edge for layer in layers for s in layer for edge in (s.start_m, s.end_m)}
-    starts = np.array(sorted(edge for edge in borders if edge < track.length_m))
+    starts = np.array(sorted(edge for edge in borders if edge < end_m))
     resistance = _resistance()
     values = [
         resistance(
-            next(s.grade_permille for s in track.grade if s.start_m <= x < s.end_m),
-            1 / next(s.radius_m for s in track.curve if s.start_m <= x < s.end_m),
-            next((s.resistance_n_per_kn for s in track.tunnel if s.start_m <= x < s.end_m), 0.0),
+            next(s.grade_permille for s in grade if s.start_m <= x < s.end_m),
+            1 / next(s.radius_m for s in curve if s.start_m <= x < s.end_m),
+            next((s.resistance_n_per_kn for s in tunnel if s.start_m <= x < s.end_m), 0.0),
         )
         for x in starts
     ]
