@@ -13,10 +13,14 @@ from typing import Any
 
 import sympy as sp
 
+from workbench.errors import ClaimError
+from workbench.proof.checker import CertificateError
 from workbench.proof.claim import Goal, Relation, at_least, at_most, greater, less
 from workbench.proof.decide.combination import find_combination
 from workbench.proof.decide.cuts import after
-from workbench.proof.text import text
+from workbench.proof.decide.exact_look import Exact
+from workbench.proof.decide.proposals import proposals
+from workbench.proof.text import goal_text, text
 
 Proof = dict[str, Any]
 Given = tuple[Relation, ...]
@@ -37,10 +41,9 @@ def find_by_splits(goal: Goal, shown: Relation, given: Given, search: Search) ->
         return None
     if not margin.free_symbols or len(set().union(*(r.margin.free_symbols for r in (shown, *given)))) > 6:
         return None
-    points = _points(shown, given)
-    met = () if any(r.operator == "==" for r in given) else points  # an equality holds at none that is drawn
-    if any(value is not None and value < -NEAR_ZERO for value in (_value(margin, point) for point in met)):
+    if _fails_somewhere(Goal((shown,), given, goal.flow, facts=goal.facts)):  # a look costs less than a search
         return None
+    points = _points(shown, given)
     for depth in range(1, DEEPEST + 1):
         left = [MOST_SEARCHES]
 
@@ -51,6 +54,15 @@ def find_by_splits(goal: Goal, shown: Relation, given: Given, search: Search) ->
         if (found := _in_cases(goal, shown, given, points, limited, depth)) is not None:
             return found
     return None
+
+
+def _fails_somewhere(pointwise: Goal) -> bool:
+    """Whether a point is near at hand at which what is given holds and what is shown does not."""
+    try:
+        exact = Exact(goal_text(pointwise))
+        return any(exact.breaks(point) for point in proposals(pointwise.evaluated(), 1, True))
+    except (CertificateError, ClaimError):  # the checker reads no such goal
+        return False
 
 
 def _in_cases(goal: Goal, shown: Relation, given: Given, points: list[dict[sp.Symbol, float]], search: Search,
