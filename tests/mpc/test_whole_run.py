@@ -57,7 +57,7 @@ def plain(scenario):
 
 @pytest.mark.parametrize("sensed", SENSED)
 @pytest.mark.parametrize(("law", "told"), [("mpc.linear", False), ("mpc.nonlinear", False), ("mpc.offset_free", True),
-                                           ("mpc.told", True), ("mpc.linear", True)])
+                                           ("mpc.told", True), ("mpc.linear", True), ("mpc.tube", False)])
 def test_a_run_has_the_bits_of_calls(law, told, sensed):
     run, other, driven, called = both(scenario_of(law, told), plain, SENSED[sensed])
     assert run.log.tobytes() == other.log.tobytes()
@@ -90,8 +90,8 @@ def test_what_is_learned_of_a_trip_is_the_same_too():
 
 
 def test_what_is_more_than_its_solver_is_called():
-    """A tube, an estimator, a deadline, a held command, one that has been called: they have a state of their own."""
-    for law, changes in (("mpc.tube", {}), ("mpc.adaptive", {}), ("mpc.linear", {"deadline_s": 1.0}),
+    """An estimator, a deadline, a held command, one that has been called: they have a state of their own."""
+    for law, changes in (("mpc.adaptive", {}), ("mpc.linear", {"deadline_s": 1.0}),
                          ("mpc.linear", {"held_samples": 2.0})):
         assert whole_run(plain(scenario_of(law, **changes))) is None
     begun = plain(scenario_of("mpc.linear"))

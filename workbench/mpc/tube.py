@@ -238,18 +238,22 @@ class TubeMpc:
     def solve(self, sample: int, state: Array, disturbance: float = 0.0) -> Solution:
         """The nominal plan, with the feedback from the measured state in its first command.
 
-        The tube is there for disturbances, so that an estimate of one is not used.
+        The tube is there for disturbances, so that an estimate of one is not used. A nominal run that is lost begins
+        anew from the next measurement.
         """
         del disturbance
         if self._state is None or sample != self._sample + 1:
             self.nominal.forget()
             self._state = np.array(state, dtype=float)
-        answer = self.nominal.solve(sample, self._state)
-        plan = answer.plan.copy()
-        x, e = self._state, state[:2] - self._state[:2]
-        self._state, self._sample = self.follow(x, float(plan[0])), sample
-        plan[0] = np.clip(plan[0] - self.around.gain @ e, *self._limits)
-        return replace(answer, plan=plan)
+        answer, x, gain = self.nominal.solve(sample, self._state), self._state, self.around.gain
+        first = float(answer.plan[0] - (gain[0] * (state[0] - x[0]) + gain[1] * (state[1] - x[1])))
+        self._state, self._sample = self.follow(x, float(answer.plan[0])), sample
+        if not math.isfinite(float(self._state[0] + self._state[1] + self._state[2]) + first):
+            self.forget()
+            return replace(answer, solved=False, why=answer.why or "the program was not solved")
+        low, high = self._limits
+        answer.plan[0] = min(max(first, low), high)
+        return answer
 
     def follow(self, x: Array, command: float) -> Array:
         """The nominal state one period later."""

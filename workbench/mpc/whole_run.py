@@ -23,11 +23,13 @@ from workbench.mpc.linear import LinearMpc
 from workbench.mpc.model import SOFT, Actuator
 from workbench.mpc.nonlinear import MOST_INTERIOR, MOST_PASSES, NonlinearMpc
 from workbench.mpc.problem import Array
+from workbench.mpc.tube import TubeMpc
 
 # Sizes: of the horizon N, of what lies ahead S, of it where the model is linearised once L, of the soft rows R, of
 # the commands under way W, of programs and what comes after the last of them C, of what is taken down F.
 DIMENSIONS = ("N", "S", "L", "R", "W", "C", "F")
 WHOLE = "whole numbers"
+BEFORE_ANY = -2  # so that no sample comes after it
 BLOCKS: tuple[tuple[str, str, tuple[str, ...]], ...] = (
     ("kind", WHOLE, ("6",)), ("state", WHOLE, ("5",)), ("own", "", ("14",)), ("counts", WHOLE, ("7",)),
     ("ahead", "", ("S", "6")), ("told", "", ("S",)),
@@ -44,7 +46,7 @@ BLOCKS: tuple[tuple[str, str, tuple[str, ...]], ...] = (
     ("base_gap", "", ("N", "3")), ("h", "", ("N + 1", "4")), ("g", "", ("N + 1", "4", "3")),
     ("window", "", ("N + 1", "6")), ("gap", "", ("N", "3")), ("plan", "", ("N",)), ("kept_plan", "", ("N",)),
     ("under_way", "", ("W",)), ("unconverged", WHOLE, ("C",)), ("foreseen", "", ("F",)), ("pushed", "", ("F",)),
-    ("x", "", ("3",)),
+    ("x", "", ("3",)), ("tube", WHOLE, ("3",)), ("nominal", "", ("7",)),
 )
 # By kind and dimensions: the kernel's function that finds a block among all numbers.
 VIEWS = {("", 1): "row", ("", 2): "table", ("", 3): "cube", (WHOLE, 1): "whole_row", (WHOLE, 2): "whole_table"}
@@ -80,6 +82,8 @@ class WholeRun:
             fallback.trouble["the program was not solved" if found["kind"][0] else "a program was not solved"] += failed
         if isinstance(of, RecordingMpc):
             of.pushed[:] = found["pushed"]
+        if isinstance(of.tracker, TubeMpc):
+            of.counters["beyond_bound"], of._farthest = int(found["tube"][2]), float(found["nominal"][6])
 
     def _blocks(self) -> dict[str, NDArray[Any]]:
         sizes = dict(zip(DIMENSIONS, self.parameters[: len(DIMENSIONS)].astype(int).tolist(), strict=True))
@@ -95,18 +99,20 @@ class WholeRun:
 def whole_run(controller: object) -> WholeRun | None:
     """The compiled form of a controller that has not been called yet; None for one that has none.
 
-    None has what is more than its solver: a tube, an estimator, a program of casadi's, a deadline, commands that are
+    None has what is more than its solver and a tube: an estimator, a program of casadi's, a deadline, commands that are
     held for several samples; and no machine without the clock that every sample is timed by.
     """
     if type(controller) not in (MpcController, RecordingMpc) or not hasattr(time, "clock_gettime"):
         return None
     assert isinstance(controller, MpcController)
     tracker, fallback = controller.tracker, controller._fallback
+    around = tracker if isinstance(tracker, TubeMpc) else None
+    tracker = around.nominal if around else tracker
     if type(tracker) not in (LinearMpc, NonlinearMpc) or controller._held_samples != 1 or controller._sample >= 0 or \
             math.isfinite(fallback._deadline_s):
         return None
     assert isinstance(tracker, LinearMpc | NonlinearMpc)
-    given = _given(controller, tracker)
+    given = _given(controller, tracker, around)
     sizes = {"N": tracker.horizon, "S": len(tracker.ahead), "L": len(given["along_x"]), "R": len(given["rows"]),
              "W": len(given["under_way"]), "C": len(given["unconverged"]), "F": len(given["pushed"])}
     parts = []
@@ -119,9 +125,10 @@ def whole_run(controller: object) -> WholeRun | None:
     return WholeRun(controller, parameters, np.concatenate([*parts, clock])[np.newaxis])
 
 
-def _given(controller: MpcController, tracker: LinearMpc | NonlinearMpc) -> dict[str, Any]:
+def _given(controller: MpcController, tracker: LinearMpc | NonlinearMpc, around: TubeMpc | None) -> dict[str, Any]:
     """The blocks by name, as they are before the first sample."""
     observer, predictor, problem = controller._observer, controller._predictor, controller.problem
+    solved = tracker.problem  # within a tube its limits are tighter
     once = isinstance(tracker, LinearMpc)
     programs, close = (1, 0.0) if isinstance(tracker, LinearMpc) else (tracker.most_programs, tracker._close)
     rest_s = predictor.rest_s if predictor else 0.0
@@ -134,12 +141,14 @@ def _given(controller: MpcController, tracker: LinearMpc | NonlinearMpc) -> dict
         "counts": np.zeros(len(COUNTED)), "ahead": tracker.ahead, "told": observer._ahead[:, 5],
         "parameters": problem.parameters, "rest": problem.parameters_over(rest_s),
         "left": problem.parameters_over(problem.period_s - rest_s), "weights": problem.weights.array(),
-        "terminal": tracker.lqr.upper(), "limits": problem.limits(), "rows": problem.rows(tracker.ahead),
-        "price": problem.price, "gain": tracker.lqr.gain, "window": np.zeros((N + 1, 6)), "gap": np.zeros((N, 3)),
+        "terminal": tracker.lqr.upper(), "limits": solved.limits(), "rows": solved.rows(tracker.ahead),
+        "price": solved.price, "gain": tracker.lqr.gain, "window": np.zeros((N + 1, 6)), "gap": np.zeros((N, 3)),
         "plan": np.zeros(N), "kept_plan": np.zeros(N), "unconverged": np.zeros(programs + 1), "x": np.zeros(3),
         "under_way": predictor._under_way if predictor else np.zeros(1),
         "foreseen": controller._foreseen if isinstance(controller, RecordingMpc) else np.zeros(0),
-        "pushed": controller.pushed if isinstance(controller, RecordingMpc) else np.zeros(0)}
+        "pushed": controller.pushed if isinstance(controller, RecordingMpc) else np.zeros(0),
+        "tube": [around is not None, BEFORE_ANY, 0],
+        "nominal": [0.0, 0.0, 0.0, *(around.around.gain if around else (0.0, 0.0)), controller._bound, 0.0]}
     for name in ("x", "u", "jac", "gap", "h", "g", "answer"):
         shape = {"jac": (0, 12), "h": (0, len(SOFT)), "g": (0, len(SOFT), 3), "u": (0,)}.get(name, (0, 3))
         found[f"along_{name}"] = getattr(tracker.along, name) if isinstance(tracker, LinearMpc) else np.zeros(shape)

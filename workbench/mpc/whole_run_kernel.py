@@ -8,7 +8,9 @@ kind: 0 whether the model is linearised once; 1 the last sample; 2, 3, 4 the mos
 3 whether a speed is expected; 4 the last sample taken down. own: 0 the observer's gain; 1 its largest disturbance;
 2 disturbance; 3 force; 4 expected speed; 5 surprise; 6 period; 7 rest of the delay; 8, 9 lowest and highest command;
 10 step that ends an iteration; 11, 12 disturbance and speed taken down; 13 below which speed nothing is. counts: as
-`COUNTED` in `whole_run.py`. clock: seconds and nanoseconds.
+`COUNTED` in `whole_run.py`. clock: seconds and nanoseconds. tube: 0 whether there is one; 1 the sample before that of
+its nominal state; 2 how often the train was pushed beyond its bound. nominal: 0 to 2 that state; 3, 4 the feedback to
+it; 5 the bound of a push; 6 the largest push beyond it.
 """
 
 # ruff: noqa: F821, ANN001, ANN201, PLR0912, PLR0915
@@ -144,6 +146,26 @@ def planned_anew(k, x, disturbance, kind, state, own, ahead, parameters, weights
     return good, True
 
 
+def planned_in_tube(k, x, kind, state, own, tube, nominal, ahead, along_x, along_u, along_jac, along_gap, along_h,
+                    along_g, along_answer, parameters, weights, terminal, limits, rows, price, memory, work, window,
+                    gap, plan):
+    """The plan of `TubeMpc`: whether it may be used, and its first command, which the feedback is in."""
+    if k != tube[1] + 1:
+        forgotten(state, memory)
+        for i in range(3):
+            nominal[i] = x[i]
+    good, _ = planned_along(k, nominal[:3], 0.0, kind, state, ahead, along_x, along_u, along_jac, along_gap, along_h,
+                            along_g, along_answer, weights, terminal, limits, rows, price, memory, work, window, gap,
+                            plan)
+    first = plan[0] - (nominal[3] * (x[0] - nominal[0]) + nominal[4] * (x[1] - nominal[1]))
+    nominal[0], nominal[1], nominal[2] = follow(nominal[0], nominal[1], nominal[2], plan[0], 0.0, parameters)
+    tube[1] = k
+    if not math.isfinite(nominal[0] + nominal[1] + nominal[2] + first):
+        tube[1] = -2
+        return False, 0.0
+    return good, min(max(first, own[8]), own[9])
+
+
 def within(command, own):
     """Within the limits."""
     if not math.isfinite(command):
@@ -154,7 +176,8 @@ def within(command, own):
 def command_of(sample, p, v, kind, state, own, counts, ahead, told, along_x, along_u, along_jac, along_gap, along_h,
                along_g, along_answer, parameters, rest, left, weights, terminal, limits, rows, price, gain, fixed,
                soft, pull, Q0, q0, R, r, low, high, bound, slope, Q, q, kept, dx, du, base_x, tried_x, tried, jac,
-               base_gap, h, g, window, gap, plan, kept_plan, under_way, unconverged, foreseen, pushed, x):
+               base_gap, h, g, window, gap, plan, kept_plan, under_way, unconverged, foreseen, pushed, x, tube,
+               nominal):
     """The command of a sample, from a measured position and speed."""
     memory = (fixed, soft, pull)
     work = (Q0, q0, R, r, low, high, bound, slope, Q, q, kept, dx, du)
@@ -165,10 +188,18 @@ def command_of(sample, p, v, kind, state, own, counts, ahead, told, along_x, alo
     if good:
         disturbance = corrected(v, state, own)
         x[0], x[1], x[2] = p, v, own[3]
+        if abs(own[5]) > nominal[5]:
+            tube[2] += 1
+            nominal[6] = max(nominal[6], abs(own[5]))
         if kind[5] == 1:
             when_it_acts(k, x, disturbance, own, told, parameters, rest, under_way)
         counts[0] += 1
-        if kind[0] == 1:
+        converged, first = True, 0.0
+        if tube[0] == 1:
+            solved, first = planned_in_tube(
+                k, x, kind, state, own, tube, nominal, ahead, along_x, along_u, along_jac, along_gap, along_h, along_g,
+                along_answer, parameters, weights, terminal, limits, rows, price, memory, work, window, gap, plan)
+        elif kind[0] == 1:
             solved, converged = planned_along(
                 k, x, disturbance, kind, state, ahead, along_x, along_u, along_jac, along_gap, along_h, along_g,
                 along_answer, weights, terminal, limits, rows, price, memory, work, window, gap, plan)
@@ -183,6 +214,8 @@ def command_of(sample, p, v, kind, state, own, counts, ahead, told, along_x, alo
                 counts[2] += 1
             for i in range(plan.shape[0]):
                 kept_plan[i] = plan[i]
+            if tube[0] == 1:
+                kept_plan[0] = first
             state[1], state[2] = k, plan.shape[0]
         else:
             counts[1] += 1
