@@ -22,7 +22,7 @@ def estimated(gain, davis, push, noise=0.0, seconds=300):
         command, speed = 0.6 * np.sin(k / 9.0), 10 + 6 * np.sin(k / 40.0)
         speed_square = speed**2
         acceleration = gain * command - (davis[0] + davis[1] * speed + davis[2] * speed_square) + push(k)
-        of.learn(acceleration + noise * generator.normal(), command, speed, speed_square, 1.0)
+        of.learn(acceleration + noise * generator.normal(), command, speed, speed_square)
     return of
 
 

@@ -57,7 +57,8 @@ def plain(scenario):
 
 @pytest.mark.parametrize("sensed", SENSED)
 @pytest.mark.parametrize(("law", "told"), [("mpc.linear", False), ("mpc.nonlinear", False), ("mpc.offset_free", True),
-                                           ("mpc.told", True), ("mpc.linear", True), ("mpc.tube", False)])
+                                           ("mpc.told", True), ("mpc.linear", True), ("mpc.tube", False),
+                                           ("mpc.adaptive", False)])
 def test_a_run_has_the_bits_of_calls(law, told, sensed):
     run, other, driven, called = both(scenario_of(law, told), plain, SENSED[sensed])
     assert run.log.tobytes() == other.log.tobytes()
@@ -90,9 +91,8 @@ def test_what_is_learned_of_a_trip_is_the_same_too():
 
 
 def test_what_is_more_than_its_solver_is_called():
-    """An estimator, a deadline, a held command, one that has been called: they have a state of their own."""
-    for law, changes in (("mpc.adaptive", {}), ("mpc.linear", {"deadline_s": 1.0}),
-                         ("mpc.linear", {"held_samples": 2.0})):
+    """A deadline, a held command, one that has been called: they have a state of their own."""
+    for law, changes in (("mpc.linear", {"deadline_s": 1.0}), ("mpc.linear", {"held_samples": 2.0})):
         assert whole_run(plain(scenario_of(law, **changes))) is None
     begun = plain(scenario_of("mpc.linear"))
     assert whole_run(begun) is not None

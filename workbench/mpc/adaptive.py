@@ -12,9 +12,12 @@ that is none of this: grades and wind, which wander. The four are estimated with
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 
 from workbench.errors import InputError
+from workbench.mpc.adaptive_kernel import noticed, take_in
 from workbench.mpc.nonlinear import NonlinearMpc
 from workbench.mpc.preview import resistance
 from workbench.mpc.problem import Array, Problem
@@ -32,18 +35,25 @@ GAINS = (0.5, 2.0)
 class TrainEstimator:
     """Recursive least squares of (gain, a, b, c, d); forgetting: weight of a second's equation a second later.
 
-    The covariance never grows beyond that of the start, so that a long cruise, which tells nothing of the mass, does
-    not make the estimate jump at the next brake. Raises InputError for a forgetting outside 0.9 to 1.
+    estimate: shape (5,). The covariance never grows beyond that of the start, so that a long cruise, which tells
+    nothing of the mass, does not make the estimate jump at the next brake. span: how many samples an equation takes,
+    of period_s each; power_w_per_kg: what the train has; direct: whether forces are there at once. The other arrays are
+    laid out in `adaptive_kernel.py`. Raises InputError for a forgetting outside 0.9 to 1.
     """
 
-    def __init__(self, davis: tuple[float, float, float], forgetting: float) -> None:
+    def __init__(self, davis: tuple[float, float, float], forgetting: float, span: int = 1, period_s: float = SPAN_S,
+                 power_w_per_kg: float = math.inf, direct: bool = True) -> None:
         if not 0.9 <= forgetting <= 1:
             raise InputError("", "forgetting", f"{forgetting:g} is outside 0.9 to 1: choose what an equation still "
                              "weighs a second later, 1 for no forgetting")
+        seconds = span * period_s
         self.estimate = np.array([1.0, *davis, 0.0])
         spread = np.array([*(np.array(UNSURE) * self.estimate[:4]), UNSURE_PUSH_MPS2])
-        self._covariance = np.diag(spread**2)
-        self._widest, self._forgetting = spread**2, forgetting
+        self.covariance, self.widest = np.diag(spread**2), spread**2
+        self.known = np.array([forgetting**seconds, seconds, WANDERS_MPS2**2 * seconds, MISSED_MPS2**2, *GAINS,
+                               power_w_per_kg])
+        self.learner, self.past = np.array([0, -1, span, direct]), np.zeros((span + 1, 2))
+        self.learning = np.zeros((3, 5))
 
     @property
     def gain(self) -> float:
@@ -60,40 +70,36 @@ class TrainEstimator:
         """What grades and wind push, m/s^2."""
         return float(self.estimate[4])
 
-    def learn(self, acceleration: float, command: float, speed: float, speed_square: float, seconds: float) -> None:
-        """Take in one equation: means over so many seconds of acceleration, command, speed and its square."""
-        row = np.array([command, -1.0, -speed, -speed_square, 1.0])
-        P = self._covariance / self._forgetting**seconds
-        P[4, 4] += WANDERS_MPS2**2 * seconds
-        shrink = np.minimum(1.0, np.sqrt(self._widest / np.maximum(np.diag(P), 1e-300)))
-        P = P * np.outer(shrink, shrink)
-        pulled = P @ row
-        weight = pulled / (row @ pulled + MISSED_MPS2**2)
-        self.estimate = self.estimate + weight * (acceleration - row @ self.estimate)
-        self._covariance = P - np.outer(weight, pulled)
-        self.estimate[0] = min(max(self.estimate[0], GAINS[0]), GAINS[1])
-        self.estimate[1:4] = np.maximum(self.estimate[1:4], 0.0)
+    def learn(self, acceleration: float, command: float, speed: float, speed_square: float) -> None:
+        """Take in one equation: means over the span of acceleration, command, speed and its square."""
+        take_in(self.estimate, self.covariance, self.widest, self.learning, self.known, acceleration, command, speed,
+                speed_square)
+
+    def notice(self, sample: int, speed: float, force: float) -> bool:
+        """Take in a sample; whether it made an equation that moved the estimate."""
+        return bool(noticed(sample, speed, force, self.learner, self.known, self.past, self.estimate, self.covariance,
+                            self.widest, self.learning))
 
 
 class AdaptiveMpc:
     """`NonlinearMpc` of the train as it is estimated; ahead: rows of `preview` for the nominal one.
 
     Inside, forces are per unit of the estimated mass: a command is gain times the one that is given, limits likewise.
+    acceleration: what the curve asks of any train, one a row of what lies ahead.
     """
 
     def __init__(self, problem: Problem, ahead: Array, forgetting: float) -> None:
         self.inner = NonlinearMpc(problem, ahead.copy())
         self.lqr, self.horizon = self.inner.lqr, problem.horizon
-        self.estimator = TrainEstimator(problem.davis, forgetting)
-        self._problem, self._ahead = problem, ahead
-        self._acceleration = ahead[:, 3] - resistance(ahead[:, 1], *problem.davis)
-        self._span = max(1, round(SPAN_S / problem.period_s))
-        self._past: list[tuple[float, float]] = []  # speed and acting command of consecutive samples
-        self._last = -1
+        span = max(1, round(SPAN_S / problem.period_s))
+        self.estimator = TrainEstimator(problem.davis, forgetting, span, problem.period_s, problem.power_w_per_kg,
+                                        problem.actuator == "direct")
+        self.acceleration = ahead[:, 3] - resistance(ahead[:, 1], *problem.davis)
 
     def solve(self, sample: int, state: Array, disturbance: float = 0.0) -> Solution:
         """The plan from a state (p, v, F) at a sample, all per unit of the nominal mass; learns from the state."""
-        self._learn(sample, float(state[1]), float(state[2]))
+        if self.estimator.notice(sample, float(state[1]), float(state[2])):
+            self._take_over()
         gain = self.estimator.gain
         scaled = np.array([state[0], state[1], gain * state[2]])
         found = self.inner.solve(sample, scaled, disturbance + self.estimator.push)
@@ -103,34 +109,14 @@ class AdaptiveMpc:
         """Drop the warm start; what is known of the train stays."""
         self.inner.forget()
 
-    def _learn(self, sample: int, speed: float, force: float) -> None:
-        if sample != self._last + 1:
-            self._past = []
-        if sample != self._last:
-            most = self._problem.power_w_per_kg / max(speed, 1e-3)
-            self._past.append((speed, min(force, most)))
-        self._last = sample
-        if len(self._past) <= self._span:
-            return
-        speeds, forces = np.array(self._past).T
-        seconds = self._span * self._problem.period_s
-        # The force of a sample acted until its speed was measured; where it lags, between two of them.
-        acting = forces[1:] if self._problem.actuator == "direct" else (forces[1:] + forces[:-1]) / 2
-        middle = (speeds[1:] + speeds[:-1]) / 2
-        if middle.min() > 0:  # at a standstill the brakes hold whatever they are asked
-            self.estimator.learn(float(speeds[-1] - speeds[0]) / seconds, float(acting.mean()), float(middle.mean()),
-                                 float((middle**2).mean()), seconds)
-            self._take_over()
-        self._past = self._past[-1:]
-
     def _take_over(self) -> None:
         """Give the tracker the train as it is estimated: its resistance, its limits and what the curve needs of it."""
-        estimator, problem = self.estimator, self._problem
+        estimator, ahead = self.estimator, self.inner.ahead
         self.inner.drive(estimator.davis, estimator.gain)
-        needed = self._acceleration + resistance(self._ahead[:, 1], *estimator.davis)
-        self.inner.ahead[:, 3] = needed
-        if problem.actuator == "direct":
-            self.inner.ahead[1:, 2] = needed[:-1]
-            self.inner.ahead[0, 2] = needed[0]
+        needed = self.acceleration + resistance(ahead[:, 1], *estimator.davis)
+        ahead[:, 3] = needed
+        if estimator.learner[3]:
+            ahead[1:, 2] = needed[:-1]
+            ahead[0, 2] = needed[0]
         else:
-            self.inner.ahead[:, 2] = needed
+            ahead[:, 2] = needed

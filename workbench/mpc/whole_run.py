@@ -14,8 +14,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from workbench.compile.kernel import function_source
 from workbench.compile.text import loop_text
-from workbench.mpc import whole_run_kernel
+from workbench.mpc import adaptive_kernel, whole_run_kernel
+from workbench.mpc.adaptive import AdaptiveMpc, TrainEstimator
 from workbench.mpc.controller import MpcController
 from workbench.mpc.kernels import base, kernels, memory, workspace
 from workbench.mpc.learning import STANDING_MPS, RecordingMpc
@@ -23,15 +25,19 @@ from workbench.mpc.linear import LinearMpc
 from workbench.mpc.model import SOFT, Actuator
 from workbench.mpc.nonlinear import MOST_INTERIOR, MOST_PASSES, NonlinearMpc
 from workbench.mpc.problem import Array
+from workbench.mpc.solution import Tracker
 from workbench.mpc.tube import TubeMpc
+from workbench.trains.resistance import davis_resistance
+from workbench.trains.train import a_star, b_star, c_star, x_2
 
 # Sizes: of the horizon N, of what lies ahead S, of it where the model is linearised once L, of the soft rows R, of
-# the commands under way W, of programs and what comes after the last of them C, of what is taken down F.
-DIMENSIONS = ("N", "S", "L", "R", "W", "C", "F")
+# the commands under way W, of programs and what comes after the last of them C, of what is taken down F, of the samples
+# that an equation takes and the one before them P, of what an adaptive MPC sees ahead A.
+DIMENSIONS = ("N", "S", "L", "R", "W", "C", "F", "P", "A")
 WHOLE = "whole numbers"
 BEFORE_ANY = -2  # so that no sample comes after it
 BLOCKS: tuple[tuple[str, str, tuple[str, ...]], ...] = (
-    ("kind", WHOLE, ("6",)), ("state", WHOLE, ("5",)), ("own", "", ("14",)), ("counts", WHOLE, ("7",)),
+    ("kind", WHOLE, ("7",)), ("state", WHOLE, ("5",)), ("own", "", ("14",)), ("counts", WHOLE, ("7",)),
     ("ahead", "", ("S", "6")), ("told", "", ("S",)),
     ("along_x", "", ("L", "3")), ("along_u", "", ("L",)), ("along_jac", "", ("L", "12")), ("along_gap", "", ("L", "3")),
     ("along_h", "", ("L", "4")), ("along_g", "", ("L", "4", "3")), ("along_answer", "", ("L", "3")),
@@ -46,7 +52,10 @@ BLOCKS: tuple[tuple[str, str, tuple[str, ...]], ...] = (
     ("base_gap", "", ("N", "3")), ("h", "", ("N + 1", "4")), ("g", "", ("N + 1", "4", "3")),
     ("window", "", ("N + 1", "6")), ("gap", "", ("N", "3")), ("plan", "", ("N",)), ("kept_plan", "", ("N",)),
     ("under_way", "", ("W",)), ("unconverged", WHOLE, ("C",)), ("foreseen", "", ("F",)), ("pushed", "", ("F",)),
-    ("x", "", ("3",)), ("tube", WHOLE, ("3",)), ("nominal", "", ("7",)),
+    ("x", "", ("3",)), ("tube", WHOLE, ("2",)), ("nominal", "", ("7",)), ("learner", WHOLE, ("4",)),
+    ("known", "", ("7",)), ("past", "", ("P", "2")), ("estimate", "", ("5",)), ("covariance", "", ("5", "5")),
+    ("widest", "", ("5",)), ("learning", "", ("3", "5")), ("acceleration", "", ("A",)), ("model", "", ("5",)),
+    ("own_limits", "", ("4",)), ("seen", "", ("A", "6")),
 )
 # By kind and dimensions: the kernel's function that finds a block among all numbers.
 VIEWS = {("", 1): "row", ("", 2): "table", ("", 3): "cube", (WHOLE, 1): "whole_row", (WHOLE, 2): "whole_table"}
@@ -83,7 +92,9 @@ class WholeRun:
         if isinstance(of, RecordingMpc):
             of.pushed[:] = found["pushed"]
         if isinstance(of.tracker, TubeMpc):
-            of.counters["beyond_bound"], of._farthest = int(found["tube"][2]), float(found["nominal"][6])
+            of.counters["beyond_bound"], of._farthest = int(found["tube"][1]), float(found["nominal"][6])
+        if isinstance(of.tracker, AdaptiveMpc):
+            of.tracker.estimator.estimate[:] = found["estimate"]
 
     def _blocks(self) -> dict[str, NDArray[Any]]:
         sizes = dict(zip(DIMENSIONS, self.parameters[: len(DIMENSIONS)].astype(int).tolist(), strict=True))
@@ -99,22 +110,23 @@ class WholeRun:
 def whole_run(controller: object) -> WholeRun | None:
     """The compiled form of a controller that has not been called yet; None for one that has none.
 
-    None has what is more than its solver and a tube: an estimator, a program of casadi's, a deadline, commands that are
+    None has what is more than its solver, a tube or an estimator: a program of casadi's, a deadline, commands that are
     held for several samples; and no machine without the clock that every sample is timed by.
     """
     if type(controller) not in (MpcController, RecordingMpc) or not hasattr(time, "clock_gettime"):
         return None
     assert isinstance(controller, MpcController)
     tracker, fallback = controller.tracker, controller._fallback
-    around = tracker if isinstance(tracker, TubeMpc) else None
-    tracker = around.nominal if around else tracker
+    tracker = tracker.nominal if isinstance(tracker, TubeMpc) else tracker
+    tracker = tracker.inner if isinstance(tracker, AdaptiveMpc) else tracker
     if type(tracker) not in (LinearMpc, NonlinearMpc) or controller._held_samples != 1 or controller._sample >= 0 or \
             math.isfinite(fallback._deadline_s):
         return None
     assert isinstance(tracker, LinearMpc | NonlinearMpc)
-    given = _given(controller, tracker, around)
+    given = _given(controller, tracker)
     sizes = {"N": tracker.horizon, "S": len(tracker.ahead), "L": len(given["along_x"]), "R": len(given["rows"]),
-             "W": len(given["under_way"]), "C": len(given["unconverged"]), "F": len(given["pushed"])}
+             "W": len(given["under_way"]), "C": len(given["unconverged"]), "F": len(given["pushed"]),
+             "P": len(given["past"]), "A": len(given["seen"])}
     parts = []
     for name, kind, shape in BLOCKS:
         array = np.ascontiguousarray(given[name], dtype=np.int64 if kind == WHOLE else np.float64)
@@ -125,7 +137,7 @@ def whole_run(controller: object) -> WholeRun | None:
     return WholeRun(controller, parameters, np.concatenate([*parts, clock])[np.newaxis])
 
 
-def _given(controller: MpcController, tracker: LinearMpc | NonlinearMpc, around: TubeMpc | None) -> dict[str, Any]:
+def _given(controller: MpcController, tracker: LinearMpc | NonlinearMpc) -> dict[str, Any]:
     """The blocks by name, as they are before the first sample."""
     observer, predictor, problem = controller._observer, controller._predictor, controller.problem
     solved = tracker.problem  # within a tube its limits are tighter
@@ -134,7 +146,8 @@ def _given(controller: MpcController, tracker: LinearMpc | NonlinearMpc, around:
     rest_s = predictor.rest_s if predictor else 0.0
     N, low, high = tracker.horizon, problem.lowest_command_mps2, problem.highest_command_mps2
     found: dict[str, Any] = {
-        "kind": [once, controller._last_sample, programs, MOST_PASSES, MOST_INTERIOR, predictor is not None],
+        "kind": [once, controller._last_sample, programs, MOST_PASSES, MOST_INTERIOR, predictor is not None,
+                 {TubeMpc: 1, AdaptiveMpc: 2}.get(type(controller.tracker), 0)],
         "state": [-1, 0, 0, 0, -1],
         "own": [observer._gain, observer._largest, 0.0, observer.force, 0.0, 0.0, problem.period_s, rest_s, low, high,
                 close, 0.0, 0.0, STANDING_MPS],
@@ -147,8 +160,8 @@ def _given(controller: MpcController, tracker: LinearMpc | NonlinearMpc, around:
         "under_way": predictor._under_way if predictor else np.zeros(1),
         "foreseen": controller._foreseen if isinstance(controller, RecordingMpc) else np.zeros(0),
         "pushed": controller.pushed if isinstance(controller, RecordingMpc) else np.zeros(0),
-        "tube": [around is not None, BEFORE_ANY, 0],
-        "nominal": [0.0, 0.0, 0.0, *(around.around.gain if around else (0.0, 0.0)), controller._bound, 0.0]}
+        "tube": [BEFORE_ANY, 0], "nominal": [0.0, 0.0, 0.0, *_feedback(controller.tracker), controller._bound, 0.0],
+        "model": problem.parameters, "own_limits": problem.limits(), **_learned(controller)}
     for name in ("x", "u", "jac", "gap", "h", "g", "answer"):
         shape = {"jac": (0, 12), "h": (0, len(SOFT)), "g": (0, len(SOFT), 3), "u": (0,)}.get(name, (0, 3))
         found[f"along_{name}"] = getattr(tracker.along, name) if isinstance(tracker, LinearMpc) else np.zeros(shape)
@@ -156,6 +169,20 @@ def _given(controller: MpcController, tracker: LinearMpc | NonlinearMpc, around:
                           workspace(N)), ("base_x tried_x tried jac base_gap h g", base(N))):
         found |= dict(zip(names.split(), arrays, strict=True))
     return found
+
+
+def _feedback(tracker: Tracker) -> Array:
+    return tracker.around.gain if isinstance(tracker, TubeMpc) else np.zeros(2)
+
+
+def _learned(controller: MpcController) -> dict[str, Array]:
+    """The blocks of an estimator, as it stands before the first sample; empty ones without one."""
+    tracker = controller.tracker
+    of = tracker.estimator if isinstance(tracker, AdaptiveMpc) else TrainEstimator(controller.problem.davis, 1.0)
+    seen = tracker.inner.ahead if isinstance(tracker, AdaptiveMpc) else np.zeros((0, 6))
+    acceleration = tracker.acceleration if isinstance(tracker, AdaptiveMpc) else np.zeros(0)
+    return {name: getattr(of, name) for name in ("learner", "known", "past", "estimate", "covariance", "widest",
+                                                 "learning")} | {"seen": seen, "acceleration": acceleration}
 
 
 def _length(text: str, sizes: dict[str, int]) -> int:
@@ -184,4 +211,7 @@ def source(actuator: Actuator) -> tuple[str, ...]:
                f"from {kernels(actuator).__name__} import {names}",
                "clock_gettime = types.ExternalFunction('clock_gettime', types.intc(types.intc, "
                "types.CPointer(types.int64)))", "", ""]
-    return "\n".join(imports), loop_text(whole_run_kernel), "\n".join([*law, *domain])
+    resistance = function_source("resistance_at", (x_2,), (a_star, b_star, c_star),
+                                 [davis_resistance(x_2, a_star, b_star, c_star)])
+    return ("\n".join(imports), resistance, loop_text(adaptive_kernel), loop_text(whole_run_kernel),
+            "\n".join([*law, *domain]))

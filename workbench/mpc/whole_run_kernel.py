@@ -4,13 +4,14 @@ It does what the classes of this room do, number by number, so that a run has th
 `solve_linear` and `solve_nonlinear` are those of `solver_kernel.py`; the arrays are laid out in `whole_run.py`.
 
 kind: 0 whether the model is linearised once; 1 the last sample; 2, 3, 4 the most programs, passes and iterations;
-5 whether the actuator is told. state: 0 sample of the tracker's plan; 1 of the kept plan; 2 its length, 0 for none;
-3 whether a speed is expected; 4 the last sample taken down. own: 0 the observer's gain; 1 its largest disturbance;
-2 disturbance; 3 force; 4 expected speed; 5 surprise; 6 period; 7 rest of the delay; 8, 9 lowest and highest command;
-10 step that ends an iteration; 11, 12 disturbance and speed taken down; 13 below which speed nothing is. counts: as
-`COUNTED` in `whole_run.py`. clock: seconds and nanoseconds. tube: 0 whether there is one; 1 the sample before that of
-its nominal state; 2 how often the train was pushed beyond its bound. nominal: 0 to 2 that state; 3, 4 the feedback to
-it; 5 the bound of a push; 6 the largest push beyond it.
+5 whether the actuator is told; 6 whether in a tube, 1, or adaptive, 2. state: 0 sample of the tracker's plan; 1 of the
+kept plan; 2 its length, 0 for none; 3 whether a speed is expected; 4 the last sample taken down. own: 0 the observer's
+gain; 1 its largest disturbance; 2 disturbance; 3 force; 4 expected speed; 5 surprise; 6 period; 7 rest of the delay;
+8, 9 lowest and highest command; 10 step that ends an iteration; 11, 12 disturbance and speed taken down; 13 below which
+speed nothing is. counts: as `COUNTED` in `whole_run.py`. clock: seconds and nanoseconds. tube: 0 the sample before that
+of its nominal state; 1 how often the train was pushed beyond its bound. nominal: 0 to 2 that state; 3, 4 the feedback
+to it; 5 the bound of a push; 6 the largest push beyond it. learner, known: as in `adaptive_kernel.py`; model,
+own_limits and seen are those of the train as it is estimated, acceleration what the curve asks of any.
 """
 
 # ruff: noqa: F821, ANN001, ANN201, PLR0912, PLR0915
@@ -150,7 +151,7 @@ def planned_in_tube(k, x, kind, state, own, tube, nominal, ahead, along_x, along
                     along_g, along_answer, parameters, weights, terminal, limits, rows, price, memory, work, window,
                     gap, plan):
     """The plan of `TubeMpc`: whether it may be used, and its first command, which the feedback is in."""
-    if k != tube[1] + 1:
+    if k != tube[0] + 1:
         forgotten(state, memory)
         for i in range(3):
             nominal[i] = x[i]
@@ -159,11 +160,26 @@ def planned_in_tube(k, x, kind, state, own, tube, nominal, ahead, along_x, along
                             plan)
     first = plan[0] - (nominal[3] * (x[0] - nominal[0]) + nominal[4] * (x[1] - nominal[1]))
     nominal[0], nominal[1], nominal[2] = follow(nominal[0], nominal[1], nominal[2], plan[0], 0.0, parameters)
-    tube[1] = k
+    tube[0] = k
     if not math.isfinite(nominal[0] + nominal[1] + nominal[2] + first):
-        tube[1] = -2
+        tube[0] = -2
         return False, 0.0
     return good, min(max(first, own[8]), own[9])
+
+
+def as_estimated(estimate, learner, limits, acceleration, model, own_limits, seen):
+    """Give the tracker the train as it is estimated: its resistance, its limits and what the curve needs of it."""
+    for i in range(3):
+        model[i] = estimate[1 + i]
+    # Commands and power are per unit of mass; the band, between them, is not.
+    own_limits[0], own_limits[1] = estimate[0] * limits[0], estimate[0] * limits[1]
+    own_limits[3] = estimate[0] * limits[3]
+    before = acceleration[0] + resistance_at(seen[0, 1], model)
+    for i in range(seen.shape[0]):
+        needed = acceleration[i] + resistance_at(seen[i, 1], model)
+        seen[i, 3] = needed
+        seen[i, 2] = before if learner[3] == 1 else needed
+        before = needed
 
 
 def within(command, own):
@@ -177,7 +193,8 @@ def command_of(sample, p, v, kind, state, own, counts, ahead, told, along_x, alo
                along_g, along_answer, parameters, rest, left, weights, terminal, limits, rows, price, gain, fixed,
                soft, pull, Q0, q0, R, r, low, high, bound, slope, Q, q, kept, dx, du, base_x, tried_x, tried, jac,
                base_gap, h, g, window, gap, plan, kept_plan, under_way, unconverged, foreseen, pushed, x, tube,
-               nominal):
+               nominal, learner, known, past, estimate, covariance, widest, learning, acceleration, model, own_limits,
+               seen):
     """The command of a sample, from a measured position and speed."""
     memory = (fixed, soft, pull)
     work = (Q0, q0, R, r, low, high, bound, slope, Q, q, kept, dx, du)
@@ -189,16 +206,24 @@ def command_of(sample, p, v, kind, state, own, counts, ahead, told, along_x, alo
         disturbance = corrected(v, state, own)
         x[0], x[1], x[2] = p, v, own[3]
         if abs(own[5]) > nominal[5]:
-            tube[2] += 1
+            tube[1] += 1
             nominal[6] = max(nominal[6], abs(own[5]))
         if kind[5] == 1:
             when_it_acts(k, x, disturbance, own, told, parameters, rest, under_way)
         counts[0] += 1
-        converged, first = True, 0.0
-        if tube[0] == 1:
+        converged, first, share = True, 0.0, 1.0
+        if kind[6] == 1:
             solved, first = planned_in_tube(
                 k, x, kind, state, own, tube, nominal, ahead, along_x, along_u, along_jac, along_gap, along_h, along_g,
                 along_answer, parameters, weights, terminal, limits, rows, price, memory, work, window, gap, plan)
+        elif kind[6] == 2:
+            if noticed(k, v, x[2], learner, known, past, estimate, covariance, widest, learning):
+                as_estimated(estimate, learner, limits, acceleration, model, own_limits, seen)
+            share = estimate[0]
+            nominal[0], nominal[1], nominal[2] = x[0], x[1], share * x[2]
+            solved, converged = planned_anew(
+                k, nominal[:3], disturbance + estimate[4], kind, state, own, seen, model, weights, terminal, own_limits,
+                rows, price, memory, work, (base_x, tried_x, tried, jac, base_gap, h, g), window, plan, unconverged)
         elif kind[0] == 1:
             solved, converged = planned_along(
                 k, x, disturbance, kind, state, ahead, along_x, along_u, along_jac, along_gap, along_h, along_g,
@@ -208,13 +233,13 @@ def command_of(sample, p, v, kind, state, own, counts, ahead, told, along_x, alo
                 k, x, disturbance, kind, state, own, ahead, parameters, weights, terminal, limits, rows, price, memory,
                 work, (base_x, tried_x, tried, jac, base_gap, h, g), window, plan, unconverged)
         for i in range(plan.shape[0]):
-            solved = solved and math.isfinite(plan[i])
+            solved = solved and math.isfinite(plan[i] / share)
         if solved:
             if not converged:
                 counts[2] += 1
             for i in range(plan.shape[0]):
-                kept_plan[i] = plan[i]
-            if tube[0] == 1:
+                kept_plan[i] = plan[i] / share
+            if kind[6] == 1:
                 kept_plan[0] = first
             state[1], state[2] = k, plan.shape[0]
         else:
