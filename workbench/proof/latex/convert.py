@@ -16,11 +16,12 @@ from workbench.proof.latex.brackets import (
     plain_exponent,
     require_factor,
     require_letter_before,
+    require_number_first,
     require_own_power,
 )
 from workbench.proof.latex.derivatives import Derivative, derivative, rate, require_operand
 from workbench.proof.latex.error import LatexError
-from workbench.proof.latex.functions import Condition, applied, divided, power, require_kept, require_usual
+from workbench.proof.latex.functions import Condition, applied, conditions_of, divided, power, require_kept, require_usual
 from workbench.proof.latex.held import by_letter
 from workbench.proof.latex.notation import Notation, without_dot
 from workbench.proof.latex.sums import big, require_component
@@ -123,6 +124,8 @@ class Converter:
                 at += 1
                 continue
             require_factor(self.notation, factors, at, self.declared)
+            if self.declared and self.notation.piece(factors, at) is None:
+                require_number_first(factors, at)
             value, transposed, length = self._factor(factors, at)
             behind = factors[at + length] if at + length < len(factors) else None
             # x(t)^2 is (x(t))^2
@@ -221,7 +224,10 @@ class Converter:
         return rate(value, count)
 
     def _of_sum(self, node: Node, meaning: sp.Expr) -> sp.Expr:
-        """The meaning, where the letter is printed with the index that it has here."""
+        """The meaning, where the letter is printed with the index that it has here; of a definition it has to be kept
+        where its formula is a number."""
+        if self.declared:
+            self.conditions.extend(conditions_of(meaning, node.position))
         if isinstance(node, Letter) and is_vector(meaning):
             require_component(node, self.index, self.limits if self.declared else None)
         return meaning

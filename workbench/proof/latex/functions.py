@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from typing import Literal
 
@@ -79,6 +79,18 @@ class Condition:
     kind: Literal["denominator", "root", "logarithm"]
     argument: sp.Expr
     position: int
+
+
+def conditions_of(meaning: sp.Expr, position: int) -> Iterator[Condition]:
+    """What must hold for the formula that a letter stands for to be a number."""
+    for found in meaning.atoms(sp.Pow, sp.log):
+        if isinstance(found, sp.log):
+            yield Condition("logarithm", found.args[0], position)
+            continue
+        if found.exp.is_negative:
+            yield Condition("denominator", found.base, position)
+        if not found.exp.is_Integer:
+            yield Condition("root", found.base, position)
 
 
 def require_kept(conditions: Iterable[Condition], side: sp.Expr) -> None:

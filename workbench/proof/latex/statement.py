@@ -13,13 +13,14 @@ from workbench.proof.latex.brackets import says_nothing
 from workbench.proof.latex.convert import Converter
 from workbench.proof.latex.ends import is_all_numbers, is_constant, is_infinite, require_own_ends
 from workbench.proof.latex.error import LatexError
-from workbench.proof.latex.tree import END, Chain, Group, Letter, Line, Node, Number, Power, Product, Size
+from workbench.proof.latex.tree import END, Chain, Dot, Group, Letter, Line, Node, Number, Power, Product, Size
 from workbench.proof.latex.vectors import is_vector
 
 OPERATORS: dict[str, Operator] = {"=": "==", "<=": "<=", ">=": ">=", "<": "<", ">": ">", "!=": "!="}
 _AND = frozenset(("and", ",", "", "as well as"))
 _ALL = ("for all", "for every", "for any", "for each")
 _UNDER = ("for", "if", "when", "with", "where", "under", "at", "whenever", "provided that", "such that", *_ALL)
+_SPOKEN = ("with", "where", "such that", "under", "at")
 _THEN = ("then", "we have", "then we have", "it holds that", "it follows that", "one has")
 _IMPLIES = ("implies", "imply", "implies that", "imply that")
 _AT_ALL_TIMES = tuple(Chain((Letter("t"), Number(Fraction(0))), (sign,)) for sign in (">=", ">"))
@@ -54,6 +55,7 @@ def statement(line: Line, converter: Converter) -> Statement:
     if converter.declared:
         _require_quantified(line)
         _require_conditions(parts.late, converter)
+        _require_one_sentence(line, parts, converter)
     for (before, after), words in zip(pairwise(line.chains), line.separators[1:], strict=False):
         if words == (",",):
             require_own_ends(before, after)
@@ -87,7 +89,8 @@ class _Parts:
     """Chains claimed, and their conditions; `late` are those conditions behind a claim that a comma alone makes one.
 
     behind: whether the conditions stand behind a claim; listed: how many of them the last word introduced; of_all:
-    whether that was `for all`.
+    whether that was `for all`; said: those behind `with` and its like, which may be claimed too; bracketed: those in
+    brackets behind a relation; exists: whether `such that` stands behind a claim, as if there were one.
     """
 
     claimed: list[Chain] = field(default_factory=list)
@@ -96,6 +99,9 @@ class _Parts:
     behind: bool = False
     listed: int = 0
     of_all: bool = False
+    said: list[Chain] = field(default_factory=list)
+    bracketed: list[Chain] = field(default_factory=list)
+    exists: bool = False
 
     def under(self, of_all: bool) -> None:
         """Conditions follow; raise LatexError where a list of them stands before, which may hold claims."""
@@ -118,7 +124,8 @@ class _Parts:
         if self.behind and END in words:
             raise LatexError("whether the condition goes on behind the full stop, semicolon or new line is open: write "
                              "one line for each claim", chain.position)
-        if self.behind and words == (",",) and self.conditions[-1].signs:  # `x, y > 0` is one
+        listed = words[:1] == (",",) and (words[1:] == () or _said_of(words[1]) in _AND) and len(words) < 3
+        if self.behind and listed and self.conditions[-1].signs:  # `x, y > 0` is one
             self.late.append((chain, self.of_all))
         self.listed += bool(chain.signs)
         self.conditions.append(chain)
@@ -139,7 +146,7 @@ def _require_one(flat: list[str]) -> None:
 def _parts(line: Line) -> _Parts:
     flat = [word for words in line.separators for word in words]
     _require_one(flat)
-    parts, conditional = _Parts(), False
+    parts, conditional, spoken = _Parts(), False, False
     for words, chain in zip(line.separators, line.chains, strict=False):
         for word in words:
             if word in ("=>", ":") or _said_of(word) in _IMPLIES:
@@ -147,6 +154,8 @@ def _parts(line: Line) -> _Parts:
                 conditional = False
             elif word == "\\forall" or _said_of(word) in _UNDER:
                 parts.under(word == "\\forall" or _said_of(word) in _ALL)
+                spoken = _said_of(word) in _SPOKEN and not conditional
+                parts.exists |= _said_of(word) == "such that" and not conditional
                 conditional = True
             elif _said_of(word) in _THEN and conditional and not parts.claimed:
                 conditional = False
@@ -155,9 +164,11 @@ def _parts(line: Line) -> _Parts:
         kept, bracketed = _unbracketed(chain)
         if conditional:
             parts.condition(kept, words)
+            parts.said += [kept] * spoken
         else:
             parts.claimed.append(kept)
         parts.conditions += bracketed
+        parts.bracketed += bracketed
     if any(word == "\\forall" or _said_of(word) in _ALL for word in flat):
         while parts.conditions and not parts.conditions[-1].signs and isinstance(parts.conditions[-1].sides[0], Letter):
             parts.conditions.pop()  # `for all x`: everything is said of all values
@@ -176,6 +187,36 @@ def _require_conditions(late: list[tuple[Chain, bool]], converter: Converter) ->
         if chain not in _AT_ALL_TIMES and not (of_all and letter and "=" not in chain.signs):
             raise LatexError(r"what stands behind the comma may be claimed or one more condition: write \text{and} "
                              "before a condition, another line for a claim", chain.position)
+
+
+def _require_one_sentence(line: Line, parts: _Parts, converter: Converter) -> None:
+    """Raise LatexError where it is open which claims a condition holds for, or whether it is one.
+
+    `y >= 1. x > 0 => x^3 > 0` says two things, of which the first is no condition; in `x >= 0, x^3 > 0 (x > 0)` the
+    first may hold without one; `V >= 0 with V' <= 0` may claim both, and `c > 0 such that x <= c` that there is one.
+    """
+    if parts.conditions and any(END in words for words in line.separators[1:-1]):
+        raise LatexError("whether a condition holds beyond the full stop, semicolon or new line is open: write one line "
+                         "for each claim", parts.conditions[0].position)
+    if parts.bracketed and sum(bool(chain.signs) for chain in parts.claimed) > 1:
+        raise LatexError("whether the condition in brackets holds for every claim is open: write one line for each "
+                         "claim", parts.bracketed[0].position)
+    if parts.exists:
+        raise ProseError("the words 'such that' may say that there is such a value: write \\text{if} for a condition")
+    for chain in parts.said:
+        side = chain.sides[1] if is_constant(chain.sides[0]) and chain.signs else chain.sides[0]
+        if not _is_bounded(side, converter):
+            raise LatexError(r"what is said behind these words may be claimed or a condition: write \text{if} or "
+                             r"\text{and}", chain.position)
+
+
+def _is_bounded(side: Node, converter: Converter) -> bool:
+    """Whether a side is a letter, or its size, of which a condition gives a value or a bound."""
+    if isinstance(side, Product) and len(side.factors) == 2 and says_nothing(converter.notation, side.factors[1]):
+        side = side.factors[0]
+    letter = side.parts[0] if isinstance(side, Size) and len(side.parts) == 1 else side
+    return isinstance(letter, Letter) and (not {"dot", "ddot", "dddot"} & set(letter.accents) or isinstance(
+        converter.notation.meaning(letter), sp.Symbol))
 
 
 def _require_end(words: tuple[str, ...]) -> None:
@@ -240,6 +281,12 @@ def _chain(chain: Chain, converter: Converter) -> list[Related]:
     for sign in chain.signs:
         if sign not in OPERATORS:
             raise ProseError(f"the sign '{sign}' is none of a goal's relations: the line is read by a person")
+    for side in chain.sides[1:] if converter.declared else ():
+        first, *rest = side.factors if isinstance(side, Product) else (side,)
+        if first == Number(Fraction(0)) and rest and (isinstance(rest[0], Group) or (
+                side is not chain.sides[-1] and not isinstance(rest[0], Dot))):
+            raise LatexError("a zero stands before a factor: write a comma between two relations, or \\cdot for a "
+                             "product", rest[0].position)
     sides = tuple(converter.side(side) for side in chain.sides)
     return [Related(sides, tuple(OPERATORS[sign] for sign in chain.signs))]
 
