@@ -6,7 +6,7 @@ import re
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-from workbench.paper.source.lines import chained, goes_on, on_condition_around, without_end
+from workbench.paper.source.lines import COLUMN, chained, goes_on, on_condition_around, without_columns, without_end
 from workbench.paper.source.macros import SourceError, expanded, group, optional, without_comments
 from workbench.paper.source.row import Row, resolve
 from workbench.proof.latex.rows import is_assumption
@@ -263,9 +263,9 @@ def _clean(line: str) -> str:
     for pattern in (_LABEL, _TAG, _UNNUMBERED, _LAYOUT):
         line = pattern.sub("", line)
     inner = [found.span() for found in _INNER.finditer(line)]
-    kept = "".join(sign for at, sign in enumerate(line)
-                   if sign != "&" or line[at - 1:at] == "\\" or any(start <= at < end for start, end in inner))
-    return without_end(" ".join(kept.split()))
+    kept = "".join(sign if sign != "&" or line[at - 1:at] == "\\" or any(start <= at < end for start, end in inner)
+                   else COLUMN for at, sign in enumerate(line))
+    return without_end(without_columns(kept))
 
 
 def _joined(first: str, second: str) -> str:

@@ -21,7 +21,7 @@ from workbench.paper.source.letters import (
     table_of,
     values_and_rates,
 )
-from workbench.paper.source.lines import continues, system_lines
+from workbench.paper.source.lines import ENDS_WITH_RELATION, continues, system_lines
 from workbench.paper.source.macros import SourceError, without_comments
 from workbench.paper.source.row import Row
 from workbench.proof.latex.rows import ROWS, SYMBOLS, LetterEntry, Role, RowEntry, is_assumption, text_of
@@ -146,7 +146,7 @@ def _cases(printed: str) -> list[str]:
     """Each case as a line with its condition; none where the formula has no column of conditions."""
     found = _CASES.fullmatch(printed)
     lines = [line for line in found["lines"].split(r"\\") if line.strip()] if found else []
-    if not found or any(line.count("&") != 1 for line in lines):
+    if not found or not ENDS_WITH_RELATION.search(found["before"]) or any(line.count("&") != 1 for line in lines):
         return []
     parts = [tuple(_WORDS.sub(" ", part).strip(" ,.;") for part in line.split("&")) for line in lines]
     if not all(value and condition for value, condition in parts):

@@ -7,19 +7,31 @@ import re
 _SIGN = r"(?:[=<>+\-/]|\\(?:leq?|geq?|leqslant|geqslant|cdot|times|in|pm|quad|qquad|Rightarrow|implies)(?![A-Za-z]))"
 _AT_START, _AT_END = re.compile(_SIGN), re.compile(rf"{_SIGN}$")
 _RELATION = re.compile(r"(?:[=<>]|\\(?:leq?|geq?|leqslant|geqslant|lt|gt|equiv|triangleq)(?![A-Za-z]))")
+ENDS_WITH_RELATION = re.compile(rf"{_RELATION.pattern}\s*\Z")
 _STEP = re.compile(rf"{_RELATION.pattern}|\\[A-Za-z]+|\\.|[(){{}}\[\],;]|.", re.DOTALL)
 _SYSTEM = re.compile(
     r"(?:(?:\\left)?\s*(?:\\\{|\\lbrace)\s*\\begin\s*\{(?P<name>array|aligned|split|matrix|gathered)\}|"
     r"\\begin\s*\{(?P<cases>cases)\})(?:\s*\[[a-z]\])?(?:\s*\{[lcr@{}\s]*\})?(?P<lines>.*?)"
     r"\\end\s*\{(?:(?P=name)|(?P=cases))\}\s*(?:\\right\s*\.)?\s*", re.DOTALL)
+COLUMN = "\0"  # stands for the & between two columns
+_MARKS = rf" ?(?:{COLUMN} ?)+"
+_JOINED = re.compile(rf"\A{_MARKS}|{_MARKS}\Z|(?<=[=<>+\-]){_MARKS}|(?<=\\(?:le|ge|in)){_MARKS}|(?<=\\(?:leq|geq)){_MARKS}"
+                     rf"|{_MARKS}(?={_RELATION.pattern}|\\in(?![A-Za-z]))")
+_PARTED = re.compile(_MARKS)
 _BREAK = re.compile(r"\\\\(?:\s*\[[^\]]*\])?")
 
 
 def system_lines(printed: str) -> list[str]:
     """The lines of a system of equations behind one brace, each a relation; none of another formula."""
     found = _SYSTEM.fullmatch(printed)
-    lines = [" ".join(line.replace("&", " ").split()) for line in _BREAK.split(found["lines"])] if found else []
+    lines = [without_columns(line.replace("&", COLUMN)) for line in _BREAK.split(found["lines"])] if found else []
     return [without_end(line) for line in lines if line] if all(map(_RELATION.search, filter(None, lines))) else []
+
+
+def without_columns(line: str) -> str:
+    r"""A line with its columns in one: those that no sign joins are parted by a wide space, and so are no product."""
+    line = _JOINED.sub(" ", " ".join(line.split()))
+    return " ".join(_PARTED.sub(r" \\quad ", line).split())
 
 
 def without_end(line: str) -> str:

@@ -5,13 +5,14 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 from dataclasses import fields, is_dataclass, replace
+from itertools import pairwise
 from typing import Any
 
 from workbench.proof.latex.derivatives import derivative
 from workbench.proof.latex.error import LatexError
 from workbench.proof.latex.read import read_line
 from workbench.proof.latex.statement import parted
-from workbench.proof.latex.tree import PARTED, Chain, Letter, Node, Product, Quotient
+from workbench.proof.latex.tree import PARTED, Chain, Letter, Node, Product, Quotient, parts_of
 
 RATES = ("dot", "ddot", "dddot")
 _LAYOUT = re.compile(r"\\(?:begin|end)\s*\{(?:aligned|split|gathered)\}|(?<!\\)&")
@@ -30,6 +31,16 @@ def letters_in(text: str) -> list[Letter]:
         return [*_letters(read_line(text))]
     except LatexError:
         return []
+
+
+def letters_of_time(text: str) -> set[str]:
+    """The letters of a line that are printed with the argument (t)."""
+    try:
+        parts = [*parts_of(read_line(text))]
+    except LatexError:
+        return set()
+    return {letter_latex(one) for part in parts if isinstance(part, Product) for one, two in pairwise(part.factors)
+            if isinstance(one, Letter) and two == _OF_TIME}
 
 
 def letter_latex(letter: Letter) -> str:
