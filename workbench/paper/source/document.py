@@ -6,7 +6,20 @@ import re
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-from workbench.paper.source.lines import COLUMN, chained, goes_on, on_condition_around, without_columns, without_end
+from workbench.paper.source.letters import values_and_rates
+from workbench.paper.source.lines import (
+    COLUMN,
+    PARAGRAPH,
+    REACH,
+    chained,
+    goes_on,
+    introduces_hypothesis,
+    lets,
+    on_condition_around,
+    supposed_around,
+    without_columns,
+    without_end,
+)
 from workbench.paper.source.macros import SourceError, expanded, group, optional, without_comments
 from workbench.paper.source.row import Row, resolve
 from workbench.proof.latex.rows import is_assumption
@@ -79,6 +92,8 @@ class _Reader:
         self.parent = ""
         self.pending: list[str] = []
         self.group_labels: dict[str, list[str]] = {}
+        self.supposing = False  # whether a display before it, in the same paragraph, is a hypothesis
+        self.last, self.begun = 0, 0  # where the display before ends, and the theorem or proof around it begins
         self.waiting: list[tuple[str, int]] = []  # labels of subequations, and from which row on they hold
 
     def read(self) -> None:
@@ -179,13 +194,21 @@ class _Reader:
         lines = [text] if name in WHOLE else _lines(text)
         carried, labels = "", ()
         before = len(self.rows)
-        conditional = on_condition_around(self.body[:around[0]], text, self.body[around[1]:])
+        before_it, behind = self.body[max(around[0] - REACH, 0):around[0]], self.body[around[1]:around[1] + REACH]
+        conditional = on_condition_around(before_it, text, behind)
+        if PARAGRAPH.search(self.body, self.last, around[0]) is not None:
+            self.supposing = False
+        supposed = supposed_around(before_it, text, behind) or self.supposing or (
+            bool(within or self.proving) and lets(self.body[self.begun:around[0]]))
+        self.supposing |= introduces_hypothesis(before_it) and not any(values_and_rates(_clean(text)))
+        self.last = around[1]
 
         def add(number: str, printed: str, labels: tuple[str, ...], referred: list[str]) -> None:
             last = self.rows[-1] if len(self.rows) > before else None
             chain = chained(last.line or last.printed, printed) if last else ""
             self._add(Row(_id(number) if number else UNNUMBERED, "Equation", number, printed, labels, within=within,
                           line=chain, referred=self.pending + referred, conditional=conditional,
+                          supposed=supposed,
                           aside=bool(within) or self.proving))
             self.pending = []
 
@@ -215,7 +238,7 @@ class _Reader:
         row = Row(_id(f"{what.lower()}{number}"), what, number, " ".join(_LABEL.sub("", text).split()),
                   tuple(_LABEL.findall(_without_displays(text))), title or "", referred=_references(text))
         self._add(row)
-        self.pending = []
+        self.pending, self.begun = [], begin
         self._walk(begin, close, row.id)
         self.pending = []
 
@@ -227,7 +250,7 @@ class _Reader:
              if row.what not in ("Equation", "Remark") and not is_assumption(row.what)), None)
         if owner is not None:
             owner.referred += _references(self.body[begin:close])
-        self.pending, self.proving = [], True
+        self.pending, self.proving, self.begun = [], True, begin
         self._walk(begin, close, "")
         self.pending, self.proving = [], False
 

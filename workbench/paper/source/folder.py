@@ -17,6 +17,7 @@ from workbench.paper.source.document import Source, read_source
 from workbench.paper.source.letters import (
     assumed_formulas,
     defined_in_text,
+    functions_in,
     on_condition,
     table_of,
     values_and_rates,
@@ -25,7 +26,7 @@ from workbench.paper.source.lines import ENDS_WITH_RELATION, continues, system_l
 from workbench.paper.source.macros import SourceError, without_comments
 from workbench.paper.source.row import Row
 from workbench.proof.latex.rows import ROWS, SYMBOLS, LetterEntry, Role, RowEntry, is_assumption, text_of
-from workbench.proof.latex.sides import letters_of_text, moving_sides, sides_of
+from workbench.proof.latex.sides import letters_of_text, moving_sides, sides_of, valued_in
 from workbench.proof.prove import prove
 from workbench.proof.selection import targets
 
@@ -78,7 +79,10 @@ def write_from_source(name: str, directory: Path, source: Path) -> FromSource:
     made = [(row, entry) for row in found.rows for entry in entries(row, found)]
     asides = {entry.id for row, entry in made if row.aside}
     rows = _with_roles(_with_definitions([entry for _, entry in made], found.text, asides),
-                       {entry.id: row for row, entry in made if row.what == "Equation" and not row.number}, asides)
+                       {entry.id: row for row, entry in made if row.what == "Equation" and not row.number}, asides,
+                       functions_in(found.text))
+    supposed = {entry.id for row, entry in made if row.supposed}
+    rows = [row.model_copy(update={"role": "words"}) if row.role == "claim" and row.id in supposed else row for row in rows]
     letters = table_of(rows, found.text)
     if len(rows_text(rows).encode()) > LARGEST_TEXT // 2:  # verdicts are added, and the table is read again
         raise InputError(source, "", "becomes tables of more than 2 MiB, as where a macro writes itself many times "
@@ -168,17 +172,20 @@ def _with_definitions(rows: list[RowEntry], text: str, asides: Collection[str]) 
               for number, one in enumerate(used, 1)), *rows]
 
 
-def _with_roles(rows: list[RowEntry], unnumbered: Mapping[str, Row], asides: Collection[str]) -> list[RowEntry]:
+def _with_roles(rows: list[RowEntry], unnumbered: Mapping[str, Row], asides: Collection[str],
+                functions: Collection[str] = ()) -> list[RowEntry]:
     """The first line that gives a letter a value defines it, the first that gives it a rate moves it; one without a
     number where no other does. In the text of a theorem, remark or proof no line moves a letter, since a rate there is
-    what the text claims, and no line without a number defines one."""
+    what the text claims, and no line without a number defines one; functions: letters of which the text says that they
+    are functions of the state, whose rates are claims."""
     numbered = [text_of(row) for row in rows if row.role == "claim" and row.id not in unnumbered]
     given = {letter for line in numbered for letter in (*values_and_rates(line)[0], *values_and_rates(line)[1])}
     defined: set[str] = set()
     moved: set[str] = set()
     found = []
+    given_values = set().union(*(valued_in(row.line or row.printed) for row in rows))
     states = {letter for row in rows if row.role == "claim" for letter, _ in moving_sides(row.line or row.printed)
-              if not any(letter == one for other in rows for one, _ in sides_of(other.line or other.printed))}
+              if letter not in given_values and letter not in functions}
     for row in rows:
         role: Role = row.role
         line = row.line or row.printed

@@ -44,11 +44,14 @@ _SENTENCE = re.compile(r"(?<=[.!?;])\s|\\(?:begin|end)\s*\{[^{}]*\}|\\(?:item|(?
 _NOT_EVERYWHERE = re.compile(
     r"\b(?:if|when|whenever|while|until|unless|provided|cases?|either|n?or|neither|not|whether|suppose|then|may|might|could|"
     r"can|would|should|follow\w*|hence|thus|therefore|impl(?:y|ies)|yields?|since|because|sets?|region|domain|"
-    r"(?:in|out)side|instance|example|show\w*|prove\w*|conclude\w*|near|small|large|initially|first|once)\b", re.IGNORECASE)
+    r"(?:in|out)side|instance|example|show\w*|prove\w*|conclude\w*|near|small|large|initially|first|once)\b|\bas\s*\$", re.IGNORECASE)
 _VARIES = re.compile(r"\b(?:var(?:y|ies|ying)|changes?|changing|switch\w*|adapt\w*|updated?|time-dependent|functions?)\b",
                      re.IGNORECASE)
 _LOCAL = re.compile(r"\\begin\s*\{(theorem|lemma|proposition|corollary|remark|example|proof|IEEEproof|pf|thm|lem|prop|cor|rem)\*?\}"
                     r".*?\\end\s*\{\1\*?\}", re.DOTALL)
+_FUNCTION = r"\b(?:energy|storage|Lyapunov|functions?|functionals?|candidates?)\b"
+_FUNCTIONS = re.compile(_FUNCTION + r"[^.,;:$]{0,20}(\$[^$]+\$)", re.IGNORECASE)
+_ARE_FUNCTIONS = re.compile(r"(\$[^$]+\$)\s*(?:be|is|denotes?)\s+(?:an?|the|our|its)\s+(?:[\w-]+\s+){0,4}?" + _FUNCTION, re.IGNORECASE)
 _DEFINED = re.compile(r":=|\\(?:triangleq|coloneqq|doteq)(?![A-Za-z])")
 _HOLDING = {"=", "<", ">", "<=", ">="}
 _REACH = 600  # letters before and behind a piece that its sentence is looked for in
@@ -81,6 +84,12 @@ def table_of(rows: list[RowEntry], text: str) -> dict[str, LetterEntry]:
         role = "state" if letter in states else said[0] if len(said) == 1 else ""
         entries[letter] = LetterEntry.model_validate({"kind": kinds.get(letter, ""), "role": role})
     return entries
+
+
+def functions_in(text: str) -> set[str]:
+    """The letters that the text calls functions of the state: an energy, a storage or a Lyapunov function."""
+    return {letter for pattern in (_FUNCTIONS, _ARE_FUNCTIONS) for found in pattern.finditer(text)
+            for inline in _INLINE.finditer(found[1]) for letter in letters_of_text((inline[1] or inline[2]).partition('=')[0].partition('(')[0].partition(r'\in')[0])}
 
 
 def on_condition(text: str) -> bool:
@@ -127,8 +136,9 @@ def _named(pattern: re.Pattern[str], text: str) -> Iterator[str]:
     """The letters in the list of formulas that some words stand before."""
     for found in pattern.finditer(text):
         sentence = _around(text, found.start(), found.end())
+        near = text[max(found.start() - 40, 0):found.end()] + text[found.end():found.end() + 30].partition(",")[0]
         if (pattern is not _INPUTS and _NOT_EVERYWHERE.search(sentence)) or (
-                pattern is _CONSTANTS and _VARIES.search(sentence)):
+                pattern is _CONSTANTS and _VARIES.search(near)):
             continue
         for inline in _INLINE.finditer(found[1]):
             yield from letters_of_text(inline[1] or inline[2])
