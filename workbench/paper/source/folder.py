@@ -82,7 +82,8 @@ def write_from_source(name: str, directory: Path, source: Path) -> FromSource:
                        {entry.id: row for row, entry in made if row.what == "Equation" and not row.number}, asides,
                        functions_in(found.text))
     supposed = {entry.id for row, entry in made if row.supposed}
-    rows = [row.model_copy(update={"role": "words"}) if row.role == "claim" and row.id in supposed else row for row in rows]
+    rows = [row.model_copy(update={"role": "words"}) if row.role == "claim" and row.id in supposed else row
+            for row in rows]
     letters = table_of(rows, found.text)
     if len(rows_text(rows).encode()) > LARGEST_TEXT // 2:  # verdicts are added, and the table is read again
         raise InputError(source, "", "becomes tables of more than 2 MiB, as where a macro writes itself many times "

@@ -5,22 +5,24 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 
-from workbench.paper.source.lines import FOR
+from workbench.paper.source.sentences import FOR
 from workbench.proof.latex.error import LatexError
+from workbench.proof.latex.parts import parted
 from workbench.proof.latex.read import read_line
 from workbench.proof.latex.rows import LetterEntry, RowEntry, text_of
 from workbench.proof.latex.sides import letter_latex, letters_of_text, letters_of_time, moving_sides, sides_of
-from workbench.proof.latex.statement import parted
 from workbench.proof.latex.tree import Letter, Node, Number
 
 _INLINE = re.compile(r"(?<![\\$])\$(?!\$)(.+?)(?<!\\)\$(?!\$)|\\\((.+?)\\\)", re.DOTALL)
 _LIST = r"((?:\$[^$]+\$(?:\s*,\s*(?:and\s+)?|\s+and\s+)?)+)"
-_CONSTANTS = re.compile(r"\b(?:constants?|gains?|parameters?)\b(?![^$]{0,30}\b(?:on|over|in|for|of|at|when|with|to|by)\b)"
-                        r"[^.,;:$]{0,30}" + _LIST, re.IGNORECASE)
-_NOUNS = (r"(?:(?:real|known|unknown|finite|scalar|design|control|controller|tuning|feedback|observer|adaptation|learning|"
-          r"constants?|numbers?|scalars?|gains?|parameters?|bounds?|coefficients?|integers?|weights?|reals?)\s+){0,3}")
-_POSITIVE = re.compile(r"\b(?<!non)(?<!non-)(?<!or )(?<!for )(?<!all )(?<!any )(?<!every )(?<!each )positive\s+" + _NOUNS + _LIST,
-                       re.IGNORECASE)
+_CONSTANTS = re.compile(r"\b(?:constants?|gains?|parameters?)\b"
+                        r"(?![^$]{0,30}\b(?:on|over|in|for|of|at|when|with|to|by)\b)[^.,;:$]{0,30}" + _LIST,
+                        re.IGNORECASE)
+_NOUNS = (r"(?:(?:real|known|unknown|finite|scalar|design|control|controller|tuning|feedback|observer|adaptation|"
+          r"learning|constants?|numbers?|scalars?|gains?|parameters?|bounds?|coefficients?|integers?|weights?|reals?)"
+          r"\s+){0,3}")
+_POSITIVE = re.compile(r"\b(?<!non)(?<!non-)(?<!or )(?<!for )(?<!all )(?<!any )(?<!every )(?<!each )positive\s+"
+                       + _NOUNS + _LIST, re.IGNORECASE)
 _ARE_POSITIVE = re.compile(
     _LIST + r"\s*(?:be|are|is)\s+(?:an?\s+|all\s+|some\s+)?positive\s+(?:\w+\s+){0,2}?"
     r"(?:constants?|gains?|numbers?|scalars?|parameters?)\b", re.IGNORECASE)
@@ -42,16 +44,18 @@ _ENVIRONMENT = re.compile(r"\\begin\s*\{((?!def)\w+\*?)\}.*?\\end\s*\{\1\}", re.
 _SENTENCE = re.compile(r"(?<=[.!?;])\s|\\(?:begin|end)\s*\{[^{}]*\}|\\(?:item|(?:sub)*section)|\n\s*\n|\\[\[\]]|\$\$")
 # A sentence with one of these says of no letter that it has a sign everywhere, or is constant.
 _NOT_EVERYWHERE = re.compile(
-    r"\b(?:if|when|whenever|while|until|unless|provided|cases?|either|n?or|neither|not|whether|suppose|then|may|might|could|"
-    r"can|would|should|follow\w*|hence|thus|therefore|impl(?:y|ies)|yields?|since|because|sets?|region|domain|"
-    r"(?:in|out)side|instance|example|show\w*|prove\w*|conclude\w*|near|small|large|initially|first|once)\b|\bas\s*\$", re.IGNORECASE)
-_VARIES = re.compile(r"\b(?:var(?:y|ies|ying)|changes?|changing|switch\w*|adapt\w*|updated?|time-dependent|functions?)\b",
-                     re.IGNORECASE)
-_LOCAL = re.compile(r"\\begin\s*\{(theorem|lemma|proposition|corollary|remark|example|proof|IEEEproof|pf|thm|lem|prop|cor|rem)\*?\}"
-                    r".*?\\end\s*\{\1\*?\}", re.DOTALL)
+    r"\b(?:if|when|whenever|while|until|unless|provided|cases?|either|n?or|neither|not|whether|suppose|then|may|might|"
+    r"could|can|would|should|follow\w*|hence|thus|therefore|impl(?:y|ies)|yields?|since|because|sets?|region|domain|"
+    r"(?:in|out)side|instance|example|show\w*|prove\w*|conclude\w*|near|small|large|initially|first|once)\b|\bas\s*\$",
+    re.IGNORECASE)
+_VARIES = re.compile(r"\b(?:var(?:y|ies|ying)|changes?|changing|switch\w*|adapt\w*|updated?|time-dependent|"
+                     r"functions?)\b", re.IGNORECASE)
+_LOCAL = re.compile(r"\\begin\s*\{(theorem|lemma|proposition|corollary|remark|example|proof|IEEEproof|pf|thm|lem|prop|"
+                    r"cor|rem)\*?\}.*?\\end\s*\{\1\*?\}", re.DOTALL)
 _FUNCTION = r"\b(?:energy|storage|Lyapunov|functions?|functionals?|candidates?)\b"
 _FUNCTIONS = re.compile(_FUNCTION + r"[^.,;:$]{0,20}(\$[^$]+\$)", re.IGNORECASE)
-_ARE_FUNCTIONS = re.compile(r"(\$[^$]+\$)\s*(?:be|is|denotes?)\s+(?:an?|the|our|its)\s+(?:[\w-]+\s+){0,4}?" + _FUNCTION, re.IGNORECASE)
+_ARE_FUNCTIONS = re.compile(r"(\$[^$]+\$)\s*(?:be|is|denotes?)\s+(?:an?|the|our|its)\s+(?:[\w-]+\s+){0,4}?" + _FUNCTION,
+                            re.IGNORECASE)
 _DEFINED = re.compile(r":=|\\(?:triangleq|coloneqq|doteq)(?![A-Za-z])")
 _HOLDING = {"=", "<", ">", "<=", ">="}
 _REACH = 600  # letters before and behind a piece that its sentence is looked for in
@@ -89,7 +93,8 @@ def table_of(rows: list[RowEntry], text: str) -> dict[str, LetterEntry]:
 def functions_in(text: str) -> set[str]:
     """The letters that the text calls functions of the state: an energy, a storage or a Lyapunov function."""
     return {letter for pattern in (_FUNCTIONS, _ARE_FUNCTIONS) for found in pattern.finditer(text)
-            for inline in _INLINE.finditer(found[1]) for letter in letters_of_text((inline[1] or inline[2]).partition('=')[0].partition('(')[0].partition(r'\in')[0])}
+            for inline in _INLINE.finditer(found[1])
+            for letter in letters_of_text(re.split(r"=|\(|\\in(?![A-Za-z])", inline[1] or inline[2])[0])}
 
 
 def on_condition(text: str) -> bool:

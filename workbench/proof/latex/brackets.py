@@ -56,13 +56,6 @@ def is_argument(notation: Notation, node: Node, before: Node) -> bool:
     return says_nothing(notation, node) and bool(letters_of_node(before))
 
 
-def require_number_first(factors: tuple[Node, ...], at: int) -> None:
-    """Raise LatexError for a number behind another factor, as in `x2`: an index, an exponent or a factor is meant."""
-    if at and isinstance(_base(factors[at]), Number) and not isinstance(factors[at - 1], Dot):
-        raise LatexError("a number stands behind a factor, and may be its index, its exponent or one more factor: write "
-                         r"the number first, or \cdot before it", factors[at].position)
-
-
 def require_letter_before(notation: Notation, node: Node) -> None:
     """Raise LatexError for an argument that stands where a number is expected, as in `x + (t)`."""
     if says_nothing(notation, node):
@@ -80,8 +73,12 @@ def require_own_power(last: Node, declared: bool) -> None:
 
 def require_factor(notation: Notation, factors: tuple[Node, ...], at: int, declared: bool = False) -> None:
     """Raise LatexError for brackets that a reader would not take for a factor: `x(t)`, `V(0)`, `= 1 (3)`; where letters
-    are declared, neither for a value at another instant, `x(t - T)`, `x(k + 1)`, nor of a function, `V(x + y)`."""
+    are declared, neither for a value at another instant, `x(t - T)`, `x(k + 1)`, nor of a function, `V(x + y)`; nor is
+    a number behind another factor one, as in `x2`."""
     group, before = _base(factors[at]), factors[at - 1] if at else Dot()
+    if declared and isinstance(group, Number) and not isinstance(before, Dot) and notation.piece(factors, at) is None:
+        raise LatexError("a number stands behind a factor, and may be its index, its exponent or one more factor: "
+                         r"write the number first, or \cdot before it", factors[at].position)
     if not isinstance(group, Group) or isinstance(before, (Dot, Group)) or notation.meaning(group) is not None:
         return
     chains = group.line.chains

@@ -16,12 +16,12 @@ from workbench.proof.latex.brackets import (
     plain_exponent,
     require_factor,
     require_letter_before,
-    require_number_first,
     require_own_power,
 )
+from workbench.proof.latex.conditions import Condition, conditions_of, require_kept
 from workbench.proof.latex.derivatives import Derivative, derivative, rate, require_operand
 from workbench.proof.latex.error import LatexError
-from workbench.proof.latex.functions import Condition, applied, conditions_of, divided, power, require_kept, require_usual
+from workbench.proof.latex.functions import applied, divided, power, require_usual
 from workbench.proof.latex.held import by_letter
 from workbench.proof.latex.notation import Notation, without_dot
 from workbench.proof.latex.sums import big, require_component
@@ -124,8 +124,6 @@ class Converter:
                 at += 1
                 continue
             require_factor(self.notation, factors, at, self.declared)
-            if self.declared and self.notation.piece(factors, at) is None:
-                require_number_first(factors, at)
             value, transposed, length = self._factor(factors, at)
             behind = factors[at + length] if at + length < len(factors) else None
             # x(t)^2 is (x(t))^2
@@ -135,10 +133,9 @@ class Converter:
                 transposed, length = transposed or isinstance(behind, Transposed), length + 1
             values.append((value, transposed))
             at += length
-        position = factors[0].position
         if self.index is not None and any(transposed for _, transposed in values):
-            raise LatexError("a product of vectors within a sum: give the product in the notation", position)
-        return multiplied(values, self.limits, position, self.declared and self.index is None)
+            raise LatexError("a product of vectors within a sum: give it in the notation", factors[0].position)
+        return multiplied(values, self.limits, factors[0].position, self.declared and self.index is None)
 
     def _factor(self, factors: tuple[Node, ...], at: int) -> tuple[sp.Expr, bool, int]:
         """The value of the factor at a place, whether it is transposed, and how many factors it takes."""
@@ -224,8 +221,7 @@ class Converter:
         return rate(value, count)
 
     def _of_sum(self, node: Node, meaning: sp.Expr) -> sp.Expr:
-        """The meaning, where the letter is printed with the index that it has here; of a definition it has to be kept
-        where its formula is a number."""
+        """The meaning, where the letter has the index that it has here; a definition's is a number somewhere alone."""
         if self.declared:
             self.conditions.extend(conditions_of(meaning, node.position))
         if isinstance(node, Letter) and is_vector(meaning):

@@ -120,7 +120,8 @@ def _close(name: str, begins: int, pieces: list[Piece]) -> None:
     """Part the rows of a system by commas, where each is a formula without words: its brace holds them together."""
     own = pieces[begins:]
     if name == "cases" and not any(piece.kind == "text" or piece.text in _SAYS for piece in own):
-        pieces[begins:] = [replace(piece, text=",") if piece.kind == "sign" and piece.text == ";" else piece for piece in own]
+        pieces[begins:] = [replace(piece, text=",") if (piece.kind, piece.text) == ("sign", ";") else piece
+                           for piece in own]
 
 
 def _said(command: str, content: str, start: int, follows: bool) -> list[Piece]:

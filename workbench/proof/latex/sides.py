@@ -10,8 +10,8 @@ from typing import Any
 
 from workbench.proof.latex.derivatives import derivative
 from workbench.proof.latex.error import LatexError
+from workbench.proof.latex.parts import parted
 from workbench.proof.latex.read import read_line
-from workbench.proof.latex.statement import parted
 from workbench.proof.latex.tree import PARTED, Chain, Group, Letter, Node, Product, Quotient, parts_of
 
 RATES = ("dot", "ddot", "dddot")
@@ -81,8 +81,8 @@ def valued_in(text: str) -> set[str]:
         sides = [chain.sides[0] for chain in read_line(left.removesuffix(":")).chains[:1]] if sign else []
     except LatexError:
         sides = []
-    heads = [side.factors[0] if isinstance(side, Product) and len(side.factors) == 2 and isinstance(side.factors[1], Group)
-             else side for side in sides]
+    heads = [side.factors[0] if isinstance(side, Product) and len(side.factors) == 2 and isinstance(
+        side.factors[1], Group) else side for side in sides]
     return {letter for letter, _ in sides_of(text)} | {
         letter_latex(one) for one in heads if isinstance(one, Letter) and not set(one.accents) & set(RATES)}
 
