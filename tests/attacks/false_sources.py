@@ -12,7 +12,7 @@ FALSE = (
         "Either $Z > 0$ or $Z < 0$", "Suppose first that $Z > 0$", "It may happen that $Z > 0$",
         "It does not follow that $Z > 0$", "We ask whether $Z > 0$", "Since $Z > 0$ there", "For instance, $Z > 0$",
         r"\begin{lemma} Let $Z > 0$. It holds that $Z + 1 > 0$. \end{lemma} Now", "Near the origin $Z > 0$",
-        r"\begin{proof} Assume $Z > 0$. Done. \end{proof} Now", 
+        r"\begin{proof} Assume $Z > 0$. Done. \end{proof} Now",
         r"\begin{remark} The value $Z > 0$ is usual. \end{remark} Now",
         "The positive definite function $Q_Z$ of $Z$", "It is a positive function of $Z$", "It is positive if $Z$ is",
         "The positive or negative constant $Z$", "Neither $D$ nor $Z$ is a positive constant",
@@ -30,6 +30,14 @@ FALSE = (
     r"\begin{equation} -|Z| - 1 = -\begin{cases} Z - 1 & Z \ge 0 \\ -Z - 1 & Z < 0 \end{cases} \end{equation}",
     r"\newcommand{\power}[1]{#1^2} \renewcommand{\power}[1]{#1^3} \begin{equation} \power{Z} \ge 0 \end{equation}",
     r"\newcommand{\ck}{c k} \begin{equation} \frac 1\ck \le \frac{k}{c} + Z^2 \end{equation}",
+    # what holds somewhere gives no letter its value
+    r"\begin{equation} \dot Z = -k Z \end{equation} On the sliding surface $x = 0$, "
+    r"\begin{equation} Z = -k x \end{equation} \begin{equation} Z + k x \ge 0 \end{equation}",
+    r"\begin{equation} \dot Z = -k Z \end{equation} This holds. \begin{equation} Z = -k x \end{equation} "
+    r"\begin{equation} Z + k x \ge 0 \end{equation}",
+    r"When the vehicle stands still, \begin{equation} Z = 0 \end{equation} \begin{equation} Z^3 \ge 0 \end{equation}",
+    r"\begin{remark} The usual choice is \begin{equation} Z = 2 k \end{equation} \end{remark} "
+    r"\begin{equation} Z > k \end{equation}",
     # what moves is no constant, and a rate that is derived is claimed
     r"The time-varying parameter $Z(t)$ enters. \begin{equation} \hat{Z} = x^2 Z \end{equation} "
     r"\begin{equation} \dot{\hat{Z}} = -2 k x^2 Z \end{equation}",
@@ -52,6 +60,12 @@ TRUE = (
     r"Choose $Z$ such that \begin{equation} Z > 2 k \end{equation}",
     r"Let the gain $Z$ satisfy \begin{equation} Z > 2 k \end{equation} \begin{equation} Z > k \end{equation}",
     r"Suppose that \begin{equation} |Z| \le c. \end{equation} Then \begin{equation} Z \le c \end{equation}",
+    r"If the gain satisfies \begin{equation} Z > k \end{equation} then \begin{equation} Z x^2 \ge k x^2 \end{equation}",
+    r"In the absence of it, that is, with $Z = 0$, \begin{equation} x Z = 0 \end{equation}",
+    r"The function $Z$ with $Z = x^2$ obeys \begin{equation} Z \ge 0 \end{equation}. "
+    r"\begin{equation} x^2 Z \ge 0 \end{equation}",
+    r"\begin{remark} The choice \begin{equation} Z = 2 k \end{equation} is usual. Then \begin{equation} Z > k "
+    r"\end{equation} \end{remark}",
     r"We assume that \begin{equation} |Z| \le c \end{equation} \begin{equation} Z \le c \end{equation}",
     r"\begin{lemma} Let \begin{equation} Z \ge 1. \end{equation} Then \begin{equation} Z^2 \ge 1. \end{equation} "
     r"\end{lemma}",

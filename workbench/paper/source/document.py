@@ -36,6 +36,7 @@ _PARENTHESIS = re.compile(r"(?<!\\)\\[()]")  # another way to type a dollar sign
 _NEWTHEOREM = re.compile(r"\\newtheorem(\*?)\s*\{([^{}]*)\}\s*(?:\[([^\]]*)\])?\s*\{([^{}]*)\}\s*(?:\[([^\]]*)\])?")
 _LEFT_OUT = re.compile(r"\\iffalse(?![A-Za-z]).*?\\fi(?![A-Za-z])", re.DOTALL)
 _WITHIN = re.compile(r"\\numberwithin\s*\{equation\}\s*\{section\}")
+_REMARKS = re.compile("remark|example|note", re.IGNORECASE)
 _REFERENCE = re.compile(r"\\(?:eqref|[cC]ref|autoref|ref)\s*\{([^{}]*)\}")
 
 
@@ -79,6 +80,7 @@ class _Reader:
         self.parent = ""
         self.pending: list[str] = []
         self.group_labels: dict[str, list[str]] = {}
+        self.remarking = False
         self.supposing = False  # whether a display before it, in the same paragraph, is a hypothesis
         self.last, self.begun = 0, 0  # where the display before ends, and the theorem or proof around it begins
         self.waiting: list[tuple[str, int]] = []  # labels of subequations, and from which row on they hold
@@ -187,7 +189,8 @@ class _Reader:
             self.supposing = False
         supposed = supposed_around(before_it, text, behind) or self.supposing or (
             bool(within or self.proving) and lets(self.body[self.begun:around[0]]))
-        self.supposing |= introduces_hypothesis(before_it) and not any(values_and_rates(cleaned(text)))
+        self.supposing |= introduces_hypothesis(before_it) and (
+            self.remarking or not any(values_and_rates(cleaned(text))))
         self.last = around[1]
 
         def add(number: str, printed: str, labels: tuple[str, ...], referred: list[str]) -> None:
@@ -196,7 +199,7 @@ class _Reader:
             self._add(Row(_id(number) if number else UNNUMBERED, "Equation", number, printed, labels, within=within,
                           line=chain, referred=self.pending + referred, conditional=conditional,
                           supposed=supposed,
-                          aside=bool(within) or self.proving))
+                          aside=bool(within) or self.proving, remark=self.remarking))
             self.pending = []
 
         for line in lines:
@@ -225,8 +228,9 @@ class _Reader:
         row = Row(_id(f"{what.lower()}{number}"), what, number, " ".join(LABEL.sub("", text).split()),
                   tuple(LABEL.findall(_without_displays(text))), title or "", referred=_references(text))
         self._add(row)
-        self.pending, self.begun = [], begin
+        self.pending, self.begun, self.remarking = [], begin, _REMARKS.search(what) is not None
         self._walk(begin, close, row.id)
+        self.remarking = False
         self.pending = []
 
     def _proof(self, at: int, close: int) -> None:

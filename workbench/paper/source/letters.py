@@ -56,6 +56,7 @@ _FUNCTION = r"\b(?:energy|storage|Lyapunov|functions?|functionals?|candidates?)\
 _FUNCTIONS = re.compile(_FUNCTION + r"[^.,;:$]{0,20}(\$[^$]+\$)", re.IGNORECASE)
 _ARE_FUNCTIONS = re.compile(r"(\$[^$]+\$)\s*(?:be|is|denotes?)\s+(?:an?|the|our|its)\s+(?:[\w-]+\s+){0,4}?" + _FUNCTION,
                             re.IGNORECASE)
+_RELATION = re.compile(r"[=<>]|\\(?:leq?|geq?|leqslant|geqslant|in|ll|approx)(?![A-Za-z])")
 _DEFINED = re.compile(r":=|\\(?:triangleq|coloneqq|doteq)(?![A-Za-z])")
 _HOLDING = {"=", "<", ">", "<=", ">="}
 _REACH = 600  # letters before and behind a piece that its sentence is looked for in
@@ -80,11 +81,14 @@ def table_of(rows: list[RowEntry], text: str) -> dict[str, LetterEntry]:
             kinds |= dict(_kinds_in(text_of(row)))
     kinds = dict.fromkeys((*_named(_POSITIVE, own), *_named(_ARE_POSITIVE, own)), "positive") | kinds
     constants, inputs = set(_named(_CONSTANTS, own)) - _printed_of_time(text, rows), set(_named(_INPUTS, text))
+    unclear = set(_valued_elsewhere(text))
     entries = {}
     for letter in found:
         if letter in defined:
             continue
         said = [role for role, letters in (("constant", constants), ("input", inputs)) if letter in letters]
+        if letter in unclear - states:
+            kinds.pop(letter, None)
         role = "state" if letter in states else said[0] if len(said) == 1 else ""
         entries[letter] = LetterEntry.model_validate({"kind": kinds.get(letter, ""), "role": role})
     return entries
@@ -137,6 +141,15 @@ def defined_in_text(text: str) -> dict[str, str]:
     return {letter: formulas.pop() for letter, formulas in found.items() if len(formulas) == 1}
 
 
+def _valued_elsewhere(text: str) -> Iterator[str]:
+    """The letters that a formula in the text gives a value of other letters: where nothing says that it defines them,
+    they are left to the author."""
+    for inline in _INLINE.finditer(text):
+        for letter, value in values_and_rates((inline[1] or inline[2]).strip(" .,;"))[0].items():
+            if letters_of_text(value):
+                yield letter
+
+
 def _named(pattern: re.Pattern[str], text: str) -> Iterator[str]:
     """The letters in the list of formulas that some words stand before."""
     for found in pattern.finditer(text):
@@ -146,7 +159,8 @@ def _named(pattern: re.Pattern[str], text: str) -> Iterator[str]:
                 pattern is _CONSTANTS and _VARIES.search(near)):
             continue
         for inline in _INLINE.finditer(found[1]):
-            yield from letters_of_text(inline[1] or inline[2])
+            formula = inline[1] or inline[2]  # the disturbance |d| <= D: d is one, D is not
+            yield from letters_of_text(_RELATION.split(formula)[0] if pattern is _INPUTS else formula)
 
 
 def _around(text: str, start: int, end: int) -> str:

@@ -17,9 +17,15 @@ _NOT_CLAIMED = re.compile(r"\b(?:should\s+(?:read|be)|instead|incorrect\w*|wrong
 _WANTED = re.compile(r"\b(?:goals?|aims?|objectives?|wish|want|false|never|cannot|impossible|contradict\w*)\b",
                      re.IGNORECASE)
 _SIZE = r"(?:small|large|positive|negative|non-?negative|non-?zero)"
+# What no sentence says of all values, whether it claims a formula or gives a letter a value by it.
+_SOMEWHERE = re.compile(
+    r"\$[^$<>=]*=\s*-?[\d.]+\s*\$|\b(?:when|whenever|unless|until|while)\b"
+    r"|\bif\b(?!.*\b(?:choose|chosen|choosing|select\w*|law|control\w*|input|design\w*)\b)"
+    rf"|\b(?:on|in|at|inside|outside|within)\s+(?:the|this|that|a|an)\s+(?:[\w-]+\s+){{0,3}}{_RELATED}",
+    re.IGNORECASE | re.DOTALL)
 _SUPPOSED = re.compile(
     r"\b(?:if|when|whenever|while|until|unless|provided|suppos\w+|assum(?:e|es|ed|ing)|require[sd]?|must|should|there\s+"
-    r"(?:is|are|exists?)|exists?|choose|select|pick|such\s+that|so\s+that|near|neighbou?rhood|vicinity|locally|sufficiently|"
+    r"(?:is|are|exists?)|exists?|choose|select|pick|such\s+that|near|neighbou?rhood|vicinity|locally|sufficiently|"
     rf"enough|not|only|let\b[^.]*\b(?:satisfy|obey|fulfil|meet)|for\s+(?:all\s+|any\s+)?{_SIZE}\s+\$)\b"
     rf"|\bfor\s+(?:all\s+|any\s+)?{_SIZE}\s+\$|\A[^$]*\blet\s*\Z"
     rf"|\b(?:since|as|because(?:\s+of)?|(?:set|region|domain|interval|case|condition)s?(?:\s+(?:that|where))?)\s*"
@@ -28,7 +34,7 @@ _SUPPOSED = re.compile(
 _SUPPOSED_BEHIND = re.compile(
     rf"[\s,]*\b(?:(?:since|as|because(?:\s+of)?|provided(?:\s+that)?|whenever|if|when)\s*{_RELATED}"
     rf"|with\s+(?!{_SIGN_ONLY}){_RELATED}|where\s+(?!{_SIGN_ONLY}|\$[^$<>]*=){_RELATED})", re.IGNORECASE | re.DOTALL)
-_HYPOTHESIS = re.compile(r"\b(?:suppos|assum|let|given)(?!\w*\s*~?\\)\w*\b"
+_HYPOTHESIS = re.compile(r"\b(?:suppos|assum|let|given|if|provided|choice)(?!\w*\s*~?\\)\w*\b"
                          r"(?!.*\b(?:then|we\s+have|holds?|be|denotes?)\b).*\Z", re.IGNORECASE | re.DOTALL)
 _NAME = re.compile(r"\A\s*\{[^{}]*\}")
 _LET = re.compile(rf"\b(?:let|suppose|assume|if|given|with|where|for|case)\b{_SPOKEN}{_RELATED}",
@@ -49,7 +55,8 @@ def on_condition_around(before: str, display: str, behind: str) -> bool:
     before, behind = (_LABELS.sub("", text) for text in (before[-REACH:], behind[:REACH]))
     *_, earlier, last = "", *_SENTENCE.split(before)
     sentence = _OF_TIME.sub(" ", f"{earlier} {last}" if _GOES_ON.match(last) else last)
-    if _BEFORE.search(sentence) or _NOT_CLAIMED.search(sentence) or _WANTED.search(sentence):
+    if any(pattern.search(sentence) for pattern in (_BEFORE, _NOT_CLAIMED, _WANTED)) or _SOMEWHERE.search(
+            _OF_TIME.sub(" ", _last(before))):
         return True
     rest = _rest(display, behind)
     return (_BEHIND.match(rest) or _NOT_CLAIMED.search(rest) or _WANTED.search(rest)) is not None
