@@ -12,8 +12,9 @@ from workbench.paper.source import folder
 from workbench.paper.source.document import read_source
 from workbench.paper.source.folder import write_from_source
 from workbench.paper.source.letters import assumed_formulas, defined_in_text, values_and_rates
-from workbench.paper.source.lines import chained, on_condition_around, system_lines, without_end
+from workbench.paper.source.lines import chained, system_lines, without_end
 from workbench.paper.source.macros import SourceError, expanded
+from workbench.paper.source.sentences import on_condition_around
 from workbench.proof.latex.rows import ROWS, SYMBOLS, LettersFile, RowsFile, load_record
 from workbench.proof.latex.symbols import SymbolsFile, symbols_in
 from workbench.proof.prove import prove

@@ -64,6 +64,7 @@ FALSE = {
     "larger bars": r"\bigl|a\bigl|b\bigr|x\bigr| = x|a||b|",
     # what an argument is
     "a time that is added": r"x + (t) > x", "a time that multiplies": r"x \cdot (t) = x", "twice a time": r"2(t) = 2",
+    "half a time": r"\tfrac12(t) \le c + \tfrac12", "a root's time": r"\sqrt{2}(t) \le c + \sqrt2",
     "time is one": r"(t)^2 = 1",
     # derivatives
     "by t alone": r"\frac{\partial V}{\partial t} = x w - x^2", "orders that differ": r"\frac{d^2 y}{dt} = y",

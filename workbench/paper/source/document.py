@@ -3,12 +3,20 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
 from dataclasses import dataclass
 
-from workbench.paper.source.lines import chained, goes_on, on_condition_around, without_end
+from workbench.paper.source.letters import values_and_rates
+from workbench.paper.source.lines import LABEL, TAG, WITHOUT_NUMBER, chained, cleaned, goes_on, lines_of
 from workbench.paper.source.macros import SourceError, expanded, group, optional, without_comments
 from workbench.paper.source.row import Row, resolve
+from workbench.paper.source.sentences import (
+    PARAGRAPH,
+    REACH,
+    introduces_hypothesis,
+    lets,
+    on_condition_around,
+    supposed_around,
+)
 from workbench.proof.latex.rows import is_assumption
 
 DISPLAYS = ("equation", "align", "gather", "multline", "eqnarray", "flalign", "alignat", "IEEEeqnarray", "dmath",
@@ -24,19 +32,12 @@ USUAL = {"theorem": "Theorem", "lemma": "Lemma", "assumption": "Assumption", "re
 PROOFS = ("proof", "IEEEproof", "pf")
 _MARK = re.compile(r"\\(begin|end|section|appendix|eqref|[cC]ref|autoref|ref|label|setcounter)(?![A-Za-z])\*?"
                    r"|(?<!\\)(?:\\\[|\$\$)")
-_LABEL = re.compile(r"\\label\s*\{([^{}]*)\}")
-_TAG = re.compile(r"\\(?:tag\*?\s*\{|l?eqno(?![A-Za-z])\s*\{?\(?)([^{}()\\]*)[)}]*")
-_UNNUMBERED = re.compile(r"\\(?:nonumber|notag|IEEEnonumber)(?![A-Za-z])")
-_LAYOUT = re.compile(r"\\(?:IEEEyesnumber|IEEEeqnarraynumspace|displaybreak)(?![A-Za-z])\*?"
-                     r"|\\(?:short)?intertext\s*\{[^{}$]*\}")
 _PARENTHESIS = re.compile(r"(?<!\\)\\[()]")  # another way to type a dollar sign
 _NEWTHEOREM = re.compile(r"\\newtheorem(\*?)\s*\{([^{}]*)\}\s*(?:\[([^\]]*)\])?\s*\{([^{}]*)\}\s*(?:\[([^\]]*)\])?")
 _LEFT_OUT = re.compile(r"\\iffalse(?![A-Za-z]).*?\\fi(?![A-Za-z])", re.DOTALL)
 _WITHIN = re.compile(r"\\numberwithin\s*\{equation\}\s*\{section\}")
+_REMARKS = re.compile("remark|example|note", re.IGNORECASE)
 _REFERENCE = re.compile(r"\\(?:eqref|[cC]ref|autoref|ref)\s*\{([^{}]*)\}")
-_SPLIT = re.compile(r"\\\\(?:\s*\[[^\]]*\])?")
-_INNER = re.compile(r"\\begin\s*\{(\w+)\*?\}.*?\\end\s*\{\1\*?\}", re.DOTALL)
-_NESTED = re.compile(r"\\(begin|end)\s*\{[^{}]*\}|[{}]|\\.", re.DOTALL)
 
 
 @dataclass
@@ -79,6 +80,9 @@ class _Reader:
         self.parent = ""
         self.pending: list[str] = []
         self.group_labels: dict[str, list[str]] = {}
+        self.remarking = False
+        self.supposing = False  # whether a display before it, in the same paragraph, is a hypothesis
+        self.last, self.begun = 0, 0  # where the display before ends, and the theorem or proof around it begins
         self.waiting: list[tuple[str, int]] = []  # labels of subequations, and from which row on they hold
 
     def read(self) -> None:
@@ -176,28 +180,37 @@ class _Reader:
 
     def _equations(self, name: str, text: str, within: str, around: tuple[int, int], numbered: bool) -> None:
         """The rows of a display; around: where it begins and ends in the body."""
-        lines = [text] if name in WHOLE else _lines(text)
+        lines = [text] if name in WHOLE else lines_of(text)
         carried, labels = "", ()
         before = len(self.rows)
-        conditional = on_condition_around(self.body[:around[0]], text, self.body[around[1]:])
+        before_it, behind = self.body[max(around[0] - REACH, 0):around[0]], self.body[around[1]:around[1] + REACH]
+        conditional = on_condition_around(before_it, text, behind)
+        if PARAGRAPH.search(self.body, self.last, around[0]) is not None:
+            self.supposing = False
+        supposed = supposed_around(before_it, text, behind) or self.supposing or (
+            bool(within or self.proving) and lets(self.body[self.begun:around[0]]))
+        self.supposing |= introduces_hypothesis(before_it) and (
+            self.remarking or not any(values_and_rates(cleaned(text))))
+        self.last = around[1]
 
         def add(number: str, printed: str, labels: tuple[str, ...], referred: list[str]) -> None:
             last = self.rows[-1] if len(self.rows) > before else None
             chain = chained(last.line or last.printed, printed) if last else ""
             self._add(Row(_id(number) if number else UNNUMBERED, "Equation", number, printed, labels, within=within,
                           line=chain, referred=self.pending + referred, conditional=conditional,
-                          aside=bool(within) or self.proving))
+                          supposed=supposed,
+                          aside=bool(within) or self.proving, remark=self.remarking))
             self.pending = []
 
         for line in lines:
-            if not _clean(line):
+            if not cleaned(line):
                 continue
-            if carried and not goes_on(carried, _clean(line)):
+            if carried and not goes_on(carried, cleaned(line)):
                 add("", carried, labels, [])
                 carried, labels = "", ()
-            printed, labels = _joined(carried, _clean(line)), (*labels, *_LABEL.findall(line))
-            tag = _TAG.search(line)
-            if tag is None and (_UNNUMBERED.search(line) or not (numbered or "IEEEyesnumber" in line)):
+            printed, labels = _joined(carried, cleaned(line)), (*labels, *LABEL.findall(line))
+            tag = TAG.search(line)
+            if tag is None and (WITHOUT_NUMBER.search(line) or not (numbered or "IEEEyesnumber" in line)):
                 carried = printed
                 continue
             add(tag[1].strip() if tag else self._equation_number(), printed, labels, _references(line))
@@ -212,11 +225,12 @@ class _Reader:
         title, begin = optional(self.body, at)
         number = self._counted(counter, by_section) if counter and not starred else ""
         text = self.body[begin:close]
-        row = Row(_id(f"{what.lower()}{number}"), what, number, " ".join(_LABEL.sub("", text).split()),
-                  tuple(_LABEL.findall(_without_displays(text))), title or "", referred=_references(text))
+        row = Row(_id(f"{what.lower()}{number}"), what, number, " ".join(LABEL.sub("", text).split()),
+                  tuple(LABEL.findall(_without_displays(text))), title or "", referred=_references(text))
         self._add(row)
-        self.pending = []
+        self.pending, self.begun, self.remarking = [], begin, _REMARKS.search(what) is not None
         self._walk(begin, close, row.id)
+        self.remarking = False
         self.pending = []
 
     def _proof(self, at: int, close: int) -> None:
@@ -227,7 +241,7 @@ class _Reader:
              if row.what not in ("Equation", "Remark") and not is_assumption(row.what)), None)
         if owner is not None:
             owner.referred += _references(self.body[begin:close])
-        self.pending, self.proving = [], True
+        self.pending, self.proving, self.begun = [], True, begin
         self._walk(begin, close, "")
         self.pending, self.proving = [], False
 
@@ -238,34 +252,6 @@ class _Reader:
             row.id = f"display{number}" if base == UNNUMBERED else f"{base}-{number}"
             number += 1
         self.rows.append(row)
-
-
-def _lines(text: str) -> Iterator[str]:
-    r"""The lines that \\\\ parts, but not those within braces or an inner environment."""
-    depth = start = at = 0
-    while at < len(text):
-        split = _SPLIT.match(text, at)
-        if split and depth == 0:
-            yield text[start:at]
-            start = at = split.end()
-            continue
-        found = _NESTED.match(text, at)
-        if found is None:
-            at += 1
-            continue
-        depth += 1 if found.group() == "{" or found[1] == "begin" else -1 if found.group() == "}" or found[1] else 0
-        at = found.end()
-    yield text[start:]
-
-
-def _clean(line: str) -> str:
-    """A line without what numbers and aligns it; what stands in an inner environment stays as it is."""
-    for pattern in (_LABEL, _TAG, _UNNUMBERED, _LAYOUT):
-        line = pattern.sub("", line)
-    inner = [found.span() for found in _INNER.finditer(line)]
-    kept = "".join(sign for at, sign in enumerate(line)
-                   if sign != "&" or line[at - 1:at] == "\\" or any(start <= at < end for start, end in inner))
-    return without_end(" ".join(kept.split()))
 
 
 def _joined(first: str, second: str) -> str:

@@ -17,15 +17,16 @@ from workbench.paper.source.document import Source, read_source
 from workbench.paper.source.letters import (
     assumed_formulas,
     defined_in_text,
+    functions_in,
     on_condition,
     table_of,
     values_and_rates,
 )
-from workbench.paper.source.lines import continues, system_lines
+from workbench.paper.source.lines import ENDS_WITH_RELATION, continues, system_lines
 from workbench.paper.source.macros import SourceError, without_comments
 from workbench.paper.source.row import Row
 from workbench.proof.latex.rows import ROWS, SYMBOLS, LetterEntry, Role, RowEntry, is_assumption, text_of
-from workbench.proof.latex.sides import letters_of_text, moving_sides, sides_of
+from workbench.proof.latex.sides import letters_of_text, moving_sides, sides_of, valued_in
 from workbench.proof.prove import prove
 from workbench.proof.selection import targets
 
@@ -77,8 +78,12 @@ def write_from_source(name: str, directory: Path, source: Path) -> FromSource:
         raise InputError(source, "", str(trouble)) from None
     made = [(row, entry) for row in found.rows for entry in entries(row, found)]
     asides = {entry.id for row, entry in made if row.aside}
-    rows = _with_roles(_with_definitions([entry for _, entry in made], found.text, asides),
-                       {entry.id: row for row, entry in made if row.what == "Equation" and not row.number}, asides)
+    rows = _with_roles(_with_definitions([entry for _, entry in made], found.text),
+                       {entry.id: row for row, entry in made if row.what == "Equation" and not row.number}, asides,
+                       {entry.id for row, entry in made if row.remark}, functions_in(found.text))
+    supposed = {entry.id for row, entry in made if row.supposed or (row.remark and values_and_rates(text_of(entry))[0])}
+    rows = [row.model_copy(update={"role": "words"}) if row.role == "claim" and row.id in supposed else row
+            for row in rows]
     letters = table_of(rows, found.text)
     if len(rows_text(rows).encode()) > LARGEST_TEXT // 2:  # verdicts are added, and the table is read again
         raise InputError(source, "", "becomes tables of more than 2 MiB, as where a macro writes itself many times "
@@ -146,7 +151,7 @@ def _cases(printed: str) -> list[str]:
     """Each case as a line with its condition; none where the formula has no column of conditions."""
     found = _CASES.fullmatch(printed)
     lines = [line for line in found["lines"].split(r"\\") if line.strip()] if found else []
-    if not found or any(line.count("&") != 1 for line in lines):
+    if not found or not ENDS_WITH_RELATION.search(found["before"]) or any(line.count("&") != 1 for line in lines):
         return []
     parts = [tuple(_WORDS.sub(" ", part).strip(" ,.;") for part in line.split("&")) for line in lines]
     if not all(value and condition for value, condition in parts):
@@ -154,11 +159,10 @@ def _cases(printed: str) -> list[str]:
     return [" ".join(rf"{found['before']} {value} \text{{if}} {condition}".split()) for value, condition in parts]
 
 
-def _with_definitions(rows: list[RowEntry], text: str, asides: Collection[str]) -> list[RowEntry]:
+def _with_definitions(rows: list[RowEntry], text: str) -> list[RowEntry]:
     """The rows, behind those letters that they use and that the running text alone defines."""
     lines = [text_of(row) for row in rows if row.role != "words"]
-    given = {letter for row in rows if row.role != "words" for letter, _ in (
-        *sides_of(text_of(row)), *(() if row.id in asides else moving_sides(text_of(row))))}
+    given = {letter for row in rows if row.role != "words" for letter, _ in sides_of(text_of(row))}
     known = {letter: formula for letter, formula in defined_in_text(text).items() if letter not in given}
     used: list[str] = []
     while more := [one for one in known if one not in used and any(one in letters_of_text(line) for line in lines)]:
@@ -168,22 +172,29 @@ def _with_definitions(rows: list[RowEntry], text: str, asides: Collection[str]) 
               for number, one in enumerate(used, 1)), *rows]
 
 
-def _with_roles(rows: list[RowEntry], unnumbered: Mapping[str, Row], asides: Collection[str]) -> list[RowEntry]:
+def _with_roles(rows: list[RowEntry], unnumbered: Mapping[str, Row], asides: Collection[str],
+                remarks: Collection[str] = (), functions: Collection[str] = ()) -> list[RowEntry]:
     """The first line that gives a letter a value defines it, the first that gives it a rate moves it; one without a
     number where no other does. In the text of a theorem, remark or proof no line moves a letter, since a rate there is
-    what the text claims, and no line without a number defines one."""
+    what the text claims, and no line without a number, or in a remark, defines one. Of what the text calls functions
+    the rates are claimed."""
     numbered = [text_of(row) for row in rows if row.role == "claim" and row.id not in unnumbered]
     given = {letter for line in numbered for letter in (*values_and_rates(line)[0], *values_and_rates(line)[1])}
     defined: set[str] = set()
     moved: set[str] = set()
     found = []
-    states = {letter for row in rows if row.role == "claim" for letter, _ in moving_sides(row.line or row.printed)
-              if not any(letter == one for other in rows for one, _ in sides_of(other.line or other.printed))}
+    given_values: set[str] = set()
+    states: set[str] = set()
+    for row in rows:  # what is printed first, its value or its rate, says what a letter is
+        if row.id not in remarks:
+            given_values |= valued_in(text_of(row)) - states
+            if row.role == "claim" and row.id not in asides:
+                states |= {letter for letter, _ in moving_sides(text_of(row))} - given_values - {*functions}
     for row in rows:
         role: Role = row.role
         line = row.line or row.printed
         printed = unnumbered.get(row.id)
-        if role == "claim" and not continues(row.printed) and not (printed and printed.aside):
+        if role == "claim" and not continues(row.printed) and not (printed and printed.aside) and row.id not in remarks:
             values, rates = values_and_rates(line)
             if printed and {*values, *rates} & given:
                 values, rates = {}, {}

@@ -5,18 +5,24 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 
-from workbench.paper.source.lines import FOR
+from workbench.paper.source.sentences import FOR
 from workbench.proof.latex.error import LatexError
+from workbench.proof.latex.parts import parted
 from workbench.proof.latex.read import read_line
 from workbench.proof.latex.rows import LetterEntry, RowEntry, text_of
-from workbench.proof.latex.sides import letter_latex, letters_of_text, moving_sides, sides_of
-from workbench.proof.latex.statement import parted
+from workbench.proof.latex.sides import letter_latex, letters_of_text, letters_of_time, moving_sides, sides_of
 from workbench.proof.latex.tree import Letter, Node, Number
 
 _INLINE = re.compile(r"(?<![\\$])\$(?!\$)(.+?)(?<!\\)\$(?!\$)|\\\((.+?)\\\)", re.DOTALL)
 _LIST = r"((?:\$[^$]+\$(?:\s*,\s*(?:and\s+)?|\s+and\s+)?)+)"
-_CONSTANTS = re.compile(r"\b(?:constants?|gains?|parameters?)\b[^.,;:$]{0,30}" + _LIST, re.IGNORECASE)
-_POSITIVE = re.compile(r"\b(?<!non)(?<!non-)positive\s+(?:\w+\s+){0,3}" + _LIST, re.IGNORECASE)
+_CONSTANTS = re.compile(r"\b(?:constants?|gains?|parameters?)\b"
+                        r"(?![^$]{0,30}\b(?:on|over|in|for|of|at|when|with|to|by)\b)[^.,;:$]{0,30}" + _LIST,
+                        re.IGNORECASE)
+_NOUNS = (r"(?:(?:real|known|unknown|finite|scalar|design|control|controller|tuning|feedback|observer|adaptation|"
+          r"learning|constants?|numbers?|scalars?|gains?|parameters?|bounds?|coefficients?|integers?|weights?|reals?)"
+          r"\s+){0,3}")
+_POSITIVE = re.compile(r"\b(?<!non)(?<!non-)(?<!or )(?<!for )(?<!all )(?<!any )(?<!every )(?<!each )positive\s+"
+                       + _NOUNS + _LIST, re.IGNORECASE)
 _ARE_POSITIVE = re.compile(
     _LIST + r"\s*(?:be|are|is)\s+(?:an?\s+|all\s+|some\s+)?positive\s+(?:\w+\s+){0,2}?"
     r"(?:constants?|gains?|numbers?|scalars?|parameters?)\b", re.IGNORECASE)
@@ -35,8 +41,25 @@ _FOR_ALL = re.compile(rf"\b{_ALL}\Z", re.IGNORECASE)
 _DEFINING = re.compile(r"\b(?:(?:let|defin(?:e|ing)|denot(?:e|ing)|introduc(?:e|ing))\b[^.;:$]{0,60}|where\s+)\Z",
                        re.IGNORECASE)
 _ENVIRONMENT = re.compile(r"\\begin\s*\{((?!def)\w+\*?)\}.*?\\end\s*\{\1\}", re.DOTALL)  # a Definition is kept
+_SENTENCE = re.compile(r"(?<=[.!?;])\s|\\(?:begin|end)\s*\{[^{}]*\}|\\(?:item|(?:sub)*section)|\n\s*\n|\\[\[\]]|\$\$")
+# A sentence with one of these says of no letter that it has a sign everywhere, or is constant.
+_NOT_EVERYWHERE = re.compile(
+    r"\b(?:if|when|whenever|while|until|unless|provided|cases?|either|n?or|neither|not|whether|suppose|then|may|might|"
+    r"could|can|would|should|follow\w*|hence|thus|therefore|impl(?:y|ies)|yields?|since|because|sets?|region|domain|"
+    r"(?:in|out)side|instance|example|show\w*|prove\w*|conclude\w*|near|small|large|initially|first|once)\b|\bas\s*\$",
+    re.IGNORECASE)
+_VARIES = re.compile(r"\b(?:var(?:y|ies|ying)|changes?|changing|switch\w*|adapt\w*|updated?|time-dependent|"
+                     r"functions?)\b", re.IGNORECASE)
+_LOCAL = re.compile(r"\\begin\s*\{(theorem|lemma|proposition|corollary|remark|example|proof|IEEEproof|pf|thm|lem|prop|"
+                    r"cor|rem)\*?\}.*?\\end\s*\{\1\*?\}", re.DOTALL)
+_FUNCTION = r"\b(?:energy|storage|Lyapunov|functions?|functionals?|candidates?)\b"
+_FUNCTIONS = re.compile(_FUNCTION + r"[^.,;:$]{0,20}(\$[^$]+\$)", re.IGNORECASE)
+_ARE_FUNCTIONS = re.compile(r"(\$[^$]+\$)\s*(?:be|is|denotes?)\s+(?:an?|the|our|its)\s+(?:[\w-]+\s+){0,4}?" + _FUNCTION,
+                            re.IGNORECASE)
+_RELATION = re.compile(r"[=<>]|\\(?:leq?|geq?|leqslant|geqslant|in|ll|approx)(?![A-Za-z])")
 _DEFINED = re.compile(r":=|\\(?:triangleq|coloneqq|doteq)(?![A-Za-z])")
 _HOLDING = {"=", "<", ">", "<=", ">="}
+_REACH = 600  # letters before and behind a piece that its sentence is looked for in
 _SIGNS = {">": "positive", ">=": "nonnegative"}
 
 
@@ -51,20 +74,31 @@ def table_of(rows: list[RowEntry], text: str) -> dict[str, LetterEntry]:
             found |= dict.fromkeys(sorted(letters_of_text(text_of(row))))
     defined = {letter for row in rows if row.role == "definition" for letter, _ in sides_of(text_of(row))}
     states = {letter for row in rows if row.role == "dynamics" for letter, _ in moving_sides(text_of(row))}
-    kinds = dict(_kinds(text))
+    own = _LOCAL.sub(lambda found: "\n\n", text)  # what is said within a theorem or proof is said for it
+    kinds = dict(_kinds(own))
     for row in rows:
         if row.role in ("definition", "dynamics"):
             kinds |= dict(_kinds_in(text_of(row)))
-    kinds = dict.fromkeys((*_named(_POSITIVE, text), *_named(_ARE_POSITIVE, text)), "positive") | kinds
-    constants, inputs = set(_named(_CONSTANTS, text)), set(_named(_INPUTS, text))
+    kinds = dict.fromkeys((*_named(_POSITIVE, own), *_named(_ARE_POSITIVE, own)), "positive") | kinds
+    constants, inputs = set(_named(_CONSTANTS, own)) - _printed_of_time(text, rows), set(_named(_INPUTS, text))
+    unclear = set(_valued_elsewhere(text))
     entries = {}
     for letter in found:
         if letter in defined:
             continue
         said = [role for role, letters in (("constant", constants), ("input", inputs)) if letter in letters]
+        if letter in unclear - states:
+            kinds.pop(letter, None)
         role = "state" if letter in states else said[0] if len(said) == 1 else ""
         entries[letter] = LetterEntry.model_validate({"kind": kinds.get(letter, ""), "role": role})
     return entries
+
+
+def functions_in(text: str) -> set[str]:
+    """The letters that the text calls functions of the state: an energy, a storage or a Lyapunov function."""
+    return {letter for pattern in (_FUNCTIONS, _ARE_FUNCTIONS) for found in pattern.finditer(text)
+            for inline in _INLINE.finditer(found[1])
+            for letter in letters_of_text(re.split(r"=|\(|\\in(?![A-Za-z])", inline[1] or inline[2])[0])}
 
 
 def on_condition(text: str) -> bool:
@@ -107,17 +141,46 @@ def defined_in_text(text: str) -> dict[str, str]:
     return {letter: formulas.pop() for letter, formulas in found.items() if len(formulas) == 1}
 
 
+def _valued_elsewhere(text: str) -> Iterator[str]:
+    """The letters that a formula in the text gives a value of other letters: where nothing says that it defines them,
+    they are left to the author."""
+    for inline in _INLINE.finditer(text):
+        for letter, value in values_and_rates((inline[1] or inline[2]).strip(" .,;"))[0].items():
+            if letters_of_text(value):
+                yield letter
+
+
 def _named(pattern: re.Pattern[str], text: str) -> Iterator[str]:
     """The letters in the list of formulas that some words stand before."""
     for found in pattern.finditer(text):
+        sentence = _around(text, found.start(), found.end())
+        near = text[max(found.start() - 40, 0):found.end()] + text[found.end():found.end() + 30].partition(",")[0]
+        if (pattern is not _INPUTS and _NOT_EVERYWHERE.search(sentence)) or (
+                pattern is _CONSTANTS and _VARIES.search(near)):
+            continue
         for inline in _INLINE.finditer(found[1]):
-            yield from letters_of_text(inline[1] or inline[2])
+            formula = inline[1] or inline[2]  # the disturbance |d| <= D: d is one, D is not
+            yield from letters_of_text(_RELATION.split(formula)[0] if pattern is _INPUTS else formula)
+
+
+def _around(text: str, start: int, end: int) -> str:
+    """The sentence in which a piece of a text stands."""
+    before, behind = text[max(start - _REACH, 0):start], text[end:end + _REACH]
+    return f"{_SENTENCE.split(before)[-1]} {text[start:end]} {_SENTENCE.split(behind)[0]}"
+
+
+def _printed_of_time(text: str, rows: list[RowEntry]) -> set[str]:
+    """The letters that are printed with the time somewhere, as `\\theta(t)`: of those no word makes constants."""
+    formulas = [inline[1] or inline[2] for inline in _INLINE.finditer(text)]
+    formulas += [text_of(row) for row in rows if row.role != "words"]
+    return {letter for formula in formulas if "(t)" in formula for letter in letters_of_time(formula)}
 
 
 def _kinds(text: str) -> Iterator[tuple[str, str]]:
     r"""Letters whose sign a formula in the text says, as `k, c > 0`, or that they are real, as `x \in \mathbb{R}`."""
     for inline in _INLINE.finditer(text):
-        conditional = _ON_CONDITION.search(text[:inline.start()]) is not None
+        conditional = _ON_CONDITION.search(text[:inline.start()]) is not None or _NOT_EVERYWHERE.search(
+            _around(text, inline.start(), inline.end())) is not None
         for letter, kind in _kinds_in((inline[1] or inline[2]).strip(" .,;")):
             if kind == "real" or not conditional:
                 yield letter, kind

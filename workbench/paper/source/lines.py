@@ -3,23 +3,44 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Iterator
 
 _SIGN = r"(?:[=<>+\-/]|\\(?:leq?|geq?|leqslant|geqslant|cdot|times|in|pm|quad|qquad|Rightarrow|implies)(?![A-Za-z]))"
 _AT_START, _AT_END = re.compile(_SIGN), re.compile(rf"{_SIGN}$")
 _RELATION = re.compile(r"(?:[=<>]|\\(?:leq?|geq?|leqslant|geqslant|lt|gt|equiv|triangleq)(?![A-Za-z]))")
+ENDS_WITH_RELATION = re.compile(rf"{_RELATION.pattern}\s*\Z")
 _STEP = re.compile(rf"{_RELATION.pattern}|\\[A-Za-z]+|\\.|[(){{}}\[\],;]|.", re.DOTALL)
 _SYSTEM = re.compile(
     r"(?:(?:\\left)?\s*(?:\\\{|\\lbrace)\s*\\begin\s*\{(?P<name>array|aligned|split|matrix|gathered)\}|"
     r"\\begin\s*\{(?P<cases>cases)\})(?:\s*\[[a-z]\])?(?:\s*\{[lcr@{}\s]*\})?(?P<lines>.*?)"
     r"\\end\s*\{(?:(?P=name)|(?P=cases))\}\s*(?:\\right\s*\.)?\s*", re.DOTALL)
+LABEL = re.compile(r"\\label\s*\{([^{}]*)\}")
+TAG = re.compile(r"\\(?:tag\*?\s*\{|l?eqno(?![A-Za-z])\s*\{?\(?)([^{}()\\]*)[)}]*")
+WITHOUT_NUMBER = re.compile(r"\\(?:nonumber|notag|IEEEnonumber)(?![A-Za-z])")
+_LAYOUT = re.compile(r"\\(?:IEEEyesnumber|IEEEeqnarraynumspace|displaybreak)(?![A-Za-z])\*?"
+                     r"|\\(?:short)?intertext\s*\{[^{}$]*\}")
+_SPLIT = re.compile(r"\\\\(?:\s*\[[^\]]*\])?")
+_INNER = re.compile(r"\\begin\s*\{(\w+)\*?\}.*?\\end\s*\{\1\*?\}", re.DOTALL)
+_NESTED = re.compile(r"\\(begin|end)\s*\{[^{}]*\}|[{}]|\\.", re.DOTALL)
+COLUMN = "\0"  # stands for the & between two columns
+_MARKS = rf" ?(?:{COLUMN} ?)+"
+_JOINED = re.compile(rf"\A{_MARKS}|{_MARKS}\Z|(?<=[=<>+\-]){_MARKS}|(?<=\\(?:le|ge|in)){_MARKS}|"
+                     rf"(?<=\\(?:leq|geq)){_MARKS}|{_MARKS}(?={_RELATION.pattern}|\\in(?![A-Za-z]))")
+_PARTED = re.compile(_MARKS)
 _BREAK = re.compile(r"\\\\(?:\s*\[[^\]]*\])?")
 
 
 def system_lines(printed: str) -> list[str]:
     """The lines of a system of equations behind one brace, each a relation; none of another formula."""
     found = _SYSTEM.fullmatch(printed)
-    lines = [" ".join(line.replace("&", " ").split()) for line in _BREAK.split(found["lines"])] if found else []
+    lines = [without_columns(line.replace("&", COLUMN)) for line in _BREAK.split(found["lines"])] if found else []
     return [without_end(line) for line in lines if line] if all(map(_RELATION.search, filter(None, lines))) else []
+
+
+def without_columns(line: str) -> str:
+    r"""A line with its columns in one: those that no sign joins are parted by a wide space, and so are no product."""
+    line = _JOINED.sub(" ", " ".join(line.split()))
+    return " ".join(_PARTED.sub(r" \\quad ", line).split())
 
 
 def without_end(line: str) -> str:
@@ -56,32 +77,29 @@ def chained(first: str, second: str) -> str:
     return "" if start is None else f"{first[start:].strip()} {second}"
 
 
-_SPOKEN = r"(?:[^.;$]|\$[^$]*\$)*?"
-_RELATED = (r"\$[^$]*(?:[=<>]|\\(?:leq?|geq?|leqslant|geqslant|ne|neq|in)(?![A-Za-z])"
-            r"(?!\s*\\mathbb\s*\{R\}(?:\^[^$\s]*)?\s*\$))[^$]*\$")
-FOR = re.compile(rf"\b(?:for|on)\s+(?:(?:all|every|any|each|some)\s*)?{_RELATED}", re.IGNORECASE | re.DOTALL)
-_TIED = (r"(?:\b(?:if|when|whenever|while|until|unless|suppose|assume|otherwise|provided|as\s+long\s+as)\b"
-         rf"{_SPOKEN}{_RELATED}|{FOR.pattern})")
-_BEFORE, _BEHIND = re.compile(_TIED, re.IGNORECASE | re.DOTALL), re.compile(rf"[\s,]*{_TIED}", re.DOTALL)
-_NOT_CLAIMED = re.compile(r"\b(?:should\s+(?:read|be)|instead|incorrect\w*|wrong\w*|erroneous\w*|misprint\w*|not\s+true"
-                          r"|not\s+hold|fails?\s+to\s+hold|contrary)\b", re.IGNORECASE)
-_GOES_ON = re.compile(r"\s*(?:Then|In\s+(?:this|that)\s+case)\b")
-_SENTENCE = re.compile(r"(?<=[.!?])\s|\\(?:begin|end|item|section|\[|\])|\n\s*\n|\$\$")
-_ENDED = re.compile(r"[.!?](?=\s|\Z)")
-_LABELS = re.compile(r"\\(?:label|[A-Za-z]*ref)\s*\{[^{}]*\}")
-_OF_TIME = re.compile(r"\bfor\s+(?:all|every|any|each)\s*(?:times?\b|\$\s*t\s*(?:(?:\\geq?|\\geqslant|>)\s*0\s*)?\$)|"
-                      r"\$\s*\\forall\s*t[^$]*\$", re.IGNORECASE)
-_REACH = 600  # letters before and behind a display that its sentence is looked for in
+def lines_of(text: str) -> Iterator[str]:
+    r"""The lines that \\\\ parts, but not those within braces or an inner environment."""
+    depth = start = at = 0
+    while at < len(text):
+        split = _SPLIT.match(text, at)
+        if split and depth == 0:
+            yield text[start:at]
+            start = at = split.end()
+            continue
+        found = _NESTED.match(text, at)
+        if found is None:
+            at += 1
+            continue
+        depth += 1 if found.group() == "{" or found[1] == "begin" else -1 if found.group() == "}" or found[1] else 0
+        at = found.end()
+    yield text[start:]
 
 
-def on_condition_around(before: str, display: str, behind: str) -> bool:
-    """Whether the sentence in which a display stands ties it to a relation: `if $x = 0$, then`, or behind it `for
-    $x > 0$`, or does not claim it: `(3) should read`. Without that it would be decided for more than it says."""
-    before, behind = (_LABELS.sub("", text) for text in (before[-_REACH:], behind[:_REACH]))
-    *_, earlier, last = "", *_SENTENCE.split(before)
-    sentence = _OF_TIME.sub(" ", f"{earlier} {last}" if _GOES_ON.match(last) else last)
-    if _BEFORE.search(sentence) or _NOT_CLAIMED.search(sentence):
-        return True
-    ended = re.search(r"\.[\s\\,]*\Z", display) is not None
-    rest = _SENTENCE.split(_ENDED.split(behind)[0])[0]
-    return not ended and (_BEHIND.match(_OF_TIME.sub(" ", rest)) or _NOT_CLAIMED.search(rest)) is not None
+def cleaned(line: str) -> str:
+    """A line without what numbers and aligns it; what stands in an inner environment stays as it is."""
+    for pattern in (LABEL, TAG, WITHOUT_NUMBER, _LAYOUT):
+        line = pattern.sub("", line)
+    inner = [found.span() for found in _INNER.finditer(line)]
+    kept = "".join(sign if sign != "&" or line[at - 1:at] == "\\" or any(start <= at < end for start, end in inner)
+                   else COLUMN for at, sign in enumerate(line))
+    return without_end(without_columns(kept))

@@ -5,6 +5,8 @@ from __future__ import annotations
 import re
 from dataclasses import dataclass
 
+from workbench.proof.latex.commands import ACCENTS
+
 MOST_EXPANSIONS = 100_000
 LONGEST_SOURCE = 10_000_000
 
@@ -13,6 +15,10 @@ _DEFINED = re.compile(r"\\(?:(?:re)?new|provide)command\*?|\\DeclareMathOperator
                       r"\\DeclarePairedDelimiter(?![A-Za-z])|\\(?:re)?newenvironment\*?|\\(?:def|let)(?![A-Za-z])")
 _COMMAND = re.compile(r"\\(?:[A-Za-z@]+|.)", re.DOTALL)
 _COUNT = re.compile(r"\s*\[(\d)\]")
+_NESTING = re.compile(r"\\(?:begin|end)\s*\{(?!document\})[^{}]*\}|\\.|[{}]", re.DOTALL)
+_ACCENTED = "|".join(sorted((*ACCENTS, "sqrt")))
+_BRACED = r"\{(?:[^{}]|\{(?:[^{}]|\{[^{}]*\})*\})*\}"
+_TAKES_ONE = re.compile(rf"\\(?:{_ACCENTED}|[tdc]?frac\s*(?:{_BRACED}|\\[A-Za-z]+|[^\\{{}}\s])?)\s*\Z")
 _PARAMETER = re.compile(r"#(\d)")
 
 
@@ -46,11 +52,20 @@ def expanded(text: str) -> str:
     macros: dict[str, Macro] = {}
     environments: dict[str, tuple[str, str]] = {}
     plain: list[str] = []
-    at = 0
+    done: list[str] = []
+    at = depth = 0
+
+    def put() -> str:
+        whole = "".join(plain)
+        for name, (first, last) in environments.items():
+            whole = whole.replace(rf"\begin{{{name}}}", first).replace(rf"\end{{{name}}}", last)
+        return _put(whole, macros)
+
     for found in _DEFINED.finditer(text):
         if found.start() < at:  # within a definition
             continue
         plain.append(text[at:found.start()])
+        depth += _deeper(plain[-1])
         if "environment" in found.group():
             name, begun = group(text, found.end())
             if _COUNT.match(text, begun) is None:  # one with arguments stays as it is
@@ -62,13 +77,24 @@ def expanded(text: str) -> str:
             at = found.end()
             continue
         name, macro, at = _definition(text, found)
-        if name not in macros or "provide" not in found.group():
+        if name not in macros:
+            macros[name] = macro
+        elif "provide" not in found.group() and macros[name] != macro:
+            if depth > 0:
+                raise SourceError(f"line {text.count(chr(10), 0, found.start()) + 1}: {name} is defined anew within "
+                                  "braces or an environment: give it one meaning")
+            done.append(put())  # so far it means what it did
+            plain.clear()
             macros[name] = macro
     plain.append(text[at:])
-    whole = "".join(plain)
-    for name, (first, last) in environments.items():
-        whole = whole.replace(rf"\begin{{{name}}}", first).replace(rf"\end{{{name}}}", last)
-    return _put(whole, macros)
+    return "".join((*done, put()))
+
+
+def _deeper(text: str) -> int:
+    """By how much more braces and environments are open behind a text than before it."""
+    signs = [found.group() for found in _NESTING.finditer(text)]
+    return sum(sign == "{" or sign.startswith(r"\begin") for sign in signs) - sum(
+        sign == "}" or sign.startswith(r"\end") for sign in signs)
 
 
 def group(text: str, at: int) -> tuple[str, int]:
@@ -145,6 +171,9 @@ def _put(text: str, macros: dict[str, Macro]) -> str:
             raise SourceError(f"the command {found.group()} stands for itself, or for too much: define it otherwise")
         body, end = _applied(text, found.end(), macro)
         rest = text[end:]
+        if len(body.strip()) > 1 and _COMMAND.fullmatch(body.strip()) is None and _TAKES_ONE.search(
+                "".join(out[-8:])[-200:]):
+            body = f"{{{body}}}"  # of \sqrt\al, \al is the argument, whatever it stands for
         # A command's name ends where no letter follows: \al x, with \al for \alpha, is not \alphax.
         apart = " " if re.search(r"\\[A-Za-z]+$", body) and rest[:1].isalpha() else ""
         text, at = body + apart + rest, 0

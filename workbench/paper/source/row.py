@@ -11,8 +11,9 @@ class Row:
 
     line: what is read instead, where it goes on from the row before it. within: the id of the theorem or assumption
     in whose text an equation stands; referred: labels that its text, the text before it, or its proof refers to.
-    conditional: whether the sentence around it says it on a condition; aside: whether it stands in the text of a
-    theorem, remark, example or proof.
+    conditional: whether the sentence around it says it on a condition; supposed: whether it is supposed there, or holds
+    under what is supposed before it; aside: whether it stands in the text of a
+    theorem, remark, example or proof; remark: whether in that of a remark or example, where no letter is defined.
     """
 
     id: str
@@ -24,7 +25,9 @@ class Row:
     line: str = ""
     within: str = ""
     conditional: bool = False
+    supposed: bool = False
     aside: bool = False
+    remark: bool = False
     referred: list[str] = field(default_factory=list)
     rests_on: tuple[str, ...] = ()
 

@@ -10,7 +10,7 @@ from itertools import combinations_with_replacement
 
 import sympy as sp
 
-from workbench.proof.checker import Context, bounds
+from workbench.proof.checker import CertificateError, Context, bounds
 from workbench.proof.claim import Goal, Relation
 from workbench.proof.decide.atoms import Atoms, Item, flatten
 from workbench.proof.decide.laurent import Laurent, multiply, reduce_inverses, to_laurent
@@ -115,7 +115,10 @@ def _enclosure(atom: sp.Symbol, meaning: sp.Expr, atoms: Atoms) -> list[Known]:
     """Rational bounds of a number such as log(2), which the checker encloses on its own."""
     context = Context({}, [])
     written = text(meaning)
-    low, high = bounds(context, context.read(written))
+    try:
+        low, high = bounds(context, context.read(written))
+    except CertificateError:  # sqrt(1 - 2), for a sum of one term, is no number
+        return []
     below, above = Fraction(math.floor(low * GRID), GRID), Fraction(math.ceil(high * GRID), GRID)
     sides = ((f"{written} - {below}", atom - sp.Rational(below)), (f"{above} - {written}", sp.Rational(above) - atom))
     return [Known(({"fact": "enclosure", "of": of},), to_laurent(value, atoms), ">=") for of, value in sides]

@@ -106,6 +106,8 @@ def _least(margin: sp.Expr, arguments: list[sp.Expr], given: Given) -> Iterator[
 
 
 def _on(symbol: sp.Symbol, expr: sp.Expr) -> Callable[[np.ndarray], np.ndarray]:
+    if expr.has(sp.zoo, sp.nan):  # where the others are 1 it is defined nowhere
+        return lambda places: np.full_like(places, np.nan)
     return sp.lambdify(symbol, expr, "numpy")
 
 

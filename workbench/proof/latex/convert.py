@@ -18,9 +18,10 @@ from workbench.proof.latex.brackets import (
     require_letter_before,
     require_own_power,
 )
+from workbench.proof.latex.conditions import Condition, conditions_of, require_kept
 from workbench.proof.latex.derivatives import Derivative, derivative, rate, require_operand
 from workbench.proof.latex.error import LatexError
-from workbench.proof.latex.functions import Condition, applied, divided, power, require_kept, require_usual
+from workbench.proof.latex.functions import applied, divided, power, require_usual
 from workbench.proof.latex.held import by_letter
 from workbench.proof.latex.notation import Notation, without_dot
 from workbench.proof.latex.sums import big, require_component
@@ -132,10 +133,9 @@ class Converter:
                 transposed, length = transposed or isinstance(behind, Transposed), length + 1
             values.append((value, transposed))
             at += length
-        position = factors[0].position
         if self.index is not None and any(transposed for _, transposed in values):
-            raise LatexError("a product of vectors within a sum: give the product in the notation", position)
-        return multiplied(values, self.limits, position, self.declared and self.index is None)
+            raise LatexError("a product of vectors within a sum: give it in the notation", factors[0].position)
+        return multiplied(values, self.limits, factors[0].position, self.declared and self.index is None)
 
     def _factor(self, factors: tuple[Node, ...], at: int) -> tuple[sp.Expr, bool, int]:
         """The value of the factor at a place, whether it is transposed, and how many factors it takes."""
@@ -221,7 +221,9 @@ class Converter:
         return rate(value, count)
 
     def _of_sum(self, node: Node, meaning: sp.Expr) -> sp.Expr:
-        """The meaning, where the letter is printed with the index that it has here."""
+        """The meaning, where the letter has the index that it has here; a definition's is a number somewhere alone."""
+        if self.declared:
+            self.conditions.extend(conditions_of(meaning, node.position))
         if isinstance(node, Letter) and is_vector(meaning):
             require_component(node, self.index, self.limits if self.declared else None)
         return meaning

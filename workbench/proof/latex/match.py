@@ -14,9 +14,10 @@ from workbench.proof.latex.compare import Comparison
 from workbench.proof.latex.convert import Converter
 from workbench.proof.latex.error import LatexError
 from workbench.proof.latex.notation import Notation
+from workbench.proof.latex.parts import ProseError
 from workbench.proof.latex.read import read_line
 from workbench.proof.latex.scan import scan
-from workbench.proof.latex.statement import ProseError, Related, statement
+from workbench.proof.latex.statement import Related, statement
 
 FLIPPED: dict[Operator, Operator] = {"==": "==", "!=": "!=", "<=": ">=", ">=": "<=", "<": ">", ">": "<"}
 

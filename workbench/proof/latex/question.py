@@ -15,8 +15,9 @@ from workbench.proof.latex.convert import Converter
 from workbench.proof.latex.error import LatexError
 from workbench.proof.latex.function_values import apart, one_value_at_one_argument, values_of_one_function
 from workbench.proof.latex.notation import Notation
+from workbench.proof.latex.parts import parted
 from workbench.proof.latex.read import read_line
-from workbench.proof.latex.statement import parted, relations, statement
+from workbench.proof.latex.statement import relations, statement
 from workbench.proof.latex.symbols import Symbols
 from workbench.proof.latex.tree import PARTED, Chain, Letter, Line, Number, Terms, letters_of_node
 from workbench.proof.latex.varying import printed_of_time

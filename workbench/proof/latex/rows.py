@@ -225,9 +225,9 @@ class _Known:
         inputs = []
         for symbol in goal.symbols():
             letter, entry = by_symbol.get(symbol, ("", LetterEntry(role="constant")))
-            if symbol in goal.flow or entry.role == "constant":
+            if symbol in goal.flow or (entry.role == "constant" and symbol not in goal.inputs):
                 continue
-            if entry.role == "input":
+            if entry.role == "input" or symbol in goal.inputs:
                 inputs.append(symbol)
             elif symbol in derived or entry.role == "state":
                 raise LatexError(f"{letter} stands in a rate: give it a role in {SYMBOLS}, and a state its dynamics")

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from workbench.proof.latex.commands import (
     ACCENTS,
@@ -15,6 +15,7 @@ from workbench.proof.latex.commands import (
     FUNCTIONS,
     IMPLIES,
     KNOWN,
+    QUANTIFIERS,
     SILENT,
     TEXTS,
     UPRIGHT,
@@ -29,6 +30,7 @@ _GOES_ON = re.compile(_INDENT + r"([=<>+\-/]|\.(?!\d)|"
                       r"\\(end|le|leq|ge|geq|lt|gt|ne|neq|cdot|times|to|in|pm|Rightarrow)(?![A-Za-z]))")
 _SIGNED = re.compile(_INDENT + r"[+-]")
 _RELATED = re.compile(r"[=<>]|\\(le|leq|leqslant|ge|geq|geqslant|lt|gt|ne|neq|in)(?![A-Za-z])")
+_SAYS = frozenset((":", "colon", *IMPLIES, *EQUIVALENT, *QUANTIFIERS))
 _PIECE = re.compile(r"\\tag\*|\\[A-Za-z]+|\\.|\s+|.", re.DOTALL)
 _NUMBERED = re.compile(r"\\q?quad[\s\\,;~]*\((\d+[a-z]?|[A-Z]\.?\d+)\)[\s.,]*$")  # an equation's number, at its end
 
@@ -48,7 +50,7 @@ def scan(line: str) -> list[Piece]:
         raise LatexError(f"the line has {len(line)} characters: write at most {LONGEST_LINE}")
     line = _NUMBERED.sub("", line)
     pieces: list[Piece] = []
-    environments: list[str] = []
+    environments: list[tuple[str, int]] = []  # each with the piece at which it begins
     rows = [(0, 0)]  # of each environment's row: how many '&' stood in it so far, the piece with which it begins
     depth, at = 0, 0
     while at < len(line):
@@ -79,13 +81,13 @@ def scan(line: str) -> list[Piece]:
             raise LatexError("a brace '}' closes nothing: remove it or open it", start)
         pieces.append(Piece(kind, text.removeprefix("\\"), start))
     if environments:
-        raise LatexError(f"\\begin{{{environments[-1]}}} has no end: add it")
+        raise LatexError(f"\\begin{{{environments[-1][0]}}} has no end: add it")
     if depth:
         raise LatexError(f"{depth} brace{'s' if depth > 1 else ''} '{{' not closed: add '}}'")
     return pieces
 
 
-def _layout(line: str, text: str, start: int, at: int, environments: list[str], pieces: list[Piece]) -> int:
+def _layout(line: str, text: str, start: int, at: int, environments: list[tuple[str, int]], pieces: list[Piece]) -> int:
     """Read on after what only arranges lines; a new line parts relations by a comma, unless a formula goes on in it."""
     if text in ("\\begin", "\\end"):
         found = _NAME.match(line, at)
@@ -96,12 +98,14 @@ def _layout(line: str, text: str, start: int, at: int, environments: list[str], 
         if text == "\\begin":
             if found["name"] == "cases" and not _begins(pieces):
                 raise LatexError("a value by cases: write one line for each case, with its condition", start)
-            environments.append(found["name"])
-        elif not environments or environments.pop() != found["name"]:
+            environments.append((found["name"], len(pieces)))
+        elif not environments or environments[-1][0] != found["name"]:
             raise LatexError(f"{text} ends what has not begun: correct the environments", start)
+        else:
+            _close(*environments.pop(), pieces)
         return found.end()
     if text == "&":
-        if not environments or environments[-1] == "cases":
+        if not environments or environments[-1][0] == "cases":
             raise LatexError("'&' tells cases apart, or columns: write one line for each case", start)
         return at
     while pieces and _is_space(pieces[-1]):
@@ -110,6 +114,14 @@ def _layout(line: str, text: str, start: int, at: int, environments: list[str], 
     if pieces and not _goes_on(line, at, start, environments, parted):
         pieces[len(pieces) - parted:] = [Piece("sign", ";", start)]
     return at
+
+
+def _close(name: str, begins: int, pieces: list[Piece]) -> None:
+    """Part the rows of a system by commas, where each is a formula without words: its brace holds them together."""
+    own = pieces[begins:]
+    if name == "cases" and not any(piece.kind == "text" or piece.text in _SAYS for piece in own):
+        pieces[begins:] = [replace(piece, text=",") if (piece.kind, piece.text) == ("sign", ";") else piece
+                           for piece in own]
 
 
 def _said(command: str, content: str, start: int, follows: bool) -> list[Piece]:
@@ -150,13 +162,13 @@ def _begins(pieces: list[Piece]) -> bool:
     return True
 
 
-def _goes_on(line: str, at: int, start: int, environments: list[str], parted: bool) -> bool:
+def _goes_on(line: str, at: int, start: int, environments: list[tuple[str, int]], parted: bool) -> bool:
     """Whether a new line goes on with the formula before it; in cases no formula does so with a sign."""
     if not _SIGNED.match(line, at):
         return _GOES_ON.match(line, at) is not None
     if parted or not line[at:].strip():
         return False
-    if environments and environments[-1] == "cases":
+    if environments and environments[-1][0] == "cases":
         return False
     if _RELATED.search(line[at:].partition("\\\\")[0]):
         raise LatexError("whether the new line goes on with the formula before it is open: write one line for each",

@@ -5,13 +5,14 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 from dataclasses import fields, is_dataclass, replace
+from itertools import pairwise
 from typing import Any
 
 from workbench.proof.latex.derivatives import derivative
 from workbench.proof.latex.error import LatexError
+from workbench.proof.latex.parts import parted
 from workbench.proof.latex.read import read_line
-from workbench.proof.latex.statement import parted
-from workbench.proof.latex.tree import PARTED, Chain, Letter, Node, Product, Quotient
+from workbench.proof.latex.tree import PARTED, Chain, Group, Letter, Node, Product, Quotient, parts_of
 
 RATES = ("dot", "ddot", "dddot")
 _LAYOUT = re.compile(r"\\(?:begin|end)\s*\{(?:aligned|split|gathered)\}|(?<!\\)&")
@@ -30,6 +31,16 @@ def letters_in(text: str) -> list[Letter]:
         return [*_letters(read_line(text))]
     except LatexError:
         return []
+
+
+def letters_of_time(text: str) -> set[str]:
+    """The letters of a line that are printed with the argument (t)."""
+    try:
+        parts = [*parts_of(read_line(text))]
+    except LatexError:
+        return set()
+    return {letter_latex(one) for part in parts if isinstance(part, Product) for one, two in pairwise(part.factors)
+            if isinstance(one, Letter) and two == _OF_TIME}
 
 
 def letter_latex(letter: Letter) -> str:
@@ -61,6 +72,19 @@ def sides_of(text: str) -> Iterator[tuple[str, str]]:
     for left, right in _equations(text):
         if isinstance(left, Letter) and not set(left.accents) & set(RATES):
             yield letter_latex(left), right
+
+
+def valued_in(text: str) -> set[str]:
+    """The letters that a line gives a value, also one whose right side cannot be read, as a product of matrices."""
+    left, sign, _ = _plain(text).partition("=")
+    try:
+        sides = [chain.sides[0] for chain in read_line(left.removesuffix(":")).chains[:1]] if sign else []
+    except LatexError:
+        sides = []
+    heads = [side.factors[0] if isinstance(side, Product) and len(side.factors) == 2 and isinstance(
+        side.factors[1], Group) else side for side in sides]
+    return {letter for letter, _ in sides_of(text)} | {
+        letter_latex(one) for one in heads if isinstance(one, Letter) and not set(one.accents) & set(RATES)}
 
 
 def moving_sides(text: str) -> Iterator[tuple[str, str]]:

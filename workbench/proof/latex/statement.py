@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from itertools import pairwise
 
@@ -13,20 +13,12 @@ from workbench.proof.latex.brackets import says_nothing
 from workbench.proof.latex.convert import Converter
 from workbench.proof.latex.ends import is_all_numbers, is_constant, is_infinite, require_own_ends
 from workbench.proof.latex.error import LatexError
-from workbench.proof.latex.tree import END, Chain, Group, Letter, Line, Node, Number, Power, Product, Size
+from workbench.proof.latex.parts import UNDER, Parts, ProseError, parts_of_line, said_of
+from workbench.proof.latex.tree import END, Chain, Dot, Group, Letter, Line, Node, Number, Power, Product, Size
 from workbench.proof.latex.vectors import is_vector
 
 OPERATORS: dict[str, Operator] = {"=": "==", "<=": "<=", ">=": ">=", "<": "<", ">": ">", "!=": "!="}
-_AND = frozenset(("and", ",", "", "as well as"))
-_ALL = ("for all", "for every", "for any", "for each")
-_UNDER = ("for", "if", "when", "with", "where", "under", "at", "whenever", "provided that", "such that", *_ALL)
-_THEN = ("then", "we have", "then we have", "it holds that", "it follows that", "one has")
-_IMPLIES = ("implies", "imply", "implies that", "imply that")
 _AT_ALL_TIMES = tuple(Chain((Letter("t"), Number(Fraction(0))), (sign,)) for sign in (">=", ">"))
-
-
-class ProseError(LatexError):
-    """A line whose words carry part of what it states."""
 
 
 @dataclass(frozen=True)
@@ -49,11 +41,12 @@ def statement(line: Line, converter: Converter) -> Statement:
     """The statement of a line; raises ProseError where words carry part of it, LatexError for what cannot be read."""
     if not converter.declared and any("\\forall" in words for words in line.separators):
         raise ProseError("the line quantifies over what stands behind 'for all': it is read by a person")
-    parts = _parts(line)
+    parts = parts_of_line(line)
     claimed, conditions = parts.claimed, parts.conditions
     if converter.declared:
         _require_quantified(line)
         _require_conditions(parts.late, converter)
+        _require_one_sentence(line, parts, converter)
     for (before, after), words in zip(pairwise(line.chains), line.separators[1:], strict=False):
         if words == (",",):
             require_own_ends(before, after)
@@ -64,7 +57,7 @@ def statement(line: Line, converter: Converter) -> Statement:
 
 def _require_quantified(line: Line) -> None:
     """Raise LatexError for a colon that nothing introduces: `A: B` may say B for all A, or A where B holds."""
-    first = any(word == "\\forall" or _said_of(word) in _UNDER for word in line.separators[0])
+    first = any(word == "\\forall" or said_of(word) in UNDER for word in line.separators[0])
     if not first and any(":" in words for words in line.separators):
         raise LatexError(r"what the colon says is open: write \Rightarrow, or \text{for} or \forall first")
 
@@ -73,96 +66,6 @@ def relations(related: tuple[Related, ...]) -> tuple[Relation, ...]:
     """The relations between neighbouring sides."""
     return tuple(Relation(*step) for chain in related
                  for step in zip(chain.sides[:-1], chain.operators, chain.sides[1:], strict=True))
-
-
-def parted(line: Line) -> tuple[list[Chain], list[Chain]]:
-    """The chains that a line claims, and those that are its conditions: before an arrow or a colon, after `for`, `if`
-    or a quantifier, in brackets after a relation."""
-    parts = _parts(line)
-    return parts.claimed, parts.conditions
-
-
-@dataclass
-class _Parts:
-    """Chains claimed, and their conditions; `late` are those conditions behind a claim that a comma alone makes one.
-
-    behind: whether the conditions stand behind a claim; listed: how many of them the last word introduced; of_all:
-    whether that was `for all`.
-    """
-
-    claimed: list[Chain] = field(default_factory=list)
-    conditions: list[Chain] = field(default_factory=list)
-    late: list[tuple[Chain, bool]] = field(default_factory=list)
-    behind: bool = False
-    listed: int = 0
-    of_all: bool = False
-
-    def under(self, of_all: bool) -> None:
-        """Conditions follow; raise LatexError where a list of them stands before, which may hold claims."""
-        if self.behind and self.listed > 1:
-            raise LatexError("several claims with a condition each, or one claim with all of them: write one line for "
-                             "each claim")
-        self.behind, self.listed, self.of_all = bool(self.claimed), 0, of_all
-
-    def turn(self) -> None:
-        """What stood so far is the condition of what follows."""
-        if self.behind:
-            raise LatexError("a claim and its condition stand before an arrow or a colon: write the conditions first")
-        while self.conditions and not self.conditions[-1].signs:
-            self.conditions.pop()  # `for all x`; in `x, y > 0` it shares the bound of the next one
-        self.conditions += self.claimed
-        self.claimed = []
-
-    def condition(self, chain: Chain, words: tuple[str, ...]) -> None:
-        """One more condition, behind these words."""
-        if self.behind and END in words:
-            raise LatexError("whether the condition goes on behind the full stop, semicolon or new line is open: write "
-                             "one line for each claim", chain.position)
-        if self.behind and words == (",",) and self.conditions[-1].signs:  # `x, y > 0` is one
-            self.late.append((chain, self.of_all))
-        self.listed += bool(chain.signs)
-        self.conditions.append(chain)
-
-
-def _require_one(flat: list[str]) -> None:
-    """Raise LatexError where a line makes more than one statement, or one that is none of a goal."""
-    if "\\exists" in flat:
-        raise ProseError("the line says that something exists: it is read by a person")
-    if "<=>" in flat:
-        raise ProseError("the line claims that two statements are equivalent: state each of them")
-    if flat.count("=>") + sum(_said_of(word) in _IMPLIES for word in flat) > 1:
-        raise LatexError("more than one arrow: write one line for each")
-    if flat.count(":") > 1:
-        raise LatexError("more than one colon: write one line for each")
-
-
-def _parts(line: Line) -> _Parts:
-    flat = [word for words in line.separators for word in words]
-    _require_one(flat)
-    parts, conditional = _Parts(), False
-    for words, chain in zip(line.separators, line.chains, strict=False):
-        for word in words:
-            if word in ("=>", ":") or _said_of(word) in _IMPLIES:
-                parts.turn()
-                conditional = False
-            elif word == "\\forall" or _said_of(word) in _UNDER:
-                parts.under(word == "\\forall" or _said_of(word) in _ALL)
-                conditional = True
-            elif _said_of(word) in _THEN and conditional and not parts.claimed:
-                conditional = False
-            elif word.startswith("text ") and _said_of(word) not in _AND:
-                raise _said(word.removeprefix("text "))
-        kept, bracketed = _unbracketed(chain)
-        if conditional:
-            parts.condition(kept, words)
-        else:
-            parts.claimed.append(kept)
-        parts.conditions += bracketed
-    if any(word == "\\forall" or _said_of(word) in _ALL for word in flat):
-        while parts.conditions and not parts.conditions[-1].signs and isinstance(parts.conditions[-1].sides[0], Letter):
-            parts.conditions.pop()  # `for all x`: everything is said of all values
-    _require_end(line.separators[-1])
-    return parts
 
 
 def _require_conditions(late: list[tuple[Chain, bool]], converter: Converter) -> None:
@@ -178,35 +81,34 @@ def _require_conditions(late: list[tuple[Chain, bool]], converter: Converter) ->
                              "before a condition, another line for a claim", chain.position)
 
 
-def _require_end(words: tuple[str, ...]) -> None:
-    """Raise LatexError for what ends a line and says something."""
-    for word in words:
-        if word.startswith("text ") and word.removeprefix("text ").strip(" .,") not in _AND:
-            raise _said(word.removeprefix("text "))
-        if word in ("=>", ":"):
-            raise LatexError("nothing stands behind the arrow or colon: complete the line")
+def _require_one_sentence(line: Line, parts: Parts, converter: Converter) -> None:
+    """Raise LatexError where it is open which claims a condition holds for, or whether it is one.
+
+    `y >= 1. x > 0 => x^3 > 0` says two things, of which the first is no condition; in `x >= 0, x^3 > 0 (x > 0)` the
+    first may hold without one; `V >= 0 with V' <= 0` may claim both, and `c > 0 such that x <= c` that there is one.
+    """
+    if parts.conditions and any(END in words for words in line.separators[1:-1]):
+        raise LatexError("whether a condition holds beyond the full stop, semicolon or new line is open: write one "
+                         "line for each claim", parts.conditions[0].position)
+    if parts.bracketed and sum(bool(chain.signs) for chain in parts.claimed) > 1:
+        raise LatexError("whether the condition in brackets holds for every claim is open: write one line for each "
+                         "claim", parts.bracketed[0].position)
+    if parts.exists:
+        raise ProseError("the words 'such that' may say that there is such a value: write \\text{if} for a condition")
+    for chain in parts.said:
+        side = chain.sides[1] if is_constant(chain.sides[0]) and chain.signs else chain.sides[0]
+        if not _is_bounded(side, converter):
+            raise LatexError(r"what is said behind these words may be claimed or a condition: write \text{if} or "
+                             r"\text{and}", chain.position)
 
 
-def _said_of(word: str) -> str:
-    """What a separator says in words; nothing where it is none."""
-    return word.removeprefix("text ").strip(" .,").lower() if word.startswith("text ") else "-"
-
-
-def _said(text: str) -> ProseError:
-    return ProseError(f"the words '{text}' belong to the statement: it is read by a person")
-
-
-def _unbracketed(chain: Chain) -> tuple[Chain, list[Chain]]:
-    """A relation without the condition that stands in brackets at its end, as in `V > 0 (e != 0)`."""
-    last = chain.sides[-1]
-    if not chain.signs or not isinstance(last, Product) or not isinstance(last.factors[-1], Group):
-        return chain, []
-    factors, inner = last.factors, last.factors[-1].line
-    related = bool(inner.chains) and all(part.signs for part in inner.chains)
-    if not related or any(s not in ((), (",",)) for s in inner.separators):
-        return chain, []
-    kept = factors[0] if len(factors) == 2 else replace(last, factors=factors[:-1])
-    return replace(chain, sides=(*chain.sides[:-1], kept)), list(inner.chains)
+def _is_bounded(side: Node, converter: Converter) -> bool:
+    """Whether a side is a letter, or its size, of which a condition gives a value or a bound."""
+    if isinstance(side, Product) and len(side.factors) == 2 and says_nothing(converter.notation, side.factors[1]):
+        side = side.factors[0]
+    letter = side.parts[0] if isinstance(side, Size) and len(side.parts) == 1 else side
+    return isinstance(letter, Letter) and (not {"dot", "ddot", "dddot"} & set(letter.accents) or isinstance(
+        converter.notation.meaning(letter), sp.Symbol))
 
 
 def _related(chains: list[Chain], converter: Converter, of_letters: bool = False) -> tuple[Related, ...]:
@@ -240,6 +142,12 @@ def _chain(chain: Chain, converter: Converter) -> list[Related]:
     for sign in chain.signs:
         if sign not in OPERATORS:
             raise ProseError(f"the sign '{sign}' is none of a goal's relations: the line is read by a person")
+    for side in chain.sides[1:] if converter.declared else ():
+        first, *rest = side.factors if isinstance(side, Product) else (side,)
+        if first == Number(Fraction(0)) and rest and (isinstance(rest[0], Group) or (
+                side is not chain.sides[-1] and not isinstance(rest[0], Dot))):
+            raise LatexError("a zero stands before a factor: write a comma between two relations, or \\cdot for a "
+                             "product", rest[0].position)
     sides = tuple(converter.side(side) for side in chain.sides)
     return [Related(sides, tuple(OPERATORS[sign] for sign in chain.signs))]
 

@@ -117,6 +117,7 @@ def symbols_in(record: SymbolsFile, path: Path) -> Symbols:
             raise InputError(path, f"flow.{typed}", "is none of the symbols: add it there, as it is typed here")
         flow[moving] = _expression(path, f"flow.{typed}", formula, known, limits,
                                    vector=isinstance(moving, sp.Indexed))
+    _let_time_pass(path, record, notation, flow)
     _require_own_rates(path, record, notation, flow)
     inputs = _inputs(path, record, notation, flow)
     assume: list[Relation] = []
@@ -131,6 +132,16 @@ def symbols_in(record: SymbolsFile, path: Path) -> Symbols:
     inputs = _with_varying(inputs, record, notation, flow)
     flow = _written_out(path, flow, inputs)
     return Symbols(notation, letters, tuple(assume), flow, limits, inputs, defined, declared=True)
+
+
+def _let_time_pass(path: Path, record: SymbolsFile, notation: Mapping[str, sp.Expr],
+                   flow: dict[sp.Expr, sp.Expr]) -> None:
+    """Give the letter t the rate 1, by which all rates are; InputError where the file says that it has another one."""
+    if "t" not in record.symbols:
+        return
+    if "t" in record.inputs or flow.setdefault(notation["t"], sp.S.One) != 1:
+        raise InputError(path, "flow.t" if "t" in record.flow else "inputs", "gives the time t another rate than 1: "
+                         "leave it out, or name the letter otherwise")
 
 
 def _require_own_rates(path: Path, record: SymbolsFile, notation: Mapping[str, sp.Expr],

@@ -200,11 +200,11 @@ class _Words:
         return self.pieces[at].position - self.pieces[start].position == at - start
 
     def _script(self, at: int, end: int) -> tuple[int, int, int]:
-        """The argument of the ^ or _ at a piece."""
+        """The argument of the ^, _ or root at a piece."""
         first, last, after = argument(self.pieces, at + 1, end)
         if first == at + 1 and self.pieces[first].kind == "digit" and after < end and (
                 self.pieces[after].kind == "digit" and self._adjacent(first, after)):
-            raise LatexError("of digits behind ^ or _ without braces TeX takes the first alone: write x^{23}",
+            raise LatexError("of digits behind ^, _ or \\sqrt without braces TeX takes the first alone: write x^{23}",
                              self.pieces[at].position)
         return first, last, after
 
@@ -255,7 +255,7 @@ class _Words:
         out.append(_token(kind, SAME_ACCENT.get(word, word), piece))
         after = at + 1
         for _ in range(2 if kind == "FRAC" else 1):
-            first, last, after = argument(self.pieces, after, end)
+            first, last, after = argument(self.pieces, after, end) if kind != "SQRT" else self._script(at, end)
             self._braced(out, None, first, last, depth)
         return after
 
