@@ -100,7 +100,7 @@ def test_so_is_a_server_of_workers_that_dies(tmp_path, monkeypatch):
         raise EOFError("unexpected EOF")
 
     monkeypatch.setattr(ProcessPoolExecutor, "submit", submit)
-    with pytest.raises(WorkbenchError, match=r"starts the workers has died .*: run again; what was decided is kept"):
+    with pytest.raises(WorkbenchError, match=r"starts the workers has died .*: run again.*what was finished is kept"):
         proved(write_paper(tmp_path), jobs=2)
 
 

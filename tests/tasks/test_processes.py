@@ -41,7 +41,7 @@ def test_a_server_of_processes_that_has_died_is_said_in_a_line(monkeypatch):
                 raise EOFError("unexpected EOF")
 
     monkeypatch.setattr(processes.os, "kill", lambda *_: None)  # the server of this process lives
-    with pytest.raises(WorkbenchError, match=r"has died .*: run again, and resume"):
+    with pytest.raises(WorkbenchError, match=r"has died .*: run again, with --resume"):
         processes._wait_for_server.__wrapped__(Context())
 
 

@@ -31,7 +31,6 @@ if TYPE_CHECKING:
     from workbench.proof.worker import Worker
 
 WORKER = "workbench.proof.worker"  # what workers import; this process does without sympy and the deciders
-KEPT = "run again; what was decided is kept"
 WARM_AT_ONCE = 4  # workers that are started before it is known how many claims there are
 
 Task = tuple[Path, str]
@@ -100,12 +99,12 @@ class _Several:
     def listings(self, paths: Sequence[Path]) -> list[Listing]:
         # Workers without a file of their own import one that others list: they will need it to decide its claims.
         at_once = max(len(paths), min(self.jobs, WARM_AT_ONCE))
-        with interruption_held(), server_alive(KEPT), script_left_out():
+        with interruption_held(), server_alive(), script_left_out():
             futures = [self.pool.submit(_listing, paths[i % len(paths)]) for i in range(at_once)]
         return _in_order(futures[: len(paths)], lambda done: None)
 
     def decided(self, tasks: Sequence[Task], on_progress: Callable[[int], None]) -> list[Decided]:
-        with interruption_held(), server_alive(KEPT), script_left_out():
+        with interruption_held(), server_alive(), script_left_out():
             futures = [self.pool.submit(_decided, task) for task in tasks]
         return _in_order(futures, on_progress)
 

@@ -122,13 +122,13 @@ def start_method(*needed: str) -> BaseContext:
 
 
 @contextmanager
-def server_alive(remedy: str = "run again, and resume") -> Iterator[None]:
+def server_alive() -> Iterator[None]:
     """WorkbenchError where the server that processes come from has died; Python's own error says nothing of it."""
     try:
         yield
     except (EOFError, ConnectionError):
-        raise WorkbenchError(f"the process that starts the workers has died (out of memory, or killed): {remedy}"
-                             ) from None
+        raise WorkbenchError("the process that starts the workers has died (out of memory, or killed): run again, with "
+                             "--resume where the command has it; what was finished is kept") from None
 
 
 @cache
