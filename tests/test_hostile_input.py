@@ -5,6 +5,7 @@ import os
 import re
 import resource
 import sys
+from pathlib import Path
 
 import pytest
 import sympy as sp
@@ -74,6 +75,24 @@ def test_a_module_that_takes_all_memory_is_named(text, tmp_path, monkeypatch):
         f"{folder / 'claims' / 'section_2.py'}: {modules.OUT_OF_MEMORY}")
     assert refusal(ProofFile(single).modules) == f"{single}: {modules.OUT_OF_MEMORY}"
     assert resource.getrlimit(resource.RLIMIT_DATA) == before
+
+
+def test_a_shell_that_allows_too_little_memory_is_told_so(monkeypatch):
+    """A library of linear algebra would ask for more and more for ever."""
+    allowed = memory_limit.LEAST_ALLOWED
+    monkeypatch.setattr(memory_limit.resource, "getrlimit", lambda limit: (allowed, -1))
+    memory_limit.require_memory()
+    allowed -= 1
+    said = one_line(run("prove", "nowhere"))
+    assert "allows a command 511 MiB of memory (ulimit -v), and it needs 512" in said and "ulimit -v unlimited" in said
+    monkeypatch.undo()
+    for trouble in (MemoryError(), ImportError("libx.so: failed to map segment from shared object")):
+        monkeypatch.setattr(Path, "cwd", staticmethod(lambda trouble=trouble: throw(trouble)))
+        assert "no memory is left: ask for less, or allow more" in one_line(run("prove", "nowhere"))
+
+
+def throw(trouble):
+    raise trouble
 
 
 def test_a_module_that_raises_the_limit_of_calls_is_named_as_soon_as_others(tmp_path):

@@ -6,6 +6,7 @@ import inspect
 import signal
 import sys
 import threading
+from contextlib import suppress
 from difflib import get_close_matches
 from functools import cache
 from importlib import import_module
@@ -22,6 +23,7 @@ from workbench.cli.console import err_console
 from workbench.cli.options import Version
 from workbench.cli.unused import import_unused_later
 from workbench.errors import InputError, WorkbenchError, of_an_extra, printable
+from workbench.files.memory_limit import MORE, is_of_memory, require_memory
 from workbench.tasks.room_for_calls import with_room_for_calls
 from workbench.tasks.threads import use_one_thread
 
@@ -77,15 +79,16 @@ def main() -> None:
         signal.signal(signal.SIGTERM, signal.default_int_handler)  # what is finished is kept, as after Ctrl-C
     try:
         _require_folder()
+        require_memory()
         code = with_room_for_calls(_command(), sys.argv[1:] or ["--help"], prog_name="workbench",
                                    standalone_mode=False) or 0
     except WorkbenchError as trouble:
         code = _refused(str(trouble))
-    except ImportError as trouble:
-        left_out = of_an_extra(trouble)
-        if left_out is None:
+    except (ImportError, MemoryError) as trouble:
+        left_out = of_an_extra(trouble) if isinstance(trouble, ImportError) else None
+        if left_out is None and not is_of_memory(trouble):
             raise
-        code = _refused(str(left_out))
+        code = _refused(str(left_out) if left_out else f"no memory is left: ask for less, or {MORE}")
     except TyperException as trouble:  # of options and arguments
         context = getattr(trouble, "ctx", None)
         command = context.command_path if context else "workbench"
@@ -126,5 +129,6 @@ def _verb_meant() -> str:
 
 
 def _refused(line: str) -> int:
-    err_console.print(f"workbench: {printable(line)}", style="red", soft_wrap=True)
+    with suppress(OSError):  # nobody can be told where this stream is full or gone, too
+        err_console.print(f"workbench: {printable(line)}", style="red", soft_wrap=True)
     return 2
