@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import errno
 import inspect
 import signal
 import sys
@@ -23,7 +24,7 @@ from workbench.cli.console import err_console
 from workbench.cli.options import Version
 from workbench.cli.unused import import_unused_later
 from workbench.errors import InputError, WorkbenchError, of_an_extra, printable
-from workbench.files.memory_limit import MORE, is_of_memory, require_memory
+from workbench.files.memory_limit import MORE, MORE_FILES, is_of_memory, require_memory
 from workbench.tasks.room_for_calls import with_room_for_calls
 from workbench.tasks.threads import use_one_thread
 
@@ -96,8 +97,8 @@ def main() -> None:
         code = _refused(str(InputError(command.removeprefix("workbench").strip(), "", problem)))
     except OSError as trouble:  # of what no room expects to fail, such as a terminal that is gone
         where = str(trouble.filename or "")
-        code = _refused(str(InputError(where, "", f"{trouble.strerror or trouble}: check path, permissions and free "
-                                       "space")))
+        remedy = MORE_FILES if trouble.errno == errno.EMFILE else "check path, permissions and free space"
+        code = _refused(str(InputError(where, "", f"{trouble.strerror or trouble}: {remedy}")))
     except RuntimeError as trouble:
         if not str(trouble).startswith(LINKS):
             raise

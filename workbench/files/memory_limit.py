@@ -1,4 +1,4 @@
-"""Limits of memory: what the import of a module of a paper may take, and what a command must be allowed."""
+"""What the import of a module of a paper may take of memory, and what of the system a command must be allowed."""
 
 from __future__ import annotations
 
@@ -20,7 +20,9 @@ DATA = 5  # the field of that file with the pages of data
 FOR_ANY, FOR_A_CORE = 800 * 2**20, 2**26
 # With less, OpenBLAS asks again and again for its buffers while it is imported, and never comes back.
 LEAST_ALLOWED = 512 * 2**20
+LEAST_FILES = 64  # a server of processes, and pipes to some of them
 MORE = "allow more, as by 'ulimit -v unlimited'"
+MORE_FILES = "allow more, as by 'ulimit -n 1024'"
 
 
 def require_memory() -> None:
@@ -32,6 +34,14 @@ def require_memory() -> None:
         if allowed != resource.RLIM_INFINITY and allowed < LEAST_ALLOWED:
             raise WorkbenchError(f"this shell allows a command {allowed >> 20} MiB of memory (ulimit {option}), and it "
                                  f"needs {LEAST_ALLOWED >> 20} at least: {MORE.replace('-v', option)}")
+
+
+def require_files() -> None:
+    """WorkbenchError where the shell allows too few open files to start processes."""
+    allowed = resource.getrlimit(resource.RLIMIT_NOFILE)[0] if resource else LEAST_FILES
+    if 0 <= allowed < LEAST_FILES:
+        raise WorkbenchError(f"this shell allows a command {allowed} open files (ulimit -n), and processes need "
+                             f"{LEAST_FILES} at least: {MORE_FILES}, or take --workers 1")
 
 
 def is_of_memory(trouble: BaseException) -> bool:

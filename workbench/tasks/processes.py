@@ -20,6 +20,7 @@ from typing import Any, TypeVar
 
 from workbench.errors import WorkbenchError
 from workbench.files.cache_folder import note
+from workbench.files.memory_limit import require_files
 from workbench.files.modules import KnownFolders
 from workbench.tasks.room_for_calls import with_room_for_calls
 from workbench.tasks.sent import job_bytes, job_of
@@ -107,8 +108,10 @@ def start_method(*needed: str) -> BaseContext:
     """How processes are started: from a server that has imported what they need, where the system has such servers.
 
     needed: modules beside those of this package that this process has imported. The first call of a process decides
-    what its server imports; what else a worker needs it imports itself, as all workers of other systems do.
+    what its server imports; what else a worker needs it imports itself, as all workers of other systems do. Raises
+    WorkbenchError where too few open files are allowed.
     """
+    require_files()
     if "forkserver" not in multiprocessing.get_all_start_methods():
         return multiprocessing.get_context("spawn")
     found = multiprocessing.get_context("forkserver")
