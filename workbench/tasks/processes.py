@@ -22,6 +22,7 @@ from workbench.errors import WorkbenchError
 from workbench.files.cache_folder import note
 from workbench.files.memory_limit import require_files
 from workbench.files.modules import KnownFolders
+from workbench.tasks import server
 from workbench.tasks.room_for_calls import with_room_for_calls
 from workbench.tasks.sent import job_bytes, job_of
 from workbench.tasks.threads import THREAD_LIMITS
@@ -116,9 +117,9 @@ def start_method(*needed: str) -> BaseContext:
         return multiprocessing.get_context("spawn")
     found = multiprocessing.get_context("forkserver")
     own = {name for name in sys.modules if name.startswith("workbench.") and name.split(".")[1] not in WITHOUT_TASKS}
-    found.set_forkserver_preload(sorted(own.union(needed)))
+    found.set_forkserver_preload([server.__name__])
     # A module is not looked for in the current folder, whose files are the user's.
-    with single_threaded(PYTHONSAFEPATH="1"), interruption_held():
+    with (single_threaded(PYTHONSAFEPATH="1", **server.told(sorted(own.union(needed)))), interruption_held()):
         forkserver.ensure_running()
     _wait_for_server(found)
     return found
