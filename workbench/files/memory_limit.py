@@ -27,9 +27,7 @@ MORE_FILES = "allow more, as by 'ulimit -n 1024'"
 
 def require_memory() -> None:
     """WorkbenchError where the shell allows this process too little memory to import what it computes with."""
-    if resource is None:
-        return
-    for limit, option in ((resource.RLIMIT_AS, "-v"), (resource.RLIMIT_DATA, "-d")):
+    for limit, option in ((resource.RLIMIT_AS, "-v"), (resource.RLIMIT_DATA, "-d")) if resource else ():
         allowed = resource.getrlimit(limit)[0]
         if allowed != resource.RLIM_INFINITY and allowed < LEAST_ALLOWED:
             raise WorkbenchError(f"this shell allows a command {allowed >> 20} MiB of memory (ulimit {option}), and it "
