@@ -5,6 +5,7 @@ import os
 import re
 import resource
 import sys
+from pathlib import Path
 
 import pytest
 import sympy as sp
@@ -18,7 +19,7 @@ sys.path.insert(0, str(ROOT / "benchmarks"))
 from bad_input_texts import CONTEST
 
 from workbench.compile.literals import require_short
-from workbench.errors import CompileError, InputError
+from workbench.errors import CompileError, InputError, WorkbenchError
 from workbench.files import folders, memory_limit, modules, time_limit
 from workbench.files.depth_limit import MOST_CALLS
 from workbench.files.json_input import read_json
@@ -34,6 +35,7 @@ from workbench.proof.paper import Paper
 from workbench.report.changes import read_claims
 from workbench.report.formulas import formula
 from workbench.simulate.journal import Journal
+from workbench.tasks.processes import start_method
 from workbench.trains.track import load_track
 
 METRO = SHARED / "lines" / "metro.toml"
@@ -74,6 +76,27 @@ def test_a_module_that_takes_all_memory_is_named(text, tmp_path, monkeypatch):
         f"{folder / 'claims' / 'section_2.py'}: {modules.OUT_OF_MEMORY}")
     assert refusal(ProofFile(single).modules) == f"{single}: {modules.OUT_OF_MEMORY}"
     assert resource.getrlimit(resource.RLIMIT_DATA) == before
+
+
+def test_a_shell_that_allows_too_little_is_told_so(monkeypatch):
+    """A library of linear algebra would ask for more and more for ever."""
+    allowed = memory_limit.LEAST_ALLOWED
+    monkeypatch.setattr(memory_limit.resource, "getrlimit", lambda limit: (allowed, -1))
+    memory_limit.require_memory()
+    allowed -= 1
+    said = one_line(run("prove", "nowhere"))
+    assert "allows a command 511 MiB of memory (ulimit -v), and it needs 512" in said and "ulimit -v unlimited" in said
+    allowed = memory_limit.LEAST_FILES - 1
+    with pytest.raises(WorkbenchError, match=r"63 open files \(ulimit -n\), and processes need 64.*--workers 1"):
+        start_method()
+    monkeypatch.undo()
+    for trouble in (MemoryError(), ImportError("libx.so: failed to map segment from shared object")):
+        monkeypatch.setattr(Path, "cwd", staticmethod(lambda trouble=trouble: throw(trouble)))
+        assert "no memory is left: ask for less, or allow more" in one_line(run("prove", "nowhere"))
+
+
+def throw(trouble):
+    raise trouble
 
 
 def test_a_module_that_raises_the_limit_of_calls_is_named_as_soon_as_others(tmp_path):

@@ -103,7 +103,7 @@ def test_a_law_of_a_file_is_looked_up_from_the_file_that_names_it(law, tmp_path)
 
 
 @pytest.mark.parametrize(("law", "words"), [
-    ("missing.py::mine", "missing.py: no such Python file, though 'missing.py::mine' names it"),
+    ("missing.py::mine", "study.toml: controllers.own.law: 'missing.py::mine' names "),
     ("own.py::nothing", "own.py: nothing: is no ControlLaw of this file"),
     ("own.py::other", "own.py: other: is no ControlLaw of this file"),
     ("own.py::__class__.mine", "is no ControlLaw of this file"),

@@ -26,9 +26,9 @@ class InputError(WorkbenchError):
         # From a worker process the error comes by what it was made of.
         return InputError, (self.where, self.key, self.problem)
 
-    def within(self, where: str | Path) -> InputError:
-        """The same error, naming the file it was found in."""
-        return InputError(where, self.key, self.problem)
+    def within(self, where: str | Path, key: str = "") -> InputError:
+        """The same error, naming the file it was found in, and the key where it named none."""
+        return InputError(where, self.key or key, self.problem)
 
 
 class CompileError(WorkbenchError):

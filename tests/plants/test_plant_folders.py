@@ -4,7 +4,9 @@ import io
 import json
 import subprocess
 import sys
+from contextlib import contextmanager
 from pathlib import Path
+from weakref import ref
 
 import pyarrow.parquet
 import pytest
@@ -16,7 +18,7 @@ from workbench.cli.study_tables import result_table
 from workbench.errors import InputError, WorkbenchError
 from workbench.paper.loading import load
 from workbench.paper.new_paper import TEMPLATES, template_files, write_new_paper
-from workbench.paper.plants.sweep import PlantSweep, sweep
+from workbench.paper.plants.sweep import PlantSweep, row_columns, sweep
 from workbench.simulate import parts, row_store
 from workbench.systems.metric import Metric
 
@@ -70,12 +72,20 @@ def test_every_verb_takes_it(mine):
     assert curves == ["01-x.csv", "02-v.csv", "03-u.csv"]
 
 
+def written(folder, *asked, **more):
+    """The bytes of sweep.csv, which is read block by block."""
+    found = sweep(*asked, **more)
+    found.write_csv(folder / "sweep.csv")
+    return (folder / "sweep.csv").read_bytes()
+
+
 def test_a_sweep_goes_on_where_it_stopped_to_the_same_bytes(mine, tmp_path, monkeypatch, capsys):
     """A stop after some parts, two processes, more runs, a chunk with a NaN: the bytes of a run in one go."""
     monkeypatch.setattr(row_store, "CHUNK_S", 0.0)
+    monkeypatch.setattr(row_store, "BLOCK", 1)
     monkeypatch.setattr(parts, "TASK_S", 0.0)
     study, out = load(mine).study, tmp_path / "mc"
-    whole = sweep(study, 4, 1, ["adaptive"], workers=1).csv.encode()
+    whole = written(tmp_path, study, 4, 1, ["adaptive"], workers=1)
 
     def stop(done, *_):
         if done == 2:
@@ -85,36 +95,63 @@ def test_a_sweep_goes_on_where_it_stopped_to_the_same_bytes(mine, tmp_path, monk
         sweep(study, 3, 1, ["adaptive"], out, 1, stop)
     assert not (out / "sweep.csv").exists() and len(list((out / "sweep").glob("*.parquet"))) == 2
     made = []
-    sweep(study, 4, 1, ["adaptive"], out, 2, lambda done, *_: made.append(done), resume=True)
-    assert made == [3, 4] and (out / "sweep.csv").read_bytes() == whole
+    again = {"study": study, "runs": 4, "seed": 1, "controllers": ["adaptive"], "out": out, "resume": True}
+    assert written(out, **again, workers=2, on_progress=lambda done, *_: made.append(done)) == whole
+    assert made == [3, 4]
     path = min((out / "sweep").glob("*.parquet"))
     table = pyarrow.parquet.read_table(path)
     assert {"drawn_a", "x_error_rms", "failed"} < set(table.column_names)
     spoiled = table.set_column(table.column_names.index("x_error_rms"), "x_error_rms", pyarrow.array([float("nan")]))
     pyarrow.parquet.write_table(spoiled, path)
-    sweep(study, 4, 1, ["adaptive"], out, 1, resume=True)
-    assert (out / "sweep.csv").read_bytes() == whole and "is not what was written" in capsys.readouterr().err
+    with rows_held(monkeypatch) as held:
+        assert written(out, **again, workers=1) == whole and "is not what was written" in capsys.readouterr().err
+    assert len(held) == 4 and max(held) <= 2  # the block that is written, and the one that is read
     for other in ({"seed": 2}, {"study": study.model_copy(update={"duration_s": study.duration_s + 1})}):
         with pytest.raises(InputError, match="belongs to another job"):
-            sweep(**{"study": study, "runs": 4, "seed": 1, "out": out, "workers": 1, "resume": True} | other)
+            sweep(**again | {"workers": 1} | other)
+
+
+@contextmanager
+def rows_held(monkeypatch):
+    """How many blocks of rows are in memory, at each time that one is read from where they are kept."""
+    class Block(list):
+        """A list that tells when it is gone."""
+
+    made, held, read = [], [], row_store.RowStore.rows
+
+    def rows(self, *asked):
+        block = Block(read(self, *asked))
+        made.append(ref(block))
+        held.append(sum(one() is not None for one in made))
+        return block
+
+    with monkeypatch.context() as patch:
+        patch.setattr(row_store.RowStore, "rows", rows)
+        yield held
 
 
 def test_a_sweep_is_the_same_for_the_same_seed_and_draws_what_is_known(mine):
     study = load(mine).study
     one, same, other = (sweep(study, 2, seed, ["adaptive"], workers=1) for seed in (1, 1, 2))
-    assert one.csv == same.csv != other.csv
-    assert all(0.2 <= row["drawn_a"] <= 0.8 for row in one.rows)
+    assert list(one.csv()) == list(same.csv()) != list(other.csv())
+    assert all(0.2 <= row["drawn_a"] <= 0.8 for row in one.rows())
 
 
-def test_a_sweeps_table_tells_what_is_farthest_from_zero_and_the_least_of_the_smallest(mine):
+def test_a_sweeps_table_tells_what_is_farthest_from_zero_and_the_least_of_the_smallest(mine, tmp_path, monkeypatch):
+    monkeypatch.setattr(row_store, "BLOCK", 2)
     study = load(mine).study
     study.__dict__["setting"] = study.setting.varied(metrics=(Metric("room", "smallest", study.the_plant.states[0]),))
-    rows = [{"controller": "adaptive", "failed": None, "room": room, **dict.fromkeys(
-        ("x_error_rms", "x_error_largest", "u_rms"), 1.0), "x_error_final": error} for room, error in (
-            (0.5, 0.1), (0.2, -0.3))]
-    table = PlantSweep(study, 2, tuple(rows)).table()
+    rest = dict.fromkeys(("x_error_rms", "x_error_largest", "u_rms"), 1.0)
+    rows = [{"room": room, "x_error_final": error, "failed": failed, **rest} for room, error, failed in (
+        (0.5, 0.1, None), (None, None, "diverges"), (0.2, -0.3, None))]
+    store = row_store.RowStore()
+    store.add(row_store.Part("adaptive", 0, 3), [
+        tuple({"run": run, "controller": "adaptive", "drawn_a": 0.5, **row}[name] for name in row_columns(study))
+        for run, row in enumerate(rows)])
+    table = PlantSweep(study, ("adaptive",), 3, store).write_csv(tmp_path / "sweep.csv")
     told = dict(zip((one.split(" (")[0] for one in table.headings), table.rows[0], strict=True))
     assert told["room, least"] == 0.2 and told["x error final, largest"] == -0.3
+    assert told["failed runs"] == 1.0 and told["room, mean"] == pytest.approx(0.35)
     shown = io.StringIO()
     Console(file=shown, width=60).print(result_table(table))
     lines = shown.getvalue().splitlines()
@@ -139,6 +176,7 @@ def test_the_folder_is_checked_and_a_wrong_derivative_is_found(mine, tmp_path):
 
 @pytest.mark.parametrize(("old", "new", "words"), [
     ('law = "adaptive"', 'law = "adaptve"', "controllers: law 'adaptve' is not known"),
+    ('law = "adaptive"', 'law = "own.py::adaptive"', "controllers: 'own.py::adaptive' names "),
     ("alpha = 2.0", "alpa = 2.0", "no parameter of law"), ("k = 4.0", "k = -4.0", "declared positive"),
     ('initial = { x = 0.3 }', 'initial = { y = 0.3 }', "initial.y"), ("horizon = 8", "horizon = 0", "horizon"),
     ('kind = "sine"', 'kind = "sinus"', "reference.x_d"), ("period_s = 0.05\n", "period_s = 0.0505\n", "whole number"),
@@ -155,6 +193,7 @@ def test_a_mistake_in_the_file_is_one_line_that_names_it(mine, tmp_path, old, ne
 
 SCRIPT = """
 import sys
+from contextlib import contextmanager
 import workbench as wb
 assert not {"sympy", "numpy", "casadi"} & set(sys.modules), "import workbench brings them all"
 import sympy as sp

@@ -5,6 +5,7 @@ import signal
 import subprocess
 import sys
 import time
+from concurrent.futures import ProcessPoolExecutor
 from pathlib import Path
 
 import pytest
@@ -91,6 +92,16 @@ def test_a_worker_that_dies_is_said_in_one_line(tmp_path):
     path = write_paper(tmp_path, TEXT.replace('    """The note of 3."""', "    import os; os._exit(3)"))
     with pytest.raises(WorkbenchError, match=r"died.*--workers 1"):
         proved(path, jobs=2)
+
+
+def test_so_is_a_server_of_workers_that_dies(tmp_path, monkeypatch):
+    """As the standard library tells of it: by the end of what it reads."""
+    def submit(*_):
+        raise EOFError("unexpected EOF")
+
+    monkeypatch.setattr(ProcessPoolExecutor, "submit", submit)
+    with pytest.raises(WorkbenchError, match=r"starts the workers has died .*: run again.*what was finished is kept"):
+        proved(write_paper(tmp_path), jobs=2)
 
 
 @pytest.mark.parametrize("jobs", ["1", "2"])

@@ -1,16 +1,21 @@
 """Processes of this machine: what has begun is recorded, what dies is run again."""
 
 import operator
+import os
 import subprocess
 import sys
 import time
+from pathlib import Path
 
 import pytest
+from scenarios import ROOT
 from worker_tasks import end_the_process
 
 from workbench.errors import WorkbenchError
 from workbench.tasks import processes
 from workbench.tasks.handing_out import run_tasks
+
+PATIENCE_S = 120.0  # a busy machine may take long; nothing waits longer than it must
 
 
 def test_what_workers_have_started_is_recorded_before_an_interruption_goes_on(monkeypatch):
@@ -41,8 +46,34 @@ def test_a_server_of_processes_that_has_died_is_said_in_a_line(monkeypatch):
                 raise EOFError("unexpected EOF")
 
     monkeypatch.setattr(processes.os, "kill", lambda *_: None)  # the server of this process lives
-    with pytest.raises(WorkbenchError, match=r"has died .*: run again, and resume"):
+    with pytest.raises(WorkbenchError, match=r"has died .*: run again, with --resume"):
         processes._wait_for_server.__wrapped__(Context())
+
+
+def test_a_server_of_processes_goes_with_its_parent_in_the_midst_of_its_imports(tmp_path):
+    (tmp_path / "slow.py").write_text("import os, pathlib, time\n"
+                                      "pathlib.Path(__file__).with_name('pid').write_text(str(os.getpid()))\n"
+                                      "time.sleep(600)\n")
+    text = "from workbench.tasks.processes import start_method; start_method('slow')"
+    path = os.pathsep.join((str(tmp_path), str(ROOT)))
+    running = subprocess.Popen([sys.executable, "-c", text], env={**os.environ, "PYTHONPATH": path})
+    told, until = tmp_path / "pid", time.monotonic() + PATIENCE_S
+    while not (told.exists() and told.read_text()):
+        assert running.poll() is None and time.monotonic() < until
+        time.sleep(0.05)
+    running.kill()
+    running.wait()
+    while runs(int(told.read_text())):
+        assert time.monotonic() < until
+        time.sleep(0.05)
+
+
+def runs(number):
+    """Whether a process still does anything."""
+    try:
+        return "Z" not in Path(f"/proc/{number}/stat").read_text().rpartition(")")[2].split()[0]
+    except OSError:
+        return False
 
 
 def test_an_exception_in_a_worker_is_raised_here():

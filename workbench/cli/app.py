@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import errno
 import inspect
 import signal
 import sys
 import threading
+from contextlib import suppress
 from difflib import get_close_matches
 from functools import cache
 from importlib import import_module
@@ -22,6 +24,7 @@ from workbench.cli.console import err_console
 from workbench.cli.options import Version
 from workbench.cli.unused import import_unused_later
 from workbench.errors import InputError, WorkbenchError, of_an_extra, printable
+from workbench.files.memory_limit import MORE, MORE_FILES, is_of_memory, require_memory
 from workbench.tasks.room_for_calls import with_room_for_calls
 from workbench.tasks.threads import use_one_thread
 
@@ -77,15 +80,16 @@ def main() -> None:
         signal.signal(signal.SIGTERM, signal.default_int_handler)  # what is finished is kept, as after Ctrl-C
     try:
         _require_folder()
+        require_memory()
         code = with_room_for_calls(_command(), sys.argv[1:] or ["--help"], prog_name="workbench",
                                    standalone_mode=False) or 0
     except WorkbenchError as trouble:
         code = _refused(str(trouble))
-    except ImportError as trouble:
-        left_out = of_an_extra(trouble)
-        if left_out is None:
+    except (ImportError, MemoryError) as trouble:
+        left_out = of_an_extra(trouble) if isinstance(trouble, ImportError) else None
+        if left_out is None and not is_of_memory(trouble):
             raise
-        code = _refused(str(left_out))
+        code = _refused(str(left_out) if left_out else f"no memory is left: ask for less, or {MORE}")
     except TyperException as trouble:  # of options and arguments
         context = getattr(trouble, "ctx", None)
         command = context.command_path if context else "workbench"
@@ -93,8 +97,8 @@ def main() -> None:
         code = _refused(str(InputError(command.removeprefix("workbench").strip(), "", problem)))
     except OSError as trouble:  # of what no room expects to fail, such as a terminal that is gone
         where = str(trouble.filename or "")
-        code = _refused(str(InputError(where, "", f"{trouble.strerror or trouble}: check path, permissions and free "
-                                       "space")))
+        remedy = MORE_FILES if trouble.errno == errno.EMFILE else "check path, permissions and free space"
+        code = _refused(str(InputError(where, "", f"{trouble.strerror or trouble}: {remedy}")))
     except RuntimeError as trouble:
         if not str(trouble).startswith(LINKS):
             raise
@@ -126,5 +130,6 @@ def _verb_meant() -> str:
 
 
 def _refused(line: str) -> int:
-    err_console.print(f"workbench: {printable(line)}", style="red", soft_wrap=True)
+    with suppress(OSError):  # nobody can be told where this stream is full or gone, too
+        err_console.print(f"workbench: {printable(line)}", style="red", soft_wrap=True)
     return 2

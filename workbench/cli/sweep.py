@@ -123,7 +123,7 @@ def _sweep_plant(loaded: Loaded, out: Path, runs: int | None, seed: int | None, 
     with progress() as show:
         found = sweep(study, runs, seed, controllers, out, workers,
                       lambda done, total, _: show("Monte Carlo", done, total), resume)
-    out_console.print(result_table(found.table()))
+    out_console.print(result_table(found.write_csv(out / CSV_NAME)))
     out_console.print(f"rows: {out / CSV_NAME}", markup=False, highlight=False)
 
 

@@ -9,6 +9,7 @@ from workbench.contest.entrant import Entrant, Played
 from workbench.contest.learning_mpc import ENTRANTS
 from workbench.contest.record import Contest
 from workbench.errors import InputError, WorkbenchError
+from workbench.model.law import ControlLaw
 from workbench.model.laws import law_named, named, names_near
 from workbench.mpc.controller import KINDS
 from workbench.simulate.closed_loop import Setting, run_law, simulate_in
@@ -63,7 +64,7 @@ def check_entrants(contest: Contest, scenario: Scenario, path: Path, scenario_pa
                 entrant.check(spec, f"entrants.{name}")
             except InputError as trouble:
                 raise trouble.within(path) from None
-        elif spec.law in (*SAMPLED, *TOLD_THE_LINE) or law_named(spec.law, contest.folder):
+        elif spec.law in (*SAMPLED, *TOLD_THE_LINE) or _law(contest, name, path):
             ordinary[name] = spec.model_copy(update={"law": _from(contest.folder, spec.law)})
         else:
             others = ", ".join((*ENTRANTS, *names_near(contest.folder, "contest", Entrant)))
@@ -73,6 +74,13 @@ def check_entrants(contest: Contest, scenario: Scenario, path: Path, scenario_pa
         check_controllers(scenario.model_copy(update={"controllers": ordinary}), path)
     except InputError as trouble:  # in a contest's file the table is called otherwise
         raise InputError(path, trouble.key.replace("controllers.", "entrants.", 1), trouble.problem) from None
+
+
+def _law(contest: Contest, name: str, path: Path) -> ControlLaw | None:
+    try:
+        return law_named(contest.entrants[name].law, contest.folder)
+    except InputError as trouble:
+        raise trouble if trouble.where else trouble.within(path, f"entrants.{name}.law") from None
 
 
 def check_names(contest: Contest, stated: Scenario, path: Path) -> None:

@@ -15,8 +15,10 @@ from workbench.files.writing import write_text
 def write_json(path: Path, document: Mapping[str, Any]) -> None:
     """Write a document as JSON, to standard output where the path is `-`; NaN is refused. Raises InputError where it
     cannot be written."""
-    text = json.dumps(document, indent=1, ensure_ascii=False, allow_nan=False) + "\n"
-    if path == STANDARD_OUTPUT:
+    to_stream = path == STANDARD_OUTPUT
+    few_letters = to_stream and (sys.stdout.encoding or "utf-8").lower().replace("-", "") != "utf8"
+    text = json.dumps(document, indent=1, ensure_ascii=few_letters, allow_nan=False) + "\n"
+    if to_stream:
         sys.stdout.write(text)
         return
     write_text(path, text, "name another file")

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import hashlib
 import importlib
+import os
 import re
 import sys
 import time
@@ -78,7 +79,7 @@ def package_of(folder: Path) -> str:
     for name, known in _folders.items():  # a copy on another machine has the name that it has on ours
         if known == resolved:
             return name
-    digest = hashlib.sha256(str(resolved).encode()).hexdigest()[:10]
+    digest = hashlib.sha256(os.fsencode(resolved)).hexdigest()[:10]
     name = f"{PREFIX}{re.sub(r'[^0-9A-Za-z_]', '_', resolved.name)}_{digest}"
     _folders[name] = resolved
     return name

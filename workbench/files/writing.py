@@ -18,6 +18,12 @@ ANOTHER_PLACE = "name another place"
 _NEW = os.O_WRONLY | os.O_CREAT | os.O_EXCL | getattr(os, "O_CLOEXEC", 0) | getattr(os, "O_BINARY", 0)
 
 
+def as_bytes(text: str) -> bytes:
+    """A text as UTF-8; of the name of a file that is no text, the bytes that are none by their numbers, as JSON has
+    them too."""
+    return text.encode(errors="backslashreplace")
+
+
 def write_pieces(path: Path, pieces: Iterable[bytes], remedy: str = ANOTHER_PLACE) -> None:
     """`write_bytes` of what need not be in memory as a whole."""
     def written() -> None:
@@ -37,7 +43,7 @@ def set_aside(path: Path, remedy: str = ANOTHER_PLACE) -> None:
 
 def write_text(path: Path, text: str, remedy: str = ANOTHER_PLACE) -> None:
     """Write a text as UTF-8, its lines ended as they are in it; InputError, nothing half-written, where that fails."""
-    write_bytes(path, text.encode(), remedy)
+    write_bytes(path, as_bytes(text), remedy)
 
 
 def write_bytes(path: Path, data: bytes, remedy: str = ANOTHER_PLACE) -> None:
@@ -128,7 +134,7 @@ def write_whole(path: Path, data: str | bytes | Iterable[bytes]) -> None:
             if before is not None and stat.S_ISREG(before.st_mode):
                 aside.chmod(stat.S_IMODE(before.st_mode))
             for piece in (data,) if isinstance(data, str | bytes) else data:
-                _all(handle, piece.encode() if isinstance(piece, str) else piece)
+                _all(handle, as_bytes(piece) if isinstance(piece, str) else piece)
         finally:
             os.close(handle)
         aside.replace(path)

@@ -26,7 +26,8 @@ def law_named(name: str, near: Path) -> ControlLaw | None:
     """The law of that name as a file in the folder `near` means it; None where there is none.
 
     `<paper>.<law>` is looked up in the folder itself, then as `paper_named` finds the paper; `FILE.py::name` relative
-    to the folder. Raises InputError where a module cannot be imported, or a named file holds no such law.
+    to the folder. Raises InputError where a module cannot be imported, or a named file holds no such law; one without
+    a place, which is the caller's to tell, where there is no such file.
     """
     make = GENERAL.get(name)
     return make() if make else named(name, near, "laws", ControlLaw)
@@ -72,7 +73,7 @@ def _of_folder(folder: Path, name: str, module: str, kind: type[T]) -> T | None:
 
 def _in_file(path: Path, own: str, kind: type[T], name: str) -> T:
     if path.suffix != ".py" or not path.is_file():
-        raise InputError(path, "", f"no such Python file, though '{name}' names it: correct the path, which is "
+        raise InputError("", "", f"'{name}' names {path}, and there is no such Python file: correct the path, which is "
                          "relative to the file that names it")
     if not path.stem.isidentifier():
         raise InputError(path, "", "cannot be imported: name the file with letters, digits and underscores")

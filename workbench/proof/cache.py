@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import hashlib
 import json
+import os
 from collections.abc import Callable, Iterable
 from contextlib import suppress
 from dataclasses import dataclass, fields
@@ -18,6 +19,7 @@ from workbench.errors import ClaimError
 from workbench.files.cache_folder import cache_folder, drop, keep
 from workbench.files.regular import contents
 from workbench.files.text import digest_read, written_since_read
+from workbench.files.writing import as_bytes
 from workbench.proof.checker import UNDECIDED
 from workbench.proof.dependencies import changed_since, digest
 from workbench.proof.engine_digest import engine_digest
@@ -74,7 +76,7 @@ class DecisionCache:
                {"papers": entry.papers, "reads": reads, "decisions": [_record(d) for d in entry.decisions]})
 
     def _file(self, path: Path) -> Path:
-        return self.folder / "files" / f"{hashlib.sha256(str(path.resolve()).encode()).hexdigest()[:40]}.json"
+        return self.folder / "files" / f"{hashlib.sha256(os.fsencode(path.resolve())).hexdigest()[:40]}.json"
 
     def tidy(self) -> None:
         """Drop what has not been written to for longest: claims of former deciders, and proof files."""
@@ -129,4 +131,4 @@ def _read(path: Path, key: str, make: Callable[[dict[str, Any]], T]) -> T | None
 
 
 def _sha256(text: str) -> str:
-    return hashlib.sha256(text.encode()).hexdigest()
+    return hashlib.sha256(as_bytes(text)).hexdigest()

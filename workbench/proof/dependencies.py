@@ -91,7 +91,7 @@ def digest(path: str | Path) -> str | None:
     try:
         if file.is_dir():
             names = [found.relative_to(file).as_posix() for found in python_files(file)]
-            return hashlib.sha256("\n".join(names).encode()).hexdigest()
+            return hashlib.sha256(os.fsencode("\n".join(names))).hexdigest()
         return sha256_of(file) if file.is_file() else None
     except OSError:
         return None

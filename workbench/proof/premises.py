@@ -17,7 +17,7 @@ def premises_problem(claims: Sequence[Stated]) -> tuple[str, str] | None:
     by_id: dict[str, Stated] = {}
     for claim in claims:
         if claim.id in by_id:
-            return claim.id, f"claim ids used twice: {claim.id}: give each claim its own id"
+            return claim.id, f"claim {claim.id}: its id is used twice: give each claim its own"
         by_id[claim.id] = claim
     for claim in claims:
         for what, name in _named(claim):

@@ -18,7 +18,14 @@ from workbench.proof.cache import DecisionCache
 from workbench.proof.messages import Decided, Listing
 from workbench.tasks.executor import named
 from workbench.tasks.handing_out import results_of
-from workbench.tasks.processes import follow_parent, interruption_held, script_left_out, single_threaded, start_method
+from workbench.tasks.processes import (
+    follow_parent,
+    interruption_held,
+    script_left_out,
+    server_alive,
+    single_threaded,
+    start_method,
+)
 
 if TYPE_CHECKING:
     from workbench.proof.worker import Worker
@@ -92,12 +99,12 @@ class _Several:
     def listings(self, paths: Sequence[Path]) -> list[Listing]:
         # Workers without a file of their own import one that others list: they will need it to decide its claims.
         at_once = max(len(paths), min(self.jobs, WARM_AT_ONCE))
-        with interruption_held(), script_left_out():
+        with interruption_held(), server_alive(), script_left_out():
             futures = [self.pool.submit(_listing, paths[i % len(paths)]) for i in range(at_once)]
         return _in_order(futures[: len(paths)], lambda done: None)
 
     def decided(self, tasks: Sequence[Task], on_progress: Callable[[int], None]) -> list[Decided]:
-        with interruption_held(), script_left_out():
+        with interruption_held(), server_alive(), script_left_out():
             futures = [self.pool.submit(_decided, task) for task in tasks]
         return _in_order(futures, on_progress)
 

@@ -13,6 +13,7 @@ from typing import Any
 
 from workbench.files.cache_folder import cache_folder, drop, keep
 from workbench.files.regular import contents, sha256_of
+from workbench.files.writing import as_bytes
 from workbench.proof import checker
 from workbench.proof.latex import letters
 from workbench.report import certificate_latex, counterexample, number_style
@@ -63,4 +64,4 @@ def _folder() -> Path | None:
 
 
 def _sha256(text: str) -> str:
-    return hashlib.sha256(text.encode()).hexdigest()
+    return hashlib.sha256(as_bytes(text)).hexdigest()

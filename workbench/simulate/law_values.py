@@ -68,9 +68,14 @@ def controller_spec(scenario: Scenario, name: str) -> ControllerSpec:
         choice = ", ".join(scenario.controllers)
         raise InputError("", "controllers", f"there is no '{name}': choose one of {choice}")
     spec = scenario.controllers[name]
-    if spec.law not in SAMPLED and compiled_law(scenario, spec) is None:
+    key = f"controllers.{name}.law"
+    try:
+        known = spec.law in SAMPLED or compiled_law(scenario, spec) is not None
+    except InputError as trouble:
+        raise trouble if trouble.where else trouble.within("", key) from None
+    if not known:
         near = nearest_law(scenario, spec.law)
-        raise InputError("", f"controllers.{name}.law", f"unknown '{spec.law}': choose one of {known_laws(scenario)}, "
+        raise InputError("", key, f"unknown '{spec.law}': choose one of {known_laws(scenario)}, "
                          f"or name a law of your own as FILE.py::name{f'; did you mean {near!r}?' if near else ''}")
     return spec
 

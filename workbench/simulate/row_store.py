@@ -83,6 +83,11 @@ class RowStore:
             found += self._of(part)[max(0, first - part.first):end - part.first]
         return found
 
+    def blocks(self, controllers: Sequence[str], runs: int) -> Iterator[list[list[Values]]]:
+        """Block by block the rows of each controller, in the order of the runs, which are all there."""
+        for first in range(0, runs, BLOCK):
+            yield [self.rows(name, first, min(first + BLOCK, runs)) for name in controllers]
+
     def _of(self, part: Part) -> Sequence[Values]:
         return self._rows[part]
 

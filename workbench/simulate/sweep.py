@@ -7,7 +7,6 @@ import json
 import time
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
-from itertools import chain
 from pathlib import Path
 from typing import Any
 
@@ -30,6 +29,7 @@ from workbench.simulate.sweep_rows import (
     SweepSummary,
     Values,
     csv_pieces,
+    in_order,
     row_values,
     summarised,
     sweep_row,
@@ -75,25 +75,20 @@ class MonteCarlo:
     means: dict[str, Mean]
     store: RowStore
 
-    def blocks(self) -> Iterator[list[list[Values]]]:
-        """Block by block the rows of each controller, in the order of the runs."""
-        for first in range(0, self.runs, BLOCK):
-            yield [self.store.rows(name, first, min(first + BLOCK, self.runs)) for name in self.names]
-
     def rows(self) -> Iterator[SweepRow]:
         """All rows, ordered by run, then controller."""
-        for block in self.blocks():
-            yield from (sweep_row(values) for values in chain.from_iterable(zip(*block, strict=True)))
+        for block in self.store.blocks(self.names, self.runs):
+            yield from map(sweep_row, in_order(block))
 
     def write_csv(self, path: Path) -> list[SweepSummary]:
         """Write all rows and return what they come to, without having them all in memory."""
         sums = [Sums(name) for name in self.names]
 
         def added() -> Iterator[list[Values]]:
-            for block in self.blocks():
+            for block in self.store.blocks(self.names, self.runs):
                 for one, rows in zip(sums, block, strict=True):
                     one.add(rows)
-                yield list(chain.from_iterable(zip(*block, strict=True)))
+                yield in_order(block)
 
         write_pieces(path, csv_pieces(added()), REMEDY)
         return [one.summary() for one in sums]

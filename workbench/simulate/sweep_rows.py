@@ -6,6 +6,7 @@ import csv
 import io
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, field, fields
+from itertools import chain
 
 import numpy as np
 
@@ -95,13 +96,17 @@ def sweep_row(values: Values) -> SweepRow:
     return SweepRow(run, controller, Factors(*rest[:len(FACTORS)]), *rest[len(FACTORS):])  # type: ignore[arg-type]
 
 
-def csv_pieces(blocks: Iterable[Sequence[Values]]) -> Iterator[bytes]:
+def in_order(block: Sequence[Sequence[Values]]) -> list[Values]:
+    """The rows of the same runs of each controller, ordered by run, then controller."""
+    return list(chain.from_iterable(zip(*block, strict=True)))
+
+
+def csv_pieces(blocks: Iterable[Sequence[Values]], columns: Sequence[str] = tuple(COLUMNS)) -> Iterator[bytes]:
     """The rows as CSV; floats by repr, so that they read back as the same numbers; None is an empty cell."""
-    yield (",".join(COLUMNS) + "\n").encode()
-    for block in blocks:
+    for rows in chain([[columns]], blocks):
         stream = io.StringIO()
         csv.writer(stream, lineterminator="\n").writerows(
-            ["" if c is None else repr(c) if isinstance(c, float) else c for c in row] for row in block)
+            ["" if c is None else repr(c) if isinstance(c, float) else c for c in row] for row in rows)
         yield stream.getvalue().encode()
 
 

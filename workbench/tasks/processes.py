@@ -20,7 +20,9 @@ from typing import Any, TypeVar
 
 from workbench.errors import WorkbenchError
 from workbench.files.cache_folder import note
+from workbench.files.memory_limit import require_files
 from workbench.files.modules import KnownFolders
+from workbench.tasks import server
 from workbench.tasks.room_for_calls import with_room_for_calls
 from workbench.tasks.sent import job_bytes, job_of
 from workbench.tasks.threads import THREAD_LIMITS
@@ -107,15 +109,17 @@ def start_method(*needed: str) -> BaseContext:
     """How processes are started: from a server that has imported what they need, where the system has such servers.
 
     needed: modules beside those of this package that this process has imported. The first call of a process decides
-    what its server imports; what else a worker needs it imports itself, as all workers of other systems do.
+    what its server imports; what else a worker needs it imports itself, as all workers of other systems do. Raises
+    WorkbenchError where too few open files are allowed.
     """
+    require_files()
     if "forkserver" not in multiprocessing.get_all_start_methods():
         return multiprocessing.get_context("spawn")
     found = multiprocessing.get_context("forkserver")
     own = {name for name in sys.modules if name.startswith("workbench.") and name.split(".")[1] not in WITHOUT_TASKS}
-    found.set_forkserver_preload(sorted(own.union(needed)))
+    found.set_forkserver_preload([server.__name__])
     # A module is not looked for in the current folder, whose files are the user's.
-    with single_threaded(PYTHONSAFEPATH="1"), interruption_held():
+    with (single_threaded(PYTHONSAFEPATH="1", **server.told(sorted(own.union(needed)))), interruption_held()):
         forkserver.ensure_running()
     _wait_for_server(found)
     return found
@@ -127,8 +131,8 @@ def server_alive() -> Iterator[None]:
     try:
         yield
     except (EOFError, ConnectionError):
-        raise WorkbenchError("the process that starts the workers has died (out of memory, or killed): run again, and "
-                             "resume") from None
+        raise WorkbenchError("the process that starts the workers has died (out of memory, or killed): run again, with "
+                             "--resume where the command has it; what was finished is kept") from None
 
 
 @cache

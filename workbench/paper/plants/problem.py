@@ -62,7 +62,10 @@ class LocatedPlantStudy(PlantStudy):
     def law(self, name: str) -> StateLaw:
         """A law by the name that the file gives it; InputError with the names there are."""
         own = {key.rpartition(".")[2]: law for key, law in held_in(self.folder, "laws", StateLaw).items()}
-        found = own.get(name) or named(name, self.folder, "laws", StateLaw)
+        try:
+            found = own.get(name) or named(name, self.folder, "laws", StateLaw)
+        except InputError as trouble:
+            raise trouble if trouble.where else trouble.within(self.file, "controllers") from None
         if found is None:
             known = [*own, *names_near(self.folder, "laws", StateLaw)]
             raise InputError(self.file, "controllers", f"law '{name}' is not known: name one of "
