@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from itertools import pairwise
 
 import numpy as np
+from numba import njit
 from numpy.typing import NDArray
 
 from workbench.optimal.course import Array, Course
@@ -114,10 +115,15 @@ def _around(centers: Array, reach: float, start: float, end: float) -> Array:
 
 def with_force_borders(course: Course, nodes: Array, kept: Array) -> Array:
     """Move the nearest free node onto each border of the line's force that stands well apart from the others."""
-    movable = ~np.isin(nodes, kept)
-    moved = nodes.copy()
-    for border in course.position_m[1:-1]:
-        k = int(np.clip(np.searchsorted(moved, border), 1, len(moved) - 1))
+    return np.asarray(_moved(nodes, ~np.isin(nodes, kept), course.position_m))
+
+
+@njit(cache=True)
+def _moved(nodes: Array, free: NDArray[np.bool_], borders: Array) -> Array:
+    """Each move changes what lies near the next border, so that they are made one after the other."""
+    moved, movable = nodes.copy(), free.copy()
+    for border in borders[1:-1]:
+        k = min(max(np.searchsorted(moved, border), 1), len(moved) - 1)
         near = k if moved[k] - border < border - moved[k - 1] else k - 1
         if movable[near] and moved[near - 1] < border < moved[near + 1]:
             room = min(border - moved[near - 1], moved[near + 1] - border)
