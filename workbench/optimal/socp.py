@@ -63,14 +63,14 @@ class Plan:
 
 
 def solve_socp(vehicle: Vehicle, grid: Grid, asked: Timetable | float, start_mps: float = 0.0,
-               end_mps: float = 0.0, extra_s: Array | None = None) -> Plan:
+               end_mps: float = 0.0, extra_s: Array | None = None, *, whole: bool = False) -> Plan:
     """The run of least energy in a timetable or a trip time in s; raises NoPlanError where clarabel finds none.
 
     extra_s: seconds that each leg between timing points takes beyond what the program knows; none where not given.
-    A large program is solved on a coarser mesh first, and then without what that leaves no use for.
+    A large program is solved on a coarser mesh first, and then without what that leaves no use for, unless `whole`.
     """
     ends, spent = (start_mps, end_mps), 0.0
-    if len(grid.limit_mps) >= COARSE_FIRST:
+    if len(grid.limit_mps) >= COARSE_FIRST and not whole:
         try:
             coarse, price = _solve(vehicle, thinned(grid), asked, ends, extra_s=extra_s)
             spent = coarse.solve_s
