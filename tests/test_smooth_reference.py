@@ -2,8 +2,10 @@
 
 import csv
 import json
+from dataclasses import replace
 from itertools import pairwise
 from pathlib import Path
+from typing import Any
 
 import control
 import numpy as np
@@ -12,12 +14,17 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from workbench.errors import InputError
+from workbench.optimal import planning
+from workbench.optimal.bound import lower_bound
 from workbench.optimal.course import Course
 from workbench.optimal.envelope import InfeasibleRunError
 from workbench.optimal.export import COLUMNS, samples, time_response, write_csv
+from workbench.optimal.grid import Grid
 from workbench.optimal.profile import Profile
+from workbench.optimal.reference import find_reference
 from workbench.optimal.smooth import smooth_reference, smoothed
 from workbench.optimal.smooth_run import SmoothRun
+from workbench.optimal.socp import Plan, solve_socp
 from workbench.optimal.vehicle import ForceLimit, Vehicle
 
 TRAIN = Vehicle("test", 2e5, (3e3, 20.0, 8.0), ForceLimit(2e5, 2e6), ForceLimit(1.5e5, 2e6), 1e5,
@@ -86,6 +93,32 @@ def test_a_smooth_reference_arrives_in_time_and_keeps_limits(stops: tuple[float,
 def test_smoothing_costs_energy_and_more_of_it_the_longer_the_window() -> None:
     energies = [smooth_reference(TRAIN, course(), 600.0, window).energy_j for window in (0.5, 2.0, 8.0)]
     assert all(one < two for one, two in pairwise(energies))
+
+
+def test_what_smoothing_keeps_back_is_driven_by_the_plan_at_hand(monkeypatch: pytest.MonkeyPatch) -> None:
+    solved: list[int] = []
+
+    def counted(vehicle: Vehicle, grid: Grid, *rest: Any, **more: Any) -> Plan:
+        solved.append(len(grid.limit_mps))
+        return solve_socp(vehicle, grid, *rest, **more)
+
+    monkeypatch.setattr(planning, "solve_socp", counted)
+    run = course(limits=(30.0, 20.0, 35.0, 25.0))
+    found = smooth_reference(TRAIN, run, 520.0, intervals=400)
+    assert found.usable[0] < 1 and found.force_excess == 0.0, "the test needs forces to be kept back"
+    # Beside the first plan at most what a run that is late asks for, on the same mesh.
+    assert len(solved) <= planning.PLANS and len(set(solved)) == 1
+    # The bound is that of the whole forces, and what proves it proves it of this course.
+    optimal = found.optimal
+    assert lower_bound(TRAIN, optimal.profile.course, optimal.certificate, optimal.timetable) == pytest.approx(
+        optimal.lower_bound_j, rel=1e-9)
+    assert 0 <= optimal.gap < 5e-3
+    # A reference of another course, or of another time, lends its mesh at most: what is proven is of what is asked.
+    steeper = replace(run, force_n=1.5 * run.force_n)
+    for other, time_s in ((steeper, 520.0), (run, 600.0)):
+        alone = find_reference(TRAIN, other, time_s)
+        begun = find_reference(TRAIN, other, time_s, like=find_reference(TRAIN, run, 520.0))
+        assert begun.lower_bound_j <= alone.energy_j and alone.lower_bound_j <= begun.energy_j and begun.gap < 1e-3
 
 
 @pytest.mark.parametrize("jerk", [1.0, 0.3, 0.1])

@@ -86,7 +86,9 @@ def finer_grid(vehicle: Vehicle, plan: Plan, certificate: Certificate, run: Prof
     # where the last digit of the sum is a little lower.
     parts = 1 + np.diff(np.floor(np.cumsum(more * count * weight) + 0.5 + 1e-9), prepend=0.0).astype(int)
     parts = np.clip(parts, 1, np.maximum(plan.grid.step_m // SHORTEST_M, 1).astype(int))
-    nodes = np.concatenate([s[:1], *(np.linspace(s[k], s[k + 1], parts[k] + 1)[1:] for k in range(count))])
+    of = np.repeat(np.arange(count), parts)
+    number = np.arange(len(of)) - np.repeat(np.cumsum(parts) - parts, parts)
+    nodes = np.append(s[of] + number * (plan.grid.step_m / parts)[of], s[-1])
     course = plan.grid.course
     return grid_on(course, with_force_borders(course, _graded(plan, nodes), kept_borders(course)))
 

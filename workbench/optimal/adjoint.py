@@ -117,11 +117,18 @@ def _points(halves: _Halves, plan: Plan) -> tuple[Array, NDArray[np.intp]]:
     """Positions from start to end of each half in turn, and of which half each is."""
     ends = np.stack((halves.start_m, halves.end_m), axis=1)
     b = _half_square(ends, plan, halves.k[:, None])
-    found = list(ends)
     parts = _parts(plan, halves, b)
-    for half in np.flatnonzero(parts > 1):
-        found[half] = _divided(ends[half], b[half], int(parts[half]))
-    return np.concatenate(found), np.repeat(np.arange(len(found)), [len(points) for points in found])
+    of = np.repeat(np.arange(len(parts)), parts + 1)
+    number = np.arange(len(of)) - np.repeat(np.cumsum(parts + 1) - parts - 1, parts + 1)
+    # Equal differences of the cube root of the speed.
+    root = np.sqrt(np.cbrt(b))
+    level = (root[of, 0] + number * ((root[:, 1] - root[:, 0]) / parts)[of]) ** 6
+    start, end = ends[of, 0], ends[of, 1]
+    is_end, inner = number == parts[of], (number > 0) & (number < parts[of])
+    change = np.where(inner, b[of, 1] - b[of, 0], 1.0)
+    points = np.where(is_end, end, start + np.where(inner, (level - b[of, 0]) / change, 0.0) * (end - start))
+    kept = ~inner | ((points > start + SHORTEST_M) & (points < end - SHORTEST_M))
+    return points[kept], of[kept]
 
 
 def _parts(plan: Plan, halves: _Halves, b: Array) -> NDArray[np.intp]:
@@ -140,15 +147,6 @@ def _parts(plan: Plan, halves: _Halves, b: Array) -> NDArray[np.intp]:
     cubic = np.cbrt(loss)
     worth = (CELLS_SHARE * abs(plan.energy_j) / max(float(cubic.sum()), 1e-300)) ** 0.5
     return np.asarray(np.clip(np.ceil(cubic / max(worth, 1e-300)), 1, MOST_PARTS), dtype=np.intp)
-
-
-def _divided(ends: Array, b: Array, count: int) -> Array:
-    """Positions between two ends with equal differences of the cube root of the speed."""
-    (start, end), (one, two) = ends, np.cbrt(b) ** 0.5
-    levels = np.linspace(one, two, count + 1) ** 6
-    points = start + (levels - b[0]) / (b[1] - b[0]) * (end - start)
-    inner = points[(points > start + SHORTEST_M) & (points < end - SHORTEST_M)]
-    return np.concatenate(([start], inner, [end]))
 
 
 def _values(vehicle: Vehicle, plan: Plan, halves: _Halves, points: Array, of: NDArray[np.intp],

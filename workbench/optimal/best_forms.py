@@ -11,8 +11,8 @@ from dataclasses import replace
 
 import numpy as np
 
-from workbench.optimal.bound import cell_bounds
-from workbench.optimal.bound_fixed import fixed_part
+from workbench.optimal.bound import cell_bounds_of
+from workbench.optimal.bound_fixed import fixed_parts
 from workbench.optimal.certificate import Certificate
 from workbench.optimal.course import Array, Course
 from workbench.optimal.timetable import Timetable
@@ -30,9 +30,9 @@ def best_forms(vehicle: Vehicle, course: Course, forms: Sequence[Certificate], a
     inner = np.searchsorted(agreed_m, x[1:-1], side="right")
     count = len(agreed_m) + 1
     added = np.empty((len(forms), count))
-    for k, form in enumerate(forms):
-        fixed = fixed_part(vehicle, course, form, timetable, start_mps, end_mps)
-        added[k] = np.bincount(cells, cell_bounds(vehicle, course, form, timetable) + fixed.line_j, count)
+    bounds = cell_bounds_of(vehicle, course, forms, timetable)
+    for k, fixed in enumerate(fixed_parts(vehicle, course, forms, timetable, start_mps, end_mps)):
+        added[k] = np.bincount(cells, bounds[k] + fixed.line_j, count)
         added[k] += np.bincount(inner, fixed.jumps_j, count)
         added[k, [0, -1]] += fixed.ends_j
     best, every = np.argmax(added, axis=0)[cells], np.arange(len(cells))

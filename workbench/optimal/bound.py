@@ -29,6 +29,7 @@ the limits of force, power and speed enter as they are.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -78,24 +79,33 @@ def lower_bound(vehicle: Vehicle, course: Course, certificate: Certificate, aske
 
 def cell_bounds(vehicle: Vehicle, course: Course, certificate: Certificate, timetable: Timetable) -> Array:
     """What each cell adds to the bound without the line's force, J: its length times the mean of the least values."""
-    terms = bound_terms(vehicle, course, certificate, timetable)
-    ends = np.full((2, len(certificate.left)), np.inf)
+    return cell_bounds_of(vehicle, course, [certificate], timetable)[0]
+
+
+def cell_bounds_of(vehicle: Vehicle, course: Course, forms: Sequence[Certificate], timetable: Timetable) -> Array:
+    """The same for several certificates on the same cells, at the same prices: shape (forms, n)."""
+    terms = bound_terms(vehicle, course, forms, timetable)
+    shape = len(forms), len(forms[0].left)
+    ends = np.full((2, shape[0] * shape[1]), np.inf)
     np.minimum.at(ends, (terms.end.astype(int), terms.cell.astype(int)), minima(terms))
-    return np.asarray(np.diff(certificate.position_m) * ends.mean(axis=0))
+    return np.asarray(np.diff(forms[0].position_m) * ends.mean(axis=0).reshape(shape))
 
 
-def bound_terms(vehicle: Vehicle, course: Course, certificate: Certificate, timetable: Timetable) -> Terms:
-    """Every minimisation that the bound needs: for both ends of each cell, on each range of speeds."""
-    cells = _cells(course, certificate)
-    if certificate.auxiliary_w > vehicle.auxiliary_w:
-        raise WorkbenchError(f"certificate of a bound: counts {certificate.auxiliary_w:g} W of auxiliaries, more "
+def bound_terms(vehicle: Vehicle, course: Course, forms: Sequence[Certificate], timetable: Timetable) -> Terms:
+    """Every minimisation that the bounds need: for both ends of each cell, on each range of speeds; the cells of the
+    second certificate are numbered after those of the first, and so on."""
+    first, count = forms[0], len(forms)
+    cells = _cells(course, first).repeated(count)
+    if first.auxiliary_w > vehicle.auxiliary_w:
+        raise WorkbenchError(f"certificate of a bound: counts {first.auxiliary_w:g} W of auxiliaries, more "
                              f"than the train's {vehicle.auxiliary_w:g} W: solve again")
-    price = certificate.cell_prices_w(timetable)
-    slope = (certificate.right - certificate.left) / np.diff(certificate.position_m)
+    price = np.tile(first.cell_prices_w(timetable), count)
+    left, right = (np.concatenate([getattr(form, side) for form in forms]) for side in ("left", "right"))
+    slope = (right - left) / np.tile(np.diff(first.position_m), count)
     # p times a drag that changes along the cell bends: below its chord by a quarter of the product at most.
-    bend = np.maximum((certificate.right - certificate.left) * (cells.drag[1] - cells.drag[0]), 0.0) / 4
+    bend = np.maximum((right - left) * (cells.drag[1] - cells.drag[0]), 0.0) / 4
     a, b_1, c = vehicle.davis_n
-    p, middle = np.stack((certificate.left, certificate.right)), (certificate.left + certificate.right) / 2
+    p, middle = np.stack((left, right)), (left + right) / 2
     ranges, way = _cheapest(vehicle, cells, p, middle)
     square = p * (c + cells.drag) - bend - vehicle.inertia_kg * slope / 2 + way[3]
     shape = (len(ranges.low), *p.shape)
@@ -114,6 +124,11 @@ class _Cells:
     drag: Array
     least_force: Array
     most_force: Array
+
+    def repeated(self, count: int) -> _Cells:
+        """So many times the same cells one after another."""
+        return _Cells(np.tile(self.limit_mps, count), np.tile(self.drag, count), np.tile(self.least_force, count),
+                      np.tile(self.most_force, count))
 
 
 def _cells(course: Course, certificate: Certificate) -> _Cells:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -33,22 +34,33 @@ class FixedPart:
 def fixed_part(vehicle: Vehicle, course: Course, certificate: Certificate, timetable: Timetable, start_mps: float,
                end_mps: float) -> FixedPart:
     """Of a certificate for all runs in a timetable from one speed in m/s to another."""
-    p_left, p_right, inertia = certificate.left, certificate.right, vehicle.inertia_kg
-    x, fine = certificate.position_m, course.split(certificate.position_m[1:-1])
+    return fixed_parts(vehicle, course, [certificate], timetable, start_mps, end_mps)[0]
+
+
+def fixed_parts(vehicle: Vehicle, course: Course, forms: Sequence[Certificate], timetable: Timetable, start_mps: float,
+                end_mps: float) -> list[FixedPart]:
+    """Of several certificates on the same cells, at the same prices."""
+    inertia = vehicle.inertia_kg
+    x, fine = forms[0].position_m, course.split(forms[0].position_m[1:-1])
     owner = owner_of(x, fine.position_m)
     width = np.diff(x)[owner]
-    p = [p_left[owner] + (p_right - p_left)[owner] * (ends - x[owner]) / width
-         for ends in (fine.position_m[:-1], fine.position_m[1:])]
+    start, end = fine.position_m[:-1] - x[owner], fine.position_m[1:] - x[owner]
     g, step = fine.force_n, np.diff(fine.position_m)
-    line = step * ((p[0] * g[:, 0] + p[1] * g[:, 1]) / 3 + (p[0] * g[:, 1] + p[1] * g[:, 0]) / 6)
     jump = np.searchsorted(fine.position_m, x[1:-1])
     least, most = course.speed_windows_mps(x[1:-1])
     most = np.minimum(most, np.minimum(fine.limit_mps[jump], fine.limit_mps[jump - 1]))
-    ends = inertia / 2 * np.array([-p_left[0] * start_mps**2, p_right[-1] * end_mps**2])
-    fall = inertia / 2 * (p_right[:-1] - p_left[1:])
-    jumps = np.minimum(fall, 0.0) * most**2 + np.maximum(fall, 0.0) * least**2
-    return FixedPart(np.asarray(np.bincount(owner, line, len(p_left)), dtype=float), ends, jumps,
-                     certificate.time_part_j(timetable))
+    time_j = forms[0].time_part_j(timetable)
+
+    def of(form: Certificate) -> FixedPart:
+        p_left, p_right = form.left, form.right
+        p = [p_left[owner] + (p_right - p_left)[owner] * along / width for along in (start, end)]
+        line = step * ((p[0] * g[:, 0] + p[1] * g[:, 1]) / 3 + (p[0] * g[:, 1] + p[1] * g[:, 0]) / 6)
+        ends = inertia / 2 * np.array([-p_left[0] * start_mps**2, p_right[-1] * end_mps**2])
+        fall = inertia / 2 * (p_right[:-1] - p_left[1:])
+        jumps = np.minimum(fall, 0.0) * most**2 + np.maximum(fall, 0.0) * least**2
+        return FixedPart(np.asarray(np.bincount(owner, line, len(p_left)), dtype=float), ends, jumps, time_j)
+
+    return [of(form) for form in forms]
 
 
 def owner_of(x: Array, fine: Array) -> NDArray[np.intp]:

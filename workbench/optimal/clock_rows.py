@@ -6,7 +6,6 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy import sparse
 
 from workbench.optimal.cone_program import ConeProgram, Linear, Rule, Solution
 from workbench.optimal.course import Array
@@ -22,7 +21,7 @@ class ClockRows:
 
     timetable: Timetable
     fixed_s: Array
-    runs: sparse.csr_array
+    runs: Array
     waits: Array
 
     @property
@@ -51,16 +50,15 @@ class ClockRows:
         soon = np.flatnonzero(np.isfinite(lowest) & (np.arange(len(windows)) > 0))
 
         def clock(at: NDArray[np.intp]) -> Linear:
-            matrix = self.runs[at] @ tau.matrix + sparse.csr_array(self.waits[at]) @ wait.matrix
-            return Linear(sparse.csr_array(matrix), np.zeros(len(at)))
+            return _each(self.runs[at], tau) + _each(self.waits[at], wait)
 
         not_late = program.require_at_most(clock(late) - (highest - self.fixed_s)[late] / unit_s)
         not_soon = program.require_at_most(-1.0 * clock(soon) + (lowest - self.fixed_s)[soon] / unit_s)
         return WindowRules(late, soon, not_late, not_soon)
 
-    def between_ends(self, tau: Linear, wait: Linear) -> Array:
+    def between_ends(self, program: ConeProgram, tau: Linear, wait: Linear) -> Array:
         """What is run and freely waited from the first departure to the last arrival: a factor a variable."""
-        return np.asarray(tau.matrix.sum(axis=0)) + wait.matrix.T @ (self.waits[-1] - self.waits[0])
+        return program.factors(tau, np.ones(len(tau.constant))) + program.factors(wait, self.waits[-1] - self.waits[0])
 
     def prices(self, solved: Solution, rules: WindowRules) -> Array:
         """The price of each event in the program's unit of cost."""
@@ -78,6 +76,12 @@ class WindowRules:
     soon: NDArray[np.intp]
     not_late: Rule
     not_soon: Rule
+
+
+def _each(factors: Array, variables: Linear) -> Linear:
+    """Each row of the factors times the variables, one a row of theirs."""
+    row, column = np.nonzero(factors)
+    return Linear(row, variables.variable[column], factors[row, column], np.zeros(len(factors)))
 
 
 def clock_rows(timetable: Timetable, position_m: Array, extra_s: Array | None = None) -> ClockRows:
@@ -105,4 +109,4 @@ def clock_rows(timetable: Timetable, position_m: Array, extra_s: Array | None = 
         waits.append(list(seen))
         rows.append((np.arange(len(position_m) - 1) < node[event.point]).astype(float))
     columns = np.array(waits)
-    return ClockRows(timetable, np.array(fixed), sparse.csr_array(np.array(rows)), columns[:, columns.any(axis=0)])
+    return ClockRows(timetable, np.array(fixed), np.array(rows), columns[:, columns.any(axis=0)])

@@ -27,32 +27,38 @@ class NoPlanError(SolverError):
 
 @dataclass(frozen=True)
 class Linear:
-    """Some rows of linear expressions of the program's variables: matrix x + constant.
+    """Some rows of linear expressions of the program's variables: sums of value times variable, and a constant.
 
-    matrix: shape (rows, variables); constant: shape (rows,).
+    row, variable, value: shape (entries,), in any order; entries of the same row and variable add up. constant: shape
+    (rows,). As a sparse matrix each step of building a program would cost more than its arithmetic.
     """
 
-    matrix: sparse.csr_array
+    row: NDArray[np.intp]
+    variable: NDArray[np.intp]
+    value: Array
     constant: Array
 
     def __add__(self, other: Linear | Array | float) -> Linear:
         if isinstance(other, Linear):
-            return Linear(sparse.csr_array(self.matrix + other.matrix), self.constant + other.constant)
-        return Linear(self.matrix, self.constant + other)
+            return Linear(np.concatenate((self.row, other.row)), np.concatenate((self.variable, other.variable)),
+                          np.concatenate((self.value, other.value)), self.constant + other.constant)
+        return Linear(self.row, self.variable, self.value, self.constant + other)
 
     def __sub__(self, other: Linear | Array | float) -> Linear:
         return self + (-1.0 * other)
 
     def __rmul__(self, factor: Array | float) -> Linear:
         rows = np.broadcast_to(np.asarray(factor, dtype=float), self.constant.shape)
-        of = self.matrix
-        scaled = sparse.csr_array((of.data * np.repeat(rows, np.diff(of.indptr)), of.indices, of.indptr), of.shape)
-        return Linear(scaled, rows * self.constant)
+        return Linear(self.row, self.variable, rows[self.row] * self.value, rows * self.constant)
 
     __array_ufunc__ = None  # so that numpy leaves `array * Linear` to this class
 
     def __getitem__(self, rows: slice | NDArray[np.bool_] | NDArray[np.intp]) -> Linear:
-        return Linear(self.matrix[rows], self.constant[rows])
+        chosen = np.arange(len(self.constant))[rows]
+        place = np.full(len(self.constant), -1)
+        place[chosen] = np.arange(len(chosen))
+        kept = place[self.row] >= 0
+        return Linear(place[self.row[kept]], self.variable[kept], self.value[kept], self.constant[rows])
 
 
 @dataclass(frozen=True)
@@ -75,7 +81,8 @@ class Solution:
 
     def of(self, expression: Linear) -> Array:
         """The expression's value."""
-        return np.asarray(expression.matrix @ self.x + expression.constant)
+        terms = expression.value * self.x[expression.variable]
+        return np.asarray(np.bincount(expression.row, terms, len(expression.constant)) + expression.constant)
 
     def price(self, rule: Rule) -> Array:
         """The multipliers of a rule's rows."""
@@ -92,13 +99,16 @@ class ConeProgram:
 
     def variables(self, start: int, count: int) -> Linear:
         """Some of the variables themselves."""
-        matrix = sparse.csr_array((np.ones(count), (np.arange(count), start + np.arange(count))),
-                                  shape=(count, self.size))
-        return Linear(matrix, np.zeros(count))
+        return Linear(np.arange(count), start + np.arange(count), np.ones(count), np.zeros(count))
 
     def nothing(self, count: int) -> Linear:
         """Rows of zeros."""
-        return Linear(sparse.csr_array((count, self.size)), np.zeros(count))
+        none = np.zeros(0, dtype=np.intp)
+        return Linear(none, none, np.zeros(0), np.zeros(count))
+
+    def factors(self, expression: Linear, weight: Array) -> Array:
+        """What each variable is multiplied by in the sum of the rows times their weights, shape (size,)."""
+        return np.bincount(expression.variable, expression.value * weight[expression.row], self.size)
 
     def require_zero(self, expression: Linear) -> Rule:
         """expression = 0."""
@@ -110,10 +120,10 @@ class ConeProgram:
 
     def require_cones(self, length: Linear, one: Linear, two: Linear) -> Rule:
         """The norm of (one, two) is at most length, row by row."""
-        count = len(length.constant)
-        order = np.arange(3 * count).reshape(3, count).T.ravel()
-        stacked = Linear(sparse.csr_array(sparse.vstack([length.matrix, one.matrix, two.matrix])[order]),
-                         np.concatenate((length.constant, one.constant, two.constant))[order])
+        three = (length, one, two)
+        stacked = Linear(np.concatenate([3 * of.row + k for k, of in enumerate(three)]),
+                         np.concatenate([of.variable for of in three]), np.concatenate([of.value for of in three]),
+                         np.stack([of.constant for of in three], axis=1).ravel())
         return self._add("cone", -1.0 * stacked)
 
     def _add(self, kind: str, expression: Linear) -> Rule:
@@ -124,8 +134,13 @@ class ConeProgram:
 
     def solve(self, cost: Array, what: str) -> Solution:
         """Quickly first, then carefully; raises NoPlanError where neither way gives a solution."""
-        matrix = sparse.csc_array(sparse.vstack([block.matrix for _, block in self._blocks]))
-        right = -np.concatenate([block.constant for _, block in self._blocks])
+        blocks = [block for _, block in self._blocks]
+        starts = np.insert(np.cumsum([len(block.constant) for block in blocks]), 0, 0)
+        row = np.concatenate([block.row + start for block, start in zip(blocks, starts, strict=False)])
+        matrix = sparse.csc_matrix((np.concatenate([block.value for block in blocks]),
+                                    (row, np.concatenate([block.variable for block in blocks]))),
+                                   shape=(self._rows, self.size))
+        right = -np.concatenate([block.constant for block in blocks])
         cones: list[object] = []
         for kind, block in self._blocks:
             count = len(block.constant)
@@ -138,7 +153,7 @@ class ConeProgram:
         for is_quick in (True, False):
             started = time.perf_counter()
             answer = clarabel.DefaultSolver(sparse.csc_matrix((self.size, self.size)), cost,
-                                            sparse.csc_matrix(matrix), right, cones, _settings(is_quick)).solve()
+                                            matrix, right, cones, _settings(is_quick)).solve()
             spent += time.perf_counter() - started
             status = str(answer.status)
             found = Solution(np.asarray(answer.x), np.asarray(answer.z), float(answer.obj_val), status, spent)

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from itertools import pairwise
 
 import numpy as np
+from numba import njit
 from numpy.typing import NDArray
 
 from workbench.optimal.course import Array, Course
@@ -15,6 +16,10 @@ STOP_REACH_M, STOP_WEIGHT = 2500.0, 0.5
 CHANGE_REACH_M, CHANGE_WEIGHT = 1500.0, 0.15
 # Between two borders that every mesh has.
 LEAST_INTERVALS = 3
+# A node of another mesh is left out where it lies nearer to a border than this share of its distance to its neighbours.
+NEAR_BORDER = 0.3
+# By which share a mean over an interval may differ between courses that are the same.
+ROUNDING = 1e-9
 
 
 @dataclass(frozen=True)
@@ -39,6 +44,15 @@ class Grid:
     def step_m(self) -> Array:
         """Lengths of the intervals."""
         return np.diff(self.position_m)
+
+    def is_like(self, other: Grid) -> bool:
+        """Whether plans know no difference: the same nodes, limits and stops, and forces and drag but for rounding."""
+        exact = ((self.position_m, other.position_m), (self.node_limit_mps, other.node_limit_mps),
+                 (self.node_least_mps, other.node_least_mps), (self.limit_mps, other.limit_mps),
+                 (self.stands, other.stands))
+        near = ((self.force_n, other.force_n), (self.drag, other.drag))
+        return all(np.array_equal(one, two) for one, two in exact) and all(
+            np.allclose(one, two, rtol=ROUNDING, atol=ROUNDING * float(np.abs(one).max())) for one, two in near)
 
 
 def kept_borders(course: Course) -> Array:
@@ -96,6 +110,21 @@ def graded_grid(course: Course, intervals: int) -> Grid:
     return shared_out(course, kept, sample, share)
 
 
+def grid_near(course: Course, nodes: Array) -> Grid:
+    """A mesh on the nodes of a mesh of nearly this course, with the borders that this one keeps."""
+    kept = kept_borders(course)
+    free = nodes[(nodes > kept[0]) & (nodes < kept[-1]) & ~np.isin(nodes, kept)]
+    gap = np.searchsorted(kept, free) - 1
+    off = np.minimum(free - kept[gap], kept[gap + 1] - free)
+    step = np.diff(free, prepend=-np.inf, append=np.inf)
+    well = off > NEAR_BORDER * np.minimum(step[1:], step[:-1])
+    free, gap = free[well], gap[well]
+    few = np.flatnonzero(np.bincount(gap, minlength=len(kept) - 1) < LEAST_INTERVALS - 1)
+    evenly = np.arange(1, LEAST_INTERVALS) / LEAST_INTERVALS
+    added = (kept[few, None] + np.diff(kept)[few, None] * evenly).ravel()
+    return grid_on(course, np.unique(np.concatenate((kept, free[~np.isin(gap, few)], added))))
+
+
 def shared_out(course: Course, kept: Array, sample: Array, share: Array) -> Grid:
     """A mesh between the borders that are kept, whose intervals begin where `share`, the count of them up to each
     place of `sample`, is a whole number from one kept border on."""
@@ -114,10 +143,15 @@ def _around(centers: Array, reach: float, start: float, end: float) -> Array:
 
 def with_force_borders(course: Course, nodes: Array, kept: Array) -> Array:
     """Move the nearest free node onto each border of the line's force that stands well apart from the others."""
-    movable = ~np.isin(nodes, kept)
-    moved = nodes.copy()
-    for border in course.position_m[1:-1]:
-        k = int(np.clip(np.searchsorted(moved, border), 1, len(moved) - 1))
+    return np.asarray(_moved(nodes, ~np.isin(nodes, kept), course.position_m))
+
+
+@njit(cache=True)
+def _moved(nodes: Array, free: NDArray[np.bool_], borders: Array) -> Array:
+    """Each move changes what lies near the next border, so that they are made one after the other."""
+    moved, movable = nodes.copy(), free.copy()
+    for border in borders[1:-1]:
+        k = min(max(np.searchsorted(moved, border), 1), len(moved) - 1)
         near = k if moved[k] - border < border - moved[k - 1] else k - 1
         if movable[near] and moved[near - 1] < border < moved[near + 1]:
             room = min(border - moved[near - 1], moved[near + 1] - border)

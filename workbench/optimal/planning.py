@@ -12,6 +12,7 @@ from workbench.optimal.best_forms import best_forms
 from workbench.optimal.bound import lower_bound
 from workbench.optimal.certificate import Certificate
 from workbench.optimal.course import Array
+from workbench.optimal.envelope import fastest
 from workbench.optimal.fit_times import fitted
 from workbench.optimal.grid import Grid
 from workbench.optimal.profile import Profile
@@ -27,6 +28,8 @@ PARTS = 8
 # Shares of the trip time, and of the energy at the price of time, by which a drivable run may be off before the plan
 # itself is made again, so many times: to mix it with the fastest run costs more than its price.
 OFF, LATE, PLANS = 2e-5, 2e-4, 3
+# Below so many times the least time next to nothing of a program can be left out.
+TIGHT = 1.002
 # By which a run may be slower at a timing point than asked, m/s.
 SPEED_ERROR_MPS = 1e-6
 
@@ -50,7 +53,7 @@ Planner = Callable[[Asked, Grid, Array, Profile], tuple[Plan, str]]
 class Planned:
     """The plan for the asked times and its run, which may be off; a run in time or its miss, None where it passes a
     timing point below its least speed; the best bound, J, of the plan's multipliers and what proves it; the solver's
-    seconds and name.
+    seconds and name; the plan of the run in time, and what that was told its legs take longer, s.
     """
 
     plan: Plan
@@ -60,11 +63,16 @@ class Planned:
     certificate: Certificate
     solve_s: float
     solver: str
+    last: Plan
+    extra_s: Array
 
 
-def planned(asked: Asked, planner: Planner, grid: Grid, guess: Profile, near: float, *,
-            is_last: bool) -> Planned | None:
+def planned(asked: Asked, planner: Planner, grid: Grid, guess: Profile, near: float, *, is_last: bool,
+            known: Planned | None = None) -> Planned | None:
     """What comes of planning on a mesh; None where the solver found no plan.
+
+    known: what came of it on this mesh for a train that may use more of its forces. Plans and bounds do not count on
+    what a run keeps back, so that its plan is driven anew, and made anew only where that is off.
 
     Where the run is off, the plan is made again with what the run takes longer, or less where more time would save,
     unless a finer mesh is to follow, because the plan's energy lies apart from its bound by more than the share `near`.
@@ -72,22 +80,26 @@ def planned(asked: Asked, planner: Planner, grid: Grid, guess: Profile, near: fl
     timetable = asked.timetable
     least = leg_times(timetable, asked.quickest)
     allowed = OFF * (timetable.points[-1].arrival.latest_s - timetable.origin_s)
-    extra, spent = np.zeros(len(timetable.points) - 1), 0.0
+    extra, spent = np.zeros(len(timetable.points) - 1) if known is None else known.extra_s, 0.0
     first: tuple[Plan, Profile, str, float, Certificate] | None = None
-    for _ in range(PLANS):
+    for number in range(PLANS):
         try:
-            plan, solver = planner(asked, grid, extra, guess)
+            tried, solver = (known.last, known.solver) if known and not number else planner(asked, grid, extra, guess)
         except NoPlanError:
             break
-        spent += plan.solve_s
+        plan, spent = tried, spent + (0.0 if known and not number else tried.solve_s)
+        told = extra
         profile, now, legs = _driven(asked, plan, least)
         off = now - (now if legs is None else legs)
-        first = first or (plan, profile, solver, *_best_bound(asked, plan))
+        first = first or ((known.plan, profile, solver, known.bound_j, known.certificate) if known
+                          else (plan, profile, solver, *_best_bound(asked, plan)))
         priced = LATE * abs(plan.energy_j) / max(float(plan.interval_prices_w.max()), 1e-300)
         early = _early(timetable, now)
         is_early = early * float(plan.prices_w[-1]) > LATE * abs(plan.energy_j)
         if (not is_early and float(np.abs(off).sum()) <= min(allowed, priced)) or not (
                 is_last or abs(first[0].energy_j - first[3]) <= near * abs(first[0].energy_j)):
+            break
+        if now.sum() > (timetable.trip_time_s or np.inf) and _too_late(asked, profile):
             break
         extra = extra + off - (early if is_early else 0.0)
     if first is None:
@@ -95,7 +107,13 @@ def planned(asked: Asked, planner: Planner, grid: Grid, guess: Profile, near: fl
     if legs is not None:
         profile = fitted(asked.vehicle, profile, asked.quickest, timetable, legs, asked.start_mps, asked.end_mps)
     timed = None if _too_slow(timetable, profile) else timed_run(asked.vehicle, timetable, profile)
-    return Planned(first[0], first[1], timed, first[3], first[4], spent, first[2])
+    return Planned(first[0], first[1], timed, first[3], first[4], spent, first[2], plan, told)
+
+
+def _too_late(asked: Asked, profile: Profile) -> bool:
+    """Whether the fastest run on the cells of a run is too late as well: then other plans are no help."""
+    quick = fastest(asked.vehicle, profile.course, asked.start_mps, asked.end_mps)
+    return quick.trip_time_s > (asked.timetable.trip_time_s or np.inf)
 
 
 def _too_slow(timetable: Timetable, profile: Profile) -> bool:
@@ -128,7 +146,9 @@ def _driven(asked: Asked, plan: Plan, least_s: Array) -> tuple[Profile, Array, A
 
 def cone_plan(asked: Asked, grid: Grid, extra_s: Array, _: Profile) -> tuple[Plan, str]:
     """By the cone program."""
-    return solve_socp(asked.vehicle, grid, asked.timetable, asked.start_mps, asked.end_mps, extra_s), "clarabel"
+    tight = (asked.timetable.trip_time_s or np.inf) < TIGHT * asked.quickest.trip_time_s
+    return solve_socp(asked.vehicle, grid, asked.timetable, asked.start_mps, asked.end_mps, extra_s,
+                      whole=tight), "clarabel"
 
 
 def nonlinear_plan(asked: Asked, grid: Grid, extra_s: Array, guess: Profile) -> tuple[Plan, str]:

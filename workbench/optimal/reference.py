@@ -14,7 +14,7 @@ from workbench.optimal.bound import lower_bound
 from workbench.optimal.certificate import Certificate
 from workbench.optimal.course import Array, Course
 from workbench.optimal.envelope import InfeasibleRunError, fastest, with_fine_cells
-from workbench.optimal.grid import Grid, graded_grid, kept_borders
+from workbench.optimal.grid import Grid, graded_grid, grid_near, kept_borders
 from workbench.optimal.planning import Asked, Planned, Planner, cone_plan, nonlinear_plan, planned
 from workbench.optimal.profile import Profile
 from workbench.optimal.schedule import SLOWER, SLOWEST_MEAN_MPS, Miss, require_plausible, require_possible
@@ -33,6 +33,8 @@ FAILURES, FINER = 4, 2
 # A round that leaves more than this share of a gap is the last. Above the other gap `auto` turns to the nonlinear
 # program.
 NO_GAIN, GAP_OF_CONES = 0.9, 1e-3
+# A mesh with so many times the intervals of a first one was refined: one to begin a like request with.
+REFINED = 1.3
 # Cells of the fastest run.
 FASTEST_CELLS = 4000
 # A run whose energy is proven to lie within this share above the least possible one is called optimal.
@@ -49,8 +51,8 @@ class Reference:
 
     clock_s: the time of each event of the timetable. solver: what planned it; solve_s: its time. least_time_s: of the
     fastest run, without waiting. waits_j: what auxiliaries draw at stops where only a trip time was asked: part of both
-    energies, not of what the certificate proves. status: 'optimal' where the gap is at most 1 per cent, else
-    'feasible'.
+    energies, not of what the certificate proves. planned: the plan below the run, None where that is the fastest one.
+    status: 'optimal' where the gap is at most 1 per cent, else 'feasible'.
     """
 
     vehicle: Vehicle
@@ -65,6 +67,7 @@ class Reference:
     solve_s: float
     check: Check
     waits_j: float = 0.0
+    planned: Planned | None = None
 
     @property
     def gap(self) -> float:
@@ -78,10 +81,12 @@ class Reference:
 
 
 def find_reference(vehicle: Vehicle, course: Course, trip_time_s: float, start_mps: float = 0.0, end_mps: float = 0.0,
-                   intervals: int | None = None, solver: Solver = "auto", waited_s: float = 0.0) -> Reference:
+                   intervals: int | None = None, solver: Solver = "auto", waited_s: float = 0.0,
+                   like: Reference | None = None) -> Reference:
     """The run of least energy that arrives within trip_time_s, on about so many intervals.
 
-    waited_s: how much of that time it waits at its stops, while auxiliaries draw.
+    waited_s: how much of that time it waits at its stops, while auxiliaries draw. like: one of nearly this request,
+    to begin with: on its mesh where that was refined, and by its plan where all that differs is `Course.usable`.
 
     Where no number is given the mesh is refined, up to ROUNDS times, until the gap is at most GAP_OF_CONES, unless the
     first mesh leaves GAP_WANTED. `auto` plans by the cone program, and by the nonlinear one too where more is left.
@@ -99,7 +104,8 @@ def find_reference(vehicle: Vehicle, course: Course, trip_time_s: float, start_m
         raise InputError("", "time", f"{trip_time_s:g} s for {course.length_m:.0f} m is less than {SLOWEST_MEAN_MPS:g} "
                          "m/s on average: is it in seconds?")
     try:
-        found = find_timed_reference(vehicle, course, in_time(course, running_s), start_mps, end_mps, intervals, solver)
+        found = find_timed_reference(vehicle, course, in_time(course, running_s), start_mps, end_mps, intervals, solver,
+                                     like)
     except InfeasibleRunError as trouble:
         if trouble.least_time_s is None or not waited_s:
             raise
@@ -110,7 +116,8 @@ def find_reference(vehicle: Vehicle, course: Course, trip_time_s: float, start_m
 
 
 def find_timed_reference(vehicle: Vehicle, course: Course, timetable: Timetable, start_mps: float = 0.0,
-                         end_mps: float = 0.0, intervals: int | None = None, solver: Solver = "auto") -> Reference:
+                         end_mps: float = 0.0, intervals: int | None = None, solver: Solver = "auto",
+                         like: Reference | None = None) -> Reference:
     """The run of least energy that meets every window of a timetable, as `find_reference`.
 
     Raises InputError for windows in another unit, InfeasibleRunError where no run meets the timetable, and where none
@@ -128,17 +135,38 @@ def find_timed_reference(vehicle: Vehicle, course: Course, timetable: Timetable,
     best = _Found(None if isinstance(run, Miss) else run,
                   lower_bound(vehicle, course, nothing, timetable, start_mps, end_mps), nothing, 0.0, FASTEST)
     grid = graded_grid(course, intervals or INTERVALS + STOP_INTERVALS * len(course.stops_m))
+    rounds, known = 1 if intervals else ROUNDS, None
+    if like is not None and like.planned is not None:
+        known = _known(asked, course, like, like.planned)
+        if known is not None:
+            grid, rounds = known.plan.grid, 1
+        elif intervals is None and len(like.planned.plan.force_n) > REFINED * len(grid.limit_mps):
+            grid = grid_near(course, like.planned.plan.grid.position_m)
     if solver != "nlp":
-        best = _rounds(asked, cone_plan, grid, best, 1 if intervals else ROUNDS)
+        best = _rounds(asked, cone_plan, grid, best, rounds, known)
     # Where the cones have no plan on a mesh the nonlinear program, which has all of their limits, has none either.
     if solver == "nlp" or (solver == "auto" and best.gap > GAP_OF_CONES and not best.tight):
-        best = _rounds(asked, nonlinear_plan, grid, best, 1)
+        best = _rounds(asked, nonlinear_plan, grid, best, 1, known if solver == "nlp" else None)
     if best.run is None:
         raise InfeasibleRunError(not_found(timetable, best.miss))
     profile, simulated = best.run.profile, check(vehicle, best.run.profile)
     simulated = replace(simulated, energy_j=simulated.energy_j + vehicle.auxiliary_w * best.run.waited_s)
     return Reference(vehicle, profile, best.run.energy_j, best.bound_j, best.certificate, timetable,
-                     best.run.clock_s, quickest.trip_time_s, best.solver, best.solve_s, simulated)
+                     best.run.clock_s, quickest.trip_time_s, best.solver, best.solve_s, simulated, planned=best.planned)
+
+
+def _known(asked: Asked, course: Course, like: Reference, of: Planned) -> Planned | None:
+    """The plan of another reference with its bound on this course; None where it is of another request."""
+    if like.timetable != asked.timetable or like.vehicle != asked.vehicle:
+        return None
+    grid = grid_near(course, of.plan.grid.position_m)
+    if not of.plan.grid.is_like(grid) or not np.array_equal(
+            of.plan.half_square[[0, -1]], np.array([asked.start_mps, asked.end_mps])**2 / 2):
+        return None
+    # What is proven is worked out anew on this course: nothing hangs on both being alike.
+    bound = lower_bound(asked.vehicle, course, like.certificate, asked.timetable, asked.start_mps, asked.end_mps)
+    return replace(of, plan=replace(of.plan, grid=grid), last=replace(of.last, grid=grid), bound_j=bound,
+                   certificate=like.certificate)
 
 
 def least_time(vehicle: Vehicle, course: Course, start_mps: float = 0.0, end_mps: float = 0.0) -> Profile:
@@ -168,6 +196,7 @@ class _Found:
     solver: str
     miss: Miss | None = None
     tight: bool = False
+    planned: Planned | None = None
 
     @property
     def gap(self) -> float:
@@ -184,21 +213,22 @@ class _Found:
         # On a coarse mesh a run may pass its limits within cells, and seem to take less than any run can.
         floor = proven - CELLS_ERROR * abs(proven)
         less = new < old if (new >= floor) == (old >= floor) else new >= floor
-        return replace(more, run=run, solver=found.solver) if less or self.run is None else more
+        return replace(more, run=run, solver=found.solver, planned=found) if less or self.run is None else more
 
 
 def _gap(energy: float, bound: float) -> float:
     return (energy - bound) / abs(energy) if energy else energy - bound
 
 
-def _rounds(asked: Asked, planner: Planner, grid: Grid, best: _Found, rounds: int) -> _Found:
+def _rounds(asked: Asked, planner: Planner, grid: Grid, best: _Found, rounds: int,
+            known: Planned | None = None) -> _Found:
     """The best after planning on finer and finer meshes, until the gap is small or finer ones do not help."""
     vehicle, course = asked.vehicle, grid.course
     number = failures = 0
     while number < rounds:
         before = best.gap
         found = planned(asked, planner, grid, best.run.profile if best.run else asked.quickest, GAP_OF_CONES,
-                        is_last=number == rounds - 1)
+                        is_last=number == rounds - 1, known=known)
         if found is None:
             failures += 1
             if best.solver != FASTEST or failures == FAILURES or rounds == 1:

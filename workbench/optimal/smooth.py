@@ -17,7 +17,6 @@ from workbench.optimal.course import Array, Course
 from workbench.optimal.envelope import InfeasibleRunError
 from workbench.optimal.force_reserve import Reserve, force_samples, more_reserves, with_reserves
 from workbench.optimal.planned_ahead import planned_ahead, waits
-from workbench.optimal.planning import PARTS
 from workbench.optimal.profile import Profile
 from workbench.optimal.reference import Reference, Solver, find_reference, find_timed_reference
 from workbench.optimal.smooth_run import SmoothRun
@@ -95,17 +94,20 @@ class SmoothReference:
 
 def smooth_reference(vehicle: Vehicle, course: Course, asked: Timetable | float, window_s: float = WINDOW_S,
                      max_jerk_mps3: float | None = None, dwell_s: float = 0.0, start_mps: float = 0.0,
-                     end_mps: float = 0.0, intervals: int | None = None, solver: Solver = "auto") -> SmoothReference:
+                     end_mps: float = 0.0, intervals: int | None = None, solver: Solver = "auto",
+                     like: Reference | None = None) -> SmoothReference:
     """A smooth run in a timetable, or in a trip time in s that includes dwell_s at each inner stop.
 
     A run that begins or ends at a speed keeps it for half a window there. With a limit of the jerk the window is made
-    as long as it takes. Raises InputError, InfeasibleRunError.
+    as long as it takes. like: the run of least energy of this request, where that is known. Raises InputError,
+    InfeasibleRunError.
     """
     if not window_s > 0 or (max_jerk_mps3 is not None and not max_jerk_mps3 > 0):
         raise InputError("", "window", "the smoothing window and the limit of the jerk must be positive: correct them")
     wait = max(dwell_s, window_s) if course.stops_m else 0.0
     for _ in range(JERK_ROUNDS):
-        request = _Request(vehicle, course, asked, window_s, wait, start_mps, end_mps, intervals, solver)
+        request = _Request(vehicle, course, asked, window_s, wait, start_mps, end_mps, intervals, solver,
+                           like)
         found = _within_limits(request)
         jerk = found.max_jerk_mps3
         if max_jerk_mps3 is None or jerk <= max_jerk_mps3:
@@ -117,7 +119,8 @@ def smooth_reference(vehicle: Vehicle, course: Course, asked: Timetable | float,
 
 @dataclass(frozen=True)
 class _Request:
-    """What is asked of a smooth run for one window; wait_s: at each inner stop of a trip time."""
+    """What is asked of a smooth run for one window; wait_s: at each inner stop of a trip time. like: a reference of
+    nearly this request."""
 
     vehicle: Vehicle
     course: Course
@@ -128,6 +131,7 @@ class _Request:
     end_mps: float
     intervals: int | None
     solver: Solver
+    like: Reference | None
 
 
 def _within_limits(request: _Request) -> SmoothReference:
@@ -142,9 +146,8 @@ def _within_limits(request: _Request) -> SmoothReference:
     for number in range(FORCE_ROUNDS):
         try:
             run, optimal = _averaged(request, reserves)
-            if not number:  # the same mesh from now on, and cones: a bound that knows no reserves says nothing of it
-                mesh = request.intervals or (len(optimal.profile.half_square) - 1) // PARTS
-                request = replace(request, intervals=mesh, solver="nlp" if request.solver == "nlp" else "socp")
+            # The same plan from now on, and cones: a bound that knows no reserves says nothing of it.
+            request = replace(request, like=optimal, solver="nlp" if request.solver == "nlp" else "socp")
         except InfeasibleRunError as trouble:
             if not number:
                 raise
@@ -184,14 +187,15 @@ def _averaged(request: _Request, reserves: tuple[Reserve, ...]) -> tuple[SmoothR
         lowered = lowered.cut(start + ends[0] * window_s / 2, end - ends[1] * window_s / 2)
     if isinstance(asked, Timetable):
         ahead = planned_ahead(asked, window_s, _margin(vehicle, window_s), lowered)
-        optimal = find_timed_reference(vehicle, lowered, ahead, *ends, request.intervals, request.solver)
+        optimal = find_timed_reference(vehicle, lowered, ahead, *ends, request.intervals, request.solver,
+                                       request.like)
         return smoothed(optimal.profile, window_s, waits(optimal.timetable, optimal.clock_s)), optimal
     spare = asked - window_s - len(course.stops_m) * request.wait_s
     if spare <= 0:
         waiting = f" and {len(course.stops_m)} stops of {request.wait_s:g} s" if course.stops_m else ""
         raise InfeasibleRunError(f"smoothing over {window_s:.4g} s{waiting} leave nothing of {asked:g} s to run: allow "
                                  "more time")
-    optimal = find_reference(vehicle, lowered, spare, *ends, request.intervals, request.solver)
+    optimal = find_reference(vehicle, lowered, spare, *ends, request.intervals, request.solver, like=request.like)
     return smoothed(optimal.profile, window_s, request.wait_s), optimal
 
 

@@ -12,7 +12,6 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy import sparse
 
 from workbench.optimal.clock_rows import clock_rows
 from workbench.optimal.cone_program import ConeProgram, Linear, NoPlanError
@@ -63,14 +62,14 @@ class Plan:
 
 
 def solve_socp(vehicle: Vehicle, grid: Grid, asked: Timetable | float, start_mps: float = 0.0,
-               end_mps: float = 0.0, extra_s: Array | None = None) -> Plan:
+               end_mps: float = 0.0, extra_s: Array | None = None, *, whole: bool = False) -> Plan:
     """The run of least energy in a timetable or a trip time in s; raises NoPlanError where clarabel finds none.
 
     extra_s: seconds that each leg between timing points takes beyond what the program knows; none where not given.
-    A large program is solved on a coarser mesh first, and then without what that leaves no use for.
+    A large program is solved on a coarser mesh first, and then without what that leaves no use for, unless `whole`.
     """
     ends, spent = (start_mps, end_mps), 0.0
-    if len(grid.limit_mps) >= COARSE_FIRST:
+    if len(grid.limit_mps) >= COARSE_FIRST and not whole:
         try:
             coarse, price = _solve(vehicle, thinned(grid), asked, ends, extra_s=extra_s)
             spent = coarse.solve_s
@@ -138,9 +137,9 @@ def _solve(vehicle: Vehicle, grid: Grid, asked: Timetable | float, ends_mps: tup
     program.require_cones(b[free] + 1.0, 2.0 * v[free], b[free] - 1.0)
     program.require_cones(tau + 2.0 * v_mean, tau - 2.0 * v_mean,
                           program.nothing(n) + 2 * np.sqrt(2 * h / (mean_time * speed)))
-    used = pull.matrix.T @ h / vehicle.traction_efficiency
-    returned = vehicle.regenerative_efficiency * (brake.matrix.T @ h)
-    drawn = vehicle.auxiliary_w * mean_time / work * clock.between_ends(tau, wait)
+    used = program.factors(pull, h) / vehicle.traction_efficiency
+    returned = vehicle.regenerative_efficiency * program.factors(brake, h)
+    drawn = vehicle.auxiliary_w * mean_time / work * clock.between_ends(program, tau, wait)
     found = program.solve((used - returned) / grid.course.length_m + drawn,
                           f"the cone program of {n} intervals for {clock.horizon_s:g} s")
     price = row * found.price(motion) * work / (force * h)
@@ -185,8 +184,7 @@ def _where(program: ConeProgram, used: Mask, start: int, count: int) -> Linear:
     if not count:
         return program.nothing(len(used))
     at = np.flatnonzero(used)
-    place = sparse.csr_array((np.ones(count), (at, start + np.arange(count))), shape=(len(used), program.size))
-    return Linear(place, np.zeros(len(used)))
+    return Linear(at, start + np.arange(count), np.ones(count), np.zeros(len(used)))
 
 
 def _require_limits(program: ConeProgram, force: Linear, limit: ForceLimit, grid: Grid,

@@ -107,7 +107,7 @@ def _timed_run(asked: Request, line: Line, vehicle: Vehicle, train: CarTrain | N
         yield checked_bound(asked, vehicle, run, timetable)
         return
     found = find_timed_reference(vehicle, run, timetable, speeds[0], speeds[1], asked.intervals, asked.solver)
-    smooth = _smooth(asked, vehicle, run, timetable)
+    smooth = _smooth(asked, vehicle, run, timetable, found)
     cars = _cars(train, line, run, smooth)
     answer = _Answer(found, smooth, check_smooth(vehicle, run, smooth.run), cars)
     yield from _told(asked, line, vehicle, run, notes, answer, run.stops_m)
@@ -132,13 +132,14 @@ def _solve(asked: Request, vehicle: Vehicle, run: Course, dwell_s: float) -> tup
     assert asked.trip_time_s is not None
     ends = asked.start_mps, asked.end_mps
     found = find_reference(vehicle, run, asked.trip_time_s, *ends, asked.intervals, asked.solver, dwell_s)
-    return found, _smooth(asked, vehicle, run, asked.trip_time_s)
+    return found, _smooth(asked, vehicle, run, asked.trip_time_s, found)
 
 
-def _smooth(asked: Request, vehicle: Vehicle, run: Course, within: Timetable | float) -> SmoothReference:
+def _smooth(asked: Request, vehicle: Vehicle, run: Course, within: Timetable | float,
+            found: Reference) -> SmoothReference:
     try:
         return smooth_reference(vehicle, run, within, asked.window_s, asked.max_jerk_mps3, asked.dwell_s,
-                                asked.start_mps, asked.end_mps, asked.intervals, asked.solver)
+                                asked.start_mps, asked.end_mps, asked.intervals, asked.solver, found)
     except InfeasibleRunError as trouble:
         raise InfeasibleRunError(f"the run itself is feasible, its smooth reference is not: {trouble}; or choose a "
                                  "shorter --window", trouble.least_time_s) from None
