@@ -87,6 +87,17 @@ def test_a_note_names_lines_as_the_paper_does():
             "4.2 remain.\n") in markdown(errata(decisions, CITATION))
 
 
+def test_the_lines_that_a_mended_proof_uses_are_proved_too():
+    uses = {"theorem1.mended": ("doe2026:7.glyph", "doe2026:6"), "7.glyph": ("doe2026:lemma2",)}
+    rows = [replace(d, claim=replace(d.claim, premises=uses.get(d.claim.equation, ()))) for d in paper()]
+    text = markdown(errata(rows, CITATION))
+    lemma = text[text.index("## The lines that these proofs use"):text.index("## How to re-check")]
+    assert lemma.count("###") == 2 and lemma.index("### Equation (7)") < lemma.index("### Lemma 2")
+    assert lemma.count(r"To show: $z_{1}^{2} \ge 0$.") == 2
+    assert "certificates/lemma2.json --claim-digest" in lemma and "the line 6” (gap)" not in lemma
+    assert "these proofs use" not in markdown(errata(paper(), CITATION))
+
+
 def test_the_commands_it_names_re_check_the_certificates(tmp_path):
     (tmp_path / "checker.py").write_text(Path(checker.__file__).read_text())
     (tmp_path / "certificates").mkdir()
