@@ -14,9 +14,10 @@ from __future__ import annotations
 
 from workbench.proof.paper import Paper
 
+from .letters import LETTERS
 from .notation import NOTATION
 
-paper = Paper("chen2019", " ".join((__doc__ or "").split("\n\n")[1].split()), notation=NOTATION)
+paper = Paper("chen2019", " ".join((__doc__ or "").split("\n\n")[1].split()), NOTATION, LETTERS)
 
 # What claims hold for.
 EVERY_TRAIN = "every number of cars, every A and phi (car by car under the sum)"

@@ -16,9 +16,10 @@ from __future__ import annotations
 
 from workbench.proof.paper import Paper
 
+from .letters import LETTERS
 from .notation import NOTATION
 
-paper = Paper("liu2020", " ".join((__doc__ or "").split("\n\n")[1].split()), notation=NOTATION)
+paper = Paper("liu2020", " ".join((__doc__ or "").split("\n\n")[1].split()), NOTATION, LETTERS)
 
 # What claims hold for.
 EVERY_NETWORK = "every number of neurons and every hidden function (term by term under the sum)"

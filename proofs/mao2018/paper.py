@@ -12,6 +12,7 @@ from __future__ import annotations
 
 from workbench.proof.paper import Paper
 
+from .letters import LETTERS
 from .notation import NOTATION
 
-paper = Paper("mao2018", " ".join((__doc__ or "").split("\n\n")[1].split()), NOTATION)
+paper = Paper("mao2018", " ".join((__doc__ or "").split("\n\n")[1].split()), NOTATION, LETTERS)

@@ -86,11 +86,12 @@ def test_committed_certificates_are_those_of_the_decisions(paper, decisions):
 
 @pytest.mark.parametrize("paper", PAPERS)
 def test_the_committed_errata_are_what_is_made_now(paper, decisions):
-    citation = next(found.citation for found in collect_papers([PROOFS / paper]) if found.name == paper)
+    stated = next(found for found in collect_papers([PROOFS / paper]) if found.name == paper)
     own = [d for d in decisions.values() if d.claim.paper == paper]
     folder = PROOFS.parent / "docs" / "errata" / paper
-    assert errata_texts(own, citation)["errata.md"] == (folder / "errata.md").read_text(encoding="utf-8")
-    assert pdf_of(errata(own, citation)) == (folder / "errata.pdf").read_bytes()
+    texts = errata_texts(own, stated.citation, stated.letters)
+    assert texts["errata.md"] == (folder / "errata.md").read_text(encoding="utf-8")
+    assert pdf_of(errata(own, stated.citation, stated.letters)) == (folder / "errata.pdf").read_bytes()
 
 
 def test_no_certificate_is_left_of_a_claim_that_is_no_longer_made(decisions):

@@ -12,7 +12,7 @@ from workbench.proof.verdict import Decision, Stated, verdict_words
 from workbench.report.errata.blocks import Paragraph
 from workbench.report.errata.content import errata
 from workbench.report.finding import findings
-from workbench.report.finding_sentences import correction_sentence
+from workbench.report.finding_sentences import condition_sentence, correction_sentence, sentences
 
 
 def decided(equation, verdict, *premises, **more):
@@ -57,6 +57,8 @@ def test_a_headline_and_a_mended_one_need_premises_that_are_shown(verdict):
 def test_findings_and_errata_say_under_what_a_mended_line_is_proved():
     rows = judged([decided("1", "gap"), decided("2", "refuted"), decided("2.mended", "proved", "1", mends="p2020:2")])
     found = next(f for f in findings(rows) if f.equation == "2")
-    assert correction_sentence(found) == "It should read $x = y$, where equation (1) holds."
+    assert correction_sentence(found) == "It should read $x = y$."
+    assert condition_sentence(found) == "That is proved only where equation (1) holds, which is not shown."
     texts = " ".join(block.text for block in errata(rows, "cited") if isinstance(block, Paragraph))
+    assert condition_sentence(found) in texts and condition_sentence(found) in sentences(found)
     assert "1 of them only where lines hold that are not shown" in texts

@@ -51,11 +51,51 @@ def test_what_a_counterexample_is_given_can_be_followed():
     assert "**Given:**\n\n$$\nz_{2} \\le k\\quad\\text{where}\\ z_{2} = -2\n$$" in text
 
 
+def test_a_motion_is_written_out_with_the_loop_that_it_obeys_once():
+    """Without the loop and its constants nobody can put a motion in."""
+    loop = {"always": ["z_dot == k*z - k", "c_dot == m", "z >= 0"], "assume": ["k > 0", "m <= k"], "eventually": "t",
+            "flow": {"z": "z_dot", "c": "c_dot", "t": "1"}, "inputs": ["z_dot", "c_dot"]}
+    motion = {"claim": "", "version": 2, "verdict": "refuted", "functions": {"z": "1", "c": "3*t"},
+              "point": {"k": "5", "m": "3", "epsilon": "1/4"}}
+    rows = [replace(d, certificate=motion | {"goal": loop | {"show": [show]}}, correction=None)
+            for d, show in zip((paper()[0], paper()[3]), ("c <= epsilon", "z <= epsilon"), strict=True)]
+    found = counterexample_of(rows[1].certificate)
+    assert found.motion and found.given == (r"m \le k", r"\dot{z} = k z - k", r"\dot{c} = m")
+    assert set(found.beside) == {"k = 5", "m = 3"}
+    text = markdown(errata(rows, CITATION))
+    assert text.count("**What holds at all times:**") == 1 and text.count(r"\dot{z} = k z - k") == 1
+    assert "What is assumed there, and where, is written out in correction 1." in text
+    many = loop | {"always": [f"c_dot == {'m + ' * 60}{n}" for n in range(9)], "show": ["z <= epsilon"]}
+    text = markdown(errata([replace(rows[1], certificate=motion | {"goal": many})], CITATION))
+    assert text.count("$$\n\\dot{c} = m + m") == 9 and "**Where:**" in text  # a line for each
+
+
+def test_how_a_line_was_read_and_what_letters_stand_for_is_said():
+    rows = [replace(d, claim=replace(d.claim, reading="theta_hat is read as z_1.")) if d.claim.equation == "6" else d
+            for d in paper()]
+    text = markdown(errata(rows, CITATION, {"k": r"the root of $\Gamma$", "z_1": "an entry of z_tilde"}))
+    assert "**Read as.** $\\hat{\\theta}$ is read as $z_{1}$." in text
+    assert "**Letters.** $k$ is the root of $\\Gamma$." in text[text.index("### 3."):text.index("### 4.")]
+    assert "**Letters.** $z_{1}$ is an entry of $\\tilde{z}$." in text[text.index("Theorem 1, mended"):]
+    assert "**Letters.**" not in markdown(errata(rows, CITATION))
+
+
 def test_a_note_names_lines_as_the_paper_does():
     note = "See 6, theorem1.mended (7.glyph) and A4; 7.5 % of 4.2 remain."
     decisions = [replace(d, claim=replace(d.claim, note=note)) if d.claim.equation == "4" else d for d in paper()]
     assert ("**Note.** See 6, Theorem 1 “the line theorem1.mended” (equation (7) “the line 7.glyph”) and A4; 7.5 % of "
             "4.2 remain.\n") in markdown(errata(decisions, CITATION))
+
+
+def test_the_lines_that_a_mended_proof_uses_are_proved_too():
+    uses = {"theorem1.mended": ("doe2026:7.glyph", "doe2026:6"), "7.glyph": ("doe2026:lemma2",)}
+    rows = [replace(d, claim=replace(d.claim, premises=uses.get(d.claim.equation, ()))) for d in paper()]
+    text = markdown(errata(rows, CITATION))
+    lemma = text[text.index("## The lines that these proofs use"):text.index("## How to re-check")]
+    assert lemma.count("###") == 2 and lemma.index("### Equation (7)") < lemma.index("### Lemma 2")
+    assert lemma.count(r"To show: $z_{1}^{2} \ge 0$.") == 2
+    assert "certificates/lemma2.json --claim-digest" in lemma and "the line 6” (gap)" not in lemma
+    assert "these proofs use" not in markdown(errata(paper(), CITATION))
 
 
 def test_the_commands_it_names_re_check_the_certificates(tmp_path):

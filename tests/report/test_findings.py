@@ -8,7 +8,10 @@ from small_decisions import certificate, paper
 
 from workbench.proof.fate import judged
 from workbench.proof.places import place_of, places_of
+from workbench.proof.verdict import Decision, Stated
 from workbench.report.counterexample import counterexample_of
+from workbench.report.errata.content import errata
+from workbench.report.errata.markdown import markdown
 from workbench.report.errata.proof_steps import proof_steps
 from workbench.report.finding import findings
 from workbench.report.finding_sentences import (
@@ -19,6 +22,7 @@ from workbench.report.finding_sentences import (
     sentences,
     verdict_sentence,
 )
+from workbench.report.findings_view import finding_groups
 from workbench.report.plain_formulas import plain_formula
 from workbench.report.worded import math, show, worded
 
@@ -45,6 +49,34 @@ def test_a_theorem_that_falls_names_its_mended_form_and_why():
     assert theorem.mended_by == "theorem1.mended" and theorem.because == ("4",)
     assert consequence_sentence(theorem) == "The paper gets there by equation (4), which fails."
     assert "Mended, it is proved: $z_1^2 \\ge 0$." in sentences(theorem)
+
+
+def test_a_step_that_is_taken_without_words_is_not_called_printed():
+    rows = [replace(d, claim=replace(d.claim, origin="implied")) if d.claim.equation == "4" else d for d in paper()]
+    step, document = next(f for f in findings(rows) if f.equation == "4"), findings_document(findings(rows))
+    told = " ".join(sentences(step))
+    assert told.startswith("Equation (4) is false: with") and "Implied, not printed: $z_1^2 \\ge 1$." in told
+    assert "rinted:" not in told.replace("Implied, not printed:", "")
+    views = {view.place: view.label for group in finding_groups(document) for view in group.findings}
+    assert views.pop("Equation (4)") == "Implied, not printed" and set(views.values()) == {"Printed"}
+    text = markdown(errata(rows, "cited"))
+    assert text.count("**Implied, not printed:**") == 1 and "of which the text implies and does not print" in text
+    assert "implies and does not print" not in markdown(errata(paper(), "cited"))
+
+
+def test_of_many_lines_on_the_way_those_are_named_that_rest_on_no_other():
+    def line(equation, *rests_on):
+        stated = Stated(id=f"doe2026:{equation}", title="", kind="identity", printed="x = y", recorded="refuted",
+                        rests_on=tuple(f"doe2026:{name}" for name in rests_on))
+        return Decision(stated, "refuted", "by hand", "exact", 0.0)
+
+    rows = judged([line("1"), line("2"), *(line(str(n), "1", str(n - 1)) for n in range(3, 8))])
+    found = {f.equation: consequence_sentence(f) for f in findings(rows)}
+    assert found["5"].endswith("gets there by equations (1), (2), (3) and (4), which fail.")
+    one = judged([line("1"), *(line(str(n), str(n - 1)) for n in range(2, 8))])
+    assert consequence_sentence(findings(one)[-1]).endswith("(1), which fails, and by 5 more that fail and rest on it.")
+    assert found["7"] == ("The paper gets there by equations (1) and (2), which fail, and by 4 more that fail and rest "
+                          "on these.")
 
 
 def test_what_rests_on_a_line_is_computed_not_typed():

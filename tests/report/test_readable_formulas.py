@@ -81,6 +81,17 @@ def test_typst_sets_every_formula(latex):
     assert typst.compile(f"{typst_formula(latex)} {typst_formula(latex, display=True)}".encode(), format="pdf")
 
 
+def test_a_fraction_too_wide_for_the_page_breaks_in_its_line():
+    typst = pytest.importorskip("typst")
+    wide = " + ".join(f"x_{{{i}}}" for i in range(40))
+    assert "frac(" in typst_formula(r"\frac{a + b}{2}") and "frac(" not in typst_formula(rf"\frac{{{wide}}}{{2 m}}")
+    text = typst_formula(rf"\frac{{{wide}}}{{2 m}}", display=True)
+    pages = [typst.compile(f"#set page(width: {width}, height: auto, margin: 0pt)\n{text}".encode(), format="pdf")
+             for width in ("10cm", "90cm")]
+    heights = [float(found) for page in pages for found in re.findall(rb"/MediaBox\s*\[0 0 [\d.]+ ([\d.]+)\]", page)]
+    assert len(heights) == 2 and heights[0] > 1.5 * heights[1]
+
+
 def test_what_is_no_formula_stays_as_it_is():
     assert plain_formula(r"\nosuchcommand{x}") == r"\nosuchcommand{x}"
     assert typst_formula(r"\nosuchcommand{x}").startswith("#raw(")

@@ -30,8 +30,9 @@ def command(paper: Annotated[str, typer.Argument(metavar="PAPER", help="A paper'
     for name, place in proof.papers.items():
         folder = Path("errata") / name if out is None else out if len(proof.papers) == 1 else out / name
         check_outputs({}, [file for target in found for file in target.inputs()], {"--out": (folder, FILES)})
-        citation = next(p.citation for p in collect_papers([place]) if p.name == name)
-        written, missing = write_errata([d for d in proof.decisions if d.claim.paper == name], citation, folder)
+        stated = next(p for p in collect_papers([place]) if p.name == name)
+        own = [d for d in proof.decisions if d.claim.paper == name]
+        written, missing = write_errata(own, stated.citation, folder, stated.letters)
         for path in written:
             out_console.print(str(path), soft_wrap=True, highlight=False)
         if missing:

@@ -14,6 +14,7 @@ from workbench.proof.verdict import VERDICTS, Decision, FateWord, verdict_words
 from workbench.report.finding import Finding, Gravity, findings
 from workbench.report.finding_sentences import (
     HEADINGS,
+    condition_sentence,
     consequence_sentence,
     correction_sentence,
     fate_sentence,
@@ -68,7 +69,8 @@ def _finding(found: Finding, verbose: bool) -> Text:
     parts = [verdict_sentence(found)]
     if verbose or found.fate is None:
         parts.append(printed_sentence(found))
-    parts += [correction_sentence(found), reading_sentence(found), consequence_sentence(found)]
+    parts += [correction_sentence(found), condition_sentence(found), reading_sentence(found),
+              consequence_sentence(found)]
     if verbose:
         parts.append(worded(found.note))
     text = " ".join(show(part, plain_formula) for part in parts if part)

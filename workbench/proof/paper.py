@@ -24,11 +24,14 @@ _SECTION = re.compile(r"section_(\d+)(?:_(\d+)|[a-z])?(?=_|$)")
 class Paper:
     """The claims of one paper, in the order in which its proof file states them.
 
-    notation: what the letters of its printed lines stand for, LaTeX to expression.
+    notation: what the letters of its printed lines stand for, LaTeX to expression; letters: what letters that are not
+    the paper's stand for, names of symbols to a few words, in which formulas may stand between dollar signs.
     """
 
-    def __init__(self, name: str, citation: str, notation: Mapping[str, sp.Expr] | None = None) -> None:
+    def __init__(self, name: str, citation: str, notation: Mapping[str, sp.Expr] | None = None,
+                 letters: Mapping[str, str] | None = None) -> None:
         self.name, self.citation, self.notation = name, citation, dict(notation or {})
+        self.letters = dict(letters or {})
         self.claims: list[Claim] = []
 
     def claim(self, equation: str, title: str, kind: Kind, printed: str, recorded: Verdict, *,

@@ -34,6 +34,11 @@ def expression_latex(text: str, style: Style = "exact") -> str:
     return _written(tree if style == "exact" else _Numbers({}, style).visit(tree))[0]
 
 
+def rate_latex(name: str, rate: str, style: Style = "exact") -> str:
+    """The rate of a letter along a motion, as an equation."""
+    return rf"\frac{{d}}{{dt}} {name_latex(name)} = {expression_latex(rate, style)}"
+
+
 def numbers_in(text: str) -> list[Fraction]:
     """The numbers in an expression that are not whole, and what letters are divided by."""
     found = []

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import ast
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any
@@ -33,12 +33,14 @@ from workbench.report.certificate_latex import (
     name_latex,
     numbers_of,
     numbers_put_in,
+    rate_latex,
     relation_latex,
 )
 from workbench.report.number_style import Style, style_of, value_latex
 
 _SIGN = re.compile(r"\w+ (?:>=?|!=) 0")  # the sign of a letter
 _NAME = re.compile(r"[A-Za-z_]\w*")
+_PUT_IN = re.compile(r"\w+ == -?\d+(?:/\d+)?")  # the value of a letter, which is told with the others
 MANY = 6  # letters with one value, from which on they are called 'all others'
 
 
@@ -51,8 +53,9 @@ class Counterexample:
     where they are no numbers; everything: all that the certificate names, letter by letter; motion: whether the values
     are functions of time, with which the relation fails at all times; put_in: both sides with the numbers in place of
     the letters, where they are formulas without rates and sums; unbounded: what is greater than the time at all times
-    of a motion, where the relation denies that; given: what is assumed beyond the signs of single letters; along: the
-    rates of letters whose rate stands in the relation; beside: the values of letters that stand in these two alone.
+    of a motion, where the relation denies that; given: what is assumed beyond the signs of single letters, of a motion
+    the loop that it obeys too; along: the rates of letters whose rate stands in the relation; beside: the values of
+    letters that stand in these two alone.
     """
 
     relation: str
@@ -102,22 +105,29 @@ def counterexample_of(certificate: Mapping[str, Any]) -> Counterexample | None:
     every = tuple((name_latex(name), value) for name, value in shown.items()) + tuple(
         (_indexed(name, i), value) for i, row in enumerate(rows, 1) for name, value in row.items())
     given, along, more = _conditions(goal, failing)
-    beside, many = _grouped({name: value for name, value in shown.items() if name in more - deciding})
     return Counterexample(relation_latex(failing, style), SIGNS[operator], values + in_sums, others,
                           *_values(sides, style), every, False,
                           None if between else _put_in(left, right, certificate["point"], style), None,
-                          tuple(relation_latex(text, style) for text in given),
-                          tuple(rf"\frac{{d}}{{dt}} {name_latex(name)} = {expression_latex(rate, style)}"
-                                for name, rate in along.items()),
-                          beside + (() if many is None else (rf"\text{{all other letters}}\ {many}",)))
+                          _telling(given, style),
+                          tuple(rate_latex(name, rate, style) for name, rate in along.items()),
+                          _together({name: value for name, value in shown.items() if name in more - deciding}))
 
 
 def _conditions(goal: Mapping[str, Any], failing: str) -> tuple[list[str], dict[str, str], set[str]]:
     """What a goal assumes beyond the signs of single letters, the rates that its relation takes, and their letters."""
-    given = [text for text in goal.get("assume", []) if not _SIGN.fullmatch(text)]
+    given = _beyond_signs(goal.get("assume", []))
     derived = {name for part in _derived(failing) for name in _names(part)}
     along = {name: rate for name, rate in goal.get("flow", {}).items() if name in derived}
     return given, along, {name for text in (*given, *along.values()) for name in _names(text)}
+
+
+def _beyond_signs(relations: Iterable[str]) -> list[str]:
+    return [text for text in relations if not _SIGN.fullmatch(text)]
+
+
+def _telling(given: Iterable[str], style: Style) -> tuple[str, ...]:
+    """What is assumed as LaTeX, without what has no letter and what is the value of one."""
+    return tuple(relation_latex(text, style) for text in given if _names(text) and not _PUT_IN.fullmatch(text))
 
 
 def _derived(relation: str) -> list[str]:
@@ -152,10 +162,14 @@ def _motion(certificate: Mapping[str, Any], context: Context, point: dict[str, R
     fixed = {name: value_latex(Fraction(text), style) for name, text in sorted(certificate["point"].items())}
     named = {name: value for name, value in (moving | fixed).items() if name in deciding or name in moving}
     values, others = _grouped(named)
+    given = _beyond_signs((*goal.get("assume", []), *goal.get("always", [])))
+    more = {name for text in given for name in _names(text)}
     grows = operator in ("<=", "<") and right.strip() == goal["eventually"]
     return Counterexample(relation_latex(goal["show"][0], style), SIGNS[operator], values, others, along[0], along[1],
                           tuple((name_latex(name), value) for name, value in (moving | fixed).items()), True,
-                          unbounded=expression_latex(left) if grows else None)
+                          unbounded=expression_latex(left) if grows else None,
+                          given=_telling(given, style),
+                          beside=_together({n: v for n, v in fixed.items() if n in more and n not in named}))
 
 
 def _symbols(context: Context, text: str) -> set[str]:
@@ -263,6 +277,12 @@ def _grouped(values: Mapping[str, str]) -> tuple[tuple[str, ...], str | None]:
     plain = sorted(groups, key=lambda value: (value in ("0", "1"), len(groups[value])))
     return tuple(" = ".join([*groups[value], value]).replace(r"= \approx", r"\approx")
                  for value in plain if value != others), others
+
+
+def _together(values: Mapping[str, str]) -> tuple[str, ...]:
+    """Letters of one value together, those of the value that many have among them."""
+    named, many = _grouped(values)
+    return named + (() if many is None else (rf"\text{{all other letters}}\ {many}",))
 
 
 def _indexed(name: str, term: int) -> str:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from typing import Literal
 
@@ -10,7 +10,7 @@ from workbench.proof.checker import goal_digest
 from workbench.proof.fate import is_headline
 from workbench.proof.places import place_of
 from workbench.proof.premises import holds_in_other_reading
-from workbench.proof.verdict import FAILED, Decision, FateWord, Verdict
+from workbench.proof.verdict import FAILED, Decision, FateWord, Origin, Verdict
 from workbench.report.counterexample import Counterexample
 from workbench.report.counterexample_cache import cached_counterexample
 from workbench.report.number_style import alike
@@ -27,13 +27,14 @@ GRAVITIES: tuple[Gravity, ...] = ("falls", "corrected", "open", "step", "gap", "
 class Finding:
     """A line of a paper that does not stand as printed, and what that means.
 
-    paper, equation, section, title: where; printed, should_read: LaTeX of the line and of the nearest true statement,
+    paper, equation, section, title: where; origin: whether the paper prints the line or takes the step without words;
+    reading: how a person read it; printed, should_read: LaTeX of the line and of the nearest true statement,
     which is proved (empty where none is known); mended_by: the equation of the claim that proves it as a line of its
     own, mended_under: the equations of what that proof uses and that is not shown; counterexample: what breaks it;
     headlines: the theorems and headline statements that rest on it, lines: how many other lines do; because: the lines
-    that fail on the way to it; other_reading: LaTeX of how else it may be read, other_holds: whether that is proved;
-    digest: that of the goal in its certificate, None without one; titles: what the other lines named here say, by
-    equation.
+    that fail on the way to it, roots: those of them that rest on no other one; other_reading: LaTeX of how else it may
+    be read, other_holds: whether that is proved; digest: that of the goal in its certificate, None without one; titles:
+    what the other lines named here say, by equation.
     """
 
     paper: str
@@ -42,6 +43,8 @@ class Finding:
     title: str
     gravity: Gravity
     verdict: Verdict
+    origin: Origin
+    reading: str
     printed: str
     should_read: str
     mended_by: str | None
@@ -50,6 +53,7 @@ class Finding:
     headlines: tuple[str, ...]
     lines: int
     because: tuple[str, ...]
+    roots: tuple[str, ...]
     fate: FateWord | None
     fate_by: tuple[str, ...]
     other_reading: str
@@ -95,14 +99,20 @@ def _finding(d: Decision, by_id: dict[str, Decision], mended: Decision | None,
     others += [by_id[name].claim for name in mended.proved_under] if mended else []
     return Finding(
         d.claim.paper, d.claim.equation, d.claim.section, d.claim.title,
-        _gravity(d, bool(resting), holds), d.verdict, d.claim.printed,
+        _gravity(d, bool(resting), holds), d.verdict, d.claim.origin, d.claim.reading, d.claim.printed,
         _correction(d, mended), mended.claim.equation if mended else None,
-        tuple(name.partition(":")[2] for name in mended.proved_under) if mended and not d.correction else (),
+        _equations(mended.proved_under) if mended and not d.correction else (),
         cached_counterexample(d.certificate) if d.certificate else None, headlines, lines,
-        tuple(name.partition(":")[2] for name in d.tainted_by), d.fate.word if d.fate else None,
-        tuple(name.partition(":")[2] for name in fate_by),
+        _equations(d.tainted_by), _equations(name for name in d.tainted_by if not by_id[name].tainted_by),
+        d.fate.word if d.fate else None,
+        _equations(fate_by),
         d.other_reading or "", holds, d.claim.note, goal_digest(d.certificate) if d.certificate else None,
         {claim.equation: claim.title for claim in others})
+
+
+def _equations(names: Iterable[str]) -> tuple[str, ...]:
+    """The equations of claims, by their ids."""
+    return tuple(name.partition(":")[2] for name in names)
 
 
 def _correction(d: Decision, mended: Decision | None) -> str:

@@ -19,6 +19,8 @@ HEADINGS: dict[Gravity, str] = {
     "cosmetic": "Slips that nothing depends on", "reading": "Readings that the extracted text leaves open"}
 
 
+PRINTED, IMPLIED = "Printed", "Implied, not printed"
+NAMED = 5  # lines that fail on the way up to which all are named
 SHORT = 70  # characters of LaTeX up to which a relation is repeated beside its numbers
 
 
@@ -44,8 +46,9 @@ def _named(found: Finding, equations: Sequence[str]) -> str:
 
 def _words(found: Finding) -> str:
     motion = found.counterexample is not None and found.counterexample.motion
-    return {"refuted": "is false as printed, by a motion of the printed closed loop" if motion else
-            "is false as printed", "violated": "is broken by the printed numbers",
+    printed = " as printed" if found.origin == "printed" else ""
+    return {"refuted": f"is false{printed}, by a motion of the printed closed loop" if motion else
+            f"is false{printed}", "violated": "is broken by the printed numbers",
             "gap": "does not follow from what the paper uses to get there", "undecided": "is not decided",
             "assumed": "is taken as given: its proof was not checked", "proved": "holds"}[found.verdict]
 
@@ -70,16 +73,22 @@ def breaks_at(point: Counterexample) -> str:
 
 
 def correction_sentence(found: Finding) -> str:
-    """The nearest true statement, which is proved; empty where there is none."""
+    """The nearest true statement; empty where there is none."""
     if not found.should_read:
         return ""
     what = {"violated": "It holds with", "gap": "What does follow:"}.get(found.verdict, "It should read")
     if found.mended_by is not None and found.fate is not None:
         what = "Beside it is proved:" if found.verdict == "proved" else "Mended, it is proved:"
+    return _ended(f"{what} {math(found.should_read)}", found.should_read)
+
+
+def condition_sentence(found: Finding) -> str:
+    """From which lines that are not shown the nearest true statement is proved; empty where it needs none."""
     under = found.mended_under
-    where = f", where {_named(found, under)} {'holds' if len(under) == 1 else 'hold'}" if under else ""
-    return _ended(f"{what} {math(found.should_read)}", found.should_read) if not where else (
-        f"{what} {math(found.should_read)}{where}.")
+    if not under:
+        return ""
+    holds, are = ("holds", "is") if len(under) == 1 else ("hold", "are")
+    return f"That is proved only where {_named(found, under)} {holds}, which {are} not shown."
 
 
 def consequence_sentence(found: Finding) -> str:
@@ -91,9 +100,17 @@ def consequence_sentence(found: Finding) -> str:
     one = len(found.headlines) + found.lines == 1
     text = f"{listed(resting)} rest{'s' if one else ''} on it." if resting else ""
     if found.because and found.gravity != "corrected":
-        fail = "fails" if len(found.because) == 1 else "fail"
-        text = f"{text} The paper gets there by {_named(found, found.because)}, which {fail}.".strip()
+        text = f"{text} {_way(found)}".strip()
     return text[:1].upper() + text[1:]
+
+
+def _way(found: Finding) -> str:
+    """Which lines on the way fail; of many those that rest on no other one of them."""
+    named = found.because if len(found.because) <= NAMED else found.roots
+    others = len(found.because) - len(named)
+    fail, these = ("fails", "it") if len(named) == 1 else ("fail", "these")
+    more = f", and by {others} more that fail and rest on {these}" if others else ""
+    return f"The paper gets there by {_named(found, named)}, which {fail}{more}."
 
 
 def reading_sentence(found: Finding) -> str:
@@ -104,8 +121,13 @@ def reading_sentence(found: Finding) -> str:
 
 
 def printed_sentence(found: Finding) -> str:
-    """The line as printed."""
-    return _ended(f"Printed: {math(found.printed)}", found.printed)
+    """The line as printed, or what the paper implies."""
+    return _ended(f"{origin_label(found)}: {math(found.printed)}", found.printed)
+
+
+def origin_label(found: Finding) -> str:
+    """What stands in front of the line: a step that is taken without words is not called printed."""
+    return PRINTED if found.origin == "printed" else IMPLIED
 
 
 def _ended(sentence: str, formula: str) -> str:
@@ -116,7 +138,7 @@ def _ended(sentence: str, formula: str) -> str:
 def sentences(found: Finding) -> list[str]:
     """All that a referee would write of it."""
     return [s for s in (verdict_sentence(found), printed_sentence(found), correction_sentence(found),
-                        reading_sentence(found), consequence_sentence(found)) if s]
+                        condition_sentence(found), reading_sentence(found), consequence_sentence(found)) if s]
 
 
 def findings_document(found: Sequence[Finding]) -> dict[str, Any]:

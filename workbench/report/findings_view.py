@@ -9,17 +9,18 @@ from typing import Any
 from markupsafe import Markup
 
 from workbench.report.claims import VERDICTS, anchor
+from workbench.report.finding_sentences import IMPLIED, PRINTED
 from workbench.report.formulas import formula, in_html
 
 # Sentences whose formulas stand on lines of their own.
-TOLD_APART = ("Printed:", "It should read", "Mended, it is proved:", "Beside it is proved:")
+TOLD_APART = (f"{PRINTED}:", f"{IMPLIED}:", "It should read", "Mended, it is proved:", "Beside it is proved:")
 FOLDED = ("cosmetic", "reading")  # gravities that are told of when asked for
 
 
 @dataclass(frozen=True)
 class FindingView:
-    """One finding: its first sentence, the others, its printed line and its correction as formulas, and the command
-    that re-checks it."""
+    """One finding: its first sentence, the others, its line and its correction as formulas, the command that re-checks
+    it; label: whether the line is printed."""
 
     place: str
     anchor: str
@@ -27,6 +28,7 @@ class FindingView:
     sign: str
     sentence: Markup
     others: tuple[Markup, ...]
+    label: str
     printed: Markup
     should_read: Markup
     command: str
@@ -59,5 +61,6 @@ def _view(entry: Mapping[str, Any]) -> FindingView:
     return FindingView(
         str(entry.get("place", equation)), anchor(f"{entry.get('paper')}:{equation}"), verdict,
         VERDICTS.get(verdict, "?"), in_html(sentences[0]), tuple(map(in_html, shown)),
+        IMPLIED if entry.get("origin") == "implied" else PRINTED,
         formula(str(entry.get("printed") or "")), formula(str(entry.get("should_read") or "")),
         f"python checker.py certificates/{equation}.json --claim-digest {digest}" if digest else "")

@@ -119,21 +119,21 @@ def _leakage(square: sp.Expr, leak: int) -> Goal:
 
 SIGMA = ("What a sigma-correction, as the paper calls the term, is for. With the printed plus sign the estimate leaves its "
          "prior exponentially. The sign is no slip of the pen: (39), (42), (53) and (54) carry it on and rely on Lemma 1, "
-         "which holds only for the opposite estimation error, see 41.")
+         "which holds only for the opposite estimation error, see (41).")
 
 
 def leakage_claim(equation: str, name: str, square: sp.Expr, latex: tuple[str, str], corrected: str) -> None:
-    """State that an estimate's leakage draws it to its prior, by the law as printed and by the corrected one."""
+    """State that an estimate's leakage draws it to the prior, by the law as printed and by the corrected one."""
     scope = EVERY_NETWORK if square.has(sp.Sum) else "all values of the domain"
     law, decrease = latex
 
-    @paper.claim(f"{equation}.leakage", f"The leakage draws {name} to its prior", "inequality",
+    @paper.claim(f"{equation}.leakage", f"The leakage draws {name} to the prior", "inequality",
                  rf"{law} \Rightarrow {decrease}", "refuted", origin="implied", scope=scope,
                  correction=lambda: _leakage(square, -1), corrected_statement=corrected, note=SIGMA)
     def leakage() -> Goal:
         return _leakage(square, 1)
 
-    @paper.claim(f"{equation}.mended", f"The leakage draws {name} to its prior, its sign turned", "inequality",
+    @paper.claim(f"{equation}.mended", f"The leakage draws {name} to the prior, its sign turned", "inequality",
                  rf"{corrected} \Rightarrow {decrease}", "proved", origin="ours", mends=f"{equation}.leakage", scope=scope)
     def mended_leakage() -> Goal:
         """Along the law with a minus sign before the leakage."""

@@ -189,12 +189,12 @@ leak_claims("42", "weights", leak_f, sigma_f * (-norm_f + over_neurons(W_f_tilde
             (r"\sigma_f\tilde W_f^T(\hat W_f - W_{f0})",
              r"\sigma_f(-\|\tilde W_f\|^2 + \tilde W_f^T(W_f - W_{f0}))",
              r"-\frac{\sigma_f}{2}\|\tilde W_f\|^2 + \frac{\sigma_f}{2}\|W_f - W_{f0}\|^2"),
-            "19.leakage", "See 41; true when the leakage enters with minus.")
+            "19.leakage", "See (41); true when the leakage enters with minus.")
 leak_claims("42", "estimate", leak_delta, -beta_1 * delta_tilde**2 + beta_1 * delta_tilde * delta_off,
             bound_delta,
             (r"\beta_1\tilde\delta(\hat\delta - \delta_0)", r"-\beta_1\tilde\delta^2 + \beta_1\tilde\delta"
              r"(\delta - \delta_0)", r"-\frac{\beta_1}{2}\tilde\delta^2 + \frac{\beta_1}{2}(\delta - \delta_0)^2"),
-            "21.leakage", "See 41; true when the leakage enters with minus. (42) prints this line twice.")
+            "21.leakage", "See (41); true when the leakage enters with minus. (42) prints this line twice.")
 
 mu_1_stated = sigma_f / 2 * prior_f + beta_1 / 2 * delta_off**2 + constant * kappa_1 * delta_size
 bound_43 = (-k_1 * s_tilde**2 - k_3 * v_tilde**2 - sigma_f / 2 * norm_f - beta_1 / 2 * delta_tilde**2 + mu_1_stated)

@@ -70,6 +70,8 @@ def mended_decay() -> Goal:
 
 
 @paper.claim("theorem1.mended", "Theorem 1 with the leakage turned", "implication",
+             r"\text{With a minus sign before the leakage of (19) and (21) and a constant}\ \delta \ge "
+             r"|\tilde\varepsilon_f|, \text{for every}\ c > 0\ \text{from some time on:}\ "
              r"(k_2 + k_1k_3)\tilde s^2 \le 2\left(\frac{\mu_1}{\rho_1} + c\right),\ \tilde v^2 \le "
              r"2\left(\frac{\mu_1}{\rho_1} + c\right),\ \tilde W_f^T\Gamma_f^{-1}\tilde W_f \le "
              r"2\left(\frac{\mu_1}{\rho_1} + c\right),\ \tilde\delta^2 \le 2\alpha_1\left(\frac{\mu_1}{\rho_1} + "

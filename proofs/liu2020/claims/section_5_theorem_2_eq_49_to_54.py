@@ -164,8 +164,8 @@ bound_theta = -beta_2 / 2 * theta_tilde**2 + beta_2 / 2 * theta_off**2
 leak_claims("54", "weights", leak_v, -norm_v + over_neurons(W_v_tilde * W_v_off), bound_v,
             (r"\tilde W_v^T\sigma_v(\hat W_v - W_{v0})", r"-\|\tilde W_v\|^2 + \tilde W_v^T(W_v - W_{v0})",
              r"-\frac{\sigma_v}{2}\|\tilde W_v\|^2 + \frac{\sigma_v}{2}\|W_v - W_{v0}\|^2"),
-            "32.leakage", "See 41; true when the leakage enters with minus. sigma_v is missing in the middle as well, a slip.")
+            "32.leakage", "See (41); true when the leakage enters with minus. sigma_v is missing in the middle as well, a slip.")
 leak_claims("54", "estimate", leak_theta, -beta_2 * theta_tilde**2 + beta_2 * theta_tilde * theta_off, bound_theta,
             (r"\beta_2\tilde\theta(\hat\theta - \theta_0)", r"-\beta_2\tilde\theta^2 + \beta_2\tilde\theta"
              r"(\theta - \theta_0)", r"-\frac{\beta_2}{2}\tilde\theta^2 + \frac{\beta_2}{2}(\theta - \theta_0)^2"),
-            "35.leakage", "See 41; true when the leakage enters with minus.")
+            "35.leakage", "See (41); true when the leakage enters with minus.")

@@ -69,7 +69,7 @@ def _mended_55() -> Goal:
 @paper.claim("55.first", "Bound of the rate of V_2", "inequality", r"\dot V_2 \le \dot V_1 " + TRACKING_55, "refuted",
              premises=("53.mended",), rests_on=("53", "54.theta", "54.theta.size", "54.weights", "54.estimate"),
              scope=EVERY_NETWORK, where=ERRORS, correction=_mended_55,
-             corrected_statement=r"\text{the same for V_2 - V_1}\ " + TURNED,
+             corrected_statement=r"\text{the same for}\ V_2 - V_1\ " + TURNED,
              reading="The first inequality of (55); the accent over theta in (theta - theta_0)^2 as Lemma 1 forces it.",
              note="Three causes: the sign of the leakage, the sign of (32), and a theta that may be negative "
                   "(54.theta.size); broken here for a constant theta >= 0.")

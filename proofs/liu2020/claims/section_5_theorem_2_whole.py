@@ -52,6 +52,8 @@ def mended_decay() -> Goal:
 
 
 @paper.claim("theorem2.mended", "Theorem 2 with the signs turned, if (28) holds", "implication",
+             r"\text{With (32) and the leakage of (32) and (35) turned and a constant}\ \theta \ge "
+             r"|\varepsilon_v - \tfrac{M}{\chi}d|, \text{for every}\ c > 0\ \text{from some time on:}\ "
              r"\frac{M}{\chi}e_v^2 \le 2\left(\frac{\mu_2}{\rho_2} + c\right),\ \tilde W_v^T\Gamma_v^{-1}\tilde W_v \le "
              r"2\left(\frac{\mu_2}{\rho_2} + c\right),\ \tilde\theta^2 \le 2\alpha_2\left(\frac{\mu_2}{\rho_2} + c\right)",
              "proved", origin="ours", mends="theorem2", severity="result", rests_on=(),

@@ -113,7 +113,7 @@ xi_rate, varpi_one = sp.symbols("xi_hat_rate varpi_one", real=True)
              where={r"\hat{\xi}(t)": xi_rate, r"\varpi(t)": varpi_one},
              reading="(41); the extracted text lost the dot over xi_hat, which is 'updated by' it.",
              note="Decided as what the paper chooses it for: the rate for which the coefficient of the estimation error "
-                  "is zero. With several modes the weights of (40) do not fit: see 41.")
+                  "is zero. With several modes the weights of (40) do not fit: see (41).")
 def xi_law_cancels() -> Goal:
     """The coefficient of a component of xi_tilde: m_i z_2 varpi from z_2', and that of its square in (40)."""
     return Goal((equal(xi_rate, Gamma_xi * z_2 * varpi_one),), (equal(m * z_2 * varpi_one - m / Gamma_xi * xi_rate, 0),))

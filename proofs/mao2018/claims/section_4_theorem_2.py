@@ -48,6 +48,7 @@ from ..steady_state_error import STEADY_STATE_ERROR, epsilon, steady_state_error
 REPAIR = ("Repaired: (44) with a plus; in V_2 the weight m_i k_nu for rho_knu and rho_i, and no sum over the modes "
           "for rho_knu and xi, which takes either one mass in all modes or estimates of xi and rho_knu for each mode "
           "that rest while it is idle. ")
+ONE_MASS = r",\ m_1 = \dots = m_l\ \text{(or estimates of $\xi$ and $\rho_{k\nu}$ of each mode's own)}"
 
 
 def loop_by_modes(nu: sp.Expr) -> dict[sp.Expr, sp.Expr]:
@@ -191,8 +192,8 @@ def theorem_2() -> Goal:
 
 
 @paper.claim("theorem2.mended", "Theorem 2 with (44) and the weights of V_2 mended", "implication",
-             r"\text{Theorem 2 with } \dot{\hat\rho}_{k\nu} = +\Gamma_{k\nu}z_2\hat\xi^T\varpi", "proved", origin="ours",
-             mends="theorem2", severity="result", scope=ALL_SIGNALS, reading=TRACKS, note=REPAIR,
+             r"\text{Theorem 2 with } \dot{\hat\rho}_{k\nu} = +\Gamma_{k\nu}z_2\hat\xi^T\varpi" + ONE_MASS, "proved",
+             origin="ours", mends="theorem2", severity="result", scope=ALL_SIGNALS, reading=TRACKS, note=REPAIR,
              premises=("45.mended", "40.mended", "46.jump", "25.switch", "filippov", "theorem1.rate", "barbalat"))
 def theorem_2_mended() -> Goal:
     """From what (45) mended and (40) mended show of V_2 alone."""

@@ -30,7 +30,7 @@ from ..paper import paper
 from ..plant import s, z_1, z_2
 from ..steady_state_error import STEADY_STATE_ERROR, epsilon, steady_state_error
 from .section_4_design import LEFT, NU_0, OUTWEIGHED, SIGNAL, left_by, outweighed
-from .section_4_theorem_2 import BOUND, MENDED_45, REPAIR, SQUARE_IN_TIME, THEOREM, TRACKS
+from .section_4_theorem_2 import BOUND, MENDED_45, ONE_MASS, REPAIR, SQUARE_IN_TIME, THEOREM, TRACKS
 
 delta, delta_1, delta_2 = sp.symbols("delta delta_1 delta_2", real=True)
 bound_1, bound_2 = sp.symbols("delta_1_0 delta_2_0", positive=True)
@@ -201,7 +201,7 @@ def rate_52_at_most() -> Goal:
                         "(7)-(8) under actuator failures (16)", "the "), "refuted",
              match="words", severity="result", closed_loop=True, rests_on=("52", "49", "50"), scope=ALL_SIGNALS,
              reading=SQUARE_IN_TIME + "Decided as z_1^2 <= 1/4 from some time on.",
-             note="False as printed: " + STEADY_STATE_ERROR + "The bound delta_j^0 is 1, delta_j is 0. Mended as 45 is, 51 "
+             note="False as printed: " + STEADY_STATE_ERROR + "The bound delta_j^0 is 1, delta_j is 0. Mended as (45) is, (51) "
                   "holds, and Theorem 3 with it.")
 def theorem_3() -> Goal:
     """The printed closed loop, with a motion along which z_1 = 1."""
@@ -212,8 +212,8 @@ def theorem_3() -> Goal:
 
 
 @paper.claim("theorem3.mended", "Theorem 3 with (44) and the weights of V_2 mended", "implication",
-             r"\text{Theorem 3 with } \dot{\hat\rho}_{k\nu} = +\Gamma_{k\nu}z_2\hat\xi^T\varpi", "proved", origin="ours",
-             mends="theorem3", severity="result", scope=ALL_SIGNALS, reading=TRACKS, note=REPAIR,
+             r"\text{Theorem 3 with } \dot{\hat\rho}_{k\nu} = +\Gamma_{k\nu}z_2\hat\xi^T\varpi" + ONE_MASS, "proved",
+             origin="ours", mends="theorem3", severity="result", scope=ALL_SIGNALS, reading=TRACKS, note=REPAIR,
              premises=("51.mended", "40.mended", "46.jump", "25.switch", "filippov", "theorem1.rate", "barbalat"))
 def theorem_3_mended() -> Goal:
     """From what (51) mended and (40) mended show of V_2 alone."""

@@ -41,7 +41,7 @@ from ..paper import paper
 from ..plant import s, t, z_1, z_2
 from ..steady_state_error import STEADY_STATE_ERROR, epsilon, steady_state_error
 from .section_4_design import LEFT, NU_0, OUTWEIGHED, SIGNAL, bounds_errors, left_by
-from .section_4_theorem_2 import BOUND, REPAIR, SQUARE_IN_TIME, THEOREM, TRACKS
+from .section_4_theorem_2 import BOUND, ONE_MASS, REPAIR, SQUARE_IN_TIME, THEOREM, TRACKS
 from .section_5 import delta, rest_bounds
 
 bounded_by_unknown = (at_most(d, lambda_0), at_least(d, -lambda_0))
@@ -225,7 +225,7 @@ def v2_bound_unknown_mended() -> Goal:
              match="words", severity="result", closed_loop=True, rests_on=("57",), scope=ALL_SIGNALS,
              reading=SQUARE_IN_TIME + "Decided as z_1^2 <= 1/4 from some time on.",
              note="False as printed: " + STEADY_STATE_ERROR + "rho_knu_hat starts at its true value here, and lambda_hat falls "
-                  "from 1 without end. Mended as 45 and 57 are, Theorem 4 holds. The text before it names (48) and (52) "
+                  "from 1 without end. Mended as (45) and (57) are, Theorem 4 holds. The text before it names (48) and (52) "
                   "where (55) and (57) are meant.")
 def theorem_4() -> Goal:
     """The printed closed loop, with a motion along which z_1 = 1."""
@@ -237,8 +237,8 @@ def theorem_4() -> Goal:
 
 @paper.claim("theorem4.mended", "Theorem 4 with (44), (54) and the weights of V_2 mended", "implication",
              r"\text{Theorem 4 with } \dot{\hat\rho}_{k\nu} = +\Gamma_{k\nu}z_2\hat\xi^T\varpi,\ \dot{\hat\lambda}_i^0 = "
-             r"+\Gamma_{di}|z_2|\chi_{\bar di},\ \hat\lambda_i^0(0) \ge 0", "proved", origin="ours", mends="theorem4",
-             severity="result", scope=ALL_SIGNALS, reading=TRACKS, note=REPAIR,
+             r"+\Gamma_{di}|z_2|\chi_{\bar di},\ \hat\lambda_i^0(0) \ge 0" + ONE_MASS, "proved", origin="ours",
+             mends="theorem4", severity="result", scope=ALL_SIGNALS, reading=TRACKS, note=REPAIR,
              premises=("57.mended", "53.mended", "54.sign", "46.jump", "25.switch", "filippov", "theorem1.rate", "barbalat"))
 def theorem_4_mended() -> Goal:
     """From what (57) mended and (53) mended show of V_2 alone."""

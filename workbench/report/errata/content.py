@@ -2,31 +2,29 @@
 
 from __future__ import annotations
 
-import re
 from collections import Counter
 from collections.abc import Mapping, Sequence
 
-from workbench.proof.checker import goal_digest
 from workbench.proof.places import place_of, subject_of
-from workbench.proof.verdict import VERDICTS, Decision, FateWord, verdict_words
+from workbench.proof.verdict import VERDICTS, Decision, FateWord
 from workbench.proof.wording import listed
 from workbench.report.counterexample import Counterexample
 from workbench.report.errata.blocks import Block, Code, Formula, Heading, Item, Items, Paragraph
-from workbench.report.errata.proof_steps import proof_steps
+from workbench.report.errata.conditions import LONGEST, listed_conditions
+from workbench.report.errata.mended import CHECKER, mended_statements
+from workbench.report.errata.names import legend, noted
 from workbench.report.finding import GRAVITIES, Finding, findings
 from workbench.report.finding_sentences import (
     HEADINGS,
+    condition_sentence,
     consequence_sentence,
     fate_sentence,
+    origin_label,
     reading_sentence,
     verdict_sentence,
 )
 from workbench.report.worded import math, worded
 
-MOST_STEPS = 120  # lines of a proof beyond which a reader is sent to the certificate
-LONGEST = 900  # characters of a condition beyond which a reader is sent to the certificate
-COMMA = r",\ "
-CHECKER = "checker.py"
 GRAVEST_FIRST: tuple[FateWord, ...] = ("falls", "stands with corrections", "open", "stands")
 ABOUT = """Every line was stated as mathematics, as it stands here, and decided by a machine. Each verdict \
 below comes with a certificate, a proof or a counterexample in exact arithmetic, that one short program, checker.py, \
@@ -34,13 +32,15 @@ re-checks with Python's standard library alone. Numbers in brackets are those of
 say which part of a line is meant."""
 
 
-def errata(decisions: Sequence[Decision], citation: str) -> list[Block]:
+def errata(decisions: Sequence[Decision], citation: str, letters: Mapping[str, str] | None = None) -> list[Block]:
     """The errata of one paper: fates, numbered corrections, open readings, mended statements with their proofs, and
-    how to re-check all of it. All claims of the paper must be among the decisions, as `judged` leaves them."""
+    how to re-check all of it. All claims of the paper must be among the decisions, as `judged` leaves them; letters:
+    what letters that are not the paper's stand for, by their names."""
     found = findings(decisions)
     titles = {d.claim.equation: d.claim.title for d in decisions}
     return [Heading(1, "Corrections"), Paragraph(citation, "Paper"), Paragraph(ABOUT), Paragraph(_counts(decisions)),
-            *_fates(decisions), *_corrections(found, titles), *_readings(found), *_mended(decisions, titles),
+            *_fates(decisions), *_corrections(found, titles, _legends(decisions, letters or {})),
+            *_readings(found), *mended_statements(decisions, titles, letters or {}),
             *_rechecking(decisions)]
 
 
@@ -49,8 +49,10 @@ def _counts(decisions: Sequence[Decision]) -> str:
     words = listed([f"{counts[v]} {_verb(v, counts[v])}" for v in VERDICTS if counts[v]])
     under = sum(bool(d.proved_under) for d in decisions if d.claim.origin != "ours")
     only = f", {under} of them only where lines hold that are not shown" if under else ""
-    return (f"Of {counts.total()} lines, {words}. Proved: true for all values of its domain{only}. Refuted: false as "
-            "printed. Violated: a printed condition that the printed numbers break. Gap: it does not follow from what "
+    implied = sum(d.claim.origin == "implied" for d in decisions)
+    said = f", {implied} of which the text implies and does not print" if implied else ""
+    return (f"Of {counts.total()} lines{said}, {words}. Proved: true for all values of its domain{only}. Refuted: "
+            "false. Violated: a printed condition that the printed numbers break. Gap: it does not follow from what "
             "the paper uses to get there. Assumed: a cited result or a definition, taken as given.")
 
 
@@ -79,46 +81,49 @@ def _verb_of(word: FateWord, count: int) -> str:
     return word if count == 1 else {"falls": "fall", "stands": "stand"}.get(word, word.replace("stands", "stand"))
 
 
-def _noted(note: str, titles: Mapping[str, str]) -> str:
-    """A note with the lines that it names as a reader of the paper calls them: 51.whole is a name of ours alone."""
-    names = [name for name in titles if not name.isdigit() and ("." in name or name[-1].isdigit())]
-    if not names:
-        return worded(note)
-    told = re.compile(rf"(?<![\w.])(?:{'|'.join(map(re.escape, sorted(names, key=len, reverse=True)))})(?!\.?\w)")
-    return worded(told.sub(lambda found: _in_sentence(place_of(found[0], titles[found[0]])), note))
+def _legends(decisions: Sequence[Decision], letters: Mapping[str, str]) -> dict[str, str]:
+    """What the letters of each line's goal stand for that are not the paper's, by the line's equation."""
+    return {d.claim.equation: legend(d.certificate, letters) for d in decisions if d.certificate}
 
 
-def _in_sentence(place: str) -> str:
-    small = ("Equation", "The ")
-    return place[0].lower() + place[1:] if place.startswith(small) else place
-
-
-def _corrections(found: Sequence[Finding], titles: Mapping[str, str]) -> list[Block]:
+def _corrections(found: Sequence[Finding], titles: Mapping[str, str], legends: Mapping[str, str]) -> list[Block]:
     blocks: list[Block] = []
-    number = 0
+    number, told = 0, dict[object, int]()
     for gravity in GRAVITIES[:-1]:
         of_it = [f for f in found if f.gravity == gravity]
         if of_it:
             blocks.append(Heading(2, HEADINGS[gravity]))
         for f in of_it:
             number += 1
-            blocks += _correction(number, f, titles)
+            blocks += _correction(number, f, titles, told, legends)
+            for shown in () if f.counterexample is None else (f.counterexample, _where(f.counterexample)):
+                told.setdefault(shown, number)
     return blocks or [Paragraph("No line of the paper was found to fail.")]
 
 
-def _correction(number: int, found: Finding, titles: Mapping[str, str]) -> list[Block]:
+def _correction(number: int, found: Finding, titles: Mapping[str, str], told: Mapping[object, int],
+                legends: Mapping[str, str]) -> list[Block]:
+    """One finding; told: in which correction before it a counterexample, or what is assumed at one, is written out;
+    legends: what letters stand for, by equation."""
     where = f" (section {found.section})" if found.section else ""
     title = subject_of(found.title)
     blocks: list[Block] = [Heading(3, f"{number}. {place_of(found.equation, '')}{where}: {worded(title)}"),
-                           Formula(found.printed, "Printed")]
+                           Formula(found.printed, origin_label(found))]
     if found.should_read:
         label = {"violated": "Holds with", "gap": "What does follow"}.get(found.verdict, "Should read")
         blocks.append(Formula(found.should_read, label))
-    blocks.append(Paragraph(verdict_sentence(found), "Finding"))
+    if found.mended_under:
+        blocks.append(Paragraph(condition_sentence(found), "Not shown"))
+    for label, text in (("Read as", noted(found.reading, titles)), ("Finding", verdict_sentence(found)),
+                        ("Letters", legends.get(found.equation, "") if found.counterexample else "")):
+        if text:
+            blocks.append(Paragraph(text, label))
     if found.counterexample is not None:
-        blocks += _worked(found.counterexample)
+        before = told.get(found.counterexample)
+        blocks += _worked(found.counterexample, told) if before is None else [
+            Paragraph(f"The counterexample is that of correction {before}, where it is written out.")]
     for label, text in (("Other reading", reading_sentence(found)), ("Consequence", consequence_sentence(found)),
-                        ("Note", _noted(found.note, titles))):
+                        ("Note", noted(found.note, titles))):
         if text:
             blocks.append(Paragraph(text, label))
     if found.digest is not None:
@@ -126,21 +131,15 @@ def _correction(number: int, found: Finding, titles: Mapping[str, str]) -> list[
     return blocks
 
 
-def _worked(point: Counterexample) -> list[Block]:
+def _worked(point: Counterexample, told: Mapping[object, int]) -> list[Block]:
     """The relation, what is assumed there, its numbers put in, and both sides evaluated."""
     if point.motion:
-        return [Formula(point.relation, "What fails at all times")]
+        return [Formula(point.relation, "What fails at all times"), *_conditions(point, told)]
     if point.left is None or point.right is None:
         return []
     short = point.put_in is not None or len(point.relation) <= LONGEST
     found: list[Block] = [Formula(point.relation, "Decided as")] if short else []
-    conditions = [COMMA.join(part) for part in (point.given, point.along) if part]
-    at = rf"\quad\text{{where}}\ {COMMA.join(point.beside)}" if point.beside else ""
-    if conditions and sum(map(len, conditions)) + len(at) <= LONGEST:
-        found.append(Formula(r"\quad\text{along}\ ".join(conditions) + at if point.given else conditions[0] + at,
-                             "Given" if point.given else "Along"))
-    elif conditions:
-        found.append(Paragraph("What else is assumed holds there too; the certificate spells it out."))
+    found += _conditions(point, told)
     sides, label = [point.left, point.right], "At these numbers"
     if point.put_in is not None:
         label = "Numbers put in"
@@ -148,6 +147,20 @@ def _worked(point: Counterexample) -> list[Block]:
                  f"{put_in} {value}" if value.startswith(r"\approx") else f"{put_in} = {value}"
                  for put_in, value in zip(point.put_in, (point.left, point.right), strict=True)]
     return [*found, Formula(rf"\text{{left}}:\ {sides[0]}", label), Formula(rf"\text{{right}}:\ {sides[1]}")]
+
+
+def _where(point: Counterexample) -> tuple[object, ...]:
+    """What is assumed at a point or along a motion, and its numbers."""
+    return point.given, point.along, point.everything
+
+
+def _conditions(point: Counterexample, told: Mapping[object, int]) -> list[Block]:
+    """What is assumed at a point or along a motion, and the values of the letters that stand in it alone: in one
+    formula where it is short, each condition on a line of its own where it is not."""
+    if (point.given or point.along) and (before := told.get(_where(point))):
+        return [Paragraph(f"What is assumed there, and where, is written out in correction {before}.")]
+    given = "What holds at all times" if point.motion else "Given"
+    return listed_conditions({given: point.given, "Along": point.along}, point.beside)
 
 
 def _readings(found: Sequence[Finding]) -> list[Block]:
@@ -159,41 +172,6 @@ def _readings(found: Sequence[Finding]) -> list[Block]:
     intro = ("The text of the paper was extracted by a machine, which may lose a sign, a power or an index. These "
              "lines fail as extracted and hold in another reading; the printed page decides which it is.")
     return [Heading(2, HEADINGS["reading"]), Paragraph(intro), Items(lines)]
-
-
-def _mended(decisions: Sequence[Decision], titles: Mapping[str, str]) -> list[Block]:
-    """The mended headline statements, each with its proof."""
-    by_id = {d.claim.id: d for d in decisions}
-    headlines = {d.claim.id: d for d in decisions if d.fate is not None}
-    blocks: list[Block] = []
-    for d in decisions:
-        if d.claim.mends not in headlines or d.verdict != "proved" or d.certificate is None:
-            continue
-        blocks.append(Heading(3, f"{_told(headlines[d.claim.mends])}, mended"))
-        blocks.append(Formula(d.claim.printed, "Statement"))
-        if d.claim.note:
-            blocks.append(Paragraph(_noted(d.claim.note, titles), "Note"))
-        used = [f"{_told(by_id[name])} ({verdict_words(by_id[name].verdict, by_id[name].proved_under)})"
-                for name in d.claim.premises if name in by_id]
-        if used:
-            blocks.append(Paragraph(f"{listed(used)}.", "It uses"))
-        if d.proved_under:
-            under = listed([_told(by_id[name]) for name in d.proved_under])
-            blocks.append(Paragraph(f"{under}: what rests on them is proved only where they hold.", "Not shown"))
-        if d.goal:
-            blocks.append(Formula(d.goal, "Decided as"))
-        steps = proof_steps(d.certificate)
-        blocks.append(Items(tuple(steps[:MOST_STEPS])))
-        if len(steps) > MOST_STEPS:
-            blocks.append(Paragraph(f"{len(steps) - MOST_STEPS} more steps stand in the certificate."))
-        blocks.append(Code(f"python {CHECKER} certificates/{d.claim.equation}.json --claim-digest "
-                           f"{goal_digest(d.certificate)}"))
-    return [Heading(2, "The headline statements, mended and proved"), *blocks] if blocks else []
-
-
-def _told(d: Decision) -> str:
-    """The name of a line, its part told by what it says."""
-    return worded(place_of(d.claim.equation, d.claim.title))
 
 
 def _rechecking(decisions: Sequence[Decision]) -> list[Block]:

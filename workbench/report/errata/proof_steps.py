@@ -19,6 +19,7 @@ FACTS = {"log_tangent": r"$\ln x \le x - 1$", "exp_tangent": r"$e^x \ge 1 + x$",
          "sqrt_nonnegative": r"$\sqrt{x} \ge 0$", "sqrt_positive": r"$\sqrt{x} > 0$"}
 CASES = {"nonnegative": r"\ge 0", "nonpositive": r"\le 0", "negative": "< 0", "positive": "> 0", "zero": "= 0"}
 LONGEST = 700  # characters of a formula beyond which it is called by what it is
+LONGEST_SHOWN = 3000  # of what is to be shown, which is written out once
 
 
 @dataclass(frozen=True)
@@ -43,7 +44,7 @@ def proof_steps(certificate: Mapping[str, Any]) -> list[Item]:
     given = [_known(text) for text in goal.get("assume", [])]
     found = []
     for text, proof in zip(goal["show"], certificate["proofs"], strict=True):
-        found.append(Item(f"To show: ${_shown(relation_latex(text))}$.", 0))
+        found.append(Item(f"To show: ${_shown(relation_latex(text), LONGEST_SHOWN)}$.", 0))
         found += _steps(_wanted(text), given, proof, 1, goal)
     return found
 
@@ -104,7 +105,7 @@ def _combination(value: _Wanted, given: Sequence[_Known], proof: Mapping[str, An
     scale = "".join(_factor(item, given)[0] for item in proof.get("multiplier", []))
     what = "If it were not so, what is assumed could not hold together, for zero" if opposite else (
         "What is assumed cannot hold together, for zero") if contradiction else (
-        f"${_shown(expression_latex(value.margin))}$" + (f", times ${scale}$, which is positive," if scale else ""))
+        _difference(value.margin) + (f", times ${scale}$, which is positive," if scale else ""))
     if not terms:
         yield Item(f"{what} is zero, multiplied out.", depth)
         return
@@ -145,7 +146,7 @@ def _fact(name: str, of: str) -> str:
 
 
 def _known(text: str, why: str = "assumed") -> _Known:
-    return _Known(_margin(text), f"{why}: ${relation_latex(text)}$")
+    return _Known(_margin(text), f"{why}: ${_shown(relation_latex(text))}$")
 
 
 def _wanted(text: str) -> _Wanted:
@@ -158,5 +159,10 @@ def _margin(text: str) -> str:
     return f"({right}) - ({left})" if operator in ("<=", "<") else f"({left}) - ({right})"
 
 
-def _shown(latex: str) -> str:
-    return latex if len(latex) <= LONGEST else r"\text{(a long expression, which the certificate spells out)}"
+def _difference(margin: str) -> str:
+    latex = expression_latex(margin)
+    return f"${latex}$" if len(latex) <= LONGEST else "The difference of both sides"
+
+
+def _shown(latex: str, longest: int = LONGEST) -> str:
+    return latex if len(latex) <= longest else r"\text{(a long expression, which the certificate spells out)}"

@@ -10,6 +10,7 @@ from workbench.report.formulas import LIMITS, formula_tree
 
 ACCENTS = {"˙": "dot", "¨": "dot.double", "^": "hat", "~": "tilde", "¯": "macron", "‾": "macron", "―": "macron",
            "→": "arrow", "ˇ": "caron", "˘": "breve", "´": "acute", "`": "grave"}
+WIDE = 70  # signs of a fraction's part from which on it is written in a line, which can break
 WORDS = 3  # letters from which on words in a formula stand outside of it
 OPENING, CLOSING = frozenset("(["), frozenset(")]")
 ESCAPED = frozenset("(){}[]/,;_^&#$\"'\\*`~@<>=+-:!.")
@@ -73,8 +74,7 @@ def _piece(node: ElementTree.Element, display: bool) -> str:
     if node.tag in _SIMPLE:
         return _SIMPLE[node.tag](node, text)
     if node.tag == "mfrac":
-        fraction = f"frac({_inner(parts[0])}, {_inner(parts[1])})"
-        return f"display({fraction})" if display else fraction
+        return _fraction(parts, display)
     if node.tag in _SCRIPTS:
         return _scripts(parts, _SCRIPTS[node.tag], node.tag.startswith("mu") or (parts[0].text or "") in LIMITS)
     if node.tag == "mover":
@@ -82,6 +82,17 @@ def _piece(node: ElementTree.Element, display: bool) -> str:
     if node.tag == "mroot":
         return f"root({_inner(parts[1])}, {_inner(parts[0])})"
     return f"sqrt({_row(parts, False)})" if node.tag == "msqrt" else _row(parts, display)
+
+
+def _fraction(parts: list[ElementTree.Element], display: bool) -> str:
+    if max(map(_signs, parts)) >= WIDE:
+        return " \\/ ".join(f"({_inner(part)})" if _signs(part) > 1 else _inner(part) for part in parts)
+    fraction = f"frac({_inner(parts[0])}, {_inner(parts[1])})"
+    return f"display({fraction})" if display else fraction
+
+
+def _signs(node: ElementTree.Element) -> int:
+    return sum(len(part.text or "") for part in node.iter())
 
 
 def _inner(node: ElementTree.Element) -> str:

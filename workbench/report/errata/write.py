@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 from workbench.files.writing import make_folder, write_bytes, write_text
@@ -21,9 +21,10 @@ ANOTHER_FOLDER = "name another folder"
 NO_PDF = "errata.pdf is not written, because Typst is not installed: pip install typst"
 
 
-def errata_texts(decisions: Sequence[Decision], citation: str) -> dict[str, str]:
-    """The text of every file but the PDF, by its name."""
-    blocks = errata(decisions, citation)
+def errata_texts(decisions: Sequence[Decision], citation: str,
+                 letters: Mapping[str, str] | None = None) -> dict[str, str]:
+    """The text of every file but the PDF, by its name; letters: as `errata` takes them."""
+    blocks = errata(decisions, citation, letters)
     document = {"version": 1, **findings_document(findings(decisions))}
     title = f"Corrections: {citation}"
     return {"errata.md": markdown(blocks), "errata.tex": latex_document(blocks),
@@ -31,17 +32,19 @@ def errata_texts(decisions: Sequence[Decision], citation: str) -> dict[str, str]
             "findings.json": json.dumps(document, indent=1, ensure_ascii=False) + "\n"}
 
 
-def write_errata(decisions: Sequence[Decision], citation: str, out: Path) -> tuple[list[Path], str | None]:
-    """Write the errata of a paper into a folder; the files, and what could not be written in one line.
+def write_errata(decisions: Sequence[Decision], citation: str, out: Path,
+                 letters: Mapping[str, str] | None = None) -> tuple[list[Path], str | None]:
+    """Write the errata of a paper into a folder; the files, and what could not be written in one line. letters: as
+    `errata` takes them.
 
     Raises InputError where the folder cannot be written.
     """
     make_folder(out, out, ANOTHER_FOLDER)
     written = []
-    for name, text in errata_texts(decisions, citation).items():
+    for name, text in errata_texts(decisions, citation, letters).items():
         write_text(out / name, text, ANOTHER_FOLDER)
         written.append(out / name)
-    pdf = pdf_of(errata(decisions, citation))
+    pdf = pdf_of(errata(decisions, citation, letters))
     if pdf is None:
         return written, NO_PDF
     write_bytes(out / "errata.pdf", pdf, ANOTHER_FOLDER)

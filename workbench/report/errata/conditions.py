@@ -1,0 +1,51 @@
+"""What is assumed, as formulas: in one where it is short, in lines below each other where it is not."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+from workbench.report.certificate_latex import expression_latex, name_latex, rate_latex, relation_latex
+from workbench.report.errata.blocks import Block, Formula, Paragraph
+
+LONGEST = 900  # characters of a formula beyond which its parts stand below each other
+LINE = 150  # characters of LaTeX up to which short formulas share a line
+MOST_GIVEN = 6000  # characters of all conditions beyond which a reader is sent to the certificate
+COMMA = r",\ "
+
+
+def premises(goal: Mapping[str, Any]) -> dict[str, list[str]]:
+    """What a goal of a certificate assumes, by when it is assumed, as LaTeX."""
+    return {"Given": [relation_latex(text) for text in goal.get("assume", ())],
+            "At all times": [relation_latex(text) for text in goal.get("always", ())],
+            "At first": [f"{name_latex(name)} = {expression_latex(text)}"
+                         for name, text in goal.get("initial", {}).items()],
+            "Along": [rate_latex(name, rate) for name, rate in goal.get("flow", {}).items()]}
+
+
+def listed_conditions(conditions: Mapping[str, Sequence[str]], beside: Sequence[str] = ()) -> list[Block]:
+    """Conditions as LaTeX, by what stands in front of them, and the values of letters beside them."""
+    parts = [(label, part) for label, part in conditions.items() if part]
+    if not parts:
+        return []
+    at = COMMA.join(beside)
+    size = sum(len(text) for _, part in parts for text in (*part, COMMA)) + len(at)
+    if size > MOST_GIVEN:
+        return [Paragraph("What else is assumed holds there too; the certificate spells it out.")]
+    if size > LONGEST:
+        return [*(Formula(text, "" if i else label) for label, part in parts for i, text in enumerate(_packed(part))),
+                *([Formula(at, "Where")] if at else [])]
+    (first, given), *others = [(label, COMMA.join(part)) for label, part in parts]
+    others += [("Where", at)] if at else []
+    return [Formula(given + "".join(rf"\quad\text{{{label.lower()}}}\ {text}" for label, text in others), first)]
+
+
+def _packed(texts: Sequence[str]) -> list[str]:
+    """Formulas in lines, short ones beside each other."""
+    lines: list[str] = []
+    for text in texts:
+        if lines and len(lines[-1]) + len(text) <= LINE:
+            lines[-1] += COMMA + text
+        else:
+            lines.append(text)
+    return lines
