@@ -52,6 +52,18 @@ ANGLES = {"version": 2, "claim": "mine:7", "verdict": "proved", "example": {"x":
                      fact("sine_sum", of="x", **{"and": "y"}), fact("cosine_sum", of="x", **{"and": "-y"}),
                      fact("exp_sum", of="x", **{"and": "y"}), fact("log_product", of="y", **{"and": "z"}),
                      IDENTITY, IDENTITY, IDENTITY]}
+# Every fact of arctan, tan by sin and cos, both along a flow, what is odd, and a number that is enclosed.
+ARCTANS = {"version": 2, "claim": "mine:16", "verdict": "proved", "example": {"x": "1", "y": "1", "r": "1"},
+           "goal": {"assume": ["y >= 0", "cos(y) > 0"], "flow": {"x": "r", "y": "r"}, "show": [
+               "sin(arctan(x)) == x*cos(arctan(x))", "cos(arctan(x)) > 0", "arctan(x) < 2*arctan(1)", "arctan(y) <= y",
+               "arctan(x)**2 <= x*arctan(x)", "x*arctan(x)*(1 + x**2) >= x**2", "arctan(-x) + arctan(x) == arctan(0)",
+               "tan(y)*cos(y) == sin(y)", "4*arctan(1) >= 3", "D(arctan(x)) == r/(1 + x**2)",
+               "D(tan(y))*cos(y)**2 == r"]},
+           "proofs": [fact("arctan_sine", of="x"), fact("arctan_cosine", of="x"), fact("arctan_limit", of="x"),
+                      fact("arctan_tangent", of="y"), fact("arctan_sector", of="x"), fact("arctan_slope", of="x"),
+                      IDENTITY, IDENTITY, fact("enclosure", of="4*arctan(1) - 3"), IDENTITY,
+                      {"rule": "combination", "terms": [{"coefficient": "1", "factors": [
+                          {"fact": "circle", "of": "y"}, {"any": "r"}]}]}]}
 PENDULUM = {"version": 2, "claim": "mine:8", "verdict": "proved", "example": {"a": "1", "w": "1"},
             "goal": {"flow": {"a": "w", "w": "-sin(a)"}, "show": ["D(w**2/2 - cos(a)) == 0"]}, "proofs": [IDENTITY]}
 ANGLE = {"version": 2, "claim": "mine:9", "verdict": "refuted", "point": {"x": "1"},
@@ -105,8 +117,8 @@ LONG = {"version": 2, "claim": "mine:15", "verdict": "proved", "example": {"x": 
             ("1", [{"square": "x/1000000000003 - y/7000000000021"}]), ("1", [{"assume": 0}, {"assume": 1}]))]}
 
 
-CERTIFICATES = (PRODUCT, SUMS, POINT, OPPOSITES, ANGLES, PENDULUM, ANGLE, STEADY, CAUCHY, TURNED, RATES, SATURATED,
-                LONG)
+CERTIFICATES = (PRODUCT, SUMS, POINT, OPPOSITES, ANGLES, ARCTANS, PENDULUM, ANGLE, STEADY, CAUCHY, TURNED, RATES,
+                SATURATED, LONG)
 
 
 def digested(certificate: dict[str, Any]) -> dict[str, Any]:

@@ -36,7 +36,6 @@ REFUSED = {
     "a float": lambda: Goal((at_least(x, 0.1),)),
     "a float in the flow": lambda: Goal((at_least(D(x), 0),), flow={x: sp.Float("0.5")}),
     "a float assumed": lambda: Goal((at_least(x, 0),), (at_least(x, 0.5),)),
-    "pi, which would be any number": lambda: Goal((at_least(sp.pi, 4),)),
     "infinity": lambda: Goal((at_most(x, sp.oo),)),
     "not a number": lambda: Goal((at_most(x, sp.nan),)),
     "an imaginary number": lambda: Goal((equal(sp.I * x, 0),)),
@@ -50,7 +49,7 @@ REFUSED = {
     "the number of members as a number": lambda: Goal((equal(sp.Sum(W[j] - W[j] + 1, (j, 1, n)), n),)),
     "a function's name": lambda: Goal((at_least(sp.Symbol("sqrt"), 0),)),
     "a power of unknown exponent": lambda: Goal((at_least(positive_x**y, 0),)),
-    "a tangent": lambda: Goal((at_least(sp.tan(x)**2, 0),)),
+    "a cotangent": lambda: Goal((at_least(sp.cot(x)**2, 0),)),
     "a comparison inside": lambda: Goal((at_least(sp.Piecewise((x, x > 0), (0, True)), 0),)),
     "an index that no sum binds": lambda: Goal((at_least(W[j], 0),)),
     "an index that another sum binds": lambda: Goal((equal(sp.Sum(W[i], (j, 1, n)), sp.Sum(W[j], (j, 1, n))),)),
@@ -155,11 +154,11 @@ def test_every_part_of_a_goal_is_in_its_text():
 def test_a_rate_that_a_goal_does_not_need_may_be_beyond_certificates_and_one_that_it_needs_not():
     """Leaving a rate out would make a constant of its symbol: it is left out only where nothing depends on it."""
     a, b, c, angle = sp.symbols("a b c angle", real=True)
-    flow = {a: -a, b: a, c: sp.atan(b), angle: sp.atan2(a, b) + c}
+    flow = {a: -a, b: a, c: sp.asin(b), angle: sp.atan2(a, b) + c}
     needs_none = Goal((equal(D(a * b), a**2 - a * b),), flow=flow)
     assert list(needs_none.flow) == [a, b] and prove_goal(needs_none) is not None
     for goal in (lambda: Goal((equal(D(c), 0),), flow=flow), lambda: Goal((at_least(c, 0),), flow=flow),
-                 lambda: Goal((equal(D(a), 0),), flow={a: c, c: sp.atan(c)}),
+                 lambda: Goal((equal(D(a), 0),), flow={a: c, c: sp.asin(c)}),
                  lambda: Goal((equal(D(a), -a),), assume=(at_least(angle, 0),), flow=flow)):
         with pytest.raises(ClaimError, match="no meaning in certificates"):
             goal()

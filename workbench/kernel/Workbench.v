@@ -179,6 +179,55 @@ Proof. intros a b s ->. rewrite exp_plus. ring. Qed.
 Lemma log_product : forall a b p, 0 < a -> 0 < b -> p = a * b -> ln p - ln a - ln b = 0.
 Proof. intros a b p A B ->. rewrite ln_mult by assumption. ring. Qed.
 
+Lemma arctan_between : forall x, 0 <= x -> x / (1 + x * x) <= atan x <= x.
+Proof.
+  intros x [P|<-]; [|rewrite atan_0; lra].
+  destruct (MVT_cor2 atan (fun c => / (1 + c ^ 2)) 0 x P) as [c [E C]]; [intros; apply derivable_pt_lim_atan|].
+  rewrite atan_0 in E. replace (c ^ 2) with (c * c) in E by ring. assert (S : 0 < c * c) by (apply Rmult_lt_0_compat; lra).
+  replace (atan x) with (x / (1 + c * c)) by lra. unfold Rdiv. split.
+  - apply Rmult_le_compat_l; [lra|]. apply Rinv_le_contravar; [lra|].
+    apply Rplus_le_compat_l, Rmult_le_compat; lra.
+  - rewrite <- (Rmult_1_r x) at 2. apply Rmult_le_compat_l; [lra|]. rewrite <- Rinv_1 at 2.
+    apply Rinv_le_contravar; lra.
+Qed.
+
+Lemma arctan_cosine : forall x, 0 < cos (atan x).
+Proof. intros x. pose proof (atan_bound x). apply cos_gt_0; lra. Qed.
+
+Lemma arctan_sine : forall x, sin (atan x) - x * cos (atan x) = 0.
+Proof.
+  intros x. pose proof (tan_atan x) as T. unfold tan in T. pose proof (arctan_cosine x) as C.
+  rewrite <- T at 2. field. lra.
+Qed.
+
+Lemma arctan_limit : forall x, 0 < 2 * atan 1 - atan x.
+Proof. intros x. rewrite atan_1. pose proof (atan_bound x). lra. Qed.
+
+Lemma arctan_tangent : forall x, 0 <= x -> 0 <= x - atan x.
+Proof. intros x P. pose proof (arctan_between x P). lra. Qed.
+
+Lemma arctan_sector : forall x, 0 <= atan x * (x - atan x).
+Proof.
+  assert (H : forall x, 0 <= x -> 0 <= atan x * (x - atan x)).
+  { intros x P. pose proof (arctan_between x P) as [L U]. apply Rmult_le_pos; [|lra].
+    apply (Rle_trans _ (x / (1 + x * x))); [|exact L]. apply Rmult_le_pos; [exact P|].
+    apply Rlt_le, Rinv_0_lt_compat. pose proof (Rle_0_sqr x) as S. unfold Rsqr in S. lra. }
+  intros x. destruct (Rle_or_lt 0 x) as [P|N]; [exact (H x P)|].
+  pose proof (H (- x)) as T. rewrite atan_opp in T. lra.
+Qed.
+
+Lemma arctan_slope : forall x, 0 <= x * (atan x * (1 + x * x) - x).
+Proof.
+  assert (H : forall x, 0 <= x -> 0 <= x * (atan x * (1 + x * x) - x)).
+  { intros x P. apply Rmult_le_pos; [exact P|]. pose proof (arctan_between x P) as [L _].
+    pose proof (Rle_0_sqr x) as S. unfold Rsqr in S.
+    apply (Rmult_le_compat_r (1 + x * x)) in L; [|lra]. unfold Rdiv in L. rewrite Rmult_assoc, Rinv_l in L; lra. }
+  intros x. destruct (Rle_or_lt 0 x) as [P|N]; [exact (H x P)|].
+  pose proof (H (- x)) as T. rewrite atan_opp in T. lra.
+Qed.
+
+Lemma arctan_zero : forall a, a = 0 -> atan a = 0. Proof. intros a ->. apply atan_0. Qed.
+Lemma arctan_turned : forall x y, x = - y -> atan x = - atan y. Proof. intros x y ->. apply atan_opp. Qed.
 Lemma sin_zero : forall a, a = 0 -> sin a = 0. Proof. intros a ->. apply sin_0. Qed.
 Lemma cos_zero : forall a, a = 0 -> cos a = 1. Proof. intros a ->. apply cos_0. Qed.
 Lemma sin_turned : forall x y, x = - y -> sin x = - sin y. Proof. intros x y ->. apply sin_neg. Qed.

@@ -76,6 +76,13 @@ Proof.
   apply (is_derive_comp cos f t (- sin (f t)) a); [apply is_derive_cos|assumption].
 Qed.
 
+Lemma D_arctan : forall (f : R -> R) (t a : R), is_derive f t a ->
+  is_derive (fun s => atan (f s)) t (a / (1 + f t * f t)).
+Proof.
+  intros f t a F. apply (is_derive_comp atan f t (/ (1 + f t * f t)) a); [|assumption].
+  replace (f t * f t) with (f t ^ 2) by ring. apply is_derive_Reals. apply derivable_pt_lim_atan.
+Qed.
+
 Lemma D_tanh : forall (f : R -> R) (t a : R), is_derive f t a ->
   is_derive (fun s => tanh (f s)) t ((1 - tanh (f t) ^ 2) * a).
 Proof.

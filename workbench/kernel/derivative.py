@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from dataclasses import dataclass
 
-from workbench.kernel.syntax import Letters, NotExportedError, call, names_in, operation, text_of
+from workbench.kernel.syntax import Letters, NotExportedError, call, names_in, operation, tangent, text_of
 
 
 @dataclass(frozen=True)
@@ -23,7 +23,7 @@ class Differentiation:
     rates: dict[str, ast.expr]
     letters: Letters
 
-    def of(self, node: ast.expr) -> Rate:  # noqa: PLR0911 - a case a kind
+    def of(self, node: ast.expr) -> Rate:  # noqa: PLR0911, PLR0912 - a case a kind
         """The derivative; NotExportedError where the library has no lemma. The Coq term speaks of hypotheses `rate_x`,
         and has a hole for every side condition."""
         if not names_in(node) & self.rates.keys():
@@ -58,6 +58,12 @@ class Differentiation:
                 below = self.of(inner)
                 return Rate(operation(ast.UnaryOp(ast.USub(), call("sin", inner)), ast.Mult(), _value(below)),
                             self._lemma("D_cos", [inner], [below]))
+            case ast.Call(func=ast.Name(id="tan"), args=[inner]):
+                return self.of(tangent(inner))
+            case ast.Call(func=ast.Name(id="arctan"), args=[inner]):
+                below = self.of(inner)
+                slope = operation(ast.Constant(1), ast.Add(), operation(inner, ast.Mult(), inner))
+                return Rate(operation(_value(below), ast.Div(), slope), self._lemma("D_arctan", [inner], [below]))
             case ast.Call(func=ast.Name(id="tanh"), args=[inner]):
                 below = self.of(inner)
                 slope = operation(ast.Constant(1), ast.Sub(), operation(node, ast.Pow(), ast.Constant(2)))

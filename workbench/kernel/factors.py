@@ -9,7 +9,7 @@ from typing import Any
 from workbench.kernel.script import Script
 from workbench.kernel.syntax import FUNCTIONS, NotExportedError
 from workbench.kernel.totals import Closed
-from workbench.proof.checker import SUM, Ratio, atoms_of, constant, number, symbol
+from workbench.proof.checker import ARCTAN, SUM, Ratio, atoms_of, constant, number, symbol
 
 
 @dataclass(frozen=True)
@@ -81,6 +81,8 @@ def factor_of(script: Script, item: dict[str, Any]) -> Factor:  # noqa: PLR0911,
             return _addition(script, name, context.read(one), context.read(two))
         case {"fact": "circle" | "cosine_parabola" | "sine_tangent" as name, "of": str(text)}:
             return _angle(script, name, context.read(text))
+        case {"fact": str(name), "of": str(text)} if name in ARCTAN:
+            return _arctan(script, name, context.read(text))
         case {"fact": str(name), "of": str(text)}:
             return _fact(script, name, text)
     raise NotExportedError(f"the factor {str(item)[:60]}")
@@ -152,6 +154,29 @@ def _angle(script: Script, name: str, angle: Ratio) -> Factor:
     other, change, sine = _call(script, "sin", angle)
     return _shown(script, sine * sine + worth * worth + number(-1), "==",
                   f"({other} * {other} + {call} * {call} - 1)", f"{change}, ?{equation}", "apply circle.")
+
+
+# The checker's facts of a = arctan x as the library's lemmas have them; c and s are the cosine and the sine of a, q is
+# arctan 1.
+OF_ARCTAN = {"arctan_sine": "{s} - {x} * {c}", "arctan_cosine": "{c}", "arctan_limit": "2 * {q} - {a}",
+             "arctan_tangent": "{x} - {a}", "arctan_sector": "{a} * ({x} - {a})",
+             "arctan_slope": "{x} * ({a} * (1 + {x} * {x}) - {x})"}
+
+
+def _arctan(script: Script, name: str, argument: Ratio) -> Factor:
+    """A fact of arctan, and of the sine and cosine of that angle."""
+    say, sign, wanted = ARCTAN[name]
+    text, changes = OF_ARCTAN[name], list[str]()
+    angle, equation, worth = _call(script, "arctan", argument)
+    written = {"x": script.normal.ratio(argument), "a": angle}
+    for letter, kind, of in (("s", "sin", worth), ("c", "cos", worth), ("q", "arctan", number(1))):
+        if f"{{{letter}}}" in text:
+            called, change, _ = _call(script, kind, of)
+            changes.append(change)
+            written[letter] = called if letter == "q" else f"({kind} {angle})"
+    proof = f"exact {script.positive(argument, wanted)}." if wanted else ""
+    return _shown(script, say(script.context, argument, worth), sign, f"({text.format(**written)})",
+                  ", ?".join([equation, *changes]), f"apply {name}. {proof}")
 
 
 def _call(script: Script, kind: str, argument: Ratio) -> tuple[str, str, Ratio]:

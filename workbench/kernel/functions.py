@@ -1,4 +1,4 @@
-"""What log, exp, abs, sign, sqrt, sin and cos of an argument are worth, each an equation with its lemma."""
+"""What log, exp, abs, sign, sqrt, sin, cos and arctan of an argument are worth, each an equation with its lemma."""
 
 from __future__ import annotations
 
@@ -45,8 +45,9 @@ class Functions(Signs):
         shown = f"{inside}same."
         if number is not None:
             proof = {"log": "apply ln_one. ", "exp": "apply exp_zero. ", "sin": "apply sin_zero. ",
-                     "cos": "apply cos_zero. "}.get(kind)
-            if proof is None or (kind, number) not in (("log", 0), ("exp", 1), ("sin", 0), ("cos", 1)):
+                     "cos": "apply cos_zero. ", "arctan": "apply arctan_zero. "}.get(kind)
+            if proof is None or (kind, number) not in (("log", 0), ("exp", 1), ("sin", 0), ("cos", 1),
+                                                        ("arctan", 0)):
                 proof = self._of_number(kind, inner, is_number(argument), number, inside)
                 return self.show("C", statement, f"{intros}{proof}")
             return self.show("C", statement, f"{intros}{proof}{shown}")
@@ -66,8 +67,8 @@ class Functions(Signs):
                              f"{intros}transitivity (- {self.normal.atom(atom)}); [|ring]. {named}apply ln_reciprocal. "
                              f"{{ {worth}. "
                              f"exact {positive}. }} {shown}")
-        elif kind in ("sign", "sin") and same(value, -symbol(atom)):
-            lemma = "sgn_turned" if kind == "sign" else "sin_turned"
+        elif kind in ("sign", "sin", "arctan") and same(value, -symbol(atom)):
+            lemma = "sgn_turned" if kind == "sign" else f"{kind}_turned"
             proof = f"transitivity (- {self.normal.atom(atom)}); [|ring]. {named}apply {lemma}. "
         elif kind == "exp" and same(value, symbol(atom).inverse()):
             proof = f"transitivity (/ {self.normal.atom(atom)}); [|same]. {named}apply exp_minus_inv. "

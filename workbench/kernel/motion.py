@@ -10,9 +10,9 @@ from workbench.kernel.derivative import Differentiation
 from workbench.kernel.normal import Normal
 from workbench.kernel.script import Script
 from workbench.kernel.syntax import NotExportedError, operation, replaced, text_of
-from workbench.kernel.theorem import condition_text
+from workbench.kernel.theorem import condition_text, partial_places
 from workbench.kernel.writing import conjunction
-from workbench.proof.checker import SUM, Ratio, Sign, atoms_of, parse, partial_operations, same, symbols_of
+from workbench.proof.checker import SUM, Ratio, Sign, atoms_of, parse, same, symbols_of
 from workbench.proof.checker import substitute as substitute_ratio
 
 COQ = {">": ">", ">=": ">=", "==": "=", "!=": "<>"}
@@ -32,7 +32,7 @@ def nonincreasing(script: Script, proof: dict[str, Any], prove: Prover) -> tuple
     letters = script.normal.letters.at("s")
     of_s, slope_of_s = text_of(function, letters), text_of(slope, letters)
     soon = letters
-    conditions = [condition_text(part, wanted, soon) for part, wanted in partial_operations(proof["function"])]
+    conditions = [condition_text(part, wanted, soon) for part, wanted in partial_places(proof["function"])]
     whole = " /\\ ".join([*conditions, f"is_derive (fun s => {of_s}) s {slope_of_s}", f"{slope_of_s} <= 0"])
     along = script.fresh("L")
     script.say(f"assert ({along} : forall s, 0 <= s <= t -> {whole}).")
@@ -65,7 +65,7 @@ def _along(script: Script, proof: dict[str, Any], function: ast.expr, slope: ast
         script.defined(text)
     soon = script.normal.letters
     found = [script.facts.conditions[condition_text(part, wanted, soon)]
-             for part, wanted in partial_operations(proof["function"])]
+             for part, wanted in partial_places(proof["function"])]
     rate = Differentiation(script.rates, script.normal.letters).of(function)
     of_s, slope_of_s = text_of(function, script.normal.letters), text_of(slope, script.normal.letters)
     term = rate.proof
@@ -118,7 +118,7 @@ def _drop(script: Script, function: ast.expr, value: Ratio, along: str, bound: s
     at_start = replaced(function, lambda part: starts.get(part.id) if isinstance(part, ast.Name) else None)
     change = "".join(f"rewrite ?start_{name} in zero_. " for name in starts)
     script.say(f"pose proof ({along} 0 (conj (Rle_refl 0) t_later)) as zero_. {change}")
-    for part, wanted in partial_operations(proof["function"]):
+    for part, wanted in partial_places(proof["function"]):
         begun = replaced(part, lambda each: starts.get(each.id) if isinstance(each, ast.Name) else None)
         text = condition_text(begun, wanted, script.normal.letters)
         name = script.show("W", text, "tauto.")

@@ -39,9 +39,6 @@ class Script(Functions):
                 self.facts.conditions[condition] = self.facts.rates[f"ex {text_of(part, self.normal.letters)}"][0]
                 continue
             each = condition.startswith("forall")
-            if isinstance(part, ast.Constant):  # a number below a fraction bar, of which there may be hundreds
-                self.facts.conditions[condition] = self.show("W", condition, "linear.")
-                continue
             equation, value = self.evaluate(part, each)
             shown = self._signed(part, value, wanted, equation)
             if wanted != "non-negative":

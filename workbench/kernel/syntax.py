@@ -10,7 +10,7 @@ from dataclasses import dataclass, replace
 from workbench.proof.checker import parse, split_relation
 
 FUNCTIONS = {"log": "ln", "exp": "exp", "tanh": "tanh", "abs": "Rabs", "sign": "sgn", "sqrt": "sqrt",
-             "sin": "sin", "cos": "cos"}
+             "sin": "sin", "cos": "cos", "arctan": "atan"}
 RELATIONS = {"<=": "<=", ">=": ">=", "==": "=", "!=": "<>", "<": "<", ">": ">"}
 EXTREMES = {"Max": "Rmax", "Min": "Rmin"}
 NAMED = "@"  # before the name of a value that the Coq file names itself
@@ -92,6 +92,8 @@ def text_of(node: ast.AST, letters: Letters) -> str:  # noqa: PLR0911 - a case a
             for other in others:
                 found = f"({EXTREMES[name]} {found} {text(other)})"
             return found
+        case ast.Call(func=ast.Name(id="tan"), args=[inner]):
+            return text(tangent(inner))
         case ast.Call(func=ast.Name(id=name), args=[inner]) if name in FUNCTIONS:
             return f"({FUNCTIONS[name]} {text(inner)})"
     raise NotExportedError(f"{ast.unparse(node)[:80]} has no Coq text")
@@ -126,14 +128,21 @@ def call(name: str, *arguments: ast.expr) -> ast.expr:
     return ast.Call(ast.Name(name, ast.Load()), list(arguments), [])
 
 
+def tangent(angle: ast.expr) -> ast.expr:
+    """tan as what it is to the checker and to Coq."""
+    return operation(call("sin", angle), ast.Div(), call("cos", angle))
+
+
 def plain(node: ast.expr) -> ast.expr:
-    """tanh, Max and Min written by exp and abs, as the library's lemmas do."""
+    """tanh, tan, Max and Min written by exp, by sin and cos and by abs, as the library's lemmas do."""
 
     def new(part: ast.expr) -> ast.expr | None:
         if called(part, "tanh"):
             double = call("exp", operation(ast.Constant(2), ast.Mult(), plain(part.args[0])))  # type: ignore[attr-defined]
             return operation(operation(double, ast.Sub(), ast.Constant(1)), ast.Div(),
                              operation(double, ast.Add(), ast.Constant(1)))
+        if called(part, "tan"):
+            return tangent(plain(part.args[0]))  # type: ignore[attr-defined]
         if called(part, "Max", "Min"):
             first, *others = [plain(each) for each in part.args]  # type: ignore[attr-defined]
             sign = ast.Add() if part.func.id == "Max" else ast.Sub()  # type: ignore[attr-defined]

@@ -76,8 +76,8 @@ class Goal:
         """(condition, expression, 'non-zero', 'positive', 'non-negative' or 'derivative')."""
         found = list[tuple[str, ast.expr, str]]()
         derived = calls(text, "D")
-        rates = [part for rate in self.flow.values() for part in partial_operations(rate)] if derived else []
-        for part, wanted in [*reversed(rates), *reversed(partial_operations(text))]:
+        rates = [part for rate in self.flow.values() for part in partial_places(rate)] if derived else []
+        for part, wanted in [*reversed(rates), *reversed(partial_places(text))]:
             found.append((condition_text(part, wanted, letters), part, wanted))
         for side in sides_of(text):
             for node in ast.walk(parse(side)):
@@ -104,6 +104,13 @@ class Goal:
     def _defined(self, text: str, relation: str, joined: str) -> str:
         conditions = self.conditions(text)
         return "".join(f"({condition}) {joined} " for condition in conditions) + relation
+
+
+def partial_places(text: str) -> list[tuple[ast.expr, str]]:
+    """Where an expression or relation may be undefined. A whole number below a fraction bar, other than 0, is not asked
+    for: coefficients bring hundreds of them, and a conjunction costs Coq the square of its length."""
+    return [(part, wanted) for part, wanted in partial_operations(text)
+            if not (wanted == "non-zero" and isinstance(part, ast.Constant) and part.value)]
 
 
 def condition_text(part: ast.expr, wanted: str, letters: Letters) -> str:

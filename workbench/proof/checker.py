@@ -1,8 +1,9 @@
 """Re-check certificates with exact arithmetic alone. Standard library only; knows nothing of who made them.
 
 A certificate states a goal: for all real values of its symbols, the relations in `assume` imply those in
-`show`. Expressions are Python syntax over + - * / **, log, exp, tanh, sin, cos, abs, sign, sqrt, Max, Min, Sum(...)
-(over any number n of indexed symbols, also none, formally) and D(...) (derivative along `flow`, symbols with rates).
+`show`. Expressions are Python syntax over + - * / **, log, exp, tanh, sin, cos, tan, arctan, abs, sign, sqrt, Max, Min,
+Sum(...) (over any number n of indexed symbols, also none, formally) and D(...) (derivative along `flow`, symbols with
+rates).
 `proved` carries a proof, `refuted`/`violated`/`gap` a point (or functions of time) where the goal fails.
 
 D holds symbols without a rate constant; of `inputs`, which may vary without a known rate, it is not taken. Only the
@@ -10,10 +11,11 @@ rule `nonincreasing`, paths and models follow the flow through time: `always` ho
 `initial` names values at time zero, and `assume` and `show` speak of one later instant.
 
 What must be believed: this file, and the facts named in `fact`: log x <= x - 1 (x > 0), exp x >= 1 + x, exp x > 0;
-sin and cos on the unit circle, cos x >= 1 - x**2/2, sin x <= x (x >= 0); how sin, cos and exp of a sum and log of a
-product come from those of the parts; abs(x)**2 = x**2, abs(x) >= 0; sqrt(x)**2 = x, sqrt(x) >= 0 (x >= 0), sqrt(x) >
-0 (x > 0); a function whose derivative is never positive does not increase. tanh, Max and Min are read as what they
-stand for: tanh x = (exp 2x - 1)/(exp 2x + 1), Max(a, b) = (a + b + abs(a - b))/2, Min(a, b) = (a + b - abs(a - b))/2.
+sin and cos on the unit circle, cos x >= 1 - x**2/2, sin x <= x (x >= 0); what `ARCTAN` says of arctan x; how sin, cos
+and exp of a sum and log of a product come from those of the parts; abs(x)**2 = x**2, abs(x) >= 0; sqrt(x)**2 = x,
+sqrt(x) >= 0 (x >= 0), sqrt(x) > 0 (x > 0); a function whose derivative is never positive does not increase. tan, tanh,
+Max and Min are read as what they stand for: tan x = sin x/cos x, tanh x = (exp 2x - 1)/(exp 2x + 1),
+Max(a, b) = (a + b + abs(a - b))/2, Min(a, b) = (a + b - abs(a - b))/2.
 """
 
 from __future__ import annotations
@@ -34,7 +36,7 @@ MOST_TERMS, MOST_RATES = 16, 8  # of the sums at a point; of what always holds, 
 SUM = "Sum()"  # the formal sum over the index: a product SUM * term means the sum of the terms
 TOTAL = "total"  # the kind of an atom that is the sum of a term, a number like any other
 OPERATORS = ("<=", ">=", "==", "!=", "<", ">")
-FUNCTIONS = ("log", "exp", "tanh", "sin", "cos", "abs", "sign", "sqrt")
+FUNCTIONS = ("log", "exp", "tanh", "sin", "cos", "tan", "arctan", "abs", "sign", "sqrt")
 NAME = re.compile(r"[A-Za-z_][A-Za-z0-9_]*")  # no atom of this file looks like that
 EXPRESSION = re.compile(r"[A-Za-z0-9_ +*/(),-]*")
 OTHER_NUMBER = re.compile(r"(?<![A-Za-z0-9_])[0-9]+[A-Za-z_]")  # 0x10 and 1_0 are numbers to Python
@@ -410,20 +412,22 @@ class Context:
         if name == "tanh":
             double = self._exp(number(2) * argument)
             return (double + number(-1)) * (double + number(1)).inverse()
+        if name == "tan":
+            return self.call("sin", argument) * self.call("cos", argument).inverse()
         if argument.den == constant(1) and set(argument.num) <= {()} and (
                 rational := self._of_number(name, argument.num.get((), Fraction(0)))) is not None:
             return number(rational)
         for atom, (kind, known) in list(self.functions.items()):
             if kind == name and self.closed(known + -argument).is_zero():
                 return symbol(atom)
-            if kind == name != "sqrt" and same(known, -argument):  # abs and cos are even, sign and sin are odd
+            if kind == name != "sqrt" and same(known, -argument):  # abs and cos are even, others odd
                 return symbol(atom) if name in ("abs", "cos") else -symbol(atom)
         return self._new(name, argument)
 
     @staticmethod
     def _of_number(name: str, value: Fraction) -> Fraction | None:
-        """abs, sign, sqrt, sin or cos of a number, None where that is irrational."""
-        if name in ("sin", "cos"):
+        """abs, sign, sqrt, sin, cos or arctan of a number, None where that is irrational."""
+        if name in ("sin", "cos", "arctan"):
             return None if value else Fraction(name == "cos")
         if name != "sqrt":
             return abs(value) if name == "abs" else Fraction((value > 0) - (value < 0))
@@ -504,6 +508,8 @@ class Context:
                 return self.total_of(inner)
             if kind in ("sin", "cos"):
                 return inner * self.call("cos", argument) if kind == "sin" else -inner * self.call("sin", argument)
+            if kind == "arctan":
+                return inner * (number(1) + argument * argument).inverse()
             if kind not in ("log", "exp") and not inner.is_zero():
                 raise CertificateError(f"a derivative of {kind} is not taken: it is none everywhere")
             return inner * argument.inverse() if kind == "log" else inner * symbol(atom)
@@ -668,6 +674,8 @@ def partial_operations(text: str) -> list[tuple[ast.expr, str]]:
                 places.append((below, "non-zero"))
             case ast.BinOp(left=below, op=ast.Pow(), right=n) if not isinstance(n, ast.Constant):
                 places.append((below, "non-zero"))
+            case ast.Call(func=ast.Name(id="tan"), args=[inner]):
+                places.append((ast.Call(ast.Name("cos"), [inner], []), "non-zero"))
             case ast.Call(func=ast.Name(id="log"), args=[inner]):
                 places.append((inner, "positive"))
             case ast.Call(func=ast.Name(id="sqrt"), args=[inner]):
@@ -792,6 +800,11 @@ def _monotone(value: Ratio, operator: str, given: Relations, proof: dict[str, An
                if op in (">=", ">") and name not in symbols_of(context, known + away)]
     between = elsewhere.with_margins([*elsewhere.margins, (step, ">="), *bounded])
     between.initial = {}  # there x is no value that the flow takes
+    for step in proof.get("between", []):  # what holds on the way, that a denominator is positive, say
+        between.require_defined(step["lemma"])
+        lemma = margin(context, step["lemma"])
+        prove(*lemma, between, step["proof"])
+        between = between.with_margins([*between.margins, lemma])
     between.require_defined_value(value)
     prove(context.derivative(value, {name: number(1 if upwards else -1)}), ">=", between, proof["derivative"])
     prove(substitute(context, value, {name: start}), operator, elsewhere, proof["at_start"])
@@ -862,6 +875,10 @@ def _factor(given: Relations, item: dict[str, Any]) -> Sign:
         case {"fact": "sine_tangent", "of": str(text)}:
             inner = _argument(given, text, "non-negative")
             return inner + -context.call("sin", inner), ">="
+        case {"fact": str(fact), "of": str(text)} if fact in ARCTAN:
+            say, sign, wanted = ARCTAN[fact]
+            inner = _argument(given, text, wanted)
+            return say(context, inner, context.call("arctan", inner)), sign
         case {"fact": "sine_sum" | "cosine_sum" | "exp_sum" | "log_product" as fact, "of": str(one), "and": str(two)}:
             a, b = (_argument(given, text, "positive" if fact == "log_product" else None) for text in (one, two))
             return _addition(context, fact, a, b), "=="
@@ -882,6 +899,17 @@ def _factor(given: Relations, item: dict[str, Any]) -> Sign:
             wanted, sign = ("positive", ">") if fact == "sqrt_positive" else ("non-negative", ">=")
             return context.call("sqrt", _argument(given, text, wanted)), sign
     raise CertificateError(f"unknown factor {item}")
+
+
+# What is known of a = arctan x, the angle between -2 arctan 1 and 2 arctan 1 whose tangent is x: the value, its sign,
+# and what is wanted of x. From 0 up to x arctan rises at rates between 1/(1 + x**2) and 1.
+ARCTAN: dict[str, tuple[Callable[[Context, Ratio, Ratio], Ratio], str, str | None]] = {
+    "arctan_sine": (lambda c, x, a: c.call("sin", a) + -(x * c.call("cos", a)), "==", None),
+    "arctan_cosine": (lambda c, x, a: c.call("cos", a), ">", None),
+    "arctan_limit": (lambda c, x, a: number(2) * c.call("arctan", number(1)) + -a, ">", None),
+    "arctan_tangent": (lambda c, x, a: x + -a, ">=", "non-negative"),
+    "arctan_sector": (lambda c, x, a: a * (x + -a), ">=", None),
+    "arctan_slope": (lambda c, x, a: x * (a * (number(1) + x * x) + -x), ">=", None)}
 
 
 def _addition(context: Context, fact: str, a: Ratio, b: Ratio) -> Ratio:
@@ -1007,12 +1035,25 @@ def _short(x: Fraction) -> tuple[Fraction, Fraction]:
     return Fraction(whole, 10**60), Fraction(whole + 1, 10**60)
 
 
-def _atanh_bounds(z: Fraction) -> tuple[Fraction, Fraction]:
+def _atanh_bounds(z: Fraction, turn: int = 1) -> tuple[Fraction, Fraction]:
+    """Rational bounds of atanh(z), or of arctan(z) where every other term is turned (-1), for abs(z) < 1."""
     total, power, k = Fraction(0), z, 0
     while abs(power) > PRECISION:
-        total, power, k = total + power / (2 * k + 1), power * z * z, k + 1
+        total, power, k = total + power / (2 * k + 1), power * z * z * turn, k + 1
     slack = abs(power) / (1 - z * z)
     return total - slack, total + slack
+
+
+def arctan_bounds(x: Fraction) -> tuple[Fraction, Fraction]:
+    """Rational bounds of arctan(x): of x > 1/2 by arctan 1/2 + arctan((2 x - 1)/(x + 2)), whose product is below 1."""
+    if x < 0:
+        low, high = arctan_bounds(-x)
+        return -high, -low
+    if x > Fraction(1, 2):
+        (low, high), (more, most) = (arctan_bounds(part) for part in (Fraction(1, 2), (2 * x - 1) / (x + 2)))
+        return low + more, high + most
+    (low, _), (_, high) = (_atanh_bounds(y, -1) for y in _short(x))
+    return low, high
 
 
 def _round(x: Fraction, direction: int) -> Fraction:
@@ -1065,7 +1106,7 @@ def bounds(context: Context, value: Ratio, known: Bounds | None = None) -> tuple
             elif kind == TOTAL:
                 known[atom] = x, y
             else:
-                function = {"log": log_bounds, "exp": exp_bounds, "sqrt": sqrt_bounds}[kind]
+                function = {"log": log_bounds, "exp": exp_bounds, "sqrt": sqrt_bounds, "arctan": arctan_bounds}[kind]
                 known[atom] = function(x)[0], function(y)[1]
         return known[atom]
 

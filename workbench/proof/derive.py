@@ -40,8 +40,9 @@ class Summed(sp.Function):
 
 
 def unfold(expr: sp.Expr) -> sp.Expr:
-    """tanh by exp, Max and Min by absolute values, as `checker.py` reads them; Abs and sign left unevaluated."""
-    if not expr.has(sp.tanh, sp.Abs, sp.sign, sp.Max, sp.Min):
+    """tanh by exp, tan by sin and cos, Max and Min by absolute values, as `checker.py` reads them; Abs and sign left
+    unevaluated."""
+    if not expr.has(sp.tanh, sp.tan, sp.Abs, sp.sign, sp.Max, sp.Min):
         return expr
     if isinstance(expr, (sp.Max, sp.Min)):
         direction = 1 if isinstance(expr, sp.Max) else -1
@@ -53,9 +54,16 @@ def unfold(expr: sp.Expr) -> sp.Expr:
     if isinstance(expr, sp.tanh):
         double = sp.exp(2 * parts[0])
         return (double - 1) / (double + 1)
+    if isinstance(expr, sp.tan):
+        return circular(sp.sin, parts[0]) / circular(sp.cos, parts[0])
     if isinstance(expr, sp.Abs):
         return Size(*parts)
     return Side(*parts) if isinstance(expr, sp.sign) else expr.func(*parts)
+
+
+def circular(function: type[sp.Expr], angle: sp.Expr) -> sp.Expr:
+    """sin or cos of an angle; of one with an arctan not as the root that sympy makes of it: the checker has none."""
+    return function(angle, evaluate=False) if angle.has(sp.atan) else function(angle)
 
 
 def lie_derivative(expr: sp.Expr, flow: dict[sp.Expr, sp.Expr]) -> sp.Expr:

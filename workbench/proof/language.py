@@ -16,8 +16,8 @@ from workbench.proof.typed import evaluated
 SYMBOLS = [sp.Symbol("x", **known).assumptions0 for known in ({}, {"real": True}, {"positive": True},
                                                               {"nonnegative": True})]
 BASES = [sp.IndexedBase("x", **known).assumptions0 for known in ({}, {"real": True})]
-FUNCTIONS = (sp.log, sp.exp, sp.tanh, sp.sin, sp.cos, sp.Abs, sp.sign, sp.Max, sp.Min)
-LANGUAGE = ("Sum", "D", "log", "exp", "tanh", "sin", "cos", "abs", "sign", "sqrt", "Max", "Min")
+FUNCTIONS = (sp.log, sp.exp, sp.tanh, sp.sin, sp.cos, sp.tan, sp.atan, sp.Abs, sp.sign, sp.Max, sp.Min)
+LANGUAGE = ("Sum", "D", "log", "exp", "tanh", "sin", "cos", "tan", "arctan", "abs", "sign", "sqrt", "Max", "Min")
 NO_NUMBERS = (sp.I, sp.zoo, sp.nan, sp.oo, -sp.oo)
 LARGEST_POWER, LARGEST_NUMBER = 64, 10**300  # of the checker; of floating point, in which points are sought
 
@@ -106,7 +106,7 @@ class Language:
         if isinstance(expr, sp.Rational):
             if max(abs(expr.p), expr.q) > LARGEST_NUMBER:
                 raise ClaimError("a number has more than 300 digits: choose other units or smaller powers")
-        elif expr != sp.E:
+        elif expr not in (sp.E, sp.pi):
             raise ClaimError(f"'{expr}' has no meaning in certificates: state the claim with + - * / **, "
                              f"{', '.join(LANGUAGE[2:])}")
 

@@ -11,8 +11,9 @@ from workbench.errors import ClaimError
 from workbench.proof.claim import Goal, Relation, name_of
 from workbench.proof.typed import evaluated
 
-NAMES = {"log": "log", "exp": "exp", "D": "D", "tanh": "tanh", "sin": "sin", "cos": "cos", "Abs": "abs", "Size": "abs",
-         "sign": "sign", "Side": "sign", "Summed": "Sum", "Max": "Max", "Min": "Min"}
+NAMES = {"log": "log", "exp": "exp", "D": "D", "tanh": "tanh", "sin": "sin", "cos": "cos", "tan": "tan",
+         "atan": "arctan", "Abs": "abs", "Size": "abs", "sign": "sign", "Side": "sign", "Summed": "Sum", "Max": "Max",
+         "Min": "Min"}
 
 
 SUM, PRODUCT, POWER, ATOM = range(4)  # how tightly a text holds together
@@ -30,6 +31,8 @@ def text(expr: sp.Expr) -> str:
 def _written(expr: sp.Expr) -> Written:
     if isinstance(expr, (sp.Indexed, sp.Symbol)):
         return name_of(expr), ATOM
+    if expr is sp.pi:
+        return "4*arctan(1)", PRODUCT
     if isinstance(expr, sp.Add):
         return _sum_text(expr), SUM
     if isinstance(expr, (sp.Mul, sp.Rational)):

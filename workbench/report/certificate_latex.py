@@ -245,7 +245,8 @@ def _operation(node: ast.BinOp) -> Written:
 _CALLED = {"sqrt": r"\sqrt{%s}", "abs": r"\left|%s\right|", "log": r"\ln\left(%s\right)",
            "sign": r"\operatorname{sgn}\left(%s\right)", "Max": r"\max\left(%s\right)",
            "Min": r"\min\left(%s\right)", "tanh": r"\tanh\left(%s\right)", "sin": r"\sin\left(%s\right)",
-           "cos": r"\cos\left(%s\right)"}
+           "cos": r"\cos\left(%s\right)", "tan": r"\tan\left(%s\right)",
+           "arctan": r"\arctan\left(%s\right)"}
 
 
 def _call(name: str, args: list[ast.expr]) -> Written:

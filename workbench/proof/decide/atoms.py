@@ -27,6 +27,7 @@ class Atoms:
     squares: dict[sp.Symbol, tuple[sp.Expr, Item]] = field(default_factory=dict)  # abs or root: itself, its fact
     sides: dict[sp.Symbol, sp.Expr] = field(default_factory=dict)
     circles: dict[sp.Expr, tuple[sp.Symbol, sp.Symbol]] = field(default_factory=dict)  # by angle its sine and cosine
+    arctans: dict[sp.Symbol, tuple[sp.Expr, sp.Expr]] = field(default_factory=dict)  # the argument, flat and as stated
     inverses: dict[sp.Symbol, sp.Expr] = field(default_factory=dict)
     strict: list[tuple[sp.Expr, int]] = field(default_factory=list)
     indexed: set[sp.Symbol] = field(default_factory=set)
@@ -36,15 +37,18 @@ class Atoms:
 
     def meanings(self) -> dict[sp.Symbol, sp.Expr]:
         """What the generators for functions and inverses stand for."""
-        state = tuple(map(len, (self.squares, self.sides, self.circles, self.exps, self.logs, self.inverses)))
+        state = tuple(map(len, (self.squares, self.sides, self.circles, self.arctans, self.exps, self.logs,
+                                self.inverses)))
         if self.known_meanings[0] != state:
             self.known_meanings = state, self._meanings()
         return self.known_meanings[1]
 
     def _meanings(self) -> dict[sp.Symbol, sp.Expr]:
         functions: dict[sp.Symbol, sp.Expr] = {s: itself for s, (itself, _) in self.squares.items()} | self.sides
+        functions |= {s: sp.atan(stated, evaluate=False) for s, (_, stated) in self.arctans.items()}
         for angle, (sine, cosine) in self.circles.items():
-            functions |= {sine: sp.sin(angle.xreplace(functions)), cosine: sp.cos(angle.xreplace(functions))}
+            stated = angle.xreplace(functions)  # not evaluated: sympy knows sin(arctan x) as a root
+            functions |= {sine: sp.sin(stated, evaluate=False), cosine: sp.cos(stated, evaluate=False)}
         functions |= {s: sp.exp(a.xreplace(functions)) for a, s in self.exps.items()}
         functions |= {s: sp.log(a.xreplace(functions)) for a, s in self.logs.items()}
         return functions | {s: 1 / known.xreplace(functions) for s, known in self.inverses.items()}
@@ -65,7 +69,8 @@ def flatten(expr: sp.Expr, atoms: Atoms, flow: dict[sp.Expr, sp.Expr]) -> sp.Exp
     flat = flat.xreplace(names)
     flat = flat.replace(lambda e: isinstance(e, (Size, Side)) or (e.is_Pow and not e.exp.is_Integer),
                         lambda e: square_atom(e, atoms))
-    flat = flat.replace(lambda e: isinstance(e, (sp.sin, sp.cos)), lambda e: circle_atom(e, atoms))
+    flat = flat.xreplace({sp.pi: 4 * sp.atan(1, evaluate=False)})
+    flat = flat.replace(lambda e: isinstance(e, (sp.sin, sp.cos, sp.atan)), lambda e: angle_atom(e, atoms))
     flat = flat.xreplace({sp.E: sp.exp(1, evaluate=False)}).replace(sp.exp, lambda inner: exp_atom(inner, atoms))
     return flat.replace(sp.log, lambda inner: log_atom(inner, atoms))
 
@@ -120,11 +125,20 @@ def _with_sums(flat: sp.Expr) -> sp.Expr:
     return sp.expand(flat - SUM * term) + Summed(term)
 
 
-def circle_atom(itself: sp.Expr, atoms: Atoms) -> sp.Expr:
-    """sin or cos of an angle as an atom: cos is even, sin is odd; ClaimError where the angle holds exp or log."""
+def angle_atom(itself: sp.Expr, atoms: Atoms) -> sp.Expr:
+    """sin, cos or arctan of an argument as an atom: cos is even, the others are odd; ClaimError where exp or log stands
+    in it."""
     angle, sine = itself.args[0], isinstance(itself, sp.sin)
     if angle.has(sp.exp, sp.log):
-        raise ClaimError(f"{itself} cannot be decided here: give the angle a letter of its own")
+        raise ClaimError(f"{itself} cannot be decided here: give the argument a letter of its own")
+    if isinstance(itself, sp.atan):
+        for symbol, (known, _) in atoms.arctans.items():
+            for turn in (1, -1):
+                if vanishes(known - turn * angle):
+                    return turn * symbol
+        symbol = sp.Dummy(f"A{len(atoms.arctans)}", real=True)
+        atoms.arctans[symbol] = angle, angle.xreplace(atoms.meanings())
+        return symbol
     for known, (s, c) in atoms.circles.items():
         for turn in (1, -1):
             if vanishes(known - turn * angle):

@@ -21,8 +21,11 @@ from workbench.proof.text import text
 _EXCESS: dict[str, Callable[[sp.Expr], sp.Expr]] = {
     "log_tangent": lambda x: x - 1 - sp.log(x),
     "exp_tangent": lambda x: sp.exp(x, evaluate=False) - 1 - x,
-    "cosine_parabola": lambda x: sp.cos(x) - 1 + x**2 / 2,
-    "sine_tangent": lambda x: x - sp.sin(x),
+    "cosine_parabola": lambda x: sp.cos(x, evaluate=False) - 1 + x**2 / 2,
+    "sine_tangent": lambda x: x - sp.sin(x, evaluate=False),
+    "arctan_tangent": lambda x: x - sp.atan(x, evaluate=False),
+    "arctan_sector": lambda x: sp.atan(x, evaluate=False) * (x - sp.atan(x, evaluate=False)),
+    "arctan_slope": lambda x: x * (sp.atan(x, evaluate=False) * (1 + x**2) - x),
 }
 GRID = 10**9  # bounds of numbers such as log(2) are multiples of 1/GRID
 
@@ -48,9 +51,25 @@ def tangents(goal: Goal, atoms: Atoms) -> Iterator[tuple[str, sp.Expr, sp.Expr]]
         arguments += [(argument, "exp_tangent"), (-argument, "exp_tangent")]
     for angle in list(atoms.circles):
         arguments += [(angle, "cosine_parabola")] + ([(angle, "sine_tangent")] if angle.is_nonnegative else [])
+    for argument, _ in list(atoms.arctans.values()):
+        arguments += [(argument, "arctan_sector"), (argument, "arctan_slope")]
+        arguments += [(argument, "arctan_tangent")] if argument.is_nonnegative else []
     for nested, fact in arguments:
         argument = nested.xreplace(atoms.meanings())
         yield fact, argument, _EXCESS[fact](argument)
+
+
+def arctans(atoms: Atoms) -> Iterator[tuple[Item, sp.Expr, str]]:
+    """(fact, value, sign) of every arctan: it lies between -2 arctan 1 and 2 arctan 1; its tangent is what it is of."""
+    quarter = flatten(sp.atan(1, evaluate=False), atoms, {}) if atoms.arctans else sp.S.Zero
+    for angle, (argument, stated) in list(atoms.arctans.items()):
+        if argument.free_symbols:
+            yield {"fact": "arctan_limit", "of": text(stated)}, 2 * quarter - angle, ">"
+            yield {"fact": "arctan_limit", "of": text(-stated)}, 2 * quarter + angle, ">"
+        if angle in atoms.circles:
+            sine, cosine = atoms.circles[angle]
+            yield {"fact": "arctan_cosine", "of": text(stated)}, cosine, ">"
+            yield {"fact": "arctan_sine", "of": text(stated)}, sine - argument * cosine, "=="
 
 
 def circles(atoms: Atoms) -> Iterator[tuple[Item, sp.Expr]]:
@@ -107,6 +126,7 @@ def known_facts(goal: Goal, relations: tuple[Relation, ...], atoms: Atoms) -> li
         value = to_laurent(root**2 - (inner**2 if isinstance(itself, Size) else inner), atoms)
         known.append(Known((square,), value, "=="))
     known += [Known((item,), to_laurent(value, atoms), "==") for item, value in (*circles(atoms), *additions(atoms))]
+    known += [Known((item,), to_laurent(value, atoms), sign) for item, value, sign in arctans(atoms)]
     return known + [bound for atom, meaning in atoms.meanings().items() if not meaning.free_symbols
                     for bound in _enclosure(atom, meaning, atoms)]
 

@@ -32,6 +32,7 @@ def first_lemmas(goal: Goal, shown: Relation, given: Given) -> list[Lemma]:
             proof = _positive_if_not_zero(squares, place, len(given) + len(found))
             found.append((greater(relation.margin, 0), proof))
     found += _sizes_below(shown, given, len(given) + len(found))
+    found += _cosines_below(goal, shown, (*given, *(lemma for lemma, _ in found)))
     for wanted in _partial(shown):
         known = (*given, *(lemma for lemma, _ in found))
         if not _seen_at_once(wanted, known):
@@ -77,6 +78,18 @@ def _sizes_below(shown: Relation, given: Given, last: int) -> list[Lemma]:
             [{"fact": "abs_square", "of": text(inner)}]]
         found.append((greater(size, 0), {"rule": "contradiction", "terms": [
             {"coefficient": "1", "factors": each} for each in factors]}))
+    return found
+
+
+def _cosines_below(goal: Goal, shown: Relation, given: Given) -> list[Lemma]:
+    """cos(v) > 0 for every tan(v) that a relation holds, where nothing that is given says so."""
+    found: list[Lemma] = []
+    for tangent in sorted(shown.left.atoms(sp.tan) | shown.right.atoms(sp.tan), key=sp.default_sort_key):
+        cosine = sp.cos(tangent.args[0], evaluate=False)  # sympy knows that of arctan as a root
+        if not any(vanishes(r.margin - cosine) or vanishes(r.margin + cosine) for r in given):
+            lemma = greater(cosine, 0)
+            proof = find_combination(goal, lemma, (*given, *(other for other, _ in found)))
+            found += [] if proof is None else [(lemma, proof)]
     return found
 
 

@@ -10,8 +10,8 @@ from operator import sub
 import sympy as sp
 
 from workbench.errors import ClaimError
-from workbench.proof.claim import Relation
-from workbench.proof.decide.atoms import Atoms
+from workbench.proof.claim import D, Relation
+from workbench.proof.decide.atoms import Atoms, flatten
 from workbench.proof.derive import SUM
 from workbench.proof.text import text
 
@@ -229,5 +229,8 @@ def goal_atoms(relations: tuple[Relation, ...]) -> Atoms:
                 atoms.nonnegative[margin] = {"assume": position}
         elif relation.strict and margin.is_polynomial(*margin.free_symbols) and not margin.has(sp.Sum, sp.Indexed):
             atoms.strict.append((margin, position))
+        elif relation.strict and isinstance(margin, (sp.sin, sp.cos)) and not margin.args[0].has(
+                sp.exp, sp.log, D) and (atom := flatten(margin, atoms, {})).is_Symbol:
+            atoms.positive[atom] = ({"assume": position}, {"inverse": position})
     atoms.index(SUM)
     return atoms

@@ -20,7 +20,7 @@ from workbench.proof.decide.totals import find_by_totals
 from workbench.proof.decide.two_sides import between, find_by_two_sides, pinched
 from workbench.proof.decide.vanishing import vanishes
 from workbench.proof.derive import Side, Size, expand_derivatives, unfold
-from workbench.proof.text import assumptions, text
+from workbench.proof.text import assumptions, relation_text, text
 
 Proof = dict[str, Any]
 Given = tuple[Relation, ...]
@@ -29,6 +29,7 @@ Found = Proof | None
 MOST_CASES = 6  # expressions whose sign is split, one inside the other
 MOST_STEPS = 3  # derivatives taken one after the other
 EMPTY = at_least(0, 0)
+GROWING = (sp.log, sp.exp, sp.sin, sp.cos, sp.atan)  # functions that have a rate
 
 
 def prove_relation(goal: Goal, shown: Relation) -> Found:
@@ -123,9 +124,9 @@ def _by_both_bounds(goal: Goal, shown: Relation, given: Given, lemmas: Given, de
 
 
 def _by_growth(goal: Goal, shown: Relation, given: Given, steps: int = MOST_STEPS) -> Found:
-    """A margin with log, exp, sin or cos in it that is not negative where a symbol starts, and grows as it leaves."""
+    """A margin with a function in it that is not negative where a symbol starts, and grows as it leaves."""
     margin = shown.margin
-    if shown.operator in ("==", "!=") or not margin.has(sp.log, sp.exp, sp.sin, sp.cos) or margin.has(
+    if shown.operator in ("==", "!=") or not margin.has(*GROWING) or margin.has(
             sp.Sum, sp.Indexed, Size, Side) or steps == 0:
         return None
     for symbol, start, way in _starts(margin, given):
@@ -139,12 +140,26 @@ def _by_growth(goal: Goal, shown: Relation, given: Given, steps: int = MOST_STEP
             continue
         bounded = tuple(r for r in given if r.operator not in ("==", "!=")
                         and not sp.expand(r.margin + way * symbol).has(symbol))  # it lies below them on the way as well
+        between = (*elsewhere, at_least(way * (symbol - start), 0), *bounded)
+        below = _positive_below(place, margin, between)
         rising = _grown(place, at_least(way * sp.diff(margin, symbol), 0),
-                        (*elsewhere, at_least(way * (symbol - start), 0), *bounded), steps)
+                        (*between, *(lemma for lemma, _ in below)), steps)
         if rising is not None:
-            return {"rule": "monotone", "variable": text(symbol), "from" if way > 0 else "to": text(start),
-                    "derivative": rising, "at_start": at_start}
+            found = {"rule": "monotone", "variable": text(symbol), "from" if way > 0 else "to": text(start),
+                     "derivative": rising, "at_start": at_start}
+            stated = [{"lemma": relation_text(lemma), "proof": proof} for lemma, proof in below]
+            return found | ({"between": stated} if stated else {})
     return None
+
+
+def _positive_below(goal: Goal, margin: sp.Expr, given: Given) -> list[tuple[Relation, Proof]]:
+    """Of the functions that a margin divides by, those that are positive, each with its proof."""
+    found: list[tuple[Relation, Proof]] = []
+    bases = {p.base for p in margin.atoms(sp.Pow) if p.exp.is_Rational and p.exp < 0 and isinstance(p.base, GROWING)}
+    for base in sorted(bases, key=sp.default_sort_key):
+        proof = find_combination(goal, greater(base, 0), (*given, *(lemma for lemma, _ in found)))
+        found += [] if proof is None else [(greater(base, 0), proof)]
+    return found
 
 
 def _starts(margin: sp.Expr, given: Given) -> list[tuple[sp.Symbol, sp.Expr, int]]:
@@ -187,7 +202,7 @@ def _inspected(relations: Given, goal: Goal) -> tuple[sp.Expr, bool] | None:
 
 def _plain_first(atom: sp.Expr) -> tuple[bool, Any]:
     """Signs of plain expressions come first: they often settle those of functions of them."""
-    return atom.has(sp.exp, sp.log, sp.sin, sp.cos), sp.default_sort_key(atom)
+    return atom.has(*GROWING), sp.default_sort_key(atom)
 
 
 def _turn(one: sp.Expr, other: sp.Expr) -> int:

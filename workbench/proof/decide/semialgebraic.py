@@ -15,7 +15,7 @@ from sympy.polys.rings import PolyRing
 from workbench.errors import ClaimError
 from workbench.proof.claim import Goal, Relation
 from workbench.proof.decide.atoms import Atoms, Item, flatten
-from workbench.proof.decide.facts import additions, circles, tangents
+from workbench.proof.decide.facts import additions, arctans, circles, tangents
 from workbench.proof.decide.laurent import as_fraction, goal_atoms, positive_by_terms
 from workbench.proof.decide.situation import Polynomial, Signed, Situation, Substitution
 from workbench.proof.derive import SUM, Size
@@ -91,18 +91,18 @@ def _cleared(flat: sp.Expr, atoms: Atoms, relations: tuple[Relation, ...]) -> tu
             items += [{"positive": text((sign * factor).xreplace(names))}] * power
             numerator *= sign**power
         else:
-            position, scale = _nonzero(factor, relations)
+            position, scale = _nonzero(factor, atoms, relations)
             half = (power + 1) // 2
             items += [{"square_of": position}] * half
             numerator *= factor ** (2 * half - power) * scale ** (2 * half)
     return numerator, tuple(items)
 
 
-def _nonzero(factor: sp.Expr, relations: tuple[Relation, ...]) -> tuple[int, sp.Expr]:
+def _nonzero(factor: sp.Expr, atoms: Atoms, relations: tuple[Relation, ...]) -> tuple[int, sp.Expr]:
     """Position of an assumption that a factor is not zero, and its margin divided by the factor, a number."""
     for position, relation in enumerate(relations):
         if relation.operator == "!=":
-            scale = sp.cancel(relation.margin / factor)
+            scale = sp.cancel(flatten(relation.margin, atoms, {}) / factor)
             if scale.is_Rational and scale != 0:
                 return position, scale
     raise ClaimError(f"the denominator {factor} is not assumed positive: state its sign in the goal")
@@ -136,12 +136,13 @@ def _facts(goal: Goal, relations: tuple[Relation, ...], atoms: Atoms) -> Iterato
         except ClaimError:
             continue
         bounds.append((({"fact": fact, "of": text(argument)}, *cleared), value, ">="))
-    for item, zero in (*circles(atoms), *additions(atoms)):
+    equalities = [(item, zero, "==") for item, zero in (*circles(atoms), *additions(atoms))]
+    for item, stated, sign in (*equalities, *arctans(atoms)):
         try:
-            value, cleared = _cleared(zero, atoms, relations)
+            value, cleared = _cleared(stated, atoms, relations)
         except ClaimError:
             continue
-        yield (item, *cleared), value, "=="
+        yield (item, *cleared), value, sign
     for root, (itself, square) in list(atoms.squares.items()):
         inner = flatten(itself.args[0], atoms, {})
         if inner.has(SUM):

@@ -13,7 +13,8 @@ import numpy as np
 import sympy as sp
 
 FUNCTIONS: dict[type, Callable[[Any], Any]] = {
-    sp.log: np.log, sp.exp: np.exp, sp.tanh: np.tanh, sp.sin: np.sin, sp.cos: np.cos, sp.Abs: np.abs, sp.sign: np.sign}
+    sp.log: np.log, sp.exp: np.exp, sp.tanh: np.tanh, sp.sin: np.sin, sp.cos: np.cos, sp.tan: np.tan,
+    sp.atan: np.arctan, sp.Abs: np.abs, sp.sign: np.sign}
 
 
 class Tape:
@@ -21,7 +22,7 @@ class Tape:
 
     sizes: whether each value is followed by the sum of its terms' absolute values.
 
-    Raises TypeError for an expression that is more than arithmetic, log, exp, tanh, sin, cos, abs, sign, Max and Min.
+    Raises TypeError for an expression that is more than arithmetic, Max, Min and `FUNCTIONS`.
     """
 
     def __init__(self, symbols: Sequence[sp.Symbol], exprs: Sequence[sp.Expr], sizes: bool = False) -> None:

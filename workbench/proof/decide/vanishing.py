@@ -14,7 +14,7 @@ from workbench.proof.derive import Side, Size
 
 PRIME = 2**61 - 1
 # Rational functions of these are zero where they are so for symbols; that sin and cos lie on a circle is a fact apart.
-ON_THEIR_OWN = (sp.log, sp.tanh, sp.sin, sp.cos, sp.Abs, sp.sign, Size, Side, sp.Indexed)
+ON_THEIR_OWN = (sp.log, sp.tanh, sp.sin, sp.cos, sp.tan, sp.atan, sp.Abs, sp.sign, Size, Side, sp.Indexed)
 TRIES, POINTS = 6, 2  # points tried, and those at which it has to vanish
 
 

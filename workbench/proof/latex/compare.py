@@ -14,7 +14,7 @@ from workbench.proof.latex.limits import MOST_TERMS
 from workbench.proof.latex.residue import DivisionByZeroError, exponents, residue
 from workbench.proof.latex.vanish import is_zero
 
-_FUNCTIONS = (sp.log, sp.exp, sp.tanh, sp.sin, sp.cos, sp.sign, sp.Max, sp.Min, D)
+_FUNCTIONS = (sp.log, sp.exp, sp.tanh, sp.sin, sp.cos, sp.tan, sp.atan, sp.sign, sp.Max, sp.Min, D)
 
 
 class Comparison:

@@ -11,7 +11,7 @@ from workbench.proof.latex.error import LatexError
 from workbench.proof.latex.limits import LARGEST_EXPONENT
 from workbench.proof.latex.vectors import is_vector
 
-_ONE = {"tanh": sp.tanh, "sin": sp.sin, "cos": sp.cos, "exp": sp.exp, "ln": sp.log, "sgn": sp.sign}
+_ONE = {"tanh": sp.tanh, "sin": sp.sin, "cos": sp.cos, "arctan": sp.atan, "exp": sp.exp, "ln": sp.log, "sgn": sp.sign}
 _MOST_ARGUMENTS = 20
 _MOST_BITS = 100_000
 

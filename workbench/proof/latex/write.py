@@ -121,6 +121,12 @@ class _Printer(LatexPrinter):
     def _print_cos(self, expr: sp.Expr, exp: str | None = None) -> str:
         return self._applied(r"\cos", expr, exp)
 
+    def _print_tan(self, expr: sp.Expr, exp: str | None = None) -> str:
+        return self._applied(r"\tan", expr, exp)
+
+    def _print_atan(self, expr: sp.Expr, exp: str | None = None) -> str:
+        return self._applied(r"\arctan", expr, exp)
+
     def _print_Max(self, expr: sp.Expr, exp: str | None = None) -> str:
         return self._applied(r"\max", expr, exp)
 
