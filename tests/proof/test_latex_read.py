@@ -31,7 +31,7 @@ def side(text):
     (r"\dot V_2", r"\dot{V}_2", r"\dot{V_2}"),
     ("x^2_1", "x_1^2", "{x_1}^2"),
     (r"\begin{aligned} a &= b \\ &\le c \end{aligned}", r"a = b \le c"),
-    (r"\begin{cases} a = b, \\ c = d \end{cases}", r"\begin{cases} a = b \\ c = d \end{cases}", "a = b; c = d"),
+    (r"\begin{cases} a = b, \\ c = d \end{cases}", r"\begin{cases} a = b \\ c = d \end{cases}", "a = b, c = d"),
     (r"98\%", "0.98", r"\!0.98"),
     (r"x_{max}", r"x_{\max}", r"x_{\mathrm{max}}", r"x_{\text{max}}"),
 ])

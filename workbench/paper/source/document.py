@@ -80,7 +80,7 @@ class _Reader:
         self.parent = ""
         self.pending: list[str] = []
         self.group_labels: dict[str, list[str]] = {}
-        self.remarking = False
+        self.remarking = self.letting = False
         self.supposing = False  # whether a display before it, in the same paragraph, is a hypothesis
         self.last, self.begun = 0, 0  # where the display before ends, and the theorem or proof around it begins
         self.waiting: list[tuple[str, int]] = []  # labels of subequations, and from which row on they hold
@@ -188,7 +188,7 @@ class _Reader:
         if PARAGRAPH.search(self.body, self.last, around[0]) is not None:
             self.supposing = False
         supposed = supposed_around(before_it, text, behind) or self.supposing or (
-            bool(within or self.proving) and lets(self.body[self.begun:around[0]]))
+            bool(within or self.proving) and self._lets(around[0]))
         self.supposing |= introduces_hypothesis(before_it) and (
             self.remarking or not any(values_and_rates(cleaned(text))))
         self.last = around[1]
@@ -220,6 +220,11 @@ class _Reader:
         elif carried:
             add("", carried, labels, [])
 
+    def _lets(self, end: int) -> bool:
+        """Whether the theorem or proof that has begun supposes a relation before a place."""
+        self.letting |= lets(self.body[max(self.begun, self.last):end])
+        return self.letting
+
     def _theorem(self, base: str, starred: bool, at: int, close: int) -> None:
         what, counter, by_section = self.names[base]
         title, begin = optional(self.body, at)
@@ -228,7 +233,7 @@ class _Reader:
         row = Row(_id(f"{what.lower()}{number}"), what, number, " ".join(LABEL.sub("", text).split()),
                   tuple(LABEL.findall(_without_displays(text))), title or "", referred=_references(text))
         self._add(row)
-        self.pending, self.begun, self.remarking = [], begin, _REMARKS.search(what) is not None
+        self.pending, self.begun, self.letting, self.remarking = [], begin, False, _REMARKS.search(what) is not None
         self._walk(begin, close, row.id)
         self.remarking = False
         self.pending = []
@@ -241,7 +246,7 @@ class _Reader:
              if row.what not in ("Equation", "Remark") and not is_assumption(row.what)), None)
         if owner is not None:
             owner.referred += _references(self.body[begin:close])
-        self.pending, self.proving, self.begun = [], True, begin
+        self.pending, self.proving, self.begun, self.letting = [], True, begin, False
         self._walk(begin, close, "")
         self.pending, self.proving = [], False
 
