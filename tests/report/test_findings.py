@@ -9,6 +9,7 @@ from small_decisions import certificate, paper
 from workbench.proof.fate import judged
 from workbench.proof.places import place_of, places_of
 from workbench.proof.verdict import Decision, Stated
+from workbench.report.claims import claim_views
 from workbench.report.counterexample import counterexample_of
 from workbench.report.errata.content import errata
 from workbench.report.errata.markdown import markdown
@@ -62,6 +63,12 @@ def test_a_step_that_is_taken_without_words_is_not_called_printed():
     text = markdown(errata(rows, "cited"))
     assert text.count("**Implied, not printed:**") == 1 and "of which the text implies and does not print" in text
     assert "implies and does not print" not in markdown(errata(paper(), "cited"))
+
+
+def test_a_lemma_whose_title_is_its_place_is_not_told_twice():
+    rows = [{"id": "p:lemma2", "equation": "lemma2", "title": title} for title in ("Lemma 2", "Lemma 2: it decays")]
+    assert [(view.place, view.subject) for view in claim_views({"claims": rows})] == [
+        ("Lemma 2", ""), ("Lemma 2", "it decays")]
 
 
 def test_of_many_lines_on_the_way_those_are_named_that_rest_on_no_other():

@@ -163,6 +163,8 @@ def test_in_print_the_drawn_figures_stand(view):
     view.emulate_media(media="print")
     view.locator("#line .plot svg").wait_for()
     view.locator("#line .chart").wait_for(state="hidden")
+    rules = view.evaluate("[...document.styleSheets[0].cssRules].map(rule => rule.cssText)")
+    assert any(rule.startswith("@page {") and "margin: 1cm" in rule for rule in rules)  # not up to the paper's edge
     view.emulate_media(media="screen")
 
 

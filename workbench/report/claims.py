@@ -121,9 +121,10 @@ def _view(entry: Mapping[str, Any], known: set[str]) -> ClaimView:
                        for name in map(_text, _list(entry.get(key))))
             for key in ("tainted_by", "proved_under", "premises", "rests_on")}
     trust, place = _text(entry.get("trust")), place_of(_text(entry.get("equation")), "")
+    subject = subject_of(_text(entry.get("title")))
     return ClaimView(
         id=_text(entry.get("id")), anchor=anchor(_text(entry.get("id"))), title=in_words(_text(entry.get("title"))),
-        subject=in_words(subject_of(_text(entry.get("title")))),
+        subject=in_words("" if subject == place else subject),  # Lemma 2 is not told to be Lemma 2
         equation=_text(entry.get("equation")), section=_text(entry.get("section")), origin=origin, severity=severity,
         kind=_text(entry.get("kind")),
         statement=formula(_text(entry.get("statement"))),
