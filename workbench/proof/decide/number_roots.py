@@ -54,10 +54,10 @@ def _by_squares(record: dict[str, Any], place: int) -> Proof | None:
     rest, terms = dict(value.num), list[dict[str, Any]]()
     used: list[Dependent] = []
     for root in _dependent(roots):
-        rest, cofactor = _replaced(rest, root)
-        if cofactor:
+        rest, multiple = _replaced(rest, root)
+        if multiple:
             terms.append({"coefficient": str(1 / (scale * root.below)), "factors": [
-                {"assume": len(record.get("assume", [])) + len(used)}, {"any": _text(context, cofactor)}]})
+                {"assume": len(record.get("assume", [])) + len(used)}, {"any": _text(context, multiple)}]})
             used.append(root)
     for atom, number in roots.items():
         cofactor: Poly = {}
