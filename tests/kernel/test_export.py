@@ -134,6 +134,17 @@ def test_statement_is_the_goal_with_every_denominator_asked_for() -> None:
                                                 "(v_x >= 1 -> ((v_x * v_k) >= v_k)").split()
 
 
+def test_long_polynomials_are_printed_once_and_their_numbers_are_not_asked_for() -> None:
+    """Beside the statement stand the signs alone: one open equation each, and no conjunct for a number below a bar."""
+    said = document(digested(LONG))
+    coefficient = str(10**12 + 7)
+    assert f"{coefficient} <> 0" not in said and "v_y <> 0" in said
+    statement, proof = said.partition("Definition claim_states")[2].split("Theorem claim_holds")
+    assert statement.count(coefficient) == 1 and coefficient not in proof
+    assert proof.count("(ge_of _ _ _ _ ") == 2
+    assert read({"show": ["log(2)/3 >= 0"]}).statement().startswith("(0 < 2)")
+
+
 def test_statement_of_a_rate_speaks_of_motions_with_that_rate() -> None:
     """D is Coquelicot's derivative of a function of time whose rate is the flow's, and there must be one."""
     said = read({"flow": {"x": "-k*x"}, "show": ["D(x**2) <= 0"]}).statement()

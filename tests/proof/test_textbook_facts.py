@@ -51,13 +51,28 @@ def test_sums_that_have_no_meaning_are_refused_in_a_line(obligation, said):
         decide_obligation(obligation)
 
 
+@pytest.mark.parametrize("show", [
+    [">=", "log(1 + exp(x))", "max(x, 0)"], ["=", "sqrt(2)*sqrt(3)*x", "sqrt(6)*x"],
+    ["=", "sqrt(2)*sqrt(3)*sqrt(5)*x", "sqrt(30)*x"], ["=", "x*sqrt(6)/sqrt(2)", "sqrt(3)*x"],
+    ["=", "sqrt(8)*x", "2*sqrt(2)*x"], ["=", "sqrt(1/2)*sqrt(6)*x", "sqrt(3)*x"]])
+def test_logarithms_below_lines_and_products_of_roots_are_proved(show):
+    """The tangent of exp at the margin; a root that is a product of others, by a lemma on their squares."""
+    outcome = decide_obligation({"assume": [], "show": show})
+    assert outcome.verdict == "proved"
+    for certificate in outcome.certificates:
+        check(certificate)
+
+
 def test_what_is_a_little_too_sharp_is_refuted():
     smoothing = {"assume": [[">", "k", "0"]], "show": ["<=", "abs(x) - x*tanh(x/k)", "278/1000*k"]}
     assert decide_obligation(smoothing).verdict == "refuted"
     transient = {"assume": [[">=", "x", "0"]], "show": ["<=", "x*exp(-x)", "367/1000"]}
     assert decide_obligation(transient).verdict == "refuted"
     for show in (["<=", "abs(tanh(x))", "abs(x)/2"], [">=", "tanh(x)*(x/2 - tanh(x))", "0"],
-                 ["=", "(x/sqrt(2))**2", "x**2/3"]):
+                 ["=", "(x/sqrt(2))**2", "x**2/3"], ["=", "sqrt(2)*sqrt(3)*x", "sqrt(5)*x"],
+                 ["=", "sqrt(8)*x", "3*sqrt(2)*x"], ["=", "sqrt(2) + sqrt(3)", "sqrt(5)"],
+                 ["=", "sqrt(6)*x/sqrt(2)", "-sqrt(3)*x"], [">=", "log(1 + exp(x))", "max(x, 1)"],
+                 [">=", "log(1 + exp(x))", "max(x, 0) + exp(-10)"]):
         assert decide_obligation({"assume": [], "show": show}).verdict == "refuted"
     size = {"assume": [["!=", "s", "1"]], "show": ["=", "s/abs(s)*abs(s)", "s"]}  # undefined where s is zero
     assert decide_obligation(size).verdict != "proved"

@@ -2,40 +2,31 @@
 
 from __future__ import annotations
 
+import ast
 from typing import Any
 
 from workbench.kernel.factors import factor_of
 from workbench.kernel.normal import number_text
-from workbench.kernel.script import Script
+from workbench.kernel.script import MARGINS, Script
 from workbench.kernel.syntax import NotExportedError
-from workbench.proof.checker import SUM, Ratio, atoms_of, number, read_rational
+from workbench.proof.checker import SUM, Ratio, atoms_of, constant, nodes, read_rational, split_relation
+
+# Text, sign, proof, and what stands outside of the sum, the sum's term, the equation that says so.
+Term = tuple[str, str, str, tuple[str, "str | None", str]]
 
 
 def combination(script: Script, value: Ratio, operator: str, proof: dict[str, Any]) -> None:
     """The proof that a value has the sign that its sum of products has."""
-    scale, scale_value, positive = "1", number(1), "Rlt_0_1"
+    scale, positive = "1", "Rlt_0_1"
     for item in proof.get("multiplier", []):
         factor = factor_of(script, item)
         if factor.sign != ">" or SUM in atoms_of(factor.value):
             raise NotExportedError("a multiplier with a sum")
         positive = f"(Rmult_lt_0_compat _ _ {positive} {factor.proof})"
-        scale, scale_value = f"({scale} * {factor.text})", scale_value * factor.value
+        scale = f"({scale} * {factor.text})"
     terms = [_product(script, term) for term in proof["terms"]]
-    total = terms[0][0] if terms else "0"
-    for text, _, _, _ in terms[1:]:
-        total = f"({total} + {text})"
-    if operator == "==":
-        sign = "eq_refl" if not terms else terms[0][2]
-        for _, _, zero, _ in terms[1:]:
-            sign = f"(zero_plus _ _ {sign} {zero})"
-        lemma = "combination_eq"
-    else:
-        sign, strict = _sum_of_signs(terms)
-        if operator == ">" and not strict:
-            raise NotExportedError("a combination without a strictly positive term")
-        if operator == ">=" and strict:
-            sign = f"(pos_ge _ {sign})"
-        lemma = "combination_gt" if operator == ">" else "combination_ge"
+    total, sign = _total(terms), _sign(terms, operator)
+    lemma = {"==": "combination_eq", ">": "combination_gt", ">=": "combination_ge"}[operator]
     outside, inside = script.normal.split(value)
     script.prepare_all(value)
     whole = script.normal.value(value)
@@ -47,8 +38,52 @@ def combination(script: Script, value: Ratio, operator: str, proof: dict[str, An
     script.say(f"exact ({lemma} _ _ _ {positive} {sign} {adds_up}).")
 
 
-# Text, sign, proof, and what stands outside of the sum, the sum's term, the equation that says so.
-Term = tuple[str, str, str, tuple[str, "str | None", str]]
+def at_once(script: Script, text: str, operator: str, proof: dict[str, Any]) -> str | None:
+    """The Coq term of a relation between polynomials whose sides differ by a combination of some, None of others.
+
+    The equation is left open in it, for `same`: Coq finds both sides in what is to be shown and in the signs, where a
+    proof through the margin's normal form would have to print both, and show two equations.
+    """
+    items = [item for term in proof.get("terms", []) for item in term["factors"]]
+    if proof["rule"] != "combination" or proof.get("multiplier") or not items or any(
+            isinstance(node, ast.Call) for node in nodes(text)) or not all(_is_polynomial(script, i) for i in items):
+        return None
+    sign = _sign([_product(script, term) for term in proof["terms"]], operator)
+    if operator == ">=":
+        sign = f"(Rle_ge _ _ {sign})"
+    return f"({MARGINS[split_relation(text)[1]]}_of _ _ _ _ {sign})"
+
+
+def _is_polynomial(script: Script, item: dict[str, Any]) -> bool:
+    match item:
+        case {"assume": int(place)}:
+            value = script.given.margins[place][0]
+        case {"square": str(text)}:
+            value = script.context.read(text)
+        case _:
+            return False
+    return value.den == constant(1) and not atoms_of(value) & (script.context.functions.keys() | {SUM})
+
+
+def _total(terms: list[Term]) -> str:
+    """The sum of terms as Coq text."""
+    total = terms[0][0] if terms else "0"
+    for text, _, _, _ in terms[1:]:
+        total = f"({total} + {text})"
+    return total
+
+
+def _sign(terms: list[Term], operator: str) -> str:
+    """The Coq term that a sum of terms has the sign that an operator says."""
+    if operator == "==":
+        sign = "eq_refl" if not terms else terms[0][2]
+        for _, _, zero, _ in terms[1:]:
+            sign = f"(zero_plus _ _ {sign} {zero})"
+        return sign
+    sign, strict = _sum_of_signs(terms)
+    if operator == ">" and not strict:
+        raise NotExportedError("a combination without a strictly positive term")
+    return f"(pos_ge _ {sign})" if operator == ">=" and strict else sign
 
 
 def _sum_of_signs(terms: list[Term]) -> tuple[str, bool]:

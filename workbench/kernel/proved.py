@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
+from workbench.kernel.combination import at_once
 from workbench.kernel.rules import prove, stated
 from workbench.kernel.script import MARGINS, Script
 from workbench.kernel.syntax import NotExportedError, split_margin
@@ -40,16 +41,23 @@ def _proof_of(goal: Goal, certificate: dict[str, Any], context: Context, given: 
         script.say(f"refine {conjunction([*conditions, f'(fun assumed_{number} => _)'])}.")
         script.assumption(text, f"assumed_{number}")
     shown: list[str] = []
+    open_equations = 0
     for text, proof in zip(goal.stated["show"], certificate["proofs"], strict=True):
         _, operator = margin(context, text)  # first, for a function's atom is that of its first argument: x or -x
         script.defined(text)
+        conditions = [script.facts.conditions[condition] for condition in goal.conditions(text)]
+        if (whole := at_once(script, text, operator, proof)) is not None:
+            shown += [*conditions, whole]
+            open_equations += 1
+            continue
         # with a sum the same value may be another fraction than the checker's: what the equation says is shown
         equation, value = script.evaluate(split_margin(text))
         name = script.fresh("M")
         script.say(f"assert ({name} : {stated(script, value, operator)}).")
         with script.subproof():
             prove(script, value, operator, proof)
-        shown += [script.facts.conditions[condition] for condition in goal.conditions(text)]
-        shown.append(f"({MARGINS[split_relation(text)[1]]}_of _ _ _ {equation} {name})")
-    script.say(f"exact {conjunction(shown)}.")
+        shown += [*conditions, f"({MARGINS[split_relation(text)[1]]}_of _ _ _ {equation} {name})"]
+    script.say(f"{'refine' if open_equations else 'exact'} {conjunction(shown)}.")
+    for _ in range(open_equations):
+        script.say("{ same. }")
     return script

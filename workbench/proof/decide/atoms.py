@@ -72,6 +72,8 @@ def flatten(expr: sp.Expr, atoms: Atoms, flow: dict[sp.Expr, sp.Expr]) -> sp.Exp
     flat = flat.xreplace({sp.pi: 4 * sp.atan(1, evaluate=False)})
     flat = flat.replace(lambda e: isinstance(e, (sp.sin, sp.cos, sp.atan)), lambda e: angle_atom(e, atoms))
     flat = flat.xreplace({sp.E: sp.exp(1, evaluate=False)}).replace(sp.exp, lambda inner: exp_atom(inner, atoms))
+    if flat.has(sp.exp):  # sympy makes a product of exp(x - log(1 + exp(x))) as its inside is replaced
+        flat = flat.replace(sp.exp, lambda inner: exp_atom(inner, atoms))
     return flat.replace(sp.log, lambda inner: log_atom(inner, atoms))
 
 

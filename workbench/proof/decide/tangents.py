@@ -119,7 +119,15 @@ def _shortened(value: float, digits: int) -> sp.Rational:
 
 
 def _of_logarithms(goal: Goal, shown: Relation, given: Given) -> Proof | None:
-    """log a - log b = log(a/b) <= a/b - 1 for logarithms that stand in what is shown."""
+    """exp(-m) >= 1 - m for a margin m, where exp(log a) is a; log a - log b = log(a/b) <= a/b - 1 for logarithms that
+    stand in what is shown."""
+    scales = {abs(c) for term in sp.Add.make_args(sp.expand(shown.margin, log=False))
+              for c, rest in [term.as_coeff_Mul()] if isinstance(rest, sp.log)}
+    if len(scales) == 1 and (scale := scales.pop()).is_Rational:
+        turned = -sp.expand(shown.margin / scale, log=False)
+        found = find_combination(replace(goal, facts=(*goal.facts, turned)), shown, given)
+        if found is not None:
+            return found
     inside = sorted({log.args[0] for log in shown.margin.atoms(sp.log)}, key=sp.default_sort_key)[:3]
     for a, b in permutations(inside, 2):
         found = _from_quotients(goal, shown, given, [(a, b)])

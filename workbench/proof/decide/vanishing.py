@@ -39,7 +39,9 @@ def vanishes(expr: sp.Expr) -> bool:
         seen += 1
         if seen == POINTS:
             return True
-    return bool(sp.cancel(sp.together(expr)) == 0)
+    whole = sp.cancel(sp.together(expr))
+    roots = any(power.base.is_Rational and not power.exp.is_Integer for power in whole.atoms(sp.Pow))
+    return bool(whole == 0 or (roots and sp.expand(whole) == 0))
 
 
 def _value(expr: sp.Basic, values: dict[sp.Basic, int], chance: random.Random) -> int:
