@@ -14,7 +14,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from workbench.errors import InputError
-from workbench.optimal import planning
+from workbench.optimal import planning, smooth
 from workbench.optimal.bound import lower_bound
 from workbench.optimal.course import Course
 from workbench.optimal.envelope import InfeasibleRunError
@@ -103,6 +103,7 @@ def test_what_smoothing_keeps_back_is_driven_by_the_plan_at_hand(monkeypatch: py
         return solve_socp(vehicle, grid, *rest, **more)
 
     monkeypatch.setattr(planning, "solve_socp", counted)
+    monkeypatch.setattr(smooth, "MANY_INTERVALS", 0)
     run = course(limits=(30.0, 20.0, 35.0, 25.0))
     found = smooth_reference(TRAIN, run, 520.0, intervals=400)
     assert found.usable[0] < 1 and found.force_excess == 0.0, "the test needs forces to be kept back"

@@ -108,7 +108,8 @@ class ConeProgram:
 
     def factors(self, expression: Linear, weight: Array) -> Array:
         """What each variable is multiplied by in the sum of the rows times their weights, shape (size,)."""
-        return np.bincount(expression.variable, expression.value * weight[expression.row], self.size)
+        return np.asarray(np.bincount(expression.variable, expression.value * weight[expression.row], self.size),
+                          dtype=float)
 
     def require_zero(self, expression: Linear) -> Rule:
         """expression = 0."""

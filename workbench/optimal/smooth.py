@@ -17,6 +17,7 @@ from workbench.optimal.course import Array, Course
 from workbench.optimal.envelope import InfeasibleRunError
 from workbench.optimal.force_reserve import Reserve, force_samples, more_reserves, with_reserves
 from workbench.optimal.planned_ahead import planned_ahead, waits
+from workbench.optimal.planning import PARTS
 from workbench.optimal.profile import Profile
 from workbench.optimal.reference import Reference, Solver, find_reference, find_timed_reference
 from workbench.optimal.smooth_run import SmoothRun
@@ -28,6 +29,8 @@ WINDOW_S = 1.0
 JERK_ROUNDS = 12
 # Times more of the forces is kept back until the smooth run keeps their limits.
 FORCE_ROUNDS = 10
+# A run of so many intervals' cells is driven anew by the plan at hand; of fewer, plans are made anew, on as many.
+MANY_INTERVALS = 2000
 # Borders closer than this are one.
 SLIVER_M = 0.01
 
@@ -146,8 +149,13 @@ def _within_limits(request: _Request) -> SmoothReference:
     for number in range(FORCE_ROUNDS):
         try:
             run, optimal = _averaged(request, reserves)
-            # The same plan from now on, and cones: a bound that knows no reserves says nothing of it.
-            request = replace(request, like=optimal, solver="nlp" if request.solver == "nlp" else "socp")
+            if not number:  # cones from now on: a bound that knows no reserves says nothing of it
+                mesh = request.intervals or (len(optimal.profile.half_square) - 1) // PARTS
+                few = mesh < MANY_INTERVALS
+                request = replace(request, intervals=mesh if few else request.intervals, like=None if few else optimal,
+                                  solver="nlp" if request.solver == "nlp" else "socp")
+            elif request.like is not None:
+                request = replace(request, like=optimal)
         except InfeasibleRunError as trouble:
             if not number:
                 raise
