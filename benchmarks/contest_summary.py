@@ -82,7 +82,7 @@ def of_period(own: Told, condition: str) -> Iterator[str]:
     tracking = values["position_rms"]
     means = [float("inf") if value is None else float(value.mean()) for value in tracking]
     for i in sorted(range(len(names)), key=means.__getitem__):
-        failed = sum(m.failed is not None for m in own.matches if (m.condition, m.entry) == (condition, names[i].name))
+        failed = sum(match.failed is not None for match in own.of(condition, names[i].name))
         cells = [names[i].name]
         for metric in SHOWN:
             value = values[metric][i]

@@ -8,7 +8,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from workbench.contest.entrants import follows_curve, learns
-from workbench.contest.matches import of
 from workbench.contest.sampling import labelled
 from workbench.contest.told import Told
 from workbench.paper.cells import Cell, Column, Phrase
@@ -26,7 +25,7 @@ def learners(told: Told) -> list[str]:
 
 def _trials(told: Told, condition: str, name: str, column: int) -> NDArray[np.float64] | None:
     """(draws, trips) of a learner; None where a run failed."""
-    matches = of(told.matches, condition, name)
+    matches = told.of(condition, name)
     if any(match.failed is not None for match in matches):
         return None
     return np.array([[trial[column] for trial in match.trials] for match in matches])

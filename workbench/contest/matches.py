@@ -229,8 +229,3 @@ def all_matches(contest: Contest, scenario: Scenario, workers: int, on_progress:
         if not more:
             return matches
         draws |= more
-
-
-def of(matches: Sequence[Match], condition: str, entry: str) -> list[Match]:
-    """The matches of one entry under one condition, by draw."""
-    return [match for match in matches if match.condition == condition and match.entry == entry]

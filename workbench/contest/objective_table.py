@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from workbench.contest.entrants import follows_curve
-from workbench.contest.matches import Entry, of
+from workbench.contest.matches import Entry
 from workbench.contest.sampling import with_periods
 from workbench.contest.told import Told
 from workbench.model.tuning import at_the_rail
@@ -18,7 +18,7 @@ def objective_of(told: Told, entry: Entry, condition: str) -> float | None:
     """The mean over an entry's runs under a condition, a failed one at its price; None without an objective."""
     contest = told.contest
     goal = contest.tuning.objective if follows_curve(told.scenario, entry.controller) else contest.tuning.without_curve
-    matches = of(told.matches, condition, entry.name)
+    matches = told.of(condition, entry.name)
     if goal is None or not matches:
         return None
     units = at_the_rail(goal.units, contest.conditions[condition].acting(told.scenario) is not None)

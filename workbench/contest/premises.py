@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from workbench.contest.matches import Entry, of, world_of
+from workbench.contest.matches import Entry, world_of
 from workbench.contest.record import Condition
 from workbench.contest.told import Told
 from workbench.mpc.controller import MpcController
@@ -91,7 +91,7 @@ def _word(told: Told, place: int, entry: Entry, name: str) -> Word:
     needed = needed_bound(problem, made.ahead, unknown_of(world, condition))
     start = world.simulation.initial_position_m - float(made.ahead[0, 0])
     errors = told.values(name, "largest_position_error")[place]
-    counters = [match.counters for match in of(told.matches, name, entry.name)]
+    counters = [match.counters for match in told.of(name, entry.name)]
     return Word(entry.name, name, around, needed, largest_bound(problem, made.ahead, start),
                 lacks(scenario, condition, around, needed), None if errors is None else float(errors.max()),
                 sum(each.get("beyond_bound", 0) for each in counters), sum(each.get("qp", 0) for each in counters))

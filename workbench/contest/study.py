@@ -15,7 +15,7 @@ from workbench.contest.energy import best_run
 from workbench.contest.entrants import check_entrants, check_names, entered, follows_curve, learns
 from workbench.contest.journal import contest_digest, matches_journal, matches_of, world_digest
 from workbench.contest.learning import learning_findings, learning_plot, learning_tables
-from workbench.contest.matches import METRICS, Match, all_matches, of, overspeed, run_match
+from workbench.contest.matches import METRICS, Match, all_matches, overspeed, run_match
 from workbench.contest.objective_table import objective_table
 from workbench.contest.pareto import all_fronts, front_plots, front_tables, who
 from workbench.contest.premises import premises_findings, premises_table, words_of
@@ -162,7 +162,7 @@ def _rows(told: Told) -> Iterator[dict[str, Any]]:
     """A row per condition and entry; the keys of a comparison where they make sense."""
     for name in told.contest.conditions:
         for entry in told.entries:
-            matches = of(told.matches, name, entry.name)
+            matches = told.of(name, entry.name)
             row: dict[str, Any] = {"controller": entry.name, "condition": name, "runs": len(matches)}
             for metric in METRICS:
                 values = [match.values[metric] for match in matches if match.values[metric] is not None]

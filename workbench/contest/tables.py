@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from workbench.contest.effort import mpc_table
 from workbench.contest.entrants import held_samples, information
-from workbench.contest.matches import Entry, of
+from workbench.contest.matches import Entry
 from workbench.contest.record import FEWEST_DRAWS
 from workbench.contest.sampling import commands_every, with_periods
 from workbench.contest.told import ALIKE, ARRIVED_M, COLUMNS, LATE_S, Told, label
@@ -31,7 +31,7 @@ def condition_table(told: Told, condition: str) -> ResultTable:
     numbers = {entry: i for i, entry in enumerate(told.entries)}
     for group in told.alike:
         entry, i = group[0], numbers[group[0]]
-        matches = of(told.matches, condition, entry.name)
+        matches = told.of(condition, entry.name)
         failed = sum(match.failed is not None for match in matches)
         cells: list[Cell] = [label(group)]
         for metric in told.metrics:

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from workbench.contest.entrants import follows_curve
-from workbench.contest.matches import METRICS, OF_CURVE, Entry, Match, entries, looks, of
+from workbench.contest.matches import METRICS, OF_CURVE, Entry, Match, entries, looks
 from workbench.contest.record import FEWEST_DRAWS, Contest
 from workbench.files.units import KWH_J
 from workbench.paper.cells import Column
@@ -44,10 +44,22 @@ class Told:
     matches: tuple[Match, ...]
     lower_bound_j: float | None
 
-    @property
+    @cached_property
     def entries(self) -> tuple[Entry, ...]:
         """Who takes part."""
         return entries(self.contest, self.scenario)
+
+    @cached_property
+    def _by_entry(self) -> dict[tuple[str, str], list[Match]]:
+        """(condition, entry) -> matches: tables ask for them thousands of times, and there may be tens of thousands."""
+        found: dict[tuple[str, str], list[Match]] = {}
+        for match in self.matches:
+            found.setdefault((match.condition, match.entry), []).append(match)
+        return found
+
+    def of(self, condition: str, entry: str) -> list[Match]:
+        """The matches of one entry under one condition, by draw."""
+        return self._by_entry.get((condition, entry), [])
 
     @property
     def metrics(self) -> tuple[str, ...]:
@@ -71,7 +83,7 @@ class Told:
         """A metric by entry and draw; None for an entry with a failed run."""
         found = []
         for entry in self.entries:
-            row = [match.values[metric] for match in of(self.matches, condition, entry.name)]
+            row = [match.values[metric] for match in self.of(condition, entry.name)]
             found.append(None if None in row else np.array(row, dtype=float))
         return found
 
