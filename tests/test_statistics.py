@@ -50,6 +50,17 @@ def test_p_is_that_of_scipys_randomisation_test() -> None:
     assert mean_interval(values, Bootstrap(20_000, 1, 0.95)).p == pytest.approx(known.pvalue, rel=0.2)
 
 
+def test_p_of_draws_of_one_sign_is_in_closed_form_however_many_there_are() -> None:
+    """As all sign flips of few say, zeros among them; a sample of flips could not say less than one of its number."""
+    generator = np.random.default_rng(4)
+    for zeros in (0, 3):
+        values = -np.concatenate([generator.exponential(1.0, 9), np.zeros(zeros)])
+        known = stats.permutation_test((values,), np.mean, permutation_type="samples", n_resamples=np.inf)
+        assert p_values([values], HOW) == pytest.approx([known.pvalue], abs=1e-15)
+    assert p_values([generator.exponential(1.0, 60), np.full(40, -2.0)], HOW) == [2.0**-59, 2.0**-39]
+    assert p_values([np.zeros(20)], HOW) == [1.0]
+
+
 @pytest.mark.parametrize("count", [8, 16])
 def test_among_equals_nobody_is_called_alone_best_more_often_than_is_said(count: int) -> None:
     """Two equal controllers in 60 tables with few draws: by a bootstrap's p every third contest would name one."""

@@ -75,10 +75,15 @@ def _constant(values: Array) -> bool:
     return float(np.ptp(values)) <= ROUNDING * float(np.abs(values).max())
 
 
-def _exact(values: Array, how: Bootstrap) -> float:
-    """p of draws that are all alike; a single one is an exact number, where nothing was drawn."""
-    count = len(values)
-    return 1.0 if not values[0] else 0.0 if count == 1 else max(2.0 ** (1 - count), 1 / (how.resamples + 1))
+def _one_sided(values: Array) -> float | None:
+    """p of draws that are nowhere of two signs, in closed form: no other choice of signs but the opposite gives so large
+    a mean, whatever the signs of draws that are zero but for rounding. None of others. A single draw is an exact number,
+    where nothing was drawn.
+    """
+    if values.min() < 0 < values.max():
+        return None
+    told = int((np.abs(values) > ROUNDING * np.abs(values).sum()).sum())
+    return 1.0 if not told else 0.0 if len(values) == 1 else 2.0 ** (1 - told)
 
 
 @lru_cache(maxsize=4)
@@ -92,13 +97,15 @@ def _signs(count: int, resamples: int, seed: int) -> NDArray[np.int8]:
 
 
 def p_values(rows: Sequence[Array], how: Bootstrap) -> list[float]:
-    """How probable so large a mean is of each row of draws if their signs are chance, two-sided; exact for few draws.
+    """How probable so large a mean is of each row of draws if their signs are chance, two-sided; exact for few draws,
+    and for draws of one sign.
 
     No smaller than 2^(1-n), below which n draws say nothing. Rows of the same length share their signs.
     """
-    found = [_exact(row, how) for row in rows]
-    for count in sorted({len(row) for row in rows if not _constant(row)}):
-        numbers = [i for i, row in enumerate(rows) if len(row) == count and not _constant(row)]
+    one_sided = [_one_sided(row) for row in rows]
+    found = [1.0 if p is None else p for p in one_sided]
+    for count in sorted({len(row) for row, p in zip(rows, one_sided, strict=True) if p is None}):
+        numbers = [i for i, row in enumerate(rows) if len(row) == count and one_sided[i] is None]
         columns, signs = np.array([rows[i] for i in numbers]).T, _signs(count, how.resamples, how.seed)
         least = np.abs(columns.sum(axis=0)) - ROUNDING * np.abs(columns).sum(axis=0)
         met = np.zeros(len(numbers))
