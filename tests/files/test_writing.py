@@ -179,7 +179,7 @@ def test_of_a_tree_all_is_written_or_nothing(tmp_path):
 
 @pytest.mark.parametrize("resume", [True, False])
 @pytest.mark.parametrize("text", ["mine, without an end of line", "mine\n", '{"format": "other"}\n'])
-def test_a_file_of_someone_elses_where_a_journal_goes_is_kept(text, resume, tmp_path):
+def test_a_file_of_someone_elses_where_a_journal_goes_is_kept(text, resume, tmp_path, capsys):
     path = tmp_path / "j.jsonl"
     path.write_text(text)
     if resume:
@@ -188,8 +188,10 @@ def test_a_file_of_someone_elses_where_a_journal_goes_is_kept(text, resume, tmp_
         return
     Journal(path, {}, resume=False).close()
     assert path.with_name("j.jsonl.before").read_text() == text
-    assert "is not a journal" in refusal(Journal, path, {}, False)  # a second time it would be lost
+    Journal(path, {"job": 2}, resume=False).close()  # a second time nothing is lost either
     assert path.with_name("j.jsonl.before").read_text() == text
+    assert path.with_name("j.jsonl.before2").read_text().startswith('{"format": "workbench journal')
+    assert capsys.readouterr().err.count("--resume") == 2
 
 
 def test_a_journal_is_not_written_through_a_link(tmp_path):
