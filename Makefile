@@ -43,7 +43,7 @@ demo: $(STAMP)
 
 # Strings are hashed alike in every run: what is found must not depend on it, but a test that fails fails again.
 test: install
-	@PYTHONHASHSEED=0 $(BIN)/python -m pytest -n 2
+	@PYTHONHASHSEED=0 PYTHONDONTWRITEBYTECODE= $(BIN)/python -m pytest -n 2
 
 lint: install
 	@$(BIN)/ruff check
