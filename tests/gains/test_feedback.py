@@ -19,6 +19,7 @@ from workbench.gains.linearised import linearised
 from workbench.gains.search import Infeasible
 from workbench.gains.stated import Stated
 from workbench.paper.plants.gains import feedback_search
+from workbench.paper.plants.point import at_point
 from workbench.proof.checker import check
 from workbench.systems.plant import Parameter, Plant
 
@@ -148,6 +149,9 @@ def test_a_plant_that_decays_alone_is_told_so():
     ({"rate": "fast"}, "'fast' is no decimal"), ({"rate": "-1"}, "not positive"),
     ({"radius": {"theta": "0.1"}}, "radius.omega.*is missing"),
     ({"radius": {"theta": "0.1", "omega": "1", "phi": "1"}}, "radius.phi.*is no state"),
+    ({"at": {"phi": 0}}, "at.phi.*no state and no input: name one of theta, omega"),
+    *(({"at": {"theta": value}}, "at.theta.*is no finite real number") for value in (
+        "up", "1/0", float("nan"), float("inf"), True, None, sp.I, sp.oo, theta)),
     ({"plant": replace(PENDULUM, outputs={theta: theta})}, "out of reach of the iteration"),
     ({"plant": replace(PENDULUM, input_limits={u: (0.0, 1.0)})}, "at or beyond its limits")])
 def test_what_a_folder_states_wrongly_is_one_line(changes, words):
@@ -155,6 +159,13 @@ def test_what_a_folder_states_wrongly_is_one_line(changes, words):
                                 "radius": {"theta": "0.1", "omega": "0.1"}, **changes})
     with pytest.raises(InputError, match=words):
         search.report(Stated(Path("study.toml"), {}))
+
+
+@pytest.mark.parametrize("third", ["1/3", Fraction(1, 3), sp.Rational(1, 3)])
+def test_a_point_is_taken_as_it_is_written(third):
+    assert at_point(PENDULUM, {"theta": third, "omega": "0.1", "u": 0.1}) == {
+        "theta": sp.Rational(1, 3), "omega": sp.Rational(1, 10), "u": sp.Rational(1, 10)}
+    assert at_point(PENDULUM, UP) == {"theta": sp.pi}
 
 
 def test_limits_that_the_proof_does_not_keep_are_told():

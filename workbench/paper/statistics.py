@@ -76,9 +76,9 @@ def _constant(values: Array) -> bool:
 
 
 def _one_sided(values: Array) -> float | None:
-    """p of draws that are nowhere of two signs, in closed form: no other choice of signs but the opposite gives so large
-    a mean, whatever the signs of draws that are zero but for rounding. None of others. A single draw is an exact number,
-    where nothing was drawn.
+    """p of draws that are nowhere of two signs, in closed form: no other choice of signs but the opposite gives so
+    large a mean, whatever the signs of draws that are zero but for rounding. None of others. A single draw is an exact
+    number, where nothing was drawn.
     """
     if values.min() < 0 < values.max():
         return None

@@ -95,7 +95,8 @@ class Journal:
 
     With `resume` the records already there are in `records`, and a half-written last line is dropped; a record that
     is not what was written is left out with a note. Without it the journal starts empty and what stood there is kept
-    beside it with `.before` appended, numbered where that is taken, and a note says so. lines: how many records there are, those left out too. Its folder is locked.
+    beside it with `.before` appended, numbered where that is taken, and a note says so. lines: how many records there
+    are, those left out too. Its folder is locked.
     Raises InputError when the file is no journal, belongs to other settings, or cannot be read or written, and where
     another process writes in its folder.
     """
@@ -165,7 +166,8 @@ class Journal:
             names = (f"{self.path.name}.before{number}" for number in chain([""], count(2)))
             before = next(path for name in names if not os.path.lexists(path := self.path.with_name(name)))
             self.path.replace(before)
-            note(f"{self.path}: begins anew; what stood there is {before.name}, and --resume would have gone on with it")
+            note(f"{self.path}: begins anew; what stood there is {before.name}; --resume would have gone on "
+                 "with it")
 
     @staticmethod
     def _require_ours(path: Path) -> None:

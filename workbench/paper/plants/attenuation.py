@@ -16,6 +16,7 @@ from workbench.gains.stated import Stated
 from workbench.paper.gain_search import GainSearch, Row, Task
 from workbench.paper.loading import Loaded
 from workbench.paper.plants.gains import margin_sentences, measures_all, positive
+from workbench.paper.plants.point import at_point
 from workbench.systems.plant import Plant
 
 
@@ -28,9 +29,10 @@ def attenuation_search(paper: str, plant: Plant, weights: Mapping[str, str],
     from rest: the root of the integral of z^T z is at most the gain times that of w^T w. The search raises InputError
     for what it cannot take.
     """
-    name, point = f"{paper}:attenuation", dict(at or {})
+    name = f"{paper}:attenuation"
 
     def report(stated: Stated) -> GainReport:
+        point = at_point(plant, at)
         if not plant.disturbances:
             raise InputError(plant.id, "disturbances", "there is none: the gain is from them")
         if not measures_all(plant):
@@ -43,7 +45,7 @@ def attenuation_search(paper: str, plant: Plant, weights: Mapping[str, str],
         z = ", ".join(f"{weight} {symbol}" for symbol, weight in weights.items())
         w = ", ".join(map(str, plant.disturbances))
         return GainReport(
-            paper, (), (Quantity(f"L2 gain from {w} to ({z})", "1", None, found.bound, name,
+            paper, (), (Quantity(f"L2 gain from {w} to ({z})", "", None, found.bound, name,
                                  note=f"for {len(plants.extremes)} extreme plants, from rest"),),
             (GainSet("attenuation", "least proved L2 gain from the disturbances", values,
                      f"L2 gain {found.bound:.3g} for every linear plant", name),), (found.found.certificate,),

@@ -22,6 +22,7 @@ from workbench.gains.result import GainReport, GainSet, Quantity
 from workbench.gains.stated import Stated
 from workbench.paper.gain_search import GainSearch, Row, Task
 from workbench.paper.loading import Loaded
+from workbench.paper.plants.point import at_point
 from workbench.simulate.plants.run import Entrant
 from workbench.simulate.plants.run import run as run_plant
 from workbench.systems.law import StateLaw
@@ -36,14 +37,15 @@ def feedback_search(paper: str, plant: Plant, rate: str, radius: Mapping[str, st
     """The least feedback that is proved to decay by `rate` (1/s) from all states within `radius` of a point of rest.
 
     Where a plant does not measure all its states, an output feedback is sought by iteration, whose commands are not
-    the least. rate and radius: decimals as text, a radius for each state; at: states and inputs of the point by name,
-    zero where none is given. Proved for every linearisation that the parameters' known intervals allow; the runs are
+    the least. rate and radius: decimals as text, a radius for each state; at: the point, by `at_point`, zero where
+    none is given. Proved for every linearisation that the parameters' known intervals allow; the runs are
     of the plant itself, from the border of these radii, with all uncertain parameters at their least, then at their
     largest. The search raises InputError for what it cannot take.
     """
-    name, point = f"{paper}:feedback", dict(at or {})
+    name = f"{paper}:feedback"
 
     def report(stated: Stated) -> GainReport:
+        point = at_point(plant, at)
         decay, radii = positive(plant, "rate", rate), _radii(plant, radius)
         plants = linearised(plant, point)
         room = _room(plant, point)
@@ -73,7 +75,7 @@ def feedback_search(paper: str, plant: Plant, rate: str, radius: Mapping[str, st
                      values={**values, "parameters": end}) for end in ends]
 
     def run(loaded: Loaded, task: Task) -> tuple[Row, str | None]:
-        duration, radii = LENGTHS / float(Fraction(rate)), _radii(plant, radius)
+        duration, radii, point = LENGTHS / float(Fraction(rate)), _radii(plant, radius), at_point(plant, at)
         K = {key: sp.Symbol(key, real=True) for key in task.values["K"]}
         fed = {y: y - _output_at(plant, point, y) for y in (plant.states if measures_all(plant) else plant.outputs)}
         law = StateLaw(name, {u: _at(point, u) + sum((K[f"K_{u}_{y}"] * off for y, off in fed.items()), sp.Integer(0))
@@ -97,8 +99,8 @@ def _function(found: GainReport) -> list[list[float]]:
     return [[float(Fraction(values[f"P_{min(i, j)}_{max(i, j)}"])) for j in range(1, n + 1)] for i in range(1, n + 1)]
 
 
-def _at(point: Mapping[str, Any], symbol: sp.Symbol) -> sp.Expr:
-    return sp.sympify(point.get(str(symbol), 0), strict=True)
+def _at(point: Mapping[str, sp.Expr], symbol: sp.Symbol) -> sp.Expr:
+    return point.get(str(symbol), sp.Integer(0))
 
 
 def _room(plant: Plant, point: Mapping[str, Any]) -> dict[str, Fraction]:
