@@ -36,3 +36,19 @@ def test_a_pause_between_two_computations_is_none(monkeypatch):
         look(signal.SIGALRM, None)
         with pytest.raises(OutOfTime):
             look(signal.SIGALRM, None)
+
+
+def test_who_is_kept_from_computing_by_others_does_not_wait(monkeypatch):
+    """A process of the least priority on a busy machine is ready all the time, and computes next to nothing."""
+    queued = [0.0]
+    monkeypatch.setattr(time_limit, "WAITING_S", 1e6)
+    monkeypatch.setattr(time_limit, "IDLE_S", 1e6)
+    monkeypatch.setattr(time_limit, "_queued_s", lambda: queued[0])
+    with at_most_seconds(60):
+        look = signal.getsignal(signal.SIGALRM)
+        for _ in range(5):
+            queued[0] += 0.5e6
+            look(signal.SIGALRM, None)
+        look(signal.SIGALRM, None)
+        with pytest.raises(OutOfTime):
+            look(signal.SIGALRM, None)

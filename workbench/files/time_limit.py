@@ -9,14 +9,15 @@ import time
 import weakref
 from collections.abc import Iterator
 from contextlib import contextmanager
+from pathlib import Path
 from types import FrameType
 
 AGAIN = 0.5  # seconds after which the interruption comes again, should a library have swallowed it
 # So many calls are looked at: of a function that calls itself without end there may be millions.
 LOOKED_AT = 2000
 SOON = 0.001  # the same where an exception would be dropped
-# Who has computed for less than IDLE_S in so many seconds waits for what may never come, such as somebody to write into
-# a pipe; a machine that is merely busy gives every process more than that.
+# Who has computed for less than IDLE_S in so many seconds, and was not kept from it by others for most of them, waits
+# for what may never come, such as somebody to write into a pipe.
 WAITING_S, IDLE_S = 20.0, 0.01
 WEAK_REFERENCES = (weakref.__file__, weakref.WeakSet.__init__.__code__.co_filename)
 
@@ -52,15 +53,16 @@ def at_most_seconds(limit: float | None) -> Iterator[None]:
             raise OutOfTime
 
     def look(number: int, frame: FrameType | None) -> None:
-        earlier, idle = _limited
-        now = time.process_time()
-        idle = idle + 1 if now - earlier < IDLE_S else 0  # a process that was stopped and goes on is idle once
-        _limited[:] = [now, idle]
+        earlier, queued_earlier, idle = _limited
+        now, queued = time.process_time(), _queued_s()
+        waits = now - earlier < IDLE_S and queued - queued_earlier < WAITING_S / 4
+        idle = idle + 1 if waits else 0  # a process that was stopped and goes on is idle once
+        _limited[:] = [now, queued, idle]
         if idle >= 2:
             interrupt(number, frame)
 
     before = signal.signal(signal.SIGPROF, interrupt), signal.signal(signal.SIGALRM, look)
-    _limited[:] = [time.process_time(), 0]
+    _limited[:] = [time.process_time(), _queued_s(), 0]
     try:
         signal.setitimer(signal.ITIMER_PROF, limit, AGAIN)
         signal.setitimer(signal.ITIMER_REAL, WAITING_S / 2, WAITING_S / 2)
@@ -71,6 +73,14 @@ def at_most_seconds(limit: float | None) -> Iterator[None]:
         signal.signal(signal.SIGPROF, before[0])
         signal.signal(signal.SIGALRM, before[1])
         _limited.clear()
+
+
+def _queued_s() -> float:
+    """For how long this thread was ready to compute while others did; zero where the system does not tell."""
+    try:
+        return int(Path("/proc/thread-self/schedstat").read_text(encoding="ascii").split()[1]) * 1e-9
+    except (OSError, ValueError, IndexError):
+        return 0.0
 
 
 def _drops_exceptions(frame: FrameType | None) -> bool:
