@@ -13,6 +13,7 @@ from workbench.proof.checker import Context, bounds, read_point, substitute
 from workbench.proof.text import text
 from workbench.report.certificate_latex import (
     _tidied,
+    assignments_latex,
     expression_latex,
     numbers_put_in,
     parse,
@@ -42,6 +43,11 @@ def test_relations_have_their_signs():
     ("2000000", r"2 \times 10^{6}"), ("123456789/987654321", r"\approx 0.125"), ("-4/15", r"-\frac{4}{15}")])
 def test_numbers_are_short_and_say_when_they_are_rounded(value, shown):
     assert value_latex(Fraction(value)) == shown
+
+
+def test_a_root_in_a_counterexample_is_told_by_a_number_near_it():
+    shown = assignments_latex({"x": "root near -0.4795831523", "y": "1/2", "z": "root near 2.5e-07"})
+    assert [plain_formula(line) for line in shown] == ["x ≈ −0.4796 (a root)", "y = 0.5", "z ≈ 2.5 × 10⁻⁷ (a root)"]
 
 
 NAMES = sp.symbols("a b c", positive=True)

@@ -15,6 +15,7 @@ SUM, PRODUCT, POWER, ATOM = range(4)  # how tightly a text holds together
 Written = tuple[str, int]
 SIGNS = {"==": "=", "<=": r"\le", ">=": r"\ge", "!=": r"\ne", "<": "<", ">": ">"}
 ZERO, ONE = ast.Constant(0), ast.Constant(1)
+ROOT_NEAR = re.compile(r"root near (-?[0-9.]+(?:e[-+]?[0-9]+)?)")
 _WORD = re.compile(r"(?<=[{,])(?<!\\mathrm\{)[A-Za-z]{2,}(?=[},])")  # an index of several letters
 
 
@@ -102,20 +103,28 @@ def name_latex(name: str) -> str:
 
 
 def assignments_latex(values: Mapping[str, str]) -> list[str]:
-    """Each `name = value` as LaTeX, all numbers alike; values are fractions, or functions of time in the certificate
-    language.
+    """Each `name = value` as LaTeX, all numbers alike; values are fractions, roots told by a number near them, or
+    functions of time in the certificate language.
 
-    Raises CertificateError for what is neither.
+    Raises CertificateError for what is none of them.
     """
     style = style_of(number for value in values.values() for number in numbers_of(value))
-    typed = {name: value_latex(Fraction(value), style) if RATIONAL.fullmatch(value) else expression_latex(value, style)
-             for name, value in values.items()}
+    typed = {name: _value_as_latex(value, style) for name, value in values.items()}
     return [f"{name_latex(name)} = {text}".replace(r"= \approx", r"\approx") for name, text in typed.items()]
 
 
 def numbers_of(value: str) -> list[Fraction]:
-    """The number that a value is, or those in the function that it is."""
+    """The number that a value is, or those in the function that it is; a root is none of them."""
+    if ROOT_NEAR.fullmatch(value):
+        return []
     return [Fraction(value)] if RATIONAL.fullmatch(value) else numbers_in(value)
+
+
+def _value_as_latex(value: str, style: Style) -> str:
+    if root := ROOT_NEAR.fullmatch(value):
+        about = value_latex(Fraction(root[1]), style).removeprefix(r"\approx ")
+        return rf"\approx {about}\ (\text{{a root}})"
+    return value_latex(Fraction(value), style) if RATIONAL.fullmatch(value) else expression_latex(value, style)
 
 
 def _tidied(node: ast.expr) -> ast.expr:

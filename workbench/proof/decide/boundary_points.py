@@ -40,7 +40,10 @@ class Family:
             return False
         easy = [(s, v) for s, v in solutions if not s.is_nonnegative]  # no sign that the value could miss
         symbol, value = rng.choice(easy if easy and rng.random() < EASY else solutions)
-        put = {symbol: value}
+        return self.bind({symbol: value})
+
+    def bind(self, put: dict[sp.Symbol, sp.Expr]) -> bool:
+        """Let symbols follow from others; False, and nothing is done, where an expression has no value then."""
         bound = {s: e.xreplace(put) for s, e in self.bound.items()} | put
         if any(e.has(sp.nan, sp.zoo, sp.oo) for e in bound.values()):
             return False

@@ -25,6 +25,7 @@ from workbench.proof.decide.innermost import innermost
 from workbench.proof.decide.landscape import Landscape, landscape_of
 from workbench.proof.decide.local_search import local_search
 from workbench.proof.decide.once import once_per_goal
+from workbench.proof.decide.quadrics import on_quadrics
 from workbench.proof.decide.sampling import tidy_fraction, trial_columns
 
 SPECIAL = (Fraction(0), Fraction(1), Fraction(-1), Fraction(1, 2), Fraction(2), Fraction(-2), Fraction(3))
@@ -47,6 +48,9 @@ def proposals(goal: Goal, seed: int, break_shown: bool, quick: bool = False) -> 
     """
     landscape = landscape_of(goal)
     yield from _familiar(goal, landscape, seed, break_shown, quick)
+    if (curved := on_quadrics(landscape)) is not None:
+        yield from _worth_a_look(landscape, curved, trial_columns(curved.free, POINTS, np.random.default_rng(seed)),
+                                 break_shown)
     if quick and len(landscape.symbols) > FEW_SYMBOLS:
         return
     chance, rng = random.Random(seed), np.random.default_rng(seed)
