@@ -12,6 +12,7 @@ from contextlib import suppress
 from pathlib import Path
 
 import pytest
+from child_process import made_in_a_fork
 
 from workbench.files.folders import papers_in
 from workbench.files.time_limit import OutOfTime, at_most_seconds
@@ -26,7 +27,7 @@ WANTED, SEED, LIMIT = 24, 2, 1.5
 
 @pytest.fixture(scope="module")
 def outcomes():
-    return [judge(task, SEED, LIMIT) for task in plan([ROOT / "proofs"], WANTED, SEED)]
+    return made_in_a_fork(lambda: [judge(task, SEED, LIMIT) for task in plan([ROOT / "proofs"], WANTED, SEED)])
 
 
 def test_no_broken_mutant_is_proved(outcomes):
