@@ -23,11 +23,14 @@ LEAST_BASE = 1e-9  # of a root or logarithm in the model: below it neither they 
 def _within_domain(plant: Plant) -> Plant:
     """The plant with roots and logarithms that go on beyond their domain.
 
-    An empty tank's root has an endless slope there. The plant itself where none of them can leave its domain.
+    An empty tank's root has an endless slope there. The plant itself where none of them can leave its domain. A state
+    that is declared positive is so in the plant; what an observer or a solver tries may be anything.
     """
+    anything = {state: sp.Dummy(str(state), real=True) for state in plant.states}
+
     def leaves(e: sp.Basic) -> bool:
-        return (isinstance(e, sp.log) and not e.args[0].is_positive) or (
-            isinstance(e, sp.Pow) and e.exp.is_integer is False and not e.base.is_positive)
+        return (isinstance(e, sp.log) and not e.args[0].xreplace(anything).is_positive) or (
+            isinstance(e, sp.Pow) and e.exp.is_integer is False and not e.base.xreplace(anything).is_positive)
 
     def kept(e: sp.Basic) -> sp.Expr:
         return e.func(sp.Max(e.args[0], sp.Float(LEAST_BASE)), *e.args[1:])

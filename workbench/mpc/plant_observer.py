@@ -53,6 +53,10 @@ class KalmanState:
         names = [*map(str, (*setting.plant.states, *motion.estimated))]
         first = {**known, **how.first_estimate}  # known: states of which there is no doubt, as what lags are
         self._z = np.array([first.get(name, 0.0) for name in names])
+        # (state, output): of a measured state of which nothing is stated, the first measurement is the first estimate.
+        self._begins: list[tuple[int, int]] = [
+            (names.index(str(y)), place) for place, (y, value) in enumerate(setting.plant.outputs.items())
+            if value == y and str(y) not in first]
         self._moves = np.diag([how.observer.get(name, 0.0) ** 2 for name in names])
         self._P = np.diag([how.first_spread.get(name, how.observer.get(name, 0.0)) ** 2 for name in names])
         self._R = np.diag([setting.noise.get(str(y), 0.0) ** 2 for y in setting.plant.outputs])
@@ -66,6 +70,9 @@ class KalmanState:
     def now(self, measured: Array, arrived: Sequence[Piece]) -> Array:
         """The estimate of the state now; arrived: what acted since the last call, nothing at the first one."""
         n = self._n
+        while self._begins:
+            state, output = self._begins.pop()
+            self._z[state] = measured[output]
         for u, seconds in arrived:
             A = np.eye(len(self._z))
             A[:n] = self._motion.slopes(self._z[:n], u, self._z[n:], seconds)

@@ -36,12 +36,13 @@ class Program:
     """A problem as a solver takes it: its arguments are x0, p and bounds.
 
     p is [state, input before, d, estimated disturbances, desired outputs by stage, times and all references' values by
-    stage], the last two only where metrics are minimised; rows: the constraints, a function of x0 and p;
-    limited: the states with limits.
+    stage], the last two only where metrics are minimised; rows: the constraints, a function of x0 and p, and slopes
+    their derivatives by x0; limited: the states with limits.
     """
 
     solve: Any
     rows: Any
+    slopes: Any
     bounds: Mapping[str, Array]
     limited: tuple[int, ...]
 
@@ -103,7 +104,8 @@ def program(how: PlantMpcValues, setting: Setting, period_s: float, tracked: lis
     nlp = {"x": variables, "f": cost, "g": ca.vertcat(*rows.values),
            "p": ca.vertcat(start, push, estimated, ca.vec(desired), ca.vec(ahead))}
     of_rows = ca.Function("rows", [nlp["x"], nlp["p"]], [nlp["g"]])
-    return Program(_solver(how, nlp, rows.equal, motion.is_steep), of_rows, bounds, limited)
+    slopes = ca.Function("slopes", [nlp["x"], nlp["p"]], [ca.jacobian(nlp["g"], nlp["x"])])
+    return Program(_solver(how, nlp, rows.equal, motion.is_steep), of_rows, slopes, bounds, limited)
 
 
 class _Rows:

@@ -103,14 +103,22 @@ class TrackingMpc:
     def _first_guess(self, start: Array, given: Array) -> tuple[Array, bool]:
         """The last plan moved on, or what stays at rest where that is out of reach; whether this is within it."""
         guess = self._shifted(start)
-        if self._within_reach(guess, given):
+        if self._begins_at(guess, given):
             return guess, True
         guess, self._multipliers = self._at_rest(start), None
-        return guess, self._within_reach(guess, given)
+        return guess, self._begins_at(guess, given)
+
+    def _begins_at(self, guess: Array, given: Array) -> bool:
+        """Whether the solver may begin with a guess; what it found itself has slopes."""
+        return self._within_reach(guess, given) and (self._multipliers is not None or self._has_slopes(guess, given))
 
     def _within_reach(self, guess: Array, given: Array) -> bool:
         """Whether a guess misses the constraints by so little that the solver may begin with it."""
         return bool(np.abs(np.asarray(self._program.rows(guess, given))).max() < LARGEST_RESIDUAL)  # not where NaN
+
+    def _has_slopes(self, guess: Array, given: Array) -> bool:
+        """Whether the constraints have derivatives at a guess: without them a solver may look for a step endlessly."""
+        return bool(np.isfinite(self._program.slopes(guess, given).nonzeros()).all())
 
     def _answered(self, told: Mapping[str, Any]) -> bool:
         """Whether the solver is at its end; after one iteration it says that it has had no more."""

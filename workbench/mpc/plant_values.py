@@ -33,9 +33,9 @@ class PlantMpcValues:
     one_iteration: one
     quadratic program a sample, along the last plan, instead, and some at the first one. observer: of states and
     disturbances, the standard deviation of what moves them beyond the model in a second; an extended Kalman filter then
-    estimates the state, and the named disturbances, from the outputs. It begins at first_estimate (zero where none is
-    given) with the standard deviation first_spread (that of a second where none is given). predictor: it is told of
-    the inputs' lags and delays.
+    estimates the state, and the named disturbances, from the outputs. It begins at first_estimate (where none is given
+    at the first measurement of a state that is an output, else at zero) with the standard deviation first_spread (that
+    of a second where none is given). predictor: it is told of the inputs' lags and delays.
     """
 
     horizon: int
