@@ -11,14 +11,11 @@ the contrary, the exit code is 1. z3 is optional (`pip install -e ".[benchmark]"
 from __future__ import annotations
 
 import argparse
-import ast
 import importlib.util
 import json
 import multiprocessing
 import sys
-import threading
 import time
-from collections.abc import Sequence
 from concurrent.futures import ProcessPoolExecutor
 from dataclasses import asdict, dataclass
 from pathlib import Path
@@ -33,8 +30,6 @@ from workbench.tasks.processes import single_threaded
 FILE = Path(__file__).parent / "peers" / "ode_invariants.json"
 CONTRARY = {("proved", "sat"), ("refuted", "unsat")}
 WRONG = {("proved", "false"), ("refuted", "true")}
-OPERATORS = {ast.Add: lambda a, b: a + b, ast.Sub: lambda a, b: a - b, ast.Mult: lambda a, b: a * b,
-             ast.Div: lambda a, b: a / b}
 
 
 @dataclass(frozen=True)
@@ -79,58 +74,11 @@ def decided(task: tuple[int, dict[str, Any], float, bool]) -> Row:
 
 def z3_answer(obligation: dict[str, Any], limit: float) -> tuple[str, float]:
     """unsat (it holds), sat or unknown, and the seconds that z3 took."""
-    import z3  # noqa: PLC0415
+    from workbench.proof.oracle.question import implied  # noqa: PLC0415 - z3 is optional
 
-    started, done = time.process_time(), threading.Event()
-
-    def interrupt() -> None:  # its own limits are of the wall clock, or of steps
-        while not done.wait(0.05):
-            if time.process_time() - started > limit:
-                z3.main_ctx().interrupt()
-
-    solver = z3.Solver()
-    try:
-        for statement in obligation["assume"]:
-            solver.add(_z3_statement(z3, statement))
-        solver.add(z3.Not(_z3_statement(z3, obligation["show"])))
-    except ValueError:  # functions, of which it knows nothing
-        return "unknown", time.process_time() - started
-    watch = threading.Thread(target=interrupt, daemon=True)
-    watch.start()
-    try:
-        answer = str(solver.check())
-    except z3.Z3Exception:
-        answer = "unknown"
-    done.set()
-    watch.join()
+    started = time.process_time()
+    answer = implied(obligation["assume"], obligation["show"], limit)
     return answer, time.process_time() - started
-
-
-def _z3_statement(z3: Any, statement: Sequence[Any]) -> Any:
-    name, *parts = statement
-    if name in ("and", "or", "not"):
-        return {"and": z3.And, "or": z3.Or, "not": z3.Not}[name](*(_z3_statement(z3, part) for part in parts))
-    left, right = (_z3_term(z3, ast.parse(text, mode="eval").body) for text in parts)
-    return {"=": left == right, "!=": left != right, "<": left < right, "<=": left <= right, ">": left > right,
-            ">=": left >= right}[name]
-
-
-def _z3_term(z3: Any, node: ast.expr) -> Any:
-    match node:
-        case ast.Constant(value=value):
-            return z3.RealVal(str(value))
-        case ast.Name(id=name):
-            return z3.Real(name)
-        case ast.UnaryOp(operand=inner):
-            return -_z3_term(z3, inner)
-        case ast.BinOp(left=base, op=ast.Pow(), right=ast.Constant(value=int(power))):
-            product = z3.RealVal(1)
-            for _ in range(power):
-                product = product * _z3_term(z3, base)
-            return product
-        case ast.BinOp(left=left, op=op, right=right):
-            return OPERATORS[type(op)](_z3_term(z3, left), _z3_term(z3, right))
-    raise ValueError(ast.unparse(node))
 
 
 def print_table(rows: list[Row], beside: bool) -> None:

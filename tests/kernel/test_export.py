@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import copy
 import re
+from dataclasses import replace
 from fractions import Fraction
 from pathlib import Path
 from typing import Any
@@ -11,7 +12,7 @@ from typing import Any
 import pytest
 
 from workbench.files.own_files import sha256
-from workbench.kernel.coqc import _coqc, _trouble, axioms_in, check_folder, compile_library, missing
+from workbench.kernel.coqc import _coqc, _look, axioms_in, check_folder, compile_library, missing
 from workbench.kernel.export import document, export, files_of
 from workbench.kernel.syntax import NotExportedError
 from workbench.kernel.theorem import read
@@ -117,6 +118,7 @@ LONG = {"version": 2, "claim": "mine:15", "verdict": "proved", "example": {"x": 
             ("1", [{"square": "x/1000000000003 - y/7000000000021"}]), ("1", [{"assume": 0}, {"assume": 1}]))]}
 
 
+FALSE = "mine:17"
 CERTIFICATES = (PRODUCT, SUMS, POINT, OPPOSITES, ANGLES, ARCTANS, PENDULUM, ANGLE, STEADY, CAUCHY, TURNED, RATES,
                 SATURATED, LONG)
 
@@ -196,18 +198,24 @@ def exports(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """A folder of exports, and beside them what Coq would take for a module of its own."""
     folder = tmp_path_factory.mktemp("exports")
     (folder / "Lra.vo").write_bytes(b"nothing")
-    for name, text in files_of([export(digested(one)) for one in CERTIFICATES]).items():
+    found = [export(digested(one)) for one in CERTIFICATES]
+    false = copy.deepcopy(PRODUCT)
+    false["goal"]["assume"][0] = "k < 0"
+    found.insert(2, replace(found[0], claim=FALSE, text=document(digested(false))))
+    for name, text in files_of(found).items():
         (folder / name).write_text(text)
     return folder
 
 
 @with_coq
 def test_kernel_accepts_proofs_sums_functions_motions_and_points(exports: Path) -> None:
-    """And the axioms are those of the reals."""
-    assert [row.claim for row in check_folder(exports, 1, 120) if row.outcome == "accepted"] == [
+    """And the axioms are those of the reals; a file that is not so is named, by what coqc says of it, and no other."""
+    outcomes = {row.claim: row for row in check_folder(exports, 1, 120)}
+    assert [claim for claim, row in outcomes.items() if row.outcome == "accepted"] == [
         one["claim"] for one in CERTIFICATES]
+    assert outcomes[FALSE].outcome == "refused" and outcomes[FALSE].reason
     one = next(exports.glob("mine_3*.v")).name
-    assert _trouble(exports, exports, one, "0" * 64, 120) == "the file is not the one that was exported"
+    assert _look(exports, one, "0" * 64) == "the file is not the one that was exported"
 
 
 @pytest.fixture(scope="module")
@@ -228,8 +236,7 @@ def test_a_file_with_a_sentence_that_no_export_has_is_not_shown_to_coq(sentence:
     assert strange_sentence(text) is None
     for spoiled in (text + sentence, text.replace("\nProof.\n", f"\nProof.\n{sentence}\n")):
         (tmp_path / "mine.v").write_text(spoiled)
-        said = _trouble(tmp_path, tmp_path / "nowhere", "mine.v", sha256(spoiled), 120)
-        assert said.startswith("holds what no export does")
+        assert str(_look(tmp_path, "mine.v", sha256(spoiled))).startswith("holds what no export does")
 
 
 @with_coq

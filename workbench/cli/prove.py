@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -9,11 +10,14 @@ import typer
 
 from workbench.cli.console import err_console, out_console
 from workbench.cli.options import LIMIT_S, Dask, JsonFile, Limit, Workers, on_cluster
+from workbench.cli.second_opinion import Oracle, add_opinions, ask_oracle, print_opinions, require_oracle
 from workbench.errors import InputError
 
 if TYPE_CHECKING:
     from workbench.proof.document_format import ClaimsDocument
+    from workbench.proof.oracle.opinion import Opinion
     from workbench.proof.prove import Proof
+
 
 
 def command(paths: Annotated[list[str] | None, typer.Argument(
@@ -38,6 +42,9 @@ def command(paths: Annotated[list[str] | None, typer.Argument(
                 help="Take what has not changed from the cache, and do not search for what the certificates in the "
                      "paper's folder show, each checked again; --no-cache searches all anew.")] = True,
             limit: Limit = LIMIT_S,
+            oracle: Annotated[Oracle | None, typer.Option(
+                help="Also ask this solver about every verdict; none rests on its answer, and one that it contradicts "
+                     "is told.")] = None,
             ) -> None:
     """Decide every claim; exit 0 when each verdict is the recorded one, 1 when one differs, 2 on bad input.
 
@@ -57,12 +64,14 @@ def command(paths: Annotated[list[str] | None, typer.Argument(
     from workbench.proof.document import check_places, claims_document, places, write_certificates
     from workbench.proof.prove import prove as run_prove
 
+    require_oracle(oracle)
     check_outputs({"--json": json}, [file for target in found for file in target.inputs()])
     check_places([file for target in found for file in target.files], certificates, {"--json": json})
     with progress() as show, on_cluster(dask, workers):
         proof = run_prove(found, workers or jobs, cache, lambda done, total: show("claims", done, total), limit)
     if not proof.decisions and not proof.misstated:
         raise InputError(found[0].path, "claims", "states no claim: write one with paper.claim(...) in a file there")
+    opinions = ask_oracle(oracle, proof.decisions)
     single = any(target.pattern is not None for target in found)
     where = places(proof, certificates)
     if write or certificates is not None:
@@ -71,6 +80,7 @@ def command(paths: Annotated[list[str] | None, typer.Argument(
     for row in document["claims"]:  # a certificate that nobody has written cannot be looked up
         if row["certificate"] and not Path(row["certificate"]).is_file():
             row["certificate"] = None
+    add_opinions(document, oracle, opinions)
     if json:
         write_json(json, document)
     if not quiet:
@@ -78,7 +88,8 @@ def command(paths: Annotated[list[str] | None, typer.Argument(
             _print_cards(proof, document)
         else:
             _print_all(proof, all_rows, failed, verbose)
-    _end(proof)
+        print_opinions(oracle, opinions, verbose)
+    _end(proof, opinions)
 
 
 def _print_cards(proof: Proof, document: ClaimsDocument) -> None:
@@ -102,15 +113,19 @@ def _print_all(proof: Proof, all_rows: bool, failed: bool, verbose: bool) -> Non
                       f"{len(proof.decisions) - len(proof.now)} from the cache")
 
 
-def _end(proof: Proof) -> None:
-    """What differs from the record, and what could not be decided; the exit code says so too."""
+def _end(proof: Proof, opinions: Mapping[str, Opinion]) -> None:
+    """What differs from the record, what an oracle contradicts, and what could not be decided; the exit code says so
+    too."""
+    contradicted = {name: opinion.reason for name, opinion in opinions.items() if opinion.answer == "contradicted"}
     differing = [d for d in proof.decisions if d.verdict != d.claim.recorded]
     for d in differing:
         err_console.print(f"{d.claim.id}: decided {d.verdict}, but recorded {d.claim.recorded}", style="red",
                           soft_wrap=True)
+    for name, why in contradicted.items():
+        err_console.print(f"CONTRADICTED: {name}: {why}", style="red", soft_wrap=True, markup=False)
     for trouble in proof.misstated.values():
         err_console.print(f"misstated: {trouble}", style="red", soft_wrap=True)
     if proof.misstated:
         raise typer.Exit(2)
-    if differing:
+    if differing or contradicted:
         raise typer.Exit(1)

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import math
 import re
 import resource
+import signal
 import subprocess
-from collections.abc import Callable, Collection, Iterator
-from concurrent.futures import ThreadPoolExecutor
+from collections.abc import Callable, Collection, Iterable, Iterator
+from concurrent.futures import Future, ThreadPoolExecutor
 from dataclasses import dataclass
 from pathlib import Path
 from shutil import which
@@ -18,6 +20,7 @@ from workbench.files.own_files import sha256
 from workbench.files.scratch import scratch_folder
 from workbench.files.text import read_text
 from workbench.files.writing import write_text
+from workbench.kernel.batches import PRINTED, Export, batch_text, count_of, export_of, parted, planned
 from workbench.kernel.export import HERE, INDEX, LIBRARY
 from workbench.kernel.vernacular import strange_sentence
 
@@ -25,6 +28,7 @@ from workbench.kernel.vernacular import strange_sentence
 OF_THE_REALS = ("ClassicalDedekindReals.", "FunctionalExtensionality.", "Classical_Prop.classic")
 OF_THE_MACHINE = ("PrimInt63.", "Uint63.", "PrimFloat.", "FloatAxioms.", "Uint63Axioms.", "Sint63.")
 FILE = re.compile(r"[A-Za-z0-9_]+\.v")
+AXIOMS, CLOSED = "Axioms:", "Closed under the global context"  # of each theorem, what it rests on
 AXIOM = re.compile(r"^([A-Za-z_][A-Za-z0-9_.']*)\s*:", re.M)
 # What the index says of every certificate, and of one that has a file.
 FIELDS: dict[str, type] = {"claim": str, "goal_digest": str, "certificate": str, "motion": bool}
@@ -65,9 +69,10 @@ def check_folder(folder: Path, workers: int, seconds: float,
                  on_progress: Callable[[int, int], None] = lambda done, total: None,
                  noted: Collection[tuple[str, str]] = ()) -> Iterator[Checked]:
     """Every certificate of a folder that `export-coq` wrote, as coqc finds it; InputError where Coq is missing, the
-    library is not this package's, or the folder is none of exports. A file may take `seconds`.
+    library is not this package's, or the folder is none of exports. A file may take `seconds` of processor time.
 
-    noted: (claim, goal digest) of what is not run again.
+    noted: (claim, goal digest) of what is not run again. Many files are shown to coqc in one run; where it refuses
+    that, to smaller ones, so that a file is refused by what coqc says of it alone.
     """
     if (trouble := missing()) is not None:
         raise InputError("", "", trouble)
@@ -82,10 +87,21 @@ def check_folder(folder: Path, workers: int, seconds: float,
     with scratch_folder() as place:
         compile_library(place, seconds)
         with ThreadPoolExecutor(workers) as pool:
-            troubles = {file: pool.submit(_trouble, folder, place, *file, seconds) for file in files}
+            looks = _looked(folder, files)
+            exports = [look for look in looks.values() if isinstance(look, Export)]
+            troubles: dict[Export, Future[dict[Export, str]]] = {}
+            for number, batch in enumerate(planned(exports, workers, seconds)):
+                # No export's name has the sign ', so that none is overwritten.
+                found = pool.submit(_troubles, place, batch, f"Batch'{number}", seconds)
+                troubles |= dict.fromkeys(batch, found)
+
+            def trouble_of(file: tuple[str, str]) -> str | None:
+                look = looks.get(file)
+                return troubles[look].result()[look] if isinstance(look, Export) else look
+
             for done, row in enumerate(rows):
                 on_progress(done, len(rows))
-                yield _checked(row, lambda file: troubles[file].result() if file in troubles else None)
+                yield _checked(row, trouble_of)
     on_progress(len(rows), len(rows))
 
 
@@ -129,43 +145,68 @@ def _checked(row: dict[str, Any], trouble_of: Callable[[tuple[str, str]], str | 
     return Checked(outcome="refused" if trouble else "accepted", reason=trouble, text=row["sha256"], **known)
 
 
-def _trouble(folder: Path, place: Path, name: str, digest: str, seconds: float) -> str:
-    """Why a file is refused; empty where Coq, in the place of the compiled library, accepts it on the axioms of the
-    reals."""
+def _looked(folder: Path, files: Iterable[tuple[str, str]]) -> dict[tuple[str, str], Export | str]:
+    """By file name and digest what coqc is to be shown, or why it is not."""
+    return {file: _look(folder, *file) for file in files}
+
+
+def _look(folder: Path, name: str, digest: str) -> Export | str:
+    """A file as coqc is to be shown it, or why it is not."""
     if not FILE.fullmatch(name) or name in LIBRARY or sha256(text := read_text(folder / name, "Coq file")) != digest:
         return "the file is not the one that was exported"
     if (sentence := strange_sentence(text)) is not None:
         return f"holds what no export does: {sentence}"
+    return export_of(name, text)
+
+
+def _troubles(place: Path, batch: tuple[Export, ...], name: str, seconds: float) -> dict[Export, str]:
+    """Why each file is refused, empty where it is not; name: of the file, without its suffix, that holds them all."""
+    if len(batch) == 1:
+        return {batch[0]: _trouble(place, batch[0].name, batch[0].text, seconds)}
+    said, trouble = _text_trouble(place, f"{name}.v", batch_text(batch), count_of(batch), seconds)
+    if not trouble:
+        return dict.fromkeys(batch, "")
+    return {export: why for number, part in enumerate(parted(batch, said.count(AXIOMS) + said.count(CLOSED)))
+            for export, why in _troubles(place, part, f"{name}'{number}", seconds).items()}
+
+
+def _trouble(place: Path, name: str, text: str, seconds: float) -> str:
+    """Why a file is refused; empty where Coq, in the place of the compiled library, accepts it on the axioms of the
+    reals."""
+    return _text_trouble(place, name, text, text.count(PRINTED), seconds)[1]
+
+
+def _text_trouble(place: Path, name: str, text: str, theorems: int, seconds: float) -> tuple[str, str]:
+    """What coqc says of a text of so many theorems, and why it is refused, empty where it is not."""
     write_text(place / name, text)
     said, trouble = _coqc(place, name, seconds)
     if trouble:
-        return trouble
+        return said, trouble
     strange = [axiom for axiom in axioms_in(said) if not axiom.startswith(OF_THE_REALS + OF_THE_MACHINE)]
     if strange:
-        return f"rests on {', '.join(strange)}"
-    theorems = text.count("\nPrint Assumptions ")
-    if not theorems or said.count("Axioms:") + said.count("Closed under the global context") != theorems:
-        return "says not what it rests on"
-    return ""
+        return said, f"rests on {', '.join(strange)}"
+    if not theorems or said.count(AXIOMS) + said.count(CLOSED) != theorems:
+        return said, "says not what it rests on"
+    return said, ""
 
 
 def axioms_in(said: str) -> list[str]:
     """The axioms that `Print Assumptions` names."""
     found: list[str] = []
-    for block in said.split("Axioms:")[1:]:
+    for block in said.split(AXIOMS)[1:]:
         found += AXIOM.findall(block)
     return found
 
 
 def _coqc(folder: Path, name: str, seconds: float) -> tuple[str, str]:
-    """What coqc says of a file, and its trouble, empty where it accepts."""
-    command = ["coqc", "-q", "-R", ".", "", name]
-    try:
-        run = subprocess.run(command, cwd=folder, capture_output=True, text=True, timeout=seconds, check=False)
-    except subprocess.TimeoutExpired:
-        return "", f"takes more than {seconds:g} s"
+    """What coqc says of a file in `seconds` of processor time, and its trouble, empty where it accepts."""
+    # Of the processor's time, since the clock's depends on what else the machine does.
+    command = ["sh", "-c", 'ulimit -t "$0" && exec coqc -q -R . "" "$1"', str(math.ceil(seconds)), name]
+    run = subprocess.run(command, cwd=folder, capture_output=True, text=True, check=False)
     if run.returncode == 0:
         return run.stdout, ""
+    if run.returncode in (-signal.SIGXCPU, -signal.SIGKILL):
+        return run.stdout, f"takes more than {seconds:g} s"
     lines = run.stderr.partition("Error:")[2].split("\n")
     said = " ".join(line.strip() for line in lines if line.strip())[:300]
     return run.stdout, said or f"coqc ends with {run.returncode}"

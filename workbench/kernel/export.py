@@ -18,6 +18,7 @@ from workbench.proof.checker import CertificateError, check
 
 LIBRARY = ("Workbench.v", "WorkbenchFlow.v", "WorkbenchFractions.v")
 INDEX = "index.json"
+OPENING = "Open Scope R_scope.\n\n"
 HERE = Path(__file__).resolve().parent
 IMPORTS = {  # in this order: what is loaded last changes a tactic of what is loaded before it
     "WorkbenchFlow": "From Coquelicot Require Import Coquelicot.\nRequire Import WorkbenchFlow.\n",
@@ -96,7 +97,7 @@ def document(certificate: dict[str, Any]) -> str:
             f"{_harmless(str(certificate.get('goal_digest')))} *)\n"
             "Require Import Reals Lra.\n")
     imports = "".join(text for name, text in IMPORTS.items() if name in libraries | {"Workbench"})
-    return head + imports + "Open Scope R_scope.\n\n" + "\n".join(theorems)
+    return head + imports + OPENING + "\n".join(theorems)
 
 
 def _comment(goal: dict[str, Any]) -> str:

@@ -9,6 +9,7 @@ from typing import Any, Literal, NotRequired
 
 from typing_extensions import TypedDict
 
+from workbench.proof.oracle.opinion import OracleRow
 from workbench.proof.verdict import FateWord, Kind, Match, Origin, Severity, Verdict
 
 
@@ -20,7 +21,7 @@ class ClaimRow(TypedDict):
     whole way, the ones that fail; proved_under: what the proof uses and that is not shown; trust: how far the verdict
     is checked; recorded: the verdict that the paper's file states; glyph, glyph_claim: the other reading, and the row
     that decides it; goal_digest: sha256 of what was decided; fate: of a headline statement, with its reason and the
-    rows that decide it; seconds: of processor time.
+    rows that decide it; seconds: of processor time; oracle: where one was asked, what it says.
     """
 
     id: str
@@ -57,6 +58,7 @@ class ClaimRow(TypedDict):
     fate: FateWord | None
     fate_why: str | None
     fate_by: list[str]
+    oracle: NotRequired[OracleRow]
 
 
 class OfPaperAndOurs(TypedDict):

@@ -1,0 +1,90 @@
+"""Many exports are one file for coqc in which none sees another, and a part that fails is found."""
+
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from workbench.kernel import coqc
+from workbench.kernel.batches import batch_text, count_of, expected_seconds, export_of, parted, planned
+from workbench.kernel.export import document
+from workbench.kernel.vernacular import without_comments
+
+FLOW = {"flow": {"x": "-x"}, "show": ["D(x**2) == -2*x**2"]}
+
+
+def exported(number: int, goal: dict[str, Any] | None = None) -> Any:
+    """The export of an identity."""
+    goal = goal or {"show": [f"{number}*x == x*{number}"]}
+    text = document({"version": 2, "claim": f"mine:{number}", "verdict": "proved", "example": {"x": "1"}, "goal": goal,
+                     "proofs": [{"rule": "identity"}]})
+    return export_of(f"mine_{number}.v", text)
+
+
+def test_a_batch_holds_all_theorems_each_in_a_module_and_loads_once() -> None:
+    batch = [exported(number) for number in range(3)]
+    text = batch_text(batch)
+    assert text.count("Require Import Reals Lra.") == text.count("Open Scope R_scope.") == 1
+    bare = without_comments(text)
+    assert bare is not None
+    for number, one in enumerate(batch):
+        module = bare.partition(f"Module Export_{number}.")[2].partition(f"End Export_{number}.")[0]
+        assert f"({number} * v_x) = (v_x * {number})" in module and module.count("Print Assumptions claim_holds.") == 1
+        assert one.text.endswith(one.theorems) and one.printed == 1
+    assert count_of(batch) == 3
+
+
+@pytest.mark.parametrize("spoil", [
+    lambda text: text + "Require Import Reals Lra.\n", lambda text: text.replace("Open Scope R_scope.", ""),
+    lambda text: f"(* {text}", lambda text: text.replace("Require Import Reals Lra.", "")])
+def test_a_file_of_another_shape_is_shown_alone(spoil: Any) -> None:
+    odd = export_of("mine_9.v", spoil(exported(9).text))
+    assert not odd.loads
+    assert [odd] in [list(batch) for batch in planned([exported(1), odd, exported(2)], 1, 120)]
+
+
+def test_batches_load_the_same_and_the_longest_come_first() -> None:
+    plain, moving = [exported(number) for number in range(40)], [exported(number, FLOW) for number in range(40, 45)]
+    batches = planned([*plain, *moving], 2, 120)
+    assert sorted(one.name for batch in batches for one in batch) == sorted(one.name for one in (*plain, *moving))
+    assert all(len({one.loads for one in batch}) == 1 for batch in batches)
+    assert len(batches) < 10
+    costs = [expected_seconds(batch) for batch in batches]
+    assert costs == sorted(costs, reverse=True) and max(costs) < 20
+    assert planned(reversed([*plain, *moving]), 2, 120) == batches
+
+
+def test_the_file_that_coqc_stops_at_is_taken_out_and_else_halves_are_tried() -> None:
+    batch = tuple(exported(number) for number in range(4))
+    assert parted(batch, 2) == [(batch[2],), (batch[0], batch[1], batch[3])]
+    assert parted(batch, 0) == parted(batch, 4) == parted(batch, 99) == [batch[:2], batch[2:]]
+
+
+@pytest.mark.parametrize("told", [True, False])
+def test_every_file_is_accepted_in_a_run_that_ends_well_or_refused_alone(
+        tmp_path: Path, monkeypatch: pytest.MonkeyPatch, told: bool) -> None:
+    """Whatever coqc says of a batch that fails; told: whether it says how far it came."""
+    batch, runs = tuple(exported(number) for number in range(9)), list[str]()
+
+    def run(folder: Path, name: str, seconds: float) -> tuple[str, str]:
+        text = (folder / name).read_text()
+        runs.append(name)
+        numbers = [number for number in range(9) if f"({number} * v_x)" in text]
+        wrong = [number for number in numbers if number in (2, 7)]
+        good = len(numbers) if not wrong else numbers.index(wrong[0]) if told else 0
+        return coqc.CLOSED * good, f"of {wrong}" if wrong else ""
+
+    monkeypatch.setattr(coqc, "_coqc", run)
+    found = coqc._troubles(tmp_path, batch, "Batch'0", 5)
+    assert {one.name: why for one, why in found.items() if why} == {"mine_2.v": "of [2]", "mine_7.v": "of [7]"}
+    assert list(map(len, (found, set(found)))) == [9, 9] and len(runs) <= 16
+
+
+def test_a_run_that_tells_less_than_it_was_asked_accepts_nothing(
+        tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(coqc, "_coqc", lambda folder, name, seconds: (coqc.CLOSED, ""))
+    found = coqc._troubles(tmp_path, (exported(1), exported(2)), "B'", 5)
+    assert set(found.values()) == {""}  # each alone tells of its one theorem
+    monkeypatch.setattr(coqc, "_coqc", lambda folder, name, seconds: ("", ""))
+    assert set(coqc._troubles(tmp_path, (exported(1), exported(2)), "B'", 5).values()) == {
+        "says not what it rests on"}
