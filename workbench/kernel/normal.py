@@ -11,6 +11,7 @@ from workbench.proof.checker import (
     TOTAL,
     Context,
     Monomial,
+    Number,
     Poly,
     Ratio,
     atoms_of,
@@ -21,7 +22,7 @@ from workbench.proof.checker import (
 )
 
 
-def number_text(value: Fraction) -> str:
+def number_text(value: Number) -> str:
     """A rational number."""
     if value.denominator == 1:
         return str(value.numerator) if value >= 0 else f"({value.numerator})"
@@ -63,7 +64,7 @@ class Normal:
         """A power of an atom."""
         return self.atom(atom) if power == 1 else f"{self.atom(atom)} ^ {power}"
 
-    def monomial(self, monomial: Monomial, coefficient: Fraction) -> str:
+    def monomial(self, monomial: Monomial, coefficient: Number) -> str:
         """A term of a polynomial: the coefficient, unless it is one, then the powers."""
         parts = [number_text(coefficient)] if coefficient != 1 or not monomial else []
         return " * ".join(parts + [self.power(atom, power) for atom, power in monomial])
@@ -102,9 +103,8 @@ def joined(outside: Ratio, inside: Ratio | None) -> Ratio:
 
 def is_number(value: Ratio) -> Fraction | None:
     """The number that a value is, None where it is none."""
-    if value.den == constant(1) and set(value.num) <= {()}:
-        return value.num.get((), Fraction(0))
-    return None
+    found = value.constant()
+    return None if found is None else Fraction(found)
 
 
 ZERO = number(0)

@@ -2,12 +2,10 @@
 
 from __future__ import annotations
 
-from fractions import Fraction
-
 from workbench.kernel.normal import number_text
 from workbench.kernel.syntax import FUNCTIONS, NotExportedError
 from workbench.kernel.writing import Writing
-from workbench.proof.checker import SUM, TOTAL, Poly, Ratio, atoms_of, constant, divide_exactly, same, symbol
+from workbench.proof.checker import SUM, TOTAL, Number, Poly, Ratio, atoms_of, constant, divide_exactly, same, symbol
 
 
 class Signs(Writing):
@@ -132,7 +130,7 @@ class Signs(Writing):
             raise NotExportedError(f"the sign of {self.normal.poly(poly)[:60]}")
         return f"(pos_ge _ {proof})" if strict_so_far and not strictly else proof
 
-    def _term(self, monomial: tuple[tuple[str, int], ...], coefficient: Fraction) -> tuple[str, bool]:
+    def _term(self, monomial: tuple[tuple[str, int], ...], coefficient: Number) -> tuple[str, bool]:
         parts: list[tuple[str, bool]] = []
         if coefficient <= 0:
             raise NotExportedError("a sign that is not seen term by term")

@@ -5,7 +5,6 @@ from __future__ import annotations
 import ast
 import re
 from dataclasses import dataclass
-from fractions import Fraction
 from functools import reduce
 from typing import Any
 
@@ -13,6 +12,7 @@ from workbench.kernel.normal import Normal
 from workbench.kernel.syntax import NAMED, operation
 from workbench.proof.checker import (
     Context,
+    Number,
     Poly,
     Ratio,
     Relations,
@@ -66,7 +66,7 @@ def _power(atom: str, power: int, normal: Normal) -> ast.expr:
     return base if power == 1 else operation(base, ast.Pow(), ast.Constant(power))
 
 
-def _number(value: Fraction) -> ast.expr:
+def _number(value: Number) -> ast.expr:
     size: ast.expr = ast.Constant(abs(value.numerator))
     if value.denominator != 1:
         size = operation(size, ast.Div(), ast.Constant(value.denominator))
@@ -97,7 +97,7 @@ def total(term: Ratio, normal: Normal) -> list[tuple[Ratio, Ratio]]:
         own = tuple(factor for factor in monomial if normal.indexed(symbol(factor[0])))
         rest = tuple(factor for factor in monomial if factor not in own)
         weights.setdefault(own, {})[rest] = coefficient
-    return [(Ratio(poly, term.den), context.total_of(Ratio({own: Fraction(1)}))) for own, poly in weights.items()]
+    return [(Ratio(poly, term.den), context.total_of(Ratio({own: 1}))) for own, poly in weights.items()]
 
 
 def written(parts: list[tuple[Ratio, Ratio]], normal: Normal) -> Total:

@@ -57,7 +57,8 @@ class Course:
                                                                                    & (self.usable <= 1))):
             raise WorkbenchError("course: the usable shares of traction and brakes must lie above 0 and up to 1, two a "
                                  "section: correct them")
-        if not {*self.stops_m, *(p.position_m for p in self.points)} <= set(self.position_m[1:-1].tolist()):
+        within = [*self.stops_m, *(p.position_m for p in self.points)]
+        if within and not np.isin(within, self.position_m[1:-1]).all():
             raise WorkbenchError("course: a stop or a point is no border of a section inside the run: add it to "
                                  "position_m")
 
@@ -76,11 +77,15 @@ class Course:
         borders = np.unique(np.concatenate((self.position_m, position_m)))
         section = np.searchsorted(self.position_m, borders[:-1], side="right") - 1
         start, width = self.position_m[section], np.diff(self.position_m)[section]
-        share = np.stack(((borders[:-1] - start) / width, (borders[1:] - start) / width), axis=1)
+        share = np.empty((len(section), 2))
+        np.divide(borders[:-1] - start, width, out=share[:, 0])
+        np.divide(borders[1:] - start, width, out=share[:, 1])
 
         def cut(ends: Array) -> Array:
-            low, high = ends[section, :1], ends[section, 1:]
-            return low + share * (high - low)
+            if not ends.any():  # no tunnels, say
+                return np.zeros_like(share)
+            low, change = ends[:, :1], np.diff(ends, axis=1)
+            return low[section] + share * change[section]
 
         return replace(self, position_m=borders, limit_mps=self.limit_mps[section], force_n=cut(self.force_n),
                        drag=cut(self.drag), usable=None if self.usable is None else self.usable[section])

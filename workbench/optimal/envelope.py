@@ -27,6 +27,8 @@ STRICT_ROUNDS, ROUNDING = 12, 5e-16
 # A cell on which the limit of the force changes by more than this share is divided, into so many at most.
 FINE, MOST_DIVIDED, SHORTEST_CELL_M = 1e-3, 16, 1e-2
 NO_TABLE = np.zeros((0, 2))
+# Force and power of traction and of the electric brake.
+Limits = tuple[tuple[float, float], tuple[float, float]]
 compiled_resistance = njit(cache=True)(davis_resistance)
 
 
@@ -41,8 +43,8 @@ class InfeasibleRunError(WorkbenchError):
         super().__init__(message)
 
 
-@njit(cache=True)
-def force_within(limit: Array, table: Array, v: float) -> float:
+@njit(cache=True, error_model="numpy")
+def force_within(limit: tuple[float, float], table: Array, v: float) -> float:
     """The least of force limit[0], power limit[1] and the table, at speed v."""
     force = limit[0] if v * limit[0] <= limit[1] else limit[1] / v
     if len(table):
@@ -50,8 +52,8 @@ def force_within(limit: Array, table: Array, v: float) -> float:
     return float(force)
 
 
-@njit(cache=True)
-def _slope(b: float, sign: float, line: float, drag: float, numbers: Array, limits: tuple[Array, Array],
+@njit(cache=True, error_model="numpy")
+def _slope(b: float, sign: float, line: float, drag: float, numbers: tuple[float, ...], limits: Limits,
            tables: tuple[Array, Array]) -> float:
     """db/ds with full traction (sign 1), or its negative with full brakes (sign -1), within the comfort limit."""
     inertia, a, b_1, c, friction, fastest, hardest = numbers
@@ -62,8 +64,8 @@ def _slope(b: float, sign: float, line: float, drag: float, numbers: Array, limi
     return float(min((force_within(limits[1], tables[1], v) + friction + resistance) / inertia, hardest))
 
 
-@njit(cache=True)
-def _least_force(limit: Array, table: Array, slow: float, fast: float) -> float:
+@njit(cache=True, error_model="numpy")
+def _least_force(limit: tuple[float, float], table: Array, slow: float, fast: float) -> float:
     """The least of the limit over speeds from slow to fast."""
     least = min(force_within(limit, table, slow), force_within(limit, table, fast))
     for k in range(len(table)):
@@ -72,9 +74,9 @@ def _least_force(limit: Array, table: Array, slow: float, fast: float) -> float:
     return least
 
 
-@njit(cache=True)
-def _allowed(b: float, reached: float, sign: float, line: Array, drag: Array, share: float, numbers: Array,
-             limits: tuple[Array, Array], tables: tuple[Array, Array]) -> float:
+@njit(cache=True, error_model="numpy")
+def _allowed(b: float, reached: float, sign: float, line: tuple[float, float], drag: tuple[float, float], share: float,
+             numbers: tuple[float, ...], limits: Limits, tables: tuple[Array, Array]) -> float:
     """What `_slope` allows at every point of a cell on which b changes linearly to `reached`."""
     inertia, a, b_1, c, friction, fastest, hardest = numbers
     v, w = np.sqrt(2.0 * max(b, 0.0)), np.sqrt(2.0 * max(reached, 0.0))
@@ -92,9 +94,9 @@ def _allowed(b: float, reached: float, sign: float, line: Array, drag: Array, sh
     return float(min((force + least) / inertia, hardest))
 
 
-@njit(cache=True)
-def _slope_in_parts(b: float, most: float, step: float, sign: float, line: Array, drag: Array, numbers: Array,
-                    limits: tuple[Array, Array], tables: tuple[Array, Array]) -> float:
+@njit(cache=True, error_model="numpy")
+def _slope_in_parts(b: float, most: float, step: float, sign: float, line: Array, drag: Array,
+                    numbers: tuple[float, ...], limits: Limits, tables: tuple[Array, Array]) -> float:
     """The mean `_slope` of a cell, in parts of PART_M and never above `most`; what ends below 0 stands still.
 
     A cell may be so long that one step over it passes every speed limit and falls back below a standstill.
@@ -113,9 +115,9 @@ def _slope_in_parts(b: float, most: float, step: float, sign: float, line: Array
     return (now - b) / step
 
 
-@njit(cache=True)
+@njit(cache=True, error_model="numpy")
 def _pass(target: Array, start: float, step: Array, line: Array, drag: Array, usable: Array, stands: Array,
-          sign: float, numbers: Array, limits: tuple[Array, Array], tables: tuple[Array, Array],
+          sign: float, numbers: tuple[float, ...], limits: Limits, tables: tuple[Array, Array],
           is_strict: bool) -> tuple[Array, int]:
     """Largest b below the target that the limits allow, from the first node on; and where it cannot go on, or -1.
 
@@ -133,8 +135,8 @@ def _pass(target: Array, start: float, step: Array, line: Array, drag: Array, us
                                     limits, tables)
         if is_strict:
             for number in range(STRICT_ROUNDS):
-                allowed = _allowed(b[k], max(b[k] + step[k] * slope, 0.0), sign, line[k], drag[k], usable[k], numbers,
-                                   limits, tables)
+                allowed = _allowed(b[k], max(b[k] + step[k] * slope, 0.0), sign, (line[k, 0], line[k, 1]),
+                                   (drag[k, 0], drag[k, 1]), usable[k], numbers, limits, tables)
                 if allowed >= slope:
                     break
                 slope = allowed - number * abs(slope - allowed)
@@ -147,9 +149,9 @@ def _pass(target: Array, start: float, step: Array, line: Array, drag: Array, us
     return b, -1
 
 
-@njit(cache=True)
+@njit(cache=True, error_model="numpy")
 def _run_up(target: Array, top: Array, end: float, more: float, step: Array, line: Array, drag: Array, sign: float,
-            numbers: Array, limits: tuple[Array, Array], tables: tuple[Array, Array]) -> Array:
+            numbers: tuple[float, ...], limits: Limits, tables: tuple[Array, Array]) -> Array:
     """The target, raised at the end to what full traction needs in order to reach `end`; below top everywhere.
 
     With sign -1, and everything in the opposite order, to what full brakes need after a start at `end`.
@@ -176,8 +178,7 @@ def drivable(vehicle: Vehicle, course: Course, target: Array, start_mps: float =
     cells' length, which the best possible run comes nearer to from either side. Raises InfeasibleRunError naming the
     place where traction does not climb or the brakes do not hold.
     """
-    numbers = np.array([vehicle.inertia_kg, *vehicle.davis_n, vehicle.friction_brake_n, vehicle.max_acceleration_mps2,
-                        vehicle.max_deceleration_mps2])
+    numbers = (*resistance_numbers(vehicle), float(vehicle.max_acceleration_mps2), float(vehicle.max_deceleration_mps2))
     limits, tables = device_limits(vehicle)
     step = np.diff(course.position_m)
     top = np.minimum(target, _top(course))
@@ -256,10 +257,15 @@ def with_fine_cells(vehicle: Vehicle, course: Course, target: Array) -> Course:
     return course.split(x[of] + step[of] * number / (more[of] + 1))
 
 
-def device_limits(vehicle: Vehicle) -> tuple[tuple[Array, Array], tuple[Array, Array]]:
+def resistance_numbers(vehicle: Vehicle) -> tuple[float, ...]:
+    """Inertia, Davis' numbers and the friction brake for compiled code, to which arrays are dearer than floats."""
+    return tuple(map(float, (vehicle.inertia_kg, *vehicle.davis_n, vehicle.friction_brake_n)))
+
+
+def device_limits(vehicle: Vehicle) -> tuple[Limits, tuple[Array, Array]]:
     """Traction and electric brake for compiled code: (force, power) each, and the table of each, shape (k, 2)."""
     both = (vehicle.traction, vehicle.regenerative)
-    pairs = [np.array([limit.force_n, limit.power_w]) for limit in both]
+    pairs = [(float(limit.force_n), float(limit.power_w)) for limit in both]
     tables = [np.array(limit.table, dtype=float) if limit.table else NO_TABLE for limit in both]
     return (pairs[0], pairs[1]), (tables[0], tables[1])
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 from numpy.polynomial.legendre import leggauss
@@ -46,13 +47,15 @@ class Profile:
         """Acceleration on each cell."""
         return np.diff(self.half_square) / np.diff(self.position_m)
 
-    @property
+    @cached_property
     def time_s(self) -> Array:
-        """Time at which each node is reached, shape (n + 1,); infinite beyond a cell that stands still."""
+        """Time at which each node is reached, shape (n + 1,), read-only; infinite beyond a cell that stands still."""
         speed = self.speed_mps
+        found = np.zeros(len(speed))
         with np.errstate(divide="ignore"):
-            step = 2 * np.diff(self.position_m) / (speed[1:] + speed[:-1])
-        return np.insert(np.cumsum(step), 0, 0.0)
+            np.cumsum(2 * np.diff(self.position_m) / (speed[1:] + speed[:-1]), out=found[1:])
+        found.flags.writeable = False
+        return found
 
     @property
     def trip_time_s(self) -> float:

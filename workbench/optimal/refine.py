@@ -13,10 +13,12 @@ from numpy.typing import NDArray
 
 from workbench.optimal.course import Array, Course
 from workbench.optimal.envelope import (
+    Limits,
     compiled_resistance,
     device_limits,
     drivable,
     force_within,
+    resistance_numbers,
     with_fine_cells,
 )
 from workbench.optimal.profile import Profile, largest_force
@@ -62,8 +64,8 @@ def _target(vehicle: Vehicle, plan: Plan, course: Course) -> Array:
     s, b_plan = plan.grid.position_m, plan.half_square
     owner = np.searchsorted(s, (x[1:] + x[:-1]) / 2) - 1
     first = np.searchsorted(x, s)
-    b = _followed(x, course.force_n, course.drag, first, b_plan, plan.force_n, np.array(
-        [vehicle.inertia_kg, *vehicle.davis_n, vehicle.friction_brake_n]), *device_limits(vehicle))
+    b = _followed(x, course.force_n, course.drag, first, b_plan, plan.force_n, resistance_numbers(vehicle),
+                  *device_limits(vehicle))
     missed = b_plan[1:] - b[first[1:]]
     share = (x[1:] - s[owner]) / (s[owner + 1] - s[owner])
     b[1:] += missed[owner] * share
@@ -97,9 +99,9 @@ def _held(vehicle: Vehicle, plan: Plan, course: Course, owner: NDArray[np.intp])
     return np.asarray(at_top & ((least >= 0) | (most <= 0)))
 
 
-@njit(cache=True)
+@njit(cache=True, error_model="numpy")
 def _followed(x: Array, line: Array, drag: Array, first: NDArray[np.intp], b_plan: Array, planned: Array,
-              numbers: Array, limits: tuple[Array, Array], tables: tuple[Array, Array]) -> Array:
+              numbers: tuple[float, ...], limits: Limits, tables: tuple[Array, Array]) -> Array:
     """Half the squared speed at x, where each interval is driven from the plan's speed at its start on.
 
     first: where the plan's nodes are in x; planned: its forces, N.
@@ -121,9 +123,9 @@ def _followed(x: Array, line: Array, drag: Array, first: NDArray[np.intp], b_pla
     return b
 
 
-@njit(cache=True)
-def _slope(b: float, line: float, drag: float, planned: float, at_mean: tuple[float, float], numbers: Array,
-           limits: tuple[Array, Array], tables: tuple[Array, Array]) -> float:
+@njit(cache=True, error_model="numpy")
+def _slope(b: float, line: float, drag: float, planned: float, at_mean: tuple[float, float], numbers: tuple[float, ...],
+           limits: Limits, tables: tuple[Array, Array]) -> float:
     """db/ds under the plan's force, or under the limit where the plan is at it.
 
     at_mean: the limits of traction and of the electric brake at the interval's mean speed, N.

@@ -15,7 +15,7 @@ import numpy as np
 from numba import njit
 
 from workbench.optimal.course import Array
-from workbench.optimal.envelope import compiled_resistance, device_limits
+from workbench.optimal.envelope import Limits, compiled_resistance, device_limits, resistance_numbers
 from workbench.optimal.profile import Profile
 from workbench.optimal.vehicle import Vehicle
 
@@ -54,15 +54,15 @@ class Check:
         return np.asarray(profile.time_s + np.where(moving, self.lag_m / np.where(moving, speed, 1.0), 0.0))
 
 
-@njit(cache=True)
-def _against(speed: float, share: float, line: Array, drag: Array, a: float, b: float, c: float) -> float:
+@njit(cache=True, error_model="numpy")
+def _against(speed: float, share: float, cell: int, line: Array, drag: Array, a: float, b: float, c: float) -> float:
     """What slows the train down at a share of a cell, N: resistance, tunnel and line."""
-    tunnel = drag[0] + share * (drag[1] - drag[0])
-    return float(compiled_resistance(speed, a, b, c + tunnel) + line[0] + share * (line[1] - line[0]))
+    tunnel = drag[cell, 0] + share * (drag[cell, 1] - drag[cell, 0])
+    return float(compiled_resistance(speed, a, b, c + tunnel) + line[cell, 0] + share * (line[cell, 1] - line[cell, 0]))
 
 
-@njit(cache=True)
-def device_forces(v: float, limits: tuple[Array, Array], tables: tuple[Array, Array]) -> tuple[float, float]:
+@njit(cache=True, error_model="numpy")
+def device_forces(v: float, limits: Limits, tables: tuple[Array, Array]) -> tuple[float, float]:
     """What traction and the electric brake give at a speed, N."""
     most = limits[0][0] if v * limits[0][0] <= limits[0][1] else limits[0][1] / v
     brake = limits[1][0] if v * limits[1][0] <= limits[1][1] else limits[1][1] / v
@@ -73,9 +73,9 @@ def device_forces(v: float, limits: tuple[Array, Array], tables: tuple[Array, Ar
     return most, brake
 
 
-@njit(cache=True)
+@njit(cache=True, error_model="numpy")
 def _drive(time: Array, position: Array, speed: Array, acceleration: Array, limit: Array, line: Array, drag: Array,
-           numbers: Array, limits: tuple[Array, Array], tables: tuple[Array, Array],
+           numbers: tuple[float, ...], limits: Limits, tables: tuple[Array, Array],
            step_s: float, lag: Array) -> tuple[float, float, float, float, float, float]:
     """Energy without auxiliaries, drift of position and speed, excess of force and speed, largest correction.
 
@@ -85,6 +85,7 @@ def _drive(time: Array, position: Array, speed: Array, acceleration: Array, limi
     s, v = position[0], speed[0]
     energy, off_s, off_v, over_force, over_speed, corrected = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
     slope = np.empty((4, 2))
+    v_plan, s_plan, planned = v, s, 0.0
     cell = 0
     for k in range(len(acceleration)):
         steps = max(1, int(np.ceil((time[k + 1] - time[k]) / step_s)))
@@ -94,19 +95,22 @@ def _drive(time: Array, position: Array, speed: Array, acceleration: Array, limi
                 ahead = 0.0 if stage == 0 else (1.0 if stage == 3 else 0.5)
                 ds = slope[stage - 1, 0] * ahead * dt if stage else 0.0
                 dv = slope[stage - 1, 1] * ahead * dt if stage else 0.0
-                # The command: what the plan needs at this time, from the plan's own position and speed.
-                t = (i + ahead) * dt
-                v_plan = speed[k] + acceleration[k] * t
-                s_plan = position[k] + (speed[k] + acceleration[k] * t / 2) * t
-                share = min(max((s_plan - position[k]) / (position[k + 1] - position[k]), 0.0), 1.0)
-                u = inertia * acceleration[k] + _against(v_plan, share, line[k], drag[k], a, b, c)
+                # The command: what the plan needs at this time, from the plan's own position and speed. Two stages are
+                # at the same time, and a step begins when the last one ends.
+                if stage in (1, 3) or (stage == 0 and i == 0):
+                    t = (i + ahead) * dt
+                    v_plan = speed[k] + acceleration[k] * t
+                    s_plan = position[k] + (speed[k] + acceleration[k] * t / 2) * t
+                    share = min(max((s_plan - position[k]) / (position[k + 1] - position[k]), 0.0), 1.0)
+                    planned = inertia * acceleration[k] + _against(v_plan, share, k, line, drag, a, b, c)
+                    plan_most, plan_brake = device_forces(max(v_plan, 0.0), limits, tables)
+                    if planned > 0:
+                        over_force = max(over_force, planned / plan_most - 1.0)
+                    else:
+                        over_force = max(over_force, -planned / (plan_brake + friction) - 1.0)
+                u = planned
                 # The train: where it really is.
                 at, fast = s + ds, v + dv
-                plan_most, plan_brake = device_forces(max(v_plan, 0.0), limits, tables)
-                if u > 0:
-                    over_force = max(over_force, u / plan_most - 1.0)
-                else:
-                    over_force = max(over_force, -u / (plan_brake + friction) - 1.0)
                 push = inertia * (POSITION_GAIN * (s_plan - at) + SPEED_GAIN * (v_plan - fast))
                 corrected = max(corrected, abs(push))
                 u += push
@@ -118,7 +122,7 @@ def _drive(time: Array, position: Array, speed: Array, acceleration: Array, limi
                 while cell > 0 and at < position[cell] - TOUCHING_M:
                     cell -= 1
                 share = min(max((at - position[cell]) / (position[cell + 1] - position[cell]), 0.0), 1.0)
-                resistance = _against(fast, share, line[cell], drag[cell], a, b, c)
+                resistance = _against(fast, share, cell, line, drag, a, b, c)
                 slope[stage, 0], slope[stage, 1] = fast, (u - resistance) / inertia
                 weight = dt / 6 if stage in (0, 3) else dt / 3
                 pull = max(fast, 0.0)
@@ -136,8 +140,7 @@ def _drive(time: Array, position: Array, speed: Array, acceleration: Array, limi
 
 def check(vehicle: Vehicle, profile: Profile, step_s: float = 0.05) -> Check:
     """Drive the run's force over time in steps of at most step_s, aligned with its cells."""
-    numbers = np.array([vehicle.inertia_kg, *vehicle.davis_n, vehicle.friction_brake_n, vehicle.traction_efficiency,
-                        vehicle.regenerative_efficiency])
+    numbers = (*resistance_numbers(vehicle), float(vehicle.traction_efficiency), float(vehicle.regenerative_efficiency))
     limits, tables = device_limits(vehicle)
     course = profile.course
     lag = np.zeros(len(profile.half_square))

@@ -8,7 +8,7 @@ import numpy as np
 from numba import njit
 
 from workbench.optimal.course import Array, Course
-from workbench.optimal.envelope import compiled_resistance, device_limits
+from workbench.optimal.envelope import Limits, compiled_resistance, device_limits, resistance_numbers
 from workbench.optimal.smooth_run import SmoothRun
 from workbench.optimal.vehicle import Vehicle
 from workbench.optimal.verify import POSITION_GAIN, SPEED_GAIN, device_forces
@@ -28,7 +28,8 @@ class SmoothCheck:
 
 
 @njit(cache=True)
-def _resisted(s: float, v: float, section: int, borders: Array, line: Array, drag: Array, numbers: Array) -> float:
+def _resisted(s: float, v: float, section: int, borders: Array, line: Array, drag: Array,
+              numbers: tuple[float, ...]) -> float:
     """What slows the train down at a position on a section of the line, N."""
     share = min(max((s - borders[section]) / (borders[section + 1] - borders[section]), 0.0), 1.0)
     tunnel = drag[section, 0] + share * (drag[section, 1] - drag[section, 0])
@@ -47,8 +48,8 @@ def _at(s: float, section: int, borders: Array) -> int:
 
 
 @njit(cache=True)
-def _drive(breaks: Array, start: Array, borders: Array, line: Array, drag: Array, numbers: Array,
-           limits: tuple[Array, Array], tables: tuple[Array, Array],
+def _drive(breaks: Array, start: Array, borders: Array, line: Array, drag: Array, numbers: tuple[float, ...],
+           limits: Limits, tables: tuple[Array, Array],
            step_s: float) -> tuple[float, float, float, float, float]:
     """Energy without auxiliaries, drift of position and speed, excess of force, largest correction.
 
@@ -96,8 +97,7 @@ def _drive(breaks: Array, start: Array, borders: Array, line: Array, drag: Array
 
 def check_smooth(vehicle: Vehicle, course: Course, run: SmoothRun, step_s: float = STEP_S) -> SmoothCheck:
     """Drive a smooth run's force over time in steps of at most step_s, aligned with its pieces."""
-    numbers = np.array([vehicle.inertia_kg, *vehicle.davis_n, vehicle.friction_brake_n, vehicle.traction_efficiency,
-                        vehicle.regenerative_efficiency])
+    numbers = (*resistance_numbers(vehicle), float(vehicle.traction_efficiency), float(vehicle.regenerative_efficiency))
     start = np.column_stack((run.position_m, run.speed_mps, run.acceleration_mps2, run.jerk_mps3))
     energy, off_s, off_v, over, push = _drive(run.breaks_s, start, course.position_m, course.force_n, course.drag,
                                               numbers, *device_limits(vehicle), step_s)

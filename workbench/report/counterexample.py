@@ -251,7 +251,7 @@ def _of_time(value: Ratio, time: str, style: Style) -> str | None:
     below = value.den[()]
     text = ""
     for power, coefficient in sorted(powers.items()):
-        size = value_latex(abs(coefficient / below), style)
+        size = value_latex(abs(Fraction(coefficient) / below), style)
         letter = "" if power == 0 else name_latex(time) if power == 1 else f"{name_latex(time)}^{{{power}}}"
         sign = ("-" if coefficient < 0 else "") if not text else (" - " if coefficient < 0 else " + ")
         text += sign + (letter if size == "1" and letter else f"{size} {letter}".strip())

@@ -56,7 +56,7 @@ def _by_squares(record: dict[str, Any], place: int) -> Proof | None:
     for root in _dependent(roots):
         rest, multiple = _replaced(rest, root)
         if multiple:
-            terms.append({"coefficient": str(1 / (scale * root.below)), "factors": [
+            terms.append({"coefficient": str(Fraction(1) / (scale * root.below)), "factors": [
                 {"assume": len(record.get("assume", [])) + len(used)}, {"any": _text(context, multiple)}]})
             used.append(root)
     for atom, number in roots.items():
@@ -68,7 +68,7 @@ def _by_squares(record: dict[str, Any], place: int) -> Proof | None:
             del rest[monomial]
             rest[lower] = rest.get(lower, Fraction(0)) + coefficient * number
         if cofactor:
-            terms.append({"coefficient": str(1 / scale), "factors": [
+            terms.append({"coefficient": str(Fraction(1) / scale), "factors": [
                 {"fact": "sqrt_square", "of": str(number)}, {"any": _text(context, cofactor)}]})
     if any(rest.values()):
         return None
@@ -130,7 +130,8 @@ def _product_lemma(roots: dict[str, Fraction], root: Dependent) -> Proof:
 
 
 def _number(value: Ratio) -> Fraction | None:
-    return value.num.get((), Fraction(0)) if value.den == constant(1) and set(value.num) <= {()} else None
+    found = value.constant()
+    return None if found is None else Fraction(found)
 
 
 def _times(monomial: tuple[tuple[str, int], ...], atom: str, power: int) -> tuple[tuple[str, int], ...]:
