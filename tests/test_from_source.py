@@ -14,7 +14,6 @@ from workbench.paper.source.folder import write_from_source
 from workbench.paper.source.letters import assumed_formulas, defined_in_text, values_and_rates
 from workbench.paper.source.lines import chained, system_lines, without_end
 from workbench.paper.source.macros import SourceError, expanded
-from workbench.paper.source.sentences import on_condition_around
 from workbench.proof.latex.rows import ROWS, SYMBOLS, LettersFile, RowsFile, load_record
 from workbench.proof.latex.symbols import SymbolsFile, symbols_in
 from workbench.proof.prove import prove
@@ -332,17 +331,6 @@ def test_what_a_sentence_says_on_a_condition_of_an_example_or_as_a_correction_is
     assert {row for row in rows if rows[row].role == "words"} == {
         "standing-assumption1", "display5", "display7", "example1", "display12", "theorem1", "remark1", "display15"}
     assert rows["3"].role == "assumption" and rows["4"].role == rows["display2"].role == "definition"
-
-
-@pytest.mark.parametrize(("before", "display", "behind", "tied"), [
-    ("It holds. If $x > 0$, then", "y", "", True), ("If we choose the law, then", "y", "", False),
-    ("Thus", "y", r" for all $x \ne 0$.", True), ("Thus", "y", r" for all $t \ge 0$.", False),
-    ("Thus", "y .", "for $x > 0$ more holds.", False), ("Thus", "y", ". For $x > 0$ more holds.", False),
-    (r"If $x > 0$, this is clear. Thus", "y", "", False), (r"The law (3) should read", "y", "", True),
-    (r"With gains $k > 0$ we have", "y", r", where $k = 2$", False), ("Suppose that $x = 0$. Then", "y", "", True),
-    ("The bound", "y", "does not hold.", True), (r"Thus", "y", r"for all $x \in \mathbb{R}^n$.", False)])
-def test_which_sentence_ties_a_display_to_a_condition(before, display, behind, tied):
-    assert on_condition_around(before, display, behind) is tied
 
 
 def test_a_formula_without_a_number_defines_only_what_nothing_else_does(tmp_path):

@@ -6,18 +6,14 @@ import re
 from dataclasses import dataclass
 
 from workbench.paper.source.letters import values_and_rates
-from workbench.paper.source.lines import LABEL, TAG, WITHOUT_NUMBER, chained, cleaned, goes_on, lines_of
-from workbench.paper.source.macros import SourceError, expanded, group, optional, without_comments
+from workbench.paper.source.lines import LABEL, TAG, WITHOUT_NUMBER, chained, cleaned, goes_on, lines_of, system_lines
+from workbench.paper.source.macros import SourceError, decided, expanded, group, optional, without_comments
+from workbench.paper.source.passages import Display, passages
+from workbench.paper.source.pieces import require_plain
 from workbench.paper.source.row import Row, resolve
-from workbench.paper.source.sentences import (
-    PARAGRAPH,
-    REACH,
-    introduces_hypothesis,
-    lets,
-    on_condition_around,
-    supposed_around,
-)
+from workbench.paper.source.standing import Shown, Text
 from workbench.proof.latex.rows import is_assumption
+from workbench.proof.latex.sides import letters_of_text
 
 DISPLAYS = ("equation", "align", "gather", "multline", "eqnarray", "flalign", "alignat", "IEEEeqnarray", "dmath",
             "displaymath")
@@ -34,7 +30,6 @@ _MARK = re.compile(r"\\(begin|end|section|appendix|eqref|[cC]ref|autoref|ref|lab
                    r"|(?<!\\)(?:\\\[|\$\$)")
 _PARENTHESIS = re.compile(r"(?<!\\)\\[()]")  # another way to type a dollar sign
 _NEWTHEOREM = re.compile(r"\\newtheorem(\*?)\s*\{([^{}]*)\}\s*(?:\[([^\]]*)\])?\s*\{([^{}]*)\}\s*(?:\[([^\]]*)\])?")
-_LEFT_OUT = re.compile(r"\\iffalse(?![A-Za-z]).*?\\fi(?![A-Za-z])", re.DOTALL)
 _WITHIN = re.compile(r"\\numberwithin\s*\{equation\}\s*\{section\}")
 _REMARKS = re.compile("remark|example|note", re.IGNORECASE)
 _REFERENCE = re.compile(r"\\(?:eqref|[cC]ref|autoref|ref)\s*\{([^{}]*)\}")
@@ -42,25 +37,44 @@ _REFERENCE = re.compile(r"\\(?:eqref|[cC]ref|autoref|ref)\s*\{([^{}]*)\}")
 
 @dataclass
 class Source:
-    """What was found: rows in order, and the running text for what it says of letters."""
+    """What was found: rows in order, the running text, and what its sentences say."""
 
     rows: list[Row]
     text: str
+    said: Text
 
 
 def read_source(text: str) -> Source:
     """The rows of a LaTeX source; raises SourceError in one line for what is not closed or has no rows."""
-    plain = _PARENTHESIS.sub("$", expanded(_LEFT_OUT.sub("", without_comments(text))))
+    plain = _PARENTHESIS.sub("$", expanded(decided(without_comments(text))))
     begin = plain.find(r"\begin{document}")
     preamble, body = (plain[:begin], plain[begin + 16:]) if begin >= 0 else (plain, plain)
     end = body.find(r"\end{document}")
-    reader = _Reader(preamble, body if end < 0 else body[:end])
+    body = body if end < 0 else body[:end]
+    require_plain(body)
+    reader = _Reader(preamble, body)
     reader.read()
     resolve(reader.rows, reader.group_labels)
     if not reader.rows:
         raise SourceError("the source has no displayed formula, assumption, theorem or remark: give the paper's own "
                           "file, with what it inputs put in")
-    return Source(reader.rows, reader.body)
+    whats = {name: title for name, (title, _, _) in reader.names.items()}
+    text_of = Text(body, passages(body, reader.displays, (*whats, *PROOFS)), whats,
+                   [name for name, what in whats.items() if is_assumption(what)], _formulas(reader))
+    return Source(reader.rows, body, text_of)
+
+
+def _formulas(reader: _Reader) -> dict[int, Shown]:
+    """What each display says."""
+    found = {number: Shown(frozenset(), {}) for number in range(len(reader.displays))}
+    for row in reader.rows:
+        if row.display >= 0:
+            line, before = row.line or row.printed, found[row.display]
+            parts = [values_and_rates(one) for one in (line, *system_lines(row.printed))]
+            gives = {(letter if kind == 0 else rf"\dot{{{letter}}}"): value for part in parts for kind in (0, 1)
+                     for letter, value in part[kind].items()}
+            found[row.display] = Shown(before.letters | letters_of_text(line), {**before.gives, **gives})
+    return found
 
 
 class _Reader:
@@ -80,9 +94,8 @@ class _Reader:
         self.parent = ""
         self.pending: list[str] = []
         self.group_labels: dict[str, list[str]] = {}
-        self.remarking = self.letting = False
-        self.supposing = False  # whether a display before it, in the same paragraph, is a hypothesis
-        self.last, self.begun = 0, 0  # where the display before ends, and the theorem or proof around it begins
+        self.remarking = False
+        self.displays: list[Display] = []
         self.waiting: list[tuple[str, int]] = []  # labels of subequations, and from which row on they hold
 
     def read(self) -> None:
@@ -183,22 +196,13 @@ class _Reader:
         lines = [text] if name in WHOLE else lines_of(text)
         carried, labels = "", ()
         before = len(self.rows)
-        before_it, behind = self.body[max(around[0] - REACH, 0):around[0]], self.body[around[1]:around[1] + REACH]
-        conditional = on_condition_around(before_it, text, behind)
-        if PARAGRAPH.search(self.body, self.last, around[0]) is not None:
-            self.supposing = False
-        supposed = supposed_around(before_it, text, behind) or self.supposing or (
-            bool(within or self.proving) and self._lets(around[0]))
-        self.supposing |= introduces_hypothesis(before_it) and (
-            self.remarking or not any(values_and_rates(cleaned(text))))
-        self.last = around[1]
+        self.displays.append(Display(*around, ends=re.search(r"\.[\s\\,]*\Z", _without_marks(text)) is not None))
 
         def add(number: str, printed: str, labels: tuple[str, ...], referred: list[str]) -> None:
             last = self.rows[-1] if len(self.rows) > before else None
             chain = chained(last.line or last.printed, printed) if last else ""
             self._add(Row(_id(number) if number else UNNUMBERED, "Equation", number, printed, labels, within=within,
-                          line=chain, referred=self.pending + referred, conditional=conditional,
-                          supposed=supposed,
+                          line=chain, referred=self.pending + referred, display=len(self.displays) - 1,
                           aside=bool(within) or self.proving, remark=self.remarking))
             self.pending = []
 
@@ -220,20 +224,16 @@ class _Reader:
         elif carried:
             add("", carried, labels, [])
 
-    def _lets(self, end: int) -> bool:
-        """Whether the theorem or proof that has begun supposes a relation before a place."""
-        self.letting |= lets(self.body[max(self.begun, self.last):end])
-        return self.letting
-
     def _theorem(self, base: str, starred: bool, at: int, close: int) -> None:
         what, counter, by_section = self.names[base]
         title, begin = optional(self.body, at)
         number = self._counted(counter, by_section) if counter and not starred else ""
         text = self.body[begin:close]
         row = Row(_id(f"{what.lower()}{number}"), what, number, " ".join(LABEL.sub("", text).split()),
-                  tuple(LABEL.findall(_without_displays(text))), title or "", referred=_references(text))
+                  tuple(LABEL.findall(_without_displays(text))), title or "", referred=_references(text),
+                  span=(begin, close))
         self._add(row)
-        self.pending, self.begun, self.letting, self.remarking = [], begin, False, _REMARKS.search(what) is not None
+        self.pending, self.remarking = [], _REMARKS.search(what) is not None
         self._walk(begin, close, row.id)
         self.remarking = False
         self.pending = []
@@ -246,7 +246,7 @@ class _Reader:
              if row.what not in ("Equation", "Remark") and not is_assumption(row.what)), None)
         if owner is not None:
             owner.referred += _references(self.body[begin:close])
-        self.pending, self.proving, self.begun, self.letting = [], True, begin, False
+        self.pending, self.proving = [], True
         self._walk(begin, close, "")
         self.pending, self.proving = [], False
 
@@ -261,6 +261,11 @@ class _Reader:
 
 def _joined(first: str, second: str) -> str:
     return f"{first} {second}".strip()
+
+
+def _without_marks(text: str) -> str:
+    """A display without its labels and numbers, for how its sentence goes on."""
+    return re.sub(r"\\(?:nonumber|notag|IEEEnonumber)(?![A-Za-z])", "", TAG.sub("", LABEL.sub("", text)))
 
 
 def _references(text: str) -> list[str]:

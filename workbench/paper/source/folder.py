@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 import re
-from collections.abc import Collection, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path, PurePath
 
@@ -13,6 +13,7 @@ from workbench.files.regular import LARGEST_TEXT
 from workbench.files.text import read_text
 from workbench.files.writing import write_text, write_tree
 from workbench.paper.new_paper import new_folder
+from workbench.paper.source.deciding import as_read, doubted, left_out, left_to_the_author, standings
 from workbench.paper.source.document import Source, read_source
 from workbench.paper.source.letters import (
     assumed_formulas,
@@ -20,13 +21,14 @@ from workbench.paper.source.letters import (
     functions_in,
     on_condition,
     table_of,
-    values_and_rates,
 )
-from workbench.paper.source.lines import ENDS_WITH_RELATION, continues, system_lines
+from workbench.paper.source.lines import ENDS_WITH_RELATION, system_lines
 from workbench.paper.source.macros import SourceError, without_comments
+from workbench.paper.source.roles import with_roles
 from workbench.paper.source.row import Row
-from workbench.proof.latex.rows import ROWS, SYMBOLS, LetterEntry, Role, RowEntry, is_assumption, text_of
-from workbench.proof.latex.sides import letters_of_text, moving_sides, sides_of, valued_in
+from workbench.paper.source.standing import Standing
+from workbench.proof.latex.rows import ROWS, SYMBOLS, LetterEntry, RowEntry, is_assumption, text_of
+from workbench.proof.latex.sides import letters_of_text, sides_of
 from workbench.proof.prove import prove
 from workbench.proof.selection import targets
 
@@ -76,15 +78,7 @@ def write_from_source(name: str, directory: Path, source: Path) -> FromSource:
         found = read_source(_with_inputs(read_text(source, "LaTeX"), source))
     except SourceError as trouble:
         raise InputError(source, "", str(trouble)) from None
-    made = [(row, entry) for row in found.rows for entry in entries(row, found)]
-    asides = {entry.id for row, entry in made if row.aside}
-    rows = _with_roles(_with_definitions([entry for _, entry in made], found.text),
-                       {entry.id: row for row, entry in made if row.what == "Equation" and not row.number}, asides,
-                       {entry.id for row, entry in made if row.remark}, functions_in(found.text))
-    supposed = {entry.id for row, entry in made if row.supposed or (row.remark and values_and_rates(text_of(entry))[0])}
-    rows = [row.model_copy(update={"role": "words"}) if row.role == "claim" and row.id in supposed else row
-            for row in rows]
-    letters = table_of(rows, found.text)
+    rows, letters, standing = rows_and_letters(found)
     if len(rows_text(rows).encode()) > LARGEST_TEXT // 2:  # verdicts are added, and the table is read again
         raise InputError(source, "", "becomes tables of more than 2 MiB, as where a macro writes itself many times "
                          "over: leave out what is not mathematics, or give it in parts")
@@ -93,11 +87,32 @@ def write_from_source(name: str, directory: Path, source: Path) -> FromSource:
         PurePath(ROWS): rows_text(rows).encode(), PurePath(SYMBOLS): letters_text(letters).encode()}, REMEDY)
     decided = prove(targets([str(folder)]), 1)
     verdicts = {decision.claim.equation: decision.verdict for decision in decided.decisions}
-    recorded = [row.model_copy(update={"recorded": verdicts.get(row.id, "undecided")}) if row.role == "claim" else row
-                for row in rows]
+    missing = {one.claim.equation: one.method for one in decided.decisions if one.verdict == "undecided"}
+    recorded = []
+    for row in rows:
+        if row.role == "claim":
+            left = left_to_the_author(row, verdicts.get(row.id, "undecided"), standing.get(row.id), rows, letters)
+            if left:
+                verdicts[row.id], missing[row.id] = "undecided", left_out(left)
+                recorded.append(row.model_copy(update={"role": "words", "unread": left}))
+            else:
+                recorded.append(row.model_copy(update={"recorded": verdicts.get(row.id, "undecided"),
+                                                       "unread": doubted(row, verdicts, standing)}))
+        else:
+            recorded.append(row)
     write_text(folder / ROWS, rows_text(recorded), REMEDY)
-    return FromSource(folder, verdicts, {d.claim.equation: d.method for d in decided.decisions
-                                         if d.verdict == "undecided"})
+    return FromSource(folder, verdicts, missing)
+
+
+def rows_and_letters(found: Source) -> tuple[list[RowEntry], dict[str, LetterEntry], dict[str, Standing]]:
+    """The tables of a source before anything is decided, and what may be decided of each displayed formula."""
+    made = [(row, entry) for row in found.rows for entry in entries(row, found)]
+    facts = found.said.facts()
+    standing = standings(made, found, facts)
+    rows = with_roles(_with_definitions([entry for _, entry in made], facts), standing, {
+        entry.id: row for row, entry in made if row.what == "Equation"}, functions_in(found.text))
+    rows = [as_read(row, standing.get(row.id)) for row in rows]
+    return rows, table_of(rows, facts, found.text), standing
 
 
 def _with_inputs(text: str, source: Path, depth: int = 0) -> str:
@@ -128,13 +143,14 @@ def entries(row: Row, source: Source) -> list[RowEntry]:
         inside = tuple(one.id for one in source.rows if one.within == row.id)
         formulas = [whole.model_copy(update={"id": f"{row.id}.formula{number}", "title": f"{title}, formula {number}",
                                              "role": "assumption", "printed": formula, "rests_on": ()})
-                    for number, formula in enumerate(assumed_formulas(row.printed), 1) if is_assumption(row.what)]
+                    for number, formula in enumerate(assumed_formulas(row.printed), 1)
+                    if is_assumption(row.what) and source.said.understood(*row.span)]
         rests = tuple(dict.fromkeys((*row.rests_on, *(one.id for one in formulas),
                                      *(one for one in inside if row.id not in _of(source, one)))))
         return [whole.model_copy(update={"role": "words", "rests_on": rests}), *formulas]
     if row.within in assumed:
         return [whole.model_copy(update={"role": "words" if on_condition(assumed[row.within]) else "assumption"})]
-    if row.conditional or row.within in examples:  # of fewer values than the line by itself speaks of
+    if row.within in examples:  # of fewer values than the line by itself speaks of
         return [whole.model_copy(update={"role": "words"})]
     for what, parts in (("line", system_lines(row.printed)), ("case", _cases(row.printed))):
         if parts:
@@ -170,42 +186,6 @@ def _with_definitions(rows: list[RowEntry], text: str) -> list[RowEntry]:
         lines += [known[one] for one in more]
     return [*(RowEntry(id=f"text{number}", title=f"Definition {number} in the text", role="claim", printed=known[one])
               for number, one in enumerate(used, 1)), *rows]
-
-
-def _with_roles(rows: list[RowEntry], unnumbered: Mapping[str, Row], asides: Collection[str],
-                remarks: Collection[str] = (), functions: Collection[str] = ()) -> list[RowEntry]:
-    """The first line that gives a letter a value defines it, the first that gives it a rate moves it; one without a
-    number where no other does. In the text of a theorem, remark or proof no line moves a letter, since a rate there is
-    what the text claims, and no line without a number, or in a remark, defines one. Of what the text calls functions
-    the rates are claimed."""
-    numbered = [text_of(row) for row in rows if row.role == "claim" and row.id not in unnumbered]
-    given = {letter for line in numbered for letter in (*values_and_rates(line)[0], *values_and_rates(line)[1])}
-    defined: set[str] = set()
-    moved: set[str] = set()
-    found = []
-    given_values: set[str] = set()
-    states: set[str] = set()
-    for row in rows:  # what is printed first, its value or its rate, says what a letter is
-        if row.id not in remarks:
-            given_values |= valued_in(text_of(row)) - states
-            if row.role == "claim" and row.id not in asides:
-                states |= {letter for letter, _ in moving_sides(text_of(row))} - given_values - {*functions}
-    for row in rows:
-        role: Role = row.role
-        line = row.line or row.printed
-        printed = unnumbered.get(row.id)
-        if role == "claim" and not continues(row.printed) and not (printed and printed.aside) and row.id not in remarks:
-            values, rates = values_and_rates(line)
-            if printed and {*values, *rates} & given:
-                values, rates = {}, {}
-            if values and not set(values) & (defined | states):
-                role = "definition"
-                defined |= set(values)
-            elif rates and row.id not in asides and set(rates) <= states - moved:
-                role = "dynamics"
-                moved |= set(rates)
-        found.append(row.model_copy(update={"role": role}))
-    return found
 
 
 def rows_text(rows: list[RowEntry]) -> str:

@@ -5,7 +5,6 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 
-from workbench.paper.source.sentences import FOR
 from workbench.proof.latex.error import LatexError
 from workbench.proof.latex.parts import parted
 from workbench.proof.latex.read import read_line
@@ -13,6 +12,9 @@ from workbench.proof.latex.rows import LetterEntry, RowEntry, text_of
 from workbench.proof.latex.sides import letter_latex, letters_of_text, letters_of_time, moving_sides, sides_of
 from workbench.proof.latex.tree import Letter, Node, Number
 
+_FOR = re.compile(
+    r"\b(?:for|on)\s+(?:(?:all|every|any|each|some)\s*)?\$[^$]*(?:[=<>]|\\(?:leq?|geq?|leqslant|geqslant|ne|neq|in)(?![A-Za-z])"
+    r"(?!\s*\\mathbb\s*\{R\}(?:\^[^$\s]*)?\s*\$))[^$]*\$", re.IGNORECASE | re.DOTALL)
 _INLINE = re.compile(r"(?<![\\$])\$(?!\$)(.+?)(?<!\\)\$(?!\$)|\\\((.+?)\\\)", re.DOTALL)
 _LIST = r"((?:\$[^$]+\$(?:\s*,\s*(?:and\s+)?|\s+and\s+)?)+)"
 _CONSTANTS = re.compile(r"\b(?:constants?|gains?|parameters?)\b"
@@ -26,6 +28,10 @@ _POSITIVE = re.compile(r"\b(?<!non)(?<!non-)(?<!or )(?<!for )(?<!all )(?<!any )(
 _ARE_POSITIVE = re.compile(
     _LIST + r"\s*(?:be|are|is)\s+(?:an?\s+|all\s+|some\s+)?positive\s+(?:\w+\s+){0,2}?"
     r"(?:constants?|gains?|numbers?|scalars?|parameters?)\b", re.IGNORECASE)
+_ARE_CONSTANTS = re.compile(
+    _LIST + r"\s*(?:be|are|is)\s+(?:an?\s+|all\s+|some\s+|the\s+)?"
+    r"(?:(?:positive|nonnegative|real|known|unknown|design|control)\s+)*(?:constants?|gains?|parameters?)\b",
+    re.IGNORECASE)
 _INPUTS = re.compile(r"\b(?:disturbances?|inputs?|references?)\b[^.,;:$]{0,30}" + _LIST, re.IGNORECASE)
 _CONDITIONAL = re.compile(
     r"\b(?:if|when|whenever|unless|otherwise|either|or|not|without|then|impl\w+|(?:all|every|any|each)\b.*\bexists?)\b"
@@ -50,8 +56,6 @@ _NOT_EVERYWHERE = re.compile(
     re.IGNORECASE)
 _VARIES = re.compile(r"\b(?:var(?:y|ies|ying)|changes?|changing|switch\w*|adapt\w*|updated?|time-dependent|"
                      r"functions?)\b", re.IGNORECASE)
-_LOCAL = re.compile(r"\\begin\s*\{(theorem|lemma|proposition|corollary|remark|example|proof|IEEEproof|pf|thm|lem|prop|"
-                    r"cor|rem)\*?\}.*?\\end\s*\{\1\*?\}", re.DOTALL)
 _FUNCTION = r"\b(?:energy|storage|Lyapunov|functions?|functionals?|candidates?)\b"
 _FUNCTIONS = re.compile(_FUNCTION + r"[^.,;:$]{0,20}(\$[^$]+\$)", re.IGNORECASE)
 _ARE_FUNCTIONS = re.compile(r"(\$[^$]+\$)\s*(?:be|is|denotes?)\s+(?:an?|the|our|its)\s+(?:[\w-]+\s+){0,4}?" + _FUNCTION,
@@ -63,10 +67,21 @@ _REACH = 600  # letters before and behind a piece that its sentence is looked fo
 _SIGNS = {">": "positive", ">=": "nonnegative"}
 
 
-def table_of(rows: list[RowEntry], text: str) -> dict[str, LetterEntry]:
+def said_of(facts: str) -> dict[str, str]:
+    """Of each letter the first fact that speaks of it."""
+    found: dict[str, str] = {}
+    for fact in facts.split("\n\n"):
+        for inline in _INLINE.finditer(fact):
+            for letter in letters_of_text((inline[1] or inline[2]).strip(" .,;")):
+                found.setdefault(letter, fact.removesuffix("."))
+    return found
+
+
+def table_of(rows: list[RowEntry], facts: str, text: str) -> dict[str, LetterEntry]:
     """Every letter of the rows that can be read, with what the text says of it; empty entries are for the author.
 
-    Letters that a row defines have no entry: their definition says what they are.
+    Letters that a row defines have no entry: their definition says what they are. facts: what the sentences that are
+    understood say of letters for the whole paper; text: all of it.
     """
     found: dict[str, None] = {}
     for row in rows:
@@ -74,13 +89,13 @@ def table_of(rows: list[RowEntry], text: str) -> dict[str, LetterEntry]:
             found |= dict.fromkeys(sorted(letters_of_text(text_of(row))))
     defined = {letter for row in rows if row.role == "definition" for letter, _ in sides_of(text_of(row))}
     states = {letter for row in rows if row.role == "dynamics" for letter, _ in moving_sides(text_of(row))}
-    own = _LOCAL.sub(lambda found: "\n\n", text)  # what is said within a theorem or proof is said for it
-    kinds = dict(_kinds(own))
+    kinds = dict(_kinds(facts))
     for row in rows:
         if row.role in ("definition", "dynamics"):
-            kinds |= dict(_kinds_in(text_of(row)))
-    kinds = dict.fromkeys((*_named(_POSITIVE, own), *_named(_ARE_POSITIVE, own)), "positive") | kinds
-    constants, inputs = set(_named(_CONSTANTS, own)) - _printed_of_time(text, rows), set(_named(_INPUTS, text))
+            kinds |= dict(kinds_in(text_of(row)))
+    kinds = dict.fromkeys((*_named(_POSITIVE, facts), *_named(_ARE_POSITIVE, facts)), "positive") | kinds
+    constants = {*_named(_CONSTANTS, facts), *_named(_ARE_CONSTANTS, facts)} - _printed_of_time(text, rows)
+    inputs = set(_named(_INPUTS, facts))
     unclear = set(_valued_elsewhere(text))
     entries = {}
     for letter in found:
@@ -105,7 +120,7 @@ def on_condition(text: str) -> bool:
     """Whether the text of an assumption ties what it says to a condition, so that its formulas do not hold by
     themselves."""
     text = _AT_ALL_TIMES.sub(" ", text)
-    return _CONDITIONAL.search(text) is not None or FOR.search(text) is not None
+    return _CONDITIONAL.search(text) is not None or _FOR.search(text) is not None
 
 
 def assumed_formulas(text: str) -> Iterator[str]:
@@ -181,12 +196,13 @@ def _kinds(text: str) -> Iterator[tuple[str, str]]:
     for inline in _INLINE.finditer(text):
         conditional = _ON_CONDITION.search(text[:inline.start()]) is not None or _NOT_EVERYWHERE.search(
             _around(text, inline.start(), inline.end())) is not None
-        for letter, kind in _kinds_in((inline[1] or inline[2]).strip(" .,;")):
+        for letter, kind in kinds_in((inline[1] or inline[2]).strip(" .,;")):
             if kind == "real" or not conditional:
                 yield letter, kind
 
 
-def _kinds_in(formula: str) -> Iterator[tuple[str, str]]:
+def kinds_in(formula: str) -> Iterator[tuple[str, str]]:
+    """The letters whose sign a formula says, or that they are real, and that."""
     try:
         line = read_line(formula)
     except LatexError:
@@ -206,7 +222,7 @@ def _kinds_in(formula: str) -> Iterator[tuple[str, str]]:
 def values_and_rates(line: str) -> tuple[dict[str, str], dict[str, str]]:
     """What a line gives a value, and what a rate; nothing where it says anything else than that and letters' signs."""
     values, rates = dict(sides_of(line)), dict(moving_sides(line))
-    signs = [*_kinds_in(line)]
+    signs = [*kinds_in(line)]
     try:
         chains = len(parted(read_line(line))[0])
     except LatexError:

@@ -5,6 +5,8 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 
+from workbench.paper.source.vocabulary import CONNECTIVES
+
 _SIGN = r"(?:[=<>+\-/]|\\(?:leq?|geq?|leqslant|geqslant|cdot|times|in|pm|quad|qquad|Rightarrow|implies)(?![A-Za-z]))"
 _AT_START, _AT_END = re.compile(_SIGN), re.compile(rf"{_SIGN}$")
 _RELATION = re.compile(r"(?:[=<>]|\\(?:leq?|geq?|leqslant|geqslant|lt|gt|equiv|triangleq)(?![A-Za-z]))")
@@ -17,8 +19,8 @@ _SYSTEM = re.compile(
 LABEL = re.compile(r"\\label\s*\{([^{}]*)\}")
 TAG = re.compile(r"\\(?:tag\*?\s*\{|l?eqno(?![A-Za-z])\s*\{?\(?)([^{}()\\]*)[)}]*")
 WITHOUT_NUMBER = re.compile(r"\\(?:nonumber|notag|IEEEnonumber)(?![A-Za-z])")
-_LAYOUT = re.compile(r"\\(?:IEEEyesnumber|IEEEeqnarraynumspace|displaybreak)(?![A-Za-z])\*?"
-                     r"|\\(?:short)?intertext\s*\{[^{}$]*\}")
+_LAYOUT = re.compile(r"\\(?:IEEEyesnumber|IEEEeqnarraynumspace|displaybreak)(?![A-Za-z])\*?|"
+                     rf"\\(?:short)?intertext\s*\{{\s*(?:(?:{'|'.join(sorted(CONNECTIVES))})[\s,]*)+\}}", re.IGNORECASE)
 _SPLIT = re.compile(r"\\\\(?:\s*\[[^\]]*\])?")
 _INNER = re.compile(r"\\begin\s*\{(\w+)\*?\}.*?\\end\s*\{\1\*?\}", re.DOTALL)
 _NESTED = re.compile(r"\\(begin|end)\s*\{[^{}]*\}|[{}]|\\.", re.DOTALL)

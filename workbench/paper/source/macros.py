@@ -11,6 +11,7 @@ MOST_EXPANSIONS = 100_000
 LONGEST_SOURCE = 10_000_000
 
 _COMMENT = re.compile(r"(?<!\\)((?:\\\\)*)%.*")
+_CONDITION = re.compile(r"\\(?:if(?!f(?![A-Za-z]))[A-Za-z@]*|else|fi)(?![A-Za-z])")
 _DEFINED = re.compile(r"\\(?:(?:re)?new|provide)command\*?|\\DeclareMathOperator\*?|"
                       r"\\DeclarePairedDelimiter(?![A-Za-z])|\\(?:re)?newenvironment\*?|\\(?:def|let)(?![A-Za-z])")
 _COMMAND = re.compile(r"\\(?:[A-Za-z@]+|.)", re.DOTALL)
@@ -42,6 +43,29 @@ class Macro:
 def without_comments(text: str) -> str:
     """The source without what stands behind a percent sign."""
     return _COMMENT.sub(r"\1", text)
+
+
+def decided(text: str) -> str:
+    r"""The source without what `\\iffalse` leaves out, or stands behind the `\\else` of `\\iftrue`."""
+    out: list[str] = []
+    kept: list[bool] = []  # of each condition that is open, whether its text counts
+    at, deeper = 0, 0  # how many other conditions are open within
+    for found in _CONDITION.finditer(text):
+        sign = found.group()
+        if all(kept):
+            out.append(text[at:found.start()])
+        at = found.end()
+        if sign in (r"\iffalse", r"\iftrue") and not deeper:
+            kept.append(sign == r"\iftrue")
+        elif kept and not deeper and sign in (r"\else", r"\fi"):
+            kept[-1:] = [not kept[-1]] if sign == r"\else" else []
+        else:
+            deeper += (sign.startswith(r"\if") and bool(kept)) - (sign == r"\fi" and deeper > 0)
+            if all(kept):
+                out.append(sign)
+    if kept:
+        raise SourceError(r"an \iffalse or \iftrue has no \fi: write it")
+    return "".join((*out, text[at:]))
 
 
 def expanded(text: str) -> str:

@@ -11,9 +11,9 @@ class Row:
 
     line: what is read instead, where it goes on from the row before it. within: the id of the theorem or assumption
     in whose text an equation stands; referred: labels that its text, the text before it, or its proof refers to.
-    conditional: whether the sentence around it says it on a condition; supposed: whether it is supposed there, or holds
-    under what is supposed before it; aside: whether it stands in the text of a
-    theorem, remark, example or proof; remark: whether in that of a remark or example, where no letter is defined.
+    span: from where to where the text of a statement stands in the body. display: the number of the display in which
+    an equation stands. aside: whether it stands in the text of a theorem, remark, example or proof; remark: whether in
+    that of a remark or example, where no letter is defined.
     """
 
     id: str
@@ -24,8 +24,8 @@ class Row:
     title: str = ""
     line: str = ""
     within: str = ""
-    conditional: bool = False
-    supposed: bool = False
+    span: tuple[int, int] = (0, 0)
+    display: int = -1
     aside: bool = False
     remark: bool = False
     referred: list[str] = field(default_factory=list)

@@ -60,7 +60,10 @@ class LettersFile(FileRecord):
 
 
 class RowEntry(Record):
-    """A row: its number, what it is called, its printed LaTeX, the line as it is read where that differs."""
+    """A row: its number, what it is called, its printed LaTeX, the line as it is read where that differs.
+
+    unread: what of the paper's text must be read to know whether it is claimed.
+    """
 
     id: Text
     title: Text
@@ -69,6 +72,7 @@ class RowEntry(Record):
     line: Text | None = None
     rests_on: tuple[Text, ...] = ()
     severity: Literal["result", "step"] = "step"
+    unread: Text | None = None
     recorded: Verdict = "undecided"
 
 
@@ -108,7 +112,7 @@ def _state(paper: Paper, known: _Known, row: RowEntry) -> None:
     paper.claim(row.id, row.title, kind, row.printed, row.recorded,
                 premises=tuple(one.id for one in known.assumed(row)), rests_on=row.rests_on,
                 severity=row.severity, where=known.symbols.notation,
-                reading=f"Read as {row.line}." if row.line else "")(_giving(goal))
+                reading=_reading(row))(_giving(goal))
 
 
 class _Known:
@@ -165,7 +169,8 @@ class _Known:
     def goal(self, row: RowEntry) -> tuple[Goal, Kind]:
         """The goal of a row, and what its line is by itself; LatexError or ClaimError with what is missing."""
         if row.role == "words":
-            raise LatexError("a statement in words: state its goal by hand")
+            raise LatexError(f"left to you: {row.unread}; where it is claimed, set its role to 'claim'" if row.unread
+                             else "a statement in words: state its goal by hand")
         line = text_of(row)
         if r"\int" in line:
             raise LatexError("an integral is not read: write it as a letter, whose rate a row of role 'dynamics' gives")
@@ -244,6 +249,12 @@ def _giving(goal: Goal) -> Callable[[], Goal]:
         return goal
 
     return build
+
+
+def _reading(row: RowEntry) -> str:
+    """How a row is read, and what of the text may restrict it."""
+    return " ".join(filter(None, (f"Read as {row.line}." if row.line else "",
+                                  f"The text may restrict it: {row.unread}." if row.unread else "")))
 
 
 def text_of(row: RowEntry) -> str:

@@ -1,0 +1,78 @@
+"""Which rows of a source are decided, and which verdicts on them count."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+from workbench.paper.source.document import Source
+from workbench.paper.source.letters import defined_in_text, said_of, values_and_rates
+from workbench.paper.source.row import Row
+from workbench.paper.source.standing import Standing
+from workbench.proof.latex.rows import LetterEntry, RowEntry, text_of
+from workbench.proof.latex.sides import letters_of_text, moving_sides, sides_of
+
+
+def standings(made: list[tuple[Row, RowEntry]], found: Source, facts: str) -> dict[str, Standing]:
+    """What may be decided of each row of a displayed formula."""
+    lines = [text_of(entry) for _, entry in made if entry.role != "words"]
+    made_of = {letter: letters_of_text(right) for line in (*lines, *defined_in_text(facts).values())
+               for letter, right in values_and_rates(line)[0].items()}
+
+    def within(letters: set[str]) -> set[str]:
+        """The letters with those that they are made of."""
+        known: set[str] = set()
+        while letters - known:
+            known |= letters
+            letters = known.union(*(made_of.get(one, set()) for one in known))
+        return known
+
+    nouns, said = found.said.nouns(), said_of(facts)
+
+    def names(row: Row) -> set[str]:
+        """What the text may call a row by: its labels and number, and those of the statement in which it stands."""
+        around = (label for one in found.rows if one.id == row.within for label in one.labels)
+        return {*row.labels, row.number, row.within, *around} - {""}
+
+    return {entry.id: found.said.standing(row.display, within(letters_of_text(text_of(entry))), names(row), nouns, said)
+            for row, entry in made if row.display >= 0}
+
+
+def as_read(row: RowEntry, standing: Standing | None) -> RowEntry:
+    """A row as what its sentence makes of it: what is not claimed is not decided, what is not understood not taken."""
+    if standing is None or row.role == "words":
+        return row
+    unread = (*standing.unread, *(standing.named if row.role == "claim" else ()))
+    if unread:
+        return row.model_copy(update={"role": "words", "unread": "; ".join(dict.fromkeys(unread))})
+    if row.role == "claim" and standing.form in ("defined", "supposed"):
+        return row.model_copy(update={"role": "words", "unread": "its sentence supposes it"})
+    if row.role == "assumption" and standing.tied:
+        return row.model_copy(update={"role": "words", "unread": "it is assumed of some values alone"})
+    return row
+
+
+def left_to_the_author(row: RowEntry, verdict: str, standing: Standing | None, rows: list[RowEntry],
+                        letters: Mapping[str, LetterEntry]) -> str:
+    """Why the verdict on a row does not count; empty where it does."""
+    if standing is None or verdict == "undecided":
+        return ""
+    if verdict != "proved":
+        given = standing.form == "given"
+        doubts = standing.doubts or (("what its sentence gives is no definition",) if given else ())
+        return f"false by itself; what may restrict it is for you to read: {'; '.join(doubts)}" if doubts else ""
+    taken = {letter for one in rows if one.role in ("definition", "dynamics")
+             for letter in (*dict(sides_of(text_of(one))), *dict(moving_sides(text_of(one))))}
+    known = {letter for letter, entry in letters.items() if entry.kind in ("positive", "nonnegative")} | taken
+    used = sorted(standing.contested & known)
+    return f"what is not understood may say otherwise of {', '.join(used)}" if used else ""
+
+
+def left_out(why: str) -> str:
+    """What is told of a row that is left to the author."""
+    return f"left to you: {why}; where it is claimed, set its role to 'claim'"
+
+
+def doubted(row: RowEntry, verdicts: Mapping[str, str], standing: Mapping[str, Standing]) -> str | None:
+    """What may restrict a row that waits for its letters, for who fills them in."""
+    waits = row.id in standing and verdicts.get(row.id, "undecided") == "undecided"
+    return "; ".join(standing[row.id].doubts) or None if waits else None

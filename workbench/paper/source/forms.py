@@ -1,0 +1,185 @@
+r"""The forms of sentences that are read, and how formulas stand in them.
+
+In rules, LETTERS is a formula of letters alone, `$k, c$`; REAL one that only says what numbers they are, `$x \in
+\mathbb{R}$`; SIGN one that says their sign, `$k > 0$`; RELATION any other relation; VALUE any other expression; TIME
+one of the time alone; DISPLAY a displayed formula.
+"""
+
+from __future__ import annotations
+
+import re
+
+from workbench.paper.source import vocabulary
+from workbench.paper.source.phrases import Grammar
+
+DISPLAY, REFERENCE = "$$", "#"
+LETTERS, REAL, SIGN, DEFINES, RELATION = "$letters", "$real", "$sign", "$defines", "$relation"
+VALUE, TIME = "$value", "$time"
+KINDS = {"LETTERS": (LETTERS,), "REAL": (REAL,), "SIGN": (SIGN,), "RELATION": (RELATION, DEFINES), "VALUE": (VALUE,),
+         "DEFINES": (DEFINES,), "TIME": (TIME,), "DISPLAY": (DISPLAY,), "REF": (REFERENCE,),
+         "VALUES": (LETTERS, VALUE, REFERENCE)}
+# What is told of a sentence: where it states facts, what it claims, gives, defines or supposes, and what restricts it.
+KEPT = ("fact", "claimed", "stated", "given", "defined", "supposed", "restricts", "restricts_bare", "then", "held",
+        "value", "clause", "unsigned", "holds", "laid")
+_RULES = r"""
+sentence = <bare> | <lays> | <declares> | <if_then> | <supposes> | <leads> :? | <asserts> | <concerns> | <invites> |
+    [<declares> [and | , and | ;]]? <clause> [<joint>? <clause>]*
+joint = , | ; | : | and | , and | ; and | , while
+clause = <opener>* <saying> <after>*
+# a formula with no word before it, letters said first and then a formula
+bare = <laid> [,? [where | with | in which] <declared> [<andmore> <declared>]*]+
+lays = [with | let | where] <declared> [<andmore> <declared>]* ,? <laid>
+laid = <shown>
+# what a claim begins with
+opener = CONNECTIVE ,? | in addition ,? | as a [result | consequence] ,? | in [particular | turn | fact | total] ,? |
+    in [matrix | compact | vector | component] [form | notation] ,? | on the other hand ,? | <reason> ,? | for [this |
+    the] [purpose | end | reason] ,? | to this end ,? | [note | observe | recall | notice] that | of course ,? | so
+    that | this way ,? | that is , | namely ,? | for [simplicity | brevity | convenience | clarity] ,? | in what
+    follows ,? | [in order]? to AIM <things> ,? | to see this ,? | <sure_of>
+reason = [by | from | using | via | through | with | under | upon | along | considering | according to] <things> | [in
+    view of | in light of | due to | because of | thanks to | owing to | by virtue of | by means of | with the help of
+    | with the aid of | based on | on the basis of | as a consequence of | on account of | by use of | by using of? |
+    by applying | making use of | in accordance with] <things> | by? <doing> [and <doing>]* | <used> | <quantified> |
+    <restricted> | [by | from] inspection | by? [a | some]? [direct | simple | elementary | straightforward]
+    [computation | calculation | algebra | manipulation | manipulations] | by [definition | construction |
+    substitution | design | assumption] | taking <things> into account
+doing = GERUND <things>? [[along | with | by | using | into | in | from | to | for | and | with respect to | as]
+    <things>]*
+used = [by | using | from] the? [inequality | identity | fact that | relation | equality]? <claimed> | [by | using |
+    by using | from | with] [of? the? [well-known | elementary | basic | simple]? [inequality | identity | fact that |
+    relation | equality]]? <restricts_bare>
+restricted = <restricts> ,? [then | so]?
+restricts = [since | because | as | noting that | observing that | recalling that | knowing that] [the | all]?
+    [VALUENOUN]* <relates_to> [[, | and | , and] <relates_to>]* [holds | hold]? | [with | for | if | when | whenever |
+    where | provided that? | for all | for every | for each | for any | on | at | given] [the | all]? [VALUENOUN]*
+    <related> [[, | and | , and] <related>]* [holds | hold]?
+relates_to = <related> | <list> [is | are] [<adjectives> | <kind>]
+related = RELATION | SIGN
+quantified = for [all | every | each | any] [times | instants | real | VALUENOUN]* [time | TIME | LETTERS | REAL] [[,
+    | and | , and] [all | every | each | any]? [TIME | LETTERS | REAL]]*
+# what is spoken of
+things = <thing> [[, | and | , and | as well as | together with | with | , with] <thing>]*
+thing = <part> [[of | for | along | to | with respect to | in | on] <part>]*
+part = DETERMINER? [MODIFIER | NOUN | NAME]* [NOUN | NAME | LETTERS | VALUE | REAL | REF | TIME] [LETTERS | VALUE |
+    REAL | <sure>]? REF? | both sides | REF [, REF]* [, ]? and REF | REF [to | -] REF
+derived = DETERMINER? FOLLOWING* DERIVED VALUES? [[of | for | along | to | with respect to | in | on] <part>]*
+# what is claimed
+saying = <claimed> | <concludes> | <stated> | <given> | <defines> | <named>
+claimed = <shown> <holds>?
+holds = [holds | hold | follows | follow] [true | as well | too]? [from <things> | by <things>]?
+shown = DISPLAY [[, | and | , and | ; | , that is ,? | or equivalently]? DISPLAY]*
+concludes = <say> [that | :]? <reason>? ,? [the | a | an]? FOLLOWING* :? <claimed>
+say = we can? ADVERB* [HAVE at? | use | used | have used] | one can? ADVERB* [HAS at? | HAVE at?] | <sure_of> | it
+    ADVERB* [follows | holds | results] ADVERB* [[from | by | with] [<things> | SIGN]]? | there [holds | hold |
+    follows | results] | [which | this | these] ADVERB* GIVES [to | in | at]? | by? <doing> ,? ADVERB* GIVES [to | in
+    | at]? | [by | using] the? [inequality | identity | fact that | relation | equality]? <claimed> ADVERB* GIVES [to
+    | in]? | <things> ADVERB* GIVES [to | in | at]? | that is ,? | [which | this] is equivalent to | so that | [this |
+    which] [follows from | is due to] | our starting point is | [the? [following]? [inequality | identity | bound |
+    estimate | relation | equality | inequalities | bounds | relations | identities | estimates | equation |
+    equations] | the following] [holds | hold | is true | are true | is valid | is satisfied | are satisfied |
+    follows]? | we can [write | rewrite | bound | estimate | express] <things> as | [it | which | <things>] [is | are]
+    [[positive | negative] [definite | semidefinite | semi-definite] | nonnegative | bounded from below | bounded] ,
+    that is ,? | where we [have used | used | use] | [we | let us]? [complete | expand | rearrange | differentiate |
+    compute | square] <things>
+sure_of = it is ADVERB* [clear | easy | obvious | immediate | evident | straightforward | simple | obviously | readily
+    | known | well-known | noted | worth noting] [to [see | verify | check | show | note]]? that | it can ADVERB* be
+    ADVERB* SEEN ADVERB* that | it is ADVERB* SEEN that | it follows that
+named = the? [inequality | identity | bound | estimate | relation | equality] <claimed>
+# a quantity that follows, and one that is given
+stated = [whose | its]? <derived> <is> [, <quantified> ,]? :? <shown>
+given = [<subject> | it | they] <is> [, <quantified> ,]? :? <shown>
+subject = <subjects> [[, | and | , and | together with] <subjects>]*
+subjects = DETERMINER? [MODIFIER | NOUN | NAME]* [QUANTITY | LETTERS | VALUE | REF] [LETTERS | VALUE]? REF? [[of | for |
+    along | with respect to] <part>]*
+is = ADVERB* [IS | [has | have | takes | take] the following? form | [is | are] ADVERB* MADE | can ADVERB* be ADVERB*
+    MADE | is then | [was | were | been] MADE] <as>?
+as = [as | by | from | in the form | to be | to | of the form | in terms of] [follows | above | below | <thing> as]?
+defines = [we | let us | us | one]? ADVERB* DEFINE <things>? <being>? <as>? :? <defined> | let <things>? [be ADVERB*
+    MADE? | be MADE]? <as>? :? <defined> [be <kind> | denote <kind>]? | DEFINING <things>? <as>? <defined> ,? | [with
+    | where | and | under] <things>? <being>? <as>? <defined> | <things> <defined> [is | are] [introduced | considered
+    | used | chosen | defined | employed | proposed | selected] | [the | our] [error | errors] [is | are] <defined>
+being = [MADE | obeying | satisfying] | [that | which] [is | are] MADE | whose [dynamics | motion | state] [is | are]
+    MADE?
+defined = <shown>
+supposes = CONNECTIVE* ,? [let us]? [assume | suppose] [now | first]? that? [[<things> <is>]? <supposed> | <held>] |
+    let <held>
+supposed = <shown>
+held = <heldone> [[, | and | , and] <heldone>]*
+heldone = <related> [holds | hold]? | <things>? <list> [<be> [<kind> | <adjectives>]]?
+if_then = if <related> [and <related>]* ,? then? <then>
+then = <related> [and <related>]*
+# what stands behind a formula
+after = ,? <quantified> | ,? [where | with | in which] <declared> [<andmore> <declared>]* | ,? <restricts> | ,? where
+    <part> uses <things> | ,? which [completes | concludes | ends] [the | our] proof | , which [is | are] [negative |
+    positive] [definite | semidefinite | semi-definite] | ,? as [claimed | desired | required | stated] | [by | from |
+    due to | because of] <things> | , where we [have]? used <things> | , where [the last | the | use] [inequality |
+    step | is] [follows from | uses | made of | due to] <things> | , [respectively]
+andmore = [, | ; | and | , and | ; and] [where | with | let]? | with
+# what letters are
+declares = [throughout [the | this] [paper | note | section | work | thesis]? ,?]? [CONNECTIVE ,? | in this [paper |
+    section | chapter] ,?]? [[let | where | with | in which | we assume that | it is assumed that | we denote by |
+    denote by | we write]? <declared> [<andmore> <declared>]* | [it | one | this] has <fact> [<andmore> <fact>]* |
+    <inline> [<andmore> [<inline> | <declared>]]*]
+inline = [let | we? ADVERB* DEFINE]? [<thing> | the error | the errors]? [be | as | by | is | are]? <value> [[of | for
+    | with] <fact>]?
+value = DEFINES
+declared = <fact> [, respectively]? | <both> | <unsigned>
+unsigned = <list> <be> not <adjectives> | <list> <be> <kind>? [positive | negative] [definite | semidefinite]
+fact = <list> <be> <kind> | <kind> <list> | <kind> <list> <be> <kind> | <kind> <list> vary | <kind> <be> <list> |
+    <kind> <be> <adjectives> | <list> <be> <adjectives> | <list> | <list> <kind> | <list> vary | <list> [as | for]
+    <kind> | <kind> <list> <be> <adjectives>
+both = <list> <be> <kind> and <kind> , respectively
+list = <letter> [[, | and | , and] <letter>]*
+letter = LETTERS | REAL | SIGN | TIME
+sure = SIGN
+be = [is | are | be | being | denotes | denote | denoting | represents | represent | stands for | stand for | means |
+    designates]
+kind = DETERMINER? [MODIFIER [but]? | NOUN]* NOUN [and DETERMINER? [MODIFIER | NOUN]* NOUN]* [[of | for | in | on |
+    to] <part>]* [to be [chosen | designed | determined | selected | tuned | estimated | tracked]]? [respectively]?
+adjectives = [[ADJECTIVE | MODIFIER] [, | and | but | , and]?]* [ADJECTIVE | MODIFIER]
+# what an assumption says
+assumes = <assumed> [[, | and | ; | , and] <assumed>]*
+assumed = [we assume that | it is assumed that | assume that | suppose that | there [exists | exist | is | are]
+    <kind>? <fact> such that]? [<quantified> ,?]? [[<things> | it] <is>]? [, that is ,]? <relates> [holds | hold]? ,?
+    [with <fact>]? [,? <quantified>]? | <things> [is | are] bounded [by <things>]? | <fact> | <sentence>
+relates = RELATION | <fact> | <shown>
+# a relation that is claimed within the text, what is said of a motion, what is going to be done
+asserts = <opener>* [<say> that?]? <held> [<holds> | [by | from | since | for] <things>]?
+concerns = <opener>* <things> <moves> [[, | and | , and] <things>? <moves>]*
+moves = [is | are] MANNER* [STABLE | attractive | bounded | invariant | passive] | [converge | converges | tend |
+    tends] MANNER* to [zero | the origin | <things>] MANNER* [as TIME]? | [decreases | increases | decrease | increase
+    | vary | decays] MANNER*
+invites = [let us | we] ADVERB* [compute | calculate | expand | differentiate | analyse | analyze | study | estimate |
+    bound] <things>? | this [completes | concludes | ends | proves | establishes] [the | our] [proof | lemma | theorem
+    | result | statement]
+leads = CONNECTIVE* ,? [we ADVERB* HAVE]? the following MODIFIER? [inequalities | identities | bounds | relations |
+    properties | estimates | equations | statements]? [hold | are true]?
+restricts_bare = RELATION
+"""
+
+
+def _rules(text: str) -> dict[str, str]:
+    """The rules of a text: each begins at the start of a line, and goes on in those that are indented."""
+    lines = re.sub(r"\n\s+", " ", re.sub(r"(?m)^#.*\n", "", text)).strip().splitlines()
+    return {name.strip(): rule for name, _, rule in (line.partition("=") for line in lines)}
+
+
+ERROR = "error-signal"  # an error that is the difference of two signals
+NOUNS = (vocabulary.GIVEN | vocabulary.DERIVED | vocabulary.TEXT | {ERROR}) - {"error", "errors"}
+# A quantity that an author may give, and a noun that stands before a relation.
+QUANTITIES = (vocabulary.GIVEN | {ERROR}) - {"error", "errors"}
+GRAMMAR = Grammar(_rules(_RULES), {
+    **{name: frozenset(kinds) for name, kinds in KINDS.items()},
+    "CONNECTIVE": vocabulary.CONNECTIVES, "HAVE": vocabulary.HAVE, "HAS": vocabulary.HAS, "SEEN": vocabulary.SEEN,
+    "GIVES": vocabulary.GIVES, "IS": vocabulary.IS, "MADE": vocabulary.MADE, "DEFINE": vocabulary.DEFINE,
+    "DEFINING": vocabulary.DEFINING, "AIM": vocabulary.AIM, "GERUND": vocabulary.GERUNDS, "NOUN": NOUNS,
+    "NAME": vocabulary.NAMES, "MODIFIER": vocabulary.MODIFIERS, "DETERMINER": vocabulary.DETERMINERS,
+    "DERIVED": vocabulary.DERIVED, "ADVERB": vocabulary.ADVERBS, "MANNER": vocabulary.MANNER,
+    "STABLE": vocabulary.STABLE,
+    "ADJECTIVE": vocabulary.ADJECTIVES, "VALUENOUN": QUANTITIES | vocabulary.MODIFIERS, "QUANTITY": QUANTITIES,
+    "FOLLOWING": (NOUNS | vocabulary.NAMES | vocabulary.MODIFIERS) - vocabulary.WISHED}, KEPT)
+# Every word that a sentence of some form may have, for telling which ones were not understood.
+KNOWN = (NOUNS | vocabulary.NAMES | vocabulary.MODIFIERS | vocabulary.DETERMINERS | vocabulary.CONNECTIVES
+         | vocabulary.HAVE | vocabulary.GIVES | vocabulary.IS | vocabulary.MADE | vocabulary.GERUNDS
+         | vocabulary.ADJECTIVES | vocabulary.ADVERBS | vocabulary.MANNER | vocabulary.STABLE)
+NEUTRAL = NOUNS | vocabulary.NAMES | vocabulary.MODIFIERS | vocabulary.DETERMINERS | vocabulary.PLAIN

@@ -1,0 +1,220 @@
+"""What the sentences of a source say of its displayed formulas and letters, as far as they are understood.
+
+A sentence is understood if all of it has one of the forms of `forms`. From any other nothing is taken, and what it may
+take back, restrict or define anew is left to the author.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Collection, Mapping, Sequence
+from dataclasses import dataclass, field
+from functools import lru_cache
+
+from workbench.paper.source import forms, vocabulary
+from workbench.paper.source.letters import kinds_in, values_and_rates
+from workbench.paper.source.passages import Sentence, Word
+from workbench.proof.latex.error import LatexError
+from workbench.proof.latex.read import read_line
+from workbench.proof.latex.sides import letters_of_text
+from workbench.proof.latex.tree import Group, Letter, Line, Node, Product
+
+LONGEST = 220  # words of a sentence that is read; a longer one is left to the author
+_TIME = re.compile(r"(?:\\forall\s*)?t\s*(?:(?:\\geq?|\\geqslant|>)\s*(?:0|t_0|t_\{0\})|\\in\s*\[0,\s*\\infty\))?")
+_REAL = re.compile(r"(?P<letters>.*?)\\in\s*\\mathbb\s*(?:\{R\}|R)\s*(?:\^\s*(?:[a-z0-9]|\{[^{}<>=]*\}))?\s*",
+                   re.DOTALL)
+_RELATED = re.compile(r"[=<>]|\\(?:leq?|geq?|leqslant|geqslant|in|notin|neq?|ll|gg|approx|sim|to|rightarrow|Rightarrow|"
+                      r"implies|iff|forall|exists|equiv|subset\w*|mapsto|prec\w*|succ\w*|lesssim|gtrsim|triangleq|coloneqq|doteq|lt|gt|not)"
+                      r"(?![A-Za-z])")
+_BETWEEN = re.compile(r"[\s=<>,;()\[\]|+]+|\\[a-z]*(?:le|ge|in|to|ne|frac|cdot)[a-z]*(?![A-Za-z])")
+
+
+@dataclass(frozen=True)
+class Reading:
+    """What a sentence says. Nothing else than `unknown` where it is not understood.
+
+    shown: for each of its displays whether it is claimed, stated of what follows, given, defined, or supposed; bare
+    where no word stands with it. facts: what it says of letters, as printed. tied: displays that it says of some values
+    alone. restricted: the letters of what it supposes. letters: those of its formulas. unknown: the words that are
+    not understood.
+    """
+
+    shown: Mapping[int, str] = field(default_factory=dict)
+    facts: tuple[str, ...] = ()
+    tied: frozenset[int] = frozenset()
+    restricted: frozenset[str] = frozenset()
+    letters: frozenset[str] = frozenset()
+    unknown: tuple[str, ...] = ()
+
+
+def read_sentence(sentence: Sentence, body: str, assuming: bool = False) -> Reading:
+    """What a sentence says, if it is understood; assuming: that it stands in the text of an assumption."""
+    words = sentence.words
+    asks = words[-1].text == "?"
+    while words and words[-1].kind == "mark" and words[-1].text in ".!;,":
+        words = words[:-1]
+    letters = frozenset(letter for word in words if word.kind == "math" for letter in _letters(word.text))
+    shown = [int(word.text) for word in words if word.kind == "display"]
+    if all(word.kind in ("display", "mark") for word in words):
+        return Reading(dict.fromkeys(shown, "bare"))
+    classes = classes_of(words)
+    rule = "assumes" if assuming else "sentence"
+    found = forms.GRAMMAR.match(rule, classes) if len(words) <= LONGEST and not asks else None
+    if found is None and not shown and not asks and _neutral(classes):
+        return Reading(letters=letters)
+    if found is None:
+        return Reading(dict.fromkeys(shown, ""), letters=letters, unknown=_unknown(words, classes))
+    return _said(words, found, body, letters)
+
+
+def _said(words: Sequence[Word], found: Sequence[tuple[str, int, int]], body: str, letters: frozenset[str]) -> Reading:
+    said = {int(word.text): "supposed" for word in words if word.kind == "display"}
+    for rule, start, end in found:  # what stands within comes behind what holds it
+        if rule in ("claimed", "stated", "given", "defined", "supposed"):
+            for word in words[start:end]:
+                if word.kind == "display":
+                    outer = said.get(int(word.text), "")
+                    said[int(word.text)] = outer if outer in ("stated", "given") and rule == "claimed" else rule
+    laid = [word for rule, start, end in found if rule == "laid" for word in words[start:end] if word.kind == "display"]
+    said |= {int(word.text): "bare" for word in laid}
+    defines = any(form in ("given", "defined", "bare") for form in said.values()) or not said
+    facts = [body[words[start].start:words[end - 1].end] for rule, start, end in found
+             if rule == "fact" and _is_taken(words[start:end], defines)]
+    facts += [f"Define {body[words[start].start:words[end - 1].end]}" for rule, start, end in found if rule == "value"]
+    if laid and not any(re.search(r"[A-Za-z]{3}|\\in", fact.split("$")[0]) or r"\in" in fact for fact in facts):
+        return Reading(said, (), frozenset(said), frozenset(), letters)  # with $z > 0$ alone, of such a z
+    restricted = {letter for rule, start, end in found if rule in ("held", "then", "supposed", "unsigned")
+                  for word in words[start:end] if word.kind == "math" for letter in _letters(word.text)}
+    bare = [(rule, start, end) for rule, start, end in found
+            if rule == "fact" and not _is_taken(words[start:end], defines)]
+    return Reading(said, tuple(facts), _tied(words, found, bare), frozenset(restricted), letters)
+
+
+def _is_taken(words: Sequence[Word], defines: bool) -> bool:
+    """Whether a fact counts for the whole paper: a sign alone, beside what is claimed, may be said for that alone."""
+    return defines or any(word.kind == "word" or r"\in" in word.text for word in words)
+
+
+def _tied(words: Sequence[Word], found: Sequence[tuple[str, int, int]],
+          bare: Sequence[tuple[str, int, int]]) -> frozenset[int]:
+    """The displays that a relation restricts: those of its clause, those behind it, and those before that are not said
+    to hold by themselves."""
+    clauses = [(start, end) for rule, start, end in found if rule == "clause"]
+    held = [(start, end) for start, end in clauses if any(
+        rule == "holds" and start <= one and two <= end for rule, one, two in found)]
+    tied: set[int] = set()
+    for _, start, end in (*(one for one in found if one[0] in ("restricts", "restricts_bare")), *bare):
+        own = next((one for one in clauses if one[0] <= start and end <= one[1]), (0, len(words)))
+        before = any(word.kind == "display" for word in words[own[0]:start])
+        for place, word in enumerate(words):
+            if word.kind == "display" and (place >= own[0] or (before and not any(
+                    one <= place < two for one, two in held))):
+                tied.add(int(word.text))
+    return frozenset(tied)
+
+
+def classes_of(words: Sequence[Word]) -> list[str]:
+    """What the grammar reads of each word."""
+    found: list[str] = []
+    for place, word in enumerate(words):
+        if word.kind == "math":
+            found.append(formula_class(word.text))
+        elif word.kind == "display":
+            found.append(forms.DISPLAY)
+        elif word.kind == "reference":
+            found.append(forms.REFERENCE)
+        elif word.kind == "word":
+            found.append(_word_class(word.text, words[place - 1].text if place else "",
+                                     words[place + 1] if place + 1 < len(words) else None))
+        else:
+            found.append(word.text if word.kind == "mark" else "?")
+    return found
+
+
+def _word_class(text: str, before: str, behind: Word | None) -> str:
+    if text in ("error", "errors"):
+        signal = before in vocabulary.BEFORE_ERROR or (behind is not None and (
+            behind.kind == "math" or behind.text in ("dynamics", "system", "variable", "variables", "signal")))
+        return forms.ERROR if signal else text
+    parts = text.split("-")
+    if len(parts) > 1 and text not in forms.KNOWN and all(
+            part in vocabulary.MODIFIERS or part in forms.NOUNS for part in parts):
+        return parts[-1]
+    return text
+
+
+@lru_cache(maxsize=4096)
+def formula_class(formula: str) -> str:
+    """What a formula within the text is to the grammar; `?` for one that cannot be read and may be a relation."""
+    if _TIME.fullmatch(formula):
+        return forms.TIME
+    real = _REAL.fullmatch(formula)
+    try:
+        return _class_of(read_line(real["letters"] if real else formula), formula, real is not None)
+    except LatexError:
+        return "?" if _RELATED.search(formula) else forms.VALUE
+
+
+def _class_of(line: Line, formula: str, real: bool) -> str:
+    sides = [side for chain in line.chains for side in chain.sides]
+    if all(not chain.signs for chain in line.chains):
+        plain = all(map(_is_letter, sides)) and all(one in ((), (",",)) for one in line.separators)
+        return forms.REAL if real and plain else "?" if real else forms.LETTERS if plain else forms.VALUE
+    if real or any(one not in ((), (",",)) for one in line.separators):
+        return "?"
+    heads = [chain.sides[0] for chain in line.chains]
+    if all(map(_is_letter, heads)) and len([*kinds_in(formula)]) == len(heads):
+        return forms.SIGN
+    values, _ = values_and_rates(formula)
+    if len(values) == 1 and all(letters_of_text(right) - {letter} for letter, right in values.items()):
+        return forms.DEFINES
+    return forms.RELATION
+
+
+def _is_letter(side: Node) -> bool:
+    return isinstance(side, Letter) or (isinstance(side, Product) and len(side.factors) == 2
+                                        and isinstance(side.factors[0], Letter) and isinstance(side.factors[1], Group))
+
+
+def _letters(formula: str) -> Collection[str]:
+    """The letters of a formula; those that its text seems to have where it cannot be read."""
+    found = letters_of_text(formula) if formula else set()
+    if found or not formula:
+        return found
+    pieces = {letter for piece in _BETWEEN.split(formula) for letter in letters_of_text(piece)}
+    return pieces or set(re.findall(r"\\?[A-Za-z]+", formula))
+
+
+def _neutral(classes: Sequence[str]) -> bool:
+    """Whether a sentence without displays is made of words alone that take nothing back."""
+    for place, one in enumerate(classes):
+        behind = classes[place + 1] if place + 1 < len(classes) else ""
+        if one in ("this", "these", "each") and behind not in forms.NOUNS | vocabulary.MODIFIERS | vocabulary.PLAIN:
+            return False
+        if one not in forms.NEUTRAL and one not in (forms.LETTERS, forms.REAL, forms.VALUE, forms.TIME, forms.REFERENCE,
+                                                    ",", ":", ";"):
+            return False
+    return classes[-1] != ":"
+
+
+def _unknown(words: Sequence[Word], classes: Sequence[str]) -> tuple[str, ...]:
+    """The words that no form has; all of them where each is known and the form is not."""
+    known = forms.KNOWN | forms.NEUTRAL
+    odd = [word.text for word, one in zip(words, classes, strict=True)
+           if word.kind not in ("math", "display", "mark", "reference") and one not in known]
+    return tuple(dict.fromkeys(odd)) or tuple(word.text for word in words if word.kind == "word")
+
+
+def heading_unknown(words: Sequence[Word]) -> tuple[str, ...]:
+    """The words of a heading that are not understood; none where all are."""
+    known = forms.KNOWN | forms.NEUTRAL
+    return tuple(word.text for word, one in zip(words, classes_of(words), strict=True)
+                 if word.kind in ("word", "odd", "command", "cite") and one not in known)
+
+
+def printed(sentence: Sentence, body: str) -> str:
+    """A sentence as it is printed, for telling which one it is; its displays left out."""
+    places = dict.fromkeys((word.start, word.end) for word in sentence.words if word.kind != "display")
+    pieces = (body[start:end] for start, end in places)
+    text = " ".join(" ".join(pieces).split())
+    return text if len(text) <= 80 else text[:77] + "..."
