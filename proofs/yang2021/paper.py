@@ -13,6 +13,7 @@ from __future__ import annotations
 
 from workbench.proof.paper import Paper
 
+from .letters import LETTERS
 from .notation import NOTATION
 
-paper = Paper("yang2021", " ".join((__doc__ or "").split("\n\n")[1].split()), notation=NOTATION)
+paper = Paper("yang2021", " ".join((__doc__ or "").split("\n\n")[1].split()), NOTATION, LETTERS)

@@ -2,6 +2,7 @@
 
 import copy
 import functools
+from fractions import Fraction
 
 import numpy as np
 import pytest
@@ -24,8 +25,11 @@ from workbench.proof.claim import (
 )
 from workbench.proof.decide.boundary_points import solved
 from workbench.proof.decide.engine import prove_goal
+from workbench.proof.decide.exact_look import Exact
 from workbench.proof.decide.landscape import Landscape
 from workbench.proof.decide.refute import find_counterexample, find_example
+from workbench.proof.decide.simple_points import simplest_point
+from workbench.proof.text import goal_text
 
 x, y, z, w, d = sp.symbols("x y z w d", real=True)
 p, q, r = sp.symbols("p q r", positive=True)
@@ -65,6 +69,21 @@ def test_false_goal_is_refuted_and_not_proved(name):
     check(certificate)
     assert Evaluated(goal, neurons=1).holds_at(certificate["point"]) == (True, False)
     assert prove_goal(goal) is None
+
+
+@pytest.mark.parametrize(("goal", "found", "simple"), [
+    # Any p above y^2 / x will do, and so will the simplest.
+    (Goal((at_most(p * x, y**2),)), {"p": "7/3", "x": "59/4000", "y": "0"}, {"p": "1", "x": "1", "y": "0"}),
+    # What is assumed holds at the simpler point too: x must stay below a thousandth.
+    (Goal((at_least(x * million, 1),), (greater(x, 0), less(1000 * x, 1))), {"x": "1/1234567"}, {"x": "1/1234567"}),
+    # Two that only move together.
+    (Goal((differ(x, y),), (greater(x, 1),)), {"x": "17/5", "y": "17/5"}, {"x": "2", "y": "2"}),
+])
+def test_the_simplest_counterexample_is_shown_and_lies_in_the_domain(goal, found, simple):
+    exact, point = Exact(goal_text(goal)), {name: Fraction(value) for name, value in found.items()}
+    assert exact.breaks(point)
+    shown = simplest_point(exact, point)
+    assert exact.breaks(shown) and {name: str(value) for name, value in shown.items()} == simple
 
 
 t, V, V_0, rate = sp.symbols("t V V_0 rate", real=True)

@@ -33,6 +33,7 @@ from workbench.proof.decide.onward import needs_path, onward
 from workbench.proof.decide.path import find_path, reached_points
 from workbench.proof.decide.proposals import Point, descents, proposals
 from workbench.proof.decide.roots import Root, roots_near
+from workbench.proof.decide.simple_points import plainer_point, simplest_point
 from workbench.proof.text import goal_text
 
 
@@ -46,7 +47,6 @@ class Place:
 
 MOTIONS = 10  # points from which a motion is looked for that keeps what always holds
 EXAMPLES = 4  # of each kind, when the checker wants another
-SIMPLE = (Fraction(0), Fraction(1), Fraction(-1), Fraction(2), Fraction(1, 2), Fraction(-2), Fraction(3))
 
 
 def find_counterexample(goal: Goal, verdict: Verdict, seed: int = 1, quick: bool = False) -> dict[str, Any] | None:
@@ -62,7 +62,9 @@ def find_counterexample(goal: Goal, verdict: Verdict, seed: int = 1, quick: bool
             return None if quick else find_model(usual, record, verdict)
         further = MOTIONS if needs_path(usual) else None
         for point in islice((p for p in proposals(usual, seed, True, quick) if exact.breaks(p)), further):
-            for shown in (_simplest(exact, point), point):
+            plain = plainer_point(exact, point)
+            # A motion begins at its point: one that is simpler still need not lead anywhere.
+            for shown in (*((simplest_point(exact, plain),) if further is None else ()), plain, point):
                 certificate = {"version": 1, "verdict": verdict, "goal": record, "point": texts(shown)}
                 if further is not None:
                     certificate |= onward(usual, shown) or {}
@@ -102,18 +104,6 @@ def _descended(goal: Goal, seed: int, break_shown: bool) -> Iterator[Place]:
                 yield Place(point, {})
         else:
             yield from (Place(moved, {"roots": roots}) for moved, roots in roots_near(goal, point))
-
-
-def _simplest(exact: Exact, point: Point) -> Point:
-    """A point that breaks the goal too, each value in turn made as simple as can be: zero first, then one."""
-    for name, value in sorted(point.items()):
-        rank = SIMPLE.index(value) if value in SIMPLE else len(SIMPLE)
-        for simpler in SIMPLE[:rank]:
-            tried = point | {name: simpler}
-            if exact.breaks(tried):
-                point = tried
-                break
-    return point
 
 
 def _at_other_counts(goal: Goal, record: dict[str, Any], verdict: Verdict, seed: int,
