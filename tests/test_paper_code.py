@@ -12,7 +12,7 @@ from pathlib import Path
 import mpmath
 import pytest
 from command_line import one_line, run
-from refusals import refusal
+from refusals import changed, refusal
 from small_folders import small_folder, with_claims
 
 from workbench.cli import app
@@ -158,3 +158,19 @@ def test_a_command_that_is_refused_says_so_in_one_line_where_its_code_ends_it(tm
     with (folder / "laws.py").open("a") as laws:
         laws.write("import os\nos._exit(0)\n")
     assert "laws.py: line 11: calls os._exit" in one_line(run("compare", folder))
+
+
+@pytest.mark.parametrize(("file", "old", "new", "words"), [
+    ("plant.py", "u - a * v", "u - a * v**1e300", "plant 'mine2030.mass': v**1"),
+    ("plant.py", "u - a * v", "u - a * v**(10**30)", "beyond 64 bits"),
+    ("plant.py", "u - a * v", "u - a * v * sp.Float('1e400')", "a number that no float holds"),
+    ("laws.py", "- k * s", "- k * s * sp.Float('1e-400')", "law 'mine2030.adaptive': -1"),
+    ("laws.py", "- k * s", "- k * s**(2**70)", "beyond 64 bits"),
+    ("laws.py", "- k * s", "- k * s**-20_000", "has an exponent beyond 10000")])
+def test_a_number_with_which_no_run_ends_is_told_with_its_file(file, old, new, words, tmp_path):
+    """Of x**1e300 and its slopes a solver of MPC came to no end."""
+    assert run("new-paper", "mine2030", "--plant", folder=tmp_path).returncode == 0
+    path = tmp_path / "mine2030" / file
+    path.write_text(changed(path.read_text(), old, new))
+    said = one_line(run("compare", "mine2030", folder=tmp_path))
+    assert said.startswith(f"workbench: mine2030/{file}: ") and words in said
