@@ -43,6 +43,14 @@ class SolverError(WorkbenchError):
     """A numerical solver returned nothing that may be used: names the solver and its status."""
 
 
+class OutOfTime(BaseException):  # no Exception: deciders and libraries that catch every one let it pass
+    """The time that was given is used up."""
+
+
+# What is no mistake of the code that it is raised in: it has come from outside.
+FROM_OUTSIDE = (KeyboardInterrupt, OutOfTime)
+
+
 # What a light installation leaves out -> the extra of the package that brings it.
 EXTRAS = {"numba": "simulate", "llvmlite": "simulate", "pyarrow": "simulate", "optuna": "tune", "cmaes": "tune",
           "jinja2": "report", "plotly": "report", "matplotlib": "report", "grandalf": "report"}

@@ -2,17 +2,21 @@
 
 from __future__ import annotations
 
+import atexit
 import errno
 import inspect
+import os
 import signal
 import sys
 import threading
+import time
+from collections.abc import Callable
 from contextlib import suppress
 from difflib import get_close_matches
-from functools import cache
+from functools import cache, wraps
 from importlib import import_module
 from pathlib import Path
-from typing import Any
+from typing import Any, NoReturn
 
 import typer
 from typer.core import TyperGroup
@@ -20,15 +24,19 @@ from typer.exceptions import TyperException
 from typer.main import get_command
 
 from workbench.cli.collection import collect_later, end_without_search
-from workbench.cli.console import err_console
+from workbench.cli.console import err_console, out_console
 from workbench.cli.options import Version
 from workbench.cli.unused import import_unused_later
 from workbench.errors import InputError, WorkbenchError, of_an_extra, printable
 from workbench.files.memory_limit import MORE, MORE_FILES, is_of_memory, require_memory
+from workbench.files.paper_code import mistakes_told
+from workbench.files.streams import drop_output, output_kept
 from workbench.tasks.room_for_calls import with_room_for_calls
 from workbench.tasks.threads import use_one_thread
 
 INTERRUPTED = 130  # with which typer ends after Ctrl-C
+NOBODY_READS = 141  # of a shell for a command that a closed pipe has ended
+THREADS_S = 3.0  # for which threads that were left are waited for
 LINKS = "Symlink loop"  # what pathlib says of them, before Python 3.13
 
 # The verbs in the order in which the help lists them; each is a module of this room, by its own name or another.
@@ -57,8 +65,25 @@ def _verb(name: str) -> Any:
     alone = typer.Typer(add_completion=False)
     paragraphs = (inspect.getdoc(module.command) or "").split("\n\n")
     said = "\n\n".join(" ".join(paragraph.split()) for paragraph in paragraphs)  # lines end where the terminal does
-    alone.command(name, help=said, context_settings=getattr(module, "CONTEXT", None))(module.command)
+    alone.command(name, help=said, context_settings=getattr(module, "CONTEXT", None))(_answering(module.command))
     return get_command(alone)
+
+
+class _NobodyReadsError(Exception):
+    """What a command says goes into a pipe whose reader has ended."""
+
+
+def _answering(command: Callable[..., Any]) -> Callable[..., Any]:
+    """The command, with standard output kept for its answer."""
+    @wraps(command)
+    def answering(*arguments: Any, **named: Any) -> Any:
+        with output_kept():
+            try:
+                return command(*arguments, **named)
+            except BrokenPipeError as trouble:
+                raise _NobodyReadsError from trouble  # typer would end with 1, as if a verdict differed
+
+    return answering
 
 
 app = typer.Typer(cls=Verbs, no_args_is_help=True, add_completion=True, pretty_exceptions_enable=False,
@@ -78,11 +103,23 @@ def main() -> None:
     import_unused_later()
     if threading.current_thread() is threading.main_thread():
         signal.signal(signal.SIGTERM, signal.default_int_handler)  # what is finished is kept, as after Ctrl-C
+    threads = set(threading.enumerate())
+    out_console.stderr = False  # whatever an earlier call in this process was asked for
     try:
         _require_folder()
         require_memory()
-        code = with_room_for_calls(_command(), sys.argv[1:] or ["--help"], prog_name="workbench",
-                                   standalone_mode=False) or 0
+        with mistakes_told():
+            code = with_room_for_calls(_command(), sys.argv[1:] or ["--help"], prog_name="workbench",
+                                       standalone_mode=False) or 0
+        sys.stdout.flush()
+    except (_NobodyReadsError, BrokenPipeError):
+        code = NOBODY_READS
+        drop_output()
+    except SystemExit as end:
+        if not isinstance(end.__context__, BrokenPipeError):
+            raise
+        code = NOBODY_READS  # typer ends so where nobody reads its help
+        drop_output()
     except WorkbenchError as trouble:
         code = _refused(str(trouble))
     except (ImportError, MemoryError) as trouble:
@@ -96,6 +133,7 @@ def main() -> None:
         problem = f"{trouble.format_message().removesuffix('.')}: {_verb_meant()}see '{command} --help'"
         code = _refused(str(InputError(command.removeprefix("workbench").strip(), "", problem)))
     except OSError as trouble:  # of what no room expects to fail, such as a terminal that is gone
+        drop_output()
         where = str(trouble.filename or "")
         remedy = MORE_FILES if trouble.errno == errno.EMFILE else "check path, permissions and free space"
         code = _refused(str(InputError(where, "", f"{trouble.strerror or trouble}: {remedy}")))
@@ -105,6 +143,20 @@ def main() -> None:
         code = _refused(f"{trouble}: the links lead around in a circle: name a file or folder that is there")
     if code == INTERRUPTED:
         err_console.print("workbench: interrupted; what was finished is kept", style="yellow")
+    _end(code, threads)
+
+
+def _end(code: int, before: set[threading.Thread]) -> NoReturn:
+    """End this process with that exit code, whatever a paper's code has left running in it: Python would wait for ever
+    for a thread that does not end."""
+    until = time.monotonic() + THREADS_S
+    for thread in threading.enumerate():
+        if thread not in before and not thread.daemon:
+            thread.join(max(0.0, until - time.monotonic()))
+            if thread.is_alive():
+                drop_output()
+                atexit._run_exitfuncs()
+                os._exit(code)
     sys.exit(code)
 
 

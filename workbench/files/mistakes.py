@@ -17,7 +17,7 @@ REMEDIES: tuple[tuple[str, str], ...] = (
     ("NameError", "declare it first, a symbol as in x = sympy.Symbol('x', real=True)"),
     ("SympifyError", "give an expression of sympy or an exact number, no text"),
     ("FileNotFoundError", "put the file there or correct its name"),
-    ("SystemExit", "a proof file states claims and ends nothing"),
+    ("SystemExit", "a paper's code ends nothing: leave that out"),
     ("RecursionError", "break up the expression, or the function that calls itself"),
 )
 

@@ -18,12 +18,14 @@ from pathlib import Path
 from types import ModuleType
 from typing import Any
 
-from workbench.errors import InputError
+from workbench.errors import InputError, OutOfTime
 from workbench.files.depth_limit import limited_depth
+from workbench.files.guarded_calls import guard_calls
 from workbench.files.memory_limit import limited_memory
 from workbench.files.mistakes import OF_A_FOLDER, mistake
+from workbench.files.process_state import state_kept
 from workbench.files.text import inputs_read_by, read_source, written_since_read
-from workbench.files.time_limit import OutOfTime, at_most_seconds
+from workbench.files.time_limit import at_most_seconds
 
 PREFIX = OF_A_FOLDER
 OF_A_KERNEL = "workbench_kernel_"  # begins the names of modules that are generated from what papers state
@@ -52,6 +54,12 @@ class SourceLoader(SourceFileLoader):
     def get_data(self, path: Any) -> bytes:
         """The source, as the import system asks for it; InputError for what is no regular file or too large."""
         return read_source(str(path))
+
+    def exec_module(self, module: ModuleType) -> None:
+        """Run the module, as the import system asks for it; InputError where it does what no module may."""
+        guard_calls()
+        with state_kept(self.path):
+            super().exec_module(module)
 
 
 class _Finder:

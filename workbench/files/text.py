@@ -20,7 +20,7 @@ NO_NAME = (errno.ENAMETOOLONG, errno.ELOOP, errno.ENOTDIR)
 _LIMITS = {"TOML": LARGEST_TEXT}
 
 _read: dict[Path, set[str]] = {}
-_sources: set[Path] = set()
+_sources: set[str] = set()
 _digests: dict[str, tuple[str, int]] = {}
 
 
@@ -37,7 +37,12 @@ def inputs_read_by(package: str) -> list[Path]:
 
 def sources_read() -> frozenset[Path]:
     """The Python files of papers that this process has read."""
-    return frozenset(_sources)
+    return frozenset(map(Path, _sources))
+
+
+def is_source(path: str) -> bool:
+    """Whether a path, as code knows its own file, is that of a Python file of a paper that this process has read."""
+    return path in _sources
 
 
 def digest_read(path: str | Path, since_ns: int = 0) -> str | None:
@@ -76,7 +81,7 @@ def read_source(path: str) -> bytes:
     Raises InputError for one that is too large or no regular file, and OSError where there is none, which those who
     show source lines expect.
     """
-    _sources.add(Path(path).absolute())
+    _sources.add(str(Path(path).absolute()))
     try:
         return _remembered(path, contents(path, LARGEST_TEXT))
     except (NotRegularError, TooLargeError) as trouble:

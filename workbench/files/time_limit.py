@@ -12,6 +12,8 @@ from contextlib import contextmanager
 from pathlib import Path
 from types import FrameType
 
+from workbench.errors import OutOfTime
+
 AGAIN = 0.5  # seconds after which the interruption comes again, should a library have swallowed it
 # So many calls are looked at: of a function that calls itself without end there may be millions.
 LOOKED_AT = 2000
@@ -22,10 +24,6 @@ WAITING_S, IDLE_S = 20.0, 0.01
 WEAK_REFERENCES = (weakref.__file__, weakref.WeakSet.__init__.__code__.co_filename)
 
 _limited: list[float] = []
-
-
-class OutOfTime(BaseException):  # no Exception: deciders and libraries that catch every one let it pass
-    """The time that was given is used up."""
 
 
 def out_of_time(limit: float | None) -> str:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import inspect
 from collections.abc import Callable
 
-from workbench.errors import ClaimError
+from workbench.errors import FROM_OUTSIDE, ClaimError, InputError
 from workbench.files.mistakes import mistake
 from workbench.proof.claim import Claim, Goal
 from workbench.proof.text import relation_text, text
@@ -17,9 +17,11 @@ def built(claim: Claim, build: Callable[[], Goal], what: str = "goal") -> Goal:
     """The goal that a function of the claim makes; raises ClaimError, naming the claim, when it makes none."""
     try:
         goal: object = build()
-    except ClaimError as trouble:
+    except (ClaimError, InputError) as trouble:
         raise ClaimError(f"claim {claim.id}: {trouble}") from None
-    except Exception as trouble:
+    except FROM_OUTSIDE:
+        raise
+    except BaseException as trouble:  # what ends a process too
         where = getattr(getattr(inspect.unwrap(build), "__code__", None), "co_filename", "")
         raise ClaimError(f"claim {claim.id}: its {what} cannot be made: {mistake(trouble, where)}") from trouble
     if not isinstance(goal, Goal):

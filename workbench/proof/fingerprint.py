@@ -10,6 +10,7 @@ from typing import Any
 
 import sympy as sp
 
+from workbench.errors import FROM_OUTSIDE
 from workbench.proof.claim import Claim
 
 # Shown beside a verdict, but never looked at to reach it; how a line matches its goal is found anew each time.
@@ -26,7 +27,9 @@ def fingerprint(claim: Claim) -> str | None:
     try:
         exact = {name: _exact(part() if callable(part) and not isinstance(part, sp.Basic) else part)
                  for name, part in parts.items()}
-    except Exception:  # what is wrong with a function is for the decision to say, if it comes to need it
+    except FROM_OUTSIDE:
+        raise
+    except BaseException:  # what is wrong with a function is for the decision to say, if it comes to need it
         return None
     return hashlib.sha256(json.dumps(exact, sort_keys=True).encode()).hexdigest()
 

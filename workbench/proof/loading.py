@@ -11,7 +11,7 @@ from importlib.machinery import FileFinder, ModuleSpec
 from pathlib import Path
 from types import ModuleType
 
-from workbench.errors import ClaimError, InputError
+from workbench.errors import ClaimError, InputError, OutOfTime
 from workbench.files.depth_limit import limited_depth
 from workbench.files.folders import CLAIMS_FOLDER, PAPER_FILE
 from workbench.files.memory_limit import limited_memory
@@ -27,7 +27,7 @@ from workbench.files.modules import (
     sources_of,
 )
 from workbench.files.modules import PREFIX as FOLDER_PREFIX
-from workbench.files.time_limit import OutOfTime, at_most_seconds
+from workbench.files.time_limit import at_most_seconds
 from workbench.proof.dependencies import reading, reads
 
 PREFIX = "workbench_proofs_"

@@ -7,8 +7,8 @@ from functools import cache
 from pathlib import Path
 from typing import Any, Literal
 
-from workbench.errors import InputError, WorkbenchError
-from workbench.files.time_limit import OutOfTime, at_most_seconds, out_of_time
+from workbench.errors import InputError, OutOfTime, WorkbenchError
+from workbench.files.time_limit import at_most_seconds, out_of_time
 from workbench.proof.cache import DecisionCache, decision_cache
 from workbench.proof.checker import CertificateError, check, goal_digest
 from workbench.proof.claim import Claim

@@ -22,6 +22,7 @@ from workbench.errors import WorkbenchError
 from workbench.files.cache_folder import note
 from workbench.files.memory_limit import require_files
 from workbench.files.modules import KnownFolders
+from workbench.files.paper_code import mistakes_told
 from workbench.tasks import server
 from workbench.tasks.room_for_calls import with_room_for_calls
 from workbench.tasks.sent import job_bytes, job_of
@@ -218,6 +219,7 @@ def follow_parent(environment: Mapping[str, str]) -> None:
     os.environ.clear()
     os.environ.update(environment)
     signal.signal(signal.SIGINT, signal.SIG_IGN)
+    sys.stdout = sys.stderr  # standard output is for the command's answer alone
     threading.Thread(target=_leave_with_parent, daemon=True).start()
 
 
@@ -230,4 +232,5 @@ def _leave_with_parent() -> None:
 
 def _work(task: Any) -> Any:
     function, shared = _job
-    return with_room_for_calls(function, shared, task)
+    with mistakes_told():
+        return with_room_for_calls(function, shared, task)

@@ -13,6 +13,7 @@ from queue import Empty, Queue
 from typing import Any
 
 from workbench.errors import WorkbenchError
+from workbench.files.paper_code import mistakes_told
 from workbench.tasks.sent import answered, received
 from workbench.tasks.versions import versions
 
@@ -41,7 +42,8 @@ def serve(number: str, tree: str) -> None:
         try:
             if packed_job:
                 function, shared = _opened(packed_job, place)
-            said = RESULT + answered(function(shared, received(task, place)), place)
+            with mistakes_told():
+                said = RESULT + answered(function(shared, received(task, place)), place)
         except BaseException as trouble:
             said = ERROR + _told(trouble, place)
         connection.send_bytes(said)

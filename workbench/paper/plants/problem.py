@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from functools import cached_property
 from pathlib import Path
 from typing import Any
 
 import numpy as np
+import sympy as sp
 
-from workbench.errors import InputError, WorkbenchError
+from workbench.compile.literals import require_short
+from workbench.errors import CompileError, InputError, WorkbenchError
 from workbench.files.folders import held_in
 from workbench.model.laws import named, names_near
 from workbench.mpc.plant_tracking import PlantMpc
@@ -134,11 +136,25 @@ class LocatedPlantStudy(PlantStudy):
 def located(study: PlantStudy, path: Path) -> LocatedPlantStudy:
     """The study with everything that it names found and held against the plant; InputError for what does not fit."""
     found = LocatedPlantStudy(**study.model_dump(exclude_unset=True), file=path).in_folder(path.parent)
+    plant = found.the_plant
+    _require_numbers(path.with_name("plant.py"), f"plant '{plant.id}'",
+                     (*plant.moves, *plant.outputs.values(), *plant.domain))
     try:
-        found.entrants()
+        laws = [entrant.law for entrant in found.entrants().values() if entrant.law is not None]
     except WorkbenchError as trouble:
         raise trouble if isinstance(trouble, InputError) else InputError(path, "", str(trouble)) from None
+    for law in laws:
+        moves = [part for state in law.states for part in (state.rate, state.update) if part is not None]
+        _require_numbers(path.with_name("laws.py"), f"law '{law.id}'", (*law.commands.values(), *moves, *law.domain))
     return found
+
+
+def _require_numbers(file: Path, what: str, exprs: Iterable[sp.Expr]) -> None:
+    """InputError for a number that no run can calculate with, before one is waited for."""
+    try:
+        require_short(exprs)
+    except CompileError as trouble:
+        raise InputError(file, what, str(trouble)) from None
 
 
 def _mpc(entry: MpcEntry, changed: Mapping[str, float]) -> PlantMpc:

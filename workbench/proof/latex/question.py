@@ -7,7 +7,8 @@ from dataclasses import dataclass, replace
 
 import sympy as sp
 
-from workbench.files.time_limit import OutOfTime, at_most_seconds, out_of_time
+from workbench.errors import OutOfTime
+from workbench.files.time_limit import at_most_seconds, out_of_time
 from workbench.proof.claim import Claim, D, Decision, Goal, Relation, at_least
 from workbench.proof.decide.engine import decide
 from workbench.proof.document_format import AnswerDocument
