@@ -211,3 +211,25 @@ def test_a_point_of_rest_at_an_irrational_number_is_no_harder_than_one_beside_it
         bounds.append((len(plants.extremes), found.bound))
     (two, beside), (one, alone) = bounds
     assert (two, one) == (2, 1) and beside == pytest.approx(alone, rel=1e-2)
+
+
+def test_entries_that_share_an_uncertain_term_move_together():
+    """Of a motor with an inertia between two values there are two extreme plants, not one for each pair of entries."""
+    angle, speed, current, volts = sp.symbols("theta omega i V", real=True)
+    J, b, K, R, L = sp.symbols("J b K R L", positive=True)
+    motor = Plant("motor", (angle, speed, current), (speed, (K * current - b * speed - K * sp.sin(angle)) / J,
+                                                     (volts - R * current - K * speed) / L), (volts,),
+                  parameters=(Parameter(J, 0.01, known=(0.005, 0.02)), Parameter(b, 0.1), Parameter(K, 0.01),
+                              Parameter(R, 1.0), Parameter(L, 0.5)))
+    plants = linearised(motor)
+    assert sorted(A[1, 1] for A, _ in plants.extremes) == [-20, -5]
+    for A, B in plants.extremes:
+        assert A[1, :] == A[1, 1] / 10 * sp.Matrix([[1, 10, -1]])
+        assert list(B) == [0, 0, 2]
+    apart = replace(motor, rates=(speed, K * current / J - b * R * speed, (volts - R * current - K * speed) / L),
+                    parameters=(*motor.parameters[:3], Parameter(R, 1.0, known=(1, 2)), motor.parameters[4]))
+    assert len(linearised(apart).extremes) == 4  # 1/J and R, where three entries differ
+    for J_, R_ in ((0.007, 1.3), (0.02, 1.9)):
+        A = sp.Matrix(apart.rates).jacobian(apart.states).subs({J: J_, R: R_, b: 0.1, K: 0.01, L: 0.5})
+        corners = [E for E, _ in linearised(apart).extremes]
+        assert all(min(E[i] for E in corners) - 1e-12 <= A[i] <= max(E[i] for E in corners) + 1e-12 for i in range(9))

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from itertools import product
@@ -12,11 +12,11 @@ import sympy as sp
 
 from workbench.errors import InputError
 from workbench.gains.enclosure import Interval, enclosed, stated_number
-from workbench.gains.exact import rational
+from workbench.gains.exact import fraction, rational
 from workbench.systems.derivatives import smooth_at
 from workbench.systems.plant import Plant
 
-MOST_UNCERTAIN = 6  # entries that differ among the plants; each doubles the number of extreme plants
+MOST_UNCERTAIN = 6  # entries, or terms, that differ among the plants; each doubles the number of extreme plants
 AT_REST = Fraction(1, 10**6)  # what a rate is at most at a point of rest that is given by decimals
 
 
@@ -33,8 +33,9 @@ def linearised(plant: Plant, at: Mapping[str, Any] | None = None) -> LinearPlant
     """The hull of the linearisations at a point, parameters in their known intervals or at their values.
 
     at: states and inputs by name, zero where none is given; disturbances are zero. Each uncertain entry is bounded by
-    itself, so that the hull may hold more plants than there are. Raises InputError where the point is no equilibrium
-    for some of the parameters, an entry has a kink there or no finite bounds, or too many entries differ.
+    itself, or, where these are fewer, each uncertain term that entries share, such as 1/J: the hull may hold more
+    plants than there are. Raises InputError where the point is no equilibrium for some of the parameters, an entry has
+    a kink there or no finite bounds, or too many of both differ.
     """
     if plant.updates:
         raise InputError(plant.id, "updates", "make it a plant in discrete time, for which no gains are searched: give "
@@ -55,6 +56,9 @@ def linearised(plant: Plant, at: Mapping[str, Any] | None = None) -> LinearPlant
         raise InputError(plant.id, "inputs", "there is none: a feedback needs at least one")
     entries = [[_bounds(plant, entry, point, box) for entry in part] for part in parts]
     wide = [(k, i) for k, part in enumerate(entries) for i, (low, high) in enumerate(part) if low < high]
+    shared = _shared_terms(plant, [sp.Matrix(part) for part in parts], point, box)
+    if shared is not None and len(shared.terms) < len(wide) and len(shared.terms) <= MOST_UNCERTAIN:
+        return LinearPlants(tuple(map(str, plant.states)), tuple(map(str, plant.inputs)), tuple(shared.extremes()))
     if len(wide) > MOST_UNCERTAIN:
         raise InputError(plant.id, "", f"{len(wide)} entries of its linearisation are uncertain, more than "
                          f"{MOST_UNCERTAIN}: say of fewer parameters that they are known in an interval only")
@@ -65,6 +69,46 @@ def linearised(plant: Plant, at: Mapping[str, Any] | None = None) -> LinearPlant
                                                  for i, pair in enumerate(entries[k])]) for k, part in enumerate(parts))
         extremes.append((A, B))
     return LinearPlants(tuple(map(str, plant.states)), tuple(map(str, plant.inputs)), tuple(extremes))
+
+
+@dataclass(frozen=True)
+class _SharedTerms:
+    """Matrices whose entries are sums of constants times terms, and the interval of each term."""
+
+    parts: tuple[sp.Matrix, ...]
+    terms: dict[sp.Symbol, Interval]
+
+    def extremes(self) -> Iterator[tuple[sp.Matrix, sp.Matrix]]:
+        """The pairs at the corners of the terms' intervals: every pair is between them, being affine in the terms."""
+        for corner in product(*self.terms.values()):
+            A, B = (part.xreplace(dict(zip(self.terms, map(rational, corner), strict=True))) for part in self.parts)
+            yield A, B
+
+
+def _shared_terms(plant: Plant, parts: Sequence[sp.Matrix], point: Mapping[sp.Basic, sp.Expr],
+                  box: Mapping[sp.Symbol, Interval]) -> _SharedTerms | None:
+    """The entries at a point by the terms of uncertain parameters; None where a constant before one is irrational."""
+    names: dict[sp.Expr, sp.Symbol] = {}
+    intervals: dict[sp.Symbol, Interval] = {}
+    found = []
+    for part in parts:
+        entries = []
+        for entry in part:
+            total: sp.Expr = sp.Integer(0)
+            for term in sp.Add.make_args(sp.expand(smooth_at(entry, point))):
+                constant, varying = term.as_independent(*box, as_Add=False)
+                if not (constant.is_Rational or constant.is_Float):
+                    return None
+                if constant == 0:
+                    continue
+                if varying != 1 and varying not in names:
+                    names[varying] = sp.Dummy()
+                    intervals[names[varying]] = _bounds(plant, varying, {}, box)
+                total += rational(stated_number(constant) if constant.is_Float else fraction(constant)) * names.get(
+                    varying, sp.Integer(1))
+            entries.append(total)
+        found.append(sp.Matrix(part.rows, part.cols, entries))
+    return _SharedTerms(tuple(found), intervals)
 
 
 def _known(plant: Plant, at: Mapping[str, Any] | None,

@@ -38,7 +38,7 @@ class TrackingMpc:
     """A sampled controller: one optimal control problem a sample, warm-started from the one before.
 
     fallbacks counts the samples at which the solver gave nothing usable; its last plan goes on there. state: what is
-    taken for the plant's state, `MeasuredState` or `KalmanState`.
+    taken for the plant's state, `MeasuredState` or `KalmanState`; ahead_s: how far ahead it is told the references.
     """
 
     title = "tracking MPC"
@@ -61,6 +61,7 @@ class TrackingMpc:
             self.state: MeasuredState | KalmanState = KalmanState(how, setting, self._motion, first)
         else:
             self.state = MeasuredState(how, setting, period_s, self._motion)
+        self.ahead_s = how.horizon * period_s
         self._called = False
         self._excess = len(self._program.limited)
         self._stage = self._n + 2 * self._m + self._excess

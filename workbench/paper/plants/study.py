@@ -15,6 +15,7 @@ from workbench.paper.study import Progress, StudyKind
 from workbench.simulate.plants.run import PlantRun
 from workbench.simulate.plants.run import run as run_plant
 from workbench.systems.setting import Setting
+from workbench.systems.signals import Constant
 from workbench.tasks.handing_out import results_of
 
 
@@ -85,7 +86,10 @@ def _findings(setting: Setting, runs: Sequence[PlantRun]) -> Iterator[str]:
             least = [name for name, value in values.items() if number(value) == number(best)]
             unit = next((unit_text(m.unit) for m in setting.every_metric if m.id == f"{output}_error_rms"), "")
             yield f"RMS error of {output}, least: {' and '.join(least)}, {number(best)} {unit}".rstrip() + "."
+    moving = any(not isinstance(setting.references[channel], Constant) for channel in setting.tracks.values())
     for run in runs:
+        if run.ahead_s and moving:
+            yield f"{run.name} is told the references {number(run.ahead_s)} s ahead; laws are told what they are."
         if run.failed:
             yield f"{run.failed}."
         if run.fallbacks:

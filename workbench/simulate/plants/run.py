@@ -91,7 +91,8 @@ class PlantRun:
     columns: t_s, states, inputs as they act, commands (`<input>_wanted`), signals by name, the law's states. step_us:
     microseconds of a control step; of a law with the plant's integration, of a sampled controller alone, the 99th
     percentile of which is step_us_p99. fallbacks: samples at which a sampled controller had to do without its solver.
-    events: in the order in which they happened. period_s: how often it commands.
+    events: in the order in which they happened. period_s: how often it commands. ahead_s: how far ahead it is told what
+    the references will be; a law is told what they are.
     """
 
     name: str
@@ -105,6 +106,7 @@ class PlantRun:
     step_us_p99: float
     fallbacks: int = 0
     events: tuple[Happened, ...] = ()
+    ahead_s: float = 0.0
 
     @cached_property
     def data(self) -> dict[str, Array]:
@@ -137,15 +139,15 @@ def run(setting: Setting, entrant: Entrant, nominal: Mapping[str, float] | None 
         noise = np.random.default_rng(setting.seed).normal(size=noise.shape) * deviations
     loop = _Loop(entrant.name, setting, found, arrays, every, noise, late)
     if law is not None and setting.integrator == "rk4":
-        status, done, taken, fallbacks = *loop.compiled_law(samples, states, values), 0
+        status, done, taken, fallbacks, ahead_s = *loop.compiled_law(samples, states, values), 0, 0.0
     else:
         # A controller is built with what it believes: the truth is not its to know.
         own = _Interpreted(found, entrant.period_s, states, values, arrays) if law is not None else (
             _built(entrant, setting.varied(parameters=believed)))
         status, done, taken = loop.sampled(samples, own)
-        fallbacks = int(getattr(own, "fallbacks", 0))
+        fallbacks, ahead_s = int(getattr(own, "fallbacks", 0)), float(getattr(own, "ahead_s", 0.0))
     arrays.told[:] = states  # in the log's last row, as in all others, what the next command would be taken from
-    return replace(_told(setting, entrant, found, arrays, status, done, taken), fallbacks=fallbacks)
+    return replace(_told(setting, entrant, found, arrays, status, done, taken), fallbacks=fallbacks, ahead_s=ahead_s)
 
 
 def _built(entrant: Entrant, setting: Setting) -> SampledController:
