@@ -217,11 +217,12 @@ class Goal:
         found: set[sp.Expr] = set()
         exprs = [e for r in self.relations() for e in (r.left, r.right)]
         for expr in (*exprs, *self.flow, *self.flow.values(), *self.initial.values(), *self.inputs, *self.named):
-            indexed = expr.atoms(sp.Indexed)
+            parts = expr.atoms(sp.Indexed, sp.Sum)  # in one walk through the expression, which is all the cost
+            indexed = {part for part in parts if isinstance(part, sp.Indexed)}
+            sums = parts - indexed
             hidden = {s for i in indexed for s in i.free_symbols}
-            hidden |= {s for total in expr.atoms(sp.Sum) for s in total.bound_symbols}
-            hidden |= {s for total in expr.atoms(sp.Sum) for limit in total.limits for e in limit[1:]
-                       for s in e.free_symbols}
+            hidden |= {s for total in sums for s in total.bound_symbols}
+            hidden |= {s for total in sums for limit in total.limits for e in limit[1:] for s in e.free_symbols}
             found |= {s for s in expr.free_symbols if s not in hidden and not isinstance(s, sp.IndexedBase)}
             found |= indexed
         return tuple(sorted(found, key=name_of))

@@ -18,7 +18,7 @@ SYMBOLS = [sp.Symbol("x", **known).assumptions0 for known in ({}, {"real": True}
 BASES = [sp.IndexedBase("x", **known).assumptions0 for known in ({}, {"real": True})]
 FUNCTIONS = (sp.log, sp.exp, sp.tanh, sp.sin, sp.cos, sp.tan, sp.atan, sp.Abs, sp.sign, sp.Max, sp.Min)
 LANGUAGE = ("Sum", "D", "log", "exp", "tanh", "sin", "cos", "tan", "arctan", "abs", "sign", "sqrt", "Max", "Min")
-NO_NUMBERS = (sp.I, sp.zoo, sp.nan, sp.oo, -sp.oo)
+NO_NUMBERS = frozenset((sp.I, sp.zoo, sp.nan, sp.oo, -sp.oo))
 LARGEST_POWER, LARGEST_NUMBER = 64, 10**300  # of the checker; of floating point, in which points are sought
 
 
@@ -42,10 +42,10 @@ class Language:
 
     def check(self, expr: sp.Expr, index: sp.Symbol | None = None) -> None:
         """Raise ClaimError unless certificates can state the expression exactly, and it has a real value."""
-        known = not expr.has(*NO_NUMBERS)
+        known = not _has_no_number(expr)
         if known:
             self._check(expr, index)  # part by part, so that what is evaluated then has a value in every part
-        if not known or (expr.args and evaluated(expr).has(*NO_NUMBERS)):
+        if not known or (expr.args and _has_no_number(evaluated(expr))):
             raise ClaimError(f"'{expr}' has no real value: it divides by zero, or takes the root or logarithm of a "
                              "negative number")
 
@@ -112,10 +112,9 @@ class Language:
 
     @staticmethod
     def _require_value(expr: sp.Pow, power: sp.Rational) -> None:
-        base = evaluated(expr.base)
-        if power < 0 and base.is_zero:
+        if power < 0 and evaluated(expr.base).is_zero:
             raise ClaimError(f"'{expr}' has no value: it divides by zero")
-        if power.q == 2 and base.is_negative:
+        if power.q == 2 and evaluated(expr.base).is_negative:
             raise ClaimError(f"'{expr}' has no real value: the root of what is negative")
 
     def _check_sum(self, expr: sp.Sum, index: sp.Symbol | None) -> None:
@@ -153,6 +152,17 @@ class Language:
         if owner.assumptions0 not in (BASES if isinstance(owner, sp.IndexedBase) else SYMBOLS):
             raise ClaimError(f"symbol '{name}': sympy knows more of it than its certificate would say; make it real, "
                              "positive or nonnegative (indexed: real) and state the rest as an assumption")
+
+
+def _has_no_number(expr: sp.Basic) -> bool:
+    """Whether one of NO_NUMBERS stands in an expression; `has` would walk through it once for each."""
+    waiting = [expr]
+    while waiting:
+        part = waiting.pop()
+        if not part.args and part in NO_NUMBERS:
+            return True
+        waiting += part.args
+    return False
 
 
 def _carried_symbols(expr: sp.Expr, flow: Mapping[sp.Expr, sp.Expr]) -> set[sp.Expr]:

@@ -104,6 +104,8 @@ def evaluated(expr: sp.Expr, functions: bool = True) -> sp.Expr:
 
     functions: whether sympy evaluates abs, sign, Max, Min, log, exp and tanh as well.
     """
+    if not expr.args:
+        return expr
     with as_evaluated():
         return _evaluated(expr, functions)
 
