@@ -23,6 +23,7 @@ from pydantic import (
 )
 
 from workbench.errors import InputError
+from workbench.files.known_keys import meant
 from workbench.files.text import read_text
 
 Number = Annotated[float, Strict(), Field(allow_inf_nan=False)]
@@ -177,10 +178,10 @@ def validate_record(data: dict[str, Any], model: type[R], where: Path | str, rep
     try:
         return model.model_validate(data, context={REPRODUCTION: strict})
     except ValidationError as trouble:
-        raise InputError(where, *mistake(trouble, data)) from None
+        raise InputError(where, *mistake(trouble, data, model)) from None
 
 
-def mistake(trouble: ValidationError, data: dict[str, Any]) -> tuple[str, str]:
+def mistake(trouble: ValidationError, data: dict[str, Any], model: type[BaseModel] | None = None) -> tuple[str, str]:
     """The first wrong key of what made a record, and in one line what is wrong with it and how many more there are."""
     errors = trouble.errors()
     # A mistyped key shows up twice, as unknown and as missing: the unknown one is what to mend.
@@ -188,7 +189,7 @@ def mistake(trouble: ValidationError, data: dict[str, Any]) -> tuple[str, str]:
     others = list(dict.fromkeys(_key(dict(error), data) for error in errors if error is not first))
     more = f" (and {len(errors) - 1} more: {', '.join(others[:MOST_NAMED])}" + (
         ", ...)" if len(others) > MOST_NAMED else ")") if others else ""
-    return _key(dict(first), data), _explain(dict(first), errors) + more
+    return _key(dict(first), data), _explain(dict(first), errors, model) + more
 
 
 def _key(error: dict[str, Any], data: Any) -> str:
@@ -217,7 +218,7 @@ def _short(value: Any, limit: int = 60) -> str:
     return text if len(text) <= limit else f"{text[:limit]}..."
 
 
-def _unknown_key(error: dict[str, Any], errors: list[Any]) -> str:
+def _unknown_key(error: dict[str, Any], errors: list[Any], model: type[BaseModel] | None) -> str:
     parent = error["loc"][:-1]
     missing = [str(e["loc"][-1]) for e in errors if e["type"] == "missing" and e["loc"][:-1] == parent]
     name = str(error["loc"][-1])
@@ -227,15 +228,17 @@ def _unknown_key(error: dict[str, Any], errors: list[Any]) -> str:
     close = close or [other for other in missing if other.split("_", 1)[0] == stem]
     if close:
         return f"unknown key; did you mean '{close[0]}' (the unit is part of the name)?"
+    if model is not None and (remedy := meant(model, error["loc"])):
+        return f"unknown key: {remedy}"
     lacking = f"; {', '.join(missing)} {'is' if len(missing) == 1 else 'are'} missing" if missing else ""
     return f"unknown key: remove it or correct its spelling{lacking}"
 
 
-def _explain(error: dict[str, Any], errors: list[Any]) -> str:
+def _explain(error: dict[str, Any], errors: list[Any], model: type[BaseModel] | None) -> str:
     value, message = error.get("input"), str(error["msg"])
     match error["type"]:
         case "extra_forbidden":
-            return _unknown_key(error, errors)
+            return _unknown_key(error, errors, model)
         case "missing":
             explained = "is missing: add it"
         case "value_error":
