@@ -102,6 +102,13 @@ FALSE = {
         r"It is \sout{true} wrong that [[x^2 \ge 0]]",
         r"Let $z$ satisfy \begin{equation} z \ge 0 . \end{equation} Then [[z^3 \ge 0]]",
         r"The result holds for $z > 0$ and $z < 0$, respectively. Hence [[z^3 > 0]]",
+        r"The disturbance vanishes identically in this subsection. Young's inequality plays a role. We have [[d^3 "
+        r"\ge 0]]",
+        r"Reference \cite{q} contains the following line. [[x^2 \ge 0]] This line must be deleted.",
+        r"The reader is invited to find the flaw. We have [[x^2 + k > 0]]",
+        r"The positive constant $z$ of \cite{q} turned out to be a function. We have [[z k > 0]]",
+        r"The constants $k$ and $\gamma$ change their signs here. We have [[k x^2 \ge 0]]",
+        r"We set $k = -1$ in the rest of the section. We have [[k x^2 \ge 0]]",
     ),
     "thesis": (
         r"A tempting but flawed inequality is [[x^2 + 1 > 0]]",
@@ -117,6 +124,12 @@ FALSE = {
         r"\begin{proof} Let $z = x^2$. It is clear. \end{proof} Therefore [[z \ge 0]]",
         r"The following bound, claimed in the literature, breaks down. [[2 x z \le x^2 + z^2]]",
         r"One can hardly expect $z > 0$. Then [[z > -1]]",
+        r"\subsection{What goes wrong} We have [[x^2 + \gamma > 0]]",
+        r"\paragraph{Misconception} [[x^2 \ge 0]]",
+        r"Rumour has it that $z>0$. We have [[z \gamma > 0]]",
+        r"The inequality \begin{equation} z \ge 0 \end{equation} is an open question. We have [[z + \gamma > 0]]",
+        r"The author once believed in [[x^2 \ge 0]]",
+        r"In summary, none of this is right. We have [[x^2 + y^2 \ge 0]]",
     ),
     "notes": (
         r"True or false? [[x^2 \ge 0]]",
@@ -129,6 +142,12 @@ FALSE = {
         r"Pretend that $z$ is a positive constant. Then [[z \gamma > 0]]",
         r"``Clearly'', [[x^2 + \gamma > 0]]",
         r"We get [[x^2 \ge 0]] Oops, this cannot be.",
+        r"Here is a classical blunder. We have [[x^2 \ge 0]]",
+        r"Let $z>0$ for a moment. Then $z+1>1$. Back to general $z$: [[z k > 0]]",
+        r"Assume $z > 0$. Case two is $z \le 0$. We have [[z + k > 0]]",
+        r"Let $k$ be any real number, of whatever sign. Then [[k x^2 \ge 0]]",
+        r"Replace $k$ by $-k$ everywhere. We have [[k x^2 \ge 0]]",
+        r"Fix $z$, which is positive by luck. We have [[z k > 0]]",
     ),
     "nonnative": (
         r"It has been not proved that [[x^2 + k > 0]]",
@@ -141,6 +160,12 @@ FALSE = {
         r"Such $z > 0$ is forbidden. It follows [[z k \ge 0]]",
         r"We get the contradiction [[x^2 \ge 0]]",
         r"Is wrong the next formula. [[(y - z)^2 \ge 0]]",
+        r"It can't be proved that [[x^2 \ge 0]]",
+        r"The result in (T) is contradictory to experiment. We have [[x^2 \ge 0]]",
+        r"Here exist the mistake: [[k x^2 \ge 0]]",
+        r"We deny that [[x^2 \ge 0]]",
+        r"It is untrue for $z > 0$. Hence [[z k > 0]]",
+        r"By the false Lemma 7 we have [[k > 0 - x^2]]",
     ),
     "twocolumn": (
         r"\newcommand{\nope}{Nobody should believe that} \nope [[x^2 \ge 0]]",
@@ -153,6 +178,14 @@ FALSE = {
         r"Equation (T) is due to a typo. We have [[z^2 \ge 0]]",
         r"\begin{quote} We have [[z^2 + y^2 \ge 0]] \end{quote}",
         r"\begin{remark} It is tempting to set $z = y^2$. \end{remark} It holds that [[z \ge 0]]",
+        r"\renewcommand{\half}{-\tfrac12} \beq V = \half x^2 \eeq We have [[V \ge 0]]",
+        r"\beq V = x^2 \eeq The symbol $V$ is from here on the negative of it. We have [[V \ge 0]]",
+        r"{\color{red} We have [[x^2 \ge 0]] } (the red text is to be removed)",
+        r"We have [[x^2 \ge 0]] (to be corrected)",
+        r"\marginpar{wrong!} We have [[x^2 + k > 0]]",
+        r"% nothing here"
+        "\n"
+        r"Not proved: [[x^2 + k > 0]]",
     ),
     "arxiv": (
         r"A priori one might hope for $z>0$; this hope is vain. We have [[z > -k]]",
@@ -165,89 +198,11 @@ FALSE = {
         r"In a parallel universe with $z \ge 0$, we obtain [[z^3 \ge 0]]",
         r"\begin{theorem} Suppose $z > 0$. Then $k z > 0$. \end{theorem} Consequently, [[k z > 0]]",
         r"We have [[k + \gamma > 0]] Alas, no.",
-    ),
-}
-TRUE = {
-    "journal": (
-        r"By Young's inequality, we have [[x d \le \frac{k}{2} x^2 + \frac{1}{2k} d^2]]",
-        r"Consider the Lyapunov function candidate \begin{equation} V = \frac12 x^2 \end{equation} It follows that "
-        r"[[V \ge 0]]",
-        r"Consider the Lyapunov function candidate \begin{equation} V = \frac12 x^2 \label{V}\end{equation} The "
-        r"time derivative of $V$ along the trajectories of (\ref{sys}) is given by [[\dot V = a x^2 + x u + x d]]",
-        r"The control law is designed as \begin{equation} u = -k x - a x . \label{u} \end{equation} Substituting "
-        r"\eqref{u} into \eqref{sys} yields [[\dot x = -k x + d]]",
-        r"Then, we can obtain that [[(x - y)^2 \ge 0]]",
-        r"Noting that $k > 0$, it is easy to see that [[k x^2 \ge 0]]",
-        r"\begin{lemma} For any $x, y \in \mathbb{R}$, the following inequality holds: [[2 x y \le x^2 + "
-        r"y^2]]\end{lemma}",
-        r"\begin{proof} Completing the squares, one obtains [[-k x^2 + x d \le \frac{1}{4k} d^2]] which completes "
-        r"the proof. \end{proof}",
-        r"Moreover, the cross term satisfies [[|x y| \le \frac12 x^2 + \frac12 y^2]]",
-        r"Using the triangle inequality, we get [[|x + y| \le |x| + |y|]]",
-    ),
-    "thesis": (
-        r"The tracking error is defined as \begin{equation} e = x - y . \end{equation} Squaring both sides gives "
-        r"[[e^2 = x^2 - 2 x y + y^2]]",
-        r"In order to prove stability, the energy function \begin{equation} W = x^2 + \gamma y^2 \end{equation} is "
-        r"introduced. It is positive semidefinite, that is, [[W \ge 0]]",
-        r"From the Cauchy--Schwarz inequality it follows immediately that [[(x + y)^2 \le 2 x^2 + 2 y^2]]",
-        r"Since $k$ is positive, one finds [[-k x^2 \le 0]]",
-        r"An upper bound of the mixed term is [[2 x y \le k x^2 + \frac{1}{k} y^2]]",
-        r"Expanding the brackets, we arrive at [[(x + y)(x - y) = x^2 - y^2]]",
-        r"This leads to the estimate [[x y \le \frac12 x^2 + \frac12 y^2]]",
-        r"Next, a simple calculation shows that [[(x - k y)^2 = x^2 - 2 k x y + k^2 y^2]]",
-        r"Hence the last term can be bounded as [[-k x^2 - \gamma y^2 \le 0]]",
-        r"The function satisfies, for all $x \in \mathbb{R}$, [[x^2 + k > 0]]",
-    ),
-    "notes": (
-        r"Clearly [[x^2 + y^2 \ge 0]]",
-        r"So we have [[k x^2 \ge 0]]",
-        r"Put \[ V = \tfrac12 x^2 + \tfrac12 y^2 . \] Then [[V \ge 0]]",
-        r"Now complete the square: [[x^2 + 2 x y + y^2 = (x + y)^2]]",
-        r"Recall that [[2 |x| |y| \le x^2 + y^2]]",
-        r"Let us compute. [[(x + 1)^2 = x^2 + 2 x + 1]]",
-        r"Note that [[|x|^2 = x^2]]",
-        r"Take $V = \frac12 x^2$. Along solutions of (1), [[\dot V = x (a x + u + d)]]",
-        r"By the binomial formula, [[(x + k)^2 = x^2 + 2 k x + k^2]]",
-        r"And since $k, \gamma > 0$ we see that [[k x^2 + \gamma y^2 \ge 0]]",
-    ),
-    "nonnative": (
-        r"We choose Lyapunov function as follows: \begin{equation} V = \frac12 x^2 . \end{equation} Then its "
-        r"derivative is [[\dot V = a x^2 + x u + x d]]",
-        r"According to Young inequality we have [[x y \le \frac12 x^2 + \frac12 y^2]]",
-        r"It is obviously that [[k x^2 \ge 0]]",
-        r"So, it can be got that [[x^2 + y^2 \ge 2 x y]]",
-        r"Therefore, following inequality is obtained: [[|x y| \le x^2 + y^2]]",
-        r"By using of the inequality $2ab \le a^2 + b^2$, one has [[2 x y \le x^2 + y^2]]",
-        r"From above equation, we can get [[(x - y)^2 = x^2 - 2 x y + y^2]]",
-        r"The control input is chosen as \begin{equation} u = - a x - k x \end{equation} then we can get [[\dot x "
-        r"= -k x + d]]",
-        r"Because $k > 0$, so [[-k x^2 \le 0]]",
-        r"Based on the above analysis, we know [[\gamma y^2 \ge 0]]",
-    ),
-    "twocolumn": (
-        r"Define \beq V = \half x^2 . \label{V} \eeq Differentiating \eqref{V} along \eqref{sys} gives [[\dot V = "
-        r"a x^2 + x u + x d]]",
-        r"With \beq u = -(a + k) x \eeq we have [[\dot x = -k x + d]]",
-        r"where we have used [[2 x y \le x^2 + y^2]]",
-        r"Hence, [[k x^2 + \gamma y^2 \ge 0]]",
-        r"Obviously, [[x^2 + y^2 \ge -2 x y]]",
-        r"which implies that [[|x| \ge 0]]",
-        r"The Lyapunov function is bounded from below, i.e., [[k x^2 \ge 0]]",
-        r"For all $x, y \in \R$, it holds that [[(x + y)^2 \le 2 x^2 + 2 y^2]]",
-        r"It can be easily verified that [[(x + k)(x - k) = x^2 - k^2]]",
-        r"Applying Young's inequality to the cross term, we deduce [[x d \le k x^2 + \frac{1}{4 k} d^2]]",
-    ),
-    "arxiv": (
-        r"Our starting point is the elementary identity [[(x + y)^2 - (x - y)^2 = 4 x y]]",
-        r"A direct computation gives [[(x - y)^2 + 2 x y = x^2 + y^2]]",
-        r"Set $V := x^2$. Then [[V \ge 0]]",
-        r"We claim no novelty here. We have [[x^2 + y^2 \ge 0]]",
-        r"\begin{lemma} We have [[2 x y \le x^2 + y^2]] for all $x, y \in \mathbb{R}$. \end{lemma}",
-        r"This follows from [[x^2 + y^2 - 2 x y = (x - y)^2]]",
-        r"By the arithmetic-geometric mean inequality, [[x y \le \frac{k}{2} x^2 + \frac{1}{2 k} y^2]]",
-        r"Thanks to the positivity of $k$, there holds [[-k x^2 \le 0]]",
-        r"Combining the last two displays yields [[|x + y| \le |x| + |y|]]",
-        r"\begin{proof} Rearranging terms, we infer [[x^2 - y^2 = (x - y)(x + y)]] as desired. \end{proof}",
+        r"\begin{conjecture} [[x^2 \ge 0]] \end{conjecture}",
+        r"\begin{theorem}[False theorem] [[x^2 \ge 0]] \end{theorem}",
+        r"\begin{proof}[Erroneous proof] We have [[x^2 \ge 0]] \end{proof}",
+        r"\begin{center} \textbf{Retracted} \end{center} We have [[x^2 \ge 0]]",
+        r"Whether [[x^2 \ge 0]] is known to the experts.",
+        r"The opposite of [[x^2 \ge 0]] holds.",
     ),
 }

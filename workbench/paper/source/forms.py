@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import re
 
-from workbench.paper.source import vocabulary
+from workbench.paper.source import vocabulary, words
 from workbench.paper.source.phrases import Grammar
 
 DISPLAY, REFERENCE = "$$", "#"
@@ -37,12 +37,12 @@ opener = CONNECTIVE ,? | in addition ,? | as a [result | consequence] ,? | in [p
     that | this way ,? | that is , | namely ,? | for [simplicity | brevity | convenience | clarity] ,? | in what
     follows ,? | [in order]? to AIM <things> ,? | to see this ,? | <sure_of>
 reason = [by | from | using | via | through | with | under | upon | along | considering | according to] <things> | [in
-    view of | in light of | due to | because of | thanks to | owing to | by virtue of | by means of | with the help of
-    | with the aid of | based on | on the basis of | as a consequence of | on account of | by use of | by using of? |
-    by applying | making use of | in accordance with] <things> | by? <doing> [and <doing>]* | <used> | <quantified> |
-    <restricted> | [by | from] inspection | by? [a | some]? [direct | simple | elementary | straightforward]
-    [computation | calculation | algebra | manipulation | manipulations] | by [definition | construction |
-    substitution | design | assumption] | taking <things> into account
+    view of | in light of | due to | because of | thanks to | owing to | by virtue of | motivated by | by means of |
+    with the help of | with the aid of | based on | on the basis of | as a consequence of | on account of | by use of
+    | by using of? | by applying | making use of | in accordance with] <things> | by? <doing> [and <doing>]* | <used>
+    | <quantified> | <restricted> | [by | from] inspection | by? [a | some]? [direct | simple | elementary |
+    straightforward] [computation | calculation | algebra | manipulation | manipulations] | by [definition |
+    construction | substitution | design | assumption] | taking <things> into account
 doing = GERUND <things>? [[along | with | by | using | into | in | from | to | for | and | with respect to | as]
     <things>]*
 used = [by | using | from] the? [inequality | identity | fact that | relation | equality]? <claimed> | [by | using |
@@ -61,7 +61,7 @@ quantified = for [all | every | each | any] [times | instants | real | VALUENOUN
 things = <thing> [[, | and | , and | as well as | together with | with | , with] <thing>]*
 thing = <part> [[of | for | along | to | with respect to | in | on] <part>]*
 part = DETERMINER? [MODIFIER | NOUN | NAME]* [NOUN | NAME | LETTERS | VALUE | REAL | REF | TIME] [LETTERS | VALUE |
-    REAL | <sure>]? REF? | both sides | REF [, REF]* [, ]? and REF | REF [to | -] REF
+    REAL | <sure>]? REF? | both sides | this | these | REF [, REF]* [, ]? and REF | REF [to | -] REF
 derived = DETERMINER? FOLLOWING* DERIVED VALUES? [[of | for | along | to | with respect to | in | on] <part>]*
 # what is claimed
 saying = <claimed> | <concludes> | <stated> | <given> | <defines> | <named>
@@ -119,7 +119,7 @@ andmore = [, | ; | and | , and | ; and] [where | with | let]? | with
 declares = [throughout [the | this] [paper | note | section | work | thesis]? ,?]? [CONNECTIVE ,? | in this [paper |
     section | chapter] ,?]? [[let | where | with | in which | we assume that | it is assumed that | we denote by |
     denote by | we write]? <declared> [<andmore> <declared>]* | [it | one | this] has <fact> [<andmore> <fact>]* |
-    <inline> [<andmore> [<inline> | <declared>]]*]
+    <opener>* <inline> [<andmore> [<inline> | <declared>]]*]
 inline = [let | we? ADVERB* DEFINE]? [<thing> | the error | the errors]? [be | as | by | is | are]? <value> [[of | for
     | with] <fact>]?
 value = DEFINES
@@ -182,4 +182,13 @@ GRAMMAR = Grammar(_rules(_RULES), {
 KNOWN = (NOUNS | vocabulary.NAMES | vocabulary.MODIFIERS | vocabulary.DETERMINERS | vocabulary.CONNECTIVES
          | vocabulary.HAVE | vocabulary.GIVES | vocabulary.IS | vocabulary.MADE | vocabulary.GERUNDS
          | vocabulary.ADJECTIVES | vocabulary.ADVERBS | vocabulary.MANNER | vocabulary.STABLE)
-NEUTRAL = NOUNS | vocabulary.NAMES | vocabulary.MODIFIERS | vocabulary.DETERMINERS | vocabulary.PLAIN
+_UNCLEAR = {"error", "errors"}
+PROSE = words.VERBS | words.QUALITIES | words.MATTERS
+# What a sentence without a displayed formula is made of, and what one that claims some in a form of its own.
+NEUTRAL = (NOUNS | vocabulary.NAMES | vocabulary.MODIFIERS | vocabulary.DETERMINERS | vocabulary.PLAIN
+           | vocabulary.TELLING | vocabulary.CLAIMING | PROSE | words.STORY) - _UNCLEAR
+LOOSE = (vocabulary.CLAIMING | NOUNS | vocabulary.NAMES | vocabulary.MODIFIERS | vocabulary.DETERMINERS
+         | vocabulary.MADE | vocabulary.CONNECTIVES | vocabulary.GERUNDS | PROSE | {"let"}
+         ) - vocabulary.WISHED - _UNCLEAR | {"given"}
+# Words by which a formula follows from what was said, so that it gives nothing.
+FOLLOWS = vocabulary.DERIVED | vocabulary.GIVES | vocabulary.HAVE | vocabulary.HAS | vocabulary.SEEN

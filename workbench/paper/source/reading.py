@@ -10,8 +10,10 @@ import re
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import lru_cache
+from itertools import pairwise
 
 from workbench.paper.source import forms, vocabulary
+from workbench.paper.source.idioms import plainly
 from workbench.paper.source.letters import kinds_in, values_and_rates
 from workbench.paper.source.passages import Sentence, Word
 from workbench.proof.latex.error import LatexError
@@ -26,6 +28,7 @@ _REAL = re.compile(r"(?P<letters>.*?)\\in\s*\\mathbb\s*(?:\{R\}|R)\s*(?:\^\s*(?:
 _RELATED = re.compile(r"[=<>]|\\(?:leq?|geq?|leqslant|geqslant|in|notin|neq?|ll|gg|approx|sim|to|rightarrow|Rightarrow|"
                       r"implies|iff|forall|exists|equiv|subset\w*|mapsto|prec\w*|succ\w*|lesssim|gtrsim|triangleq|coloneqq|doteq|lt|gt|not)"
                       r"(?![A-Za-z])")
+_REACHES = {"arrive", "arrives", "arrived", "result", "results", "resulting", "left"}  # ... at a formula, with it
 _BETWEEN = re.compile(r"[\s=<>,;()\[\]|+]+|\\[a-z]*(?:le|ge|in|to|ne|frac|cdot)[a-z]*(?![A-Za-z])")
 
 
@@ -49,7 +52,7 @@ class Reading:
 
 def read_sentence(sentence: Sentence, body: str, assuming: bool = False) -> Reading:
     """What a sentence says, if it is understood; assuming: that it stands in the text of an assumption."""
-    words = sentence.words
+    words = plainly(sentence.words)
     asks = words[-1].text == "?"
     while words and words[-1].kind == "mark" and words[-1].text in ".!;,":
         words = words[:-1]
@@ -62,6 +65,8 @@ def read_sentence(sentence: Sentence, body: str, assuming: bool = False) -> Read
     found = forms.GRAMMAR.match(rule, classes) if len(words) <= LONGEST and not asks else None
     if found is None and not shown and not asks and _neutral(classes):
         return Reading(letters=letters)
+    if found is None and shown and not asks and not assuming and _loose(classes):
+        return Reading(_loosely(words, classes), tied=frozenset(shown), letters=letters)
     if found is None:
         return Reading(dict.fromkeys(shown, ""), letters=letters, unknown=_unknown(words, classes))
     return _said(words, found, body, letters)
@@ -187,14 +192,36 @@ def _letters(formula: str) -> Collection[str]:
 
 def _neutral(classes: Sequence[str]) -> bool:
     """Whether a sentence without displays is made of words alone that take nothing back."""
-    for place, one in enumerate(classes):
-        behind = classes[place + 1] if place + 1 < len(classes) else ""
-        if one in ("this", "these", "each") and behind not in forms.NOUNS | vocabulary.MODIFIERS | vocabulary.PLAIN:
-            return False
-        if one not in forms.NEUTRAL and one not in (forms.LETTERS, forms.REAL, forms.VALUE, forms.TIME, forms.REFERENCE,
-                                                    ",", ":", ";"):
-            return False
-    return classes[-1] != ":"
+    plain = (forms.LETTERS, forms.REAL, forms.VALUE, forms.TIME, forms.REFERENCE, ",", ":", ";")
+    return all(one in forms.NEUTRAL or one in plain for one in classes) and classes[-1] != ":"
+
+
+def _loose(classes: Sequence[str]) -> bool:
+    """Whether a sentence is made of words alone that claim what it shows, in whatever form; what stands before
+    "implies" may be a condition."""
+    plain = (forms.LETTERS, forms.REAL, forms.VALUE, forms.TIME, forms.REFERENCE, forms.SIGN, forms.RELATION,
+             forms.DEFINES, forms.DISPLAY, ",", ":", ";")
+    if not all(one in forms.LOOSE or one in plain for one in classes):
+        return False
+    pairs = [*pairwise(classes)]
+    return not any((one == forms.DISPLAY and two in vocabulary.GIVES) or (one == "let" and two != "us")
+                   for one, two in pairs)
+
+
+def _loosely(words: Sequence[Word], classes: Sequence[str]) -> dict[int, str]:
+    """What such a sentence says of each of its displays: behind "with" it may be a condition; it is claimed where words
+    before it say that it follows, and given elsewhere."""
+    said: dict[int, str] = {}
+    start = 0
+    for place, word in enumerate(words):
+        if word.kind == "display":
+            before = classes[start:place]
+            held = before[-1:] and before[-1] in vocabulary.HELD and not {*before[-2:-1]} & _REACHES
+            named = classes[place + 1:place + 2] in (["is"], ["are"])  # V = x^2 is positive
+            follows = not named and (forms.FOLLOWS & {*before} or (start and not before))
+            said[int(word.text)] = "defined" if held else "stated" if follows else "given"
+            start = place + 1
+    return said
 
 
 def _unknown(words: Sequence[Word], classes: Sequence[str]) -> tuple[str, ...]:

@@ -15,6 +15,7 @@ LOCAL = ("theorem", "lemma", "proposition", "corollary", "remark", "example", "p
          "fact", "problem")
 # Words by which a sentence may speak of what stands before it: pronouns and the names of formulas.
 POINTING = POINTERS | DERIVED | TEXT
+BEHIND = 2  # paragraphs behind a statement that may go on with what it supposes
 SHORT = 5  # words of a sentence that speaks of what stands before it, whatever they are
 ALL = ("all", "every", "each", "any", "throughout", "everywhere", "always", "both", "paper", "none", "no", "never")
 
@@ -151,11 +152,14 @@ class Text:
         return told | said.restricted
 
     def _holds_at(self, other: Sentence, sentence: Sentence) -> bool:
-        """Whether what a sentence says may hold where another stands: in its environment; of a statement, in proofs."""
-        scopes = other.place.scopes
+        """Whether what a sentence says may hold where another stands: in its environment; of a statement, in proofs and
+        in what is said directly behind it."""
+        scopes, own = other.place.scopes, sentence.place.scopes
+        stated = not any(name.removesuffix("*") not in self.whats for name in self._names(other))
         proof = any(name.removesuffix("*") not in self.whats for name in self._names(sentence))
-        return sentence.place.scopes[:len(scopes)] == scopes or (proof and not any(
-            name.removesuffix("*") not in self.whats for name in self._names(other)))
+        near = sentence.place.paragraphs[0] - other.place.paragraphs[-1] <= BEHIND
+        behind = near and scopes[:-1] == own and not self._assumes(other)
+        return own[:len(scopes)] == scopes or (stated and (proof or behind))
 
     def _named(self, names: Collection[str]) -> Iterator[str]:
         """The sentences that are not understood and name one of some rows."""
@@ -177,7 +181,7 @@ class Text:
             elif unknown := heading_unknown(self.passages.titles[scope]):
                 yield f"title with {_quoted(unknown)}"
         for other, (one, said) in enumerate(zip(self.passages.sentences, self.readings, strict=True)):
-            if said.unknown and (other == at or _near(one, sentence)):
+            if said.unknown and (other == at or (_near(one, sentence) and (abs(other - at) == 1 or _points(one)))):
                 yield self._told(other)
 
     def _told(self, at: int) -> str:
@@ -197,11 +201,16 @@ class Text:
         return found
 
 
+def _points(sentence: Sentence) -> bool:
+    """Whether a sentence may speak of what stands beside it: by a pronoun, a formula's name, or as it is short."""
+    words = [word for word in sentence.words if word.kind == "word"]
+    return len(words) <= SHORT or any(word.text in POINTING for word in words) or any(
+        word.kind in ("reference", "display") for word in sentence.words)
+
+
 def _near(other: Sentence, sentence: Sentence) -> bool:
-    """Whether a sentence may speak of another: in its paragraph, or as the first one behind that and pointing back."""
-    words = [word for word in other.words if word.kind == "word"]
-    points = any(word.text in POINTING for word in words) or len(words) <= SHORT
-    own = other.place.paragraphs if points else other.place.paragraphs[-1:]
+    """Whether a sentence stands in the paragraph of another, or as the first one behind that and pointing back."""
+    own = other.place.paragraphs if _points(other) else other.place.paragraphs[-1:]
     return bool({*own} & {*sentence.place.paragraphs})
 
 

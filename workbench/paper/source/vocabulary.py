@@ -58,22 +58,22 @@ NAMES = _words("""
     ohm's faraday's riemann grönwall's coulomb stribeck nussbaum
 """)
 MODIFIERS = _words("""
-    positive nonnegative non-negative strictly real real-valued scalar known unknown constant bounded design control
-    tuning feedback observer adaptation learning adaptive nonlinear linear quadratic cubic dynamic dynamical static
-    smooth continuous differentiable time-varying time-invariant measured measurable available external exogenous
-    lumped matched internal virtual auxiliary filtered estimated total kinetic potential mechanical electrical
-    thermal hydraulic angular longitudinal lateral vertical horizontal radial viscous aerodynamic rotational
-    translational following first second third fourth last final main basic classical standard usual well-known
-    elementary direct simple resulting corresponding composite augmented overall whole entire full complete closed
-    closed-loop open-loop error regulation tracking estimation observation prediction synchronization formation
-    position speed velocity attitude output state input parameter parametric time upper lower same new given desired
-    prescribed sampled switched hybrid uncertain coupled cascaded second-order first-order third-order single-input
-    continuous-time lyapunov control-lyapunov energy storage candidate sliding cross definite semidefinite left-hand
-    right-hand left right proportional integral derivative reference two three four finite physical mathematical
-    dimensionless normalized inertial magnetic electric switching standing nonholonomic underactuated planar
-    one-dimensional inverted rigid flexible elastic robust optimal exponential asymptotic global uniform ultimate
-    practical symmetric discontinuous supertwisting above preceding previous foregoing mixed binomial
-    arithmetic-geometric geometric arithmetic starting super-twisting backstepping barrier triangle
+  positive nonnegative non-negative strictly real real-valued scalar known unknown constant bounded design control
+  tuning feedback observer adaptation learning adaptive nonlinear linear quadratic cubic dynamic dynamical static
+  smooth continuous differentiable time-varying time-invariant measured measurable available external exogenous
+  lumped matched internal virtual auxiliary filtered estimated total kinetic potential mechanical electrical
+  thermal hydraulic angular longitudinal lateral vertical horizontal radial viscous aerodynamic rotational
+  translational following first second third fourth last final main basic classical standard usual well-known
+  elementary direct simple resulting corresponding composite augmented overall whole entire full complete closed
+  closed-loop open-loop regulation tracking estimation observation prediction synchronization formation
+  position speed velocity attitude output state input parameter parametric time upper lower same new given desired
+  prescribed sampled switched hybrid uncertain coupled cascaded second-order first-order third-order single-input
+  continuous-time lyapunov control-lyapunov energy storage candidate sliding cross definite semidefinite left-hand
+  right-hand left right proportional integral derivative reference two three four finite physical mathematical
+  dimensionless normalized inertial magnetic electric switching standing nonholonomic underactuated planar
+  one-dimensional inverted rigid flexible elastic robust optimal exponential asymptotic global uniform ultimate
+  practical symmetric discontinuous supertwisting above preceding previous foregoing mixed binomial
+  arithmetic-geometric geometric arithmetic starting super-twisting backstepping barrier triangle
 """)
 DETERMINERS = _words("the a an our its their this these each his")
 CONNECTIVES = _words("""
@@ -89,6 +89,7 @@ HAS = _words("""
     has gets obtains finds sees concludes deduces derives computes observes notes arrives infers
 """)
 SEEN = _words("""
+    known
     seen verified shown got obtained checked proved proven deduced concluded found noted noticed established
     observed inferred derived
 """)
@@ -122,7 +123,7 @@ GERUNDS = _words("""
 # What a sentence without a displayed formula may say besides, where it says nothing of a formula.
 PLAIN = _words("""
     we the of and in to for with by is are on from be has have been will as at its our their which whose where here
-    describes describe governs models uses use used moves drives acts act enters enter vary varies changes move
+    describes describe governs models uses use used moves drives acts act enters enter vary varies move
     tracks track converges converge tends goes stabilizes stabilize measured measures estimates estimate study
     studies consider considers considered present presents presented propose proposed design designed designs derive
     derived develop developed give given gives introduce introduced analyse analyze prove proved proves show shows
@@ -144,7 +145,8 @@ PLAIN = _words("""
 """)
 # Behind these "error" is the difference of two signals; by itself it may be a mistake.
 BEFORE_ERROR = _words("""
-    tracking estimation position velocity speed parameter observation regulation approximation state output control
+    squared absolute tracking estimation position velocity speed parameter observation regulation approximation
+    state output control
     formation synchronization prediction learning modelling attitude closed-loop angular heading angle input
     filtered level temperature current voltage spacing adaptation
 """)
@@ -168,9 +170,78 @@ LAYOUT = _words("""
 """)
 # Pronouns and words like them, by which a sentence may speak of what stands before it.
 POINTERS = _words("""
-    this that these those it its they them both neither none such which so not no nor above last latter former preceding
+    this that these those it its they them both neither none such which so not no nor above last latter former
+    preceding
     previous here there all each either one everything nothing something what formula formulas claim claims statement
-    statements assertion
+    statements assertion mistake mistakes error errors flaw flaws fallacy fallacies blunder trap
 """)
 # What no formula is that follows from others, though a signal may be it.
 WISHED = _words("desired prescribed given objective problem assumption assumptions performance choice")
+# Words of sentences that claim a formula in a form of their own. None denies, doubts, wants, quotes, or says when.
+CLAIMING = _words("""
+    since because good candidate known remaining setting inserting both
+    it that this these its which there here we one us let's both all any every each who whose where is are was
+    be been has have made makes make a an the of and in on for with by to as at from into over under along between
+    through via upon among within together so then thus hence therefore also now next finally first second third
+    again too moreover furthermore note notes noted notice noticing noting observe observed observing recall recalls
+    recalled remember say says state states record recorded summarize summarizes summarizing show shows shown
+    showing prove proves proved proven establish establishes established verify verifies verified check checked
+    demonstrate demonstrates demonstrated confirm confirms confirmed see sees seen find finds found follow follows
+    followed following obtain obtains obtained obtaining get gets got getting gain gains gained derive derives
+    derived deduce deduced conclude concludes concluded concluding infer inferred arrive arrives arrived reach
+    reached come comes read reads reading yield yields yielded yielding give gives given giving imply implies
+    implied implying lead leads leading result results resulting produce produces produced mean means meaning ensure
+    ensures ensuring guarantee guarantees hold holds holding become becomes became turn turns equal equals amount
+    amounts rely relies relying rests use uses used using useful apply applies applied applying employ employs
+    employed exploit exploiting invoke invoking invoked help helps write written rewrite rewritten rewriting express
+    expressed simplify simplified simplifies simplifying expand expanded expanding rearrange rearranged rearranging
+    collect collecting group grouping factor factoring combine combined combining combines add adding added subtract
+    subtracting sum summing multiply multiplying multiplied divide dividing divided integrate integrating
+    differentiate differentiating differentiated complete completing completed substitute substituting substituted
+    insert inserting inserted plug plugging plugged put putting take taking taken bound bounding bounded estimate
+    estimating estimated majorize majorizing evaluate evaluating evaluated compute computing computed calculate
+    calculating calculated cancel cancels cancelling square squaring analyze analyse analyzed analysing analyzing
+    investigate investigated study studied handle immediate immediately obvious obviously clear clearly evident
+    evidently trivial trivially easy easily simple simply direct directly straightforward readily elementary basic
+    standard classical usual well-known famous known key main important crucial central fundamental helpful
+    instrumental convenient compact final last suitable above below previous preceding foregoing same sequel later
+    calculation computation algebra manipulation manipulations arithmetic derivation derivations argument arguments
+    reasoning observation observations fact facts tool tools step steps consequence consequences conclusion
+    conclusions property properties inequality inequalities identity identities equality equalities equation
+    equations relation relations formula formulas expression expressions bounds estimates term terms factors product
+    products sums difference differences squares quotient ratio side sides bracket brackets parenthesis parentheses
+    quantity quantities numbers number reals pair proof lemma theorem proposition corollary definition remark
+    section subsection chapter appendix figure table lecture end account addition particular order view light virtue
+    basis aid sake stability boundedness convergence analysis design real nonnegative positive semidefinite definite
+    quadratic indefinite cross mixed left right left-hand right-hand upper lower type form forms two three four five
+    six up out more further namely indeed precisely exactly depend depends depending involve involves involved
+    interpretation physical geometric perform performing performed proceed proceeds proceeding start starts starting
+    begin begins beginning tend tends tending enter enters entering channel constant constants point points pointing
+    pointed motivate motivated motivating binomial arithmetic-geometric am-gm selected
+""")
+# What a text may say besides where it shows no formula: of a field, a design, a figure.
+TELLING = _words("""
+    area areas active activity field fields research topic topics interest concept concepts idea ideas framework
+    structure structures architecture architectures technique techniques strategy strategies procedure procedures
+    technology technologies industry industries science mathematics physics biology chemistry medicine economics
+    robotics automation aerospace automotive marine maritime railway railways traffic transport transportation
+    logistics manufacturing aerial unmanned autonomous vehicle vehicles drones ships buildings bridge bridges cranes
+    crane need needs tool tools ingredient ingredients more today nowadays recent recently decade decades year years
+    century past attract attracted attracting receive received receiving find found become became attention
+    considerable significant growing increasing great much wide widespread broad vast huge works publications papers
+    book books monograph textbook textbooks survey surveys overview investigated addressed tackled considered
+    treated discussed described explained illustrated depicted sketched collected listed recalled reviewed organized
+    structured divided arranged devoted dedicated diagram diagrams block blocks picture pictures photograph
+    schematic implementation implemented hardware software computer processor code laboratory bench setup test tests
+    measured comfort safety efficiency performance quality accuracy precision reliability robustness cost costs
+    passengers operators engineers practitioners users channel channels enters passes carried performed conducted
+    mounted rigidly suspended temperature wind weather terrain surface surfaces water air sea ground road gravity
+    friction inertia mass energy work heat north south east west left right front rear top bottom red green blue
+    solid dashed dotted line lines axis axes it they them who whom also often frequently commonly widely mainly
+    chiefly largely motivated inspired standard later sequel below above parts part needed
+""")
+# Before these a formula is no claim of its own.
+HELD = _words("""
+    replacing given taking with for in on at under putting put take let over within into among along of considering
+    setting
+""")
