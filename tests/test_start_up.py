@@ -20,7 +20,7 @@ HEAVY = ("scipy.optimize", "control", "cvxpy", "casadi", "matplotlib", "sympy", 
 READERS = ("numpy", "multiprocessing", "rich.progress", "workbench.trains.scenario", "workbench.paper.study",
            "workbench.proof.document", "workbench.optimal.inputs.line")
 PAGE = ("jinja2", "plotly", "grandalf", "workbench.report.page", "workbench.contest.matches")
-BROUGHT_ALONG = ("numpy.f2py.f2py2e", "numpy.f2py.crackfortran")
+BROUGHT_ALONG = ("numpy.f2py.f2py2e", "numpy.f2py.crackfortran", "numpy.testing._private.utils", "pycparser.c_parser")
 OTHER_VERBS = tuple(f"workbench.cli.{verb}" for verb in ("show", "sweep", "report", "gains", "errata", "check_coq"))
 LINE, TRAIN = SHARED / "lines" / "hills.toml", SHARED / "trains" / "yang2021.toml"
 CLAIM = """

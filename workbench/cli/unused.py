@@ -8,8 +8,9 @@ from importlib.machinery import ModuleSpec, PathFinder
 from importlib.util import LazyLoader
 from types import ModuleType
 
-# scipy asks numpy for all that it names, its compiler of Fortran among that: a twentieth of a short command.
-UNUSED = ("numpy.f2py",)
+# scipy asks numpy for all that it names, its compiler of Fortran and its tools for tests among that; numba asks for a
+# reader of C headers in case that somebody has some. Together a tenth of a short command.
+UNUSED = ("numpy.f2py", "numpy.testing", "pycparser")
 
 
 class _Later:

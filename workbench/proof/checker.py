@@ -138,9 +138,11 @@ def multiply(a: Poly, b: Poly) -> Poly:
         spend(len(a) * len(b))
         return b if a == ONE else a
     spend(len(a) * len(b) * (1 + (bits_of(a) + bits_of(b)) // 256))
+    if len(a) == 1:
+        a, b = b, a
     if len(b) == 1:  # no two products have the same monomial
         ((m2, c2),) = b.items()
-        return {times_monomial(m1, m2): plain(c1 * c2) for m1, c1 in a.items()}
+        return {times_monomial(m1, m2) if m2 else m1: plain(c1 * c2) for m1, c1 in a.items()}
     (a, below_a), (b, below_b) = whole_multiple(a), whole_multiple(b)
     total: Poly = {}
     for m1, c1 in a.items():
@@ -170,6 +172,12 @@ def degrees(poly: Poly) -> dict[str, int]:
     return highest
 
 
+def is_multiple(monomial: Monomial, below: Monomial) -> bool:
+    """Whether a monomial is a multiple of the other one."""
+    powers = dict(monomial)
+    return all(powers.get(x, 0) >= n for x, n in below)
+
+
 def _power_of_term(term: Poly, power: int) -> Poly:
     """The power, from 0 to 64, of a polynomial of one term."""
     ((monomial, coefficient),) = term.items()
@@ -186,6 +194,12 @@ def divide_exactly(a: Poly, b: Poly) -> Poly | None:
     if not b:
         return None
     spend(1 + (len(a) + len(b)) // 4)
+    if len(b) == 1:
+        ((below, coefficient),) = b.items()
+        if not all(is_multiple(monomial, below) for monomial in a):
+            return None
+        under = tuple([(x, -n) for x, n in below])
+        return {times_monomial(m, under): quotient(c, coefficient) for m, c in a.items()}
     highest = degrees(a)
     if a and any(power > highest.get(atom, 0) for atom, power in degrees(b).items()):
         return None  # degrees of factors add up
@@ -237,6 +251,9 @@ class Ratio:
                 self.num, self.den = whole, ONE
             return
         (monomial, coefficient), = den.items()  # a single term below: cancel it as far as it goes
+        if not monomial:
+            self.num, self.den = {m: quotient(c, coefficient) for m, c in num.items()}, ONE
+            return
         powers = [dict(m) for m in num]
         below = tuple([(x, -shared) for x, n in monomial if (shared := min([n, *[p.get(x, 0) for p in powers]]))])
         self.num = {times_monomial(m, below): quotient(c, coefficient) for m, c in num.items()}
@@ -247,7 +264,7 @@ class Ratio:
     def normal(cls, num: Poly, den: Poly = ONE) -> Ratio:
         """One of which it is known that nothing can be cancelled, and that no product of two sums stands in it."""
         spend(4 + len(num) + len(den))
-        made = cls.__new__(cls)
+        made: Ratio = object.__new__(cls)
         made.num, made.den = num, den
         return made
 
@@ -1407,8 +1424,8 @@ def check_proved(goal: dict[str, Any], certificate: dict[str, Any]) -> None:
     for text, proof in zip(goal["show"], certificate["proofs"], strict=True):
         _require_shown_defined(text, given, proof)
         prove(*margin(context, text), given, proof)
-    sides = [split_relation(text)[::2] for text in goal["show"]]
-    if all(ast.dump(parse(left)) == ast.dump(parse(right)) for left, right in sides):
+    sides = [sides_of(text) for text in goal["show"] if margin(context, text)[0].is_zero()]  # others are no texts alike
+    if len(sides) == len(goal["show"]) and all(ast.dump(left) == ast.dump(right) for left, right in sides):
         raise CertificateError("trivial: both sides of every relation shown are the same text")
 
 
