@@ -11,8 +11,11 @@ import numpy as np
 import plant_alone
 import pytest
 import sympy as sp
+from llvmlite import binding
+from numba.core.errors import TypingError
 from scenarios import LAWS
 
+from workbench.compile.code_cache import imported_kernel
 from workbench.compile.kernel import casadi_function, law_source, loop_module, numeric, plant_source
 from workbench.errors import CompileError
 from workbench.model.law import ControlLaw, LawState, neuron, over_neurons, position
@@ -163,3 +166,43 @@ def test_generated_source_does_not_depend_on_the_order_of_hashes():
         for seed in ("1", "2"))
     assert first == second
     assert first.count("def control_step") == 2 * len(LAWS)
+
+
+LINKED = """from numba import njit
+
+from workbench.compile.linked import linked
+
+
+@linked("UniTuple(float64, 2)(float64[::1], float64)")
+@njit(cache=True, error_model="numpy", no_cpython_wrapper=True, no_cfunc_wrapper=True)
+def scaled(values, factor):
+    total = 0.0
+    for value in values:
+        total += factor * value
+    return total, factor / total
+
+
+@njit(cache=True)
+def mean(values):
+    return scaled(values, 2.0)[0] / values.shape[0]
+
+
+@njit(cache=True)
+def of_a_column(table):
+    return scaled(table[:, 0], 2.0)
+"""
+
+
+def test_a_linked_function_is_called_by_its_address_and_kept(tmp_path, monkeypatch):
+    name, values = "workbench_kernel_of_a_linked_test", np.array([0.1, 0.2, 4.0])
+    monkeypatch.setenv("WORKBENCH_CACHE", str(tmp_path))
+    found = []
+    for _ in range(2):  # compiled, and loaded as another process would
+        monkeypatch.delitem(sys.modules, name, raising=False)
+        module = imported_kernel(name, LINKED)
+        assert binding.address_of_symbol(f"{name}.scaled")
+        found.append(module.mean(values))
+    assert found == [(2.0 * 0.1 + 2.0 * 0.2 + 2.0 * 4.0) / 3] * 2
+    assert sum(module.mean.stats.cache_hits.values()) == 1
+    with pytest.raises(TypingError):  # a column does not lie number by number in memory
+        module.of_a_column(np.ones((3, 2)))

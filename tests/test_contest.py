@@ -20,6 +20,7 @@ from workbench.contest.tables import condition_table
 from workbench.contest.told import Told, look
 from workbench.contest.tune import DRAWS_FROM, tune_all
 from workbench.errors import InputError, WorkbenchError
+from workbench.files.numbers import length, number
 from workbench.paper.statistics import Bootstrap, rankings
 from workbench.paper.tune import BEGIN, tune_run
 from workbench.trains.scenario import Scenario
@@ -228,7 +229,12 @@ def test_a_small_contest_is_told_whole(contest: Contest, scenario: Scenario) -> 
     late = [row for row in result.rows if row["condition"] == "late_command" and row["controller"] == "pocrac"]
     assert late[0]["failed"] is not None and late[0]["position_rms"] is None
     assert any("Runs that fail" in finding for finding in result.findings)
-    assert result.plots
+    assert result.plots and result.first_plot == 0
+    for (name, stated), sentence in zip(small.conditions.items(), result.standings, strict=True):
+        pid = next(row for row in result.rows if (row["condition"], row["controller"]) == (name, "pid"))
+        assert sentence.startswith(f"{stated.title}: every 5 ms pid wins with a position RMS of "
+                                   f"{length(pid['position_rms'])} (")
+        assert f" µs a step, {number(pid['energy_J'] / 3.6e6)} kWh)" in sentence
 
 
 def test_no_run_takes_less_than_the_bound(contest: Contest, scenario: Scenario) -> None:

@@ -8,6 +8,7 @@ import sympy as sp
 from workbench.paper.plants.study import _winners
 from workbench.paper.results import Curve, Plot
 from workbench.report.charts.chart import chart_json, chart_of
+from workbench.report.standings import parted, standings
 from workbench.report.table_view import table_views
 
 x_1, u = sp.symbols("x_1 u")
@@ -25,6 +26,9 @@ def test_the_closest_is_named_with_its_error_the_others_and_what_it_takes():
     assert table.headings == ("output", "closest", "its RMS error", "the others", "its RMS of u", "its step (µs)")
     assert table.text == (("x_1", "mpc", "0.0200 m", "pid 0.500 m; lost fails; early fails", "5.00 N", "2.00"),)
     assert table_views([table], "winners")[0].anchor == "winners-1"
+    assert standings(table) == ("x_1: mpc, its RMS error 0.0200 m, its RMS of u 5.00 N, its step 2.00 µs; "
+                                "the others: pid 0.500 m; lost fails; early fails.",)
+    assert standings(None) == () and parted("ten: pid: 1 m.") == ("ten", "pid: 1 m.")
     assert _winners(SETTING, runs[:1]) is None and _winners(SETTING, runs[2:]) is None
 
 

@@ -24,11 +24,12 @@ def claim(equation, verdict, rests_on=(), tainted_by=(), **more):
             "rests_on": [f"p:{name}" for name in rests_on], "tainted_by": [f"p:{name}" for name in tainted_by], **more}
 
 
+WIDE = rf"\frac{{{'a_{1}' * 150}}}{{b}}"  # wider than any screen, with no place to break
 CLAIMS = {
     "version": 1,
     "claims": [
         claim("1", "proved"), claim("2", "refuted", ["1"], counterexample={"z_1": "-1/2"}, correction="a = b"),
-        claim("3", "proved", ["2"], ["2"], section="3"),
+        claim("3", "proved", ["2"], ["2"], section="3", statement=WIDE),
         claim("theorem1", "gap", ["3"], ["2"], section="3", severity="result", fate="open", fate_why="it is open"),
     ],
     "findings": [{"paper": "p", "equation": "2", "gravity": "step", "heading": "Lines that fail",
@@ -40,7 +41,8 @@ CLAIMS = {
 @pytest.fixture(scope="module")
 def address(tmp_path_factory):
     folder = tmp_path_factory.mktemp("page")
-    gains = ResultTable("Conditions", "paper", ("gains", "condition"), (("stated", "k < 2"), ("", "k < 3")))
+    gains = ResultTable("Conditions", "paper", ("gains", "condition", r"$\dot V$"),
+                        (("stated", "k < 2", "1"), ("", "k < 3", "2"), (r"$\hat k$", "", "3")))
     content = ReportContent(scenario=load_scenario(write_scenario(folder)), claims=CLAIMS,
                             gains=StudyResult((), (gains,), (), ()),
                             commands=(f"workbench report {'/a-long-folder' * 9} --out out",))
@@ -157,6 +159,21 @@ def test_plots_zoom_tell_values_and_have_their_table_and_file(view):
     assert (figure.locator("thead").inner_text()).split("\t")[-1].strip() == "value"
     file = figure.locator("a").get_attribute("href")
     assert file == "curves/01-the-line-and-the-desired-speed.csv"
+
+
+def test_what_scrolls_sideways_is_reached_by_keys_and_nothing_else_is(view):
+    view.eval_on_selector_all("details", "found => found.forEach(fold => { fold.open = true; })")
+    wait_until(view, "document.querySelectorAll('.math[tabindex]').length > 0")
+    scrolling = view.eval_on_selector_all(".math", """found => found.map(e =>
+        [e.scrollWidth > e.clientWidth, e.getAttribute('tabindex'), e.getAttribute('role'), e.ariaLabel])""")
+    assert {row[0] for row in scrolling} == {True, False}
+    for wide, *attributes in scrolling:
+        assert attributes == (["0", "group", "Formula, wider than the page"] if wide else [None, None, None])
+
+
+def test_a_heading_of_a_formula_alone_has_a_name(view):
+    names = view.eval_on_selector_all("#gains th .hidden", "found => found.map(e => e.textContent)")
+    assert names == ["V\u0307", "k\u0302"]
 
 
 def test_in_print_the_drawn_figures_stand(view):

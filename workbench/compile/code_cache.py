@@ -1,7 +1,8 @@
 """Compiled code kept on disk between runs: each file with its digest, in a folder of this user's alone.
 
 numba keeps what it compiled in files that it believes: a damaged one would be run, or end the run. Here each file says
-its own digest first; what does not fit it, or belongs to another user, is compiled anew.
+its own digest first; what does not fit it, or belongs to another user, is compiled anew. Of several processes that lack
+the same code one compiles it, and the others wait for it.
 """
 
 from __future__ import annotations
@@ -22,9 +23,11 @@ from numba.core.caching import IndexDataCacheFile
 from numba.core.ccallback import CFunc
 from numba.core.dispatcher import Dispatcher
 
+from workbench.compile.linked import linked_functions
 from workbench.errors import CompileError
 from workbench.files.cache_folder import CACHE_VARIABLE, cache_folder, note, temporary_folder
 from workbench.files.regular import contents
+from workbench.files.turn import Turn
 from workbench.files.writing import write_whole
 
 KIND = "compiled-kernels"
@@ -46,9 +49,12 @@ def imported_kernel(name: str, text: str) -> ModuleType:
     except BaseException:
         del sys.modules[name]
         raise
-    for function in vars(module).values():
+    to_link = linked_functions(vars(module), name)
+    for function in (*vars(module).values(), *(linked.dispatcher for linked in to_link)):
         if isinstance(function, Dispatcher):
             _seal(function, folder)
+    for linked in to_link:
+        linked.load()
     return module
 
 
@@ -85,9 +91,18 @@ def kept_texts(made_of: Sequence[str], sources: Sequence[Path], make: Callable[[
 
 
 def _seal(function: Any, folder: Path) -> None:
-    """Have what numba keeps of a function kept in sealed files."""
+    """Have what numba keeps of a function kept in sealed files, and what it lacks compiled by one process at a time."""
     before = function._cache._cache_file
-    function._cache._cache_file = _SealedFile(folder, before._index_name, before._source_stamp)
+    file = function._cache._cache_file = _SealedFile(folder, before._index_name, before._source_stamp)
+
+    def compile_in_turn(*signature: Any) -> Any:
+        by_numba = type(function).compile
+        try:
+            return by_numba(function, *signature)
+        finally:
+            file.done()
+
+    function.compile = compile_in_turn
 
 
 class _TextLoader(SourceLoader):
@@ -130,13 +145,30 @@ def _write_source(path: Path, text: str) -> None:
 
 
 class _SealedFile(IndexDataCacheFile):
-    """numba's index of a function's versions and their code, each in a sealed file."""
+    """numba's index of a function's versions and their code, each in a sealed file.
+
+    Who looks for code that is not there has the turn to compile it, until `done`; who comes meanwhile waits, and finds
+    it.
+    """
 
     def __init__(self, folder: Path, index_name: str, source_stamp: Any) -> None:
         name = index_name.removesuffix(".nbi")
         super().__init__(str(folder), name, source_stamp)
         self._index_path = str(folder / f"{name}.sealed-index")
         self._data_name_pattern = f"{name}.{{number:d}}.sealed-code"
+        self._turn = Turn(folder / f"{name}.turn")
+
+    def load(self, key: Any) -> Any:
+        """The code of a version, as numba looks for it; None where it is to be compiled, by this process."""
+        found = super().load(key)
+        if found is None:
+            self._turn.take()
+            found = super().load(key)
+        return found
+
+    def done(self) -> None:
+        """Let others look for what they lack."""
+        self._turn.end()
 
     def _load_index(self) -> dict[Any, str]:
         version, stamp, names = _unsealed(Path(self._index_path)) or (None, None, {})

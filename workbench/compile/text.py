@@ -54,18 +54,20 @@ def shared_text(loop: ModuleType) -> str:
 def module_text(source: str, functions: Sequence[str], loop: ModuleType, shared: str = "") -> str:
     """Python source of generated functions and what stands below the marker in `loop`, every function a numba kernel.
 
-    A loop may say which `ENTRIES` Python calls, all its functions unless it does; that it `MAKES_NO_ARRAY`; and that it
-    is `ONE_BODY`, which makes none either, so that all others are put into those. source: what the functions were
-    generated from, in words;
+    A loop may say which `ENTRIES` Python calls, all its functions unless it does; which are `LINKED`, with their types;
+    that it `MAKES_NO_ARRAY`; and that it is `ONE_BODY`, which makes none either, so that all others are put into those.
+    source: what the functions were generated from, in words;
     functions: their Python source; shared: the name of the module of `shared_text`, from which its functions come.
     Raises CompileError where no function has the name of an entry.
     """
     # A law says in its own words where it stands: they are text here, whatever quotes and backslashes they hold.
     stated = source.encode("unicode_escape").decode().replace('"', '\\"')
     common = [node.name for node in _functions(shared_functions(loop))]
+    linking = ["from workbench.compile.linked import linked", ""] if getattr(loop, "LINKED", {}) else []
     text = "\n".join([
         f'"""Generated from the sympy expressions of {stated}."""', "", "import math", "",
-        "from numba import carray, njit", "", *([f"from {shared} import {', '.join(common)}", ""] if common else []),
+        "from numba import carray, njit", "", *linking,
+        *([f"from {shared} import {', '.join(common)}", ""] if common else []),
         *functions, loop_text(loop),
     ])
     names = [*common, *(function.name for function in _functions(text))]
@@ -81,7 +83,7 @@ def _functions(text: str) -> list[ast.FunctionDef]:
 
 def _marked(text: str, loop: ModuleType) -> str:
     """The text with a mark above every function, made from the last to the first, so that none moves another."""
-    entries, called, within = getattr(loop, "ENTRIES", None), CALLED, WITHIN
+    entries, types, called, within = getattr(loop, "ENTRIES", None), getattr(loop, "LINKED", {}), CALLED, WITHIN
     if getattr(loop, "ONE_BODY", False):
         called, within = CALLED_UNCOUNTED, PUT_IN
     elif getattr(loop, "MAKES_NO_ARRAY", False):
@@ -89,4 +91,6 @@ def _marked(text: str, loop: ModuleType) -> str:
     lines = text.splitlines()
     for function in reversed(_functions(text)):
         lines.insert(function.lineno - 1, called if entries is None or function.name in entries else within)
+        if function.name in types:
+            lines.insert(function.lineno - 1, f"@linked({types[function.name]!r})")
     return "\n".join([*lines, ""])

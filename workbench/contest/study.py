@@ -21,6 +21,7 @@ from workbench.contest.pareto import all_fronts, front_plots, front_tables, who
 from workbench.contest.premises import premises_findings, premises_table, words_of
 from workbench.contest.record import Contest
 from workbench.contest.sampling import labelled
+from workbench.contest.standings import standings
 from workbench.contest.tables import all_tables
 from workbench.contest.told import COLUMNS, Told
 from workbench.contest.tune import tune_all
@@ -147,15 +148,15 @@ def _run(contest: Contest, workers: int, on_progress: Progress, played: Sequence
         if match.failed is not None:
             first.setdefault(f"{match.entry}, {contest.conditions[match.condition].title}", match.failed)
     failures, words = tuple(first.items()), tuple(words_of(told))
+    traded, plots = tuple(front_plots(contest, fronts)), tuple(_plots(told))
     return StudyResult(rows=tuple(_rows(told)),
                        tables=(*all_tables(told), *period_tables(told), *premises_table(told, words),
                                *objective_table(told), *tuning_table(told),
                                *front_tables(contest, fronts), *learning_tables(told)),
-                       plots=(*_plots(told), *learning_plot(told), *convergence_plot(told),
-                              *front_plots(contest, fronts)),
+                       plots=(*traded, *plots, *learning_plot(told), *convergence_plot(told)),
                        findings=(*period_findings(told), *_findings(told), *premises_findings(told, words),
                                  *learning_findings(told)),
-                       failures=failures)
+                       failures=failures, standings=standings(told), first_plot=0 if traded or plots else None)
 
 
 def _rows(told: Told) -> Iterator[dict[str, Any]]:

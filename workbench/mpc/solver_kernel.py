@@ -12,6 +12,22 @@ the disturbance f. weights: of p, v, F, u and u - F. limits: lowest and highest 
 # say that their shapes differ, a third of all that there is to compile.
 ENTRIES = ("follow", "linearise_at", "soften_at", "shift", "solve_linear", "solve_nonlinear")
 
+_ROW, _TABLE, _CUBE, _WHOLE_ROW, _WHOLE_TABLE = (
+    "float64[::1]", "float64[:, ::1]", "float64[:, :, ::1]", "int64[::1]", "int64[:, ::1]")
+_STAGES = f"{_TABLE}, {_TABLE}, {_ROW}"  # jac, gap, start
+_COST = f"{_TABLE}, {_TABLE}, {_ROW}, {_ROW}, {_ROW}, {_ROW}"  # Q0, q0, R, r, low, high
+_ROWS = f"{_WHOLE_ROW}, {_TABLE}, {_TABLE}, {_CUBE}"  # rows, price, h, g
+_SCRATCH = f"Tuple(({_TABLE}, {_TABLE}, {_TABLE}))"
+# What is called by its address, and so compiled once for all that solve programs; with its types.
+LINKED = {
+    "active_set": f"int64(float64, {_STAGES}, {_COST}, {_ROWS}, {_WHOLE_ROW}, {_ROW}, {_WHOLE_TABLE}, {_TABLE}, "
+                  f"{_SCRATCH}, {_TABLE}, {_ROW}, {_ROW}, int64)",
+    "interior_point": f"int64(float64, {_STAGES}, {_COST}, {_ROWS}, {_WHOLE_ROW}, {_ROW}, {_SCRATCH}, {_TABLE}, "
+                      f"{_ROW}, {_ROW}, int64, {_WHOLE_TABLE}, {_TABLE})",
+    "solve_program": f"UniTuple(int64, 2)({_ROW}, {_STAGES}, {_ROWS}, Tuple(({_WHOLE_ROW}, {_WHOLE_TABLE}, {_TABLE})), "
+                     f"Tuple(({_COST}, {_ROW}, {_ROW}, {_TABLE}, {_TABLE}, {_TABLE}, {_TABLE}, {_ROW})), int64, int64)",
+}
+
 # What a solution came from, and what became of it.
 BY_ACTIVE_SET, BY_INTERIOR_POINT, NOT_SOLVED = 0, 1, 2
 CONVERGED, OUT_OF_ITERATIONS, NO_ANSWER = 0, 1, 2

@@ -121,8 +121,9 @@ class StudyResult:
     rows: one a run, with the keys of `workbench compare` where they make sense, and more; plain data, None for
     a number that a failed run does not have. findings: what a reader should know, a sentence each, every number
     in it taken from the runs. failures: (run, why) of runs that ended early. winners, first_plot: what the first screen
-    shows, a table and the number of one of the plots; None where nobody is compared. runs: what each of the study's own
-    cases left, for whoever asks for the same run.
+    shows, a table and the number of one of the plots; None where nobody is compared. standings: who wins under which
+    condition and at what price, a sentence each; a page makes them of the rows of `winners` where there are none. runs:
+    what each of the study's own cases left, for whoever asks for the same run.
     """
 
     rows: tuple[dict[str, Any], ...]
@@ -132,6 +133,7 @@ class StudyResult:
     failures: tuple[tuple[str, str], ...] = ()
     winners: ResultTable | None = None
     first_plot: int | None = None
+    standings: tuple[str, ...] = ()
     runs: Mapping[Hashable, Any] = field(default_factory=dict)
 
     def __post_init__(self) -> None:

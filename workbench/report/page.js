@@ -51,6 +51,16 @@ if (filter) {
   show(false);
   follow();
 }
+// A display that is wider than its place is scrolled by keys, too; one that is not needs no stop on the way.
+const measured = new ResizeObserver(entries => {
+  for (const { target } of entries) {
+    const scrolls = target.scrollWidth > target.clientWidth;
+    for (const [name, value] of [["tabindex", "0"], ["role", "group"], ["aria-label", "Formula, wider than the page"]])
+      if (scrolls) target.setAttribute(name, value);
+      else target.removeAttribute(name);
+  }
+});
+for (const display of document.querySelectorAll(".math, details p")) measured.observe(display);
 addEventListener("beforeprint", () => {
   for (const fold of document.querySelectorAll("details")) fold.open = true;
 });

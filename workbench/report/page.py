@@ -70,7 +70,7 @@ def build_page(content: ReportContent) -> str:
         commands=content.commands, timings=content.timings, gains=gains_view(content.gains),
         content=content, scenario=scenario, names=names,
         figures=[figure for anchor, figure in shown.items() if anchor != "spread"], spread=shown.get("spread"),
-        standings=[], sentences=(), first_figure=first,
+        standings=(), standings_tables=(), sentences=(), first_figure=first, first_figure_first=False,
         winners=winners(scenario, content.metrics, content.variants, content.sweep, names),
         nominal=tables.nominal_table(content.metrics),
         information=[tables.information(scenario, m.controller) for m in content.metrics],

@@ -13,6 +13,7 @@ from workbench.report.charts.chart import chart_of
 from workbench.report.charts.files import csv_files
 from workbench.report.claims import claim_views
 from workbench.report.sources import sourced_values
+from workbench.report.standings import parted, standings
 from workbench.report.study_figures import study_plot
 from workbench.report.table_view import caption, gains_view, table_views
 from workbench.report.template import PageFigure, page_figure, render
@@ -45,8 +46,10 @@ def build_study_page(content: StudyContent) -> str:
         settings={"study": study.name} | ({"drawn trains": content.draws} if content.draws else {}),
         commands=content.commands, timings=content.timings,
         tables=table_views(result.tables), gains=gains_view(content.gains),
-        figures=figures, first_figure=first, failures=result.failures,
-        standings=table_views([result.winners] if result.winners else [], "winners"), winners=None)
+        figures=figures, first_figure=first, first_figure_first=bool(result.standings), failures=result.failures,
+        standings=[parted(sentence) for sentence in result.standings or standings(result.winners)],
+        standings_title=result.winners.title if result.winners else "Who wins, and at what price",
+        standings_tables=table_views([result.winners] if result.winners else [], "winners"), winners=None)
 
 
 def _figures(plots: Sequence[Plot]) -> list[PageFigure]:

@@ -24,6 +24,7 @@ from workbench.report.claims import ClaimView, by_section, claim_views, counts, 
 from workbench.report.findings_view import finding_groups
 from workbench.report.graph.view import graph_views
 from workbench.report.math_font import math_font
+from workbench.report.plain_formulas import plain_words
 from workbench.report.sources import SourcedValue, stated
 from workbench.report.svg import PALETTE
 
@@ -57,7 +58,8 @@ def render(template: str, document: Mapping[str, Any], sources: Sequence[Sourced
     scripts = _scripts(folder, bool(values.get("figures") or values.get("first_figure")))
     environment = Environment(loader=FileSystemLoader(folder), autoescape=True, undefined=StrictUndefined,
                               trim_blocks=True, lstrip_blocks=True)
-    environment.filters |= {"number": number, "stated": stated, "breakable": _breakable, "in_words": in_words}
+    environment.filters |= {"number": number, "stated": stated, "breakable": _breakable, "in_words": in_words,
+                            "as_heading": _as_heading}
     printed = [claim for claim in claims if not claim.ours] or claims
     return environment.get_template(template).render(
         claims=claims, counts=counts(printed), findings=finding_groups(document), sections=by_section(claims),
@@ -105,6 +107,14 @@ def _versions() -> dict[str, str]:
 def _breakable(text: str) -> Markup:
     """A dotted key that may be broken after its dots."""
     return Markup(".<wbr>").join(text.split("."))
+
+
+def _as_heading(text: str, letters: bool = True) -> Markup:
+    """A heading in words; of one that is a formula alone its text as well, for what reads pages aloud."""
+    shown = in_words(text, letters)
+    if not (shown.startswith("<math") and shown.endswith("</math>")):
+        return shown
+    return Markup('<span aria-hidden="true">{}</span><span class="hidden">{}</span>').format(shown, plain_words(text))
 
 
 def _hash(script: str) -> str:
