@@ -18,7 +18,7 @@ SYMBOLS = [sp.Symbol("x", **known).assumptions0 for known in ({}, {"real": True}
 BASES = [sp.IndexedBase("x", **known).assumptions0 for known in ({}, {"real": True})]
 FUNCTIONS = (sp.log, sp.exp, sp.tanh, sp.sin, sp.cos, sp.tan, sp.atan, sp.Abs, sp.sign, sp.Max, sp.Min)
 LANGUAGE = ("Sum", "D", "log", "exp", "tanh", "sin", "cos", "tan", "arctan", "abs", "sign", "sqrt", "Max", "Min")
-NO_NUMBERS = (sp.I, sp.zoo, sp.nan, sp.oo, -sp.oo)
+NO_NUMBERS = frozenset((sp.I, sp.zoo, sp.nan, sp.oo, -sp.oo))
 LARGEST_POWER, LARGEST_NUMBER = 64, 10**300  # of the checker; of floating point, in which points are sought
 
 
@@ -42,10 +42,10 @@ class Language:
 
     def check(self, expr: sp.Expr, index: sp.Symbol | None = None) -> None:
         """Raise ClaimError unless certificates can state the expression exactly, and it has a real value."""
-        known = not expr.has(*NO_NUMBERS)
+        known = not _has_no_number(expr)
         if known:
             self._check(expr, index)  # part by part, so that what is evaluated then has a value in every part
-        if not known or (expr.args and evaluated(expr).has(*NO_NUMBERS)):
+        if not known or (expr.args and _has_no_number(evaluated(expr))):
             raise ClaimError(f"'{expr}' has no real value: it divides by zero, or takes the root or logarithm of a "
                              "negative number")
 
@@ -168,6 +168,18 @@ def _carried_symbols(expr: sp.Expr, flow: Mapping[sp.Expr, sp.Expr]) -> set[sp.E
 
 def _plain_symbols(expr: sp.Expr) -> set[sp.Expr]:
     return _carried_symbols(expr, {})
+
+
+def _has_no_number(expr: sp.Expr) -> bool:
+    """Whether one of NO_NUMBERS stands in an expression, by one walk through it."""
+    parts: list[sp.Basic] = [expr]
+    while parts:
+        part = parts.pop()
+        if part.args:
+            parts += part.args
+        elif part in NO_NUMBERS:
+            return True
+    return False
 
 
 def saturation(value: Any, low: Any, high: Any) -> sp.Expr:
