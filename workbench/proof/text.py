@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from functools import lru_cache
 from typing import Any
 
 import sympy as sp
@@ -20,6 +21,7 @@ SUM, PRODUCT, POWER, ATOM = range(4)  # how tightly a text holds together
 Written = tuple[str, int]
 
 
+@lru_cache(maxsize=4096)  # a goal's relations are written for each certificate that is tried
 def text(expr: sp.Expr) -> str:
     """An expression in the certificate language, term by term as it stands; brackets that only group are left out.
 

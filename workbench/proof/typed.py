@@ -16,7 +16,7 @@ import sys
 import threading
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from functools import wraps
+from functools import lru_cache, wraps
 from types import FrameType
 from typing import Any, TypeVar
 
@@ -99,6 +99,7 @@ def kept_as_typed(build: Callable[[], T]) -> Callable[[], T]:
     return typed
 
 
+@lru_cache(maxsize=4096)  # the same sides are asked for by every decider, and when a goal is made of others
 def evaluated(expr: sp.Expr, functions: bool = True) -> sp.Expr:
     """The same expression as sympy would have built it; where the one as typed has a value, this has the same.
 

@@ -10,7 +10,7 @@ from __future__ import annotations
 from dataclasses import replace
 from fractions import Fraction
 from functools import reduce
-from itertools import combinations, combinations_with_replacement
+from itertools import combinations_with_replacement
 from math import prod
 from typing import Any
 
@@ -22,8 +22,8 @@ from sympy.polys.matrices import DomainMatrix
 
 from workbench.errors import ClaimError
 from workbench.proof.claim import Goal, Relation
-from workbench.proof.decide.atoms import Atoms, Item, flatten
-from workbench.proof.decide.facts import Known, known_facts
+from workbench.proof.decide.atoms import Atoms, flatten
+from workbench.proof.decide.facts import known_facts
 from workbench.proof.decide.laurent import (
     Exponents,
     Laurent,
@@ -34,7 +34,17 @@ from workbench.proof.decide.laurent import (
     reduce_inverses,
     shift,
     to_laurent,
+    trim,
     unreduced,
+)
+from workbench.proof.decide.unwritten import (
+    Candidate,
+    Factor,
+    any_monomial,
+    binomial_square,
+    candidate,
+    monomial,
+    written,
 )
 from workbench.proof.derive import SUM
 from workbench.proof.text import text
@@ -59,7 +69,7 @@ def find_combination(goal: Goal, shown: Relation, relations: tuple[Relation, ...
     atoms = goal_atoms(relations)
     try:
         target = to_laurent(flatten(shown.margin, atoms, goal.flow), atoms)
-        known = known_facts(goal, relations, atoms)
+        known = [candidate(fact) for fact in known_facts(goal, relations, atoms)]
     except ClaimError:
         return None
     for rounds, factors, hidden in ATTEMPTS[:1] if quick else ATTEMPTS:
@@ -70,48 +80,16 @@ def find_combination(goal: Goal, shown: Relation, relations: tuple[Relation, ...
             chosen = _solve(target, terms, shown.strict)
             if chosen is not None:
                 return {"rule": "combination", "terms": [
-                    {"coefficient": str(c), "factors": list(term.items)} for c, term in chosen]}
+                    {"coefficient": str(c), "factors": written(term.items)} for c, term in chosen]}
     return None
-
-
-def _monomial(exponents: Exponents, atoms: Atoms) -> tuple[Item, ...] | None:
-    """Factor items of a monomial whose sign is known to be >= 0, else None."""
-    items: list[Item] = []
-    for generator, power in zip(atoms.generators, exponents, strict=False):
-        if power == 0:
-            continue
-        if generator in atoms.positive:
-            item = atoms.positive[generator][0 if power > 0 else 1]
-            if item is None:
-                return None
-            items += [item] * abs(power)
-        elif generator in atoms.nonnegative and power > 0:
-            items += [atoms.nonnegative[generator]] * power
-        elif power % 2 == 0 and power > 0 and generator not in atoms.indexed and generator != SUM:
-            items.append({"square": text(_power(generator, power // 2, atoms))})
-        else:
-            return None
-    return tuple(items)
 
 
 def _strict(exponents: Exponents, atoms: Atoms) -> bool:
     return all(power == 0 or g in atoms.positive for g, power in zip(atoms.generators, exponents, strict=False))
 
 
-def _power(generator: sp.Symbol, power: int, atoms: Atoms) -> sp.Expr:
-    """A power of what a generator stands for; sympy must not turn the square of a root or of exp into others."""
-    meaning = atoms.meanings().get(generator, generator)
-    return meaning if power == 1 else sp.Pow(meaning, power, evaluate=meaning.is_Symbol)
-
-
-def _expression(exponents: Exponents, atoms: Atoms) -> sp.Expr:
-    powers = [_power(g, p, atoms) for g, p in zip(atoms.generators, exponents, strict=False) if p]
-    plain = all(power.is_Symbol or (power.args[:1] and power.args[0].is_Symbol) for power in powers)
-    return sp.Mul(*powers, evaluate=plain or len(powers) < 2)
-
-
-def _candidates(target: Laurent, known: list[Known], atoms: Atoms, rounds: int, factors: int,
-                hidden: bool) -> list[Known]:
+def _candidates(target: Laurent, known: list[Candidate], atoms: Atoms, rounds: int,
+                factors: int, hidden: bool) -> list[Candidate]:
     """Terms of known sign that could add up to the target."""
     pool = list(known)
     sum_place = atoms.generators.index(SUM)
@@ -124,12 +102,12 @@ def _candidates(target: Laurent, known: list[Known], atoms: Atoms, rounds: int, 
             if prod(len(k.value) for k in several) <= MAX_PRODUCT:
                 sign = ">" if all(k.sign == ">" for k in several) else ">="
                 value = reduce(lambda one, two: reduce_inverses(multiply(one, two), atoms), (k.value for k in several))
-                pool.append(Known(tuple(item for k in several for item in k.items), value, sign))
+                pool.append(Candidate(tuple(item for k in several for item in k.items), value, sign))
     # Nothing to aim at: a contradiction among the assumptions themselves.
     support = (set(target) or {e for k in known for e in k.value}) | (unreduced(target, atoms) if hidden else set())
-    terms: dict[tuple[str, ...], Known] = {}
+    terms: dict[tuple[str, ...], Candidate] = {}
     for _ in range(rounds):
-        fresh: list[Known] = []
+        fresh: list[Candidate] = []
         for base in pool:
             aimed = {ratio_of(wanted, own) for wanted in support for own in base.value}
             for by in sorted(aimed if target else aimed | {()}):  # products may cancel among themselves
@@ -141,33 +119,33 @@ def _candidates(target: Laurent, known: list[Known], atoms: Atoms, rounds: int, 
     return list(terms.values())
 
 
-def _scaled(base: Known, by: Exponents, atoms: Atoms, seen: dict[tuple[str, ...], Known]) -> list[Known]:
+def _scaled(base: Candidate, by: Exponents, atoms: Atoms, seen: dict[tuple[str, ...], Candidate]) -> list[Candidate]:
     """base times a monomial, when that has a known sign."""
     sum_place = atoms.generators.index(SUM)
     sums = by[sum_place] if len(by) > sum_place else 0
     if sums and (sums != 1 or any(e[sum_place] for e in base.value if len(e) > sum_place)):
         return []
     if base.sign == "==":
-        items: tuple[Item, ...] | None = ({"any": text(_expression(by, atoms))},) if by else ()
+        items: tuple[Factor, ...] | None = (any_monomial(by, atoms),) if by else ()
         if any((p and g in atoms.indexed | {SUM}) or (p < 0 and g not in atoms.positive)
                for g, p in zip(atoms.generators, by, strict=False)):
             return []
     elif sums:
         items = _sum_of_squares(by, atoms)
     else:
-        items = _monomial(by, atoms)
+        items = monomial(by, atoms)
     if items is None:
         return []
     key = tuple(sorted(map(str, (*base.items, *items))))
     if key in seen:
         return []
     sign = base.sign if base.sign != ">" or _strict(by, atoms) else ">="
-    term = Known((*base.items, *items), reduce_inverses(shift(base.value, by), atoms), sign)
+    term = Candidate((*base.items, *items), reduce_inverses(shift(base.value, by), atoms), sign)
     seen[key] = term
     return [term]
 
 
-def _sum_of_squares(exponents: Exponents, atoms: Atoms) -> tuple[Item, ...] | None:
+def _sum_of_squares(exponents: Exponents, atoms: Atoms) -> tuple[Factor, ...] | None:
     """Items of SUM times an even monomial of indexed symbols times a scalar monomial of known sign."""
     scalar, root = list(exponents), sp.Integer(1)
     for i, (generator, power) in enumerate(zip(atoms.generators, exponents, strict=False)):
@@ -178,49 +156,43 @@ def _sum_of_squares(exponents: Exponents, atoms: Atoms) -> tuple[Item, ...] | No
                 return None
             root *= generator ** (power // 2)
             scalar[i] = 0
-    items = _monomial(tuple(scalar), atoms)
+    items = monomial(tuple(scalar), atoms)
     return None if items is None else ({"sum_of_squares": text(root)}, *items)
 
 
 def _binomial_squares(target: Laurent, support: set[Exponents], atoms: Atoms,
-                      seen: dict[tuple[str, ...], Known]) -> list[Known]:
+                      seen: dict[tuple[str, ...], Candidate]) -> list[Candidate]:
     """c (p + r q)^2 for monomials c p^2 and c q^2 in the support, c of known sign."""
     size, sum_place = len(atoms.generators), atoms.generators.index(SUM)
+    # c keeps the odd powers of positive atoms; everything else is halved into p and q.
+    signed = [g == SUM or g in atoms.positive or g in atoms.nonnegative for g in atoms.generators]
+    halved = [g in atoms.indexed and g != SUM and g not in atoms.positive for g in atoms.generators]
     fresh = []
+    alike: dict[tuple[Exponents, int], list[Exponents]] = {}
     wide = [e + (0,) * (size - len(e)) for e in sorted(support)]
-    odd = [tuple(n % 2 for n in e) for e in wide]
-    for (one, odd_one), (two, odd_two) in combinations(zip(wide, odd, strict=True), 2):
-        if odd_one != odd_two or one[sum_place] != two[sum_place]:
-            continue
-        common = tuple(min(a, b) if (a - b) % 2 == 0 else 0 for a, b in zip(one, two, strict=True))
-        # c keeps the odd powers of positive atoms; everything else is halved into p and q.
-        c = tuple(x if g in atoms.positive or g == SUM else x - x % 2 if g in atoms.indexed else x
-                  for x, g in zip(common, atoms.generators, strict=True))
-        c = tuple(0 if g not in atoms.positive and g not in atoms.nonnegative and g != SUM else x
-                  for x, g in zip(c, atoms.generators, strict=True))
-        p, q = (tuple((x - y) // 2 for x, y in zip(e, c, strict=True)) for e in (one, two))
-        if any((x - y) % 2 for e in (one, two) for x, y in zip(e, c, strict=True)):
-            continue
-        over_neurons = c[sum_place] == 1
-        scalar = tuple(0 if i == sum_place else x for i, x in enumerate(c))
-        items = _monomial(scalar, atoms)
-        if items is None or min((*p, *q)) < 0:
-            continue
-        cross = tuple(a + b + x for a, b, x in zip(p, q, c, strict=True))
-        for ratio in _ratios(target, ratio_of(one, ()), ratio_of(two, ()), ratio_of(cross, ())):
-            weight = sp.Rational(ratio.numerator, ratio.denominator)
-            first, second = _expression(p, atoms), _expression(q, atoms)
-            root = first + weight * second
-            if second.has(sp.exp):  # sympy would make one exponential of two
-                root = sp.Add(first, sp.Mul(weight, second, evaluate=False), evaluate=False)
-            square: Item = {"sum_of_squares" if over_neurons else "square": text(root)}
-            key = tuple(sorted(map(str, (square, *items))))
-            if key in seen:
+    kinds = [(tuple(n % 2 for n in e), e[sum_place]) for e in wide]
+    for e, kind in zip(wide, kinds, strict=True):
+        alike.setdefault(kind, []).append(e)
+    for one, kind in zip(wide, kinds, strict=True):
+        del alike[kind][0]  # itself: each pair once
+        for two in alike[kind]:
+            c = tuple(0 if not s else x - x % 2 if h else x for x, s, h in zip(map(min, one, two), signed, halved,
+                                                                               strict=True))
+            if any((x - y) % 2 for x, y in zip(one, c, strict=True)):  # as in the other
                 continue
-            value: Laurent = {ratio_of(one, ()): Fraction(1), ratio_of(two, ()): ratio**2}
-            value = add(value, {ratio_of(cross, ()): 2 * ratio})
-            seen[key] = Known((square, *items), reduce_inverses(value, atoms), ">=")
-            fresh.append(seen[key])
+            p, q = (tuple((x - y) // 2 for x, y in zip(e, c, strict=True)) for e in (one, two))
+            items = monomial(tuple(0 if i == sum_place else x for i, x in enumerate(c)), atoms)
+            if items is None or min((*p, *q)) < 0:
+                continue
+            first, second, cross = trim(one), trim(two), trim(tuple(map(sum, zip(p, q, c, strict=True))))
+            for ratio in _ratios(target, first, second, cross):
+                square = binomial_square(p, q, ratio, c[sum_place] == 1, atoms)
+                key = tuple(sorted(map(str, (square, *items))))
+                if key in seen:
+                    continue
+                value = add({first: Fraction(1), second: ratio**2}, {cross: 2 * ratio})
+                seen[key] = Candidate((square, *items), reduce_inverses(value, atoms), ">=")
+                fresh.append(seen[key])
     return fresh
 
 
@@ -234,7 +206,7 @@ def _ratios(target: Laurent, one: Exponents, two: Exponents, cross: Exponents) -
     return list(dict.fromkeys(found))
 
 
-def _solve(target: Laurent, terms: list[Known], strict: bool) -> list[tuple[Fraction, Known]] | None:
+def _solve(target: Laurent, terms: list[Candidate], strict: bool) -> list[tuple[Fraction, Candidate]] | None:
     """Coefficients with sum c_i term_i = target, exact; c_i >= 0 except for terms that are zero."""
     if not target and strict:  # a contradiction, of which any multiple would do: its strict terms count 1 together
         counted = [replace(t, value=t.value | {COUNT: Fraction(1)}) if t.sign == ">" else t for t in terms]
@@ -270,7 +242,7 @@ def _solve(target: Laurent, terms: list[Known], strict: bool) -> list[tuple[Frac
     return chosen
 
 
-def _exact(target: Laurent, terms: list[Known], rows: dict[Exponents, int]) -> list[Fraction] | None:
+def _exact(target: Laurent, terms: list[Candidate], rows: dict[Exponents, int]) -> list[Fraction] | None:
     """The exact solution on a support, or None; free columns are set to zero."""
     used = sorted({e for t in terms for e in t.value} | set(target), key=rows.__getitem__)
     if not terms:

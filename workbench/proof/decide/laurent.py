@@ -24,7 +24,8 @@ def to_laurent(flat: sp.Expr, atoms: Atoms) -> Laurent:
 
     Raises ClaimError when a denominator is not a product of symbols and of polynomials assumed positive.
     """
-    if _has_monomials_below_only(flat) and all(margin.is_Add for margin, _ in atoms.strict):
+    if _has_nothing_below(flat) or (
+            _has_monomials_below_only(flat) and all(margin.is_Add for margin, _ in atoms.strict)):
         return reduce_inverses(_expand(flat, atoms), atoms)
     numerator, denominator = as_fraction(flat)
     rest = sp.Integer(1)
@@ -50,6 +51,10 @@ def as_fraction(flat: sp.Expr) -> tuple[sp.Expr, sp.Expr]:
     """Numerator and denominator of a rational function, without common factors."""
     numerator, denominator = sp.fraction(sp.cancel(sp.together(flat)))
     return numerator, denominator
+
+
+def _has_nothing_below(flat: sp.Expr) -> bool:
+    return all(power.exp.is_nonnegative for power in flat.atoms(sp.Pow))
 
 
 def _has_monomials_below_only(flat: sp.Expr) -> bool:
