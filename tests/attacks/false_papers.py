@@ -109,6 +109,15 @@ FALSE = {
         r"The positive constant $z$ of \cite{q} turned out to be a function. We have [[z k > 0]]",
         r"The constants $k$ and $\gamma$ change their signs here. We have [[k x^2 \ge 0]]",
         r"We set $k = -1$ in the rest of the section. We have [[k x^2 \ge 0]]",
+        r"In the sense of distributions of a later section the following is understood, but here it is not. We "
+        r"have [[x^2 \ge 0]]",
+        r"We have reason to reject [[x^2 \ge 0]]",
+        r"This equation is history: [[x^2 + y^2 \ge 0]]",
+        r"The gain $k$ is now taken negative. We have [[k x^2 \ge 0]]",
+        r"Where $z > 0$, this holds. Elsewhere it does not. We have [[z k > 0]]",
+        r"The trajectories with $z > 0$ leave the set. We have [[z + k > 0]]",
+        r"Take $z = x^2$ as an example. Then we have [[z \ge 0]]",
+        r"For the example $z = x^2$ the result is simple. We have [[z \ge 0]]",
     ),
     "thesis": (
         r"A tempting but flawed inequality is [[x^2 + 1 > 0]]",
@@ -130,6 +139,13 @@ FALSE = {
         r"The inequality \begin{equation} z \ge 0 \end{equation} is an open question. We have [[z + \gamma > 0]]",
         r"The author once believed in [[x^2 \ge 0]]",
         r"In summary, none of this is right. We have [[x^2 + y^2 \ge 0]]",
+        r"The roles of $k$ and $-k$ are interchanged. We have [[k x^2 \ge 0]]",
+        r"The relation between state and output is up for debate: [[x^2 \ge 0]]",
+        r"Let $k$ be real. We have [[k x^2 \ge 0]]",
+        r"Let $k$ be a real number. We have [[k x^2 \ge 0]]",
+        r"Here $k$ denotes a time-varying function. We have [[k x^2 \ge 0]]",
+        r"\section{Negative gains} We have [[k x^2 \ge 0]]",
+        r"\begin{lemma} Let $k = -1$. Then [[k x^2 \ge 0]]\end{lemma}",
     ),
     "notes": (
         r"True or false? [[x^2 \ge 0]]",
@@ -148,6 +164,12 @@ FALSE = {
         r"Let $k$ be any real number, of whatever sign. Then [[k x^2 \ge 0]]",
         r"Replace $k$ by $-k$ everywhere. We have [[k x^2 \ge 0]]",
         r"Fix $z$, which is positive by luck. We have [[z k > 0]]",
+        r"A student writes: [[x^2 \ge 0]]",
+        r"Goal: [[x^2 \ge 0]]",
+        r"To do: [[x^2 \ge 0]]",
+        r"Let us prove the opposite of the bound. We have [[x^2 \ge 0]]",
+        r"We prove the converse. [[x^2 \ge 0]]",
+        r"We now use $-k$ for $k$. We have [[k x^2 \ge 0]]",
     ),
     "nonnative": (
         r"It has been not proved that [[x^2 + k > 0]]",
@@ -166,6 +188,10 @@ FALSE = {
         r"We deny that [[x^2 \ge 0]]",
         r"It is untrue for $z > 0$. Hence [[z k > 0]]",
         r"By the false Lemma 7 we have [[k > 0 - x^2]]",
+        r"It is no doubt false. We have [[x^2 \ge 0]]",
+        r"It is hard to get [[x^2 \ge 0]]",
+        r"The inverse inequality of [[x^2 \ge 0]] is right.",
+        r"It leads to nothing: [[x^2 \ge 0]]",
     ),
     "twocolumn": (
         r"\newcommand{\nope}{Nobody should believe that} \nope [[x^2 \ge 0]]",
@@ -186,6 +212,9 @@ FALSE = {
         r"% nothing here"
         "\n"
         r"Not proved: [[x^2 + k > 0]]",
+        r"(Not (T).) We have [[x^2 \ge 0]]",
+        r"We have shown that, if true, [[x^2 \ge 0]]",
+        r"\textbf{Open problem:} [[x^2 \ge 0]]",
     ),
     "arxiv": (
         r"A priori one might hope for $z>0$; this hope is vain. We have [[z > -k]]",
@@ -204,5 +233,10 @@ FALSE = {
         r"\begin{center} \textbf{Retracted} \end{center} We have [[x^2 \ge 0]]",
         r"Whether [[x^2 \ge 0]] is known to the experts.",
         r"The opposite of [[x^2 \ge 0]] holds.",
+        r"The following is one of the two lines in which we made a slip. [[x^2 \ge 0]]",
+        r"\begin{abstract} We show that (T) breaks down. \end{abstract} We have [[x^2 \ge 0]]",
+        r"\begin{theorem} Let $z>0$. \end{theorem} \begin{proof} It holds that [[z \gamma > 0]] \end{proof} ",
+        r"\begin{remark} Here $k$ may be negative. \end{remark} \begin{remark} [[k x^2 \ge 0]] \end{remark}",
+        r"We write $k$ for minus the gain. We have [[k x^2 \ge 0]]",
     ),
 }

@@ -67,6 +67,19 @@ _REACH = 600  # letters before and behind a piece that its sentence is looked fo
 _SIGNS = {">": "positive", ">=": "nonnegative"}
 
 
+def letters_said(fact: str) -> set[str]:
+    """The letters of a fact's formulas."""
+    formulas = [(inline[1] or inline[2]).strip(" .,;") for inline in _INLINE.finditer(fact)]
+    return {letter for formula in formulas for letter in letters_of_text(formula)}
+
+
+def says_sign(fact: str) -> bool:
+    """Whether a fact says a sign, by a word or a formula."""
+    formulas = [(inline[1] or inline[2]).strip(" .,;") for inline in _INLINE.finditer(fact)]
+    return "positive" in fact or "negative" in fact or any(
+        kind != "real" for formula in formulas for _, kind in kinds_in(formula))
+
+
 def said_of(facts: str) -> dict[str, str]:
     """Of each letter the first fact that speaks of it."""
     found: dict[str, str] = {}

@@ -62,14 +62,19 @@ def read_sentence(sentence: Sentence, body: str, assuming: bool = False) -> Read
         return Reading(dict.fromkeys(shown, "bare"))
     classes = classes_of(words)
     rule = "assumes" if assuming else "sentence"
-    found = forms.GRAMMAR.match(rule, classes) if len(words) <= LONGEST and not asks else None
-    if found is None and not shown and not asks and _neutral(classes):
+    found = _matched(rule, tuple(classes)) if len(words) <= LONGEST and not asks else None
+    if found is None and not shown and not asks and _neutral(classes) and not _exchanges(words, classes):
         return Reading(letters=letters)
     if found is None and shown and not asks and not assuming and _loose(classes):
         return Reading(_loosely(words, classes), tied=frozenset(shown), letters=letters)
     if found is None:
         return Reading(dict.fromkeys(shown, ""), letters=letters, unknown=_unknown(words, classes))
     return _said(words, found, body, letters)
+
+
+@lru_cache(maxsize=1024)
+def _matched(rule: str, classes: tuple[str, ...]) -> tuple[tuple[str, int, int], ...] | None:
+    return forms.GRAMMAR.match(rule, classes)
 
 
 def _said(words: Sequence[Word], found: Sequence[tuple[str, int, int]], body: str, letters: frozenset[str]) -> Reading:
@@ -194,6 +199,13 @@ def _neutral(classes: Sequence[str]) -> bool:
     """Whether a sentence without displays is made of words alone that take nothing back."""
     plain = (forms.LETTERS, forms.REAL, forms.VALUE, forms.TIME, forms.REFERENCE, ",", ":", ";")
     return all(one in forms.NEUTRAL or one in plain for one in classes) and classes[-1] != ":"
+
+
+def _exchanges(words: Sequence[Word], classes: Sequence[str]) -> bool:
+    """Whether a sentence has a letter by itself and within an expression: it may use one for the other."""
+    alone, within = ({letter for word, one in zip(words, classes, strict=True) if one == kind
+                      for letter in _letters(word.text)} for kind in (forms.LETTERS, forms.VALUE))
+    return bool(alone & within)
 
 
 def _loose(classes: Sequence[str]) -> bool:

@@ -6,7 +6,7 @@ from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 
 from workbench.paper.source.forms import NOUNS
-from workbench.paper.source.letters import values_and_rates
+from workbench.paper.source.letters import letters_said, says_sign, values_and_rates
 from workbench.paper.source.passages import Passages, Sentence
 from workbench.paper.source.reading import Reading, heading_unknown, printed, read_sentence
 from workbench.paper.source.vocabulary import DERIVED, POINTERS, TEXT
@@ -17,6 +17,10 @@ LOCAL = ("theorem", "lemma", "proposition", "corollary", "remark", "example", "p
 POINTING = POINTERS | DERIVED | TEXT
 BEHIND = 2  # paragraphs behind a statement that may go on with what it supposes
 SHORT = 5  # words of a sentence that speaks of what stands before it, whatever they are
+ASIDE = {"remark", "note", "definition", "assumption"}  # environments that may speak of what stands around them
+# Nouns and adjectives by which a letter that had a sign is said to be something else.
+OTHERWISE = {"real", "number", "numbers", "scalar", "scalars", "function", "functions", "variable", "variables",
+             "signal", "signals", "timevarying", "state", "input", "disturbance", "output", "vector", "matrix"}
 ALL = ("all", "every", "each", "any", "throughout", "everywhere", "always", "both", "paper", "none", "no", "never")
 
 
@@ -104,7 +108,8 @@ class Text:
         contested: set[str] = set()
         for before, (other, said) in enumerate(zip(self.passages.sentences, self.readings, strict=True)):
             near = _near(other, sentence)
-            if not (before < at or near) or not self._holds_at(other, sentence):
+            aside = said.unknown and {self._what(name) for name in self._names(other)} <= ASIDE
+            if not (before < at or near) or not (aside or self._holds_at(other, sentence)):
                 continue
             words = {word.text for word in other.words if word.kind == "word"}
             hidden = frozenset(letter for one in said.shown if said.unknown for letter in self.formulas[one].letters)
@@ -134,12 +139,20 @@ class Text:
         return {letter for one in others for letter in self.formulas[one].letters}
 
     def _anew(self, at: int) -> set[str]:
-        """The letters that the text has given two different values before a sentence ends."""
+        """The letters that the text has given two different values, or a sign and then another kind, before a sentence
+        ends."""
         values: dict[str, str] = {}
+        signed: set[str] = set()
         anew = set()
         for sentence, said in zip(self.passages.sentences[:at + 1], self.readings, strict=False):
             inline = {} if self.local(sentence) else {letter: value for fact in said.facts if fact.startswith("Define ")
                                                       for letter, value in values_and_rates(fact[8:-1])[0].items()}
+            for fact in said.facts if not self.local(sentence) else ():
+                letters = letters_said(fact)
+                if says_sign(fact):
+                    signed |= letters
+                elif OTHERWISE & {*fact.replace("-", "").split()}:
+                    anew |= letters & signed
             shown = [self.formulas[one].gives for one, form in said.shown.items() if form in ("given", "defined")]
             for letter, value in (pair for given in (inline, *shown) for pair in given.items()):
                 if values.setdefault(letter, value).split() != value.split():
