@@ -95,15 +95,16 @@ def test_what_a_module_prints_and_warns_of_stands_beside_the_answer(tmp_path):
 
 
 @pytest.mark.parametrize("text", ["import sys; sys.exit(0)", "import os; os._exit(0)", "raise GeneratorExit",
-                                  "class Mine(BaseException): pass\n    raise Mine"])
-def test_a_claim_that_ends_the_process_is_misstated(text, tmp_path):
+                                  "class Mine(BaseException): pass\n    raise Mine",
+                                  "async def late(): pass\n    return late()"])
+def test_a_claim_that_makes_no_goal_is_misstated_even_where_it_ends_the_process(text, tmp_path):
     """And not as recorded, which an exit code of 0 would say."""
     folder = with_claims(small_folder(tmp_path / "doe2030"), "section_2")
     claims = folder / "claims" / "section_2.py"
     claims.write_text(claims.read_text().replace("    return", f"    {text}\n    return"))
     done = run("prove", folder, "--workers", 1)
     assert done.returncode == 2 and "misstated: " in done.stderr
-    assert "claim doe2030:2: " in done.stderr and "Traceback" not in done.stderr
+    assert "claim doe2030:2: " in done.stderr and "Traceback" not in done.stderr and "awaited" not in done.stderr
 
 
 def test_what_a_papers_function_raises_is_told_with_its_file_and_nothing_else_is(tmp_path):

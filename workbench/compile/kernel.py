@@ -13,6 +13,7 @@ from typing import Any, Literal
 
 import casadi as ca
 import sympy as sp
+from sympy.printing.codeprinter import PrintMethodNotImplementedError
 from sympy.printing.pycode import PythonCodePrinter
 
 from workbench.compile.code_cache import imported_kernel
@@ -118,6 +119,9 @@ def _assignments(targets: Sequence[str], exprs: Sequence[sp.Expr], prefix: str, 
     try:
         lines = [f"{indent}{name} = {printer.doprint(expr)}" for name, expr in shared]
         return lines + [f"{indent}{t} = {printer.doprint(e)}" for t, e in zip(targets, reduced, strict=True)]
+    except PrintMethodNotImplementedError as trouble:
+        name = str(trouble).partition(": ")[2].partition("\n")[0]
+        raise CompileError(f"function '{name}' cannot be compiled: state it by functions that can be") from None
     except ValueError as trouble:  # Python's own limit on the digits of an integer
         raise CompileError(f"a number cannot be written out ({trouble}): state it as a float") from None
 

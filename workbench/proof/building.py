@@ -24,6 +24,8 @@ def built(claim: Claim, build: Callable[[], Goal], what: str = "goal") -> Goal:
     except BaseException as trouble:  # what ends a process too
         where = getattr(getattr(inspect.unwrap(build), "__code__", None), "co_filename", "")
         raise ClaimError(f"claim {claim.id}: its {what} cannot be made: {mistake(trouble, where)}") from trouble
+    if inspect.iscoroutine(goal):
+        goal.close()  # of an async function, of which Python would say that nobody awaits it
     if not isinstance(goal, Goal):
         raise ClaimError(f"claim {claim.id}: the function of its {what} returns no Goal: "
                          "end it with 'return Goal(...)'")
