@@ -180,18 +180,6 @@ def _plain_symbols(expr: sp.Expr) -> set[sp.Expr]:
     return _carried_symbols(expr, {})
 
 
-def _has_no_number(expr: sp.Expr) -> bool:
-    """Whether one of NO_NUMBERS stands in an expression, by one walk through it."""
-    parts: list[sp.Basic] = [expr]
-    while parts:
-        part = parts.pop()
-        if part.args:
-            parts += part.args
-        elif part in NO_NUMBERS:
-            return True
-    return False
-
-
 def saturation(value: Any, low: Any, high: Any) -> sp.Expr:
     """sat(value, low, high): value, cut off at low and high (low <= high)."""
     return sp.Min(sp.Max(value, low), high)
