@@ -146,7 +146,8 @@ relates = RELATION | <fact> | <shown>
 # a relation that is claimed within the text, what is said of a motion, what is going to be done
 asserts = <opener>* [<say> that?]? <held> [<holds> | [by | from | since | for] <things>]?
 concerns = <opener>* <things> <moves> [[, | and | , and] <things>? <moves>]*
-moves = [is | are] MANNER* [STABLE | attractive | bounded | invariant | passive] | [converge | converges | tend |
+moves = [does | do] not [increase | grow] MANNER* | [is | are] MANNER* [STABLE | attractive | bounded | invariant |
+    passive] | [converge | converges | tend |
     tends] MANNER* to [zero | the origin | <things>] MANNER* [as TIME]? | [decreases | increases | decrease | increase
     | vary | decays] MANNER*
 invites = [let us | we] ADVERB* [compute | calculate | expand | differentiate | analyse | analyze | study | estimate |
