@@ -28,24 +28,28 @@ REFUSED = (
     ("import os; os.execl('/bin/true', 'true')", "line 1: calls os.execv"),
     ("import os; os.fork()", "calls os.fork, which makes another process"),
     ("import os; os.chdir('/')", "calls os.chdir"),
-    ("import contextlib; contextlib.chdir('/').__enter__()", "changes the working folder"),
     ("import os; os.close(1)", "calls os.close, which closes"),
     ("import os; os.closerange(0, 9)", "calls os.closerange"),
     ("import signal; signal.signal(signal.SIGINT, signal.SIG_IGN)", "calls signal.signal"),
     ("import atexit; atexit.register(print)", "calls atexit.register"),
     ("import sys; sys.settrace(None)", "calls sys.settrace"),
     ("import resource as r; r.setrlimit(r.RLIMIT_CORE, (0, 0))", "calls resource.setrlimit"),
-    ("import sys; sys.path.clear()", "changes sys.path"),
-    ("import sys; sys.meta_path.clear()", "changes sys.meta_path"),
     ("import sys; sys.modules.clear()", "changes sys.modules"), ("import builtins; del builtins.len", "builtins"),
-    ("import locale; locale.setlocale(locale.LC_NUMERIC, 'C.UTF-8')", "changes the locale"),
-    ("import decimal; decimal.getcontext().prec = 2", "changes decimal's context"),
-    ("import mpmath; mpmath.mp.dps = 2", "changes mpmath's precision"),
-    ("import numpy; numpy.seterr(all='raise')", "changes what numpy does"),
     ("import threading as t; t.Thread(target=t.Event().wait, args=(2,)).start()", "starts a thread"),
     ("import os; os.posix_spawn('/bin/sleep', ['sleep', '60'], {})", "starts another process"),
     ("import sys; sys.exit(0)", "line 1: SystemExit: 0"), ("input()", "line 1: EOFError"),
     ("raise BaseExceptionGroup('two', [SystemExit(0)])", "line 1: BaseExceptionGroup"),
+)
+
+# What many a module does for its own numbers: it is put back, with a note.
+PUT_BACK = (
+    ("import contextlib; contextlib.chdir('/').__enter__()", "changes the working folder"),
+    ("import sys; sys.path.clear()", "changes sys.path"),
+    ("import sys; sys.meta_path.clear()", "changes sys.meta_path"),
+    ("import locale; locale.setlocale(locale.LC_NUMERIC, 'C.UTF-8')", "changes the locale"),
+    ("import decimal; decimal.getcontext().prec = 2", "changes decimal's context"),
+    ("import mpmath; mpmath.mp.dps = 2", "changes mpmath's precision"),
+    ("import numpy; numpy.seterr(all='raise')", "changes what numpy does"),
 )
 
 
@@ -63,11 +67,20 @@ def test_what_a_module_does_to_others_is_refused_with_its_file_and_undone(tmp_pa
         assert state() == before, text
 
 
+def test_what_a_module_sets_for_its_own_numbers_is_put_back_with_a_note(tmp_path, capsys):
+    before = state()
+    for number, (text, words) in enumerate(PUT_BACK):
+        (tmp_path / f"module_{number}.py").write_text(f"{text}\nfound = {number}\n")
+        assert module_in(tmp_path, f"module_{number}").found == number
+        assert f"{tmp_path / f'module_{number}.py'}: {words}" in capsys.readouterr().err, text
+        assert state() == before, text
+
+
 def test_what_a_module_imports_is_named_and_not_who_imports_it(tmp_path):
     (tmp_path / "__init__.py").write_text("")
-    (tmp_path / "inner.py").write_text("import sys\nsys.path.clear()\n")
+    (tmp_path / "inner.py").write_text("import builtins\ndel builtins.len\n")
     (tmp_path / "outer.py").write_text("from . import inner\n")
-    assert refusal(module_in, tmp_path, "outer").startswith(f"{tmp_path / 'inner.py'}: changes sys.path")
+    assert refusal(module_in, tmp_path, "outer").startswith(f"{tmp_path / 'inner.py'}: changes builtins")
 
 
 def test_others_may_do_what_a_paper_may_not(tmp_path):

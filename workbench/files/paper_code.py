@@ -12,6 +12,8 @@ from workbench.files.mistakes import mistake
 from workbench.files.text import is_source
 
 PACKAGE = str(Path(__file__).parents[1])
+
+
 @contextmanager
 def mistakes_told() -> Iterator[None]:
     """Whatever a paper's own code raises in this block, to end the process too, becomes an InputError that names its

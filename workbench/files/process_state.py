@@ -1,4 +1,4 @@
-"""What a module of a paper may not change for everybody else as it is imported: put back, and said with its file.
+"""What a module of a paper changes for everybody else as it is imported: put back, and said with its file.
 
 What it prints goes to standard error, so that standard output has the command's own answer alone; it finds nothing on
 standard input, and its warnings are notes in a line each. All of this in a process's main thread only: beside others
@@ -102,7 +102,9 @@ class Unclosable(io.TextIOBase):
 
 @contextmanager
 def state_kept(path: str) -> Iterator[None]:
-    """Run the code of a module; InputError, naming its file, where it has changed STATE or left something running."""
+    """Run the code of a module. STATE that it has changed is put back with a note, since many a module means its own
+    numbers alone; InputError, naming its file, where it has taken builtins or modules away or left something running.
+    """
     if threading.current_thread() is not threading.main_thread():
         yield
         return
@@ -132,7 +134,7 @@ def state_kept(path: str) -> Iterator[None]:
         for what, get, put, value in before:
             if value is not None and get() != value:
                 put(value)
-                changed.append(what)
+                note(f"{path}: changes {what} for all other code as it is imported: put back to what it was")
         left = _ended(_children() - children)
     if changed:
         raise InputError(path, "", f"changes {changed[0]} for all other code as it is imported: {REMEDY}")
