@@ -188,3 +188,13 @@ def test_a_number_with_which_no_run_ends_is_told_with_its_file(file, old, new, w
     path.write_text(changed(path.read_text(), old, new))
     said = one_line(run("compare", "mine2030", folder=tmp_path))
     assert said.startswith(f"workbench: mine2030/{file}: ") and words in said
+
+
+def test_a_law_of_another_file_is_told_with_that_file(tmp_path):
+    assert run("new-paper", "mine2030", "--plant", folder=tmp_path).returncode == 0
+    folder = tmp_path / "mine2030"
+    text = (folder / "laws.py").read_text()
+    (folder / "other.py").write_text(changed(text, "- k * s", "- k * s**20_000"))
+    study = folder / "study.toml"
+    study.write_text(changed(study.read_text(), 'law = "adaptive"', 'law = "other.py::adaptive"'))
+    assert one_line(run("compare", "mine2030", folder=tmp_path)).startswith("workbench: mine2030/other.py: law ")

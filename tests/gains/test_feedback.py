@@ -16,10 +16,10 @@ from workbench.gains.enclosure import enclosed
 from workbench.gains.exact import rational
 from workbench.gains.feedback import attenuating, decaying, proved_decay
 from workbench.gains.linearised import linearised
+from workbench.gains.point import at_point
 from workbench.gains.search import Infeasible
 from workbench.gains.stated import Stated
 from workbench.paper.plants.gains import feedback_search
-from workbench.paper.plants.point import at_point
 from workbench.proof.checker import check
 from workbench.systems.plant import Parameter, Plant
 

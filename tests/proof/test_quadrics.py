@@ -5,7 +5,6 @@ import pytest
 import sympy as sp
 
 from workbench.proof.claim import Goal, at_least, at_most, equal, less
-from workbench.proof.decide.landscape import landscape_of
 from workbench.proof.decide.quadrics import on_quadrics
 from workbench.proof.decide.refute import find_counterexample
 from workbench.proof.decide.sampling import tidy_fraction, trial_columns
@@ -25,7 +24,7 @@ SPHERES = {
 def test_points_that_are_drawn_meet_the_equalities_exactly(name):
     given, enough = SPHERES[name]
     goal = Goal((at_least(w + a + x, 0),), given)
-    family = on_quadrics(landscape_of(goal))
+    family = on_quadrics(goal)
     chosen = trial_columns(family.free, 60, np.random.default_rng(1))
     points = [family.exact({s: tidy_fraction(float(column[row])) for s, column in chosen.items()}) for row in range(60)]
     found = {tuple(sorted(point.items())) for point in points if point is not None}
@@ -44,7 +43,7 @@ def test_points_that_are_drawn_meet_the_equalities_exactly(name):
     (),
 ])
 def test_where_no_quadric_with_rational_points_is_there_nothing_is_drawn(given):
-    assert on_quadrics(landscape_of(Goal((at_least(x + y, 0),), given))) is None
+    assert on_quadrics(Goal((at_least(x + y, 0),), given)) is None
 
 
 @pytest.mark.parametrize("goal", [

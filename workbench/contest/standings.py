@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
+from numpy.typing import NDArray
 
 from workbench.contest.by_period import TRACKING, at_each_period
 from workbench.contest.told import COLUMNS, Told
@@ -23,7 +24,8 @@ def standings(told: Told) -> tuple[str, ...]:
 def _won(told: Told, condition: str) -> str:
     """Who wins, by how much, what it takes, and who comes next."""
     ranked = told.ranked(condition, TRACKING)
-    means = {i: float(value.mean()) for i, value in enumerate(ranked) if value is not None}
+    known = {i: value for i, value in enumerate(ranked) if value is not None}
+    means = {i: float(value.mean()) for i, value in known.items()}
     if not means:
         return "nobody arrives"
     order = sorted(means, key=means.__getitem__)
@@ -33,9 +35,16 @@ def _won(told: Told, condition: str) -> str:
     least = "" if len(tied) == 1 else f", the least being {_called(told, order[0])}'s"
     among = {name for label in tied for name in label.split(" = ")}
     behind = [i for i in order if told.entries[i].name not in among]
-    following = f", then {_called(told, behind[0])} with {length(means[behind[0]])}" if behind else ""
-    return (f"{words} with a {COLUMNS[TRACKING].title} of {length(means[order[0]])}{least}"
+    following = f", then {_called(told, behind[0])} with {_measured(told, known[behind[0]])}" if behind else ""
+    return (f"{words} with a {COLUMNS[TRACKING].title} of {_measured(told, known[order[0]])}{least}"
             f" ({_price(told, condition, order[0])}){following}")
+
+
+def _measured(told: Told, values: NDArray[np.float64]) -> str:
+    """The mean with its interval, where the draws are enough for one."""
+    found = told.interval(values)
+    mean = length(float(values.mean()))
+    return mean if found is None else f"{mean} [{length(found.low)}, {length(found.high)}]"
 
 
 def _called(told: Told, i: int) -> str:
@@ -44,8 +53,7 @@ def _called(told: Told, i: int) -> str:
 
 def _price(told: Told, condition: str, i: int) -> str:
     """Time a step, and energy where the run takes some."""
-    steps = [match.step_us for match in told.matches
-             if match.condition == condition and match.entry == told.entries[i].name]
+    steps = [match.step_us for match in told.of(condition, told.entries[i].name)]
     energy, column = told.values(condition, "energy_J")[i], COLUMNS["energy_J"]
     step = f"{number(float(np.median(steps)))} µs a step"
     return step if energy is None else f"{step}, {cell_text(Quantity(float(energy.mean()), column.unit, column.si))}"

@@ -18,6 +18,7 @@ from types import FrameType, ModuleType
 from typing import Any
 
 from workbench.errors import InputError
+from workbench.files.streams import STREAMS
 from workbench.files.text import is_source
 
 try:
@@ -25,7 +26,6 @@ try:
 except ImportError:  # a system without such limits
     resource = None  # type: ignore[assignment]
 
-STREAMS = 3  # the numbers below it are those of the standard streams
 ENDS, DOUBLES = "ends this command", "makes another process of this command"
 STANDS_STILL = "changes the folder that this command works in"
 SIGNALS, CLOSES = "takes over signals that this command needs", "closes its standard streams"

@@ -13,6 +13,7 @@ import sympy as sp
 from workbench.errors import InputError
 from workbench.gains.enclosure import Interval, enclosed, stated_number
 from workbench.gains.exact import fraction, rational
+from workbench.gains.point import at_point
 from workbench.systems.derivatives import smooth_at
 from workbench.systems.plant import Plant
 
@@ -32,7 +33,7 @@ class LinearPlants:
 def linearised(plant: Plant, at: Mapping[str, Any] | None = None) -> LinearPlants:
     """The hull of the linearisations at a point, parameters in their known intervals or at their values.
 
-    at: states and inputs by name, zero where none is given; disturbances are zero. Each uncertain entry is bounded by
+    at: the point, by `at_point`, zero where none is given; disturbances are zero. Each uncertain entry is bounded by
     itself, or, where these are fewer, each uncertain term that entries share, such as 1/J: the hull may hold more
     plants than there are. Raises InputError where the point is no equilibrium for some of the parameters, an entry has
     a kink there or no finite bounds, or too many of both differ.
@@ -40,10 +41,6 @@ def linearised(plant: Plant, at: Mapping[str, Any] | None = None) -> LinearPlant
     if plant.updates:
         raise InputError(plant.id, "updates", "make it a plant in discrete time, for which no gains are searched: give "
                          "rates")
-    symbols = [*map(str, (*plant.states, *plant.inputs))]
-    for name in at or {}:
-        if name not in symbols:
-            raise InputError(plant.id, name, f"is no state and no input: name one of {', '.join(symbols)}")
     point, box = _known(plant, at, plant.inputs)
     for state, rate in plant.flow.items():
         low, high = _bounds(plant, rate, point, box)
@@ -56,7 +53,7 @@ def linearised(plant: Plant, at: Mapping[str, Any] | None = None) -> LinearPlant
         raise InputError(plant.id, "inputs", "there is none: a feedback needs at least one")
     entries = [[_bounds(plant, entry, point, box) for entry in part] for part in parts]
     wide = [(k, i) for k, part in enumerate(entries) for i, (low, high) in enumerate(part) if low < high]
-    shared = _shared_terms(plant, [sp.Matrix(part) for part in parts], point, box)
+    shared = _shared_terms(plant, parts, point, box)
     if shared is not None and len(shared.terms) < len(wide) and len(shared.terms) <= MOST_UNCERTAIN:
         return LinearPlants(tuple(map(str, plant.states)), tuple(map(str, plant.inputs)), tuple(shared.extremes()))
     if len(wide) > MOST_UNCERTAIN:
@@ -114,7 +111,8 @@ def _shared_terms(plant: Plant, parts: Sequence[sp.Matrix], point: Mapping[sp.Ba
 def _known(plant: Plant, at: Mapping[str, Any] | None,
            inputs: Sequence[sp.Symbol]) -> tuple[dict[sp.Basic, sp.Expr], dict[sp.Symbol, Interval]]:
     """The point with the parameters that have one value, and the intervals of the others; disturbances are zero."""
-    point: dict[sp.Basic, sp.Expr] = {s: _number((at or {}).get(str(s), 0)) for s in (*plant.states, *inputs)}
+    stated = at_point(plant, at)
+    point: dict[sp.Basic, sp.Expr] = {s: stated.get(str(s), sp.Integer(0)) for s in (*plant.states, *inputs)}
     point |= {symbol: sp.Integer(0) for symbol in plant.disturbances}
     box: dict[sp.Symbol, Interval] = {}
     for one in plant.parameters:
@@ -148,10 +146,6 @@ def _exact(plant: Plant, rows: Mapping[Any, sp.Expr], by: Sequence[sp.Symbol], p
                              "its parameters without an interval, or another symbol")
         found[i, j] = rational(low)
     return found
-
-
-def _number(value: Any) -> sp.Expr:
-    return rational(stated_number(value)) if isinstance(value, float) else sp.sympify(value, strict=True)
 
 
 def _bounds(plant: Plant, entry: sp.Expr, point: Mapping[sp.Basic, sp.Expr],

@@ -11,12 +11,12 @@ from workbench.errors import InputError
 from workbench.gains.exact import fraction, rational
 from workbench.gains.feedback import attenuating
 from workbench.gains.linearised import disturbance_matrix, linearised
+from workbench.gains.point import at_point
 from workbench.gains.result import GainReport, GainSet, Quantity
 from workbench.gains.stated import Stated
 from workbench.paper.gain_search import GainSearch, Row, Task
 from workbench.paper.loading import Loaded
 from workbench.paper.plants.gains import margin_sentences, measures_all, positive
-from workbench.paper.plants.point import at_point
 from workbench.systems.plant import Plant
 
 

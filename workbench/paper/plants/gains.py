@@ -18,11 +18,11 @@ from workbench.gains.feedback import decaying
 from workbench.gains.frequency import feedback_margins
 from workbench.gains.linearised import LinearPlants, linearised, output_matrix
 from workbench.gains.output_feedback import output_decaying
+from workbench.gains.point import at_point
 from workbench.gains.result import GainReport, GainSet, Quantity
 from workbench.gains.stated import Stated
 from workbench.paper.gain_search import GainSearch, Row, Task
 from workbench.paper.loading import Loaded
-from workbench.paper.plants.point import at_point
 from workbench.simulate.plants.run import Entrant
 from workbench.simulate.plants.run import run as run_plant
 from workbench.systems.law import StateLaw

@@ -140,13 +140,23 @@ def located(study: PlantStudy, path: Path) -> LocatedPlantStudy:
     _require_numbers(path.with_name("plant.py"), f"plant '{plant.id}'",
                      (*plant.moves, *plant.outputs.values(), *plant.domain))
     try:
-        laws = [entrant.law for entrant in found.entrants().values() if entrant.law is not None]
+        entrants = found.entrants()
     except WorkbenchError as trouble:
         raise trouble if isinstance(trouble, InputError) else InputError(path, "", str(trouble)) from None
-    for law in laws:
-        moves = [part for state in law.states for part in (state.rate, state.update) if part is not None]
-        _require_numbers(path.with_name("laws.py"), f"law '{law.id}'", (*law.commands.values(), *moves, *law.domain))
+    for name, entry in found.controllers.items():
+        if (law := entrants[name].law) is not None:
+            moves = [part for state in law.states for part in (state.rate, state.update) if part is not None]
+            _require_numbers(_file_of(law, entry.law, path), f"law '{law.id}'",
+                             (*law.commands.values(), *moves, *law.domain))
     return found
+
+
+def _file_of(law: StateLaw, named_as: str, path: Path) -> Path:
+    """The file that holds a law: the one that its name gives, the folder's own, or else the study that names it."""
+    file, of_a_file, _ = named_as.partition("::")
+    if of_a_file:
+        return path.parent / file
+    return path.with_name("laws.py") if law in held_in(path.parent, "laws", StateLaw).values() else path
 
 
 def _require_numbers(file: Path, what: str, exprs: Iterable[sp.Expr]) -> None:

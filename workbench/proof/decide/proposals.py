@@ -48,7 +48,7 @@ def proposals(goal: Goal, seed: int, break_shown: bool, quick: bool = False) -> 
     """
     landscape = landscape_of(goal)
     yield from _familiar(goal, landscape, seed, break_shown, quick)
-    if (curved := on_quadrics(landscape)) is not None:
+    if (curved := on_quadrics(goal)) is not None:
         yield from _worth_a_look(landscape, curved, trial_columns(curved.free, POINTS, np.random.default_rng(seed)),
                                  break_shown)
     if quick and len(landscape.symbols) > FEW_SYMBOLS:

@@ -12,16 +12,20 @@ from math import isqrt, prod
 
 import sympy as sp
 
+from workbench.proof.claim import Goal
 from workbench.proof.decide.boundary_points import Family, equations
-from workbench.proof.decide.landscape import Landscape
+from workbench.proof.decide.landscape import landscape_of
+from workbench.proof.decide.once import once_per_goal
 
 MOST_SYMBOLS = 6  # of a quadric: a rational point is sought among 3^(n - 1) lines along each axis
 ON_LINES = (Fraction(0), Fraction(1), Fraction(-1))
 
 
-def on_quadrics(landscape: Landscape) -> Family | None:
+@once_per_goal
+def on_quadrics(goal: Goal) -> Family | None:
     """The points at which all equalities that are assumed hold, one of them a quadric at least; None where some are
     others, or no rational point is found."""
+    landscape = landscape_of(goal)
     family, curved = Family(landscape.symbols), []
     for equation in equations(landscape):
         here = equation.xreplace(family.bound)
