@@ -60,6 +60,14 @@ class Signs(Writing):
         if (text, strict) in self.facts.signs:
             return self.facts.signs[text, strict]
         known = self._known_factors(strict)
+        try:
+            return self._sign_by_factors(poly, strict, known)
+        except NotExportedError:  # x*y by x leaves y, of no known sign
+            return self._sign_by_factors(poly, strict, known[::-1])
+
+    def _sign_by_factors(self, poly: Poly, strict: bool, known: list[tuple[Poly, str]]) -> str:
+        """The same, by what is known in that order."""
+        text = self.normal.poly(poly)
         rest, factors, changed = poly, list[tuple[Poly, str]](), True
         while changed and set(rest) != {()}:
             changed = False

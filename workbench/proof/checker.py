@@ -737,18 +737,19 @@ class Relations:
 
     def sign_known(self, poly: Poly, nonzero_only: bool = False) -> bool:
         """Whether a polynomial is a product of margins known positive (or only non-zero), or obviously so."""
-        self._closed_margins()
-        signs = self._signs() if poly.keys() != ONE.keys() else None
-        changed = bool(poly)
-        while signs and changed and poly.keys() != ONE.keys():
-            changed = False
-            for factor in signs.nonzero if nonzero_only else signs.positive:
-                rest = divide_exactly(poly, factor)
-                if rest is not None:
-                    poly, changed = rest, True
         if poly.keys() == ONE.keys():
             return poly[()] > 0 or nonzero_only
-        return signs is not None and signs.positive_by_terms(poly)
+        signs = self._signs()
+        factors = signs.nonzero if nonzero_only else signs.positive
+        for order in (factors, factors[::-1]) if factors[1:] else (factors,):  # x*y by x leaves y, of no known sign
+            rest, before = poly, None
+            while rest != before and rest.keys() != ONE.keys():
+                before = rest
+                for factor in order:
+                    rest = divide_exactly(rest, factor) or rest
+            if (rest[()] > 0 or nonzero_only) if rest.keys() == ONE.keys() else signs.positive_by_terms(rest):
+                return True
+        return False
 
     def _closed_margins(self) -> list[Sign]:
         if len(self.closed_margins) != len(self.margins):

@@ -12,6 +12,7 @@ from workbench.proof.decide.cuts import after
 from workbench.proof.decide.first_lemmas import first_lemmas, roots_below
 from workbench.proof.decide.ideals import find_by_ideal
 from workbench.proof.decide.identity import find_identity
+from workbench.proof.decide.log_products import find_by_log_products
 from workbench.proof.decide.pivots import find_by_pivots
 from workbench.proof.decide.splits import find_by_splits
 from workbench.proof.decide.squares import find_squares
@@ -64,7 +65,8 @@ def search(goal: Goal, shown: Relation, given: Given, lemmas: Given = (), depth:
                           *inspected, depth)
         if found is not None:
             return found
-    return (_by_lemmas(goal, shown, given, lemmas) or _by_contradiction(goal, shown, given)
+    return (find_by_log_products(goal, _carried(shown, goal), given, search) or _by_lemmas(goal, shown, given, lemmas)
+            or _by_contradiction(goal, shown, given)
             or _by_growth(goal, _carried(shown, goal), given) or find_by_totals(goal, shown, given, search)
             or find_by_tangents(goal, _carried(shown, goal), given) or _by_its_square(goal, shown, given)
             or find_by_two_sides(goal, shown, given) or find_by_pivots(goal, shown, given)
