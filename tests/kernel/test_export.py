@@ -53,6 +53,19 @@ ANGLES = {"version": 2, "claim": "mine:7", "verdict": "proved", "example": {"x":
                      fact("sine_sum", of="x", **{"and": "y"}), fact("cosine_sum", of="x", **{"and": "-y"}),
                      fact("exp_sum", of="x", **{"and": "y"}), fact("log_product", of="y", **{"and": "z"}),
                      IDENTITY, IDENTITY, IDENTITY]}
+# What is shown is defined by the lemmas that its proof shows first; those of one relation are none of the next.
+DEFINED = {"version": 2, "claim": "mine:18", "verdict": "proved", "example": {"x": "1", "y": "1"},
+           "goal": {"assume": ["x >= 1", "y >= x"], "show": ["log(y) - log(x) >= 0", "y >= 1"]},
+           "proofs": [
+               {"rule": "cut", "lemma": "x > 0", "proof": {"rule": "combination", "terms": [
+                   {"coefficient": "1", "factors": []}, {"coefficient": "1", "factors": [{"assume": 0}]}]},
+                "then": {"rule": "cut", "lemma": "y > 0", "proof": {"rule": "combination", "terms": [
+                    {"coefficient": "1", "factors": [{"assume": place}]} for place in (2, 1)]},
+                    "then": {"rule": "combination", "terms": [{"coefficient": "1", "factors": factors} for factors in (
+                        [{"assume": 1}, {"positive": "1/y"}], [{"fact": "log_tangent", "of": "x/y"}],
+                        [{"fact": "log_product", "of": "x", "and": "1/y"}])]}}},
+               {"rule": "combination", "terms": [
+                   {"coefficient": "1", "factors": [{"assume": place}]} for place in (0, 1)]}]}
 # Every fact of arctan, tan by sin and cos, both along a flow, what is odd, and a number that is enclosed.
 ARCTANS = {"version": 2, "claim": "mine:16", "verdict": "proved", "example": {"x": "1", "y": "1", "r": "1"},
            "goal": {"assume": ["y >= 0", "cos(y) > 0"], "flow": {"x": "r", "y": "r"}, "show": [
@@ -119,8 +132,8 @@ LONG = {"version": 2, "claim": "mine:15", "verdict": "proved", "example": {"x": 
 
 
 FALSE = "mine:17"
-CERTIFICATES = (PRODUCT, SUMS, POINT, OPPOSITES, ANGLES, ARCTANS, PENDULUM, ANGLE, STEADY, CAUCHY, TURNED, RATES,
-                SATURATED, LONG)
+CERTIFICATES = (PRODUCT, SUMS, POINT, OPPOSITES, ANGLES, DEFINED, ARCTANS, PENDULUM, ANGLE, STEADY, CAUCHY, TURNED,
+                RATES, SATURATED, LONG)
 
 
 def digested(certificate: dict[str, Any]) -> dict[str, Any]:
@@ -243,7 +256,8 @@ def test_a_file_with_a_sentence_that_no_export_has_is_not_shown_to_coq(sentence:
 @pytest.mark.parametrize(("certificate", "old", "new"), [
     (PRODUCT, "x*k >= k", "x*k >= 2*k"), (PRODUCT, "k > 0", "k < 0"), (PRODUCT, "x >= 1", "x >= 0"),
     (SUMS, "Sum(a*w) == a*Sum(w)", "Sum(a*w) == Sum(w)"), (OPPOSITES, "y > 1", "y >= 1"),
-    (POINT, "z**2 >= 1", "z**2 <= 1"), (ANGLES, "x >= 0", "x >= -1"), (ANGLES, "y > 0", "y != 0"),
+    (DEFINED, "x >= 1", "x >= -1"), (POINT, "z**2 >= 1", "z**2 <= 1"), (ANGLES, "x >= 0", "x >= -1"),
+    (ANGLES, "y > 0", "y != 0"),
     (ANGLES, "exp(x + y) == exp(x)*exp(y)", "exp(x + y) == exp(x) + exp(y)"),
     (PENDULUM, "D(w**2/2 - cos(a)) == 0", "D(w**2/2 + cos(a)) == 0"), (ANGLE, "cos(x) <= 1/2", "cos(x) <= 14/25"),
     (STEADY, "k > 0", "k < 0"), (CAUCHY, "Sum(x*y)**2 <= Sum(x**2)*Sum(y**2)", "Sum(x*y)**2 <= Sum(x**2)"),

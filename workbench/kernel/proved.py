@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from workbench.kernel.combination import at_once
-from workbench.kernel.rules import prove, stated
+from workbench.kernel.rules import prove, show_lemma, stated
 from workbench.kernel.script import MARGINS, Script
 from workbench.kernel.syntax import NotExportedError, split_margin
 from workbench.kernel.theorem import Goal, texts_of
@@ -42,9 +42,11 @@ def _proof_of(goal: Goal, certificate: dict[str, Any], context: Context, given: 
         script.assumption(text, f"assumed_{number}")
     shown: list[str] = []
     open_equations = 0
-    for text, proof in zip(goal.stated["show"], certificate["proofs"], strict=True):
+    assumed, hypotheses = script.given, script.names
+    for text, whole_proof in zip(goal.stated["show"], certificate["proofs"], strict=True):
         _, operator = margin(context, text)  # first, for a function's atom is that of its first argument: x or -x
-        script.defined(text)
+        script.given, script.names = assumed, hypotheses
+        proof = _defined_by_lemmas(script, text, whole_proof)
         conditions = [script.facts.conditions[condition] for condition in goal.conditions(text)]
         if (whole := at_once(script, text, operator, proof)) is not None:
             shown += [*conditions, whole]
@@ -61,3 +63,17 @@ def _proof_of(goal: Goal, certificate: dict[str, Any], context: Context, given: 
     for _ in range(open_equations):
         script.say("{ same. }")
     return script
+
+
+def _defined_by_lemmas(script: Script, text: str, proof: dict[str, Any]) -> dict[str, Any]:
+    """Show what a relation needs to be defined, if need be with the lemmas that its proof shows first, as the checker
+    does; what is left of the proof."""
+    while True:
+        try:
+            script.defined(text)
+            return proof
+        except NotExportedError:
+            if proof["rule"] != "cut":
+                raise
+        show_lemma(script, proof)
+        proof = proof["then"]

@@ -45,13 +45,18 @@ def _identity(script: Script, value: Ratio, operator: str, proof: dict[str, Any]
 
 
 def _cut(script: Script, value: Ratio, operator: str, proof: dict[str, Any]) -> None:
+    show_lemma(script, proof)
+    prove(script, value, operator, proof["then"])
+
+
+def show_lemma(script: Script, proof: dict[str, Any]) -> None:
+    """The lemma that a proof shows first, and its own proof: one more assumption in force."""
     lemma = margin(script.context, proof["lemma"])
     name = script.fresh("M")
     script.say(f"assert ({name} : {stated(script, *lemma)}).")
     with script.subproof():
         prove(script, *lemma, proof["proof"])
     script.assume(lemma, name)
-    prove(script, value, operator, proof["then"])
 
 
 def _contradiction(script: Script, value: Ratio, operator: str, proof: dict[str, Any]) -> None:
