@@ -81,8 +81,8 @@ def measure_run(run: Run, length_m: float) -> Metrics:
     whole = np.nan if run.failed else 1.0  # what only makes sense for a whole run is no number for a failed one
     samples = max(1.0, total["samples"])
     seconds = max(run.end_s, run.period_s)
-    timed = run.step_us if len(run.step_us) else np.full(1, np.nan)
-    step_us_median, step_us_p99 = np.percentile(timed, (50, 99)).tolist()
+    step_us_median, step_us_p99 = (np.percentile(run.step_us, (50, 99)).tolist() if len(run.step_us)
+                                   else (float("nan"), float("nan")))
     # The log's rows are a whole number of plant steps apart, which log_every_s need not be.
     logged_jerk = np.diff(run.column("v_mps"), 2) / np.diff(run.column("t_s")[:2]) ** 2
     return Metrics(

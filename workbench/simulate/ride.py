@@ -9,6 +9,7 @@ passengers), root mean square over the run: below 0.315 m/s^2 the standard calls
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from functools import lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
@@ -75,14 +76,17 @@ def ride(step_s: float, limits: SpeedLimits) -> Ride:
     return Ride(values, limits)
 
 
+@lru_cache(maxsize=64)  # the same for all runs of a sweep
 def weighting(step_s: float) -> Array:
     """W_d of ISO 2631-1 as second-order sections, each b0 b1 b2 a1 a2 and two states at rest, shape (3, 7).
 
-    A section whose frequency a plant step cannot show is left out: its row passes all.
+    A section whose frequency a plant step cannot show is left out: its row passes all. Not to be written to.
     """
     sections = ((LOW_HZ, BUTTERWORTH, (0.0, 0.0, 1.0)), (HIGH_HZ, BUTTERWORTH, (1.0, 0.0, 0.0)),
                 (TRANSITION_HZ, TRANSITION_QUALITY, (1.0, 1.0, 0.0)))
-    return np.array([_section(frequency, quality, numerator, step_s) for frequency, quality, numerator in sections])
+    found = np.array([_section(frequency, quality, numerator, step_s) for frequency, quality, numerator in sections])
+    found.flags.writeable = False
+    return found
 
 
 def _section(frequency_hz: float, quality: float, numerator: tuple[float, float, float], step_s: float) -> list[float]:
