@@ -1,5 +1,6 @@
 """Expressions become code in one place: what is refused there, and what is kept between runs."""
 
+import json
 import math
 import os
 import subprocess
@@ -13,12 +14,13 @@ import pytest
 import sympy as sp
 from llvmlite import binding
 from numba.core.errors import TypingError
-from scenarios import LAWS
+from scenarios import LAWS, short_scenario
 
 from workbench.compile.code_cache import imported_kernel
 from workbench.compile.kernel import casadi_function, law_source, loop_module, numeric, plant_source
 from workbench.errors import CompileError
 from workbench.model.law import ControlLaw, LawState, neuron, over_neurons, position
+from workbench.simulate.closed_loop import simulate
 from workbench.simulate.law_loop import law_loop
 from workbench.trains.train import Plant, single_particle, single_particle_per_mass
 
@@ -38,27 +40,16 @@ print(hits, misses, kernel.args[0].code.cache_hits, repr(run.final_position_m))
 """
 
 
-def _files(folder: Path) -> dict[str, int]:
-    return {str(p.relative_to(folder)): p.stat().st_mtime_ns for p in folder.rglob("*") if p.is_file()}
-
-
-def test_a_second_process_uses_the_first_ones_compiled_kernel(tmp_path):
-    environment = os.environ | {"WORKBENCH_CACHE": str(tmp_path)}
+def test_a_second_process_uses_the_first_ones_compiled_kernel():
+    """This process has compiled it, or found it; another one finds it, and writes nothing of it anew."""
+    run, loop = simulate(short_scenario(), "pid"), law_loop(LAWS["pid"])
+    kept = {path: path.stat().st_mtime_ns for module in (loop.plant, loop.law)
+            for path in Path(module.__file__).parent.glob(f"{module.__name__}.*")}
+    assert {path.suffix for path in kept} >= {".py", ".sealed-index", ".sealed-code"}
     command = [sys.executable, "-W", "error", "-c", PROCESS, str(Path(__file__).parent)]
-
-    def run() -> list[str]:
-        done = subprocess.run(command, env=environment, capture_output=True, text=True, check=True)
-        return done.stdout.split()
-
-    *found, position_m = run()
-    assert found == ["0", "1", "0"]
-    after_one = _files(tmp_path)
-    assert any(name.endswith(".sealed-code") for name in after_one)
-    *found, again_m = run()
-    assert found == ["1", "0", "1"]
-    assert again_m == position_m
-    compiled = {name: time for name, time in _files(tmp_path).items() if not name.endswith(".pyc")}
-    assert compiled == {name: time for name, time in after_one.items() if not name.endswith(".pyc")}
+    done = subprocess.run(command, capture_output=True, text=True, check=True)
+    assert done.stdout.split() == ["1", "0", "1", repr(run.final_position_m)]
+    assert {path: path.stat().st_mtime_ns for path in kept} == kept
 
 
 def test_a_changed_law_is_another_kernel_and_the_same_law_the_same_one(tmp_path, monkeypatch):
@@ -155,17 +146,20 @@ def test_generated_source_names_the_papers_equations_it_comes_from():
     assert "Newton's second law, Davis equation, in N" in loop.plant.__doc__
 
 
+def _sources() -> list[str]:
+    return [law_source(law, estimates) for law in LAWS.values() for estimates in ("corrected", "explicit")]
+
+
 def test_generated_source_does_not_depend_on_the_order_of_hashes():
-    script = ("import sys\nsys.path.insert(0, sys.argv[1])\nfrom scenarios import LAWS\n"
-              "from workbench.compile.kernel import law_source\n"
-              "print([law_source(law, e) for law in LAWS.values() for e in ('corrected', 'explicit')])")
-    command = [sys.executable, "-c", script, str(Path(__file__).parent)]
-    first, second = (
-        subprocess.run(command, env=os.environ | {"PYTHONHASHSEED": seed}, capture_output=True, text=True,
-                       check=True).stdout
-        for seed in ("1", "2"))
-    assert first == second
-    assert first.count("def control_step") == 2 * len(LAWS)
+    """This process has one order, another has another one."""
+    script = ("import json, sys\nsys.path.insert(0, sys.argv[1])\nfrom test_compile import _sources\n"
+              "print(json.dumps(_sources()))")
+    seed = "2" if os.environ.get("PYTHONHASHSEED") == "1" else "1"
+    done = subprocess.run([sys.executable, "-c", script, str(Path(__file__).parent)], capture_output=True, text=True,
+                          check=True, env=os.environ | {"PYTHONHASHSEED": seed})
+    sources = _sources()
+    assert json.loads(done.stdout) == sources and len(sources) == 2 * len(LAWS)
+    assert all("def control_step" in source for source in sources)
 
 
 LINKED = """from numba import njit

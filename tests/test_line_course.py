@@ -32,32 +32,31 @@ def at(found, position: float, what: str = "force_n") -> float:
     return low + share * (high - low)
 
 
-def per_kilonewton(rule: str, curvature: float) -> float:
-    """Resistance of a curve in N/kN, typed from the handbook a second time."""
-    if curvature == 0:
-        return 0.0
-    radius = 1 / abs(curvature)
-    if rule == "inverse_radius":
-        return 600 / radius
-    return 650 / (radius - 55) if radius >= 300 else 500 / (radius - 30)
+def per_kilonewton(rule: str, curvature):
+    """Resistance of curves in N/kN, typed from the handbook a second time."""
+    with np.errstate(divide="ignore"):  # where the line is straight, or by the formula of other radii
+        radius = 1 / np.abs(curvature)
+        return 600 / radius if rule == "inverse_radius" else np.where(
+            radius >= 300, 650 / (radius - 55), 500 / (radius - 30))
 
 
-def plain_force(given_line: Line, position: float) -> float:
-    """Force in N on a point of the train's weight at one place, searched in the line's rows."""
-    x = max(position, 0.0)
-    grade = next(g for start, g in reversed(given_line.grades) if start <= x)
-    curve = 0.0
+def plain_force(given_line: Line, places):
+    """Force in N on a point of the train's weight at each place, searched in the line's rows."""
+    x, grade, curve, inside = np.maximum(places, 0.0), 0.0, 0.0, 0.0
+    for start, here in given_line.grades:
+        grade = np.where(start <= x, here, grade)
     rows = [*given_line.curves, (given_line.length_m, 0.0, 0.0)]
     for (start, one, two), (end, *_) in pairwise(rows):
-        if start <= x < end:
-            curve = per_kilonewton(given_line.curve_rule, one + (x - start) / (end - start) * (two - one))
-    inside = sum(t.resistance_n_per_kn for t in given_line.tunnels if t.start_m <= position < t.start_m + t.length_m)
+        curvature = one + (x - start) / (end - start) * (two - one)
+        curve = np.where((start <= x) & (x < end), per_kilonewton(given_line.curve_rule, curvature), curve)
+    for t in given_line.tunnels:
+        inside += np.where((t.start_m <= places) & (places < t.start_m + t.length_m), t.resistance_n_per_kn, 0.0)
     return WEIGHT_KN * (grade + curve + inside)
 
 
 def plain_mean(given_line: Line, front: float, length: float, points: int = 20_000) -> float:
     places = front - length + (np.arange(points) + 0.5) * length / points
-    return float(np.mean([plain_force(given_line, x) for x in places]))
+    return float(np.mean(plain_force(given_line, places)))
 
 
 HILLS = ((0.0, 2.0), (400.0, -7.0), (450.0, 12.0), (1800.0, 0.0))

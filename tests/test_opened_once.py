@@ -1,44 +1,20 @@
 """A file is read once: in one process no verb opens an input of a paper's folder twice."""
 
-import json
 import os
-import subprocess
 import sys
+from collections import Counter
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
-from scenarios import ROOT
+from child_process import made_in_a_fork
+from command_line import run
 from small_folders import OBJECTIVE, small_folder, small_scenario, with_claims
 from test_curve_table import rows_of, written
 
 from workbench.trains.scenario import load_scenario
 
-WATCHED = """
-import json, sys
-from collections import Counter
-from pathlib import Path
-folder, report, *arguments = sys.argv[1:]
-opened = Counter()
-
-def remember(event, given):
-    if event == "open" and isinstance(given[0], (str, bytes)) and watching:
-        path, mode, flags = given
-        name = path if isinstance(path, str) else path.decode()
-        writes = any(c in mode for c in "wax+") if isinstance(mode, str) else bool((flags or 0) & 3)
-        if str(Path(name).absolute()).startswith(folder) and not writes:
-            opened[str(Path(name).absolute())[len(folder) + 1:]] += 1
-
-watching = True
-sys.addaudithook(remember)
-sys.argv = ["workbench", *arguments]
-from workbench.cli.app import main
-try:
-    main()
-finally:
-    watching = False
-    Path(report).write_text(json.dumps(opened))
-"""
 GAINS = '''
 from workbench.gains.result import GainReport
 from workbench.paper.gain_search import GainSearch
@@ -58,20 +34,34 @@ KIND = GainSearch(report, lambda found: [], lambda loaded, task: ({}, None))
 
 
 def opened(folder: Path, *arguments: object) -> dict[str, int]:
-    """How often a verb opened each file of the folder for reading."""
-    counted = folder.parent / "opened.json"
-    command = [sys.executable, "-c", WATCHED, str(folder), str(counted), *map(str, arguments)]
-    done = subprocess.run(command, cwd=folder.parent, capture_output=True, text=True, check=False,
-                          env=os.environ | {"PYTHONPATH": str(ROOT)})
-    assert done.returncode == 0, done.stderr
-    return json.loads(counted.read_text(encoding="utf-8"))
+    """How often a verb opened each file of the folder for reading; in a fork, since a hook stays in its process."""
+    return made_in_a_fork(_watched, folder, arguments)
+
+
+def _watched(folder: Path, arguments: tuple[object, ...]) -> dict[str, int]:
+    counted: Counter[str] = Counter()
+
+    def remember(event: str, given: tuple[Any, ...]) -> None:
+        if event != "open" or not isinstance(given[0], str | bytes):
+            return
+        path, mode, flags = given
+        name = Path(os.fsdecode(path)).absolute()
+        writes = any(c in mode for c in "wax+") if isinstance(mode, str) else bool((flags or 0) & 3)
+        if name.is_relative_to(folder) and not writes:
+            counted[str(name.relative_to(folder))] += 1
+
+    sys.addaudithook(remember)
+    ended = run(*arguments, folder=folder.parent)
+    assert ended.returncode == 0, ended.stderr
+    return dict(counted)
 
 
 @pytest.fixture
 def paper(tmp_path: Path) -> Path:
     folder = with_claims(small_folder(tmp_path / "doe2030"), "section_2", "section_3")
     (folder / "gains.py").write_text(GAINS, encoding="utf-8")
-    curve = load_scenario(folder / "study.toml").desired_curve()
+    # Of a copy, so that this process knows nothing of the folder whose opened files are counted.
+    curve = load_scenario(small_folder(tmp_path / "copy") / "study.toml").desired_curve()
     times = np.unique(np.concatenate((curve.breaks_s, np.linspace(0, curve.trip_time_s, 60))))
     written(folder / "curve.csv", rows_of(curve, times))
     head, _, rest = small_scenario().partition("[reference]")

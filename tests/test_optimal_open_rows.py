@@ -10,10 +10,16 @@ from workbench.optimal import open_rows, socp
 from workbench.optimal.grid import graded_grid, kept_borders
 from workbench.optimal.open_rows import all_open, rightly_closed, thinned
 from workbench.optimal.reference import least_time
-from workbench.optimal.socp import COARSE_FIRST, solve_socp
+from workbench.optimal.socp import solve_socp
 
 CONVEX = [vehicle for vehicle in TRAINS if not vehicle.traction.table]
-INTERVALS = COARSE_FIRST + 200
+INTERVALS = 1000
+
+
+@pytest.fixture(autouse=True)
+def _large_from_fewer_intervals(monkeypatch):
+    """What is shown of large programs is shown of smaller ones, at half the cost."""
+    monkeypatch.setattr(socp, "COARSE_FIRST", INTERVALS - 100)
 
 
 def whole(vehicle, grid, asked):

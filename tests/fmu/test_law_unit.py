@@ -1,17 +1,16 @@
-"""Laws as units of FMI 3.0, called by another library's importer and held against the law's own expressions."""
+"""Laws as units of FMI 3.0, called by another library's importer and held against the law's own expressions.
+
+That library is imported by the tests, because every test process imports this module, and one of them runs it.
+"""
 
 import shutil
 from dataclasses import replace
 from pathlib import Path
 
-import fmpy
 import law_alone
 import numpy as np
 import pytest
 from command_line import run
-from fmpy.fmi1 import FMICallException
-from fmpy.fmi3 import FMU3Slave
-from fmpy.validation import validate_fmu
 from scenarios import ROOT
 
 from workbench.cli.loading import load
@@ -29,6 +28,9 @@ class Unit:
     """A unit that fmpy has loaded, its variables by name."""
 
     def __init__(self, path: Path) -> None:
+        import fmpy
+        from fmpy.fmi3 import FMU3Slave
+
         self.folder = fmpy.extract(str(path))
         self.about = fmpy.read_model_description(str(path))
         self.variables = {v.name: v for v in self.about.modelVariables}
@@ -55,6 +57,8 @@ class Unit:
 
 @pytest.fixture
 def loaded_unit(tmp_path):
+    from fmpy.validation import validate_fmu
+
     units = []
 
     def made(paper: str, controller: str) -> Unit:
@@ -112,6 +116,8 @@ def test_a_trains_law_commands_what_the_compiled_one_does(loaded_unit, controlle
 
 
 def test_outside_of_its_domain_and_at_another_period_a_law_gives_no_command(loaded_unit):
+    from fmpy.fmi1 import FMICallException
+
     unit = loaded_unit("yang2021", "rbfnn_pocrac")
     with pytest.raises(FMICallException):
         unit.slave.doStep(0.0, 0.5)
@@ -133,6 +139,9 @@ def test_parameters_can_be_set_and_the_script_is_the_same_each_time(loaded_unit)
 
 def test_a_title_with_control_characters_makes_a_unit_all_the_same(tmp_path):
     """A unit's description is XML, which has none."""
+    import fmpy
+    from fmpy.validation import validate_fmu
+
     unit = unit_of(load(ROOT / "proofs" / "yang2021"), "pid")
     path = tmp_path / "law.fmu"
     path.write_bytes(fmu_bytes(replace(unit, about="a\x1b[31m<b>\x00&", inputs=dict.fromkeys(unit.inputs, "\x07 m"))))

@@ -128,6 +128,15 @@ def jump_step(updates: Sequence[sp.Expr], integrands: Sequence[sp.Expr], states:
           for i in range(count)), ""])
 
 
+def rates_into(count: int, arrays: Arrays) -> str:
+    """Source of rates_into(t, x, arrays..., out), which puts what plant_rates gives of so many states into `out`."""
+    rest, places = ", ".join(arrays), range(count)
+    return "\n".join([
+        f"def rates_into(t, x, {rest}, out):",
+        f"{_INDENT}{', '.join(f'out[{i}]' for i in places)}, = plant_rates(t, {', '.join(f'x[{i}]' for i in places)}, "
+        f"{rest})", ""])
+
+
 def numeric_vector(arguments: Sequence[sp.Symbol], exprs: Sequence[sp.Expr]) -> Callable[..., Any]:
     """A Python function (time, *arguments) -> list of numbers, interpreted: for other libraries and for checks."""
     names = {symbol: sp.Symbol(f"argument_{i}", real=True) for i, symbol in enumerate((time, *arguments))}

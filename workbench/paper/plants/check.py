@@ -91,7 +91,7 @@ def _study(study: LocatedPlantStudy) -> Iterator[Check]:
 def _commands(study: LocatedPlantStudy, entrant: Entrant, law: StateLaw) -> Check:
     """The compiled law at random outputs, references and states against the interpreted expressions."""
     plant, setting = study.the_plant, study.setting
-    module = compiled(setting, law).module
+    found = compiled(setting, law)
     outputs, signals, states = [*plant.outputs], setting.signal_symbols, law.state_symbols
     values = law.values(plant, setting.parameters, entrant.parameters)
     usable = [s for s in signals if s in law.reference_symbols]
@@ -102,9 +102,8 @@ def _commands(study: LocatedPlantStudy, entrant: Entrant, law: StateLaw) -> Chec
         y, s, q = (generator.normal(size=len(group)) for group in (outputs, signals, states))
         out, moved = np.zeros(len(plant.inputs)), q.copy()
         c = np.array([*values.values()])
-        if not module.law_margin(1.0, entrant.period_s, y, s, q, c) > 0:
+        if not found.loop.law_answer(found.law, 1.0, entrant.period_s, y, s, moved, c, out) > 0:
             continue
-        module.law_step(1.0, entrant.period_s, y, s, moved, c, out)
         given = [value for symbol, value in zip(signals, s, strict=True) if symbol in usable]
         want = np.array(interpreted(1.0, entrant.period_s, *y, *given, *q, *c), dtype=float)
         worst = max(worst, float(np.max(np.abs(np.concatenate([moved, out]) - want) / (1.0 + np.abs(want)))))

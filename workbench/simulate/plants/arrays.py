@@ -1,11 +1,12 @@
-"""A setting as the arrays that the compiled loop moves, and the compiled module for a plant, its metrics and a law."""
+"""A setting as the arrays that the compiled loop moves, and a plant with its metrics and a law as C functions."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
-from functools import lru_cache
+from functools import cache, lru_cache
+from inspect import signature
 from types import ModuleType
 from typing import Any
 
@@ -13,13 +14,16 @@ import numpy as np
 import sympy as sp
 from numpy.typing import NDArray
 
+from workbench.compile.code_cache import c_function
 from workbench.compile.kernel import loop_module
-from workbench.compile.vector_code import into_array, jump_step, runge_kutta_step, smallest
+from workbench.compile.text import loop_text
+from workbench.compile.vector_code import into_array, jump_step, rates_into, runge_kutta_step, smallest
 from workbench.errors import CompileError
 from workbench.model.law import period, time
-from workbench.simulate.plants import plant_loop
+from workbench.simulate.plants import event_loop, law_call, plant_call, plant_loop
 from workbench.simulate.plants.event_code import event_functions
 from workbench.simulate.plants.event_loop import MOST_IN_A_RUN
+from workbench.simulate.plants.plant_call import QUESTIONS
 from workbench.systems.law import StateLaw
 from workbench.systems.plant import Plant
 from workbench.systems.setting import Setting, first_inputs
@@ -32,19 +36,25 @@ SAMPLED = {"t": time, "T_s": period}  # what a law's functions are given before 
 
 @dataclass(frozen=True)
 class Compiled:
-    """A compiled module and how its metrics are taken: which are integrated, and which are extremes."""
+    """A compiled plant and law, the loop that calls them, and how metrics are taken.
 
-    module: ModuleType
+    loop: compiled once for all plants; plant and law: C functions, as it calls them; integrands and extremes: of the
+    metrics that are integrated, and that are the largest or smallest value.
+    """
+
+    loop: ModuleType
+    plant: Any
+    law: Any
     integrands: tuple[sp.Expr, ...]
     extremes: tuple[sp.Expr, ...]
 
 
 class _Subject:
-    """What a module is made of: the same plant and law, as objects, with the same metrics and signals."""
+    """What a C function is made of: the same plant and law, as objects, with the same metrics and signals."""
 
-    def __init__(self, setting: Setting, law: StateLaw | None) -> None:
+    def __init__(self, setting: Setting, law: StateLaw | None = None) -> None:
         self.setting, self.law = setting, law
-        self._key = (id(setting.plant), id(law), setting.every_metric, tuple(setting.signals))
+        self._key = (id(setting.plant), id(law), () if law else setting.every_metric, tuple(setting.signals))
 
     def __eq__(self, other: object) -> bool:
         return isinstance(other, _Subject) and self._key == other._key
@@ -54,39 +64,52 @@ class _Subject:
 
 
 def compiled(setting: Setting, law: StateLaw | None) -> Compiled:
-    """The loop of a plant in a setting under a law; without one its law commands nothing and must not be called.
+    """The loop of a plant in a setting under a law; one without a law cannot run as a whole.
 
     Raises CompileError, which names both, for an expression that has no code.
     """
+    metrics = setting.every_metric
+    integrands = tuple(m.integrand for m in metrics if m.integrand is not None)
+    extremes = tuple(m.expression if m.measure == "largest" else -m.expression for m in metrics
+                     if m.measure in ("largest", "smallest"))
     try:
-        return _compiled(_Subject(setting, law))
+        plant = _plant(_Subject(setting), integrands, extremes)
+        called = None if law is None else _law(_Subject(setting, law))
+        return Compiled(_loop(bool(setting.plant.events)), plant, called, integrands, extremes)
     except CompileError as trouble:
         raise CompileError(f"plant '{setting.plant.id}'{f' under law {law.id!r}' if law else ''}: {trouble}") from None
 
 
-@lru_cache(maxsize=64)  # writing the code takes longer than many a run; the subject kept holds plant and law alive
-def _compiled(subject: _Subject) -> Compiled:
-    setting, law = subject.setting, subject.law
-    plant, metrics = setting.plant, setting.every_metric
-    integrands = tuple(m.integrand for m in metrics if m.integrand is not None)
-    extremes = tuple(m.expression if m.measure == "largest" else -m.expression for m in metrics
-                     if m.measure in ("largest", "smallest"))
+@cache
+def _loop(with_events: bool) -> ModuleType:
+    """With the step in which events happen, which takes long to compile too, or with one that is never called."""
+    given = ", ".join(signature(event_loop.step_with_events).parameters)
+    step = loop_text(event_loop) if with_events else f"def step_with_events({given}):\n    return 0\n"
+    return loop_module(f"a plant with{'' if with_events else 'out'} events", [QUESTIONS, step], plant_loop)
+
+
+@lru_cache(maxsize=64)  # writing the code takes longer than many a run; the subject kept holds the plant alive
+def _plant(subject: _Subject, integrands: tuple[sp.Expr, ...], extremes: tuple[sp.Expr, ...]) -> Any:
+    setting, plant = subject.setting, subject.setting.plant
     given = {"u": plant.inputs, "s": setting.signal_symbols, "p": plant.parameter_symbols}
     every = {"x": plant.states, **given}
-    held = {"y": (), "s": (), "q": (), "c": ()}
     step = jump_step(plant.updates, integrands, plant.states, given) if plant.updates else (
         runge_kutta_step([*plant.rates, *integrands], plant.states, given))
+    count = len(plant.states) + len(integrands)
     source = [
-        step,
+        QUESTIONS, step, rates_into(count, given),
         into_array("plant_outputs", list(plant.outputs.values()), {"x": plant.states, "p": plant.parameter_symbols}),
         smallest("plant_margin", plant.domain, every),
         into_array("extreme_values", extremes, every), *event_functions(plant, every)]
-    if law is None:
-        source += [into_array("law_step", [], held, SAMPLED), smallest("law_margin", [], held, SAMPLED)]
-    else:
-        source += law_functions(law, plant, setting.signal_symbols)
-    what = f"plant {plant.id}" + (f" and law {law.id}" if law else "")
-    return Compiled(loop_module(what, source, plant_loop), integrands, extremes)
+    return c_function(loop_module(f"plant {plant.id}", source, plant_call), "answer", plant_call.ANSWER)
+
+
+@lru_cache(maxsize=64)
+def _law(subject: _Subject) -> Any:
+    setting, law = subject.setting, subject.law
+    assert law is not None
+    source = law_functions(law, setting.plant, setting.signal_symbols)
+    return c_function(loop_module(f"law {law.id}", source, law_call), "answer", law_call.ANSWER)
 
 
 def law_functions(law: StateLaw, plant: Plant, signals: Sequence[sp.Symbol]) -> list[str]:

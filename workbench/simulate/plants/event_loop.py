@@ -1,8 +1,8 @@
-"""A plant step in which events happen; joined with the loop and the generated functions of a plant that has some.
+"""A plant step in which events happen; joined with the loop, which asks the plant for its events' expressions, their
+rates and what they reset.
 
-Generated: event_values, event_rates (each event's expression and its rate), event_reset. `sides`, a row an event: on
-which side of zero its expression is (-1, 1, or 0 where not known), whether it acts as it falls, and as it rises, and
-whether it stands at zero because it has just acted.
+`sides`, a row an event: on which side of zero its expression is (-1, 1, or 0 where not known), whether it acts as it
+falls, and as it rises, and whether it stands at zero because it has just acted.
 """
 
 # ruff: noqa: F821, ANN001, ANN201, PLR0912
@@ -55,21 +55,22 @@ MOST_IN_A_STEP = 100
 LOCATED = 1e-13  # of a plant step
 
 
-def act(which, located, t, states, x, u, s, p, extremes, values, sides, crossing, slopes, event_log, event_count):
+def act(plant, which, located, t, states, x, u, s, p, extremes, values, sides, crossing, slopes, event_log,
+        event_count):
     """Reset the states by an event; whether there is room for it in the log. located: its expression is at zero."""
     if event_count[0] >= event_log.shape[0]:
         return False
     if extremes.shape[0] > 0:
-        add_extremes(t, x, u, s, p, extremes, values)
+        add_extremes(plant, t, x, u, s, p, extremes, values)
     before = abs(crossing[which]) if located else 0.0
-    event_reset(which, t, x, u, s, p)
+    asked(plant, RESET + which, t, x, u, s, p, x)
     if extremes.shape[0] > 0:
-        add_extremes(t, x, u, s, p, extremes, values)
-    event_values(t, x, u, s, p, crossing)
+        add_extremes(plant, t, x, u, s, p, extremes, values)
+    asked(plant, EVENTS, t, x, u, s, p, crossing)
     sides[which, 3] = 1.0 if abs(crossing[which]) <= before else 0.0
     leaving = crossing[which]
     if sides[which, 3] > 0.0:  # it stands at zero, whatever rounding says: its rate tells the side that it goes to
-        event_rates(t, x, u, s, p, slopes)
+        asked(plant, EVENT_RATES, t, x, u, s, p, slopes)
         leaving = slopes[which]
     sides[which, 0] = 1.0 if leaving > 0.0 else (-1.0 if leaving < 0.0 else 0.0)
     row = event_count[0]
@@ -80,8 +81,8 @@ def act(which, located, t, states, x, u, s, p, extremes, values, sides, crossing
     return True
 
 
-def step_with_events(k, h, states, x, u, u_end, fade_full, table, pieces, p, extremes, values, sides, crossing, slopes,
-                     event_log, event_count, moved, inputs, signals):
+def step_with_events(plant, k, h, states, x, u, u_end, fade_full, table, pieces, p, extremes, values, sides, crossing,
+                     slopes, event_log, event_count, moved, inputs, signals):
     """One plant step with all events in it, each located by bisection; 0, or the status that ends the run.
 
     What has crossed zero by a jump of an input or by another event's reset acts at once, in the order of the events.
@@ -89,7 +90,7 @@ def step_with_events(k, h, states, x, u, u_end, fade_full, table, pieces, p, ext
     t, done, count = k * h, 0.0, 0
     while True:
         inputs_between(t, h, done, h, u, u_end, fade_full, table, pieces, inputs, signals)
-        event_values(t + done, x, inputs[0], signals[0], p, crossing)
+        asked(plant, EVENTS, t + done, x, inputs[0], signals[0], p, crossing)
         which, low = crossed(sides, crossing, True), done
         located = which < 0
         if located:
@@ -102,9 +103,9 @@ def step_with_events(k, h, states, x, u, u_end, fade_full, table, pieces, p, ext
                 inputs_between(t, h, done, at, u, u_end, fade_full, table, pieces, inputs, signals)
                 for i in range(x.shape[0]):
                     moved[i] = x[i]
-                plant_step(t + done, at - done, moved, inputs[0], signals[0], inputs[1], signals[1], inputs[2],
-                           signals[2], p)
-                event_values(t + at, moved, inputs[2], signals[2], p, crossing)
+                moved_by(plant, t + done, at - done, moved, inputs[0], signals[0], inputs[1], signals[1], inputs[2],
+                         signals[2], p)
+                asked(plant, EVENTS, t + at, moved, inputs[2], signals[2], p, crossing)
                 which = crossed(sides, crossing, False)
                 if which < 0 and at == h:
                     break
@@ -128,6 +129,6 @@ def step_with_events(k, h, states, x, u, u_end, fade_full, table, pieces, p, ext
         if count > MOST_IN_A_STEP:
             return PILED_UP
         place = 2 if located else 0  # where the inputs and signals of this instant are
-        if not act(which, located, t + done, states, x, inputs[place], signals[place], p, extremes, values, sides,
-                   crossing, slopes, event_log, event_count):
+        if not act(plant, which, located, t + done, states, x, inputs[place], signals[place], p, extremes, values,
+                   sides, crossing, slopes, event_log, event_count):
             return TOO_MANY

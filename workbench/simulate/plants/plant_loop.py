@@ -1,7 +1,7 @@
-"""The sampled closed loop of any plant; joined with the generated functions of a plant and a law, and compiled.
+"""The sampled closed loop of any plant, compiled once for all: plant and law are called by their addresses.
 
-Generated: plant_step, plant_rates, plant_outputs, plant_margin, extreme_values, law_step, law_margin, and
-step_with_events where the plant has events (`event_loop.py`). Arrays:
+A call costs a few nanoseconds a step, a loop some seconds to compile. plant: `answer` of `plant_call.py`, whose
+questions are joined with the loop; law: `answer` of `law_call.py`; step_with_events: of `event_loop.py`. Arrays:
 x the states and what is integrated with them; u inputs as they act; s signals, four values each (value and three
 rates), disturbances first, then references; p parameters.
 """
@@ -15,8 +15,7 @@ from workbench.simulate.plants import event_loop
 
 SHARES = (event_loop,)
 # What Python calls; all else is called by compiled functions alone.
-ENTRIES = ("signal_values", "limited", "plant_rates", "plant_outputs", "plant_margin", "law_margin", "law_step",
-           "advance", "add_extremes", "record", "closed_loop")
+ENTRIES = ("signal_values", "limited", "asked", "law_answer", "advance", "add_extremes", "record", "closed_loop")
 MAKES_NO_ARRAY = True
 RUNNING, DIVERGED, OUTSIDE, NO_COMMAND, LAW_OUTSIDE = 0, 1, 2, 3, 4
 
@@ -72,9 +71,26 @@ def limited(command, lower, upper, out):
 # --- kernel ---
 
 
-def advance(first, count, h, states, x, wanted, u, u_middle, u_end, delays, ring, fade_half, fade_full, table, pieces,
-            s, s_middle, s_end, p, extremes, values, sides, crossing, slopes, event_log, event_count, moved, inputs,
-            signals, log, log_every, told):
+def asked(plant, what, t, x, u, s, p, out):
+    """What else than a step a plant is asked at an instant, and its answer."""
+    return plant(what, t, 0.0, x.ctypes, u.ctypes, s.ctypes, u.ctypes, s.ctypes, u.ctypes, s.ctypes, p.ctypes,
+                 out.ctypes)
+
+
+def moved_by(plant, t, h, x, u, s, u_middle, s_middle, u_end, s_end, p):
+    """Move the states by a step; the margin of the plant's domain at its end."""
+    return plant(STEP, t, h, x.ctypes, u.ctypes, s.ctypes, u_middle.ctypes, s_middle.ctypes, u_end.ctypes, s_end.ctypes,
+                 p.ctypes, x.ctypes)
+
+
+def law_answer(law, t, period, measured, s, states, parameters, command):
+    """The margin of the law's domain, and in it its command, with its states moved."""
+    return law(t, period, measured.ctypes, s.ctypes, states.ctypes, parameters.ctypes, command.ctypes)
+
+
+def advance(plant, first, count, h, states, x, wanted, u, u_middle, u_end, delays, ring, fade_half, fade_full, table,
+            pieces, s, s_middle, s_end, p, extremes, values, sides, crossing, slopes, event_log, event_count, moved,
+            inputs, signals, log, log_every, told):
     """Move the plant by `count` steps with the command `wanted` held; (status, steps done).
 
     ring: the last commands, a row a step, for delayed inputs; fade: what is left of an input's distance to its
@@ -112,27 +128,28 @@ def advance(first, count, h, states, x, wanted, u, u_middle, u_end, delays, ring
             until_log = log_every
         until_log -= 1
         if extremes.shape[0] > 0:
-            add_extremes(t, x, u, s, p, extremes, values)
+            add_extremes(plant, t, x, u, s, p, extremes, values)
         if sides.shape[0] > 0:
-            status = step_with_events(k, h, states, x, u, u_end, fade_full, table, pieces, p, extremes, values, sides,
-                                      crossing, slopes, event_log, event_count, moved, inputs, signals)
+            status = step_with_events(plant, k, h, states, x, u, u_end, fade_full, table, pieces, p, extremes, values,
+                                      sides, crossing, slopes, event_log, event_count, moved, inputs, signals)
             if status != 0:
                 return status, k + 1 - first
+            margin = asked(plant, MARGIN, t + h, x, u_end, s, p, x)
         else:
-            plant_step(t, h, x, u, s, u_middle, s_middle, u_end, s_end, p)
+            margin = moved_by(plant, t, h, x, u, s, u_middle, s_middle, u_end, s_end, p)
         for i in range(0 if held else u.shape[0]):
             u[i] = u_end[i]
         for i in range(states):
             if not abs(x[i]) < 1e12:
                 return 1, k + 1 - first
-        if not plant_margin(t + h, x, u, s, p) > 0.0:
+        if not margin > 0.0:
             return 2, k + 1 - first
     return 0, count
 
 
-def add_extremes(t, x, u, s, p, extremes, values):
+def add_extremes(plant, t, x, u, s, p, extremes, values):
     """Keep the largest value so far of every expression that is taken at each step."""
-    extreme_values(t, x, u, s, p, values)
+    asked(plant, EXTREMES, t, x, u, s, p, values)
     for i in range(extremes.shape[0]):
         # What is no number at one step stays none: an extreme of the rest would be another metric's.
         if not math.isnan(extremes[i]):
@@ -159,14 +176,14 @@ def record(t, states, x, u, wanted, s, law_states, log, row):
         log[row, at + i] = law_states[i]
 
 
-def closed_loop(samples, every, h, states, x, wanted, u, u_middle, u_end, delays, ring, fade_half, fade_full, lower,
-                upper, table, pieces, s, s_middle, s_end, p, extremes, values, sides, crossing, slopes, event_log,
-                event_count, moved, inputs, signals, log, log_every, told, measured, noise, late, seen, law_states,
-                law_parameters, command):
+def closed_loop(plant, law, samples, every, h, states, x, wanted, u, u_middle, u_end, delays, ring, fade_half,
+                fade_full, lower, upper, table, pieces, s, s_middle, s_end, p, extremes, values, sides, crossing,
+                slopes, event_log, event_count, moved, inputs, signals, log, log_every, told, measured, noise, late,
+                seen, law_states, law_parameters, command):
     """Samples of `every` plant steps each: measure, command, hold; (status, plant steps done)."""
     period, kept = every * h, seen.shape[0]
     for sample in range(samples):
-        plant_outputs(sample * period, x, p, measured)
+        asked(plant, OUTPUTS, sample * period, x, x, x, p, measured)
         row = sample % kept
         for i in range(measured.shape[0]):
             seen[row, i] = measured[i] + noise[sample, i]
@@ -175,16 +192,15 @@ def closed_loop(samples, every, h, states, x, wanted, u, u_middle, u_end, delays
             measured[i] = seen[back if back >= 0 else back + kept, i]
         t = sample * period
         signal_values(t, t, table, pieces, s)
-        if not law_margin(t, period, measured, s, law_states, law_parameters) > 0.0:
-            return 4, sample * every
         for i in range(told.shape[0]):
             told[i] = law_states[i]
-        law_step(t, period, measured, s, law_states, law_parameters, command)
+        if not law_answer(law, t, period, measured, s, law_states, law_parameters, command) > 0.0:
+            return 4, sample * every
         if not limited(command, lower, upper, wanted):
             return 3, sample * every
-        status, done = advance(sample * every, every, h, states, x, wanted, u, u_middle, u_end, delays, ring, fade_half,
-                               fade_full, table, pieces, s, s_middle, s_end, p, extremes, values, sides, crossing,
-                               slopes, event_log, event_count, moved, inputs, signals, log, log_every, told)
+        status, done = advance(plant, sample * every, every, h, states, x, wanted, u, u_middle, u_end, delays, ring,
+                               fade_half, fade_full, table, pieces, s, s_middle, s_end, p, extremes, values, sides,
+                               crossing, slopes, event_log, event_count, moved, inputs, signals, log, log_every, told)
         if status != 0:
             return status, sample * every + done
     return 0, samples * every

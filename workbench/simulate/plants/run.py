@@ -188,10 +188,10 @@ class _Loop:
         a, command = self.arrays, np.zeros(len(self.arrays.u))
 
         def go(count: int) -> tuple[int, int]:
-            found: tuple[int, int] = self.found.module.closed_loop(
-                count, self.every, self.h, self.states, a.x, a.wanted, a.u, a.u_middle, a.u_end, a.delays, a.ring,
-                a.fade_half, a.fade_full, *self.limits, *a.for_signals(), a.log, a.log_every, a.told, self.measured,
-                self.noise, self.late, self.seen, states, values, command)
+            found: tuple[int, int] = self.found.loop.closed_loop(
+                self.found.plant, self.found.law, count, self.every, self.h, self.states, a.x, a.wanted, a.u,
+                a.u_middle, a.u_end, a.delays, a.ring, a.fade_half, a.fade_full, *self.limits, *a.for_signals(), a.log,
+                a.log_every, a.told, self.measured, self.noise, self.late, self.seen, states, values, command)
             return found
 
         go(0)  # so that loading the code is not timed
@@ -201,24 +201,25 @@ class _Loop:
 
     def sampled(self, samples: int, controller: SampledController) -> tuple[int, int, Array]:
         """Sample by sample: the controller is called, the plant is moved by compiled code or a solver."""
-        module, a, taken, kept = self.found.module, self.arrays, np.zeros(samples), len(self.seen)
+        loop, plant, a = self.found.loop, self.found.plant, self.arrays
+        taken, kept = np.zeros(samples), len(self.seen)
         for sample in range(samples):
             t, first = sample * self.every * self.h, sample * self.every
-            module.plant_outputs(t, a.x, a.p, self.measured)
+            loop.asked(plant, loop.OUTPUTS, t, a.x, a.x, a.x, a.p, self.measured)
             self.seen[sample % kept] = self.measured + self.noise[sample]
             told = np.array([self.seen[max(sample - late, 0) % kept, i] for i, late in enumerate(self.late)])
-            module.signal_values(t, t, a.table, a.pieces, a.s)
+            loop.signal_values(t, t, a.table, a.pieces, a.s)
             before = clock.perf_counter()
             wanted = self._asked(controller, t, told)
             taken[sample] = (clock.perf_counter() - before) * 1e6
             if isinstance(controller, _Interpreted) and controller.outside:
                 return LAW_OUTSIDE, first, taken[:sample + 1]
-            if not module.limited(wanted, *self.limits, a.wanted):
+            if not loop.limited(wanted, *self.limits, a.wanted):
                 return NO_COMMAND, first, taken[:sample + 1]
             if self.setting.integrator == "rk4":
-                status, done = module.advance(first, self.every, self.h, self.states, *a.for_advance())
+                status, done = loop.advance(plant, first, self.every, self.h, self.states, *a.for_advance())
             else:
-                status, done = advance_by_solver(module, self.setting, first, self.every, a)
+                status, done = advance_by_solver(self.found, self.setting, first, self.every, a)
             if status != RUNNING:
                 return status, first + done, taken[:sample + 1]
         return RUNNING, samples * self.every, taken
@@ -245,22 +246,20 @@ class _Interpreted:
 
     def command(self, t: float, measured: Array) -> Any:
         """The law's command; its states move by one period."""
-        given = t, self._period, measured, self._arrays.s, self._states, self._values
         out = np.zeros(len(self._arrays.u))
-        self.outside = not self._found.module.law_margin(*given) > 0
-        if not self.outside:
-            self._arrays.told[:] = self._states
-            self._found.module.law_step(*given, out)
+        self._arrays.told[:] = self._states
+        self.outside = not self._found.loop.law_answer(
+            self._found.law, t, self._period, measured, self._arrays.s, self._states, self._values, out) > 0
         return out
 
 
 def _told(setting: Setting, entrant: Entrant, found: Compiled, a: Arrays, status: int, done: int,
           taken: Array) -> PlantRun:
     t, n = done * setting.step_s, len(setting.plant.states)
-    found.module.signal_values(t, t, a.table, a.pieces, a.s)
+    found.loop.signal_values(t, t, a.table, a.pieces, a.s)
     rows = -(-done // a.log_every)
     if status == RUNNING and done % a.log_every == 0:
-        found.module.record(t, n, a.x, a.u, a.wanted, a.s, a.told, a.log, rows)
+        found.loop.record(t, n, a.x, a.u, a.wanted, a.s, a.told, a.log, rows)
         rows += 1
     plant, law = setting.plant, entrant.law
     columns = ("t_s", *map(str, plant.states), *map(str, plant.inputs), *(f"{u}_wanted" for u in plant.inputs),
