@@ -11,6 +11,7 @@ from workbench.proof.fate import is_headline
 from workbench.proof.places import place_of
 from workbench.proof.premises import holds_in_other_reading
 from workbench.proof.verdict import FAILED, Decision, FateWord, Origin, Verdict
+from workbench.report.certificate_latex import upright
 from workbench.report.counterexample import Counterexample
 from workbench.report.counterexample_cache import cached_counterexample
 from workbench.report.number_style import alike
@@ -118,7 +119,7 @@ def _equations(names: Iterable[str]) -> tuple[str, ...]:
 def _correction(d: Decision, mended: Decision | None) -> str:
     """The nearest true statement; numbers at which a condition holds are written as in its counterexample."""
     if d.correction:
-        return alike(d.correction) if d.verdict == "violated" else d.correction
+        return alike(upright(d.correction)) if d.verdict == "violated" else d.correction
     return mended.claim.printed if mended else ""
 
 
