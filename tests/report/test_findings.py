@@ -9,7 +9,7 @@ from small_decisions import certificate, paper
 from workbench.proof.fate import judged
 from workbench.proof.places import place_of, places_of, section_of_place
 from workbench.proof.verdict import Decision, Stated
-from workbench.report.claims import claim_views
+from workbench.report.claims import certificate_beside, claim_views
 from workbench.report.counterexample import counterexample_of
 from workbench.report.errata.content import errata
 from workbench.report.errata.markdown import markdown
@@ -99,9 +99,14 @@ def test_the_document_has_every_finding_with_its_sentences():
 
 
 def test_a_finding_on_a_page_says_why():
-    document = findings_document(findings(paper())) | {"claims": [{"id": "doe2026:4", "note": "z_1 may be small."}]}
-    notes = {view.place: view.note for group in finding_groups(document) for view in group.findings}
-    assert "<math" in notes.pop("Equation (4)") and set(notes.values()) == {""}
+    claim = {"id": "doe2026:4", "note": "z_1 may be small.", "certificate": "/far/away/certificates/doe2026/4.json"}
+    document = findings_document(findings(paper())) | {"claims": [claim]}
+    views = {view.place: view for group in finding_groups(document) for view in group.findings}
+    assert "<math" in views["Equation (4)"].note and views["Equation (7)"].note == ""
+    # Beside the page, whoever it was sent to.
+    assert views["Equation (4)"].command.startswith("python checker.py certificates/doe2026/4.json --claim-digest ")
+    assert {certificate_beside(row) for row in (claim, {}, {"certificate": None})} == {
+        "certificates/doe2026/4.json", ""}
 
 
 def test_both_sides_are_evaluated_exactly_and_shown_apart_when_rounded():

@@ -99,12 +99,7 @@ def name_latex(name: str) -> str:
     """LaTeX of a symbol's name; words among its indices stand upright."""
     if name.startswith(LOGARITHM):
         return rf"\ln {name_latex(name[len(LOGARITHM):])}"
-    return upright(latex_name(name))
-
-
-def upright(latex: str) -> str:
-    """A formula with the words among its indices upright: T_{min} is no product."""
-    return _WORD.sub(r"\\mathrm{\g<0>}", latex)
+    return _WORD.sub(r"\\mathrm{\g<0>}", latex_name(name))
 
 
 def letter_and_value(name: str, value: str) -> tuple[str, str]:

@@ -11,10 +11,9 @@ from workbench.proof.fate import is_headline
 from workbench.proof.places import place_of
 from workbench.proof.premises import holds_in_other_reading
 from workbench.proof.verdict import FAILED, Decision, FateWord, Origin, Verdict
-from workbench.report.certificate_latex import upright
 from workbench.report.counterexample import Counterexample
 from workbench.report.counterexample_cache import cached_counterexample
-from workbench.report.number_style import alike
+from workbench.report.number_style import alike, upright
 
 # What a finding is, the gravest first: a headline statement that falls, that stands only with corrections, that stays
 # open; a line that fails and that others rest on; one that does not follow; one that fails and that nothing rests on;

@@ -8,7 +8,8 @@ from typing import Any
 
 from markupsafe import Markup
 
-from workbench.report.claims import VERDICTS, anchor, in_words
+from workbench.files.folders import CERTIFICATES
+from workbench.report.claims import VERDICTS, anchor, certificate_beside, in_words
 from workbench.report.finding_sentences import IMPLIED, PRINTED
 from workbench.report.formulas import formula, in_html
 
@@ -50,20 +51,22 @@ def finding_groups(document: Mapping[str, Any]) -> list[FindingGroup]:
     for entry in document.get("findings") or ():
         if isinstance(entry, Mapping):
             groups.setdefault(str(entry.get("gravity")), []).append(entry)
-    notes = {str(claim.get("id")): str(claim.get("note") or "") for claim in document.get("claims") or ()
-             if isinstance(claim, Mapping)}
+    claims = {str(claim.get("id")): claim for claim in document.get("claims") or () if isinstance(claim, Mapping)}
     return [FindingGroup(str(entries[0].get("heading", gravity)), gravity in FOLDED,
-                         tuple(_view(entry, notes) for entry in entries)) for gravity, entries in groups.items()]
+                         tuple(_view(entry, claims) for entry in entries)) for gravity, entries in groups.items()]
 
 
-def _view(entry: Mapping[str, Any], notes: Mapping[str, str]) -> FindingView:
+def _view(entry: Mapping[str, Any], claims: Mapping[str, Mapping[str, Any]]) -> FindingView:
     verdict, equation = str(entry.get("verdict")), str(entry.get("equation"))
     sentences = [str(s) for s in entry.get("sentences") or ("",)]
     shown = [s for s in sentences[1:] if not s.startswith(TOLD_APART)]
     digest, name = entry.get("digest"), f"{entry.get('paper')}:{equation}"
+    claim = claims.get(name, {})
+    certificate = certificate_beside(claim) or f"{CERTIFICATES}/{entry.get('paper')}/{equation}.json"
     return FindingView(
         str(entry.get("place", equation)), anchor(name), verdict,
-        VERDICTS.get(verdict, "?"), in_html(sentences[0]), tuple(map(in_html, shown)), in_words(notes.get(name, "")),
+        VERDICTS.get(verdict, "?"), in_html(sentences[0]), tuple(map(in_html, shown)),
+        in_words(str(claim.get("note") or "")),
         IMPLIED if entry.get("origin") == "implied" else PRINTED,
         formula(str(entry.get("printed") or "")), formula(str(entry.get("should_read") or "")),
-        f"python checker.py certificates/{equation}.json --claim-digest {digest}" if digest else "")
+        f"python checker.py {certificate} --claim-digest {digest}" if digest else "")
