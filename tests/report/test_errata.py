@@ -51,6 +51,22 @@ def test_what_a_counterexample_is_given_can_be_followed():
     assert "**Given:**\n\n$$\nz_{2} \\le k\\quad\\text{where}\\ z_{2} = -2\n$$" in text
 
 
+def test_a_letter_that_is_stated_by_its_logarithm_is_told_itself():
+    """An indexed gain that is positive is typed e^log_Gamma; of its value 1 nobody shall read that it is 0."""
+    found = counterexample_of({
+        "verdict": "refuted", "point": {"log_Gamma": "0", "log_m": "2", "x": "0", "y": "0", "z": "0"},
+        "goal": {"assume": ["Sum(0*x) == 0", "x >= y"], "flow": {"y": "z*exp(log_m)"},
+                 "show": ["D(y)*exp(log_Gamma) > x"]}})
+    assert r"\Gamma = 1" in found.values and r"\ln m = 2" in found.values
+    assert dict(found.everything)[r"\Gamma"] == "1" and found.given == (r"x \ge y",)
+
+
+def test_numbers_with_which_a_condition_holds_are_written_as_those_that_break_it():
+    held = r"T_{min} = 1900,\ s_{2} = -\frac{7}{10000}"
+    rows = [replace(d, correction=held) if d.verdict == "violated" else d for d in paper()]
+    assert r"T_{\mathrm{min}} = 1900,\ s_{2} = -0.0007" in markdown(errata(rows, CITATION))
+
+
 def test_a_motion_is_written_out_with_the_loop_that_it_obeys_once():
     """Without the loop and its constants nobody can put a motion in."""
     loop = {"always": ["z_dot == k*z - k", "c_dot == m", "z >= 0"], "assume": ["k > 0", "m <= k"], "eventually": "t",

@@ -7,9 +7,9 @@ import pytest
 from small_decisions import certificate, paper
 
 from workbench.proof.fate import judged
-from workbench.proof.places import place_of, places_of
+from workbench.proof.places import place_of, places_of, section_of_place
 from workbench.proof.verdict import Decision, Stated
-from workbench.report.claims import claim_views
+from workbench.report.claims import certificate_beside, claim_views
 from workbench.report.counterexample import counterexample_of
 from workbench.report.errata.content import errata
 from workbench.report.errata.markdown import markdown
@@ -98,6 +98,17 @@ def test_the_document_has_every_finding_with_its_sentences():
     assert all(row["sentences"] and row["digest"] and row["printed"] for row in rows)
 
 
+def test_a_finding_on_a_page_says_why():
+    claim = {"id": "doe2026:4", "note": "z_1 may be small.", "certificate": "/far/away/certificates/doe2026/4.json"}
+    document = findings_document(findings(paper())) | {"claims": [claim]}
+    views = {view.place: view for group in finding_groups(document) for view in group.findings}
+    assert "<math" in views["Equation (4)"].note and views["Equation (7)"].note == ""
+    # Beside the page, whoever it was sent to.
+    assert views["Equation (4)"].command.startswith("python checker.py certificates/doe2026/4.json --claim-digest ")
+    assert {certificate_beside(row) for row in (claim, {}, {"certificate": None})} == {
+        "certificates/doe2026/4.json", ""}
+
+
 def test_both_sides_are_evaluated_exactly_and_shown_apart_when_rounded():
     point = counterexample_of(certificate("a:1", "refuted", "exp(x) == 1", {"x": "1/1000000000"}))
     assert point.right.removeprefix(r"\approx ") == "1" and Fraction(point.left.removeprefix(r"\approx ")) > 1
@@ -159,11 +170,17 @@ def test_places_are_named_as_a_reader_names_them(equation, place):
 
 def test_places_of_one_kind_stand_together():
     assert places_of(["theorem2", "41", "theorem3", "41.a", "44"]) == ["Theorems 2 and 3", "equations (41) and (44)"]
+    assert places_of(["theorem1.10", "theorem1.9", "41", "7"]) == ["Theorems 1.9 and 1.10", "equations (7) and (41)"]
     titles = {"41.a": "the rates", "gamma.b": "p is positive", "45": "V decreases"}
     assert places_of(["41.a", "45", "gamma.b"], titles) == [
         "equations (41) “the rates” and (45)", "the statement “p is positive”"]
     # Where the whole line fails, so does its part, which is not told again.
     assert places_of(["41", "41.a"], titles) == ["equation (41)"]
+
+
+def test_a_line_whose_name_says_its_section_is_not_told_another():
+    assert section_of_place("41.a", "5.2") == "section 5.2" and section_of_place("41", "") == ""
+    assert {section_of_place(name, "3") for name in ("section5.converge", "VIII.a", "conclusion", "intro.b")} == {""}
 
 
 @pytest.mark.parametrize(("equation", "title", "place"), [

@@ -10,6 +10,7 @@ from rich.text import Text
 
 from workbench.cli.console import out_console
 from workbench.cli.terminal import COLOURS, count_words, verdict_colour
+from workbench.proof.places import section_of_place
 from workbench.proof.verdict import VERDICTS, Decision, FateWord, verdict_words
 from workbench.report.finding import Finding, Gravity, findings
 from workbench.report.finding_sentences import (
@@ -65,7 +66,8 @@ def _print_paper(paper: str, decisions: Sequence[Decision], found: Sequence[Find
 
 
 def _finding(found: Finding, verbose: bool) -> Text:
-    place = f"(section {found.section}) " if found.section else ""
+    section = section_of_place(found.equation, found.section)
+    place = f"({section}) " if section else ""
     parts = [verdict_sentence(found)]
     if verbose or found.fate is None:
         parts.append(printed_sentence(found))

@@ -193,9 +193,13 @@ def count_words(verdict: str, count: int, under: int) -> str:
     return f"{count} {verdict}{only}"
 
 
+ERRORS = "Errors are measured minus desired, [least, largest] of"
+
+
 def metrics_table(rows: Sequence[dict[str, Any]], title: str) -> Table:
     """The controllers of a comparison beside each other."""
-    table = Table(title=title, title_justify="left", box=SIMPLE_HEAD, pad_edge=False)
+    table = Table(title=title, title_justify="left", box=SIMPLE_HEAD, pad_edge=False, caption_justify="left",
+                  caption=f"{ERRORS} the run; step: the time that a command takes to compute.")
     _columns(table, "period\n(ms)", "position\nerror (mm)", "speed error\n(mm/s)", "stop\n(mm)", "energy\n(MJ)",
              "step\n(µs)")
     for r in rows:
@@ -209,7 +213,8 @@ def metrics_table(rows: Sequence[dict[str, Any]], title: str) -> Table:
 
 def summary_table(summaries: Sequence[Any], runs: int) -> Table:
     """The controllers of a Monte Carlo beside each other."""
-    table = Table(title=f"Monte Carlo, {runs} runs", title_justify="left", box=SIMPLE_HEAD, pad_edge=False)
+    table = Table(title=f"Monte Carlo, {runs} runs", title_justify="left", box=SIMPLE_HEAD, pad_edge=False,
+                  caption_justify="left", caption=f"{ERRORS} all runs.")
     _columns(table, "position\nerror (mm)", "speed error\n(mm/s)", "mean |stop|\n(mm)", "failed\nruns")
     for s in summaries:
         table.add_row(s.controller, _range(s.position_error_min, s.position_error_max),

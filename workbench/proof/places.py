@@ -18,6 +18,8 @@ _TOLD = f"The {STATEMENT.lower()} "
 _PLACED = re.compile(rf"(?:{'|'.join(_WORDS.values())}) \d+[^:]*: ")
 _NAMED = re.compile(r"([A-Za-z]+?)(\d+)((?:\.\w+)*)")
 _NUMBERED = re.compile(r"(\d+)((?:\.\w+)*)")
+_NUMBER = re.compile(r"\(?(\d+(?:\.\d+)*)\b")
+_TELLING = ("Section", "Abstract", "Introduction", "Conclusion")  # names of lines that say where they stand
 
 
 def place_of(equation: str, title: str | None = None) -> str:
@@ -74,9 +76,25 @@ def places_of(equations: Sequence[str], titles: Mapping[str, str] | None = None)
         if number not in groups.setdefault(kind, []):
             groups[kind].append(number)
     found = []
-    for kind, numbers in groups.items():
+    for kind, named in groups.items():
+        numbers = _in_order(named)
         plural = kind.strip() + ("s" if len(numbers) > 1 else "")
         if kind in ("Equation", _TOLD):
             plural = plural[0].lower() + plural[1:]
         found.append(f"{plural} {listed(numbers)}".strip())
     return found
+
+
+def _in_order(numbers: list[str]) -> list[str]:
+    """Numbered lines of one kind by their numbers, Theorems 1.1, 1.2 and 1.3; others as they come."""
+    found = [_NUMBER.match(number) for number in numbers]
+    keys = [[int(part) for part in one[1].split(".")] for one in found if one]
+    if len(keys) < len(numbers):
+        return numbers
+    return [number for _, number in sorted(zip(keys, numbers, strict=True), key=lambda pair: pair[0])]
+
+
+def section_of_place(equation: str, section: str) -> str:
+    """`section 5.2`, where a line stands; empty where that is not known, or where its own name says it: Section VIII,
+    Conclusion."""
+    return f"section {section}" if section and not place_of(equation, "").startswith(_TELLING) else ""

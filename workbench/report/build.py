@@ -14,6 +14,7 @@ from workbench.files.folders import CERTIFICATES, is_paper
 from workbench.files.json_output import write_json
 from workbench.files.outputs import check_outputs
 from workbench.files.own_files import read_manifest
+from workbench.files.regular import contents
 from workbench.files.writing import make_folder, require_inside, write_text
 from workbench.gains.result import GainReport
 from workbench.paper.gain_effects import NONE_YET, effects, gains_of
@@ -23,6 +24,7 @@ from workbench.paper.recorded_front import searched_or_recorded, shown_fronts
 from workbench.paper.results import StudyResult
 from workbench.paper.study import Study
 from workbench.paper.tuning_record import Pairs
+from workbench.proof import checker
 from workbench.proof.document import Places, claims_document, write_certificates
 from workbench.proof.prove import prove
 from workbench.proof.selection import Target, targets
@@ -38,9 +40,9 @@ from workbench.simulate.compare import Comparison, checked_variants, compare
 from workbench.simulate.sweep import summarise, sweep
 from workbench.simulate.sweep_rows import SweepSummary
 
-MONTE_CARLO = "monte_carlo"
+MONTE_CARLO, CHECKER = "monte_carlo", "checker.py"
 # What a report writes in its folder, certificates and curves apart, which their manifests name.
-FILES = ("report.html", "claims.json", "compare.json", "gains.json", f"{MONTE_CARLO}/sweep.csv",
+FILES = ("report.html", "claims.json", CHECKER, "compare.json", "gains.json", f"{MONTE_CARLO}/sweep.csv",
          f"{MONTE_CARLO}/sweep.journal.jsonl", "matches.journal.jsonl", "pareto.journal.jsonl")
 # So many drawn trains a report takes at the most, unless it is to be full.
 QUICK_DRAWS = 10
@@ -114,7 +116,7 @@ class StudyReport:
 def build_report(asked: Asked, runs: int | None = None, seed: int | None = None,
                  on_progress: Progress = lambda what, done, total: None) -> Report:
     """Decide the claims, run and compare the controllers, and write report.html, claims.json, compare.json,
-    the certificates and the Monte Carlo table; with `resume` the Monte Carlo kept there goes on."""
+    the certificates, their checker and the Monte Carlo table; with `resume` the Monte Carlo kept there goes on."""
     loaded, scenario, out, workers = asked.loaded, asked.loaded.scenario, asked.out, asked.workers
     timings: dict[str, float] = {}
     claims = _decide(asked, on_progress, timings)
@@ -186,6 +188,7 @@ def _decide(asked: Asked, on_progress: Progress, timings: dict[str, float]) -> d
         write_certificates(decisions, places)
         claims = {**claims_document(decisions, places), **findings_document(findings(decisions))}
         write_json(asked.out / "claims.json", claims)
+        write_text(asked.out / CHECKER, contents(Path(checker.__file__)).decode(), ANOTHER_OUT)
     return claims
 
 

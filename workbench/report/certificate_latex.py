@@ -102,6 +102,13 @@ def name_latex(name: str) -> str:
     return _WORD.sub(r"\\mathrm{\g<0>}", latex_name(name))
 
 
+def letter_and_value(name: str, value: str) -> tuple[str, str]:
+    """A letter and its value as LaTeX; a letter that is stated by its logarithm is told itself where that is zero."""
+    if name.startswith(LOGARITHM) and value == "0":
+        return name_latex(name.removeprefix(LOGARITHM)), "1"
+    return name_latex(name), value
+
+
 def assignments_latex(values: Mapping[str, str]) -> list[str]:
     """Each `name = value` as LaTeX, all numbers alike; values are fractions, roots told by a number near them, or
     functions of time in the certificate language.
@@ -109,8 +116,8 @@ def assignments_latex(values: Mapping[str, str]) -> list[str]:
     Raises CertificateError for what is none of them.
     """
     style = style_of(number for value in values.values() for number in numbers_of(value))
-    typed = {name: _value_as_latex(value, style) for name, value in values.items()}
-    return [f"{name_latex(name)} = {text}".replace(r"= \approx", r"\approx") for name, text in typed.items()]
+    typed = [letter_and_value(name, _value_as_latex(value, style)) for name, value in values.items()]
+    return [f"{letter} = {text}".replace(r"= \approx", r"\approx") for letter, text in typed]
 
 
 def numbers_of(value: str) -> list[Fraction]:

@@ -4,15 +4,18 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from pathlib import PurePath
 from typing import Any
 from urllib.parse import quote
 
 from markupsafe import Markup, escape
 
+from workbench.files.folders import CERTIFICATES
 from workbench.proof.checker import CertificateError
 from workbench.proof.places import STATEMENT, place_of, subject_of
 from workbench.report.certificate_latex import assignments_latex
 from workbench.report.formulas import formula, in_html
+from workbench.report.number_style import alike, upright
 from workbench.report.worded import worded
 
 # The order in which a reader wants to see them, with a sign for who cannot tell the colours.
@@ -22,7 +25,7 @@ TRUST = {"exact": "certificate re-checked exactly", "oracle": "a solver's word",
          "kernel": "certificate re-checked exactly, and accepted by Coq's kernel"}
 CORRECTIONS = {"refuted": "True instead", "violated": "Repaired", "gap": "What does follow"}
 FACTS = (("Stated", "stated"), ("Computed", "computed"), ("Read as", "reading"), ("Other reading", "glyph_claim"),
-         ("Mends", "mends"), ("Scope", "scope"), ("Certificate", "certificate"))
+         ("Mends", "mends"), ("Scope", "scope"))
 ORIGINS = {"printed": "a line of the paper", "implied": "a step the paper takes without words",
            "ours": "a question of ours"}
 
@@ -111,7 +114,10 @@ def _view(entry: Mapping[str, Any], known: set[str]) -> ClaimView:
     verdict = _text(entry.get("verdict")) or "undecided"
     recorded = _text(entry.get("recorded"))
     seconds = entry.get("seconds")
-    shown = [(label, in_words(_text(entry.get(key)), label != "Certificate")) for label, key in FACTS]
+    shown = [(label, in_words(_text(entry.get(key)))) for label, key in FACTS]
+    correction, beside = _text(entry.get("correction")), certificate_beside(entry)
+    if beside:
+        shown.append(("Certificate", Markup('<a href="{}"><code>{}</code></a>').format(quote(beside), beside)))
     origin, severity = _text(entry.get("origin")), _text(entry.get("severity"))
     if origin:
         shown.insert(0, ("Stands as", escape(", ".join(filter(None, (ORIGINS.get(origin, origin), severity))))))
@@ -128,8 +134,8 @@ def _view(entry: Mapping[str, Any], known: set[str]) -> ClaimView:
         equation=_text(entry.get("equation")), section=_text(entry.get("section")), origin=origin, severity=severity,
         kind=_text(entry.get("kind")),
         statement=formula(_text(entry.get("statement"))),
-        decided=formula(_text(entry.get("goal"))) if entry.get("match") != "parsed" else Markup(""),
-        correction=formula(_text(entry.get("correction"))),
+        decided=formula(upright(_text(entry.get("goal")))) if entry.get("match") != "parsed" else Markup(""),
+        correction=formula(alike(upright(correction)) if verdict == "violated" else correction),
         correction_label=CORRECTIONS.get(verdict, "Correction"),
         verdict=verdict, sign=VERDICTS.get(verdict, "?"), recorded=recorded if recorded != verdict else "",
         method=_text(entry.get("method")), trust=TRUST.get(trust, trust), note=in_words(_text(entry.get("note"))),
@@ -141,6 +147,13 @@ def _view(entry: Mapping[str, Any], known: set[str]) -> ClaimView:
         fate_why=in_words(_text(entry.get("fate_why"))), place=place.replace(STATEMENT, ""),
         told=worded(place_of(_text(entry.get("equation")), _text(entry.get("title")))),
     )
+
+
+def certificate_beside(entry: Mapping[str, Any]) -> str:
+    """Where a claim's certificate lies as seen from the page, `certificates/PAPER/44.json`; empty where it has none."""
+    parts = PurePath(_text(entry.get("certificate"))).parts
+    start = max((at for at, part in enumerate(parts) if part == CERTIFICATES), default=len(parts) - 1)
+    return "/".join(parts[max(start, 0):])
 
 
 def anchor(claim_id: str) -> str:

@@ -7,6 +7,7 @@ import re
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
+from itertools import starmap
 from typing import Any
 
 from workbench.proof.checker import (
@@ -30,6 +31,7 @@ from workbench.proof.checker import (
 from workbench.report.certificate_latex import (
     SIGNS,
     expression_latex,
+    letter_and_value,
     name_latex,
     numbers_of,
     numbers_put_in,
@@ -102,7 +104,7 @@ def counterexample_of(certificate: Mapping[str, Any]) -> Counterexample | None:
     values, others = _grouped({name: value for name, value in shown.items() if name in deciding})
     in_sums = tuple(f"{_indexed(name, i)} = {value}" for i, row in enumerate(rows, 1) for name, value in row.items()
                     if name in deciding)
-    every = tuple((name_latex(name), value) for name, value in shown.items()) + tuple(
+    every = tuple(starmap(letter_and_value, shown.items())) + tuple(
         (_indexed(name, i), value) for i, row in enumerate(rows, 1) for name, value in row.items())
     given, along, more = _conditions(goal, failing)
     return Counterexample(relation_latex(failing, style), SIGNS[operator], values + in_sums, others,
@@ -126,8 +128,9 @@ def _beyond_signs(relations: Iterable[str]) -> list[str]:
 
 
 def _telling(given: Iterable[str], style: Style) -> tuple[str, ...]:
-    """What is assumed as LaTeX, without what has no letter and what is the value of one."""
-    return tuple(relation_latex(text, style) for text in given if _names(text) and not _PUT_IN.fullmatch(text))
+    """What is assumed as LaTeX, without what has no letter, what is the value of one, and 0 = 0."""
+    told = (relation_latex(text, style) for text in given if _names(text) and not _PUT_IN.fullmatch(text))
+    return tuple(text for text in told if text != "0 = 0")
 
 
 def _derived(relation: str) -> list[str]:
@@ -270,8 +273,8 @@ def _powers(poly: Poly, time: str) -> dict[int, Fraction] | None:
 def _grouped(values: Mapping[str, str]) -> tuple[tuple[str, ...], str | None]:
     """Letters of one value together as `a = b = 1`, the telling ones first; a value that many have stands alone."""
     groups: dict[str, list[str]] = {}
-    for name, value in values.items():
-        groups.setdefault(value, []).append(name_latex(name))
+    for letter, value in starmap(letter_and_value, values.items()):
+        groups.setdefault(value, []).append(letter)
     largest = max(groups, key=lambda value: len(groups[value]), default=None)
     others = largest if largest is not None and len(groups[largest]) > MANY else None
     plain = sorted(groups, key=lambda value: (value in ("0", "1"), len(groups[value])))

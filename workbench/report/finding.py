@@ -13,7 +13,7 @@ from workbench.proof.premises import holds_in_other_reading
 from workbench.proof.verdict import FAILED, Decision, FateWord, Origin, Verdict
 from workbench.report.counterexample import Counterexample
 from workbench.report.counterexample_cache import cached_counterexample
-from workbench.report.number_style import alike
+from workbench.report.number_style import alike, upright
 
 # What a finding is, the gravest first: a headline statement that falls, that stands only with corrections, that stays
 # open; a line that fails and that others rest on; one that does not follow; one that fails and that nothing rests on;
@@ -118,7 +118,7 @@ def _equations(names: Iterable[str]) -> tuple[str, ...]:
 def _correction(d: Decision, mended: Decision | None) -> str:
     """The nearest true statement; numbers at which a condition holds are written as in its counterexample."""
     if d.correction:
-        return alike(d.correction) if d.verdict == "violated" else d.correction
+        return alike(upright(d.correction)) if d.verdict == "violated" else d.correction
     return mended.claim.printed if mended else ""
 
 

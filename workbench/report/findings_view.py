@@ -8,7 +8,8 @@ from typing import Any
 
 from markupsafe import Markup
 
-from workbench.report.claims import VERDICTS, anchor
+from workbench.files.folders import CERTIFICATES
+from workbench.report.claims import VERDICTS, anchor, certificate_beside, in_words
 from workbench.report.finding_sentences import IMPLIED, PRINTED
 from workbench.report.formulas import formula, in_html
 
@@ -19,8 +20,8 @@ FOLDED = ("cosmetic", "reading")  # gravities that are told of when asked for
 
 @dataclass(frozen=True)
 class FindingView:
-    """One finding: its first sentence, the others, its line and its correction as formulas, the command that re-checks
-    it; label: whether the line is printed."""
+    """One finding: its first sentence, the others, why it is so, its line and its correction as formulas, the command
+    that re-checks it; label: whether the line is printed."""
 
     place: str
     anchor: str
@@ -28,6 +29,7 @@ class FindingView:
     sign: str
     sentence: Markup
     others: tuple[Markup, ...]
+    note: Markup
     label: str
     printed: Markup
     should_read: Markup
@@ -49,18 +51,22 @@ def finding_groups(document: Mapping[str, Any]) -> list[FindingGroup]:
     for entry in document.get("findings") or ():
         if isinstance(entry, Mapping):
             groups.setdefault(str(entry.get("gravity")), []).append(entry)
-    return [FindingGroup(str(entries[0].get("heading", gravity)), gravity in FOLDED, tuple(map(_view, entries)))
-            for gravity, entries in groups.items()]
+    claims = {str(claim.get("id")): claim for claim in document.get("claims") or () if isinstance(claim, Mapping)}
+    return [FindingGroup(str(entries[0].get("heading", gravity)), gravity in FOLDED,
+                         tuple(_view(entry, claims) for entry in entries)) for gravity, entries in groups.items()]
 
 
-def _view(entry: Mapping[str, Any]) -> FindingView:
+def _view(entry: Mapping[str, Any], claims: Mapping[str, Mapping[str, Any]]) -> FindingView:
     verdict, equation = str(entry.get("verdict")), str(entry.get("equation"))
     sentences = [str(s) for s in entry.get("sentences") or ("",)]
     shown = [s for s in sentences[1:] if not s.startswith(TOLD_APART)]
-    digest = entry.get("digest")
+    digest, name = entry.get("digest"), f"{entry.get('paper')}:{equation}"
+    claim = claims.get(name, {})
+    certificate = certificate_beside(claim) or f"{CERTIFICATES}/{entry.get('paper')}/{equation}.json"
     return FindingView(
-        str(entry.get("place", equation)), anchor(f"{entry.get('paper')}:{equation}"), verdict,
+        str(entry.get("place", equation)), anchor(name), verdict,
         VERDICTS.get(verdict, "?"), in_html(sentences[0]), tuple(map(in_html, shown)),
+        in_words(str(claim.get("note") or "")),
         IMPLIED if entry.get("origin") == "implied" else PRINTED,
         formula(str(entry.get("printed") or "")), formula(str(entry.get("should_read") or "")),
-        f"python checker.py certificates/{equation}.json --claim-digest {digest}" if digest else "")
+        f"python checker.py {certificate} --claim-digest {digest}" if digest else "")

@@ -10,6 +10,8 @@ from typing import Literal
 # exact: decimals where they are short, else fractions; fraction: no decimals; decimal: no fractions.
 Style = Literal["exact", "fraction", "decimal"]
 LONGEST_FRACTION = 6  # digits above or below a fraction bar, beyond which a reader is given a decimal
+_INDICES = re.compile(r"_\{([^{}]*)\}")
+_WORD, _UPRIGHT = re.compile(r"(?<![\\A-Za-z])[A-Za-z]{2,}"), r"\\mathrm{\g<0>}"
 _FRACTION = re.compile(r"\\frac\{(\d+)\}\{(\d+)\}")
 
 
@@ -62,3 +64,8 @@ def _scientific(digits: str) -> str:
         return digits
     power = rf"10^{{{int(exponent)}}}"
     return power if mantissa == "1" else rf"{mantissa} \times {power}"
+
+
+def upright(latex: str) -> str:
+    """A formula with the words among its indices upright: T_{min} is no product."""
+    return _INDICES.sub(lambda found: f"_{{{_WORD.sub(_UPRIGHT, found[1])}}}", latex)

@@ -155,7 +155,7 @@ def unchanged_input_of_the_train() -> Goal:
 @paper.claim("A4", "Assumption 4: phi_c is positive", "inequality", r"\phi_c(k, i) > \bar{\varepsilon} > 0", "refuted",
              premises=("5",), rests_on=(), where={r"\phi_c(k, i)": phi_train},
              note="Held against the train: slower after the earlier inputs and pushed a little harder now, it is still slower, and phi_c is "
-                  "negative; it takes every value (A4.every), so no bound serves. Positive is dv(k+1)/du(k) = T_s/M (A1), which is what Remark 4 argues with.")
+                  "negative (-1 for T_s/M = a = Delta u(k,i) = 1 and Delta v(k,i) = -2); it takes every value (A4.every), so no bound serves. Positive is dv(k+1)/du(k) = T_s/M (A1), which is what Remark 4 argues with.")
 def positive_pseudo_derivative() -> Goal:
     """phi_c of the train for any 0 < a <= 1."""
     return Goal((greater(phi_train, epsilon_bar), greater(epsilon_bar, 0)), (differ(Delta_u_i, 0), *damped, at_most(epsilon_bar, b)))

@@ -138,7 +138,7 @@ def _odd_and_even() -> tuple[sp.Expr, tuple[Relation, ...]]:
              premises=("1", "13", "14"), rests_on=("theorem1", "6"), severity="result", closed_loop=True, match="words",
              reading="A motion of the train (1)-(3) under (13)-(15) that repeats itself every second trial has no error at the first sample, whatever its initial speeds.",
              note="With initial speeds that alternate between two values the error at the first sample alternates and never shrinks (its size for a fixed estimate: remark5.persists). The input "
-                  "changes by at most epsilon, so that (13) puts the first estimate back in every trial and the motion is exact. The proof does not see it because "
+                  "changes by at most epsilon, so that (13) puts the first estimate back in every trial and the motion is exact; with the signs of all speeds turned it is one too. The proof does not see it because "
                   "(5) takes all of Delta v(1,i) for an effect of Delta u(0,i).")
 def start_does_not_matter() -> Goal:
     """Both trials of the motion, by (1) and (14); the first estimate is above epsilon."""

@@ -206,7 +206,9 @@ def _shortened(line: str) -> str:
 
 
 def _fraction(value: Fraction) -> str:
-    return str(value.numerator) if value.denominator == 1 else rf"\frac{{{value.numerator}}}{{{value.denominator}}}"
+    if value.denominator == 1:
+        return str(value.numerator)
+    return rf"{'-' if value < 0 else ''}\frac{{{abs(value.numerator)}}}{{{value.denominator}}}"
 
 
 def decide_all(claims: list[Claim], on_progress: Callable[[int], None] = lambda done: None) -> list[Decision]:

@@ -27,11 +27,11 @@ function layout(chart) {
   const axis = { gridcolor: line, zerolinecolor: hue("--faint"), linecolor: line, exponentformat: "power" };
   const titled = chart.panels.some(panel => panel.title);
   const found = {
-    height: one * panels + 120, margin: { l: narrow.matches ? 48 : 66, r: 12, t: 34, b: 48 },
+    height: one * panels + 120, margin: { l: narrow.matches ? 48 : 66, r: narrow.matches ? 12 : 34, t: 34, b: 48 },
     paper_bgcolor: hue("--paper"), plot_bgcolor: hue("--paper"), font: { color: ink, size: 12, family: "inherit" },
     hoverlabel: { bgcolor: hue("--panel"), bordercolor: line, font: { color: ink }, namelength: narrow.matches ? 14 : 40 },
     hovermode: chart.panels.some(panel => panel.curves.length > 10) ? "closest" : "x unified",
-    dragmode: matchMedia("(pointer: coarse)").matches ? false : "zoom", modebar: { orientation: "h" },
+    dragmode: matchMedia("(pointer: coarse)").matches ? false : "zoom", modebar: { orientation: narrow.matches ? "h" : "v" },
     legend: { orientation: "h", y: 1, yanchor: "bottom", x: 0, font: { size: 12 } },
     xaxis: { ...axis, title: { text: chart.x }, type: chart.log ? "log" : "linear",
              anchor: panels > 1 ? "y" + panels : "y" },

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Mapping, Sequence
 
-from workbench.proof.places import place_of, subject_of
+from workbench.proof.places import place_of, section_of_place, subject_of
 from workbench.proof.verdict import VERDICTS, Decision, FateWord
 from workbench.proof.wording import listed
 from workbench.report.counterexample import Counterexample
@@ -105,7 +105,8 @@ def _correction(number: int, found: Finding, titles: Mapping[str, str], told: Ma
                 legends: Mapping[str, str]) -> list[Block]:
     """One finding; told: in which correction before it a counterexample, or what is assumed at one, is written out;
     legends: what letters stand for, by equation."""
-    where = f" (section {found.section})" if found.section else ""
+    section = section_of_place(found.equation, found.section)
+    where = f" ({section})" if section else ""
     title = subject_of(found.title)
     blocks: list[Block] = [Heading(3, f"{number}. {place_of(found.equation, '')}{where}: {worded(title)}"),
                            Formula(found.printed, origin_label(found))]

@@ -16,6 +16,7 @@ from workbench.report.graph.premise_graph import PremiseGraph, premise_graphs
 from workbench.report.plain_formulas import plain_told
 
 LETTER, PADDING = 7.1, 26.0  # pixels: an average letter, the room around the letters of a box
+LEGIBLE = 0.8  # how far a picture shrinks to fit the page, beyond which it scrolls
 
 
 @dataclass(frozen=True)
@@ -66,8 +67,9 @@ def _svg(graph: PremiseGraph) -> Markup:
     placed = layout(widths, graph.edges)
     what = "All lines below the headline statements" if graph.whole else "The lines on broken paths"
     parts = [Markup('<svg class="premises" role="group" aria-label="{}, as a graph: an edge runs from a line to what '
-                    'rests on it" viewBox="0 0 {:.0f} {:.0f}" width="{:.0f}" height="{:.0f}">').format(
-                        what, placed.width, placed.height, placed.width, placed.height)]
+                    'rests on it" viewBox="0 0 {:.0f} {:.0f}" width="{:.0f}" height="{:.0f}" '
+                    'style="min-width: {:.0f}px">').format(
+                        what, placed.width, placed.height, placed.width, placed.height, LEGIBLE * placed.width)]
     order = sorted(range(len(graph.edges)), key=lambda i: graph.edges[i] in graph.broken)
     parts += [_edge(placed.courses[i], graph.edges[i] in graph.broken) for i in order]
     parts += [_box(line, label, placed, i, widths[i])
