@@ -57,6 +57,27 @@ def test_what_varies_as_it_is_printed_is_no_constant(name, outcome, tmp_path):
     assert outcome(line, load_symbols(path)) == "refused"
 
 
+# Within a sum its index is bound, whatever letter it counts by: a piece that bears it is no constant factor.
+BOUND = (r"\sum_{j=1}^n q_j v_j = q_j \sum_{j=1}^n v_j", r"\sum_{l=1}^n q_l v_l = q_j \sum_{l=1}^n v_l",
+         r"\sum_{j=1}^n q^{(j)} v_j = q^{(j)} \sum_{j=1}^n v_j", r"\sum_{j=1}^n f(j) v_j = f(j) \sum_{j=1}^n v_j",
+         r"\sum_{i=1}^n p_{ij} v_i = p_{ij} \sum_{i=1}^n v_i", r"\sum_{j=1}^n p_{ij}^2 v_j = p_{ij}^2 \sum_{j=1}^n v_j")
+
+
+def test_a_number_with_the_index_of_a_sum_is_no_constant_factor(outcome, tmp_path):
+    path = tmp_path / "symbols.toml"
+    numbers = ("q_j", "q^{(j)}", "f(j)", "p_{ij}")
+    path.write_text("[symbols]\n'v' = 'vector'\n" + "".join(f"'{q}' = 'real'\n" for q in numbers))
+    symbols = load_symbols(path)
+    assert {line: outcome(line, symbols) for line in BOUND} == dict.fromkeys(BOUND, "refused")
+
+
+def test_least_and_greatest_have_no_index_of_their_letters(outcome, tmp_path):
+    path = tmp_path / "symbols.toml"
+    path.write_text("[symbols]\n'v' = 'vector'\n'\\lambda_{\\min}' = 'real'\n")
+    line = r"\sum_{i=1}^n \lambda_{\min} v_i = \lambda_{\mathrm{min}} \sum_{k=1}^n v_k"
+    assert outcome(line, load_symbols(path)) == "proved"
+
+
 def test_what_is_printed_with_its_time_may_have_a_rate_or_be_a_first_value(tmp_path):
     path = tmp_path / "symbols.toml"
     path.write_text("[symbols]\n'x' = 'real'\n'V(0)' = 'real'\n'k' = 'positive'\n[flow]\n'x' = '-k(t) x'\n'k' = '0'\n")

@@ -51,19 +51,29 @@ def as_read(row: RowEntry, standing: Standing | None) -> RowEntry:
     return row
 
 
+def given_otherwise(rows: list[RowEntry], verdicts: Mapping[str, str],
+                    standing: Mapping[str, Standing]) -> frozenset[str]:
+    """The letters of which a sentence gives another value or rate than the one that is taken, as of a second model."""
+    again = [row for row in rows if row.role == "claim" and row.id in standing and standing[row.id].form == "given"
+             and verdicts.get(row.id) == "refuted"]
+    return frozenset(letter for row in again for part in values_and_rates(text_of(row)) for letter in part)
+
+
 def left_to_the_author(row: RowEntry, verdict: str, standing: Standing | None, rows: list[RowEntry],
-                        letters: Mapping[str, LetterEntry]) -> str:
-    """Why the verdict on a row does not count; empty where it does."""
+                        letters: Mapping[str, LetterEntry], otherwise: frozenset[str] = frozenset()) -> str:
+    """Why the verdict on a row does not count; empty where it does. otherwise: letters that are given twice."""
     if standing is None or verdict == "undecided":
         return ""
     if verdict != "proved":
         given = standing.form == "given"
-        doubts = standing.doubts or (("what its sentence gives is no definition",) if given else ())
+        unsigned = sorted(one for one in standing.signed if one in letters and letters[one].kind in ("", "real"))
+        doubts = standing.doubts or (("what its sentence gives is no definition",) if given else ()) or (
+            (f"what is said of the sign of {', '.join(unsigned)}",) if unsigned else ())
         return f"false by itself; what may restrict it is for you to read: {'; '.join(doubts)}" if doubts else ""
     taken = {letter for one in rows if one.role in ("definition", "dynamics")
              for letter in (*dict(sides_of(text_of(one))), *dict(moving_sides(text_of(one))))}
     known = {letter for letter, entry in letters.items() if entry.kind in ("positive", "nonnegative")} | taken
-    used = sorted(standing.contested & known)
+    used = sorted((standing.contested | (otherwise & standing.letters)) & known)
     return f"what is not understood may say otherwise of {', '.join(used)}" if used else ""
 
 

@@ -13,7 +13,14 @@ from workbench.files.regular import LARGEST_TEXT
 from workbench.files.text import read_text
 from workbench.files.writing import write_text, write_tree
 from workbench.paper.new_paper import new_folder
-from workbench.paper.source.deciding import as_read, doubted, left_out, left_to_the_author, standings
+from workbench.paper.source.deciding import (
+    as_read,
+    doubted,
+    given_otherwise,
+    left_out,
+    left_to_the_author,
+    standings,
+)
 from workbench.paper.source.document import Source, read_source
 from workbench.paper.source.letters import (
     assumed_formulas,
@@ -27,7 +34,15 @@ from workbench.paper.source.macros import SourceError, without_comments
 from workbench.paper.source.roles import with_roles
 from workbench.paper.source.row import Row
 from workbench.paper.source.standing import Standing
-from workbench.proof.latex.rows import ROWS, SYMBOLS, LetterEntry, RowEntry, is_assumption, text_of
+from workbench.proof.latex.rows import (
+    ROWS,
+    SYMBOLS,
+    LetterEntry,
+    RowEntry,
+    first_unreadable,
+    is_assumption,
+    text_of,
+)
 from workbench.proof.latex.sides import letters_of_text, sides_of
 from workbench.proof.prove import prove
 from workbench.proof.selection import targets
@@ -89,9 +104,11 @@ def write_from_source(name: str, directory: Path, source: Path) -> FromSource:
     verdicts = {decision.claim.equation: decision.verdict for decision in decided.decisions}
     missing = {one.claim.equation: one.method for one in decided.decisions if one.verdict == "undecided"}
     recorded = []
+    otherwise = given_otherwise(rows, verdicts, standing)
     for row in rows:
         if row.role == "claim":
-            left = left_to_the_author(row, verdicts.get(row.id, "undecided"), standing.get(row.id), rows, letters)
+            left = left_to_the_author(row, verdicts.get(row.id, "undecided"), standing.get(row.id), rows, letters,
+                                      otherwise)
             if left:
                 verdicts[row.id], missing[row.id] = "undecided", left_out(left)
                 recorded.append(row.model_copy(update={"role": "words", "unread": left}))
@@ -112,7 +129,12 @@ def rows_and_letters(found: Source) -> tuple[list[RowEntry], dict[str, LetterEnt
     rows = with_roles(_with_definitions([entry for _, entry in made], facts), standing, {
         entry.id: row for row, entry in made if row.what == "Equation"}, functions_in(found.text))
     rows = [as_read(row, standing.get(row.id)) for row in rows]
-    return rows, table_of(rows, facts, found.text), standing
+    letters = table_of(rows, facts, found.text)
+    while unreadable := first_unreadable(tuple(rows), letters):
+        left = {"role": "words", "unread": f"'{unreadable[1]}'"}
+        rows = [row.model_copy(update=left) if row.id == unreadable[0] else row for row in rows]
+        letters = table_of(rows, facts, found.text)
+    return rows, letters, standing
 
 
 def _with_inputs(text: str, source: Path, depth: int = 0) -> str:

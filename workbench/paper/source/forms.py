@@ -32,9 +32,11 @@ lays = [with | let | where] <declared> [<andmore> <declared>]* ,? <laid>
 laid = <shown>
 # what a claim begins with
 opener = CONNECTIVE ,? | in addition ,? | as a [result | consequence] ,? | in [particular | turn | fact | total] ,? |
-    in [matrix | compact | vector | component] [form | notation] ,? | on the other hand ,? | <reason> ,? | for [this |
-    the] [purpose | end | reason] ,? | to this end ,? | [note | observe | recall | notice] that | of course ,? | so
-    that | this way ,? | that is , | namely ,? | for [simplicity | brevity | convenience | clarity] ,? | in what
+    in [matrix | compact | vector | component] [form | notation] ,? | in [the | this | our]
+    [first | second | third | next | last | final | following]? [step | stage] ,? | at this [point | stage | step] ,? |
+    as [a | the] [first | second | third | next | last | final] step ,? | on the other hand ,? | <reason> ,? | for
+    [this | the] [purpose | end | reason] ,? | to this end ,? | [note | observe | recall | notice] that | of course ,? |
+    so that | this way ,? | that is , | namely ,? | for [simplicity | brevity | convenience | clarity] ,? | in what
     follows ,? | [in order]? to AIM <things> ,? | to see this ,? | <sure_of>
 reason = [by | from | using | via | through | with | under | upon | along | considering | according to] <things> | [in
     view of | in light of | due to | because of | thanks to | owing to | by virtue of | motivated by | by means of |

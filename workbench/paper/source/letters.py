@@ -80,6 +80,14 @@ def says_sign(fact: str) -> bool:
         kind != "real" for formula in formulas for _, kind in kinds_in(formula))
 
 
+def signed_by_words(fact: str) -> set[str]:
+    """The letters of a fact that speaks of their sign in words, but those that it calls real."""
+    if "positive" not in fact and "negative" not in fact:
+        return set()
+    formulas = [(inline[1] or inline[2]).strip(" .,;") for inline in _INLINE.finditer(fact)]
+    return {letter for formula in formulas if not [*kinds_in(formula)] for letter in letters_of_text(formula)}
+
+
 def said_of(facts: str) -> dict[str, str]:
     """Of each letter the first fact that speaks of it."""
     found: dict[str, str] = {}

@@ -80,12 +80,13 @@ class _Reader:
         self.place = Place((0,), (), ())
         self.levels: list[int] = []
         self.next = 0  # the display to come
+        self.aside = False  # whether a footnote or brackets are being read
         self.behind = self.broken = False  # whether a display, or a blank line, stands directly before
 
-    def flush(self, aside: bool = False) -> None:
+    def flush(self) -> None:
         """End the sentence."""
         if self.words:
-            self.found.sentences.append(Sentence(tuple(self.words), self.place, aside))
+            self.found.sentences.append(Sentence(tuple(self.words), self.place, self.aside))
             self.words = []
             self.place = replace(self.place, paragraphs=self.place.paragraphs[-1:])
 
@@ -230,10 +231,11 @@ class _Reader:
     def within(self, start: int, close: int, behind: int) -> int:
         """What stands in brackets or a footnote as sentences of their own."""
         self.break_paragraph()
-        kept, self.words, place = self.words, [], self.place
+        kept, self.words, place, aside = self.words, [], self.place, self.aside
+        self.aside = True
         self.read(start, close)
-        self.flush(aside=True)
-        self.words, self.place = kept, place
+        self.flush()
+        self.words, self.place, self.aside = kept, place, aside
         return behind
 
     def _mark(self, found: re.Match[str], end: int) -> int:

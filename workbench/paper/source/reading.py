@@ -12,7 +12,7 @@ from dataclasses import dataclass, field
 from functools import lru_cache
 from itertools import pairwise
 
-from workbench.paper.source import forms, vocabulary
+from workbench.paper.source import forms, narrowing, vocabulary
 from workbench.paper.source.idioms import plainly
 from workbench.paper.source.letters import kinds_in, values_and_rates
 from workbench.paper.source.passages import Sentence, Word
@@ -61,15 +61,35 @@ def read_sentence(sentence: Sentence, body: str, assuming: bool = False) -> Read
     if all(word.kind in ("display", "mark") for word in words):
         return Reading(dict.fromkeys(shown, "bare"))
     classes = classes_of(words)
+    texts = [word.text if word.kind == "word" else "" for word in words]
+    if not_whole := narrowing.up_to(texts):
+        return Reading(dict.fromkeys(shown, ""), letters=letters, unknown=not_whole)
     rule = "assumes" if assuming else "sentence"
     found = _matched(rule, tuple(classes)) if len(words) <= LONGEST and not asks else None
     if found is None and not shown and not asks and _neutral(classes) and not _exchanges(words, classes):
-        return Reading(letters=letters)
+        return _neutrally(texts, letters)
     if found is None and shown and not asks and not assuming and _loose(classes):
-        return Reading(_loosely(words, classes), tied=frozenset(shown), letters=letters)
-    if found is None:
+        said = Reading(_loosely(words, classes), tied=frozenset(shown), letters=letters)
+    elif found is None:
         return Reading(dict.fromkeys(shown, ""), letters=letters, unknown=_unknown(words, classes))
-    return _said(words, found, body, letters)
+    else:
+        said = _said(words, found, body, letters)
+    return _whole(said, texts)
+
+
+def _neutrally(texts: Sequence[str], letters: frozenset[str]) -> Reading:
+    """What a sentence of plain words says: nothing, but that it may change or restrict what it speaks of."""
+    return Reading(letters=letters, restricted=letters if narrowing.SIGNED & {*texts} else frozenset(),
+                   unknown=narrowing.changing(texts) if letters or {*texts} & {"it", "this", "input"} else ())
+
+
+def _whole(said: Reading, texts: Sequence[str]) -> Reading:
+    """What a sentence says; nothing where it gives a value or says a fact of a part of the motion alone."""
+    gives = {*said.shown.values()} & {"given", "defined", "bare"}
+    phrase = narrowing.partial(texts) if gives else narrowing.begins_partial(texts) if said.facts else ()
+    if not phrase:
+        return said
+    return Reading(dict.fromkeys(said.shown, ""), letters=said.letters, unknown=phrase)
 
 
 @lru_cache(maxsize=1024)
@@ -230,7 +250,8 @@ def _loosely(words: Sequence[Word], classes: Sequence[str]) -> dict[int, str]:
             before = classes[start:place]
             held = before[-1:] and before[-1] in vocabulary.HELD and not {*before[-2:-1]} & _REACHES
             named = classes[place + 1:place + 2] in (["is"], ["are"])  # V = x^2 is positive
-            follows = not named and (forms.FOLLOWS & {*before} or (start and not before))
+            follows = not named and (forms.FOLLOWS & {*before} or (start and not before)
+                                     or not narrowing.chooses(classes))
             said[int(word.text)] = "defined" if held else "stated" if follows else "given"
             start = place + 1
     return said

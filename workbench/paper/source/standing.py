@@ -6,7 +6,7 @@ from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 
 from workbench.paper.source.forms import NOUNS
-from workbench.paper.source.letters import letters_said, says_sign, values_and_rates
+from workbench.paper.source.letters import letters_said, says_sign, signed_by_words, values_and_rates
 from workbench.paper.source.passages import Passages, Sentence
 from workbench.paper.source.reading import Reading, heading_unknown, printed, read_sentence
 from workbench.paper.source.vocabulary import DERIVED, POINTERS, TEXT
@@ -21,6 +21,11 @@ ASIDE = {"remark", "note", "definition", "assumption"}  # environments that may 
 # Nouns and adjectives by which a letter that had a sign is said to be something else.
 OTHERWISE = {"real", "number", "numbers", "scalar", "scalars", "function", "functions", "variable", "variables",
              "signal", "signals", "timevarying", "state", "input", "disturbance", "output", "vector", "matrix"}
+# Words of an assumption's title beside those that are understood.
+TITLES = {"matching", "condition", "conditions", "persistence", "excitation", "growth", "smoothness", "sector",
+          "existence", "controllability", "observability", "detectability", "stabilizability", "regularity",
+          "minimum-phase"}
+_RATE = r"\dot{"  # what the rate of a letter is called where displays give it
 ALL = ("all", "every", "each", "any", "throughout", "everywhere", "always", "both", "paper", "none", "no", "never")
 
 
@@ -30,8 +35,8 @@ class Standing:
 
     form: as `Reading.shown` says. unread: why nothing is claimed of it or taken from it, a line each; named: why it is
     not claimed, as sentences elsewhere that name it may take it back. doubts: why it is not refuted: what may restrict
-    its letters. contested: of its letters those of which something is said there that is not understood. tied: whether
-    it is said of some values alone.
+    its letters. contested: of its letters those of which something is said there that is not understood; signed: those
+    of which a sign is said. tied: whether it is said of some values alone. letters: those that it is made of.
     """
 
     form: str
@@ -39,7 +44,9 @@ class Standing:
     named: tuple[str, ...] = ()
     doubts: tuple[str, ...] = ()
     contested: frozenset[str] = frozenset()
+    signed: frozenset[str] = frozenset()
     tied: bool = False
+    letters: frozenset[str] = frozenset()
 
 
 @dataclass(frozen=True)
@@ -91,9 +98,14 @@ class Text:
                            if not self.local(sentence) for fact in reading.facts)
 
     def understood(self, start: int, end: int) -> bool:
-        """Whether all sentences between two places of the body are."""
-        return not any(reading.unknown for sentence, reading in zip(self.passages.sentences, self.readings, strict=True)
+        """Whether all sentences between two places of the body are, and the titles of their environments."""
+        return not any(reading.unknown or self._titled(sentence) for sentence, reading in
+                       zip(self.passages.sentences, self.readings, strict=True)
                        if start <= sentence.words[0].start < end)
+
+    def _titled(self, sentence: Sentence) -> bool:
+        """Whether an environment in which a sentence stands has a title that is not understood."""
+        return any({*heading_unknown(self.passages.titles[scope])} - TITLES for scope in sentence.place.scopes)
 
     def standing(self, display: int, letters: Collection[str], names: Collection[str], nouns: Mapping[str, set[str]],
                  facts: Mapping[str, str]) -> Standing:
@@ -106,10 +118,12 @@ class Text:
         sentence, reading = self.passages.sentences[at], self.readings[at]
         doubts: list[str] = []
         contested: set[str] = set()
+        signed: set[str] = set()
         for before, (other, said) in enumerate(zip(self.passages.sentences, self.readings, strict=True)):
             near = _near(other, sentence)
-            aside = said.unknown and {self._what(name) for name in self._names(other)} <= ASIDE
-            if not (before < at or near) or not (aside or self._holds_at(other, sentence)):
+            aside = other.aside or (said.unknown and {self._what(name) for name in self._names(other)} <= ASIDE)
+            untold = self._assumes(other) and self._titled(other)
+            if not (before < at or near) or not (aside or untold or self._holds_at(other, sentence)):
                 continue
             words = {word.text for word in other.words if word.kind == "word"}
             hidden = frozenset(letter for one in said.shown if said.unknown for letter in self.formulas[one].letters)
@@ -122,6 +136,8 @@ class Text:
             differs = self._differs(said, facts) if self.local(other) else set()
             contested |= differs
             supposed = self._supposed(said, display, self._assumes(other))
+            supposed |= said.letters if untold else set()
+            signed |= {letter for fact in said.facts for letter in signed_by_words(fact)}
             if (said.restricted | supposed | differs) & {*letters}:
                 doubts.append(self._told(before))
         contested |= self._anew(at)
@@ -129,7 +145,8 @@ class Text:
             doubts.append(self._told(at))
         return Standing(reading.shown[display], tuple(dict.fromkeys(self._unread(at))),
                         tuple(dict.fromkeys(self._named(names))), tuple(dict.fromkeys(doubts)),
-                        frozenset(contested & {*letters}), display in reading.tied)
+                        frozenset(contested & {*letters}), frozenset(signed & {*letters}), display in reading.tied,
+                        frozenset(letters))
 
     def _supposed(self, said: Reading, display: int, assuming: bool) -> set[str]:
         """The letters of the other displays of a sentence that it supposes, or gives though they define nothing; of an
@@ -142,6 +159,7 @@ class Text:
         """The letters that the text has given two different values, or a sign and then another kind, before a sentence
         ends."""
         values: dict[str, str] = {}
+        moved: list[tuple[str, str]] = []
         signed: set[str] = set()
         anew = set()
         for sentence, said in zip(self.passages.sentences[:at + 1], self.readings, strict=False):
@@ -154,6 +172,11 @@ class Text:
                 elif OTHERWISE & {*fact.replace("-", "").split()}:
                     anew |= letters & signed
             shown = [self.formulas[one].gives for one, form in said.shown.items() if form in ("given", "defined")]
+            rates = [pair for given in shown for pair in given.items() if pair[0].startswith(_RATE)]
+            again = [*moved, *rates] if "defined" in said.shown.values() else rates  # another may be claimed
+            anew |= {letter[len(_RATE):-1] for letter, rate in rates
+                     for other, known in again if letter == other and rate.split() != known.split()}
+            moved += rates
             for letter, value in (pair for given in (inline, *shown) for pair in given.items()):
                 if values.setdefault(letter, value).split() != value.split():
                     anew.add(letter)

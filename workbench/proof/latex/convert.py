@@ -143,7 +143,7 @@ class Converter:
         piece = self.notation.piece(factors, at)
         if piece is not None:
             length, meaning, exponent = piece
-            meaning = self._of_sum(node, meaning)
+            meaning = self._of_sum(Product(factors[at:at + length], position=node.position), meaning)
             if exponent is not None:
                 require_own_power(factors[at + length - 1], self.declared)
                 meaning = self._power(meaning, self.number(plain_exponent(exponent)), node.position)
@@ -224,8 +224,7 @@ class Converter:
         """The meaning, where the letter has the index that it has here; a definition's is a number somewhere alone."""
         if self.declared:
             self.conditions.extend(conditions_of(meaning, node.position))
-        if isinstance(node, Letter) and is_vector(meaning):
-            require_component(node, self.index, self.limits if self.declared else None)
+        require_component(node, is_vector(meaning), self.index, self.limits if self.declared else None)
         return meaning
 
     @_value.register

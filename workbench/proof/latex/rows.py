@@ -115,6 +115,19 @@ def _state(paper: Paper, known: _Known, row: RowEntry) -> None:
                 reading=_reading(row))(_giving(goal))
 
 
+def first_unreadable(rows: tuple[RowEntry, ...], table: dict[str, LetterEntry]) -> tuple[str, str] | None:
+    """The first row that is taken as a definition or dynamics and cannot be read, and why; None where all can."""
+    try:
+        _Known(Path(), rows, table)
+    except InputError as trouble:
+        part, _, letter = trouble.key.partition(".")
+        sides = {"definitions": sides_of, "flow": moving_sides}.get(part)
+        row = next((row for row in rows if sides and row.role == ("definition" if part == "definitions" else "dynamics")
+                    and letter in dict(sides(text_of(row)))), None)
+        return (row.id, trouble.problem) if row else None
+    return None
+
+
 class _Known:
     """What definitions, dynamics and the table of letters give, as far as they are filled in."""
 

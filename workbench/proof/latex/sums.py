@@ -114,15 +114,20 @@ def _ends(converter: Reading, first: str | None, sign: Big) -> tuple[sp.Expr, sp
     return converter.number(start.sides[0]), converter.number(sign.above)
 
 
-def require_component(letter: Letter, index: str | None, limits: sp.Tuple | None) -> None:
+def require_component(node: Node, is_indexed: bool, index: str | None, limits: sp.Tuple | None) -> None:
     """Raise LatexError for a vector printed without the index of the sum that it stands in, or, where the limits of
-    the goal's sums are given, for a component that stands in none."""
-    if index is not None and index not in letter.index:
-        raise LatexError(f"'{letter.name}' has one value for each index, but is printed without the sum's index "
-                         f"'{index}': correct the notation", letter.position)
-    if index is None and limits is not None and str(limits[0]) in map(str.strip, letter.index_parts()):
-        raise LatexError(f"a component of '{letter.name}' stands in no sum: write a sum, or the vector without its "
-                         "index", letter.position)
+    the goal's sums are given, for a component that stands in none; and for one number printed with a sum's index."""
+    if index is not None and not is_indexed and _mentions(node, index):
+        raise LatexError(f"a piece with the sum's index '{index}' is one number in the notation: make it a vector, or "
+                         "give it another index", node.position)
+    if not is_indexed or not isinstance(node, Letter):
+        return
+    if index is not None and index not in node.index:
+        raise LatexError(f"'{node.name}' has one value for each index, but is printed without the sum's index "
+                         f"'{index}': correct the notation", node.position)
+    if index is None and limits is not None and str(limits[0]) in map(str.strip, node.index_parts()):
+        raise LatexError(f"a component of '{node.name}' stands in no sum: write a sum, or the vector without its "
+                         "index", node.position)
 
 
 def _written_out(converter: Reading, letter: str, ends: tuple[sp.Expr, sp.Expr], rest: tuple[Node, ...],

@@ -14,7 +14,7 @@ from typing import Any
 
 END = ";"  # a semicolon or full stop: what stands behind it is no member of a list before it
 PARTED = ((), (",",), (END,))  # what may stand between relations that are all claimed
-_INDEX_PART = re.compile(r"\\[A-Za-z]+ ?|.", re.DOTALL)
+_INDEX_PART = re.compile(r"\\[A-Za-z]+ ?|max|min|.", re.DOTALL)  # max and min are words, as their commands are
 
 
 @dataclass(frozen=True)

@@ -1,0 +1,84 @@
+"""Phrases of words that are all understood, and by which a formula is nonetheless said of a part of the values alone.
+
+`On the sliding surface, y = x` gives y no value elsewhere, `the mean input is u = ...` none at an instant.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from itertools import pairwise
+
+from workbench.paper.source import vocabulary, words
+
+
+def _words(text: str) -> frozenset[str]:
+    return frozenset(text.split())
+
+
+_WHERE = _words("on in at for during before after over within between through throughout along near into")
+# What a motion passes through, or keeps for a while.
+_PLACES = _words("""
+    surface surfaces manifold manifolds mode modes trajectory trajectories curve path start beginning end middle period
+    equilibrium speed speeds velocity temperature pressure load level voltage current boundary slope phase
+""")
+# What is averaged, sampled or extreme has no value at an instant, and a part is not the whole.
+_PARTIAL = _words("""
+    average averaged mean sampled maximum minimum maximal minimal half halves twice contribution contributions summand
+    summands numerator denominator increment decrement fraction quotient remainder open-loop feedforward compare
+    compares compared comparing
+""")
+# The coefficient of W is not W.
+_OF = _words("coefficient coefficients factor factors weight weights growth ratio exponent power root sign size norm")
+_CHOSEN = vocabulary.DEFINE | vocabulary.DEFINING | _words("""
+    chosen designed selected proposed defined introduced given constructed governed described modelled modeled called
+    denoted obeys obey satisfies satisfy
+""")
+# By these a letter is said to vary, and what was given to be changed.
+_CHANGES = _words("""
+    change changes changed changing vary varies drift drifts switch switched grow grows increase increases decrease
+    decreases add adds added adding subtract subtracts subtracted scale scales scaled multiply multiplies multiplied
+    replace replaces replaced rotate rotates rotated normalize normalized
+""")
+# Behind these a place is none of the motion's: `forces that act on the surface`, `based on the level`.
+_ACTING = _words("acting acts act based depends depending depend relies rely exerted mounted moves moving move")
+_WITHIN = (vocabulary.MODIFIERS | vocabulary.ADJECTIVES | vocabulary.GIVEN | vocabulary.TEXT | vocabulary.NAMES
+           | words.QUALITIES)
+# Words of a sign or size, by which a sentence of which nothing is taken may restrict its letters.
+SIGNED = _words("positive nonnegative non-negative negative nonpositive non-positive definite semidefinite bounded")
+
+
+def partial(texts: Sequence[str]) -> tuple[str, ...]:
+    """The words by which a sentence's value is one of a part of the motion alone; none where it has none."""
+    found = tuple(text for at, text in enumerate(texts)
+                  if text in _PARTIAL or (text in _OF and texts[at + 1:at + 2] == ["of"]))
+    return found or next((phrase for at in range(len(texts)) if (phrase := _placed(texts, at))), ())
+
+
+def changing(texts: Sequence[str]) -> tuple[str, ...]:
+    """The words by which a sentence without displays may change what was given before; none where it has none."""
+    return tuple(text for text in texts if text in _CHANGES)
+
+
+def chooses(texts: Sequence[str]) -> bool:
+    """Whether a sentence says that a value is given or chosen."""
+    return bool(_CHOSEN & {*texts}) or texts[:1] == ["with"]
+
+
+def begins_partial(texts: Sequence[str]) -> tuple[str, ...]:
+    """The same, of a phrase with which the sentence begins."""
+    return _placed(texts, 0) if texts else ()
+
+
+def up_to(texts: Sequence[str]) -> tuple[str, ...]:
+    """`up to a constant`: what is left out is not said; none where the sentence has no such words."""
+    return ("up", "to") if ("up", "to") in pairwise(texts) else ()
+
+
+def _placed(texts: Sequence[str], at: int) -> tuple[str, ...]:
+    """The phrase at a word that names a place of the motion: its last word is one."""
+    if texts[at] not in _WHERE or (at and texts[at - 1] in _ACTING):
+        return ()
+    end = at + 1 + (at + 1 < len(texts) and texts[at + 1] in vocabulary.DETERMINERS)
+    while end < len(texts) and texts[end] in _WITHIN | _PLACES:
+        end += 1
+    return tuple(texts[at:end]) if texts[end - 1] in _PLACES else ()
