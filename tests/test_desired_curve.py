@@ -13,6 +13,7 @@ from workbench.files.toml import validate_record
 from workbench.model.desired_curve import (
     DesiredCurve,
     SpeedLevels,
+    TimedCruise,
     davis_cruise_speed,
     from_acceleration,
     speed_levels,
@@ -222,3 +223,13 @@ def test_levels_are_held_between_changes_that_begin_at_their_times():
 def test_levels_that_give_no_curve_say_why(changes, message):
     with pytest.raises(InputError, match=message):
         _levels(**changes)
+
+
+def test_a_trip_of_a_given_time_takes_it_and_one_too_short_says_so():
+    values = {"cruise_mps": 30.0, "acceleration_mps2": 0.5, "braking_mps2": 1.0, "ramp_s": 2.0}
+    curve = TimedCruise(**values, trip_time_s=200.0).curve()
+    assert curve.trip_time_s == pytest.approx(200.0)
+    # Changes of speed that are symmetric in time: 62 s up, 32 s down, each at half the cruise speed in the mean.
+    assert curve.length_m == pytest.approx(30.0 * (200.0 - 47.0))
+    with pytest.raises(ValueError, match="or allow more trip_time_s"):
+        TimedCruise(**values, trip_time_s=90.0)

@@ -11,8 +11,16 @@ from hypothesis import strategies as st
 from workbench.paper.cells import Column, Phrase
 from workbench.paper.comparison import STEP
 from workbench.paper.drivers import Drivers
-from workbench.paper.learning_comparison import LearningComparison, jerk_rms, rises, row_cells, trial_curve
+from workbench.paper.learning_comparison import (
+    LearningComparison,
+    jerk_rms,
+    rises,
+    row_cells,
+    trial_columns,
+    trial_curve,
+)
 from workbench.paper.statistics import ahead_from
+from workbench.paper.study_tables import run_table
 
 COLUMNS = {"speed_rms": Column("speed RMS", "m/s"), "jerk_rms": Column("jerk RMS", "m/s³"), "step_s": STEP}
 DRIVERS = Drivers({"learner": "the learner", "mpc_linear": "linear MPC"}, lambda study: {"here": "the line"},
@@ -39,6 +47,15 @@ def test_rises_and_curves_count_trials():
     errors = np.array([3.0, 4.0, 2.0, 2.0, 2.5])
     assert rises(errors) == 2
     assert trial_curve("x", errors, 1).x.tolist() == [1.0, 2.0, 3.0, 4.0, 5.0]
+
+
+def test_a_table_of_runs_has_each_heading_beside_what_a_run_says():
+    runs = {"a": np.array([3.0, 2.0, 2.5]), "b": np.array([5.0])}  # b ended after its first trial
+    table = run_table("Runs", "a test", ("law",), (((name,), errors) for name, errors in runs.items()), (
+        *trial_columns(Column("error", "mm", 1e-3), lambda errors: errors, (0, 2), 0), ("trials worse", rises)))
+    assert table.headings == ("law", "error, trial 0 (mm)", "error, trial 2 (mm)", "trials worse")
+    assert table.rows == (("a", 3.0, 2.5, 1), ("b", 5.0, None, 0))
+    assert table.values[0] == ("a", 3000.0, 2500.0, 1)
 
 
 def test_a_failed_run_has_no_numbers_but_the_time_of_a_step():

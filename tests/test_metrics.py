@@ -11,6 +11,7 @@ from workbench.simulate.closed_loop import Run, simulate
 from workbench.simulate.kernel_loop import ACCUMULATORS, LOG_COLUMNS
 from workbench.simulate.metrics import measure
 from workbench.simulate.ride import SpeedLimits, ride
+from workbench.simulate.stretches import Stretch, stretches
 
 
 def made_up_run(**changes):
@@ -79,3 +80,16 @@ def test_what_a_run_never_reached_is_none_and_can_be_written_as_json():
     assert [name for name in whole if row[name] is not None] == []
     assert (row["position_error_min"], row["speed_error_max"]) == (-0.3, 0.4)
     assert json.loads(json.dumps(row, allow_nan=False))["failed"] == "it left its domain"
+
+
+def test_stretches_are_the_largest_errors_between_events_and_before_the_next():
+    """The desired position is zero and the position 5 - t at t = 0, 0.5 ... 4.5 s."""
+    run = made_up_run()
+    log = run.log.copy()
+    log[:, LOG_COLUMNS.index("s_m")] = 5.0 - run.column("t_s")
+    run = replace(run, log=log)
+    assert run.position_error == pytest.approx(5.0 - run.column("t_s"))
+    assert stretches(run, (0.0, 2.0, 4.0, 5.0), 0.5) == (
+        Stretch(0.0, 5.0, 3.5), Stretch(2.0, 3.0, 1.5), Stretch(4.0, 1.0, 0.5))
+    assert len(stretches(run, (0.0, 2.0, 6.0), 0.5)) == 1, "the run ends before the third event"
+    assert len(stretches(replace(run, failed="lost"), (0.0, 2.0, 5.0), 0.5)) == 1, "it fails as the third begins"

@@ -8,12 +8,20 @@ import pytest
 from refusals import changed
 
 from workbench.errors import InputError
-from workbench.files.toml import Positive, Record, read_toml, validate_record
-from workbench.paper.comparison import TripComparison
-from workbench.paper.drivers import Drivers
+from workbench.files.toml import Number, Positive, Record, read_toml, validate_record
 from workbench.paper.findings import LackingError, found, listed, needed, some, span
-from workbench.paper.reproduced import STATED, ReproducedStudy, Results, one_of
-from workbench.paper.reproduction import Reproduction
+from workbench.paper.gain_search import OwnRuns, Task
+from workbench.paper.loading import Loaded
+from workbench.paper.reproduced import (
+    STATED,
+    ColumnTable,
+    ReproducedStudy,
+    Results,
+    RunCase,
+    one_of,
+    stated_and_changed,
+)
+from workbench.paper.reproduction import Reproduction, case_title
 from workbench.paper.results import Curve, Plot, ResultTable
 
 FILE = """
@@ -92,11 +100,7 @@ def ended(results):
     return f"Ends of {span(run.end_m for run in twice.values() if run.failed is None)} m."
 
 
-KIND = Reproduction(
-    TinyStudy, cases, run, lambda study, case: f"start {case.start}, {study.change_title(case.change)}",
-    lambda study, case, left: {"start": case.start, "end_m": left.end_m}, Results, (table,), (plots,),
-    (never_run, ended), TripComparison(Drivers({}, lambda study: {}, lambda study, name: {}, run), "place",
-                                       lambda *_: "", lambda *_: ([], "")), lambda study, curve: None).kind
+KIND = Reproduction(TinyStudy, cases, run, tables=(table,), plots=(plots,), findings=(never_run, ended)).kind
 
 
 def loaded(tmp_path, text=FILE):
@@ -114,6 +118,62 @@ def test_a_study_of_one_file_runs_as_it_is_and_under_its_changes(tmp_path):
     assert [plot.title for plot in result.plots] == ["as stated", "changed"]
     assert result.failures == tuple((f"start {i}, so fast that it fails", "diverged") for i in (0, 1))
     assert told[-1] == (6, 6, "start 1, so fast that it fails")
+
+
+def test_what_a_study_does_not_declare_is_made_of_its_cases_and_runs(tmp_path):
+    study = loaded(tmp_path)
+    bare = Reproduction(TinyStudy, stated_and_changed, lambda study, case: run(study, Case(0, case.change))).kind
+    result = bare.run(study, 1, lambda *_: None)
+    assert [row["change"] for row in result.rows] == [None, "twice the rate", "so fast that it fails"]
+    assert result.rows[0] == {"change": None, "end_m": pytest.approx(np.exp(-2)), "failed": None}
+    assert result.failures == (("so fast that it fails", "diverged"),)
+    assert not result.tables and not result.plots and not result.findings and result.winners is None
+    assert bare.run_one(study, {"change": 0})["end_m"] == pytest.approx(np.exp(-4))
+    assert (case_title(study, RunCase()), case_title(study, Case(1, 0))) == ("as stated", "start 1, twice the rate")
+
+
+def test_a_study_that_holds_no_law_against_mpc_refuses_to_tune_one(tmp_path):
+    pairs = "draws = 2, seed = 1, spread = 0.1, resamples = 100, confidence = 0.95, places = ['all'], set = {}"
+    study = loaded(tmp_path, changed(FILE, "shown = 1", f"shown = 1\npairs = {{ {pairs} }}"))
+    with pytest.raises(InputError, match=r"pairs: is for studies that hold laws against MPC.*: remove it"):
+        KIND.located(study, tmp_path / "study.toml")
+
+
+def test_found_gains_run_in_the_studys_own_case_and_what_it_has_run_is_not_run_again(tmp_path):
+    study, made = loaded(tmp_path), []
+
+    def make(study, case):
+        made.append(case)
+        return run(study, case)
+
+    own = OwnRuns(lambda study, task: Case(1), make, lambda study, left: (
+        {"end_m": left.end_m, "rate": study.decay.rate_per_s}, left.failed))
+    of_file = Loaded(tmp_path / "study.toml", {}, study)
+    runs = {case: run(study, case) for case in cases(study)}
+    for rate, change in ((0.5, STATED), (1.0, 0)):
+        task = Task("found", "alone", {"decay.rate_per_s": rate})
+        assert own.had(of_file, task, runs) == own.run(of_file, task) == (
+            {"end_m": runs[Case(1, change)].end_m, "rate": rate}, None)
+    assert made == [Case(1), Case(1)]
+    other = Task("found", "alone", {"decay.rate_per_s": 0.7})
+    assert own.had(of_file, other, runs) is None and own.had(of_file, task, {}) is None
+    assert own.run(of_file, other)[0]["end_m"] == pytest.approx(2 * np.exp(-2.8))
+    with pytest.raises(ValueError, match=r"found: decay.speed: no such key"):
+        own.run(of_file, Task("found", "alone", {"decay.speed": 1.0}))
+
+
+class Printed(ColumnTable):
+    energy_J: tuple[Number, ...]
+    error_m: tuple[Number, ...]
+    time_s: tuple[Number, ...]
+
+
+def test_a_table_by_columns_has_as_many_values_in_each():
+    source = dict.fromkeys(("energy_J", "error_m", "time_s"), "paper, Table 1")
+    whole = {"energy_J": (1.0, 2.0), "error_m": (3.0, 4.0), "time_s": (5.0, 6.0), "source": source}
+    assert Printed.model_validate(whole).columns == 2
+    with pytest.raises(ValueError, match="error_m has 1 values, others 2: give one value a column in each"):
+        Printed.model_validate(whole | {"error_m": (3.0,)})
 
 
 def test_a_finding_without_its_runs_is_left_out_and_the_others_stay(tmp_path):
@@ -148,6 +208,11 @@ def test_runs_are_looked_up_by_case_and_by_what_their_change_sets(tmp_path):
     assert list(results.select(start=1)) == [Case(1), Case(1, 0), Case(1, 1)]
     assert list(results.changing()) == [case for case in cases(study) if case.change != STATED]
     assert list(results.changing("decay.rate_per_s", start=0)) == [Case(0, 0), Case(0, 1)]
+    twice, fails = study.changes
+    assert results.changed_runs(start=0) == [(twice, Case(0, 0)), (fails, Case(0, 1))]
+    assert [title for title, _ in results.by_change(start=1)] == [twice.title, fails.title]
+    assert [list(runs) for _, runs in results.by_change(start=1)] == [[Case(1, 0)], [Case(1, 1)]]
+    assert study.number_titled("so fast that it fails") == 1
     assert not results.changing("decay.printed_m") and not results.changing("decay.rate_per_s", "decay.printed_m")
 
 

@@ -21,17 +21,15 @@ from workbench.gains.problem import Problem
 from workbench.gains.result import Condition, GainReport, GainSet, Quantity
 from workbench.gains.search import Found, largest, search
 from workbench.gains.stated import Stated
-from workbench.paper.gain_search import Ended, GainSearch, Row, Runs, Task, changes_of
+from workbench.paper.gain_search import Ended, GainSearch, OwnRuns, Row, Task, changes_of
 from workbench.paper.learning_comparison import rises
-from workbench.paper.loading import Loaded
-from workbench.paper.study import varied
 from workbench.proof.claim import Goal, at_least, at_most
 
 from . import laws, plant
-from .simulation.plans import Case, plan
-from .simulation.trials import TrialRun, run_trials
+from .simulation.plans import Case
+from .simulation.trials import TrialRun
 from .study.record import JiaoStudy
-from .study.runs import outcome
+from .study.runs import outcome, run_case
 
 x, w = sp.symbols("x w", real=True)
 p, contraction = sp.symbols("p theta_squared", real=True)
@@ -248,23 +246,9 @@ def tasks(report: GainReport) -> list[Task]:
     return [*made, Task("stated", f"jiao2025.pd, u in {READING}", {}, {"law": "jiao2025.pd"})]
 
 
-def run(loaded: Loaded, task: Task) -> Ended:
-    """All trials of a law with the task's changes."""
-    study = loaded.study
-    assert isinstance(study, JiaoStudy)
-    other = varied(study, task.changes, task.gains)
-    return row(other, run_trials(plan(other, Case(READING, task.values["law"], other.trials.seed))))
-
-
-def had(loaded: Loaded, task: Task, runs: Runs) -> Ended | None:
-    """The same from the study's own run with these values."""
-    study = loaded.study
-    assert isinstance(study, JiaoStudy)
-    number = study.number_of(task.changes)
-    if number is None:
-        return None
-    run = runs.get(Case(READING, task.values["law"], study.trials.seed, number))
-    return None if run is None else row(study.changed(number), run)
+def case_of(study: JiaoStudy, task: Task) -> Case:
+    """All trials of the task's law."""
+    return Case(READING, task.values["law"], study.trials.seed)
 
 
 def row(study: JiaoStudy, run: TrialRun) -> Ended:
@@ -276,4 +260,5 @@ def row(study: JiaoStudy, run: TrialRun) -> Ended:
     return numbers, run.failed
 
 
-SEARCH = GainSearch(report, tasks, run, had=had)
+RUNS = OwnRuns(case_of, run_case, row)
+SEARCH = GainSearch(report, tasks, RUNS.run, had=RUNS.had)

@@ -18,9 +18,7 @@ from workbench.gains.problem import Problem
 from workbench.gains.result import Condition, GainReport, GainSet, Quantity
 from workbench.gains.search import Infeasible, confirm, largest, search
 from workbench.gains.stated import Stated
-from workbench.paper.gain_search import Ended, GainSearch, Runs, Task
-from workbench.paper.loading import Loaded
-from workbench.paper.study import varied
+from workbench.paper.gain_search import Ended, GainSearch, OwnRuns, Task
 from workbench.proof.claim import D, at_least, at_most
 from workbench.proof.derive import lie_derivative
 
@@ -28,7 +26,7 @@ from . import laws as law
 from .laws import k_1, k_2, k_3, s_tilde, v_tilde
 from .plant import s, v
 from .study.record import LiuStudy
-from .study.runs import BY_RATE, RunResult, run_case, table_3_case
+from .study.runs import BY_RATE, RunCase, RunResult, run_case
 
 Values = dict[sp.Expr, sp.Expr]
 
@@ -246,25 +244,16 @@ def tasks(report: GainReport) -> list[Task]:
     return made
 
 
-def run(loaded: Loaded, task: Task) -> Ended:
-    """A column of Table 3 with the task's changes, under the observer that the certificates are of."""
-    study = loaded.study
-    assert isinstance(study, LiuStudy)
-    changed = varied(study, task.changes, str(loaded.path))
-    return row(run_case(changed, table_3_case(study, task.values["column"], BY_RATE)))
+def case_of(study: LiuStudy, task: Task) -> RunCase:
+    """A column of Table 3 under the observer that the certificates are of."""
+    return RunCase(task.values["column"], BY_RATE, study.runs.table_3_disturbance)
 
 
-def had(loaded: Loaded, task: Task, runs: Runs) -> Ended | None:
-    """The same from the study's own run, of the stated gains."""
-    study = loaded.study
-    assert isinstance(study, LiuStudy)
-    return None if task.changes else row(runs[table_3_case(study, task.values["column"], BY_RATE)])
-
-
-def row(found: RunResult) -> Ended:
+def row(study: LiuStudy, found: RunResult) -> Ended:
     """The numbers of a run."""
     names = ("s_tilde_m", "v_tilde_mps", "position_m", "speed_mps", "energy_J", "reversals")
     return {f"{n}_rms" if n not in ("energy_J", "reversals") else n: found.numbers.get(n) for n in names}, found.failed
 
 
-SEARCH = GainSearch(report, tasks, run, had=had)
+RUNS = OwnRuns(case_of, run_case, row)
+SEARCH = GainSearch(report, tasks, RUNS.run, had=RUNS.had)

@@ -182,7 +182,7 @@ def _plots(told: Told) -> Iterator[Plot]:
             continue
         done = run_match(told.scenario, name, told.contest.conditions[first], 0, told.contest.seed)
         if done.failed is None:
-            time, error = done.column("t_s"), done.column("s_m") - done.column("s_desired_m")
+            time, error = done.column("t_s"), done.position_error
             keep = slice(None, None, max(1, len(time) // 1500))
             if follows_curve(told.scenario, name):
                 curves.append(Curve(labelled(told.scenario, name), time[keep], error[keep]))

@@ -26,9 +26,11 @@ from workbench.errors import InputError
 from workbench.files.known_keys import meant
 from workbench.files.text import read_text
 
+# A number between bounds is declared `mass_kg: Number = Field(ge=1e3, le=1e8)`, a whole one `Whole` likewise.
 Number = Annotated[float, Strict(), Field(allow_inf_nan=False)]
 Positive = Annotated[float, Strict(), Field(gt=0, allow_inf_nan=False)]
 NonNegative = Annotated[float, Strict(), Field(ge=0, allow_inf_nan=False)]
+Whole = Annotated[int, Strict()]
 Count = Annotated[int, Strict(), Field(ge=1)]
 Text = Annotated[str, Strict(), Field(min_length=1)]
 

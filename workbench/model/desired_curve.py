@@ -176,6 +176,31 @@ class CruiseSpeed(SourcedRecord):
     ramp_s: RampTime
 
 
+class TimedCruise(SourcedRecord):
+    """A start-cruise-stop curve with its cruise speed and the time of the trip given, from which the length follows."""
+
+    cruise_mps: Annotated[float, Strict(), Field(ge=SLOWEST_MPS, le=FASTEST_MPS, allow_inf_nan=False)]
+    acceleration_mps2: Rate
+    braking_mps2: Rate
+    ramp_s: RampTime
+    trip_time_s: Annotated[float, Strict(), Field(ge=1, le=1e5, allow_inf_nan=False)]
+
+    @model_validator(mode="after")
+    def _a_curve_follows(self) -> Self:
+        try:
+            self.curve()
+        except WorkbenchError as trouble:
+            raise ValueError(f"{trouble}, or allow more trip_time_s") from None
+        return self
+
+    def curve(self) -> DesiredCurve:
+        """The curve of this trip time."""
+        start_s, stop_s = (self.cruise_mps / rate + self.ramp_s for rate in (self.acceleration_mps2, self.braking_mps2))
+        # A change of speed that is symmetric in time covers mean speed times duration.
+        length_m = self.cruise_mps * (self.trip_time_s - (start_s + stop_s) / 2)
+        return start_cruise_stop(length_m, self.cruise_mps, self.acceleration_mps2, self.braking_mps2, self.ramp_s)
+
+
 class SpeedLevels(SourcedRecord):
     """A curve that goes to one speed after another, each from its own time on, and stands at its end."""
 

@@ -74,7 +74,7 @@ def compared_row(run: Run, length_m: float) -> dict[str, Any]:
 
 def error_curve(run: Run) -> tuple[Array, Array]:
     """Times (s) and position errors (m) of a run, thinned and up to where they are finite."""
-    time, error = run.column("t_s"), run.column("s_m") - run.column("s_desired_m")
+    time, error = run.column("t_s"), run.position_error
     whole = len(error) if np.isfinite(error).all() else int(np.argmin(np.isfinite(error)))
     keep = slice(None, whole, max(1, len(time) // SENT))
     return time[keep], error[keep]
@@ -110,6 +110,14 @@ class TripComparison:
         runs = self.with_own(results, compared_runs(drivers, found))
         return Shown(comparison_table(drivers, study, runs, self.heading, self.note(study, runs), self.told),
                      comparison_plot(*self.drawn(study, runs)), comparison_findings(drivers, study, runs))
+
+
+def _none(*_: Any) -> dict[str, Any]:
+    return {}
+
+
+# Of a study that holds no law against MPC.
+ALONE = TripComparison(Drivers({}, _none, _none, _none), "", lambda study, runs: "", lambda study, runs: ([], ""))
 
 
 def comparison_tasks(drivers: Drivers, study: Any) -> list[Task]:

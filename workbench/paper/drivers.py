@@ -105,6 +105,9 @@ def checked(drivers: Drivers) -> Callable[[Any, Path], Any]:
         for table, part in parts:
             if part is None:
                 continue
+            if not drivers.titles:
+                raise InputError(path, table, "is for studies that hold laws against MPC, as this one does not: remove "
+                                 "it, or give its Reproduction `beside`")
             if study.mpc is None or study.tuning is None:
                 raise InputError(path, table, "needs the tables [mpc] and [tuning] beside it: add them or remove it")
             for place in part.places:

@@ -6,7 +6,7 @@ Of a front (`gain_front.py`): which gains are searched for what their runs cost 
 from __future__ import annotations
 
 from collections.abc import Callable, Hashable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from typing import Any
 
@@ -16,6 +16,7 @@ from workbench.gains.result import GainReport
 from workbench.gains.stated import Stated
 from workbench.model.tuning import Range
 from workbench.paper.loading import Loaded
+from workbench.paper.study import varied
 
 Row = dict[str, float | str | None]
 Values = Mapping[str, float]
@@ -89,6 +90,32 @@ class GainSearch:
     run: Callable[[Loaded, Task], Ended]
     front: FrontSearch | None = None
     had: Callable[[Loaded, Task, Runs], Ended | None] = _never
+
+
+@dataclass(frozen=True)
+class OwnRuns:
+    """Found gains in the runs of a paper's study: what `run` and `had` of its GainSearch are.
+
+    case(study, task): which of the study's runs shows them, as stated; make(study, case): that run; row(study, run):
+    its numbers, and why it ended early. study: with the task's changes. A run with the values of one that the study
+    has made is not made again.
+    """
+
+    case: Callable[[Any, Task], Any]
+    make: Callable[[Any, Any], Any]
+    row: Callable[[Any, Any], Ended]
+
+    def run(self, loaded: Loaded, task: Task) -> Ended:
+        """The task's run; ValueError for a change of no value that the study states."""
+        changed = varied(loaded.study, task.changes, task.gains)
+        return self.row(changed, self.make(changed, self.case(changed, task)))
+
+    def had(self, loaded: Loaded, task: Task, runs: Runs) -> Ended | None:
+        """The same from the study's own runs, as stated or under one of its changes; None where none has its values."""
+        study: Any = loaded.study
+        number = study.number_of(task.changes)
+        case = None if number is None else replace(self.case(study, task), change=number)
+        return self.row(study.changed(number), runs[case]) if case in runs else None
 
 
 def gain_search_of(loaded: Loaded) -> GainSearch | None:

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
-from typing import Any
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from functools import partial
+from typing import Any, TypeVar
 
 import numpy as np
 
@@ -16,8 +17,10 @@ from workbench.paper.pairs import METRIC_NAMES, STATES
 from workbench.paper.results import Array, Curve, Plot, ResultTable, Shown
 from workbench.paper.stages import Stage
 from workbench.paper.statistics import ahead_from
+from workbench.paper.study_tables import ColumnOf
 from workbench.simulate.closed_loop import NOMINAL
 
+T = TypeVar("T")
 # (place, controller, whether it is tuned)
 Task = tuple[str, str, bool]
 Rows = Mapping[Task, Mapping[str, Any]]
@@ -36,6 +39,19 @@ def rises(errors: Array) -> int:
 def at_trials(values: Array, trials: Sequence[int], first_trial: int) -> tuple[float | None, ...]:
     """The values of some trials, of which the first has the number first_trial; None where the run had ended."""
     return tuple(float(values[trial - first_trial]) if trial - first_trial < len(values) else None for trial in trials)
+
+
+def trial_columns(heading: Column, errors: Callable[[T], Array], trials: Iterable[int], first_trial: int
+                  ) -> Iterator[ColumnOf[T]]:
+    """For `run_table`: a column for the error of each of some trials, `at_trials`.
+
+    errors(run): of every trial that ended, of which the first has the number first_trial.
+    """
+    def said(trial: int, run: T) -> Cell:
+        return at_trials(errors(run), (trial,), first_trial)[0]
+
+    for trial in trials:
+        yield replace(heading, title=f"{heading.title}, trial {trial}"), partial(said, trial)
 
 
 def trial_curve(label: str, errors: Array, first_trial: int) -> Curve:

@@ -8,7 +8,7 @@ from typing import Any, Generic, Protocol, Self, TypeVar
 
 from pydantic import model_validator
 
-from workbench.files.toml import Record, Text
+from workbench.files.toml import Record, SourcedRecord, Text
 from workbench.paper.mpc_comparison import MpcData
 from workbench.paper.study import Study, varied
 from workbench.paper.tuning_record import Pairs, StudyTuning
@@ -22,6 +22,24 @@ class Change(Record):
 
     title: Text
     set: dict[str, Any]
+
+
+class ColumnTable(SourcedRecord):
+    """A table of a paper with one value a column: each of its own fields lists as many values as the others."""
+
+    @model_validator(mode="after")
+    def _as_long_as_each_other(self) -> Self:
+        lengths = {key: len(getattr(self, key)) for key in type(self).model_fields if key != "source"}
+        usual = max(lengths.values(), key=list(lengths.values()).count)
+        for key, length in lengths.items():
+            if length != usual:
+                raise ValueError(f"{key} has {length} values, others {usual}: give one value a column in each")
+        return self
+
+    @property
+    def columns(self) -> int:
+        """How many columns the table has."""
+        return next(len(getattr(self, key)) for key in type(self).model_fields if key != "source")
 
 
 class ReproducedStudy(Study):
@@ -63,6 +81,10 @@ class ReproducedStudy(Study):
         return next((number for number in (STATED, *range(len(self.changes)))
                      if varied(self.changed(number), {}, "") == wanted), None)
 
+    def number_titled(self, title: str) -> int:
+        """The number of the change with a title; StopIteration where none has it."""
+        return next(number for number, change in enumerate(self.changes) if change.title == title)
+
     def change_title(self, number: int) -> str | None:
         """The title of a change, by its number; None for what is as stated."""
         return None if number == STATED else self.changes[number].title
@@ -81,6 +103,18 @@ class HasChange(Protocol):
     def change(self) -> int:
         """A number of the study's changes."""
         ...
+
+
+@dataclass(frozen=True)
+class RunCase:
+    """A run of a study whose runs differ in its changes alone: as stated, or under the change of that number."""
+
+    change: int = STATED
+
+
+def stated_and_changed(study: ReproducedStudy) -> list[RunCase]:
+    """The run as stated, then one under each change of the file."""
+    return [RunCase(number) for number in range(STATED, len(study.changes))]
 
 
 S = TypeVar("S", bound=ReproducedStudy)
@@ -104,3 +138,11 @@ class Results(Generic[S, C, R]):
         """Those of `select` under changes of exactly these keys; under any change where no key is named."""
         return {of: run for of, run in self.select(**case).items() if of.change != STATED and (
             not keys or self.study.changes[of.change].set.keys() == set(keys))}
+
+    def changed_runs(self, *keys: str, **case: object) -> list[tuple[Any, R]]:
+        """The runs of `changing`, each behind the study's change that it was made under."""
+        return [(self.study.changes[of.change], run) for of, run in self.changing(*keys, **case).items()]
+
+    def by_change(self, **case: object) -> list[tuple[str, dict[C, R]]]:
+        """For each change its title and its runs among those of `select`, in the file's order: for a table of them."""
+        return [(change.title, self.select(change=number, **case)) for number, change in enumerate(self.study.changes)]

@@ -9,10 +9,11 @@ from functools import partial
 from typing import Any, Protocol
 
 from workbench.model.desired_curve import DesiredCurve
+from workbench.paper.comparison import ALONE
 from workbench.paper.drivers import Drivers, checked, tune_with
 from workbench.paper.findings import found
 from workbench.paper.pairs import compared_pairs, pair_findings, pair_stage, pair_table
-from workbench.paper.reproduced import ReproducedStudy
+from workbench.paper.reproduced import ReproducedStudy, Results
 from workbench.paper.results import Plot, ResultTable, Shown, StudyResult
 from workbench.paper.stages import Stage, Together, run_stages
 from workbench.paper.study import Progress, StudyKind
@@ -45,15 +46,33 @@ def _every(case: Any) -> bool:
     return True
 
 
+def _case_words(study: Any, case: Any) -> dict[str, Any]:
+    """The fields of a case, its change by the title."""
+    return {key: study.change_title(value) if key == "change" else value for key, value in vars(case).items()}
+
+
+def case_title(study: Any, case: Any) -> str:
+    """A run in words from its case: `column 3, twice the rate`, or `as stated` where no field says more."""
+    fields = _case_words(study, case)
+    words = [*(f"{key} {value}" for key, value in fields.items() if key != "change"), fields.get("change")]
+    return ", ".join(filter(None, words)) or "as stated"
+
+
+def plain_row(study: Any, case: Any, run: Any) -> dict[str, Any]:
+    """The fields of a case, its change by the title, and those of the run's own that are a number, a word or None."""
+    plain = {key: value for key, value in vars(run).items() if value is None or isinstance(value, int | float | str)}
+    return _case_words(study, case) | plain
+
+
 @dataclass(frozen=True)
 class Reproduction:
-    """What a paper's study declares; the package runs it and puts it together.
+    """What a paper's study declares; the package runs it and puts it together. The first three are enough.
 
-    record: of its file; cases(study): its own runs, hashable, each with the number of its `change`; run(study, case):
-    what a run left, with `failed`, why it ended early, or None; title(study, case): a run in words; row(study, case,
-    run): a run as data; results(study, runs, *of_stages): what the makers of tables, figures and findings are given,
-    `reproduced.Results` or more. A maker gives one or several, in the order of the page; a finding that
-    lacks its runs is left out.
+    record: of its file; cases(study): its own runs, hashable, each with the number of its `change`, or
+    `reproduced.stated_and_changed`; run(study, case): what a run left, with `failed`, why it ended early, or None.
+    title(study, case): a run in words; row(study, case, run): a run as data; results(study, runs, *of_stages): what the
+    makers of tables, figures and findings are given, `reproduced.Results` or more. A maker gives one or several, in the
+    order of the page; a finding that lacks its runs is left out.
     beside: law and MPC; track: see `StudyKind`; work: how long a run takes, together: how several are made at once, see
     `Stage`; stages(study): runs of other kinds; told(case): whether the report says that a run failed, which for a
     sweep's it need not.
@@ -62,14 +81,14 @@ class Reproduction:
     record: type[ReproducedStudy]
     cases: Callable[[Any], Sequence[Hashable]]
     run: Callable[[Any, Any], Any]
-    title: Callable[[Any, Any], str]
-    row: Callable[[Any, Any, Any], dict[str, Any]]
-    results: Callable[..., Any]
-    tables: Sequence[Callable[[Any], ResultTable | Iterable[ResultTable]]]
-    plots: Sequence[Callable[[Any], Plot | Iterable[Plot]]]
-    findings: Sequence[Callable[[Any], str | Iterable[str]]]
-    beside: Beside
-    track: Callable[[Any, DesiredCurve | None], Tracked]
+    title: Callable[[Any, Any], str] = case_title
+    row: Callable[[Any, Any, Any], dict[str, Any]] = plain_row
+    results: Callable[..., Any] = Results
+    tables: Sequence[Callable[[Any], ResultTable | Iterable[ResultTable]]] = ()
+    plots: Sequence[Callable[[Any], Plot | Iterable[Plot]]] = ()
+    findings: Sequence[Callable[[Any], str | Iterable[str]]] = ()
+    beside: Beside = ALONE
+    track: Callable[[Any, DesiredCurve | None], Tracked] | None = None
     work: Callable[[Any, Any], float] | None = None
     stages: Callable[[Any], Sequence[Stage]] = _nothing_more
     told: Callable[[Any], bool] = _every

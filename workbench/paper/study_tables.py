@@ -1,4 +1,4 @@
-"""Tables that most studies have: what is printed beside what was obtained, and what changes of assumed values do."""
+"""Tables that most studies have: a run a row, what is printed beside what was obtained, what assumed values do."""
 
 from __future__ import annotations
 
@@ -10,6 +10,8 @@ from workbench.paper.cells import Cell, Column, Phrase, Quantity
 from workbench.paper.results import ResultTable
 
 T = TypeVar("T")
+# A column of a table of runs: its heading, and what it says of a run.
+ColumnOf = tuple[Column | str, Callable[[T], Cell]]
 
 
 def printed_columns(quantities: Sequence[Column], ratio: bool = False) -> tuple[Column, ...]:
@@ -23,6 +25,17 @@ def printed_cells(pairs: Iterable[tuple[float | None, float | None]], ratio: boo
     """The cells under `printed_columns` of (printed, obtained) in SI; None for what there is not."""
     return tuple(cell for printed, obtained in pairs for cell in (
         printed, obtained, *((obtained / printed if printed and obtained is not None else None,) if ratio else ())))
+
+
+def run_table(title: str, source: str, labels: Sequence[Column | str], runs: Iterable[tuple[Sequence[Cell], T]],
+              columns: Iterable[ColumnOf[T]], note: str = "") -> ResultTable:
+    """A table of one run a row: what names the run, then what each column says of it.
+
+    labels: the headings of what names a run; runs: those cells and the run; columns: a heading and its cell of a run.
+    """
+    says = list(columns)
+    return ResultTable(title, source, (*labels, *(heading for heading, _ in says)), tuple(
+        (*names, *(cell(run) for _, cell in says)) for names, run in runs), note)
 
 
 def statement_table(title: str, source: str, runs: Mapping[str, T],

@@ -56,6 +56,11 @@ class Run:
             raise KeyError(f"no column '{name}' in the log: choose one of {', '.join(self.columns)}")
         return self.log[:, self.columns.index(name)]
 
+    @property
+    def position_error(self) -> Array:
+        """Position less desired position at the rows of the log, m."""
+        return self.column("s_m") - self.column("s_desired_m")
+
 
 @dataclass
 class _Arrays:

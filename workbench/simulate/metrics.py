@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from workbench.simulate.closed_loop import Run
+from workbench.simulate.closed_loop import Array, Run
 from workbench.trains.scenario import Scenario
 
 
@@ -70,6 +70,11 @@ class Metrics:
                 for key, value in vars(self).items()}
 
 
+def rms(values: Array) -> float:
+    """The root mean square of values, of which there is at least one."""
+    return float(np.sqrt(np.mean(values**2)))
+
+
 def measure(run: Run, scenario: Scenario) -> Metrics:
     """The metrics of a scenario's run."""
     return measure_run(run, scenario.track.length_m)
@@ -95,7 +100,7 @@ def measure_run(run: Run, length_m: float) -> Metrics:
         energy_J=whole * total["traction_work_j"],
         jerk_rms=whole * float(np.sqrt(total["jerk_square_sum"] / max(1.0, total["jerk_steps"]))),
         jerk_p95=whole * total["jerk_p95_mps3"], jerk_max=whole * total["jerk_max_mps3"],
-        logged_jerk_rms=whole * (float(np.sqrt(np.mean(logged_jerk**2))) if len(logged_jerk) else 0.0),
+        logged_jerk_rms=whole * (rms(logged_jerk) if len(logged_jerk) else 0.0),
         comfort_rms=whole * float(np.sqrt(total["weighted_square_sum"] / samples)),
         command_variation=whole * total["command_variation_mps2"] / seconds,
         switchings=whole * total["force_switchings"] / seconds, overspeed_max=whole * total["overspeed_max_mps"],

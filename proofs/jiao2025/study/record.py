@@ -6,16 +6,16 @@ from itertools import pairwise
 from typing import Annotated, Any, Literal, Self
 
 import numpy as np
-from pydantic import BeforeValidator, Field, Strict, model_validator
+from pydantic import BeforeValidator, Field, model_validator
 
-from workbench.files.toml import Name, Number, Positive, Record, SourcedRecord, Text
+from workbench.files.toml import Name, Number, Positive, Record, SourcedRecord, Text, Whole
 from workbench.paper.reproduced import ReproducedStudy, one_of
 from workbench.paper.results import Array
 
 from ..laws import TRIAL_LAWS
 
-Trial = Annotated[int, Strict(), Field(ge=1, le=10_000)]
-Share = Annotated[float, Strict(), Field(gt=0, le=1, allow_inf_nan=False)]
+Trial = Annotated[Whole, Field(ge=1, le=10_000)]
+Share = Annotated[Number, Field(gt=0, le=1)]
 
 
 def _estimate(value: Any) -> Any:
@@ -32,7 +32,7 @@ Estimate = Annotated[float | str, BeforeValidator(_estimate)]
 class Train(SourcedRecord):
     """The mass, and what (17) is divided by: nothing ("newton"), or M as it is printed ("as_printed")."""
 
-    mass_kg: Annotated[float, Strict(), Field(ge=1e3, le=1e8, allow_inf_nan=False)]
+    mass_kg: Number = Field(ge=1e3, le=1e8)
     resistance: Literal["newton", "as_printed"]
 
 
@@ -40,7 +40,7 @@ class Section(Record):
     """A section of the line up to a fraction of its length."""
 
     end_fraction: Share
-    grade_permille: Annotated[float, Strict(), Field(ge=-100, le=100, allow_inf_nan=False)]
+    grade_permille: Number = Field(ge=-100, le=100)
 
 
 class Line(SourcedRecord):
@@ -61,12 +61,12 @@ class Trials(SourcedRecord):
     """How many trials, of which lengths (in the k of (16)), and which of them the figures show."""
 
     count: Trial
-    desired_length_k: Annotated[int, Strict(), Field(ge=1601, le=2000)]
-    shortest_length_k: Annotated[int, Strict(), Field(ge=1, le=1999)]
+    desired_length_k: Whole = Field(ge=1601, le=2000)
+    shortest_length_k: Whole = Field(ge=1, le=1999)
     compared: Annotated[tuple[Trial, ...], Field(min_length=1)]
     line_shown: tuple[Trial, ...]
-    seed: Annotated[int, Strict(), Field(ge=0)]
-    seeds: Annotated[int, Strict(), Field(ge=2, le=1000)]
+    seed: Whole = Field(ge=0)
+    seeds: Whole = Field(ge=2, le=1000)
 
     @model_validator(mode="after")
     def _fit_together(self) -> Self:
@@ -99,9 +99,9 @@ class Reading(SourcedRecord):
 
     title: Text
     unit: Text
-    unit_n: Annotated[float, Strict(), Field(ge=1e-3, le=1e8, allow_inf_nan=False)]
-    step_s: Annotated[float, Strict(), Field(ge=1e-3, le=10, allow_inf_nan=False)]
-    k_per_sample: Annotated[float, Strict(), Field(ge=1e-2, le=1, allow_inf_nan=False)]
+    unit_n: Number = Field(ge=1e-3, le=1e8)
+    step_s: Number = Field(ge=1e-3, le=10)
+    k_per_sample: Number = Field(ge=1e-2, le=1)
 
     @property
     def per_k(self) -> int:
@@ -134,7 +134,7 @@ class UnitSweep(SourcedRecord):
     readings: tuple[Name, ...]
     lowest_mps2: Positive
     highest_mps2: Positive
-    count: Annotated[int, Strict(), Field(ge=2, le=1000)]
+    count: Whole = Field(ge=2, le=1000)
 
     @property
     def units_mps2(self) -> Array:

@@ -3,14 +3,15 @@
 from __future__ import annotations
 
 from functools import partial
+from operator import attrgetter
 
 import numpy as np
 
 from workbench.paper.cells import Cell, Column, Phrase
-from workbench.paper.learning_comparison import at_trials, rises
+from workbench.paper.learning_comparison import at_trials, rises, trial_columns
 from workbench.paper.reproduced import STATED
 from workbench.paper.results import ResultTable
-from workbench.paper.study_tables import statement_table, verdict
+from workbench.paper.study_tables import ColumnOf, run_table, statement_table, verdict
 
 from ..laws import TRIAL_LAWS
 from ..simulation.plans import desired_trip
@@ -19,6 +20,7 @@ from .record import Shown
 from .runs import ICFDL, PD, PRINTED_LAWS, JiaoResults, concerns, mse_at, outcome, peak
 
 MSE = "MSE is the mean of e² over the samples of a trial, in m²/s²."
+MSES = Column("MSE")
 MENDED = ("jiao2025.icfdl_remembering", "jiao2025.pd_difference", "jiao2025.cfdl")
 
 
@@ -29,18 +31,16 @@ def _trials(results: JiaoResults) -> tuple[int, ...]:
 
 def readings(results: JiaoResults) -> ResultTable:
     """Both laws of the paper in every reading of u and k."""
-    trials, rows = _trials(results), []
-    for name, reading in results.study.readings.items():
-        for law in PRINTED_LAWS:
-            run = results.run(name, law)
-            trial, ratio = peak(run)
-            rows.append((
-                reading.title, TRIAL_LAWS[law].title, *at_trials(run.mse, trials, 0),
-                Phrase("{} (trial {})", (ratio, trial)), rises(run.mse), run.column("largest_error")[-1], outcome(run)))
-    return ResultTable(
-        "Every reading of u and k", "the paper states neither; section 4",
-        ("Reading", "Law", *(f"MSE, trial {trial}" for trial in trials), "Peak MSE over first", "Trials that got worse",
-         Column("Largest |e|, last trial that ended", "m/s"), "Outcome"), tuple(rows),
+    runs = [((reading.title, TRIAL_LAWS[law].title), results.run(name, law))
+            for name, reading in results.study.readings.items() for law in PRINTED_LAWS]
+    columns: tuple[ColumnOf[TrialRun], ...] = (
+        *trial_columns(MSES, attrgetter("mse"), _trials(results), 0),
+        ("Peak MSE over first", lambda run: Phrase("{} (trial {})", peak(run)[::-1])),
+        ("Trials that got worse", lambda run: rises(run.mse)),
+        (Column("Largest |e|, last trial that ended", "m/s"), lambda run: run.column("largest_error")[-1]),
+        ("Outcome", outcome))
+    return run_table(
+        "Every reading of u and k", "the paper states neither; section 4", ("Reading", "Law"), runs, columns,
         f"{MSE} Trial 0 runs under u(k,0). “Learns”: less than 1 % of the first MSE is left; “hardly”: more than half.")
 
 
@@ -131,17 +131,13 @@ def _ratio(run: TrialRun) -> Cell:
 
 def mended(results: JiaoResults) -> ResultTable:
     """Laws and train with what the claims refute put right, beside the printed ones."""
-    trials, rows = _trials(results), []
-    for name in results.short_readings():
-        for law, opposed in [*((law, False) for law in (*PRINTED_LAWS, *MENDED)),
-                             *((law, True) for law in PRINTED_LAWS)]:
-            run = results.run(name, law, opposed=opposed)
-            rows.append((
-                results.study.readings[name].title, TRIAL_LAWS[law].title,
-                "opposes motion" if opposed else "as printed", *at_trials(run.mse, trials, 0), outcome(run)))
-    return ResultTable(
+    ways = [*((law, False) for law in (*PRINTED_LAWS, *MENDED)), *((law, True) for law in PRINTED_LAWS)]
+    runs = [((results.study.readings[name].title, TRIAL_LAWS[law].title, "opposes motion" if opposed else "as printed"),
+             results.run(name, law, opposed=opposed)) for name in results.short_readings() for law, opposed in ways]
+    return run_table(
         "Printed and mended", "claims 15.reset and 18.name; (3) for a train that rolls backwards; (11)-(13)",
-        ("Reading", "Law", "Resistance (3)", *(f"MSE, trial {trial}" for trial in trials), "Outcome"), tuple(rows),
+        ("Reading", "Law", "Resistance (3)"), runs,
+        (*trial_columns(MSES, attrgetter("mse"), _trials(results), 0), ("Outcome", outcome)),
         f"{MSE} CFDL-MFAILC (11)-(13) needs trials of the full length and gets them.")
 
 

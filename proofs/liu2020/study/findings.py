@@ -13,7 +13,7 @@ from workbench.paper.findings import LackingError, needed, some, span
 from ..laws import LAWS
 from ..simulation.trip import desired_curve
 from ..steady_run import eigenvalues, largest_step_s
-from .record import COLUMNS, LiuChange
+from .record import COLUMNS
 from .runs import BY_RATE, CORRECTED, FEEDBACK, SIGN_LAWS, LiuResults, RunResult
 from .tables import ENERGY, QUANTITIES, RMS
 
@@ -45,10 +45,6 @@ def _ratio(results: LiuResults, runs: list[RunResult], name: str) -> str:
 
 def _ratios(results: LiuResults, runs: list[RunResult]) -> str:
     return ", ".join(_ratio(results, runs, name) for name in RMS)
-
-
-def _changes(results: LiuResults) -> list[tuple[LiuChange, RunResult]]:
-    return [(results.study.changes[case.change], run) for case, run in results.changing(leak_rate_per_s=None).items()]
 
 
 def _table_3(results: LiuResults) -> str:
@@ -138,7 +134,7 @@ def _control_gain(results: LiuResults) -> str:
 def _energy(results: LiuResults) -> str:
     study, column = results.study, results.study.table_4_column
     both, traction = (needed(results.rms(column, CORRECTED, name)) for name in (ENERGY, "energy_J"))
-    others = [f"{change.title}: {number((run.numbers.get(ENERGY) or 0.0) / 1e11)}" for change, run in _changes(results)
+    others = [f"{change.title}: {number((run.numbers.get(ENERGY) or 0.0) / 1e11)}" for change, run in results.assumed()
               if run.case.column == column and not run.failed and {"train.davis_unit", "line.length_m"} & set(change.set)]
     tail = f" With other assumptions: {'; '.join(others)}." if others else ""
     return (f"Energy at Value {column}: {number(both / 1e11)}·10¹¹ J of traction and braking, "
@@ -201,7 +197,7 @@ def _networks(results: LiuResults) -> str:
         said.append(f"{number(bare)} to {number(nets)} m at Value {column}")
     text = (f"The paper states no value of networks and adaptation. As assumed, slow enough for every column, they "
             f"take s−s_d from {', from '.join(said)}.")
-    lost = [f"{change.title}, Value {run.case.column}" for change, run in _changes(results)
+    lost = [f"{change.title}, Value {run.case.column}" for change, run in results.assumed()
             if run.failed and any(key.startswith("adaptation.") for key in change.set)]
     if lost:
         text += (f" Fast adaptation diverges with corrected signs too ({'; '.join(lost)}): e_v is made of the "
@@ -210,7 +206,7 @@ def _networks(results: LiuResults) -> str:
 
 
 def _stiff(results: LiuResults) -> str:
-    lost = some(change.title for change, run in _changes(results)
+    lost = some(change.title for change, run in results.assumed()
                 if run.failed and run.case.column == COLUMNS and "sampling.period_s" in change.set)
     return f"Value {COLUMNS} is stiff: it diverges with {'; '.join(lost)}, as its eigenvalues say."
 
@@ -221,7 +217,7 @@ def _sensitivity(results: LiuResults) -> str:
     for column in results.study.runs.sensitivity_columns:
         for name in ("v_tilde_mps", "position_m"):
             before, of = results.rms(column, results.study.runs.sensitivity_law, name), QUANTITIES[name]
-            moved = [(abs(np.log(value / before)), change.title, value) for change, run in _changes(results)
+            moved = [(abs(np.log(value / before)), change.title, value) for change, run in results.assumed()
                      if change.law is None and run.case.column == column and before
                      and (value := run.numbers.get(name))]
             if moved and before:

@@ -6,26 +6,26 @@ import math
 from itertools import pairwise
 from typing import Annotated, Literal, Self
 
-from pydantic import Field, Strict, model_validator
+from pydantic import Field, model_validator
 
-from workbench.files.toml import NonNegative, Number, Positive, SourcedRecord, Text
+from workbench.files.toml import NonNegative, Number, Positive, SourcedRecord, Text, Whole
 from workbench.model.desired_curve import RampTime
-from workbench.paper.reproduced import Change, ReproducedStudy, one_of
+from workbench.paper.reproduced import Change, ColumnTable, ReproducedStudy, one_of
 
-from ..laws import FEEDBACK_GAINS, LAWS
+from ..laws import LAWS
 
 COLUMNS = 10
 
-Column = Annotated[int, Strict(), Field(ge=1, le=COLUMNS)]
-Step = Annotated[float, Strict(), Field(ge=1e-5, le=1, allow_inf_nan=False)]
+Column = Annotated[Whole, Field(ge=1, le=COLUMNS)]
+LeakRate = Annotated[Number, Field(ge=0, le=1e3)]
 Range = tuple[Number, Number]
 
 
 class Train(SourcedRecord):
     """Mass, the factor chi of (9), and the coefficients of (61) in the unit that they are read in."""
 
-    mass_kg: Annotated[float, Strict(), Field(ge=1e3, le=1e8, allow_inf_nan=False)]
-    chi: Annotated[float, Strict(), Field(ge=0.1, le=2, allow_inf_nan=False)]
+    mass_kg: Number = Field(ge=1e3, le=1e8)
+    chi: Number = Field(ge=0.1, le=2)
     davis: tuple[NonNegative, NonNegative, NonNegative]
     davis_unit: Literal["N/kN, km/h", "N/kN, m/s", "N/kg, m/s"]
 
@@ -35,15 +35,15 @@ class Section(SourcedRecord):
 
     from_m: NonNegative
     to_m: Positive
-    slope: Annotated[float, Strict(), Field(ge=-100, le=100, allow_inf_nan=False)] = 0.0
-    curve_radius_m: Annotated[float, Strict(), Field(ge=50, le=1e6, allow_inf_nan=False)] | None = None
+    slope: Number = Field(0.0, ge=-100, le=100)
+    curve_radius_m: Annotated[Number, Field(ge=50, le=1e6)] | None = None
     tunnel_length_m: NonNegative = 0.0
 
 
 class Line(SourcedRecord):
     """Length of the run, the sections with additional resistance, and the unit of their slopes."""
 
-    length_m: Annotated[float, Strict(), Field(ge=1e3, le=1e7, allow_inf_nan=False)]
+    length_m: Number = Field(ge=1e3, le=1e7)
     slope_unit: Literal["percent", "permille"]
     sections: tuple[Section, ...]
 
@@ -61,22 +61,22 @@ class Reference(SourcedRecord):
     The highest input accelerates against the resistance of the cruise speed, the lowest brakes at that of standstill.
     """
 
-    cruise_mps: Annotated[float, Strict(), Field(ge=0.1, le=150, allow_inf_nan=False)]
+    cruise_mps: Number = Field(ge=0.1, le=150)
     highest_input_n: Positive
-    lowest_input_n: Annotated[float, Strict(), Field(lt=0, allow_inf_nan=False)]
+    lowest_input_n: Number = Field(lt=0)
     ramp_s: RampTime
 
 
 class Sampling(SourcedRecord):
     """Sampling of laws and train, rows of the log, and the filter of the differenced position."""
 
-    period_s: Annotated[float, Strict(), Field(ge=1e-5, le=0.1, allow_inf_nan=False)]
-    log_every_s: Step
-    speed_filter_s: Step
+    period_s: Number = Field(ge=1e-5, le=0.1)
+    log_every_s: Number = Field(ge=1e-5, le=1)
+    speed_filter_s: Number = Field(ge=1e-5, le=1)
 
 
-class Gains(SourcedRecord):
-    """Table 2: one value a column. k_1 to k_4 in 1/s, k_2 in 1/s^2, k_5 in N s/m."""
+class Gains(ColumnTable):
+    """Table 2. k_1, k_3 and k_4 in 1/s, k_2 in 1/s^2, k_5 in N s/m."""
 
     k_1: tuple[Positive, ...]
     k_2: tuple[Positive, ...]
@@ -84,19 +84,11 @@ class Gains(SourcedRecord):
     k_4: tuple[Positive, ...]
     k_5: tuple[Positive, ...]
 
-    @model_validator(mode="after")
-    def _ten_columns(self) -> Self:
-        for name in FEEDBACK_GAINS:
-            if len(getattr(self, name)) != COLUMNS:
-                raise ValueError(f"{name} has {len(getattr(self, name))} values: give one for each of the {COLUMNS} "
-                                 f"columns")
-        return self
-
 
 class Networks(SourcedRecord):
     """Both networks: how many neurons along the desired curve, and their width in inputs of order one."""
 
-    neurons: Annotated[int, Strict(), Field(ge=2, le=10_000)]
+    neurons: Whole = Field(ge=2, le=10_000)
     width: Positive
 
 
@@ -110,7 +102,7 @@ class Adaptation(SourcedRecord):
     alpha_1_per_s2: Positive
     gamma_v_n_per_m: Positive
     alpha_2_n_per_m: Positive
-    leak_rate_per_s: Annotated[float, Strict(), Field(ge=0, le=1e3, allow_inf_nan=False)]
+    leak_rate_per_s: LeakRate
     kappa_1_mps: Positive
     kappa_2_mps: Positive
 
@@ -129,9 +121,9 @@ class Push(SourcedRecord):
 
     title: Text
     from_s: NonNegative
-    sine_n: Annotated[float, Strict(), Field(ge=-1e8, le=1e8, allow_inf_nan=False)]
-    cosine_n: Annotated[float, Strict(), Field(ge=-1e8, le=1e8, allow_inf_nan=False)]
-    omega_rad_s: Annotated[float, Strict(), Field(ge=0, le=1e3, allow_inf_nan=False)]
+    sine_n: Number = Field(ge=-1e8, le=1e8)
+    cosine_n: Number = Field(ge=-1e8, le=1e8)
+    omega_rad_s: Number = Field(ge=0, le=1e3)
 
     @property
     def largest_n(self) -> float:
@@ -144,21 +136,14 @@ class Push(SourcedRecord):
         return math.atan2(self.cosine_n, self.sine_n)
 
 
-class Printed(SourcedRecord):
-    """A table of results as the paper prints it: one value a column, SI units."""
+class Printed(ColumnTable):
+    """A table of results as the paper prints it, SI units."""
 
     energy: tuple[Number, ...]
     s_tilde_m: tuple[Number, ...]
     v_tilde_mps: tuple[Number, ...]
     position_m: tuple[Number, ...]
     speed_mps: tuple[Number, ...]
-
-    @model_validator(mode="after")
-    def _as_long_as_each_other(self) -> Self:
-        lengths = {len(getattr(self, name)) for name in type(self).model_fields if name != "source"}
-        if len(lengths) != 1:
-            raise ValueError(f"its rows have {sorted(lengths)} values: give one value a column in each")
-        return self
 
 
 class FigureRanges(SourcedRecord):
@@ -182,7 +167,7 @@ class Runs(SourcedRecord):
     inferred_changes: tuple[Text, ...]
     divergence_change: Text
     divergence_columns: tuple[Column, ...]
-    divergence_leak_rates_per_s: tuple[Annotated[float, Strict(), Field(ge=0, le=1e3, allow_inf_nan=False)], ...]
+    divergence_leak_rates_per_s: tuple[LeakRate, ...]
     sensitivity_law: Text
     sensitivity_columns: tuple[Column, ...]
 
@@ -215,9 +200,10 @@ class LiuStudy(ReproducedStudy):
 
     def check(self) -> None:
         """Tables are as long as what they list, and what names a disturbance, law or change names one that is there."""
-        for key, table, wanted in (("table_3", self.table_3, COLUMNS), ("table_4", self.table_4, len(self.disturbances))):
-            if len(table.energy) != wanted:
-                raise ValueError(f"{key}: has {len(table.energy)} columns: give {wanted}, one for each that it is of")
+        for key, table, wanted in (("gains", self.gains, COLUMNS), ("table_3", self.table_3, COLUMNS),
+                                   ("table_4", self.table_4, len(self.disturbances))):
+            if table.columns != wanted:
+                raise ValueError(f"{key}: has {table.columns} columns: give {wanted}, one for each that it is of")
         one_of("runs.table_3_disturbance", "disturbance", self.runs.table_3_disturbance, self.disturbances)
         for key, law in (("runs.sensitivity_law", self.runs.sensitivity_law),
                          *((f"changes: '{change.title}'", change.law) for change in self.changes if change.law)):

@@ -137,8 +137,8 @@ def _sensitivity(results: LiuResults) -> ResultTable:
     columns = {column for change in study.changes if change.law is None for column in change.columns}
     stated = [results.table_3(column, study.runs.sensitivity_law)
               for column in sorted(columns | set(study.runs.sensitivity_columns))]
-    entries = [("as stated", stated), *((change.title, list(results.select(change=i, leak_rate_per_s=None).values()))
-                                        for i, change in enumerate(study.changes))]
+    entries = [("as stated", stated), *((title, list(runs.values()))
+                                        for title, runs in results.by_change(leak_rate_per_s=None))]
     return sensitivity_table(
         "Sensitivity to what is assumed", ("law", "Value", *(QUANTITIES[name] for name in RMS),
                                           Column("energy", "10¹¹ J", ENERGY_UNIT)),

@@ -75,11 +75,10 @@ def _single_signs(tuning: str, results: MaoResults) -> str:
 
 def _gains(results: MaoResults) -> str:
     """For which gains of the failure's estimates the printed sign of (44) shows."""
-    tried = results.changing("law.gain_xi", "law.gain_rho_k")
     words = []
-    for number, change in enumerate(results.study.changes):
+    for change in results.study.changes:
         if change.laws == "both" and len(change.cases) == 1 and (pair := [
-                run for case, run in tried.items() if case.change == number]):
+                run for of, run in results.changed_runs("law.gain_xi", "law.gain_rho_k") if of is change]):
             words.append(f"{change.set['law.gain_xi']:g}: {outcome(pair[0])} (corrected {outcome(pair[1])})")
     return ("How strong the failure's estimates must be for the sign of (44) to show, case 2 by the gains of (41) and "
             f"(44): {'; '.join(words)}.") if words else "The gains of (41) and (44) were not varied."
@@ -90,9 +89,9 @@ def _sampling(results: MaoResults) -> str:
     for damping in study.sampling.r_2_per_s:
         borne = [run.row["period_s"] for run in results.sampled() if run.case.r_2_per_s == damping and not run.failed]
         words.append(f"r_2 = {damping:g}/s: " + (f"{1e3 * max(borne):g} ms" if borne else "none of those tried"))
-    for number, change in enumerate(study.changes):
+    for change, (title, runs) in zip(study.changes, results.by_change(), strict=True):
         if change.laws == "printed" and len(change.set) == 1 and next(iter(change.set)).endswith("period_s"):
-            again.append(f"{change.title}: {listed([_case(run) for run in results.select(change=number).values()])}")
+            again.append(f"{title}: {listed(map(_case, runs.values()))}")
     return (f"Sampling: the stated gain of {study.law.gain:g} multiplies v⁴ in the loop of c (29). The longest "
             f"period that case {study.sampling.case}, corrected, bears beyond the failure with SI units is, for "
             f"{listed(words)}; the paper states no step. What the printed laws do with scaled regressors is not the "

@@ -5,9 +5,9 @@ from __future__ import annotations
 from itertools import pairwise
 from typing import Annotated, Literal
 
-from pydantic import Field, Strict
+from pydantic import Field
 
-from workbench.files.toml import Count, Name, NonNegative, Number, Positive, Record, SourcedRecord, Text
+from workbench.files.toml import Count, Name, NonNegative, Number, Positive, Record, SourcedRecord, Text, Whole
 from workbench.model.desired_curve import SpeedLevels
 from workbench.model.events import Term
 from workbench.paper.reproduced import Change, ReproducedStudy, one_of
@@ -15,11 +15,11 @@ from workbench.trains.scenario import Interval
 
 from ..laws import MODES, SLOPE_MODE
 
-Share = Annotated[float, Strict(), Field(gt=0, le=2, allow_inf_nan=False)]
-Gain = Annotated[float, Strict(), Field(gt=0, le=1e9, allow_inf_nan=False)]
-Sampling = Annotated[float, Strict(), Field(ge=1e-5, le=0.1, allow_inf_nan=False)]
+Share = Annotated[Number, Field(gt=0, le=2)]
+Gain = Annotated[Number, Field(gt=0, le=1e9)]
+Sampling = Annotated[Number, Field(ge=1e-5, le=0.1)]
 # A rolling resistance beyond these bounds has another unit than the table's.
-Resistance = Annotated[float, Strict(), Field(ge=0, le=1, allow_inf_nan=False)]
+Resistance = Annotated[Number, Field(ge=0, le=1)]
 MOST_CASES, MOST_STEPS, MOST_LOG_ROWS = 5, 1e8, 5e5
 Regressors = Literal["scaled", "SI"]
 Event = Literal["failure", "rest", "drag"]
@@ -28,9 +28,9 @@ Event = Literal["failure", "rest", "drag"]
 class TrainData(SourcedRecord):
     """The train: its mass, and the motors that share its force."""
 
-    mass_t: Annotated[float, Strict(), Field(ge=1, le=1e5, allow_inf_nan=False)]
-    motors: Annotated[int, Strict(), Field(ge=2, le=1000)]
-    gravity_mps2: Annotated[float, Strict(), Field(ge=9, le=10, allow_inf_nan=False)]
+    mass_t: Number = Field(ge=1, le=1e5)
+    motors: Whole = Field(ge=2, le=1000)
+    gravity_mps2: Number = Field(ge=9, le=10)
 
 
 class ModeData(SourcedRecord):
@@ -40,8 +40,8 @@ class ModeData(SourcedRecord):
     a_kn: Resistance
     b_kn_s_per_m: Resistance
     c_kn_s2_per_m2: Resistance
-    theta_deg: Annotated[float, Strict(), Field(ge=-10, le=10, allow_inf_nan=False)]
-    curve_deg: Annotated[float, Strict(), Field(ge=0, le=90, allow_inf_nan=False)]
+    theta_deg: Number = Field(ge=-10, le=10)
+    curve_deg: Number = Field(ge=0, le=90)
     slope_ramp_per_s: Positive | None = None
 
 
@@ -93,7 +93,7 @@ class LawData(SourcedRecord):
     gain_rho_k: Gain
     gain_xi: Gain
     gain_lambda: Gain
-    force_unit_n: Annotated[float, Strict(), Field(ge=1, le=1e8, allow_inf_nan=False)]
+    force_unit_n: Number = Field(ge=1, le=1e8)
     lower_bound_share: Share
     rest_bound_n: Positive
     k_1: Gain
@@ -101,7 +101,7 @@ class LawData(SourcedRecord):
     omega_rad_s: Positive
     phase_rad: Number
     failure_start_n: Number
-    layer_mps: Annotated[float, Strict(), Field(ge=0, le=10, allow_inf_nan=False)]
+    layer_mps: Number = Field(ge=0, le=10)
     estimates: Literal["corrected", "explicit"]
 
 
@@ -122,14 +122,14 @@ class CaseData(SourcedRecord):
     law: Literal["healthy", "failures", "unparameterized", "unknown_bound", "damped"]
     disturbance: Name
     events: tuple[Event, ...]
-    initial_position_m: Annotated[float, Strict(), Field(ge=-1e3, le=1e3, allow_inf_nan=False)]
+    initial_position_m: Number = Field(ge=-1e3, le=1e3)
     estimate_share: Share
 
 
 class Horizon(SourcedRecord):
     """How long runs last and how often they are logged."""
 
-    end_s: Annotated[float, Strict(), Field(gt=0, le=1e5, allow_inf_nan=False)]
+    end_s: Number = Field(gt=0, le=1e5)
     log_every_s: Interval
     settled_window_s: Positive
 

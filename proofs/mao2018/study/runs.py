@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, replace
-from itertools import pairwise
 from typing import Any
 
 import numpy as np
@@ -14,7 +13,8 @@ from workbench.paper.reproduced import STATED, Results
 from workbench.paper.results import Curve, thinned
 from workbench.paper.tracked import Tracked, of_run
 from workbench.simulate.closed_loop import Run
-from workbench.simulate.metrics import measure_run
+from workbench.simulate.metrics import measure_run, rms
+from workbench.simulate.stretches import Stretch, stretches
 
 from .. import laws
 from ..simulation.trip import KILONEWTON, TONNE, Signs, law_of, run_under, setting_of, wrong_signs
@@ -38,15 +38,6 @@ class RunCase:
     period_s: float | None = None
     r_2_per_s: float | None = None
     end_s: float | None = None
-
-
-@dataclass(frozen=True)
-class Stretch:
-    """From one event to the next: the largest |position error|, and the largest in the last seconds before the next."""
-
-    start_s: float
-    largest_m: float
-    settled_m: float
 
 
 @dataclass(frozen=True)
@@ -125,21 +116,14 @@ def track(study: MaoStudy, curve: DesiredCurve | None) -> Tracked:
     setting = setting_of(study, case, tuning)
     setting = replace(setting, curve=curve or setting.curve)
     run = run_under(law_of(case, ()), study, case, tuning, setting)
-    return of_run("mao2018", replace(run, controller=law_of(case, ()).id), setting.curve)
+    return of_run(study.paper, replace(run, controller=law_of(case, ()).id), setting.curve)
 
 
 def run_case(study: MaoStudy, of: RunCase) -> RunResult:
     """Run, and take what tables and figures need; a run that failed has its numbers up to its end."""
     run, case = simulate(study, of), study.cases[of.number - 1]
-    time, error = run.column("t_s"), run.column("s_m") - run.column("s_desired_m")
-    stretches, edges = [], event_times(study)
-    for start, end in pairwise(edges):
-        if end > run.end_s + 1e-9 or (run.failed and end >= run.end_s):
-            break
-        within = np.abs(error[(time >= start) & (time < end)])
-        last = np.abs(error[(time >= end - study.horizon.settled_window_s) & (time < end)])
-        stretches.append(Stretch(start, float(within.max()), float(last.max())))
-    curves = {"error": thinned("position error", time, error)}
+    found = stretches(run, event_times(study), study.horizon.settled_window_s)
+    curves = {"error": thinned("position error", run.column("t_s"), run.position_error)}
     if of.change == STATED and of.end_s is None:
         curves |= _more_curves(study, case, run)
     row = measure_run(run, float(study.reference.curve().length_m)).row() | {
@@ -149,13 +133,13 @@ def run_case(study: MaoStudy, of: RunCase) -> RunResult:
         "command_change_mps2": run.totals["command_variation_mps2"] / max(1.0, run.totals["commands"]),
         "loop_gain": _loop_gain(study, case, run), "failure_learned_n": _failure_learned(study, case, run)}
     row = {key: None if isinstance(value, float) and not math.isfinite(value) else value for key, value in row.items()}
-    return RunResult(of, row, tuple(stretches), curves, run.failed, late_errors(run))
+    return RunResult(of, row, found, curves, run.failed, late_errors(run))
 
 
 def late_errors(run: Run) -> tuple[float, float] | None:
     """RMS and largest size of a run's position errors from SETTLED_S on; None of one that failed or ended before."""
-    error = (run.column("s_m") - run.column("s_desired_m"))[run.column("t_s") >= SETTLED_S]
-    return None if run.failed or not len(error) else (float(np.sqrt(np.mean(error**2))), float(np.abs(error).max()))
+    error = run.position_error[run.column("t_s") >= SETTLED_S]
+    return None if run.failed or not len(error) else (rms(error), float(np.abs(error).max()))
 
 
 def name_of(study: MaoStudy, of: RunCase) -> str:
@@ -196,7 +180,7 @@ def _more_curves(study: MaoStudy, case: CaseData, run: Run) -> dict[str, Curve]:
     """Start, distance, command and, of laws that estimate failures, the force they take the failed motor to give."""
     time = run.column("t_s")
     first = time <= START_S
-    curves = {"start": thinned("start", time[first], (run.column("s_m") - run.column("s_desired_m"))[first]),
+    curves = {"start": thinned("start", time[first], run.position_error[first]),
               "distance": thinned("distance", time, run.column("s_m")),
               "desired": thinned("desired distance", time, run.column("s_desired_m")),
               "command": thinned("command", time, run.column("u_mps2"))}

@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import replace
 
 from workbench.paper.cells import FORCES, Cell, Column, Quantity, Scaled
+from workbench.paper.reproduced import STATED
 from workbench.paper.results import ResultTable
-from workbench.paper.study_tables import sensitivity_table
+from workbench.paper.study_tables import ColumnOf, run_table, sensitivity_table
 
 from .outcomes import ended, summary
 from .runs import MaoResults, RunCase, RunResult, event_times
@@ -54,21 +56,26 @@ def _cases(results: MaoResults) -> Iterator[ResultTable]:
 def _sampling(results: MaoResults) -> ResultTable:
     study = results.study
     fastest = max(study.reference.speeds_mps)
-    rows: list[tuple[Cell, ...]] = []
-    for run in results.sampled():
+    frequency = (study.law.gain * fastest**4) ** 0.5
+
+    def turned(run: RunResult) -> Cell:
         period, gain = run.row["period_s"], run.row["loop_gain"]
-        after: tuple[Cell, ...] = (None, None, None) if run.failed else (
-            gain, period * (gain * study.law.gain * fastest**4) ** 0.5, Scaled(run.largest_m))
-        rows.append((period, run.case.r_2_per_s, period * (study.law.gain * fastest**4) ** 0.5,
-                     ended(run) if run.failed else "none", *after))
-    return ResultTable(
-        "Which sampling the stated gains bear", "sampling, not in the paper",
-        (Column("period", "ms", 1e-3, None), Column("r_2", "1/s", digits=None), Column("period × √2 v²", decimals=2),
-         "diverged", Column("m k_ν ρ̂ at the end", decimals=2), Column("period × √(2 m k_ν ρ̂) v²", decimals=2),
-         "largest error"), tuple(rows),
+        return None if run.failed else period * (gain * study.law.gain * fastest**4) ** 0.5
+
+    columns: tuple[ColumnOf[RunResult], ...] = (
+        (Column("period", "ms", 1e-3, None), lambda run: run.row["period_s"]),
+        (Column("r_2", "1/s", digits=None), lambda run: run.case.r_2_per_s),
+        (Column("period × √2 v²", decimals=2), lambda run: run.row["period_s"] * frequency),
+        ("diverged", lambda run: ended(run) or "none"),
+        (Column("m k_ν ρ̂ at the end", decimals=2), lambda run: None if run.failed else run.row["loop_gain"]),
+        (Column("period × √(2 m k_ν ρ̂) v²", decimals=2), turned),
+        ("largest error", lambda run: None if run.failed else Scaled(run.largest_m)))
+    return run_table(
+        "Which sampling the stated gains bear", "sampling, not in the paper", (),
+        (((), run) for run in results.sampled()), columns,
         f"Case {study.sampling.case}, corrected, until {study.sampling.end_s:g} s, regressors in SI units. With a gain "
         f"of {study.law.gain:g} the loop of z_2 and the estimate of c oscillates at √{study.law.gain:g} v² rad/s, "
-        f"{(study.law.gain * fastest**4) ** 0.5:.0f} rad/s at {fastest:g} m/s, times √(m k_ν ρ̂), where m k_ν ρ̂ = 1 "
+        f"{frequency:.0f} rad/s at {fastest:g} m/s, times √(m k_ν ρ̂), where m k_ν ρ̂ = 1 "
         "for a right estimate; an Euler step bears at most 2 rad a period. Beyond it the growing oscillation pushes "
         "the estimate ρ̂ down until 2 rad are met, or the run is lost, as where a new mode brings its own ρ̂.")
 
@@ -76,14 +83,13 @@ def _sampling(results: MaoResults) -> ResultTable:
 def _commands(results: MaoResults) -> ResultTable:
     """Chattering and the forces that are asked for, of the runs that ended."""
     study = results.study
-    softer = {case: run for case, run in results.changing().items()
-              if "law.layer_mps" in study.changes[case.change].set}
-    runs = [*(run for tuning in study.tunings for run in results.stated(tuning)), *softer.values()]
+    runs = [(study.law.layer_mps, run) for tuning in study.tunings for run in results.stated(tuning)]
+    runs += [(change.set["law.layer_mps"], run) for change, run in results.changed_runs()
+             if "law.layer_mps" in change.set]
     mass, rows = 1e3 * study.train.mass_t, []
-    for run in runs:
+    for layer, run in runs:
         if not run.failed:
             row = run.row
-            layer = study.changes[run.case.change].set["law.layer_mps"] if run.case in softer else study.law.layer_mps
             rows.append((run.case.number, results.left(run), run.case.tuning,
                          Quantity(layer, "mm/s", 1e-3, None) if layer else "sgn", row["command_reversals_per_s"],
                          row["command_change_mps2"], Scaled(mass * row["command_min"], FORCES),
@@ -98,13 +104,12 @@ def _commands(results: MaoResults) -> ResultTable:
 
 def _sensitivity(results: MaoResults) -> ResultTable:
     def compared(case: RunCase, run: RunResult) -> tuple[Cell, ...]:
-        as_stated = results.runs.get(RunCase(case.number, case.tuning, case.mended))
+        as_stated = results.runs.get(replace(case, change=STATED))
         return case.number, results.left(run), summary(run), summary(as_stated) if as_stated else None
 
     return sensitivity_table(
         "How much the assumed values matter", ("case", SIGNS_LEFT, "obtained", "without the change"),
-        [(change.title, [compared(case, run) for case, run in results.select(change=number).items()])
-         for number, change in enumerate(results.study.changes)],
+        [(title, [compared(*run) for run in runs.items()]) for title, runs in results.by_change()],
         "The largest error after the first event and what it settles to, as above.")
 
 
