@@ -19,6 +19,7 @@ $(BIN)/pip:
 
 # pip compiles on one core, the tests of all packages too; some files of packages are no Python of this version.
 define INSTALL
+@echo "installing into $(VENV), in constraints.txt's versions: some minutes"
 @$(BIN)/python -m pip install -qq --no-compile --disable-pip-version-check -c constraints.txt -e ".[$(EXTRAS)]"
 @$(BIN)/python -m compileall -qq -j 0 -x '/tests?/' $(VENV)/lib || true
 endef

@@ -2,6 +2,7 @@
 
 import io
 import json
+import re
 import subprocess
 import sys
 from contextlib import contextmanager
@@ -70,6 +71,12 @@ def test_every_verb_takes_it(mine):
     assert "m/s²" in page and page.index('id="figure-1"') < page.index('id="tables"')
     curves = sorted(path.name for path in (folder / "page" / "curves").glob("*.csv"))
     assert curves == ["01-x.csv", "02-v.csv", "03-u.csv"]
+    # The folder can be sent as it is: what its page names lies beside it, and re-checks itself.
+    named = re.findall(r'href="(certificates/[^"]+)"', page)
+    assert named and all((folder / "page" / name).is_file() for name in named)
+    checked = subprocess.run([sys.executable, "-S", "checker.py", "certificates"], cwd=folder / "page",
+                             capture_output=True, check=False)
+    assert checked.returncode == 0, checked.stderr
 
 
 def written(folder, *asked, **more):

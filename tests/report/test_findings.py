@@ -213,6 +213,13 @@ def test_numbers_of_one_counterexample_are_all_decimals_or_all_fractions(point, 
     assert breaks_at(counterexample_of(certificate("a:1", "refuted", show, point))) == shown
 
 
+def test_numbers_that_differ_are_not_told_to_be_equal():
+    """Both are 0.003784 to four digits, and a reader was told that they are the same."""
+    found = counterexample_of({"verdict": "violated", "point": {"a": "3784111/1000000000", "b": "3784073/1000000000"},
+                               "goal": {"show": ["b >= a"]}})
+    assert set(found.values) == {r"a \approx 0.003784111", r"b \approx 0.003784073"}
+
+
 def test_numbers_in_a_motion_are_written_alike():
     goal = {"assume": [], "show": ["x**2 <= e"], "flow": {"t": "1", "x": "w", "e": "0"}, "inputs": ["w"],
             "eventually": "t"}

@@ -146,7 +146,7 @@ def test_plots_zoom_tell_values_and_have_their_table_and_file(view):
     area.hover()
     box = area.bounding_box()
     buttons = figure.locator(".modebar-btn")
-    assert [button.get_attribute("data-title") for button in buttons.all()] == ["Zoom", "Pan", "Reset axes"]
+    assert {button.get_attribute("data-title") for button in buttons.all()} == {"Zoom", "Pan", "Reset axes"}
     view.mouse.move(box["x"] + 0.4 * box["width"], box["y"] + 0.5 * box["height"], steps=4)
     view.wait_for_selector("#line .hoverlayer text")
     view.mouse.down()
@@ -198,6 +198,10 @@ def test_nothing_is_cut_and_axe_finds_nothing(view, complaints, width, scheme):
     wait_until(view, "document.querySelectorAll('figure.drawn .nsewdrag').length > 1")
     # A chart takes its new width a moment after the window has it.
     wait_until(view, f"document.documentElement.scrollWidth <= {width}")
+    # Nor does it lie over the text below it.
+    wait_until(view, """[...document.querySelectorAll("figure.drawn")].every(found =>
+        found.querySelector(".main-svg").getBoundingClientRect().bottom
+        <= found.querySelector("figcaption").getBoundingClientRect().top + 1)""")
     view.evaluate(AXE)
     found = view.evaluate("axe.run(document, {resultTypes: ['violations']})")
     assert [(entry["id"], [node["target"] for node in entry["nodes"]][:3]) for entry in found["violations"]] == []

@@ -38,7 +38,7 @@ from workbench.report.certificate_latex import (
     rate_latex,
     relation_latex,
 )
-from workbench.report.number_style import Style, style_of, value_latex
+from workbench.report.number_style import Style, style_of, told_apart, value_latex
 
 _SIGN = re.compile(r"\w+ (?:>=?|!=) 0")  # the sign of a letter
 _NAME = re.compile(r"[A-Za-z_]\w*")
@@ -97,8 +97,8 @@ def counterexample_of(certificate: Mapping[str, Any]) -> Counterexample | None:
     style = style_of([*(Fraction(text) for row in (certificate["point"], *certificate.get("terms", []))
                         for name, text in row.items() if name not in between),
                       *(low for low, high in sides or () if low == high)])
-    shown = {name: _rounded(Fraction(text), 10) if name in between else value_latex(Fraction(text), style)
-             for name, text in sorted(certificate["point"].items())}
+    numbers = {name: Fraction(text) for name, text in sorted(certificate["point"].items())}
+    shown = told_apart(numbers, style) | {name: _rounded(numbers[name], 10) for name in between}
     rows = [{name: value_latex(Fraction(text), style) for name, text in sorted(row.items())}
             for row in certificate.get("terms", [])]
     values, others = _grouped({name: value for name, value in shown.items() if name in deciding})

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from fractions import Fraction
 from typing import Literal
 
@@ -32,6 +32,16 @@ def value_latex(value: Fraction, style: Style = "exact") -> str:
     if style != "decimal" and _short(value):
         return rf"{'-' if value < 0 else ''}\frac{{{abs(value.numerator)}}}{{{value.denominator}}}"
     return rf"\approx {_scientific(f'{float(value):.4g}')}"
+
+
+def told_apart(values: Mapping[str, Fraction], style: Style = "exact") -> dict[str, str]:
+    """Numbers by their names as `value_latex` writes them, rounded ones so far that what differs looks so."""
+    found = {name: value_latex(value, style) for name, value in values.items()}
+    for digits in (7, 10, 15):
+        same = [name for name, text in found.items() if r"\approx" in text
+                and any(found[other] == text and values[other] != values[name] for other in values)]
+        found |= {name: rf"\approx {_scientific(f'{float(values[name]):.{digits}g}')}" for name in same}
+    return found
 
 
 def alike(latex: str) -> str:

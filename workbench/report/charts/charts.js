@@ -50,10 +50,11 @@ function layout(chart) {
 }
 
 function draw(figure) {
-  const box = figure.querySelector(".chart");
+  const box = figure.querySelector(".chart"), wanted = layout(charts.get(figure));
   box.hidden = false;
+  box.style.height = wanted.height + "px";  // a chart that is drawn again takes its box's height, else none at all
   figure.classList.add("drawn");
-  Plotly.react(box, traces(charts.get(figure)), layout(charts.get(figure)), {
+  Plotly.react(box, traces(charts.get(figure)), wanted, {
     responsive: true, displaylogo: false, showTips: false, showSendToCloud: false, plotlyServerURL: "",
     modeBarButtonsToRemove: ["toImage", "select2d", "lasso2d", "autoScale2d", "zoomIn2d", "zoomOut2d"] });
 }
