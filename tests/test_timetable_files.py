@@ -54,6 +54,15 @@ def test_a_stop_of_one_row_has_the_least_dwell(tmp_path):
     assert asked.timetable.points[2].dwell_s == 25.0
 
 
+def test_a_time_of_day_is_refused_with_the_unit_to_give(tmp_path):
+    path = tmp_path / "t.toml"
+    path.write_text('name = "t"\n[[point]]\nposition_m = 0.0\nearliest_s = 00:01:20\n')
+    with pytest.raises(InputError) as refused:
+        load_timetable(path, "here", 3000.0, 30.0)
+    assert str(refused.value).startswith(f"{path}: point[0].earliest_s: 00:01:20 is a time of day or a date: give a "
+                                         "number in the unit that the key names")
+
+
 def test_our_own_format_says_the_same(tmp_path):
     own = tmp_path / "t.toml"
     rows = [[1000 * x, None if a is None else 60 * a, b, None if v is None else v / 3.6, w] for x, a, b, v, w in ROWS]

@@ -30,6 +30,16 @@ def tanh_lemma(c):
 TRUE = {
     "triangle": Goal((at_most(sp.Abs(x + y), sp.Abs(x) + sp.Abs(y)),)),
     "reverse triangle": Goal((at_most(sp.Abs(sp.Abs(x) - sp.Abs(y)), sp.Abs(x - y)),)),
+    "a root of a size, signed": Goal((at_most(D(x**2 / 2), -p * sp.Abs(x) ** sp.Rational(3, 2)),),
+                                     flow={x: -p * sp.sqrt(sp.Abs(x)) * sp.sign(x)}),
+    "the same with a linear term": Goal((equal(D(x**2), -2 * p * sp.Abs(x) ** sp.Rational(3, 2) - 2 * kappa * x**2),),
+                                        flow={x: -p * sp.sqrt(sp.Abs(x)) * sp.sign(x) - kappa * x}),
+    "a root of a size of a sum": Goal((equal((x + y) * sp.sqrt(sp.Abs(x + y)) * sp.sign(x + y),
+                                             sp.Abs(x + y) ** sp.Rational(3, 2)),)),
+    "what is below a barrier's logarithm": Goal(
+        (equal(D(sp.log((1 + x / p) / (1 - x / p))), -2 * kappa * x / (p * (1 - x**2 / p**2))),), (less(x**2, p**2),),
+        flow={x: -kappa * x, p: sp.S.Zero}),
+    "a barrier's two walls": Goal((at_least(1 / (p - x) + 1 / (p + x), 2 / p),), (less(3 * x**2, 3 * p**2),)),
     "sign and size": Goal((equal(x * sp.sign(x), sp.Abs(x)),)),
     "a switched term beats a bounded disturbance": Goal((at_most(-bound * z * sp.sign(z) + z * d, 0),),
                                                         (at_most(sp.Abs(d), bound),)),
@@ -62,6 +72,8 @@ FALSE = {
     "the greatest of two rates": Goal((at_most(-c_1 * x**2 - c_2 * y**2, -sp.Max(c_1, c_2) * (x**2 + y**2)),)),
     "a norm from too little": Goal((at_most(sp.sqrt(x**2 + y**2), (sp.Abs(x) + sp.Abs(y)) / 2),)),
     "a smooth sign costs less than 0.27 kappa": tanh_lemma(sp.Rational(27, 100)),
+    "a root of a size, as if it were no less than the size": Goal(
+        (at_most(D(x**2 / 2), -p * x**2),), flow={x: -p * sp.sqrt(sp.Abs(x)) * sp.sign(x)}),
     "sign of zero is not one": Goal((equal(sp.sign(x) ** 2, 1),)),
 }
 

@@ -7,6 +7,7 @@ import difflib
 import re
 import tomllib
 from collections.abc import Iterator
+from datetime import date, time
 from pathlib import Path
 from typing import Annotated, Any, Self, TypeVar
 
@@ -249,6 +250,8 @@ def _explain(error: dict[str, Any], errors: list[Any], model: type[BaseModel] | 
             explained = f"{_short(value)} is no name: use letters, digits, '_', '-', '.', a letter first"
         case "finite_number":
             explained = f"{value} is not a finite number: give a number"
+        case _ if isinstance(value, (date, time)):  # as TOML reads 00:01:20; a moment is a date
+            explained = f"{value.isoformat()} is a time of day or a date: give a number in the unit that the key names"
         case _:
             explained = f"{message[0].lower()}{message[1:]}, not {_short(value)}: correct it"
     return explained

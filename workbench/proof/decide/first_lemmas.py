@@ -32,6 +32,7 @@ def first_lemmas(goal: Goal, shown: Relation, given: Given) -> list[Lemma]:
             proof = _positive_if_not_zero(squares, place, len(given) + len(found))
             found.append((greater(relation.margin, 0), proof))
     found += _sizes_below(shown, given, len(given) + len(found))
+    found += _factors_below(shown, (*given, *(lemma for lemma, _ in found)))
     found += _cosines_below(goal, shown, (*given, *(lemma for lemma, _ in found)))
     for wanted in _partial(shown):
         known = (*given, *(lemma for lemma, _ in found))
@@ -78,6 +79,39 @@ def _sizes_below(shown: Relation, given: Given, last: int) -> list[Lemma]:
             [{"fact": "abs_square", "of": text(inner)}]]
         found.append((greater(size, 0), {"rule": "contradiction", "terms": [
             {"coefficient": "1", "factors": each} for each in factors]}))
+    return found
+
+
+def _factors_below(shown: Relation, given: Given) -> list[Lemma]:
+    """p > 0 and q > 0 where c p q > 0 is assumed and p + q > 0 is plain, of what a relation needs to be defined: for
+    x**2 < b**2, b > 0 that are b - x and b + x.
+
+    Were p <= 0, then p q + (p + q) (-p) + p**2 = 0 > 0.
+    """
+    parts = {sp.expand(factor.as_base_exp()[0]) for wanted in _partial(shown) if not _seen_at_once(wanted, given)
+             for factor in sp.Mul.make_args(sp.factor(wanted.left)) if factor.free_symbols}
+    found: list[Lemma] = []
+    for place, relation in enumerate(given) if parts else ():
+        margin = relation.margin
+        if not relation.strict or margin.has(*OTHERS) or not margin.is_polynomial(*margin.free_symbols):
+            continue
+        number, powers = sp.factor_list(margin)
+        if len(powers) != 2 or any(power != 1 for _, power in powers):
+            continue
+        (first, _), (second, _) = powers
+        for turn in (1, -1):
+            one, two = turn * first, turn * second * sp.sign(number)
+            whole = sp.expand(one + two)
+            if not parts & {one, -one, two, -two} or not positive_by_terms(whole, goal_atoms(given)):
+                continue
+            for part in (one, two):
+                factors: list[tuple[Any, list[dict[str, Any]]]] = [
+                    (1 / abs(number), [{"assume": place}]),
+                    (1, [{"positive": text(whole)}, {"assume": len(given) + len(found)}]),
+                    (1, [{"square": text(part)}])]
+                found.append((greater(part, 0), {"rule": "contradiction", "terms": [
+                    {"coefficient": str(scale), "factors": each} for scale, each in factors]}))
+            break
     return found
 
 

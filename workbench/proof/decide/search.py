@@ -7,6 +7,7 @@ from typing import Any
 import sympy as sp
 
 from workbench.proof.claim import D, Goal, Relation, at_least, at_most, equal, greater
+from workbench.proof.decide.case_roots import apart, has_root_of_size, not_negative, with_root
 from workbench.proof.decide.combination import find_combination
 from workbench.proof.decide.cuts import after
 from workbench.proof.decide.first_lemmas import first_lemmas, roots_below
@@ -220,13 +221,19 @@ def _by_cases(goal: Goal, shown: Relation, given: Given, lemmas: Given, argument
          "negative": (greater(-argument, 0), -1, -1)} if signed else
         {"nonnegative": (at_least(argument, 0), 1, None), "nonpositive": (at_least(-argument, 0), -1, None)})
     proof: Proof = {"rule": "cases", "of": text(argument)}
+    rooted = has_root_of_size((shown, *given))
     for name, (case, direction, sign) in cases.items():
         here, *rest = (Relation(_settled(r.left, argument, direction, sign), r.operator,
                                 _settled(r.right, argument, direction, sign)) for r in (shown, *lemmas, *given))
-        found = _search_case(goal, here, (*rest[len(lemmas):], case), tuple(rest[:len(lemmas)]), depth + 1)
+        known = (*rest[len(lemmas):], case)
+        first = [not_negative(argument, len(known) - 1)] if rooted and name == "zero" else []
+        found = _search_case(goal, here, (*known, *(one for one, _ in first)), tuple(rest[:len(lemmas)]), depth + 1)
         if found is None:
             return None
-        proof[name] = found
+        if rooted and direction > 0 and name != "zero":
+            kept = _settled(apart(shown.margin, argument), argument, direction, sign)
+            found = with_root(found, kept, here.margin, argument)
+        proof[name] = after(first, found)
     return proof
 
 
