@@ -128,6 +128,8 @@ def _kind(value: dict[str, Any]) -> str:
 def _plain_kind(value: dict[str, Any]) -> str:
     """What a value of one type is, and what it holds."""
     kind = value.get("type", "anything")
+    if isinstance(kind, list):
+        return " or ".join(_plain_kind(value | {"type": each}) for each in kind)
     if kind == "array":
         items = value.get("prefixItems") or ([value["items"]] if value.get("items") else [])
         return "list of " + ", ".join(_kind(each) for each in items) if items else "list"

@@ -70,7 +70,7 @@ class Left:
 
 
 def cases(study):
-    return [Case(start, change) for change in range(STATED, len(study.changes)) for start in range(len(study.starts_m))]
+    return stated_and_changed(study, map(Case, range(len(study.starts_m))))
 
 
 def run(study, case):
@@ -122,6 +122,7 @@ def test_a_study_of_one_file_runs_as_it_is_and_under_its_changes(tmp_path):
 
 def test_what_a_study_does_not_declare_is_made_of_its_cases_and_runs(tmp_path):
     study = loaded(tmp_path)
+    assert cases(study) == [Case(start, change) for change in (STATED, 0, 1) for start in (0, 1)]
     bare = Reproduction(TinyStudy, stated_and_changed, lambda study, case: run(study, Case(0, case.change))).kind
     result = bare.run(study, 1, lambda *_: None)
     assert [row["change"] for row in result.rows] == [None, "twice the rate", "so fast that it fails"]

@@ -37,6 +37,19 @@ def test_a_source_of_what_is_not_stated_is_always_a_mistake(path):
     assert "train: source.mass_t explains a value that is not stated" in refusal(load, path)
 
 
+def test_one_source_may_stand_for_all_values_of_a_table(path):
+    (path.parent / "line.toml").write_text(LINE + LINE_SOURCE)
+    whole = 'mass_kg = 200000.0\nsource = "{}"'
+    path.write_text(PLAIN.replace("mass_kg = 200000.0", whole.format("our scales")))
+    values = sourced_values(load(path).scenario)
+    assert {value.key for value in values} >= {"train.mass_kg", "train.davis_a_mps2", "train.max_braking_n"}
+    assert {value.words for value in values if value.key.startswith("train.")} == {"our scales"}
+    path.write_text(changed(PLAIN.replace("mass_kg = 200000.0", whole.format("our scales")), *REPRODUCED))
+    assert "train: source." in (said := refusal(load, path)) and "'our scales' must start with 'paper'" in said
+    path.write_text(PLAIN.replace("mass_kg = 200000.0", whole.format("")))
+    assert "train.source." in refusal(load, path)
+
+
 def test_where_a_paper_is_reproduced_every_value_needs_its_source_in_the_line_too(path):
     path.write_text(changed(PLAIN, *REPRODUCED))
     assert "line.toml: source.curve is missing: say where" in refusal(load, path)

@@ -14,7 +14,7 @@ import numpy as np
 import sympy as sp
 
 from workbench.compile.kernel import cars_source, function_source
-from workbench.contest.entrant import Entrant, Played, trial_errors
+from workbench.contest.entrant import Entrant, Played, played_trials
 from workbench.model.law import LawState
 from workbench.paper.results import Array
 from workbench.simulate.closed_loop import Run, Setting, run_law
@@ -108,18 +108,13 @@ def _play(scenario: Scenario, spec: ControllerSpec, setting: Setting) -> Played:
     of_car = {law.m: mass, law.first: 1.0, law.u_low: -train.max_braking_n * share,
               law.u_high: train.max_traction_n * share, law.m_low: given["m_low_kg"], law.m_high: given["m_high_kg"]}
     memory[end + 4 : end + 10, 0] = [of_car[symbol] for symbol in law.CAR_DATA]
-    values, errors = _values(scenario, spec), list[tuple[float, float]]()
-    run: Run | None = None
-    for trial in range(1, int(given["trials"]) + 1):
-        noisy = replace(setting, sensing=replace(setting.sensing, seed=setting.sensing.seed + trial - 1))
-        run = run_law(ONE_CAR, (values, np.zeros(len(_CARRIED)), np.zeros((0, 0)), memory), noisy, spec.period_s,
-                      title=ENTRANTS[spec.law].title, loop=_learner())
-        found = trial_errors(run, scenario.track.length_m)
-        if found is None:
-            return Played(replace(run, failed=f"trial {trial}: {run.failed}"), tuple(errors))
-        errors.append(found)
-    assert run is not None
-    return Played(run, tuple(errors))
+    values = _values(scenario, spec)
+
+    def drive(trial: int, noisy: Setting) -> Run:
+        return run_law(ONE_CAR, (values, np.zeros(len(_CARRIED)), np.zeros((0, 0)), memory), noisy, spec.period_s,
+                       title=ENTRANTS[spec.law].title, loop=_learner())
+
+    return played_trials(range(1, int(given["trials"]) + 1), drive, setting, scenario.track.length_m)
 
 
 ENTRANTS = {"chen2019.one_car": Entrant(

@@ -7,7 +7,6 @@ of (54) and (55) that hold at the stated gains, where those of the paper are neg
 
 from __future__ import annotations
 
-from dataclasses import replace
 from fractions import Fraction
 from typing import Any
 
@@ -21,19 +20,16 @@ from workbench.gains.problem import Problem
 from workbench.gains.result import Condition, GainReport, GainSet, Quantity
 from workbench.gains.search import Found, search
 from workbench.gains.stated import Stated
-from workbench.paper.gain_search import Ended, GainSearch, Runs, Task, same_for_all
-from workbench.paper.loading import Loaded
-from workbench.paper.study import varied
+from workbench.paper.gain_search import Ended, GainSearch, OwnRuns, Task, same_for_all
+from workbench.paper.reproduced import RunCase
 from workbench.proof.claim import D, Goal, at_least, at_most
 
 from . import laws as law
 from .laws import c_1, c_2, c_3
 from .one_car import one_car
-from .simulation.cars_runs import run_cars
 from .simulation.cars_trials import CarsRun
-from .simulation.plans import plan
 from .study.record import ChenStudy
-from .study.runs import RunCase, outcome
+from .study.runs import outcome, run_case
 
 Values = dict[sp.Expr, sp.Expr]
 
@@ -177,20 +173,9 @@ def tasks(report: GainReport) -> list[Task]:
     return same_for_all(report, "as stated")
 
 
-def run(loaded: Loaded, task: Task) -> Ended:
-    """All trials of the study with the task's changes."""
-    study = loaded.study
-    assert isinstance(study, ChenStudy)
-    changed = varied(study, task.changes, str(loaded.path))
-    return row(changed, run_cars(replace(plan(changed), kept=())))
-
-
-def had(loaded: Loaded, task: Task, runs: Runs) -> Ended | None:
-    """The same from the study's own run with these values."""
-    study = loaded.study
-    assert isinstance(study, ChenStudy)
-    number = study.number_of(task.changes)
-    return None if number is None else row(study.changed(number), runs[RunCase(number)])
+def case_of(study: ChenStudy, task: Task) -> RunCase:
+    """The study's run as stated, with whatever the task changes in the study."""
+    return RunCase()
 
 
 def row(changed: ChenStudy, run: CarsRun) -> Ended:
@@ -215,4 +200,5 @@ def bound_used(run: CarsRun, study: ChenStudy) -> float:
     return float(np.max(run.total("position_error_square_s") / bound))
 
 
-SEARCH = GainSearch(report, tasks, run, had=had)
+RUNS = OwnRuns(case_of, run_case, row)
+SEARCH = GainSearch(report, tasks, RUNS.run, had=RUNS.had)

@@ -12,7 +12,7 @@ from functools import cache
 
 import numpy as np
 
-from workbench.contest.entrant import Entrant, Played, trial_errors
+from workbench.contest.entrant import Entrant, Played, played_trials
 from workbench.simulate.closed_loop import Run, Setting, run_law
 from workbench.simulate.controllers import held_command
 from workbench.simulate.law_loop import LawLoop, written_loop
@@ -52,10 +52,10 @@ def _play(scenario: Scenario, spec: ControllerSpec, setting: Setting) -> Played:
     speed, speed_before, error = np.zeros(samples), np.zeros(samples), np.zeros(samples)
     values = np.array([given[str(symbol)] for symbol in law.parameters])
     lengths = np.full(int(given["trials"]) + 1, length, dtype=np.int64)
-    errors: list[tuple[float, float]] = []
-    learn_s = 0.0
-    run: Run | None = None
-    for trial in range(len(lengths)):
+
+    def drive(trial: int, noisy: Setting) -> Run:
+        nonlocal speed, speed_before
+        learn_s = 0.0
         if trial > 0:
             started = time.perf_counter()
             learn(lengths, trial, first, u, before, estimate, speed, speed_before, error, values)
@@ -63,17 +63,13 @@ def _play(scenario: Scenario, spec: ControllerSpec, setting: Setting) -> Played:
             speed, speed_before = speed_before, speed
         table = np.zeros((2, samples))
         table[0, :length], table[0, length] = unit * u, unit * u[-1]
-        noisy = replace(setting, sensing=replace(setting.sensing, seed=setting.sensing.seed + trial))
         run = run_law(held_command, (np.zeros(1), np.zeros(0), np.zeros((0, 0)), table), noisy, spec.period_s,
                       title=law.title, loop=_player())
-        found = trial_errors(run, scenario.track.length_m)
-        if found is None:
-            return Played(replace(run, failed=f"trial {trial}: {run.failed}"), tuple(errors))
-        errors.append(found)
         speed[:] = table[1]
         error[:] = desired - speed
-    assert run is not None
-    return Played(replace(run, step_us=run.step_us + 1e6 * learn_s / samples), tuple(errors))
+        return replace(run, step_us=run.step_us + 1e6 * learn_s / samples)
+
+    return played_trials(range(len(lengths)), drive, setting, scenario.track.length_m)
 
 
 def _entrant(name: str) -> Entrant:

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
-from dataclasses import dataclass
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass, replace
 
 from workbench.errors import InputError
 from workbench.simulate.closed_loop import Run, Setting
@@ -68,3 +68,22 @@ def trial_errors(run: Run, length_m: float) -> tuple[float, float] | None:
     """RMS of position (m) and speed (m/s) of a trial, None of one that failed."""
     found = measure_run(run, length_m)
     return None if run.failed or not math.isfinite(found.position_rms) else (found.position_rms, found.speed_rms)
+
+
+def played_trials(numbers: Iterable[int], drive: Callable[[int, Setting], Run], setting: Setting, length_m: float
+                  ) -> Played:
+    """A law that learns, trial by trial: drive(number, setting) with each trial's own noise, see `Entrant`.
+
+    The run is that of the last trial; one that fails ends them and says its number.
+    """
+    errors: list[tuple[float, float]] = []
+    run: Run | None = None
+    for later, number in enumerate(numbers):
+        sensing = replace(setting.sensing, seed=setting.sensing.seed + later)
+        run = drive(number, replace(setting, sensing=sensing))
+        found = trial_errors(run, length_m)
+        if found is None:
+            return Played(replace(run, failed=f"trial {number}: {run.failed}"), tuple(errors))
+        errors.append(found)
+    assert run is not None, "there is at least one trial"
+    return Played(run, tuple(errors))

@@ -80,14 +80,27 @@ class FileRecord(Record):
         return found
 
 
+def _or_one_for_all(schema: dict[str, Any]) -> None:
+    """Into the schema of `source`, that one text may stand for all."""
+    schema |= {"type": ["object", "string"], "minLength": 1}
+
+
 class SourcedRecord(Record):
     """A record whose stated values may say where they come from, in its own `source` table.
 
+    `source = "paper, Table 1"` says it of all values of the record at once.
     In a file that says `reproduction = true` every one must, and starts with `paper`, `assumed:` or `convention:`; the
     report lists the assumed ones.
     """
 
-    source: dict[str, Text] = Field(default_factory=dict)
+    source: dict[str, Text] = Field(default_factory=dict, json_schema_extra=_or_one_for_all)
+
+    @model_validator(mode="before")
+    @classmethod
+    def _one_source_for_all(cls, data: Any) -> Any:
+        if isinstance(data, dict) and isinstance(data.get("source"), str):
+            return data | {"source": {key: data["source"] for key in data if key != "source"}}
+        return data
 
     @model_validator(mode="after")
     def _every_value_has_a_source(self, info: ValidationInfo) -> Self:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any, Generic, Protocol, Self, TypeVar
 
 from pydantic import model_validator
@@ -112,14 +112,15 @@ class RunCase:
     change: int = STATED
 
 
-def stated_and_changed(study: ReproducedStudy) -> list[RunCase]:
-    """The run as stated, then one under each change of the file."""
-    return [RunCase(number) for number in range(STATED, len(study.changes))]
-
-
 S = TypeVar("S", bound=ReproducedStudy)
 C = TypeVar("C", bound=HasChange)
 R = TypeVar("R")
+
+
+def stated_and_changed(study: ReproducedStudy, stated: Iterable[Any] = (RunCase(),)) -> list[Any]:
+    """The runs as stated, then all of them under each change of the file; stated: their cases, frozen dataclasses."""
+    cases = list(stated)
+    return [replace(case, change=number) for number in range(STATED, len(study.changes)) for case in cases]
 
 
 @dataclass(frozen=True)

@@ -2,34 +2,18 @@
 
 from __future__ import annotations
 
+from workbench.paper.reproduced import stated_and_changed
 from workbench.paper.reproduction import Reproduction
-from workbench.paper.stages import Stage, Together
+from workbench.paper.stages import Together
 
 from .comparison import COMPARISON, mpc_findings, mpc_tables
 from .findings import FINDINGS
 from .plots import PLOTS
 from .record import ChenStudy
-from .runs import (
-    MEASURING,
-    ChenResults,
-    groups,
-    measure,
-    run_case,
-    run_cases,
-    run_cases_together,
-    run_row,
-    title,
-    track,
-)
+from .runs import ChenResults, groups, measuring, run_case, run_cases_together, run_row, track
 from .tables import TABLES
 
-
-def measuring(study: ChenStudy) -> tuple[Stage, ...]:
-    """The cost of a sample."""
-    return (Stage(measure, study, (MEASURING,), lambda task, _: "cost of a sample"),)
-
-
 KIND = Reproduction(
-    ChenStudy, run_cases, run_case, title, run_row, ChenResults, (*TABLES, mpc_tables), PLOTS,
-    (*FINDINGS, mpc_findings), COMPARISON, track, stages=measuring,
+    ChenStudy, stated_and_changed, run_case, row=run_row, results=ChenResults, tables=(*TABLES, mpc_tables),
+    plots=PLOTS, findings=(*FINDINGS, mpc_findings), beside=COMPARISON, track=track, stages=measuring,
     together=Together(run_cases_together, groups)).kind

@@ -4,19 +4,17 @@ from __future__ import annotations
 
 from typing import Annotated, Literal, Self
 
-from pydantic import Field, Strict, model_validator
+from pydantic import Field, model_validator
 
-from workbench.errors import WorkbenchError
-from workbench.files.toml import Positive, SourcedRecord
-from workbench.model.desired_curve import DesiredCurve, start_cruise_stop
+from workbench.files.toml import Number, Positive, SourcedRecord, Text, Whole
+from workbench.model.desired_curve import TimedCruise
 from workbench.paper.reproduced import Change, ReproducedStudy
 
-Mass = Annotated[float, Strict(), Field(ge=1e3, le=2e5, allow_inf_nan=False)]
-Force = Annotated[float, Strict(), Field(ge=1e3, le=1e6, allow_inf_nan=False)]
-Rate = Annotated[float, Strict(), Field(ge=1e-2, le=2, allow_inf_nan=False)]
-Gain = Annotated[float, Strict(), Field(gt=0, le=1e6, allow_inf_nan=False)]
-Trial = Annotated[int, Strict(), Field(ge=1, le=1000)]
-Cars = Annotated[int, Strict(), Field(ge=2, le=256)]
+Mass = Annotated[Number, Field(ge=1e3, le=2e5)]
+Force = Annotated[Number, Field(ge=1e3, le=1e6)]
+Gain = Annotated[Number, Field(gt=0, le=1e6)]
+Trial = Annotated[Whole, Field(ge=1, le=1000)]
+Cars = Annotated[Whole, Field(ge=2, le=256)]
 # So many learned numbers fit into the memory of a small computer: 4 GB.
 MOST_LEARNED = 500_000_000
 
@@ -25,13 +23,13 @@ class Train(SourcedRecord):
     """Table 1, and which cars have motors: a pattern of 1 (motor car) and 0 (trailer), repeated along the train."""
 
     cars: Cars
-    motor_pattern: Annotated[str, Strict(), Field(pattern=r"^[01]+$", max_length=256)]
+    motor_pattern: Text = Field(pattern=r"^[01]+$", max_length=256)
     car_mass_kg: Mass
-    c_0_n_per_kg: Annotated[float, Strict(), Field(ge=0, le=0.2, allow_inf_nan=False)]
-    c_v_n_s_per_m_kg: Annotated[float, Strict(), Field(ge=0, le=0.01, allow_inf_nan=False)]
-    c_a_n_s2_per_m2_kg: Annotated[float, Strict(), Field(ge=0, le=1e-3, allow_inf_nan=False)]
-    coupler_n_per_m: Annotated[float, Strict(), Field(ge=1e4, le=1e9, allow_inf_nan=False)]
-    coupler_n_s_per_m: Annotated[float, Strict(), Field(ge=0, le=1e8, allow_inf_nan=False)]
+    c_0_n_per_kg: Number = Field(ge=0, le=0.2)
+    c_v_n_s_per_m_kg: Number = Field(ge=0, le=0.01)
+    c_a_n_s2_per_m2_kg: Number = Field(ge=0, le=1e-3)
+    coupler_n_per_m: Number = Field(ge=1e4, le=1e9)
+    coupler_n_s_per_m: Number = Field(ge=0, le=1e8)
     traction_n: Force
     braking_n: Force
 
@@ -53,31 +51,6 @@ class MassBounds(SourcedRecord):
         return self
 
 
-class Reference(SourcedRecord):
-    """Accelerate, cruise, brake to a stop in a given time; changes of the acceleration take ramp_s."""
-
-    cruise_mps: Annotated[float, Strict(), Field(ge=1, le=150, allow_inf_nan=False)]
-    acceleration_mps2: Rate
-    braking_mps2: Rate
-    ramp_s: Annotated[float, Strict(), Field(ge=0.05, le=600, allow_inf_nan=False)]
-    trip_time_s: Annotated[float, Strict(), Field(ge=1, le=1e5, allow_inf_nan=False)]
-
-    @model_validator(mode="after")
-    def _a_curve_follows(self) -> Self:
-        try:
-            self.curve()
-        except WorkbenchError as trouble:
-            raise ValueError(f"{trouble}, or allow more trip_time_s") from None
-        return self
-
-    def curve(self) -> DesiredCurve:
-        """The curve of this trip time."""
-        start_s, stop_s = (self.cruise_mps / rate + self.ramp_s for rate in (self.acceleration_mps2, self.braking_mps2))
-        # A change of speed that is symmetric in time covers mean speed times duration.
-        length_m = self.cruise_mps * (self.trip_time_s - (start_s + stop_s) / 2)
-        return start_cruise_stop(length_m, self.cruise_mps, self.acceleration_mps2, self.braking_mps2, self.ramp_s)
-
-
 class Gains(SourcedRecord):
     """Controller parameters and learning gains of section IV."""
 
@@ -97,8 +70,8 @@ class Trials(SourcedRecord):
 
     count: Trial
     shown: Annotated[tuple[Trial, ...], Field(min_length=1, max_length=6)]
-    lambda_1_m: Annotated[float, Strict(), Field(ge=-1e3, le=1e3, allow_inf_nan=False)]
-    lambda_2_mps: Annotated[float, Strict(), Field(ge=-100, le=100, allow_inf_nan=False)]
+    lambda_1_m: Number = Field(ge=-1e3, le=1e3)
+    lambda_2_mps: Number = Field(ge=-100, le=100)
 
     @model_validator(mode="after")
     def _shown_trials_run(self) -> Self:
@@ -111,27 +84,27 @@ class Trials(SourcedRecord):
 class Sampling(SourcedRecord):
     """How the continuous law runs: period, the rule for the acceleration, and which error corrects an estimate."""
 
-    period_s: Annotated[float, Strict(), Field(ge=1e-5, le=0.1, allow_inf_nan=False)]
+    period_s: Number = Field(ge=1e-5, le=0.1)
     acceleration: Literal["exact", "sampled", "filtered"]
-    filter_s: Annotated[float, Strict(), Field(ge=1e-5, le=10, allow_inf_nan=False)]
+    filter_s: Number = Field(ge=1e-5, le=10)
     memory: Literal["same_sample", "next_sample"]
-    log_every_s: Annotated[float, Strict(), Field(ge=1e-3, le=60, allow_inf_nan=False)]
+    log_every_s: Number = Field(ge=1e-3, le=60)
 
 
 class Line(SourcedRecord):
     """The additional resistance: a wave of slopes, and where it is read (`SLOPE_SEEN` of the trials)."""
 
     seen_by: Literal["nowhere", "reference", "train"]
-    slope_permille: Annotated[float, Strict(), Field(ge=0, le=100, allow_inf_nan=False)]
-    wave_m: Annotated[float, Strict(), Field(ge=100, le=1e6, allow_inf_nan=False)]
-    gravity_mps2: Annotated[float, Strict(), Field(ge=9.7, le=9.9, allow_inf_nan=False)]
+    slope_permille: Number = Field(ge=0, le=100)
+    wave_m: Number = Field(ge=100, le=1e6)
+    gravity_mps2: Number = Field(ge=9.7, le=9.9)
 
 
 class Variation(SourcedRecord):
     """How the coefficients of resistance and couplers vary in time: by which part of their mean, how fast."""
 
-    swing: Annotated[float, Strict(), Field(ge=0, lt=1, allow_inf_nan=False)]
-    beat_s: Annotated[float, Strict(), Field(ge=1, le=1e6, allow_inf_nan=False)]
+    swing: Number = Field(ge=0, lt=1)
+    beat_s: Number = Field(ge=1, le=1e6)
 
 
 class ChenChange(Change):
@@ -153,7 +126,7 @@ class ChenStudy(ReproducedStudy):
 
     train: Train
     mass_bounds: MassBounds
-    reference: Reference
+    reference: TimedCruise
     gains: Gains
     trials: Trials
     sampling: Sampling

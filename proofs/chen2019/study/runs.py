@@ -11,7 +11,9 @@ import numpy as np
 
 from workbench.model.desired_curve import DesiredCurve
 from workbench.paper.learning_comparison import jerk_rms, rises
-from workbench.paper.reproduced import STATED, Results
+from workbench.paper.reproduced import STATED, Results, RunCase
+from workbench.paper.reproduction import case_title
+from workbench.paper.stages import Stage
 from workbench.paper.tracked import Tracked
 
 from ..simulation.cars_loop import TRIAL_COLUMNS
@@ -44,13 +46,6 @@ class Measured:
 
 
 @dataclass(frozen=True)
-class RunCase:
-    """A run: the number of the study's change that it is made under."""
-
-    change: int = STATED
-
-
-@dataclass(frozen=True)
 class ChenResults(Results[ChenStudy, RunCase, CarsRun]):
     """The runs, and what is measured beside them, by the one task of that stage."""
 
@@ -68,35 +63,22 @@ class ChenResults(Results[ChenStudy, RunCase, CarsRun]):
 
     def group(self, name: str) -> list[tuple[ChenChange, CarsRun]]:
         """The runs of a group of changes."""
-        return [(self.study.changes[case.change], run) for case, run in self.changing().items()
-                if self.study.changes[case.change].group == name]
+        return [(change, run) for change, run in self.changed_runs() if change.group == name]
 
     def find(self, **values: object) -> CarsRun | None:
         """The run with exactly these values changed (dots as double underscores), if the study has it."""
         wanted = {key.replace("__", "."): value for key, value in values.items()}
-        return next((run for case, run in self.changing().items()
-                     if self.study.changes[case.change].set == wanted), None)
+        return next((run for change, run in self.changed_runs() if change.set == wanted), None)
 
     def with_more_trials(self) -> list[tuple[int, CarsRun]]:
         """Runs that differ by the number of their trials alone, with it."""
-        return [(self.study.changes[case.change].set["trials.count"], run)
-                for case, run in self.changing("trials.count").items()]
+        return [(change.set["trials.count"], run) for change, run in self.changed_runs("trials.count")]
 
     @property
     def motors_and_trailers(self) -> tuple[list[int], list[int]]:
         """Motor cars and trailers, counted from 0."""
         motors = [car for car in range(self.study.train.cars) if self.study.train.has_motor(car)]
         return motors, [car for car in range(self.study.train.cars) if car not in motors]
-
-
-def run_cases(study: ChenStudy) -> list[RunCase]:
-    """The stated run and its changes."""
-    return [RunCase(number) for number in range(STATED, len(study.changes))]
-
-
-def title(study: ChenStudy, case: RunCase) -> str:
-    """A run in words."""
-    return study.change_title(case.change) or "as stated"
 
 
 def plan_of(study: ChenStudy, case: RunCase) -> CarsPlan:
@@ -139,6 +121,11 @@ def measure(study: ChenStudy, _: object) -> Measured:
     if study.mpc is None:
         return Measured(sample_s, None, ())
     return Measured(sample_s, run_mpc(study), tuple(run_mpc(one, study.cost.end_s) for one in trains.values()))
+
+
+def measuring(study: ChenStudy) -> tuple[Stage, ...]:
+    """The cost of a sample."""
+    return (Stage(measure, study, (MEASURING,), lambda task, _: "cost of a sample"),)
 
 
 def grows_from(errors: Array) -> int | None:
@@ -187,7 +174,7 @@ def run_row(study: ChenStudy, case: RunCase, run: CarsRun) -> dict[str, Any]:
     last = trial_row(of, run, len(run.totals)) if ended else {}
     ends = {f"{name}_error_{end}": float(getattr(run.of_cars(f"{name}_error_{end}")[-1], end)()) if ended else None
             for name in ("position", "speed") for end in ("min", "max")}
-    return {"controller": f"chen2019.{of.sampling.acceleration}", "run": title(study, case),
+    return {"controller": f"chen2019.{of.sampling.acceleration}", "run": case_title(study, case),
             "memory": of.sampling.memory, "period_s": of.sampling.period_s, "trials": len(run.totals), **ends,
             **{key: last.get(key) for key in ("position_rms", "speed_rms", "stopping_error", "energy_J")},
             "saturated_fraction": last.get("at_limit"),
@@ -206,5 +193,5 @@ def track(study: ChenStudy, curve: DesiredCurve | None) -> Tracked:
     last = trial_row(study, run, study.trials.count) if run.failed is None else {}
     position, position_rms, speed, speed_rms, work = (float(last.get(key, math.nan)) for key in (
         "largest_position_error", "position_rms", "largest_speed_error", "speed_rms", "energy_J"))
-    return Tracked("chen2019", "AILC" if run.failed else f"AILC, trial {study.trials.count}", curve.trip_time_s,
+    return Tracked(study.paper, "AILC" if run.failed else f"AILC, trial {study.trials.count}", curve.trip_time_s,
                    curve.length_m, position, position_rms, speed, speed_rms, work, run.failed)

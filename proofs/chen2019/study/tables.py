@@ -4,14 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from functools import partial
+from operator import attrgetter
 
 import numpy as np
 
 from workbench.files.numbers import fixed, number
 from workbench.paper.cells import Cell, Column, Phrase, Quantity
-from workbench.paper.learning_comparison import at_trials, rises
+from workbench.paper.learning_comparison import rises, trial_columns
 from workbench.paper.results import ResultTable
-from workbench.paper.study_tables import statement_table, verdict
+from workbench.paper.study_tables import ColumnOf, run_table, statement_table, verdict
 
 from .. import laws as law
 from ..simulation.cars_trials import CarsRun
@@ -113,14 +114,14 @@ def groups(results: ChenResults) -> Iterator[ResultTable]:
     """The stated run and those of a group of changes, a table a group."""
     trials = _trials(results)
     ends = trials[0], trials[-1]
-    header = (Column("Run"), *(Column(f"|e_s| (m), trial {trial}", "m") for trial in trials),
-              *(Column(f"|e_v| (m/s), trial {trial}", "m/s") for trial in ends),
-              *(Column(f"|Δu| (kN), trial {trial}", "kN", 1e3) for trial in ends), Column("Outcome"))
+    columns: list[ColumnOf[CarsRun]] = [
+        *trial_columns(Column("|e_s| (m)", "m"), attrgetter("position_error"), trials, 1),
+        *trial_columns(Column("|e_v| (m/s)", "m/s"), attrgetter("speed_error"), ends, 1),
+        *trial_columns(Column("|Δu| (kN)", "kN", 1e3), attrgetter("difference"), ends, 1), ("Outcome", outcome)]
     for group, name, source, note in GROUPS:
         runs = [("as stated", results.stated), *((change.title, run) for change, run in results.group(group))]
-        yield ResultTable(name, source, header, tuple(
-            (label, *at_trials(run.position_error, trials, 1), *at_trials(run.speed_error, ends, 1),
-             *at_trials(run.difference, ends, 1), outcome(run)) for label, run in runs), f"{LARGEST} {note}".strip())
+        yield run_table(name, source, ("Run",), (((title,), run) for title, run in runs), columns,
+                        f"{LARGEST} {note}".strip())
 
 
 def bounds(results: ChenResults) -> ResultTable:

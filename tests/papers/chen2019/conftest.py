@@ -3,8 +3,10 @@
 import pytest
 from chen2019_studies import FOLDER, changed
 
-from proofs.chen2019.study.runs import groups, run_cases, run_cases_together, title
+from proofs.chen2019.study.runs import groups, run_cases_together
 from workbench.cli.loading import load
+from workbench.paper.reproduced import stated_and_changed
+from workbench.paper.reproduction import case_title
 
 # A stronger train that is at its cruise speed soon, and fewer trips.
 SHORT = {"train.traction_n": 2e5, "train.braking_n": 2e5, "reference.acceleration_mps2": 1.0,
@@ -32,5 +34,5 @@ def short(study):
 @pytest.fixture(scope="module")
 def runs(short):
     """Of every change by its title, and the stated one."""
-    return {title(short, case): run for among in groups(short, run_cases(short))
+    return {case_title(short, case): run for among in groups(short, stated_and_changed(short))
             for case, run in zip(among, run_cases_together(short, among), strict=True)}

@@ -10,9 +10,10 @@ from chen2019_studies import changed
 
 from proofs.chen2019.simulation.cars_runs import LANES, run_cars, run_together
 from proofs.chen2019.simulation.plans import plan
-from proofs.chen2019.study.runs import STATED, RunCase, groups, run_cases
+from proofs.chen2019.study.runs import groups
 from workbench.compile.kernel import cars_source
 from workbench.errors import CompileError
+from workbench.paper.reproduced import STATED, RunCase, stated_and_changed
 from workbench.trains import multi_particle as of_train
 
 
@@ -79,7 +80,7 @@ def test_runs_side_by_side_have_the_bits_of_each_alone(study):
 
 
 def test_every_case_is_in_one_group_and_what_is_one_run_in_the_same(study):
-    found = groups(study, run_cases(study))
+    found = groups(study, stated_and_changed(study))
     assert sorted(case.change for among in found for case in among) == list(range(STATED, len(study.changes)))
     longer = next(n for n, change in enumerate(study.changes) if set(change.set) == {"trials.count"})
     assert any({RunCase(), RunCase(longer)} <= set(among) for among in found)
