@@ -129,6 +129,30 @@ def run(place: Path, *arguments: str, program: str = "workbench", code: int = 0)
     return done.stdout
 
 
+# In one process, which imports the package once.
+VERBS = """
+import contextlib, io, json, sys
+from workbench.cli.app import main
+told = []
+for arguments, code in json.loads(sys.argv[1]):
+    sys.argv, found = ["workbench", *arguments], 0
+    with contextlib.redirect_stdout(io.StringIO()) as said:
+        try:
+            main()
+        except SystemExit as end:
+            found = end.code or 0
+    told.append(said.getvalue())
+    assert found == code, (arguments, found, told[-1])
+print(json.dumps(told))
+"""
+
+
+def run_all(place: Path, *verbs: tuple[str, ...], codes: dict[str, int] | None = None) -> list[str]:
+    """Standard output of each verb, one after the other; codes: of those that do not end with 0, by name."""
+    calls = [(verb, (codes or {}).get(verb[0], 0)) for verb in verbs]
+    return json.loads(run(place, "-c", VERBS, json.dumps(calls), program="python"))
+
+
 def shortened(folder: Path) -> None:
     """Cut yang2021's line behind its first kilometres, which its variants do not fit, so that a run takes a second."""
     study = (folder / "study.toml").read_text()
@@ -162,27 +186,17 @@ def test_certificates_and_references_of_the_examples_work(place):
     assert json.loads((place / "reference.json").read_text())
 
 
-# In one process, which imports the package once.
-VERBS = """
-import sys
-from workbench.cli.app import main
-for verb in (["prove"], ["compare", "--json", "g.json"], ["tune", "--runs", "2"], ["report", "--out", "gallery"]):
-    sys.argv = ["workbench", verb[0], "papers/gallery", *verb[1:], "--workers", "1"]
-    try:
-        main()
-    except SystemExit as end:
-        assert not end.code, (verb, end.code)
-"""
-
-
 def test_a_gallery_paper_takes_its_verbs(place):
     """The smallest one, its runs shortened: a plant, laws and MPC of the paper's own folder."""
     folder = place / "papers" / "gallery"
     shutil.copytree(place / "given" / "proofs" / "goodwin1980", folder)
     study = (folder / "study.toml").read_text()
     (folder / "study.toml").write_text(study.replace("duration_s = 20.0", "duration_s = 1.0"))
-    told = run(place, "-c", VERBS, program="python")
-    assert "tuned: alpha" in told and "report: gallery/report.html" in told
+    of = "papers/gallery"
+    *_, tuned, report = run_all(
+        place, ("prove", of, *ONE), ("compare", of, "--json", "g.json", *ONE), ("tune", of, "--runs", "2", *ONE),
+        ("report", of, "--out", "gallery", *ONE))
+    assert "tuned: alpha" in tuned and "report: gallery/report.html" in report
     rows = {row["controller"]: row for row in json.loads((place / "g.json").read_text())["rows"]}
     assert set(rows) == {"projection", "frozen", "mpc"} and not any(row["failed"] for row in rows.values())
     claims = json.loads((place / "gallery" / "claims.json").read_text())["claims"]
@@ -204,16 +218,18 @@ def test_a_copied_paper_is_proved_compared_tuned_and_reported_under_another_name
     claims = json.loads((place / "page" / "claims.json").read_text())
     other = [c["equation"] for c in claims["claims"] if c["verdict"] != c["recorded"]]
     assert len(claims["claims"]) > 50 and other == ["table1"]  # the line that was cut is not the paper's
-    run(place, "prove", copied, "--json", "claims.json", code=1)  # from what the report has kept
-    run(place, "compare", copied, "--json", "compared.json", *ONE)
+    _, _, _, tuned, _ = run_all(
+        place, ("prove", copied, "--json", "claims.json"),  # from what the report has kept
+        ("compare", copied, "--json", "compared.json", *ONE),
+        ("sweep", copied, "--runs", "1", "--out", "mc", "--controller", "pid", *ONE),
+        ("tune", copied, "--runs", "2", "--controller", "pid", *ONE), ("gains", copied, "--json", "gains.json", *ONE),
+        codes={"prove": 1})
     rows = {row["controller"]: row for row in json.loads((place / "compared.json").read_text())["rows"]}
     assert set(rows) == {"rbfnn_pocrac", "pocrac", "rbf_pid", "pid", "mpc"}
     assert not any(row["failed"] for row in rows.values())
-    run(place, "sweep", copied, "--runs", "1", "--out", "mc", "--controller", "pid", *ONE)
     assert (place / "mc" / "sweep.csv").read_bytes().splitlines()[1] in (
         place / "page" / "monte_carlo" / "sweep.csv").read_bytes().splitlines()
-    assert "tuned" in run(place, "tune", copied, "--runs", "2", "--controller", "pid")
-    run(place, "gains", copied, "--json", "gains.json", *ONE)
+    assert "tuned" in tuned
     effects = json.loads((place / "gains.json").read_text())["effects"]
     better = [effect for effect in effects if effect["gains"] == "found"]
     assert better and len(better) < len(effects) and not any(effect["failed"] for effect in better)
@@ -228,7 +244,7 @@ def test_a_law_of_ones_own_beside_mpc_needs_one_file(place):
     rows = {row["controller"]: row for row in json.loads((place / "mine_page" / "compare.json").read_text())["rows"]}
     assert not any(row["failed"] for row in rows.values())
     assert rows["spring"]["position_rms"] == rows["same_by_file"]["position_rms"] > rows["mpc"]["position_rms"]
-    run(place, "sweep", "papers/mine", "--runs", "2", "--out", "mine_mc", *ONE)
-    assert "written" in run(place, "tune", "papers/mine", "--write")
-    assert "tuned, 3 runs each" in run(place, "compare", "papers/mine", "--variants", *ONE)
-    assert "mine" in run(place, "list", "papers")
+    _, tuned, compared, listed = run_all(
+        place, ("sweep", "papers/mine", "--runs", "2", "--out", "mine_mc", *ONE),
+        ("tune", "papers/mine", "--write", *ONE), ("compare", "papers/mine", "--variants", *ONE), ("list", "papers"))
+    assert "written" in tuned and "tuned, 3 runs each" in compared and "mine" in listed

@@ -12,13 +12,16 @@ from workbench.systems.plant import Plant
 
 
 def event_functions(plant: Plant, arrays: Mapping[str, Sequence[sp.Symbol]]) -> list[str]:
-    """Python source of event_values, event_rates and event_reset; of a plant without events they do nothing.
+    """Python source of event_values, event_rates and event_reset; of a plant without events, which is never asked for
+    them, of what costs nothing to compile.
 
     Raises CompileError for an expression that has no code.
     """
+    if not plant.events:
+        return ["event_values = event_rates = extreme_values", "def event_reset(which, t, x, u, s, p):\n    pass\n"]
     source = [into_array("event_values", [event.expression for event in plant.events], arrays),
               into_array("event_rates", [event.rate(plant.flow, time) for event in plant.events], arrays)]
-    choice = ["def event_reset(which, t, x, u, s, p):", *([] if plant.events else ["    pass"])]
+    choice = ["def event_reset(which, t, x, u, s, p):"]
     for number, event in enumerate(plant.events):
         targets = [f"out[{plant.states.index(symbol)}]" for symbol in event.reset]
         source.append(into_array(f"reset_{number}", list(event.reset.values()), arrays, out=targets))
