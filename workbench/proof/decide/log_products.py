@@ -15,8 +15,10 @@ from typing import Any
 import sympy as sp
 
 from workbench.proof.claim import Goal, Relation
+from workbench.proof.decide.combination import find_combination
 from workbench.proof.decide.cuts import after
 from workbench.proof.decide.first_lemmas import first_lemmas
+from workbench.proof.decide.squares import find_squares
 from workbench.proof.derive import Side, Size
 from workbench.proof.text import text
 
@@ -24,12 +26,14 @@ Proof = dict[str, Any]
 Given = tuple[Relation, ...]
 Search = Callable[[Goal, Relation, Given], Proof | None]
 MOST_FACTORS = 8  # of the product, each as often as it stands there
+MOST_SYMBOLS = 3  # of what is tried before all else
 
 
-def find_by_log_products(goal: Goal, shown: Relation, given: Given, search: Search) -> Proof | None:
+def find_by_log_products(goal: Goal, shown: Relation, given: Given, search: Search | None = None) -> Proof | None:
     """A proof of an inequality between sums of logarithms; None where it is of another kind or none is found.
 
-    One logarithm with coefficient 1 or -1 is left to its tangents.
+    One logarithm with coefficient 1 or -1 is left to its tangents. search: for what has no logarithm any more; without
+    one a few symbols are tried, by the quickest searches.
     """
     parts = None if shown.operator in ("==", "!=") else _parts(shown.margin)
     if parts is None:
@@ -37,7 +41,7 @@ def find_by_log_products(goal: Goal, shown: Relation, given: Given, search: Sear
     scale, counts, rest = parts
     above, below = (sp.Mul(*(a ** abs(n) for a, n in counts.items() if n * turn > 0)) for turn in (-1, 1))
     whole = Relation(sp.expand((1 + rest) * below), ">" if shown.strict else ">=", sp.expand(above))
-    first = search(goal, whole, given)
+    first = (search or _at_once)(goal, whole, given)
     if first is None:
         return None
     factors = [a ** (1 if n < 0 else -1) for a, n in counts.items() for _ in range(abs(n))]
@@ -50,6 +54,12 @@ def find_by_log_products(goal: Goal, shown: Relation, given: Given, search: Sear
           for (product, _), factor in zip(pairwise(products), factors[1:], strict=True))]
     last: Proof = {"rule": "combination", "terms": [{"coefficient": str(1 / scale), "factors": term} for term in terms]}
     return after([*defined, (whole, first)], last)
+
+
+def _at_once(goal: Goal, shown: Relation, given: Given) -> Proof | None:
+    if len(shown.margin.free_symbols) > MOST_SYMBOLS or sp.fraction(sp.together(shown.margin))[1].has(sp.Add):
+        return None
+    return find_combination(goal, shown, given, quick=True) or find_squares(goal, shown, given)
 
 
 def _parts(margin: sp.Expr) -> tuple[sp.Rational, dict[sp.Expr, int], sp.Expr] | None:

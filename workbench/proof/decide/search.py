@@ -66,13 +66,13 @@ def search(goal: Goal, shown: Relation, given: Given, lemmas: Given = (), depth:
                           *inspected, depth)
         if found is not None:
             return found
-    return (find_by_log_products(goal, _carried(shown, goal), given, search) or _by_lemmas(goal, shown, given, lemmas)
-            or _by_contradiction(goal, shown, given)
-            or _by_growth(goal, _carried(shown, goal), given) or find_by_totals(goal, shown, given, search)
-            or find_by_tangents(goal, _carried(shown, goal), given) or _by_its_square(goal, shown, given)
-            or find_by_two_sides(goal, shown, given) or find_by_pivots(goal, shown, given)
-            or find_by_ideal(goal, shown, given) or _by_impossibility(goal, shown, given)
-            or _by_both_bounds(goal, shown, given, lemmas, depth))
+    return (find_by_log_products(goal, _carried(shown, goal), given) or _by_lemmas(goal, shown, given, lemmas)
+            or _by_contradiction(goal, shown, given) or _by_growth(goal, _carried(shown, goal), given)
+            or find_by_totals(goal, shown, given, search) or find_by_tangents(goal, _carried(shown, goal), given)
+            or _by_its_square(goal, shown, given) or find_by_two_sides(goal, shown, given)
+            or find_by_pivots(goal, shown, given) or find_by_ideal(goal, shown, given)
+            or _by_impossibility(goal, shown, given) or _by_both_bounds(goal, shown, given, lemmas, depth)
+            or find_by_log_products(goal, _carried(shown, goal), given, search))
 
 
 def _by_contradiction(goal: Goal, shown: Relation, given: Given) -> Found:
