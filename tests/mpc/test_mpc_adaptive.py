@@ -58,3 +58,17 @@ def test_a_train_of_a_fifth_more_mass_is_followed_better_than_by_the_nominal_mod
     assert learned.speed_rms < nominal.speed_rms / 2
     controller = MpcController(world, adaptive, "adaptive")
     assert controller.tracker.estimator.gain == 1.0, "it knows the nominal train alone when it starts"
+
+
+def test_behind_an_actuator_that_it_is_told_of_a_heavier_train_is_followed_better_too():
+    """It learns from what is measured and from the force that has come through lag and delay, not from its commands."""
+    world = common().world
+    spec = world.controllers["mpc_nonlinear"].model_copy(update={"predictor": True})
+    adaptive = spec.model_copy(update={"law": "mpc.adaptive", "parameters": spec.parameters | {"forgetting": 0.995}})
+    world = world.model_copy(update={"track": _levelled(world), "controllers": {"nominal": spec, "adaptive": adaptive}})
+    assert world.actuator is not None and world.actuator.delay_s > 0 and world.actuator.lag_s > 0
+    heavy = setting_of(world, Factors(mass=1.2))
+    nominal, learned = (measure(play(world, name, heavy).run, world) for name in ("nominal", "adaptive"))
+    assert learned.failed is None
+    assert learned.position_rms < nominal.position_rms / 5
+    assert learned.speed_rms < nominal.speed_rms / 2

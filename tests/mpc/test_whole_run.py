@@ -58,7 +58,7 @@ def plain(scenario):
 @pytest.mark.parametrize("sensed", SENSED)
 @pytest.mark.parametrize(("law", "told"), [("mpc.linear", False), ("mpc.nonlinear", False), ("mpc.offset_free", True),
                                            ("mpc.told", True), ("mpc.linear", True), ("mpc.tube", False),
-                                           ("mpc.adaptive", False)])
+                                           ("mpc.adaptive", False), ("mpc.adaptive", True)])
 def test_a_run_has_the_bits_of_calls(law, told, sensed):
     run, other, driven, called = both(scenario_of(law, told), plain, SENSED[sensed])
     assert run.log.tobytes() == other.log.tobytes()

@@ -37,12 +37,12 @@ class TrainEstimator:
 
     estimate: shape (5,). The covariance never grows beyond that of the start, so that a long cruise, which tells
     nothing of the mass, does not make the estimate jump at the next brake. span: how many samples an equation takes,
-    of period_s each; power_w_per_kg: what the train has; direct: whether forces are there at once. The other arrays are
-    laid out in `adaptive_kernel.py`. Raises InputError for a forgetting outside 0.9 to 1.
+    of period_s each; power_w_per_kg: what the train has; lag_s: of forces, 0 where they are there at once. The other
+    arrays are laid out in `adaptive_kernel.py`. Raises InputError for a forgetting outside 0.9 to 1.
     """
 
     def __init__(self, davis: tuple[float, float, float], forgetting: float, span: int = 1, period_s: float = SPAN_S,
-                 power_w_per_kg: float = math.inf, direct: bool = True) -> None:
+                 power_w_per_kg: float = math.inf, lag_s: float = 0.0) -> None:
         if not 0.9 <= forgetting <= 1:
             raise InputError("", "forgetting", f"{forgetting:g} is outside 0.9 to 1: choose what an equation still "
                              "weighs a second later, 1 for no forgetting")
@@ -51,8 +51,8 @@ class TrainEstimator:
         spread = np.array([*(np.array(UNSURE) * self.estimate[:4]), UNSURE_PUSH_MPS2])
         self.covariance, self.widest = np.diag(spread**2), spread**2
         self.known = np.array([forgetting**seconds, seconds, WANDERS_MPS2**2 * seconds, MISSED_MPS2**2, *GAINS,
-                               power_w_per_kg])
-        self.learner, self.past = np.array([0, -1, span, direct]), np.zeros((span + 1, 2))
+                               power_w_per_kg, math.exp(-period_s / lag_s) if lag_s else 0.0])
+        self.learner, self.past = np.array([0, -1, span, lag_s == 0]), np.zeros((span + 1, 2))
         self.learning = np.zeros((3, 5))
 
     @property
@@ -85,7 +85,8 @@ class AdaptiveMpc:
     """`NonlinearMpc` of the train as it is estimated; ahead: rows of `preview` for the nominal one.
 
     Inside, forces are per unit of the estimated mass: a command is gain times the one that is given, limits likewise.
-    acceleration: what the curve asks of any train, one a row of what lies ahead.
+    acceleration: what the curve asks of any train, one a row of what lies ahead. `learn` comes before `solve`: what is
+    measured is of the sample, and what is solved from may be the state at which a late command takes effect.
     """
 
     def __init__(self, problem: Problem, ahead: Array, forgetting: float) -> None:
@@ -93,13 +94,19 @@ class AdaptiveMpc:
         self.lqr, self.horizon = self.inner.lqr, problem.horizon
         span = max(1, round(SPAN_S / problem.period_s))
         self.estimator = TrainEstimator(problem.davis, forgetting, span, problem.period_s, problem.power_w_per_kg,
-                                        problem.actuator == "direct")
-        self.acceleration = ahead[:, 3] - resistance(ahead[:, 1], *problem.davis)
+                                        0.0 if problem.actuator == "direct" else problem.lag_s)
+        needed = ahead[:, 3] if self.estimator.learner[3] else ahead[:, 2]
+        self.acceleration = needed - resistance(ahead[:, 1], *problem.davis)
+
+    def learn(self, sample: int, speed: float, force: float) -> bool:
+        """Take in what is measured at a sample, and the force, per unit of the nominal mass; whether the estimate
+        moved."""
+        if moved := self.estimator.notice(sample, speed, force):
+            self._take_over()
+        return moved
 
     def solve(self, sample: int, state: Array, disturbance: float = 0.0) -> Solution:
-        """The plan from a state (p, v, F) at a sample, all per unit of the nominal mass; learns from the state."""
-        if self.estimator.notice(sample, float(state[1]), float(state[2])):
-            self._take_over()
+        """The plan from a state (p, v, F) at a sample, all per unit of the nominal mass."""
         gain = self.estimator.gain
         scaled = np.array([state[0], state[1], gain * state[2]])
         found = self.inner.solve(sample, scaled, disturbance + self.estimator.push)
@@ -114,9 +121,11 @@ class AdaptiveMpc:
         estimator, ahead = self.estimator, self.inner.ahead
         self.inner.drive(estimator.davis, estimator.gain)
         needed = self.acceleration + resistance(ahead[:, 1], *estimator.davis)
-        ahead[:, 3] = needed
         if estimator.learner[3]:
+            ahead[:, 3] = needed
             ahead[1:, 2] = needed[:-1]
             ahead[0, 2] = needed[0]
         else:
+            left = estimator.known[7]
             ahead[:, 2] = needed
+            ahead[:, 3] = (np.append(needed[1:], needed[-1]) - left * needed) / (1 - left)

@@ -1,9 +1,9 @@
 """What `adaptive.py` learns from a sample, number by number; Python calls it as it stands, and whole runs compile it.
 
 known: 0 what a second's forgetting divides the covariance by, to the power of the span; 1 the span in seconds; 2 how
-far the push wanders in it, squared; 3 what an equation misses, squared; 4, 5 least and largest gain; 6 power, W/kg.
-learner: 0 how many samples of the past there are; 1 the last of them; 2 the span in samples; 3 whether a force is there
-at once.
+far the push wanders in it, squared; 3 what an equation misses, squared; 4, 5 least and largest gain; 6 power, W/kg;
+7 what a lag leaves of a force after a sample. learner: 0 how many samples of the past there are; 1 the last of them;
+2 the span in samples; 3 whether a force is there at once.
 """
 
 # ruff: noqa: ANN001, ANN201

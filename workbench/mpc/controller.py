@@ -122,7 +122,7 @@ class MpcController:
             kept = () if kind.follows_curve else scenario.track.speed_limit
             late_s = 0.0
             if spec.predictor and scenario.actuator is not None:
-                if kind.tracker in (_tube, _adaptive):  # whose promise, and learning, is of states as measured
+                if kind.tracker is _tube:  # whose promise is of states as measured
                     raise InputError("", "predictor", f"'{spec.law}' cannot be told of an actuator: leave it out")
                 self.problem, late_s = told(self.problem, scenario.actuator)
             self.ahead = preview(self.problem, curve, duration, line=line, limits=kept, late_s=late_s, learned=learned)
@@ -170,6 +170,10 @@ class MpcController:
                 self.counters["beyond_bound"] += 1
                 self._farthest = max(self._farthest, abs(self._observer.surprise))
             state = np.array([position_m, speed_mps, self._observer.force])
+            if isinstance(self.tracker, AdaptiveMpc) and self.tracker.learn(k, speed_mps, self._observer.force):
+                train = self.tracker.estimator
+                if self._predictor:
+                    self._predictor.drive(train.davis, train.gain, train.push)
             if self._predictor:
                 state = self._predictor.ahead(k, state, disturbance)
             answer = self._fallback.command(k, state, disturbance)

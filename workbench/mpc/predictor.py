@@ -30,7 +30,8 @@ def told(problem: Problem, actuator: Actuator) -> tuple[Problem, float]:
 class Predictor:
     """Commands under way over a delay; told_mps2: what the line does at each sample, m/s^2, as the controller knows it.
 
-    A command of sample j acts from j + whole periods + rest on; before the first one nothing does.
+    A command of sample j acts from j + whole periods + rest on; before the first one nothing does. The train is the
+    problem's until another is driven.
     """
 
     def __init__(self, problem: Problem, told_mps2: Array, delay_s: float) -> None:
@@ -42,16 +43,25 @@ class Predictor:
         self._period = problem.parameters
         self._rest = problem.parameters_over(self.rest_s)
         self._under_way = deque([0.0] * (whole + 1), maxlen=whole + 1)
+        self._gain, self._wind = 1.0, 0.0
+
+    def drive(self, davis: tuple[float, float, float], gain: float, push: float) -> None:
+        """Predict another train from now on: its Davis coefficients, the nominal mass over its own, and what pushes it
+        beside what is told (m/s^2)."""
+        self._period[:3] = self._rest[:3] = davis
+        self._gain, self._wind = gain, push
 
     def ahead(self, sample: int, state: Array, disturbance: float) -> Array:
         """The state (p, v, F) when the command of a sample takes effect, from that of the sample itself."""
-        x = tuple(state.tolist())
+        p, v, force = state.tolist()
+        gain, beside = self._gain, disturbance + self._wind
+        x = (p, v, gain * force)
         first, *others = self._under_way
         if self.rest_s:
-            x = self._follow(*x, first, self._push(sample) + disturbance, self._rest)
+            x = self._follow(*x, gain * first, self._push(sample) + beside, self._rest)
         for later, command in enumerate(others):
-            x = self._follow(*x, command, self._push(sample + later) + disturbance, self._period)
-        return np.array(x)
+            x = self._follow(*x, gain * command, self._push(sample + later) + beside, self._period)
+        return np.array((x[0], x[1], x[2] / gain))
 
     def acting(self, command: float) -> tuple[float, float]:
         """Take in the command of a sample; the commands that act in its first `rest_s` and in what is left of it."""

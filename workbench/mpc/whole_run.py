@@ -53,9 +53,9 @@ BLOCKS: tuple[tuple[str, str, tuple[str, ...]], ...] = (
     ("window", "", ("N + 1", "6")), ("gap", "", ("N", "3")), ("plan", "", ("N",)), ("kept_plan", "", ("N",)),
     ("under_way", "", ("W",)), ("unconverged", WHOLE, ("C",)), ("foreseen", "", ("F",)), ("pushed", "", ("F",)),
     ("x", "", ("3",)), ("tube", WHOLE, ("2",)), ("nominal", "", ("7",)), ("learner", WHOLE, ("4",)),
-    ("known", "", ("7",)), ("past", "", ("P", "2")), ("estimate", "", ("5",)), ("covariance", "", ("5", "5")),
+    ("known", "", ("8",)), ("past", "", ("P", "2")), ("estimate", "", ("5",)), ("covariance", "", ("5", "5")),
     ("widest", "", ("5",)), ("learning", "", ("3", "5")), ("acceleration", "", ("A",)), ("model", "", ("5",)),
-    ("own_limits", "", ("4",)), ("seen", "", ("A", "6")),
+    ("own_rest", "", ("5",)), ("own_limits", "", ("4",)), ("seen", "", ("A", "6")),
 )
 # By kind and dimensions: the kernel's function that finds a block among all numbers.
 VIEWS = {("", 1): "row", ("", 2): "table", ("", 3): "cube", (WHOLE, 1): "whole_row", (WHOLE, 2): "whole_table"}
@@ -161,7 +161,8 @@ def _given(controller: MpcController, tracker: LinearMpc | NonlinearMpc) -> dict
         "foreseen": controller._foreseen if isinstance(controller, RecordingMpc) else np.zeros(0),
         "pushed": controller.pushed if isinstance(controller, RecordingMpc) else np.zeros(0),
         "tube": [BEFORE_ANY, 0], "nominal": [0.0, 0.0, 0.0, *_feedback(controller.tracker), controller._bound, 0.0],
-        "model": problem.parameters, "own_limits": problem.limits(), **_learned(controller)}
+        "model": problem.parameters, "own_rest": problem.parameters_over(rest_s), "own_limits": problem.limits(),
+        **_learned(controller)}
     for name in ("x", "u", "jac", "gap", "h", "g", "answer"):
         shape = {"jac": (0, 12), "h": (0, len(SOFT)), "g": (0, len(SOFT), 3), "u": (0,)}.get(name, (0, 3))
         found[f"along_{name}"] = getattr(tracker.along, name) if isinstance(tracker, LinearMpc) else np.zeros(shape)

@@ -11,7 +11,7 @@ gain; 1 its largest disturbance; 2 disturbance; 3 force; 4 expected speed; 5 sur
 speed nothing is. counts: as `COUNTED` in `whole_run.py`. clock: seconds and nanoseconds. tube: 0 the sample before that
 of its nominal state; 1 how often the train was pushed beyond its bound. nominal: 0 to 2 that state; 3, 4 the feedback
 to it; 5 the bound of a push; 6 the largest push beyond it. learner, known: as in `adaptive_kernel.py`; model,
-own_limits and seen are those of the train as it is estimated, acceleration what the curve asks of any.
+own_rest, own_limits and seen are those of the train as it is estimated, acceleration what the curve asks of any.
 """
 
 # ruff: noqa: F821, ANN001, ANN201, PLR0912, PLR0915
@@ -60,13 +60,16 @@ def corrected(v, state, own):
     return own[2]
 
 
-def when_it_acts(k, x, disturbance, own, told, parameters, rest, under_way):
-    """The state when the command of sample k takes effect, in place."""
+def when_it_acts(k, x, disturbance, share, own, told, parameters, rest, under_way):
+    """The state when the command of sample k takes effect, in place; share: nominal mass over the one predicted."""
     last = told.shape[0] - 1
+    x[2] = share * x[2]
     if own[7] > 0.0:
-        x[0], x[1], x[2] = follow(x[0], x[1], x[2], under_way[0], told[min(k, last)] + disturbance, rest)
+        x[0], x[1], x[2] = follow(x[0], x[1], x[2], share * under_way[0], told[min(k, last)] + disturbance, rest)
     for i in range(under_way.shape[0] - 1):
-        x[0], x[1], x[2] = follow(x[0], x[1], x[2], under_way[i + 1], told[min(k + i, last)] + disturbance, parameters)
+        x[0], x[1], x[2] = follow(x[0], x[1], x[2], share * under_way[i + 1], told[min(k + i, last)] + disturbance,
+                                  parameters)
+    x[2] = x[2] / share
 
 
 def expected_next(k, v, good, before, acts, own, state, told, parameters, rest, left):
@@ -167,19 +170,23 @@ def planned_in_tube(k, x, kind, state, own, tube, nominal, ahead, along_x, along
     return good, min(max(first, own[8]), own[9])
 
 
-def as_estimated(estimate, learner, limits, acceleration, model, own_limits, seen):
+def as_estimated(estimate, learner, known, limits, acceleration, model, own_rest, own_limits, seen):
     """Give the tracker the train as it is estimated: its resistance, its limits and what the curve needs of it."""
     for i in range(3):
-        model[i] = estimate[1 + i]
+        model[i] = own_rest[i] = estimate[1 + i]
     # Commands and power are per unit of mass; the band, between them, is not.
     own_limits[0], own_limits[1] = estimate[0] * limits[0], estimate[0] * limits[1]
     own_limits[3] = estimate[0] * limits[3]
-    before = acceleration[0] + resistance_at(seen[0, 1], model)
-    for i in range(seen.shape[0]):
-        needed = acceleration[i] + resistance_at(seen[i, 1], model)
-        seen[i, 3] = needed
-        seen[i, 2] = before if learner[3] == 1 else needed
-        before = needed
+    last = seen.shape[0] - 1
+    before = needed = acceleration[0] + resistance_at(seen[0, 1], model)
+    for i in range(last + 1):
+        after = min(i + 1, last)
+        then = acceleration[after] + resistance_at(seen[after, 1], model)
+        if learner[3] == 1:
+            seen[i, 3], seen[i, 2] = needed, before
+        else:
+            seen[i, 3], seen[i, 2] = (then - known[7] * needed) / (1 - known[7]), needed
+        before, needed = needed, then
 
 
 def within(command, own):
@@ -193,8 +200,8 @@ def command_of(sample, p, v, kind, state, own, counts, ahead, told, along_x, alo
                along_g, along_answer, parameters, rest, left, weights, terminal, limits, rows, price, gain, fixed,
                soft, pull, Q0, q0, R, r, low, high, bound, slope, Q, q, kept, dx, du, base_x, tried_x, tried, jac,
                base_gap, h, g, window, gap, plan, kept_plan, under_way, unconverged, foreseen, pushed, x, tube,
-               nominal, learner, known, past, estimate, covariance, widest, learning, acceleration, model, own_limits,
-               seen):
+               nominal, learner, known, past, estimate, covariance, widest, learning, acceleration, model, own_rest,
+               own_limits, seen):
     """The command of a sample, from a measured position and speed."""
     memory = (fixed, soft, pull)
     work = (Q0, q0, R, r, low, high, bound, slope, Q, q, kept, dx, du)
@@ -208,18 +215,22 @@ def command_of(sample, p, v, kind, state, own, counts, ahead, told, along_x, alo
         if abs(own[5]) > nominal[5]:
             tube[1] += 1
             nominal[6] = max(nominal[6], abs(own[5]))
-        if kind[5] == 1:
-            when_it_acts(k, x, disturbance, own, told, parameters, rest, under_way)
-        counts[0] += 1
         converged, first, share = True, 0.0, 1.0
+        if kind[6] == 2:
+            if noticed(k, v, own[3], learner, known, past, estimate, covariance, widest, learning):
+                as_estimated(estimate, learner, known, limits, acceleration, model, own_rest, own_limits, seen)
+            share = estimate[0]
+        if kind[5] == 1:
+            if kind[6] == 2:
+                when_it_acts(k, x, disturbance + estimate[4], share, own, told, model, own_rest, under_way)
+            else:
+                when_it_acts(k, x, disturbance, 1.0, own, told, parameters, rest, under_way)
+        counts[0] += 1
         if kind[6] == 1:
             solved, first = planned_in_tube(
                 k, x, kind, state, own, tube, nominal, ahead, along_x, along_u, along_jac, along_gap, along_h, along_g,
                 along_answer, parameters, weights, terminal, limits, rows, price, memory, work, window, gap, plan)
         elif kind[6] == 2:
-            if noticed(k, v, x[2], learner, known, past, estimate, covariance, widest, learning):
-                as_estimated(estimate, learner, limits, acceleration, model, own_limits, seen)
-            share = estimate[0]
             nominal[0], nominal[1], nominal[2] = x[0], x[1], share * x[2]
             solved, converged = planned_anew(
                 k, nominal[:3], disturbance + estimate[4], kind, state, own, seen, model, weights, terminal, own_limits,
