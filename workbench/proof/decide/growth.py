@@ -67,7 +67,7 @@ def _starts(margin: sp.Expr, given: Given) -> list[tuple[sp.Symbol, sp.Expr, int
     for relation in given:
         for symbol in sorted(margin.free_symbols, key=str) if relation.operator not in ("==", "!=") else ():
             for way in (1, -1):
-                start = sp.expand(symbol - way * relation.margin)
+                start = sp.expand(symbol - way * relation.margin, log=False)  # as the assumption has it
                 if not start.has(symbol) and not start.has(sp.Sum, sp.Indexed):
                     found.append((symbol, start, way))
     return found

@@ -30,6 +30,7 @@ Proof = dict[str, Any]
 Given = tuple[Relation, ...]
 Found = Proof | None
 
+FEW = 3  # assumptions, with which a search is short
 MOST_CASES = 6  # expressions whose sign is split, one inside the other
 
 
@@ -65,10 +66,11 @@ def search(goal: Goal, shown: Relation, given: Given, lemmas: Given = (), depth:
                           *inspected, depth)
         if found is not None:
             return found
-    return (find_by_log_products(goal, _carried(shown, goal), given)
-            or find_by_growth(goal, _carried(shown, goal), given) or _by_factors_and_parts(goal, shown, given)
+    return (_of_functions_alone(goal, shown, given) or find_by_log_products(goal, _carried(shown, goal), given)
             or _by_lemmas(goal, shown, given, lemmas) or _by_contradiction(goal, shown, given)
-            or find_by_totals(goal, shown, given, search) or find_by_tangents(goal, _carried(shown, goal), given)
+            or find_by_growth(goal, _carried(shown, goal), given) or find_by_totals(goal, shown, given, search)
+            or (_by_factors_and_parts(goal, shown, given) if given else None)
+            or find_by_tangents(goal, _carried(shown, goal), given)
             or _by_its_square(goal, shown, given) or find_by_two_sides(goal, shown, given)
             or find_by_pivots(goal, shown, given) or find_by_ideal(goal, shown, given)
             or _by_impossibility(goal, shown, given) or _by_both_bounds(goal, shown, given, lemmas, depth)
@@ -78,6 +80,13 @@ def search(goal: Goal, shown: Relation, given: Given, lemmas: Given = (), depth:
 def _plainly(goal: Goal, shown: Relation, given: Given) -> Found:
     """What takes no search: that a function grows, or adds up at once."""
     return find_by_growth(goal, _carried(shown, goal), given) or find_combination(goal, shown, given, quick=True)
+
+
+def _of_functions_alone(goal: Goal, shown: Relation, given: Given) -> Found:
+    """What is found at once of functions where little is assumed; where more is, other searches are sooner done."""
+    if not given:
+        return _by_factors_and_parts(goal, shown, given)
+    return find_by_growth(goal, _carried(shown, goal), given) if len(given) <= FEW else None
 
 
 def _by_factors_and_parts(goal: Goal, shown: Relation, given: Given) -> Found:
