@@ -66,9 +66,14 @@ def search(goal: Goal, shown: Relation, given: Given, lemmas: Given = (), depth:
                           *inspected, depth)
         if found is not None:
             return found
-    return (_of_functions_alone(goal, shown, given) or find_by_log_products(goal, _carried(shown, goal), given)
+    # In a case where little is assumed, what grows is sooner seen than what adds up.
+    soon = 0 < len(given) <= FEW and depth > 0
+    return ((_by_factors_and_parts(goal, shown, given) if not given else None)
+            or (find_by_growth(goal, _carried(shown, goal), given) if soon else None)
+            or find_by_log_products(goal, _carried(shown, goal), given)
             or _by_lemmas(goal, shown, given, lemmas) or _by_contradiction(goal, shown, given)
-            or find_by_growth(goal, _carried(shown, goal), given) or find_by_totals(goal, shown, given, search)
+            or (None if soon else find_by_growth(goal, _carried(shown, goal), given))
+            or find_by_totals(goal, shown, given, search)
             or (_by_factors_and_parts(goal, shown, given) if given else None)
             or find_by_tangents(goal, _carried(shown, goal), given)
             or _by_its_square(goal, shown, given) or find_by_two_sides(goal, shown, given)
@@ -80,13 +85,6 @@ def search(goal: Goal, shown: Relation, given: Given, lemmas: Given = (), depth:
 def _plainly(goal: Goal, shown: Relation, given: Given) -> Found:
     """What takes no search: that a function grows, or adds up at once."""
     return find_by_growth(goal, _carried(shown, goal), given) or find_combination(goal, shown, given, quick=True)
-
-
-def _of_functions_alone(goal: Goal, shown: Relation, given: Given) -> Found:
-    """What is found at once of functions where little is assumed; where more is, other searches are sooner done."""
-    if not given:
-        return _by_factors_and_parts(goal, shown, given)
-    return find_by_growth(goal, _carried(shown, goal), given) if len(given) <= FEW else None
 
 
 def _by_factors_and_parts(goal: Goal, shown: Relation, given: Given) -> Found:
