@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 
 from workbench.proof.checker import check
 from workbench.proof.claim import Goal, at_least, at_most
-from workbench.proof.decide import search
+from workbench.proof.decide import growth
 from workbench.proof.decide.engine import prove_goal
 from workbench.proof.decide.exact_values import exact_function
 from workbench.proof.decide.method import method_of
@@ -91,4 +91,4 @@ def test_a_margin_that_grows_is_proved(name):
 
 def test_a_margin_that_grows_from_below_is_not_proved():
     from_below = Goal((at_least(sp.exp(s), 1 + 2 * s),))
-    assert search._by_growth(from_below, from_below.show[0], ()) is None
+    assert growth.find_by_growth(from_below, from_below.show[0], ()) is None

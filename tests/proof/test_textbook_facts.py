@@ -11,7 +11,7 @@ from workbench.proof.checker import check
 from workbench.proof.decide.obligations import belongs, decide_obligation
 
 BOOKS = Path(__file__).parents[2] / "benchmarks" / "textbook"
-FACTS = [fact for name in ("facts.json", "control_books.json")
+FACTS = [fact for name in ("facts.json", "control_books.json", "slopes.json")
          for fact in json.loads((BOOKS / name).read_text(encoding="utf-8"))]
 NEEDED = ("log grows", "abs and tanh, with 0.2785", "Minkowski in two dimensions", "trace bounds the form",
           "a transient below its supremum", "Minkowski in every dimension",
@@ -20,7 +20,10 @@ NEEDED = ("log grows", "abs and tanh, with 0.2785", "Minkowski in two dimensions
           # a margin that grows towards zero from below; signs of factors; an upper bound on the way; sizes below a bar;
           # the square of a number's root
           "tanh is smaller than its argument", "tanh lies in the sector [0, 1]",
-          "energy bounds the angle from below", "twisting: the energy falls", "scattering keeps the power")
+          "energy bounds the angle from below", "twisting: the energy falls", "scattering keeps the power",
+          # a product in cases by the polynomial part of its factors; parts that share no symbol
+          "tanh grows, as a product", "co-coercivity of tanh", "Lipschitz: squares of sin",
+          "energy of two neurons of gain 1/2")
 
 
 @pytest.mark.parametrize("name", NEEDED)

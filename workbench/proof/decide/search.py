@@ -11,27 +11,27 @@ from workbench.proof.decide.case_roots import apart, has_root_of_size, not_negat
 from workbench.proof.decide.combination import find_combination
 from workbench.proof.decide.cuts import after
 from workbench.proof.decide.first_lemmas import first_lemmas, roots_below
+from workbench.proof.decide.growth import EMPTY, GROWING, find_by_growth
 from workbench.proof.decide.ideals import find_by_ideal
 from workbench.proof.decide.identity import find_identity
 from workbench.proof.decide.log_products import find_by_log_products
+from workbench.proof.decide.parts import find_by_parts
 from workbench.proof.decide.pivots import find_by_pivots
-from workbench.proof.decide.splits import find_by_splits
+from workbench.proof.decide.splits import find_by_factor_signs, find_by_splits
 from workbench.proof.decide.squares import find_squares
 from workbench.proof.decide.tangents import find_by_tangents
 from workbench.proof.decide.totals import find_by_totals
 from workbench.proof.decide.two_sides import between, find_by_two_sides, pinched
 from workbench.proof.decide.vanishing import vanishes
 from workbench.proof.derive import Side, Size, expand_derivatives, unfold
-from workbench.proof.text import assumptions, relation_text, text
+from workbench.proof.text import assumptions, text
 
 Proof = dict[str, Any]
 Given = tuple[Relation, ...]
 Found = Proof | None
 
+FEW = 3  # assumptions, with which a search is short
 MOST_CASES = 6  # expressions whose sign is split, one inside the other
-MOST_STEPS = 3  # derivatives taken one after the other
-EMPTY = at_least(0, 0)
-GROWING = (sp.log, sp.exp, sp.sin, sp.cos, sp.atan)  # functions that have a rate
 
 
 def prove_relation(goal: Goal, shown: Relation) -> Found:
@@ -66,13 +66,32 @@ def search(goal: Goal, shown: Relation, given: Given, lemmas: Given = (), depth:
                           *inspected, depth)
         if found is not None:
             return found
-    return (find_by_log_products(goal, _carried(shown, goal), given) or _by_lemmas(goal, shown, given, lemmas)
-            or _by_contradiction(goal, shown, given) or _by_growth(goal, _carried(shown, goal), given)
-            or find_by_totals(goal, shown, given, search) or find_by_tangents(goal, _carried(shown, goal), given)
+    # In a case where little is assumed, what grows is sooner seen than what adds up.
+    soon = 0 < len(given) <= FEW and depth > 0
+    return ((_by_factors_and_parts(goal, shown, given) if not given else None)
+            or (find_by_growth(goal, _carried(shown, goal), given) if soon else None)
+            or find_by_log_products(goal, _carried(shown, goal), given)
+            or _by_lemmas(goal, shown, given, lemmas) or _by_contradiction(goal, shown, given)
+            or (None if soon else find_by_growth(goal, _carried(shown, goal), given))
+            or find_by_totals(goal, shown, given, search)
+            or (_by_factors_and_parts(goal, shown, given) if given else None)
+            or find_by_tangents(goal, _carried(shown, goal), given)
             or _by_its_square(goal, shown, given) or find_by_two_sides(goal, shown, given)
             or find_by_pivots(goal, shown, given) or find_by_ideal(goal, shown, given)
             or _by_impossibility(goal, shown, given) or _by_both_bounds(goal, shown, given, lemmas, depth)
             or find_by_log_products(goal, _carried(shown, goal), given, search))
+
+
+def _plainly(goal: Goal, shown: Relation, given: Given) -> Found:
+    """What takes no search: that a function grows, or adds up at once."""
+    return find_by_growth(goal, _carried(shown, goal), given) or find_combination(goal, shown, given, quick=True)
+
+
+def _by_factors_and_parts(goal: Goal, shown: Relation, given: Given) -> Found:
+    """Of a margin with functions in it: by the signs of its factors, or by parts that share no symbol."""
+    if not shown.margin.has(*GROWING, sp.tanh):
+        return None
+    return find_by_factor_signs(goal, shown, given, _plainly) or find_by_parts(goal, shown, given, search)
 
 
 def _by_contradiction(goal: Goal, shown: Relation, given: Given) -> Found:
@@ -124,65 +143,6 @@ def _by_both_bounds(goal: Goal, shown: Relation, given: Given, lemmas: Given, de
     if first is None or second is None:
         return None
     return after([(lower, first), (upper, second)], between(len(given), len(given) + 1, len(given) + 2))
-
-
-def _by_growth(goal: Goal, shown: Relation, given: Given, steps: int = MOST_STEPS) -> Found:
-    """A margin with a function in it that is not negative where a symbol starts, and grows as it leaves."""
-    margin = shown.margin
-    if shown.operator in ("==", "!=") or not margin.has(*GROWING) or margin.has(
-            sp.Sum, sp.Indexed, Size, Side) or steps == 0:
-        return None
-    for symbol, start, way in _starts(margin, given):
-        elsewhere = tuple(EMPTY if r.margin.has(symbol) else r for r in given)
-        place, begins = Goal((EMPTY,), facts=goal.facts), margin.xreplace({symbol: start})
-        if begins.has(sp.nan, sp.zoo, sp.oo, -sp.oo):  # it has no value where it would begin
-            continue
-        at_start = _grown(place, Relation(begins, ">" if shown.strict else ">=", sp.S.Zero),
-                          elsewhere, steps)
-        if at_start is None:
-            continue
-        bounded = tuple(r for r in given if r.operator not in ("==", "!=")
-                        and not sp.expand(r.margin + way * symbol).has(symbol))  # it lies below them on the way as well
-        between = (*elsewhere, at_least(way * (symbol - start), 0), *bounded)
-        below = _positive_below(place, margin, between)
-        rising = _grown(place, at_least(way * sp.diff(margin, symbol), 0),
-                        (*between, *(lemma for lemma, _ in below)), steps)
-        if rising is not None:
-            found = {"rule": "monotone", "variable": text(symbol), "from" if way > 0 else "to": text(start),
-                     "derivative": rising, "at_start": at_start}
-            stated = [{"lemma": relation_text(lemma), "proof": proof} for lemma, proof in below]
-            return found | ({"between": stated} if stated else {})
-    return None
-
-
-def _positive_below(goal: Goal, margin: sp.Expr, given: Given) -> list[tuple[Relation, Proof]]:
-    """Of the functions that a margin divides by, those that are positive, each with its proof."""
-    found: list[tuple[Relation, Proof]] = []
-    bases = {p.base for p in margin.atoms(sp.Pow) if p.exp.is_Rational and p.exp < 0 and isinstance(p.base, GROWING)}
-    for base in sorted(bases, key=sp.default_sort_key):
-        proof = find_combination(goal, greater(base, 0), (*given, *(lemma for lemma, _ in found)))
-        found += [] if proof is None else [(greater(base, 0), proof)]
-    return found
-
-
-def _starts(margin: sp.Expr, given: Given) -> list[tuple[sp.Symbol, sp.Expr, int]]:
-    """(symbol, start, way) of the symbols in a margin that are known not to lie below (way 1) or above (-1) an
-    expression of others."""
-    found = []
-    for relation in given:
-        for symbol in sorted(margin.free_symbols, key=str) if relation.operator not in ("==", "!=") else ():
-            for way in (1, -1):
-                start = sp.expand(symbol - way * relation.margin)
-                if not start.has(symbol) and not start.has(sp.Sum, sp.Indexed):
-                    found.append((symbol, start, way))
-    return found
-
-
-def _grown(goal: Goal, shown: Relation, given: Given, steps: int) -> Found:
-    """A proof of what is left of a margin that grows."""
-    if shown.operator == ">=" and find_identity(goal, shown):
-        return {"rule": "identity"}
-    return find_combination(goal, shown, given) or _by_growth(goal, shown, given, steps - 1)
 
 
 def _carried(relation: Relation, goal: Goal) -> Relation:

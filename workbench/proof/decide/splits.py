@@ -6,8 +6,6 @@ no known sign. In each case the margin is shown by the signs of its factors, or 
 
 from __future__ import annotations
 
-import math
-import random
 from collections.abc import Callable
 from typing import Any
 
@@ -20,6 +18,7 @@ from workbench.proof.decide.combination import find_combination
 from workbench.proof.decide.cuts import after
 from workbench.proof.decide.exact_look import Exact
 from workbench.proof.decide.proposals import proposals
+from workbench.proof.decide.sample_points import NEAR_ZERO, holds_at, sample_points, value_at
 from workbench.proof.text import goal_text, text
 
 Proof = dict[str, Any]
@@ -29,8 +28,6 @@ Search = Callable[[Goal, Relation, Given], "Proof | None"]
 MOST_SPLITS = 6  # expressions tried
 DEEPEST = 2  # cases one inside the other
 MOST_SEARCHES = 12  # of each depth, since most that fail have no proof in cases either
-NEAR_ZERO = 1e-9  # what rounding may leave
-POINTS = 60  # at which factors are looked at before a proof of their signs is sought
 OF_SIGN = {1: at_least, -1: at_most}
 
 
@@ -43,7 +40,7 @@ def find_by_splits(goal: Goal, shown: Relation, given: Given, search: Search) ->
         return None
     if _fails_somewhere(Goal((shown,), given, goal.flow, facts=goal.facts)):  # a look costs less than a search
         return None
-    points = _points(shown, given)
+    points = sample_points(shown, given)
     for depth in range(1, DEEPEST + 1):
         left = [MOST_SEARCHES]
 
@@ -53,6 +50,28 @@ def find_by_splits(goal: Goal, shown: Relation, given: Given, search: Search) ->
 
         if (found := _in_cases(goal, shown, given, points, limited, depth)) is not None:
             return found
+    return None
+
+
+def find_by_factor_signs(goal: Goal, shown: Relation, given: Given, search: Search) -> Proof | None:
+    """A proof of a product with functions in it, in cases in each of which every factor has a sign; None where none was
+    found. So (tanh x - tanh y) (x - y) >= 0 by the sign of x - y."""
+    if shown.operator in ("==", "!=") or any(r.margin.has(sp.Sum, sp.Indexed, sp.Derivative) for r in (shown, *given)):
+        return None
+    if shown.margin.has(sp.Abs, sp.sign) or len(_factors(shown.margin)[1]) < 2:
+        return None
+    points, (_, odd) = sample_points(shown, given), _factors(shown.margin)
+    plain = [sp.Add(*(term for term in sp.Add.make_args(factor) if not term.has(sp.Function))) for factor in odd]
+    turned = [of for of in dict.fromkeys(plain) if of.free_symbols and not of.is_Symbol]
+    for of in (*turned[:2], *_candidates(shown, given)):
+        proof: Proof = {"rule": "cases", "of": text(of)}
+        for name, case in (("nonnegative", at_least(of, 0)), ("nonpositive", at_most(of, 0))):
+            near = [point for point in points if holds_at(case, point)]
+            if (found := _by_factors(goal, shown, (*given, case), near, search)) is None:
+                break
+            proof[name] = found
+        else:
+            return proof
     return None
 
 
@@ -70,7 +89,7 @@ def _in_cases(goal: Goal, shown: Relation, given: Given, points: list[dict[sp.Sy
     for of in _candidates(shown, given):
         proof: Proof = {"rule": "cases", "of": text(of)}
         for name, case in (("nonnegative", at_least(of, 0)), ("nonpositive", at_most(of, 0))):
-            here, near = (*given, case), [point for point in points if _holds(case, point)]
+            here, near = (*given, case), [point for point in points if holds_at(case, point)]
             found = (_by_factors(goal, shown, here, near, search) or search(goal, shown, here)
                      or (_in_cases(goal, shown, here, near, search, depth - 1) if depth > 1 else None))
             if found is None:
@@ -130,12 +149,12 @@ def _factors(margin: sp.Expr) -> tuple[sp.Expr, list[sp.Expr]]:
 def _by_factors(goal: Goal, shown: Relation, given: Given, points: list[dict[sp.Symbol, float]], search: Search,
                 ) -> Proof | None:
     """A margin that is a product, from the sign of each of its factors."""
-    _, odd = _factors(shown.margin)
+    number, odd = _factors(shown.margin)
     if len(odd) < 2 or not points:
         return None
     lemmas: list[tuple[Relation, Proof]] = []
     for factor in odd:
-        values = [v for point in points if (v := _value(factor, point)) is not None]
+        values = [v for point in points if (v := value_at(factor, point)) is not None]
         sign = 1 if all(v > -NEAR_ZERO for v in values) else -1 if all(v < NEAR_ZERO for v in values) else 0
         if not sign:
             return None
@@ -146,31 +165,15 @@ def _by_factors(goal: Goal, shown: Relation, given: Given, points: list[dict[sp.
             return None
         lemmas.append((lemma, proof))
     last = find_combination(goal, shown, (*given, *(known for known, _ in lemmas)))
+    last = last or _product(shown, number, [known for known, _ in lemmas], len(given))
     return None if last is None else after(lemmas, last)
 
 
-def _points(shown: Relation, given: Given) -> list[dict[sp.Symbol, float]]:
-    """Some points at which what is given holds, the same ones at every call."""
-    symbols = sorted(set().union(*(r.margin.free_symbols for r in (shown, *given))), key=str)
-    drawn = random.Random(1)
-    found = []
-    for _ in range(10 * POINTS):
-        point = {s: drawn.uniform(-1, 1) * 10 ** drawn.uniform(-1, 1) for s in symbols}
-        if all(_holds(r, point) for r in given):
-            found.append(point)
-        if len(found) == POINTS:
-            break
-    return found
-
-
-def _holds(relation: Relation, point: dict[sp.Symbol, float]) -> bool:
-    value = _value(relation.margin, point)
-    return value is not None and (value > 0 if relation.strict else value >= 0)
-
-
-def _value(expr: sp.Expr, point: dict[sp.Symbol, float]) -> float | None:
-    try:
-        value = complex(expr.subs(point))
-    except (TypeError, ValueError, OverflowError, ZeroDivisionError):
+def _product(shown: Relation, number: sp.Expr, signs: list[Relation], first: int) -> Proof | None:
+    """The margin as the product of what is known of its factors, which are assumed from a place on; None where it has
+    factors of even power, which have no sign."""
+    product = abs(number) * sp.Mul(*(known.margin for known in signs))
+    if not number.is_Rational or sp.expand(product - shown.margin) != 0:
         return None
-    return value.real if math.isfinite(value.real) and abs(value.imag) < 1e-12 else None
+    factors = [{"assume": first + place} for place in range(len(signs))]
+    return {"rule": "combination", "terms": [{"coefficient": str(abs(number)), "factors": factors}]}
