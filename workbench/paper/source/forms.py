@@ -20,7 +20,7 @@ KINDS = {"LETTERS": (LETTERS,), "REAL": (REAL,), "SIGN": (SIGN,), "RELATION": (R
          "VALUES": (LETTERS, VALUE, REFERENCE)}
 # What is told of a sentence: where it states facts, what it claims, gives, defines or supposes, and what restricts it.
 KEPT = ("fact", "claimed", "stated", "given", "defined", "supposed", "restricts", "restricts_bare", "then", "held",
-        "value", "clause", "unsigned", "holds", "laid")
+        "value", "clause", "unsigned", "judged", "holds", "laid")
 _RULES = r"""
 sentence = <bare> | <lays> | <declares> | <if_then> | <supposes> | <leads> :? | <asserts> | <concerns> | <invites> |
     [<declares> [and | , and | ;]]? <clause> [<joint>? <clause>]*
@@ -111,7 +111,8 @@ heldone = <related> [holds | hold]? | <things>? <list> [<be> [<kind> | <adjectiv
 if_then = if <related> [and <related>]* ,? then? <then>
 then = <related> [and <related>]*
 # what stands behind a formula
-after = ,? <quantified> | ,? [where | with | in which] <declared> [<andmore> <declared>]* | ,? <restricts> | ,? where
+after = ,? <quantified> | ,? [which is]? MADE [by | from | via | through | according to | using] <things>? :?
+    <defined> | ,? [where | with | in which] <declared> [<andmore> <declared>]* | ,? <restricts> | ,? where
     <part> uses <things> | ,? which [completes | concludes | ends] [the | our] proof | , which [is | are] [negative |
     positive] [definite | semidefinite | semi-definite] | ,? as [claimed | desired | required | stated] | [by | from |
     due to | because of] <things> | , where we [have]? used <things> | , where [the last | the | use] [inequality |
@@ -123,7 +124,7 @@ declares = [throughout [the | this] [paper | note | section | work | thesis]? ,?
     denote by | we write]? <declared> [<andmore> <declared>]* | [it | one | this] has <fact> [<andmore> <fact>]* |
     <opener>* <inline> [<andmore> [<inline> | <declared>]]*]
 inline = [let | we? ADVERB* DEFINE]? [<thing> | the error | the errors]? [be | as | by | is | are]? <value> [[of | for
-    | with] <fact>]?
+    | with] <fact> | [be | denote | denotes | represent] <kind>]?
 value = DEFINES
 declared = <fact> [, respectively]? | <both> | <unsigned>
 unsigned = <list> <be> not <adjectives> | <list> <be> <kind>? [positive | negative] [definite | semidefinite]
@@ -147,7 +148,10 @@ assumed = [we assume that | it is assumed that | assume that | suppose that | th
 relates = RELATION | <fact> | <shown>
 # a relation that is claimed within the text, what is said of a motion, what is going to be done
 asserts = <opener>* [<say> that?]? <held> [<holds> | [by | from | since | for] <things>]?
-concerns = <opener>* <things> <moves> [[, | and | , and] <things>? <moves>]*
+concerns = <opener>* [<things> <moves> [[, | and | , and] <things>? <moves>]* | <judged> [,? <because>]?]
+judged = <things> [is | are] ADVERB* <adjectives> | [this | it | which] is ADVERB* [immediate | clear | obvious |
+    evident | straightforward] [from <things>]?
+because = [since | because | as | by] [<related> [and <related>]* | <things> [[is | are] <adjectives>]?]
 moves = [does | do] not [increase | grow] MANNER* | [is | are] MANNER* [STABLE | attractive | bounded | invariant |
     passive] | [converge | converges | tend |
     tends] MANNER* to [zero | the origin | <things>] MANNER* [as TIME]? | [decreases | increases | decrease | increase

@@ -115,7 +115,8 @@ def table_of(rows: list[RowEntry], facts: str, text: str) -> dict[str, LetterEnt
         if row.role in ("definition", "dynamics"):
             kinds |= dict(kinds_in(text_of(row)))
     kinds = dict.fromkeys((*_named(_POSITIVE, facts), *_named(_ARE_POSITIVE, facts)), "positive") | kinds
-    constants = {*_named(_CONSTANTS, facts), *_named(_ARE_CONSTANTS, facts)} - _printed_of_time(text, rows)
+    constant = {*_named(_ARE_CONSTANTS, facts)} - _printed_of_time(text, rows)
+    constants = {*_named(_CONSTANTS, facts)} - _printed_of_time(text, rows) | constant
     inputs = set(_named(_INPUTS, facts))
     unclear = set(_valued_elsewhere(text))
     entries = {}
@@ -125,7 +126,7 @@ def table_of(rows: list[RowEntry], facts: str, text: str) -> dict[str, LetterEnt
         said = [role for role, letters in (("constant", constants), ("input", inputs)) if letter in letters]
         if letter in unclear - states:
             kinds.pop(letter, None)
-        role = "state" if letter in states else said[0] if len(said) == 1 else ""
+        role = "state" if letter in states else "constant" if letter in constant else said[0] if len(said) == 1 else ""
         entries[letter] = LetterEntry.model_validate({"kind": kinds.get(letter, ""), "role": role})
     return entries
 
