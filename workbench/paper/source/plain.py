@@ -46,7 +46,7 @@ def described(words: Sequence[Word], classes: Sequence[str]) -> tuple[tuple[str,
     """The classes with unknown words that only say what a letter stands for taken for nouns, as in `$u$ is the traction
     force`, and their places: of such a description nothing else is taken than its formula."""
     found, places = list(classes), set()
-    phrase = forms.NOUNS | vocabulary.MODIFIERS | vocabulary.DETERMINERS
+    phrase = forms.NOUNS | vocabulary.MODIFIERS | vocabulary.DETERMINERS | {"of"}
     for place, (word, one) in enumerate(zip(words, classes, strict=True)):
         if word.kind != "word" or one in forms.KNOWN | forms.NEUTRAL | _UNFIT or not _FIT.fullmatch(one):
             continue

@@ -97,7 +97,8 @@ class Text:
         return any({*heading_unknown(self.passages.titles[scope])} - TITLES for scope in sentence.place.scopes)
 
     def standing(self, display: int, letters: Collection[str], names: Collection[str],
-                 nouns: Mapping[str, Mapping[str, int]], facts: Mapping[str, str], called: Mapping[str, Collection[str]]) -> Standing:
+                 nouns: Mapping[str, Mapping[str, int]], facts: Mapping[str, str],
+                 called: Mapping[str, Collection[str]]) -> Standing:
         """What may be decided of a display.
 
         letters: its own and those that they are made of; names: its labels and number; nouns: the letters that the text
@@ -205,7 +206,7 @@ class Text:
             for letter, value in given_within(sentence.words):
                 yield Gift(at, letter, value, "inline")
             for number, form in said.shown.items():
-                if form in ("given", "defined"):
+                if form in ("given", "defined", "bare"):
                     for letter, value in self.formulas[number].gives.items():
                         yield Gift(at, letter, value, form)
 
