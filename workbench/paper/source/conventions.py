@@ -70,10 +70,10 @@ _ANOTHER = _words("""
     addition additional additionally another other second new different instead include includes including included
     also extra further extended extension inverse opposite sign reversed unstable faulty fails failed failure lost loss
     delayed modified changed without longer half twice replaced more neglected ignored dropped absent absence vanishes
-    switched off perturbed generalized variant alternative
+    added add adds subtracted appears appear account accounted switched off perturbed generalized variant alternative
 """)
 # Under a heading with one of these another plant may be meant than before.
-_OTHER_PART = _words("""
+OTHER_PART = _words("""
     extension extensions generalization generalizations generalisation variant variants alternative alternatives other
     another discrete-time digital sampled unstable delay delays faults failures uncertain perturbed disturbed
     undisturbed nominal ideal
@@ -103,7 +103,7 @@ def moves_otherwise(texts: Collection[str]) -> bool:
 
 def of_another(heading: Collection[str]) -> bool:
     """Whether another plant may be meant under a heading."""
-    return bool(_OTHER_PART & {*heading})
+    return bool(OTHER_PART & {*heading})
 
 
 def shows_rate(printed: str) -> bool:

@@ -92,7 +92,7 @@ stated = [whose | its]? <derived> <is> [, <quantified> ,]? :? <shown>
 given = [<subject> | it | they] <is> [, <quantified> ,]? :? <shown>
 subject = <subjects> [[, | and | , and | together with] <subjects>]*
 subjects = DETERMINER? [MODIFIER | NOUN | NAME]* [QUANTITY | LETTERS | VALUE | REF] [LETTERS | VALUE]? REF? [[of | for |
-    along | with respect to] <part>]*
+    along | with respect to | with] <part>]*
 is = ADVERB* [IS | [has | have | takes | take] the following? form | [is | are] ADVERB* MADE | can ADVERB* be ADVERB*
     MADE | is then | [was | were | been] MADE] <as>?
 as = [as | by | from | in the form | to be | to | of the form | in terms of] [follows | above | below | <thing> as]?
@@ -122,9 +122,9 @@ andmore = [, | ; | and | , and | ; and] [where | with | let]? | with
 declares = [throughout [the | this] [paper | note | section | work | thesis]? ,?]? [CONNECTIVE ,? | in this [paper |
     section | chapter] ,?]? [[let | where | with | in which | we assume that | it is assumed that | we denote by |
     denote by | we write]? <declared> [<andmore> <declared>]* | [it | one | this] has <fact> [<andmore> <fact>]* |
-    <opener>* <inline> [<andmore> [<inline> | <declared>]]*]
+    <opener>* <inline> [<andmore> [<inline> | <declared>]]* | let <declared> [<andmore> <declared>]* <andmore> <inline>]
 inline = [let | we? ADVERB* DEFINE]? [<thing> | the error | the errors]? [be | as | by | is | are]? <value> [[of | for
-    | with] <fact> | [be | denote | denotes | represent] <kind>]?
+    | with] <fact> | [be | denote | denotes | represent]? <kind>]?
 value = DEFINES
 declared = <fact> [, respectively]? | <both> | <unsigned>
 unsigned = <list> <be> not <adjectives> | <list> <be> <kind>? [positive | negative] [definite | semidefinite]

@@ -16,6 +16,13 @@ _UNFIT = conventions.NO_NUMBER | conventions.TAKES_BACK | narrowing.words_of("""
     but yet except save sometimes often maybe perhaps set interval function operator component components entry
     case if when while where which that who whose
 """)
+# Of what is so called a formula holds for a part of the motion, or not at all.
+_NARROW = conventions.OTHER_PART | narrowing.words_of("""
+    fault fault-free toy wrong true false former average linear approximate crude fictitious hypothetical virtual
+    textbook myth claim conjecture steady static limit worst best initial final terminal local inner outer slow fast
+    fake dummy boundary condition conditions constraint constraints requirement objective goal target specification
+    guess hypothesis
+""")
 _BE = ("is", "are", "denotes", "denote", "represents", "represent", "stands", "being")
 _BETWEEN = re.compile(r"[\s=<>,;()\[\]|+]+|\\[a-z]*(?:le|ge|in|to|ne|frac|cdot)[a-z]*(?![A-Za-z])")
 
@@ -42,11 +49,16 @@ def exchanges(words: Sequence[Word], classes: Sequence[str]) -> bool:
     return bool(alone & within)
 
 
-def described(words: Sequence[Word], classes: Sequence[str]) -> tuple[tuple[str, ...], frozenset[int]]:
+def described(words: Sequence[Word], classes: Sequence[str],
+              giving: Collection[int]) -> tuple[tuple[str, ...], frozenset[int]]:
     """The classes with unknown words that only say what a letter stands for taken for nouns, as in `$u$ is the traction
-    force`, and their places: of such a description nothing else is taken than its formula."""
+    force`, and their places: of such a description nothing else is taken than its formula. So are those that only say
+    what is given, as in `A DC motor obeys`; giving: the displays that give letters values or rates."""
     found, places = list(classes), set()
-    phrase = forms.NOUNS | vocabulary.MODIFIERS | vocabulary.DETERMINERS | {"of"}
+    gives = [place for place, word in enumerate(words) if word.kind == "display"][:1]
+    until = next((place for place, one in enumerate(classes) if one in vocabulary.IS), 0) if gives and (
+        int(words[gives[0]].text) in giving) and not _NARROW & {word.text for word in words[:gives[0]]} else 0
+    phrase = forms.NOUNS | vocabulary.MODIFIERS | vocabulary.DETERMINERS | {"of", "with"}
     for place, (word, one) in enumerate(zip(words, classes, strict=True)):
         if word.kind != "word" or one in forms.KNOWN | forms.NEUTRAL | _UNFIT or not _FIT.fullmatch(one):
             continue
@@ -54,7 +66,10 @@ def described(words: Sequence[Word], classes: Sequence[str]) -> tuple[tuple[str,
         while start and (found[start - 1] in phrase):
             start -= 1
         be = start - 1 - (found[start - 1:start] == ["for"])
-        if start < place and be > 0 and found[be] in _BE and found[be - 1] in (forms.LETTERS, forms.REAL, forms.SIGN):
+        letter = start < place and be > 0 and found[be] in _BE and found[be - 1] in (
+            forms.LETTERS, forms.REAL, forms.SIGN)
+        subject = 0 < place < until and start == 0 and found[0] in vocabulary.DETERMINERS
+        if letter or subject:
             found[place] = "quantity"
             places.add(place)
     return tuple(found), frozenset(places)

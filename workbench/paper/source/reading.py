@@ -54,9 +54,9 @@ class Reading:
 
 
 def read_sentence(sentence: Sentence, body: str, assuming: bool = False,
-                  given: Collection[str] = frozenset()) -> Reading:
+                  given: Collection[str] = frozenset(), giving: Collection[int] = frozenset()) -> Reading:
     """What a sentence says, if it is understood; assuming: that it stands in the text of an assumption; given: the
-    letters that the text gives values."""
+    letters that the text gives values; giving: the displays that give some."""
     words = plainly(sentence.words)
     asks = words[-1].text == "?"
     while words and words[-1].kind == "mark" and words[-1].text in ".!;,":
@@ -75,7 +75,7 @@ def read_sentence(sentence: Sentence, body: str, assuming: bool = False,
     found = _matched(rule, tuple(classes)) if len(words) <= LONGEST and not asks else None
     told: frozenset[int] = frozenset()  # places of words that say what a letter stands for
     if found is None and len(words) <= LONGEST and not asks:
-        opened, told = described(words, classes)
+        opened, told = described(words, classes, giving)
         found = _matched(rule, opened) if told else None
     if found is None and not shown and not asks and neutral(classes) and not exchanges(words, classes):
         return _neutrally(texts, letters, revalued(words, classes, texts, given))
