@@ -81,7 +81,8 @@ OTHER_PART = _words("""
 # By these an assumption is taken back.
 DROPS = TAKES_BACK | _words("""
     not no without drop dropped drops relax relaxed relaxes remove removed removes violated longer lifted lift weakened
-    weaken
+    weaken invalidate invalidates invalidated violate violates break breaks fail fails failed may might cannot could
+    would if unless only beyond outside exceed exceeds until
 """)
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
+from workbench.paper.source.conventions import shows_rate
 from workbench.paper.source.document import Source
 from workbench.paper.source.letters import defined_in_text, said_of, values_and_rates
 from workbench.paper.source.row import Row
@@ -87,7 +88,9 @@ def left_to_the_author(row: RowEntry, verdict: str, standing: Standing | None, r
         return f"what is said elsewhere may change what it means: {'; '.join(standing.otherwise)}"
     taken = {letter for one in rows if one.role in ("definition", "dynamics")
              for letter in (*dict(sides_of(text_of(one))), *dict(moving_sides(text_of(one))))}
-    known = {letter for letter, entry in letters.items() if entry.kind in ("positive", "nonnegative")} | taken
+    rates = shows_rate(text_of(row))
+    known = {letter for letter, entry in letters.items() if entry.kind in ("positive", "nonnegative")
+             or (rates and entry.role == "constant")} | taken
     used = sorted(({*standing.contested} | (otherwise & standing.letters)) & known)
     told = "; ".join(dict.fromkeys(standing.contested.get(one) or "it is given twice" for one in used))
     return f"what is not understood may say otherwise of {', '.join(used)}: {told}" if used else ""

@@ -20,7 +20,8 @@ KINDS = {"LETTERS": (LETTERS,), "REAL": (REAL,), "SIGN": (SIGN,), "RELATION": (R
          "VALUES": (LETTERS, VALUE, REFERENCE)}
 # What is told of a sentence: where it states facts, what it claims, gives, defines or supposes, and what restricts it.
 KEPT = ("fact", "claimed", "stated", "given", "defined", "supposed", "restricts", "restricts_bare", "then", "held",
-        "value", "clause", "unsigned", "judged", "holds", "laid")
+        "value", "clause", "unsigned", "judged", "inset", "holds",
+        "laid")
 _RULES = r"""
 sentence = <bare> | <lays> | <declares> | <if_then> | <supposes> | <leads> :? | <asserts> | <concerns> | <invites> |
     [<declares> [and | , and | ;]]? <clause> [<joint>? <clause>]*
@@ -91,8 +92,9 @@ named = the? [inequality | identity | bound | estimate | relation | equality] <c
 stated = [whose | its]? <derived> <is> [, <quantified> ,]? :? <shown>
 given = [<subject> | it | they] <is> [, <quantified> ,]? :? <shown>
 subject = <subjects> [[, | and | , and | together with] <subjects>]*
-subjects = DETERMINER? [MODIFIER | NOUN | NAME]* [QUANTITY | LETTERS | VALUE | REF] [LETTERS | VALUE]? REF? [[of | for |
-    along | with respect to | with] <part>]*
+subjects = DETERMINER? [MODIFIER | NOUN | NAME]* [QUANTITY | LETTERS | VALUE | REF] [LETTERS | VALUE | <inset>]? REF?
+    [[of | for | along | with respect to | with] <part>]*
+inset = REAL | SIGN
 is = ADVERB* [IS | [has | have | takes | take] the following? form | [is | are] ADVERB* MADE | can ADVERB* be ADVERB*
     MADE | is then | [was | were | been] MADE] <as>?
 as = [as | by | from | in the form | to be | to | of the form | in terms of] [follows | above | below | <thing> as]?

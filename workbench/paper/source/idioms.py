@@ -21,7 +21,8 @@ _IDIOMS = tuple((tuple(frozenset(word.split("|")) for word in said.split()), pla
     ("we|one can", "$"), ("keep|bear in mind that", "note that"), ("after|by some", "$"), ("as can be", "as is"),
     ("some algebra|algebraic|calculation|calculations|manipulation|manipulations|simple|steps|computations", "simple"),
     ("terms of indefinite|unknown sign", "terms"),
-    ("left with", "arrive at"), ("leads to", "gives"), ("results in", "gives")))
+    ("left with", "arrive at"), ("end up with", "arrive at"),
+    ("evolves|behaves according to", "satisfies"), ("leads to", "gives"), ("results in", "gives")))
 
 
 def plainly(words: Sequence[Word]) -> tuple[Word, ...]:

@@ -51,7 +51,7 @@ _SENTENCE = re.compile(r"(?<=[.!?;])\s|\\(?:begin|end)\s*\{[^{}]*\}|\\(?:item|(?
 # A sentence with one of these says of no letter that it has a sign everywhere, or is constant.
 _NOT_EVERYWHERE = re.compile(
     r"\b(?:if|when|whenever|while|until|unless|provided|cases?|either|n?or|neither|not|whether|suppose|then|may|might|"
-    r"could|can|would|should|follow\w*|hence|thus|therefore|impl(?:y|ies)|yields?|since|because|sets?|region|domain|"
+    r"could|can|would|should|follow\w*|hence|thus|therefore|impl(?:y|ies)|yields?|since|because|sets?(?!-)|region|domain|"
     r"(?:in|out)side|instance|example|show\w*|prove\w*|conclude\w*|near|small|large|initially|first|once)\b|\bas\s*\$",
     re.IGNORECASE)
 _VARIES = re.compile(r"\b(?:var(?:y|ies|ying)|changes?|changing|switch\w*|adapt\w*|updated?|time-dependent|"

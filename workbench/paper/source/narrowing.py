@@ -64,6 +64,11 @@ _NAMED = words_of("""
     function functions functional candidate energy storage law laws controller controllers input inputs error-signal
     observer filter surface manifold output estimate symbol symbols letter letters
 """)
+# By these one letter may be put for another.
+_PUT = words_of("""
+    computed calculated evaluated implemented realized realised approximated used uses using replaced substituted
+    measured estimated taken known formed built
+""")
 # By words of both kinds a letter may stand for another.
 _CALLS = (words_of("write writes denote denotes called use keep stands"), words_of("both all same them again one two"))
 
@@ -107,9 +112,19 @@ def calls_alike(texts: Sequence[str]) -> bool:
     return all(words & {*texts} for words in _CALLS)
 
 
+def exchanges_letters(texts: Sequence[str]) -> bool:
+    """Whether a sentence with two letters may put one for the other."""
+    return bool(_PUT & {*texts})
+
+
 def restricts(texts: Sequence[str], heading: Sequence[str]) -> bool:
     """Whether a sentence without letters, not understood, may say of what values the paper speaks."""
-    return bool(_RESTRICTING & {*texts}) and not _BACKGROUND & {*heading}
+    return bool(_RESTRICTING & {*texts}) and not background(heading)
+
+
+def background(heading: Sequence[str]) -> bool:
+    """Whether what stands under a heading says nothing of what values are."""
+    return bool(_BACKGROUND & {*heading})
 
 
 def _placed(texts: Sequence[str], at: int) -> tuple[str, ...]:

@@ -12,9 +12,14 @@ from workbench.proof.latex.sides import letters_of_text
 # A word that denies or changes nothing, as far as its form shows; words for what is no number are not fit either.
 _FIT = re.compile(r"(?!non|un|in|im|ir|dis|mis|anti|de|re|pseudo|semi|quasi|half)[a-z]{3,}(?<!less)(?<!ed)(?<!ing)")
 _UNFIT = conventions.NO_NUMBER | conventions.TAKES_BACK | narrowing.words_of("""
-    negative opposite inverse complement reverse former later previous past future never not only some any few no nor
-    but yet except save sometimes often maybe perhaps set interval function operator component components entry
-    case if when while where which that who whose
+    arbitrary negative opposite inverse complement reverse former later previous past future never not only some any
+    few no nor but yet except save sometimes often maybe perhaps set interval function operator component components
+    entry case if when while where which that who whose
+""")
+# What is called so is of another kind than before, where its formula does not say of which.
+_NUMBERS = narrowing.words_of("""
+    real reals number numbers scalar scalars constant constants gain gains parameter parameters coefficient coefficients
+    integer integers
 """)
 # Of what is so called a formula holds for a part of the motion, or not at all.
 _NARROW = conventions.OTHER_PART | narrowing.words_of("""
@@ -67,12 +72,21 @@ def described(words: Sequence[Word], classes: Sequence[str],
             start -= 1
         be = start - 1 - (found[start - 1:start] == ["for"])
         letter = start < place and be > 0 and found[be] in _BE and found[be - 1] in (
-            forms.LETTERS, forms.REAL, forms.SIGN)
+            forms.LETTERS, forms.REAL, forms.SIGN) and not (
+                found[be - 1] == forms.LETTERS and _NUMBERS & {*_phrase(found, start, phrase)})
         subject = 0 < place < until and start == 0 and found[0] in vocabulary.DETERMINERS
         if letter or subject:
             found[place] = "quantity"
             places.add(place)
     return tuple(found), frozenset(places)
+
+
+def _phrase(classes: Sequence[str], start: int, phrase: Collection[str]) -> list[str]:
+    """The words from a place on that may be one description; unknown ones go on."""
+    end = start
+    while end < len(classes) and (classes[end] in phrase or _FIT.fullmatch(classes[end])):
+        end += 1
+    return [*classes[start:end]]
 
 
 def revalued(words: Sequence[Word], classes: Sequence[str], texts: Sequence[str],
@@ -83,4 +97,5 @@ def revalued(words: Sequence[Word], classes: Sequence[str], texts: Sequence[str]
              for letter in letters_within(word.text)]
     if values and narrowing.revalues(texts, bool({*alone} & {*given})):
         return values
-    return tuple(alone) if narrowing.calls_alike(texts) else ()
+    return tuple(alone) if narrowing.calls_alike(texts) or (
+        len({*alone}) > 1 and narrowing.exchanges_letters(texts)) else ()

@@ -126,7 +126,7 @@ def _said(words: Sequence[Word], found: Sequence[tuple[str, int, int]], body: st
     defines = any(form in ("given", "defined", "bare") for form in said.values()) or not said
     facts = [body[words[start].start:words[end - 1].end] if told.isdisjoint(range(start, end)) else " and ".join(
         body[word.start:word.end] for word in words[start:end] if word.kind == "math")
-        for rule, start, end in found if rule == "fact" and _is_taken(words[start:end], defines)]
+        for rule, start, end in found if rule == "inset" or (rule == "fact" and _is_taken(words[start:end], defines))]
     facts += [f"Define {body[words[start].start:words[end - 1].end]}" for rule, start, end in found if rule == "value"]
     if laid and not any(re.search(r"[A-Za-z]{3}|\\in", fact.split("$")[0]) or r"\in" in fact for fact in facts):
         return Reading(said, (), frozenset(said), frozenset(), letters)  # with $z > 0$ alone, of such a z

@@ -10,7 +10,7 @@ from workbench.paper.source.elsewhere import drops, nouns_of_displays, said_else
 from workbench.paper.source.forms import NOUNS
 from workbench.paper.source.given import RATE, Gift, given_twice, given_within
 from workbench.paper.source.letters import letters_said, says_sign, signed_by_words
-from workbench.paper.source.narrowing import restricts
+from workbench.paper.source.narrowing import background, restricts
 from workbench.paper.source.passages import Passages, Sentence
 from workbench.paper.source.reading import EVERYTHING, Reading, heading_unknown, printed, read_sentence
 from workbench.paper.source.shown import Shown, Standing
@@ -26,6 +26,7 @@ ASIDE = {"remark", "note", "definition", "assumption"}  # environments that may 
 # Nouns and adjectives by which a letter that had a sign is said to be something else.
 OTHERWISE = {"real", "number", "numbers", "scalar", "scalars", "function", "functions", "variable", "variables",
              "signal", "signals", "timevarying", "state", "input", "disturbance", "output", "vector", "matrix"}
+VARYING = {"function", "functions", "variable", "variables", "signal", "signals", "timevarying", "time"}
 # Words of an assumption's title beside those that are understood.
 TITLES = {"matching", "condition", "conditions", "persistence", "excitation", "growth", "smoothness", "sector",
           "existence", "controllability", "observability", "detectability", "stabilizability", "regularity",
@@ -129,7 +130,8 @@ class Text:
                 contested = dict.fromkeys(spoken, self._told(before)) | contested
                 section = other.place.headings[:1] == sentence.place.headings[:1]
                 heading = [word.text for one in other.place.headings for word in self.passages.headings[one]]
-                if spoken & {*letters} or words & {*ALL} or near or (not said.letters and (
+                everywhere = words & {*ALL} and not background(heading)
+                if spoken & {*letters} or everywhere or near or (not said.letters and (
                         section or restricts([*words], heading))):
                     doubts.append(self._told(before))
             differs = self._differs(said, facts) if self.local(other) else set()
@@ -173,13 +175,17 @@ class Text:
 
     def _anew(self, at: int) -> set[str]:
         """The letters that the text gives two different values, whatever its words say: within the text anywhere, in
-        displays by the end of a sentence's section; and those that got a sign, and then another kind."""
+        displays by the end of a sentence's section; those that got a sign, or were constant, and then another kind."""
         sentence = self.passages.sentences[at]
         signed: set[str] = set()
+        fixed: set[str] = set()
         anew = set()
         for other, said in zip(self.passages.sentences[:at + 1], self.readings, strict=False):
             for fact in said.facts if not self.local(other) else ():
                 letters = letters_said(fact)
+                anew |= letters & fixed if VARYING & {*fact.replace("-", "").split()} else set()
+                if "constant" in fact:
+                    fixed |= letters
                 if says_sign(fact):
                     signed |= letters
                 elif OTHERWISE & {*fact.replace("-", "").split()}:
