@@ -146,11 +146,15 @@ adjectives = [[ADJECTIVE | MODIFIER] [, | and | but | , and]?]* [ADJECTIVE | MOD
 assumes = <assumed> [[, | and | ; | , and] <assumed>]*
 assumed = [we assume that | it is assumed that | assume that | suppose that | there [exists | exist | is | are]
     <kind>? <fact> such that]? [<quantified> ,?]? [[<things> | it] <is>]? [, that is ,]? <relates> [holds | hold]? ,?
-    [with <fact>]? [,? <quantified>]? | <things> [is | are] bounded [by <things>]? | <fact> | <sentence>
+    [with <fact>]? [,? <quantified>]? | <things> [is | are] bounded [by <things>]? | <things> [is
+    | are] [bounded | limited] [by | as] <relates> | <fact> | <sentence>
 relates = RELATION | <fact> | <shown>
 # a relation that is claimed within the text, what is said of a motion, what is going to be done
 asserts = <opener>* [<say> that?]? <held> [<holds> | [by | from | since | for] <things>]?
-concerns = <opener>* [<things> <moves> [[, | and | , and] <things>? <moves>]* | <judged> [,? <because>]?]
+concerns = <opener>* [<things> <moves> [[, | and | , and] <things>? <moves>]* | <judged> [,? <because>]?] |
+    DETERMINER [MODIFIER | NOUN]* [of | with] [MODIFIER | NOUN]* NOUN <inset> <travels>
+travels = [moves | runs | travels | slides | rolls | rotates | swings] [on | along | in | over | about | around]
+    <things>
 judged = <things> [is | are] ADVERB* <adjectives> | [this | it | which] is ADVERB* [immediate | clear | obvious |
     evident | straightforward] [from <things>]?
 because = [since | because | as | by] [<related> [and <related>]* | <things> [[is | are] <adjectives>]?]
