@@ -52,6 +52,7 @@ UNPROVED = (
     r"Let $c, \hat c \in \mathbb{R}$. The law is \begin{equation} u = -a x - c x . \end{equation}" "\n\n"
     r"Here the term is computed with $\hat c$ for $c$." "\n\n" r"The closed loop is [[\dot x = -c x + d]]",
     # what is assumed no longer
+    rf"{_BOUND} In this section $d$ may grow without bound." "\n\nWe have [[d^2 \\le k^2]]",
     rf"{_BOUND} Heavy rain may invalidate Assumption~\ref{{bound}}." "\n\nWe have [[d^2 \\le k^2]]",
     rf"{_BOUND} In this section Assumption~\ref{{bound}} is not needed." "\n\nWe have [[d^2 \\le k^2]]",
 )

@@ -86,9 +86,10 @@ def left_to_the_author(row: RowEntry, verdict: str, standing: Standing | None, r
         return f"false by itself; what may restrict it is for you to read: {'; '.join(doubts)}" if doubts else ""
     if standing.otherwise:
         return f"what is said elsewhere may change what it means: {'; '.join(standing.otherwise)}"
-    taken = {letter for one in rows if one.role in ("definition", "dynamics")
-             for letter in (*dict(sides_of(text_of(one))), *dict(moving_sides(text_of(one))))}
     rates = shows_rate(text_of(row))
+    taken = {letter for one in rows if one.role in ("definition", "dynamics")
+             for letter in (*dict(sides_of(text_of(one))), *(dict(moving_sides(text_of(one))) if rates else ()))}
+    taken |= {letter for one in rows if one.role == "assumption" for letter in letters_of_text(text_of(one))}
     known = {letter for letter, entry in letters.items() if entry.kind in ("positive", "nonnegative")
              or (rates and entry.role == "constant")} | taken
     used = sorted(({*standing.contested} | (otherwise & standing.letters)) & known)

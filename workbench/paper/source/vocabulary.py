@@ -38,7 +38,7 @@ GIVEN = _words("""
     vector vectors matrix norm set-point setpoint path curve slope weighting learning memory buffer delay lag
     bandwidth leakage projection deadzone kernel basis regressor neuron neurons layer layers ratio factor factors
     unit units exponent index error errors mean average maximum minimum closed-loop loop sliding-mode mode modes
-    stored armature winding dc ac permanent-magnet
+    stored armature winding dc ac permanent-magnet on-board
     traction braking adhesion propulsion steering suspension chassis tire tires yaw pitch roll heading rudder keel hull
     altitude depth azimuth attitude rotation rotations curvature radius diameter width area volume density viscosity
     conductivity permeability enthalpy entropy heater cooler evaporator condenser compressor fan blade propeller
