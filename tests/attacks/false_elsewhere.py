@@ -26,6 +26,10 @@ UNPROVED = (
     r"The gains are $k$ and $-\gamma$. We write $\gamma$ for both. We have [[\gamma x^2 \ge 0]]",
     r"\begin{proof} Put \begin{equation} W = x^2 . \end{equation} \end{proof} \begin{lemma} For every function $W$ we "
     r"have [[W \ge 0]] \end{lemma}",
+    *(rf"{_W}{said}.{_HOLDS}" for said in ("Subsequently, $W$ denotes the second term alone", "Next, we pass to $-W$")),
+    *(f"{said}. \n\n We have [[k x^2 \\ge 0]]" for said in ("Let $k$ be any real number", "We write $k$ for $-c$")),
+    *(rf"\begin{{lemma}} {said}, it holds that [[k x^2 \ge 0]] \end{{lemma}}" for said in (
+        "For every real $k$", r"For every $k \in \mathbb{R}$", "For all real numbers $x$ and $k$")),
     # another meaning
     "Superscripts denote components. \n\n We have [[x^2 \\ge 0]]",
     "Upper indices number the components. \n\n We have [[x^2 \\ge 0]]",
@@ -51,6 +55,11 @@ UNPROVED = (
     "In this section $k$ is an arbitrary real number. \n\n We have [[k x^2 \\ge 0]]",
     r"Let $c, \hat c \in \mathbb{R}$. The law is \begin{equation} u = -a x - c x . \end{equation}" "\n\n"
     r"Here the term is computed with $\hat c$ for $c$." "\n\n" r"The closed loop is [[\dot x = -c x + d]]",
+    *(f"{_LAW}{said}." "\n\nThe closed loop is [[\\dot x = -k x + d]]" for said in (
+        "The actuator has a dead zone", "The wires of the motor have the wrong polarity",
+        "The measured state is $x + z$")),
+    *(rf"{_PLANT} {said}. {_FALLS}" for said in (
+        "In what follows time runs backwards", "Derivatives are taken with respect to the distance")),
     # what is assumed no longer
     rf"{_BOUND} In this section $d$ may grow without bound." "\n\nWe have [[d^2 \\le k^2]]",
     rf"{_BOUND} Heavy rain may invalidate Assumption~\ref{{bound}}." "\n\nWe have [[d^2 \\le k^2]]",

@@ -19,7 +19,8 @@ _ANY = re.compile("")
 _WHAT = _words("variables variable numbers scalars quantities letters states signals phasors entries plane")
 # Words that must all occur, one of each set, and the formulas that then mean something else.
 _CONVENTIONS = (
-    ((_words("degrees degree"), _words("angles angle sine cosine sines cosines trigonometric measured arguments")),
+    ((_words("degrees degree revolutions revolution gradians turns"),
+      _words("angles angle sine cosine sines cosines trigonometric measured arguments argument expressed")),
      re.compile(r"\\(?:sin|cos|tan|cot|arc)")),
     ((_words("superscript superscripts"),), re.compile(r"\^")),
     ((_words("upper raised"), _words("index indices")), re.compile(r"\^")),
@@ -30,6 +31,9 @@ _CONVENTIONS = (
     ((_words("tilde tildes"),), re.compile(r"\\(?:wide)?tilde(?![A-Za-z])")),
     ((_words("prime primes"),), re.compile(r"'|\\prime(?![A-Za-z])")),
     ((_words("dot dots overdot"),), _RATE),
+    ((_words("time"), _words("backwards backward reversed rescaled scaled stretched normalized new reverse")), _RATE),
+    ((_words("derivatives derivative"), _words("respect along"),
+      _words("distance position path arc space travelled traveled length mileage angle index")), _RATE),
     ((_words("resets reset jumps jump impulse impulses impulsive wiener brownian itô ito stratonovich"),), _RATE),
     ((_words("bracket brackets"), _words("denote denotes mean means part floor integer rounding jump average")),
      re.compile(r"[\[(|]")),
@@ -52,6 +56,12 @@ NO_NUMBER = _words("""
 """)
 _COMPONENT = _words("component components entry entries element elements coordinate coordinates")
 _SPACE = re.compile(r"\\in\s*\\math(?:bb|bf|cal|rm)\s*\{?\s*(?!R\}?\s*\Z|[RZNQ]\}?\s*(?:_|\Z|\^\s*\{?\+))[A-Z]")
+_EVERY = _words("any every all each arbitrary")
+_KINDS = _words("real reals number numbers scalar scalars value values")
+_SIGNS = _words("positive nonnegative non-negative")
+CALLS = _words("write writes call calls")
+DENOTES = _words("denotes denote stands represents represent designates means")
+_PARTS = _words("term terms part parts square squares sum difference product half alone only summand first second last")
 _MANNERS = _words("convention conventions opposite reversed inverse")
 # By these words what was printed before is taken back or changed, wherever that stands.
 TAKES_BACK = _words("""
@@ -99,7 +109,7 @@ def turns(texts: Collection[str]) -> bool:
 
 def moves_otherwise(texts: Collection[str]) -> bool:
     """Whether a sentence may say that the plant is another one, or that more acts on it."""
-    return bool(_PLANTS & {*texts}) and bool(_ANOTHER & {*texts})
+    return bool(_PLANTS & {*texts}) and bool((_ANOTHER | TAKES_BACK) & {*texts})
 
 
 def of_another(heading: Collection[str]) -> bool:
@@ -110,6 +120,16 @@ def of_another(heading: Collection[str]) -> bool:
 def shows_rate(printed: str) -> bool:
     """Whether a formula has a rate."""
     return _RATE.search(printed) is not None
+
+
+def any_number(texts: Collection[str]) -> bool:
+    """Whether a sentence may say of its letters that they are any numbers."""
+    return bool(_EVERY & {*texts}) and bool(_KINDS & {*texts}) and not _SIGNS & {*texts}
+
+
+def a_part(texts: Collection[str]) -> bool:
+    """Whether a sentence may say of a letter that it denotes a part of what it did before."""
+    return bool(DENOTES & {*texts}) and bool(_PARTS & {*texts})
 
 
 def no_number(texts: Collection[str], formulas: Sequence[str]) -> bool:

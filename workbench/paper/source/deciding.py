@@ -19,12 +19,18 @@ def standings(made: list[tuple[Row, RowEntry]], found: Source, facts: str) -> di
     made_of = {letter: letters_of_text(right) for line in (*lines, *defined_in_text(facts).values())
                for letter, right in values_and_rates(line)[0].items()}
 
-    def within(letters: set[str]) -> set[str]:
-        """The letters with those that they are made of."""
-        known: set[str] = set()
+    moved_by: dict[str, set[str]] = {}
+    for line in lines:
+        for letter, right in values_and_rates(line)[1].items():
+            moved_by.setdefault(letter, set()).update(letters_of_text(right))
+
+    def within(text: str) -> set[str]:
+        """The letters of a line with those that they are made of, and, where it has a rate, those that move them."""
+        letters, known, rates = letters_of_text(text), set[str](), shows_rate(text)
         while letters - known:
             known |= letters
-            letters = known.union(*(made_of.get(one, set()) for one in known))
+            letters = known.union(*(made_of.get(one, set()) for one in known),
+                                  *(moved_by.get(one, set()) for one in known if rates))
         return known
 
     nouns, said = found.said.nouns(), said_of(facts)
@@ -39,7 +45,7 @@ def standings(made: list[tuple[Row, RowEntry]], found: Source, facts: str) -> di
         given = {letter for part in values_and_rates(text_of(entry)) for letter in part}
         for name in {*row.labels, row.number} - {""} if given else ():
             called.setdefault(name, set()).update(given)
-    return {entry.id: found.said.standing(row.display, within(letters_of_text(text_of(entry))), names(row), nouns, said,
+    return {entry.id: found.said.standing(row.display, within(text_of(entry)), names(row), nouns, said,
                                           called)
             for row, entry in made if row.display >= 0}
 

@@ -6,8 +6,12 @@ from collections.abc import Collection, Iterator, Mapping, Sequence
 from itertools import pairwise
 
 from workbench.paper.source.conventions import (
+    CALLS,
+    DENOTES,
     DROPS,
     TAKES_BACK,
+    a_part,
+    any_number,
     means_otherwise,
     moves_otherwise,
     no_number,
@@ -15,8 +19,9 @@ from workbench.paper.source.conventions import (
     turns,
 )
 from workbench.paper.source.given import RATE, Gift
-from workbench.paper.source.passages import Sentence
+from workbench.paper.source.passages import Sentence, Word
 from workbench.paper.source.reading import Reading
+from workbench.proof.latex.sides import letters_of_text
 
 
 def _words(text: str) -> frozenset[str]:
@@ -74,6 +79,28 @@ def said_elsewhere(sentences: Sequence[Sentence], readings: Sequence[Reading], g
             gift.at < place < at for gift in gifts if gift.letter in taken) else set()
         if (no_number(texts, formulas) and said.letters & {*letters}) or (named | back | turned) & taken:
             yield place
+
+
+def any_numbers(words: Sequence[Word]) -> Iterator[str]:
+    """The letters that a sentence says to be any numbers, as `for every real $k$`."""
+    for place, word in enumerate(words):
+        first = place
+        while first and (words[first - 1].kind in ("math", "mark") or words[first - 1].text == "and"):
+            first -= 1
+        before = [one.text for one in words[max(first - 3, 0):first]]
+        if word.kind == "math" and (any_number(before) or (r"\mathbb" in word.text and any_number([*before, "real"]))):
+            yield from letters_of_text(word.text.partition(r"\in")[0])
+
+
+def denoted_in_part(words: Sequence[Word]) -> Iterator[str]:
+    """The letters of which a sentence says that they denote a part, as `$V$ denotes the second term`, or something
+    else, as `we write $k$ for $-c$`."""
+    formulas = [word.text for word in words if word.kind == "math"]
+    if len(formulas) > 1 and CALLS & {word.text for word in words}:
+        yield from (letter for one in formulas if letters_of_text(one) == {one} for letter in (one,))
+    for word, behind in pairwise(words):
+        if word.kind == "math" and behind.text in DENOTES and a_part([one.text for one in words]):
+            yield from letters_of_text(word.text)
 
 
 def drops(sentence: Sentence, labels: Collection[str], number: str) -> bool:

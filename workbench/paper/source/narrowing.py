@@ -62,7 +62,8 @@ _BACKGROUND = words_of("introduction conclusion conclusions acknowledgment ackno
 # Nouns of what a letter may stand for, which a text may give another value by words alone.
 _NAMED = words_of("""
     function functions functional candidate energy storage law laws controller controllers input inputs error-signal
-    observer filter surface manifold output estimate symbol symbols letter letters
+    observer filter surface manifold output estimate state states signal signals variable variables symbol symbols
+    letter letters
 """)
 # By these one letter may be put for another.
 _PUT = words_of("""
@@ -70,7 +71,8 @@ _PUT = words_of("""
     measured estimated taken known formed built
 """)
 # By words of both kinds a letter may stand for another.
-_CALLS = (words_of("write writes denote denotes called use keep stands"), words_of("both all same them again one two"))
+_CALLS = (words_of("write writes denote denotes call called use keep put stands means"),
+          words_of("both all same them again one two"))
 
 
 def partial(texts: Sequence[str]) -> tuple[str, ...]:
@@ -110,6 +112,11 @@ def revalues(texts: Sequence[str], given: bool) -> bool:
 def calls_alike(texts: Sequence[str]) -> bool:
     """Whether a sentence may call two things by one letter."""
     return all(words & {*texts} for words in _CALLS)
+
+
+def names(texts: Sequence[str]) -> bool:
+    """Whether a sentence with a letter and an expression may call the one by the other."""
+    return bool(_CALLS[0] & {*texts})
 
 
 def exchanges_letters(texts: Sequence[str]) -> bool:

@@ -95,7 +95,7 @@ def revalued(words: Sequence[Word], classes: Sequence[str], texts: Sequence[str]
     values = tuple(word.text for word, one in zip(words, classes, strict=True) if one == forms.VALUE)
     alone = [letter for word, one in zip(words, classes, strict=True) if one == forms.LETTERS
              for letter in letters_within(word.text)]
-    if values and narrowing.revalues(texts, bool({*alone} & {*given})):
+    if values and narrowing.revalues(texts, bool({*alone} & {*given}) or (bool(alone) and narrowing.names(texts))):
         return values
-    return tuple(alone) if narrowing.calls_alike(texts) or (
+    return tuple(alone) if narrowing.calls_alike(texts) or conventions.any_number(texts) or (
         len({*alone}) > 1 and narrowing.exchanges_letters(texts)) else ()

@@ -6,7 +6,7 @@ from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 
 from workbench.paper.source.conventions import of_another, shows_rate
-from workbench.paper.source.elsewhere import drops, nouns_of_displays, said_elsewhere
+from workbench.paper.source.elsewhere import any_numbers, denoted_in_part, drops, nouns_of_displays, said_elsewhere
 from workbench.paper.source.forms import NOUNS
 from workbench.paper.source.given import RATE, Gift, given_twice, given_within
 from workbench.paper.source.letters import letters_said, says_sign, signed_by_words
@@ -181,6 +181,9 @@ class Text:
         fixed: set[str] = set()
         anew = set()
         for other, said in zip(self.passages.sentences[:at + 1], self.readings, strict=False):
+            if not self.local(other) or self._holds_at(other, sentence):
+                anew |= signed & {*any_numbers(other.words)}
+                anew |= {*denoted_in_part(other.words)}
             for fact in said.facts if not self.local(other) else ():
                 letters = letters_said(fact)
                 anew |= letters & fixed if VARYING & {*fact.replace("-", "").split()} else set()
