@@ -4,12 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
+from workbench.paper.source.conventions import shows_rate
 from workbench.paper.source.document import Source
 from workbench.paper.source.letters import defined_in_text, said_of, values_and_rates
 from workbench.paper.source.row import Row
-from workbench.paper.source.standing import Standing
+from workbench.paper.source.shown import Standing
 from workbench.proof.latex.rows import LetterEntry, RowEntry, text_of
-from workbench.proof.latex.sides import letters_of_text, moving_sides, sides_of
+from workbench.proof.latex.sides import letters_of_text, moving_sides, rated_in, sides_of
 
 
 def standings(made: list[tuple[Row, RowEntry]], found: Source, facts: str) -> dict[str, Standing]:
@@ -18,12 +19,18 @@ def standings(made: list[tuple[Row, RowEntry]], found: Source, facts: str) -> di
     made_of = {letter: letters_of_text(right) for line in (*lines, *defined_in_text(facts).values())
                for letter, right in values_and_rates(line)[0].items()}
 
-    def within(letters: set[str]) -> set[str]:
-        """The letters with those that they are made of."""
-        known: set[str] = set()
+    moved_by: dict[str, set[str]] = {}
+    for line in lines:
+        for letter, right in values_and_rates(line)[1].items():
+            moved_by.setdefault(letter, set()).update(letters_of_text(right))
+
+    def within(text: str) -> set[str]:
+        """The letters of a line with those that they are made of, and, where it has a rate, those that move them."""
+        letters, known, rates = letters_of_text(text), set[str](), shows_rate(text)
         while letters - known:
             known |= letters
-            letters = known.union(*(made_of.get(one, set()) for one in known))
+            letters = known.union(*(made_of.get(one, set()) for one in known),
+                                  *(moved_by.get(one, set()) for one in known if rates))
         return known
 
     nouns, said = found.said.nouns(), said_of(facts)
@@ -33,7 +40,13 @@ def standings(made: list[tuple[Row, RowEntry]], found: Source, facts: str) -> di
         around = (label for one in found.rows if one.id == row.within for label in one.labels)
         return {*row.labels, row.number, row.within, *around} - {""}
 
-    return {entry.id: found.said.standing(row.display, within(letters_of_text(text_of(entry))), names(row), nouns, said)
+    called: dict[str, set[str]] = {}
+    for row, entry in made:
+        given = {letter for part in values_and_rates(text_of(entry)) for letter in part}
+        for name in {*row.labels, row.number} - {""} if given else ():
+            called.setdefault(name, set()).update(given)
+    return {entry.id: found.said.standing(row.display, within(text_of(entry)), names(row), nouns, said,
+                                          called)
             for row, entry in made if row.display >= 0}
 
 
@@ -54,9 +67,13 @@ def as_read(row: RowEntry, standing: Standing | None) -> RowEntry:
 def given_otherwise(rows: list[RowEntry], verdicts: Mapping[str, str],
                     standing: Mapping[str, Standing]) -> frozenset[str]:
     """The letters of which a sentence gives another value or rate than the one that is taken, as of a second model."""
-    again = [row for row in rows if row.role == "claim" and row.id in standing and standing[row.id].form == "given"
-             and verdicts.get(row.id) == "refuted"]
-    return frozenset(letter for row in again for part in values_and_rates(text_of(row)) for letter in part)
+    again = [(row, standing[row.id].form) for row in rows if row.role == "claim" and row.id in standing
+             and verdicts.get(row.id) not in ("proved", "assumed")]
+    refuted = [(row, form) for row, form in again if verdicts.get(row.id) == "refuted"]
+    given = [part for row, form in refuted for number, part in enumerate(values_and_rates(text_of(row)))
+             if form == "given" or (form == "bare" and number == 0)]
+    moved = [rated_in(text_of(row)) for row, form in again if form == "given"]
+    return frozenset(letter for part in (*given, *moved) for letter in part)
 
 
 def left_to_the_author(row: RowEntry, verdict: str, standing: Standing | None, rows: list[RowEntry],
@@ -67,14 +84,23 @@ def left_to_the_author(row: RowEntry, verdict: str, standing: Standing | None, r
     if verdict != "proved":
         given = standing.form == "given"
         unsigned = sorted(one for one in standing.signed if one in letters and letters[one].kind in ("", "real"))
+        own = letters_of_text(text_of(row))
+        gains = bool(own) and all(one in letters and letters[one].role == "constant" for one in own)
         doubts = standing.doubts or (("what its sentence gives is no definition",) if given else ()) or (
-            (f"what is said of the sign of {', '.join(unsigned)}",) if unsigned else ())
+            (f"what is said of the sign of {', '.join(unsigned)}",) if unsigned else ()) or (
+            ("a relation of constants alone, which may be asked of them",) if gains else ()) or standing.otherwise
         return f"false by itself; what may restrict it is for you to read: {'; '.join(doubts)}" if doubts else ""
+    if standing.otherwise:
+        return f"what is said elsewhere may change what it means: {'; '.join(standing.otherwise)}"
+    rates = shows_rate(text_of(row))
     taken = {letter for one in rows if one.role in ("definition", "dynamics")
-             for letter in (*dict(sides_of(text_of(one))), *dict(moving_sides(text_of(one))))}
-    known = {letter for letter, entry in letters.items() if entry.kind in ("positive", "nonnegative")} | taken
-    used = sorted((standing.contested | (otherwise & standing.letters)) & known)
-    return f"what is not understood may say otherwise of {', '.join(used)}" if used else ""
+             for letter in (*dict(sides_of(text_of(one))), *(dict(moving_sides(text_of(one))) if rates else ()))}
+    taken |= {letter for one in rows if one.role == "assumption" for letter in letters_of_text(text_of(one))}
+    known = {letter for letter, entry in letters.items() if entry.kind in ("positive", "nonnegative")
+             or (rates and entry.role == "constant")} | taken
+    used = sorted(({*standing.contested} | (otherwise & standing.letters)) & known)
+    told = "; ".join(dict.fromkeys(standing.contested.get(one) or "it is given twice" for one in used))
+    return f"what is not understood may say otherwise of {', '.join(used)}: {told}" if used else ""
 
 
 def left_out(why: str) -> str:

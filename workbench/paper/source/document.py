@@ -11,7 +11,8 @@ from workbench.paper.source.macros import SourceError, decided, expanded, group,
 from workbench.paper.source.passages import Display, passages
 from workbench.paper.source.pieces import require_plain
 from workbench.paper.source.row import Row, resolve
-from workbench.paper.source.standing import Shown, Text
+from workbench.paper.source.shown import Shown
+from workbench.paper.source.standing import Text
 from workbench.proof.latex.rows import is_assumption
 from workbench.proof.latex.sides import letters_of_text
 
@@ -73,7 +74,8 @@ def _formulas(reader: _Reader) -> dict[int, Shown]:
             parts = [values_and_rates(one) for one in (line, *system_lines(row.printed))]
             gives = {(letter if kind == 0 else rf"\dot{{{letter}}}"): value for part in parts for kind in (0, 1)
                      for letter, value in part[kind].items()}
-            found[row.display] = Shown(before.letters | letters_of_text(line), {**before.gives, **gives})
+            found[row.display] = Shown(before.letters | letters_of_text(line), {**before.gives, **gives},
+                                       f"{before.printed} {line}".strip())
     return found
 
 

@@ -33,7 +33,7 @@ from workbench.paper.source.lines import ENDS_WITH_RELATION, system_lines
 from workbench.paper.source.macros import SourceError, without_comments
 from workbench.paper.source.roles import with_roles
 from workbench.paper.source.row import Row
-from workbench.paper.source.standing import Standing
+from workbench.paper.source.shown import Standing
 from workbench.proof.latex.rows import (
     ROWS,
     SYMBOLS,
@@ -156,7 +156,10 @@ def entries(row: Row, source: Source) -> list[RowEntry]:
     """A row as it stands in the table; a formula of cases is one row for each case, under its condition."""
     title = f"{row.what} {row.number or 'without a number'}" if row.what == "Equation" else (
         f"{row.what} {row.number}".strip() + (f": {row.title}" if row.title else ""))
-    assumed = {one.id: one.printed for one in source.rows if is_assumption(one.what)}
+    def kept(one: Row) -> bool:
+        return source.said.kept(one.labels, one.number)
+
+    assumed = {one.id: one for one in source.rows if is_assumption(one.what)}
     examples = {one.id for one in source.rows if "example" in one.what.lower()}
     whole = RowEntry(id=row.id, title=title, role="claim", printed=row.printed or row.what,
                      line=row.line or None, rests_on=row.rests_on,
@@ -166,12 +169,13 @@ def entries(row: Row, source: Source) -> list[RowEntry]:
         formulas = [whole.model_copy(update={"id": f"{row.id}.formula{number}", "title": f"{title}, formula {number}",
                                              "role": "assumption", "printed": formula, "rests_on": ()})
                     for number, formula in enumerate(assumed_formulas(row.printed), 1)
-                    if is_assumption(row.what) and source.said.understood(*row.span)]
+                    if is_assumption(row.what) and source.said.understood(*row.span) and kept(row)]
         rests = tuple(dict.fromkeys((*row.rests_on, *(one.id for one in formulas),
                                      *(one for one in inside if row.id not in _of(source, one)))))
         return [whole.model_copy(update={"role": "words", "rests_on": rests}), *formulas]
     if row.within in assumed:
-        return [whole.model_copy(update={"role": "words" if on_condition(assumed[row.within]) else "assumption"})]
+        stands = not on_condition(assumed[row.within].printed) and kept(assumed[row.within])
+        return [whole.model_copy(update={"role": "assumption" if stands else "words"})]
     if row.within in examples:  # of fewer values than the line by itself speaks of
         return [whole.model_copy(update={"role": "words"})]
     for what, parts in (("line", system_lines(row.printed)), ("case", _cases(row.printed))):

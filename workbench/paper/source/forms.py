@@ -20,7 +20,8 @@ KINDS = {"LETTERS": (LETTERS,), "REAL": (REAL,), "SIGN": (SIGN,), "RELATION": (R
          "VALUES": (LETTERS, VALUE, REFERENCE)}
 # What is told of a sentence: where it states facts, what it claims, gives, defines or supposes, and what restricts it.
 KEPT = ("fact", "claimed", "stated", "given", "defined", "supposed", "restricts", "restricts_bare", "then", "held",
-        "value", "clause", "unsigned", "holds", "laid")
+        "value", "clause", "unsigned", "judged", "inset", "holds",
+        "laid")
 _RULES = r"""
 sentence = <bare> | <lays> | <declares> | <if_then> | <supposes> | <leads> :? | <asserts> | <concerns> | <invites> |
     [<declares> [and | , and | ;]]? <clause> [<joint>? <clause>]*
@@ -91,8 +92,9 @@ named = the? [inequality | identity | bound | estimate | relation | equality] <c
 stated = [whose | its]? <derived> <is> [, <quantified> ,]? :? <shown>
 given = [<subject> | it | they] <is> [, <quantified> ,]? :? <shown>
 subject = <subjects> [[, | and | , and | together with] <subjects>]*
-subjects = DETERMINER? [MODIFIER | NOUN | NAME]* [QUANTITY | LETTERS | VALUE | REF] [LETTERS | VALUE]? REF? [[of | for |
-    along | with respect to] <part>]*
+subjects = DETERMINER? [MODIFIER | NOUN | NAME]* [QUANTITY | LETTERS | VALUE | REF] [LETTERS | VALUE | <inset>]? REF?
+    [[of | for | along | with respect to | with] <part>]*
+inset = REAL | SIGN
 is = ADVERB* [IS | [has | have | takes | take] the following? form | [is | are] ADVERB* MADE | can ADVERB* be ADVERB*
     MADE | is then | [was | were | been] MADE] <as>?
 as = [as | by | from | in the form | to be | to | of the form | in terms of] [follows | above | below | <thing> as]?
@@ -111,7 +113,8 @@ heldone = <related> [holds | hold]? | <things>? <list> [<be> [<kind> | <adjectiv
 if_then = if <related> [and <related>]* ,? then? <then>
 then = <related> [and <related>]*
 # what stands behind a formula
-after = ,? <quantified> | ,? [where | with | in which] <declared> [<andmore> <declared>]* | ,? <restricts> | ,? where
+after = ,? <quantified> | ,? [which is]? MADE [by | from | via | through | according to | using] <things>? :?
+    <defined> | ,? [where | with | in which] <declared> [<andmore> <declared>]* | ,? <restricts> | ,? where
     <part> uses <things> | ,? which [completes | concludes | ends] [the | our] proof | , which [is | are] [negative |
     positive] [definite | semidefinite | semi-definite] | ,? as [claimed | desired | required | stated] | [by | from |
     due to | because of] <things> | , where we [have]? used <things> | , where [the last | the | use] [inequality |
@@ -121,9 +124,9 @@ andmore = [, | ; | and | , and | ; and] [where | with | let]? | with
 declares = [throughout [the | this] [paper | note | section | work | thesis]? ,?]? [CONNECTIVE ,? | in this [paper |
     section | chapter] ,?]? [[let | where | with | in which | we assume that | it is assumed that | we denote by |
     denote by | we write]? <declared> [<andmore> <declared>]* | [it | one | this] has <fact> [<andmore> <fact>]* |
-    <opener>* <inline> [<andmore> [<inline> | <declared>]]*]
+    <opener>* <inline> [<andmore> [<inline> | <declared>]]* | let <declared> [<andmore> <declared>]* <andmore> <inline>]
 inline = [let | we? ADVERB* DEFINE]? [<thing> | the error | the errors]? [be | as | by | is | are]? <value> [[of | for
-    | with] <fact>]?
+    | with] <fact> | [be | denote | denotes | represent]? <kind>]?
 value = DEFINES
 declared = <fact> [, respectively]? | <both> | <unsigned>
 unsigned = <list> <be> not <adjectives> | <list> <be> <kind>? [positive | negative] [definite | semidefinite]
@@ -143,11 +146,18 @@ adjectives = [[ADJECTIVE | MODIFIER] [, | and | but | , and]?]* [ADJECTIVE | MOD
 assumes = <assumed> [[, | and | ; | , and] <assumed>]*
 assumed = [we assume that | it is assumed that | assume that | suppose that | there [exists | exist | is | are]
     <kind>? <fact> such that]? [<quantified> ,?]? [[<things> | it] <is>]? [, that is ,]? <relates> [holds | hold]? ,?
-    [with <fact>]? [,? <quantified>]? | <things> [is | are] bounded [by <things>]? | <fact> | <sentence>
+    [with <fact>]? [,? <quantified>]? | <things> [is | are] bounded [by <things>]? | <things> [is
+    | are] [bounded | limited] [by | as] <relates> | <fact> | <sentence>
 relates = RELATION | <fact> | <shown>
 # a relation that is claimed within the text, what is said of a motion, what is going to be done
 asserts = <opener>* [<say> that?]? <held> [<holds> | [by | from | since | for] <things>]?
-concerns = <opener>* <things> <moves> [[, | and | , and] <things>? <moves>]*
+concerns = <opener>* [<things> <moves> [[, | and | , and] <things>? <moves>]* | <judged> [,? <because>]?] |
+    DETERMINER [MODIFIER | NOUN]* [of | with] [MODIFIER | NOUN]* NOUN <inset> <travels>
+travels = [moves | runs | travels | slides | rolls | rotates | swings] [on | along | in | over | about | around]
+    <things>
+judged = <things> [is | are] ADVERB* <adjectives> | [this | it | which] is ADVERB* [immediate | clear | obvious |
+    evident | straightforward] [from <things>]?
+because = [since | because | as | by] [<related> [and <related>]* | <things> [[is | are] <adjectives>]?]
 moves = [does | do] not [increase | grow] MANNER* | [is | are] MANNER* [STABLE | attractive | bounded | invariant |
     passive] | [converge | converges | tend |
     tends] MANNER* to [zero | the origin | <things>] MANNER* [as TIME]? | [decreases | increases | decrease | increase

@@ -20,7 +20,9 @@ _IDIOMS = tuple((tuple(frozenset(word.split("|")) for word in said.split()), pla
     ("in what follows", "here"), ("at once", "immediately"), ("the claim follows", "it follows"), ("let's", "let us"),
     ("we|one can", "$"), ("keep|bear in mind that", "note that"), ("after|by some", "$"), ("as can be", "as is"),
     ("some algebra|algebraic|calculation|calculations|manipulation|manipulations|simple|steps|computations", "simple"),
-    ("left with", "arrive at"), ("leads to", "gives"), ("results in", "gives")))
+    ("terms of indefinite|unknown sign", "terms"),
+    ("left with", "arrive at"), ("end up with", "arrive at"),
+    ("evolves|behaves according to", "satisfies"), ("leads to", "gives"), ("results in", "gives")))
 
 
 def plainly(words: Sequence[Word]) -> tuple[Word, ...]:

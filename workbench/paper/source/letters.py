@@ -30,7 +30,8 @@ _ARE_POSITIVE = re.compile(
     r"(?:constants?|gains?|numbers?|scalars?|parameters?)\b", re.IGNORECASE)
 _ARE_CONSTANTS = re.compile(
     _LIST + r"\s*(?:be|are|is)\s+(?:an?\s+|all\s+|some\s+|the\s+)?"
-    r"(?:(?:positive|nonnegative|real|known|unknown|design|control)\s+)*(?:constants?|gains?|parameters?)\b",
+    r"(?:(?:(?:positive|nonnegative|real|known|unknown|design|control)\s+)*(?:constants?|gains?|parameters?)\b"
+    r"|(?!piecewise|locally|almost|nearly|slowly|not|no)[a-z-]+\s+constants?(?=[\s]*(?:[,.;]|and\b|of\b|\Z)))",
     re.IGNORECASE)
 _INPUTS = re.compile(r"\b(?:disturbances?|inputs?|references?)\b[^.,;:$]{0,30}" + _LIST, re.IGNORECASE)
 _CONDITIONAL = re.compile(
@@ -51,7 +52,7 @@ _SENTENCE = re.compile(r"(?<=[.!?;])\s|\\(?:begin|end)\s*\{[^{}]*\}|\\(?:item|(?
 # A sentence with one of these says of no letter that it has a sign everywhere, or is constant.
 _NOT_EVERYWHERE = re.compile(
     r"\b(?:if|when|whenever|while|until|unless|provided|cases?|either|n?or|neither|not|whether|suppose|then|may|might|"
-    r"could|can|would|should|follow\w*|hence|thus|therefore|impl(?:y|ies)|yields?|since|because|sets?|region|domain|"
+    r"could|can|would|should|follow\w*|hence|thus|therefore|impl(?:y|ies)|yields?|since|because|sets?(?!-)|region|domain|"
     r"(?:in|out)side|instance|example|show\w*|prove\w*|conclude\w*|near|small|large|initially|first|once)\b|\bas\s*\$",
     re.IGNORECASE)
 _VARIES = re.compile(r"\b(?:var(?:y|ies|ying)|changes?|changing|switch\w*|adapt\w*|updated?|time-dependent|"
@@ -115,7 +116,8 @@ def table_of(rows: list[RowEntry], facts: str, text: str) -> dict[str, LetterEnt
         if row.role in ("definition", "dynamics"):
             kinds |= dict(kinds_in(text_of(row)))
     kinds = dict.fromkeys((*_named(_POSITIVE, facts), *_named(_ARE_POSITIVE, facts)), "positive") | kinds
-    constants = {*_named(_CONSTANTS, facts), *_named(_ARE_CONSTANTS, facts)} - _printed_of_time(text, rows)
+    constant = {*_named(_ARE_CONSTANTS, facts)} - _printed_of_time(text, rows)
+    constants = {*_named(_CONSTANTS, facts)} - _printed_of_time(text, rows) | constant
     inputs = set(_named(_INPUTS, facts))
     unclear = set(_valued_elsewhere(text))
     entries = {}
@@ -125,7 +127,7 @@ def table_of(rows: list[RowEntry], facts: str, text: str) -> dict[str, LetterEnt
         said = [role for role, letters in (("constant", constants), ("input", inputs)) if letter in letters]
         if letter in unclear - states:
             kinds.pop(letter, None)
-        role = "state" if letter in states else said[0] if len(said) == 1 else ""
+        role = "state" if letter in states else "constant" if letter in constant else said[0] if len(said) == 1 else ""
         entries[letter] = LetterEntry.model_validate({"kind": kinds.get(letter, ""), "role": role})
     return entries
 

@@ -7,13 +7,13 @@ from collections.abc import Collection, Sequence
 from dataclasses import dataclass, field, replace
 
 from workbench.paper.source.macros import group, optional
-from workbench.paper.source.pieces import ENDS, LEVELS, PIECE, SKIPPED, WHOLE, WRITTEN_OUT
+from workbench.paper.source.pieces import ENDS, LEVELS, PIECE, SKIPPED, TABLES, WHOLE, WRITTEN_OUT
 from workbench.paper.source.vocabulary import LAYOUT
 
 
 @dataclass(frozen=True)
 class Word:
-    """A word of a sentence: its kind (word, mark, math, display, reference, odd), what is printed, and where."""
+    """A word of a sentence: its kind (word, mark, math, display, reference, table, odd), what is printed, and where."""
 
     kind: str
     text: str
@@ -171,6 +171,13 @@ class _Reader:
         self.place = replace(self.place, headings=(*kept, len(self.found.headings) - 1))
         return at
 
+    def table(self, start: int, close: int) -> None:
+        """The formulas of a table, as a sentence of its own that only names them."""
+        formulas = [Word("math", one["formula"].strip(" .,;"), *one.span())
+                    for one in PIECE.finditer(self.body, start, close) if one["formula"]]
+        if formulas:
+            self.found.sentences.append(Sentence((Word("table", "", start, start), *formulas), self.place, True))
+
     def title(self, text: str) -> tuple[Word, ...]:
         """The words of a heading."""
         inner = _Reader(text, (), self.named)
@@ -182,7 +189,10 @@ class _Reader:
         name = found["begun"].strip()
         if name.removesuffix("*") in SKIPPED:
             close = self.body.find(rf"\end{{{name}}}", found.end(), end)
-            return end if close < 0 else close
+            close = end if close < 0 else close
+            if name.removesuffix("*") in TABLES:
+                self.table(found.end(), close)
+            return close
         at = found.end()
         if name.removesuffix("*") in LAYOUT:
             if name in ("itemize", "enumerate", "description"):

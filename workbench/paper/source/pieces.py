@@ -9,6 +9,7 @@ from workbench.paper.source.macros import SourceError
 LEVELS = {"part": 0, "chapter": 1, "section": 2, "subsection": 3, "subsubsection": 4, "paragraph": 5,
           "subparagraph": 6}
 SKIPPED = ("verbatim", "lstlisting", "comment", "thebibliography", "tikzpicture", "tabular", "algorithm")
+TABLES = ("tabular", "algorithm")  # their words are skipped; their formulas may say what values letters have
 PIECE = re.compile(r"""
     (?P<begin>\\begin\s*\{(?P<begun>[^{}]*)\}) | (?P<end>\\end\s*\{(?P<ended>[^{}]*)\})
   | (?P<item>\\item(?![A-Za-z])(?:\s*\[[^\]]*\])?)

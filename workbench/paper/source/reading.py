@@ -16,11 +16,13 @@ from workbench.paper.source import forms, narrowing, vocabulary
 from workbench.paper.source.idioms import plainly
 from workbench.paper.source.letters import kinds_in, values_and_rates
 from workbench.paper.source.passages import Sentence, Word
+from workbench.paper.source.plain import described, exchanges, letters_within, neutral, revalued
 from workbench.proof.latex.error import LatexError
 from workbench.proof.latex.read import read_line
 from workbench.proof.latex.sides import letters_of_text
 from workbench.proof.latex.tree import Group, Letter, Line, Node, Product
 
+EVERYTHING = "*"  # stands for all letters, where a sentence without any may restrict them
 LONGEST = 220  # words of a sentence that is read; a longer one is left to the author
 _TIME = re.compile(r"(?:\\forall\s*)?t\s*(?:(?:\\geq?|\\geqslant|>)\s*(?:0|t_0|t_\{0\})|\\in\s*\[0,\s*\\infty\))?")
 _REAL = re.compile(r"(?P<letters>.*?)\\in\s*\\mathbb\s*(?:\{R\}|R)\s*(?:\^\s*(?:[a-z0-9]|\{[^{}<>=]*\}))?\s*",
@@ -28,8 +30,9 @@ _REAL = re.compile(r"(?P<letters>.*?)\\in\s*\\mathbb\s*(?:\{R\}|R)\s*(?:\^\s*(?:
 _RELATED = re.compile(r"[=<>]|\\(?:leq?|geq?|leqslant|geqslant|in|notin|neq?|ll|gg|approx|sim|to|rightarrow|Rightarrow|"
                       r"implies|iff|forall|exists|equiv|subset\w*|mapsto|prec\w*|succ\w*|lesssim|gtrsim|triangleq|coloneqq|doteq|lt|gt|not)"
                       r"(?![A-Za-z])")
+# A value behind one of these is that of what it names: `the analysis is based on the function ...`.
+_CHOSEN = {"function", "functional", "candidate", "law", "controller", "observer", "filter", "surface"}
 _REACHES = {"arrive", "arrives", "arrived", "result", "results", "resulting", "left"}  # ... at a formula, with it
-_BETWEEN = re.compile(r"[\s=<>,;()\[\]|+]+|\\[a-z]*(?:le|ge|in|to|ne|frac|cdot)[a-z]*(?![A-Za-z])")
 
 
 @dataclass(frozen=True)
@@ -50,14 +53,18 @@ class Reading:
     unknown: tuple[str, ...] = ()
 
 
-def read_sentence(sentence: Sentence, body: str, assuming: bool = False) -> Reading:
-    """What a sentence says, if it is understood; assuming: that it stands in the text of an assumption."""
+def read_sentence(sentence: Sentence, body: str, assuming: bool = False,
+                  given: Collection[str] = frozenset(), giving: Collection[int] = frozenset()) -> Reading:
+    """What a sentence says, if it is understood; assuming: that it stands in the text of an assumption; given: the
+    letters that the text gives values; giving: the displays that give some."""
     words = plainly(sentence.words)
     asks = words[-1].text == "?"
     while words and words[-1].kind == "mark" and words[-1].text in ".!;,":
         words = words[:-1]
-    letters = frozenset(letter for word in words if word.kind == "math" for letter in _letters(word.text))
+    letters = frozenset(letter for word in words if word.kind == "math" for letter in letters_within(word.text))
     shown = [int(word.text) for word in words if word.kind == "display"]
+    if words[0].kind == "table":
+        return Reading(letters=letters, restricted=letters)
     if all(word.kind in ("display", "mark") for word in words):
         return Reading(dict.fromkeys(shown, "bare"))
     classes = classes_of(words)
@@ -66,21 +73,29 @@ def read_sentence(sentence: Sentence, body: str, assuming: bool = False) -> Read
         return Reading(dict.fromkeys(shown, ""), letters=letters, unknown=not_whole)
     rule = "assumes" if assuming else "sentence"
     found = _matched(rule, tuple(classes)) if len(words) <= LONGEST and not asks else None
-    if found is None and not shown and not asks and _neutral(classes) and not _exchanges(words, classes):
-        return _neutrally(texts, letters)
+    told: frozenset[int] = frozenset()  # places of words that say what a letter stands for
+    if found is None and len(words) <= LONGEST and not asks:
+        opened, told = described(words, classes, giving)
+        found = _matched(rule, opened) if told else None
+    if found is None and not shown and not asks and neutral(classes) and not exchanges(words, classes):
+        return _neutrally(texts, letters, revalued(words, classes, texts, given))
     if found is None and shown and not asks and not assuming and _loose(classes):
         said = Reading(_loosely(words, classes), tied=frozenset(shown), letters=letters)
     elif found is None:
         return Reading(dict.fromkeys(shown, ""), letters=letters, unknown=_unknown(words, classes))
     else:
-        said = _said(words, found, body, letters)
+        said = _said(words, found, body, letters, told)
     return _whole(said, texts)
 
 
-def _neutrally(texts: Sequence[str], letters: frozenset[str]) -> Reading:
-    """What a sentence of plain words says: nothing, but that it may change or restrict what it speaks of."""
-    return Reading(letters=letters, restricted=letters if narrowing.SIGNED & {*texts} else frozenset(),
-                   unknown=narrowing.changing(texts) if letters or {*texts} & {"it", "this", "input"} else ())
+def _neutrally(texts: Sequence[str], letters: frozenset[str], values: tuple[str, ...]) -> Reading:
+    """What a sentence of plain words says: nothing, but that it may change or restrict what it speaks of; values: the
+    expressions that it may give."""
+    restricted = letters if narrowing.SIGNED & {*texts} else frozenset()
+    if not letters and narrowing.LIMITING & {*texts}:
+        restricted = frozenset((EVERYTHING,))
+    return Reading(letters=letters, restricted=restricted,
+                   unknown=values or narrowing.changing(texts) if letters or {*texts} & {"it", "this", "input"} else ())
 
 
 def _whole(said: Reading, texts: Sequence[str]) -> Reading:
@@ -97,7 +112,8 @@ def _matched(rule: str, classes: tuple[str, ...]) -> tuple[tuple[str, int, int],
     return forms.GRAMMAR.match(rule, classes)
 
 
-def _said(words: Sequence[Word], found: Sequence[tuple[str, int, int]], body: str, letters: frozenset[str]) -> Reading:
+def _said(words: Sequence[Word], found: Sequence[tuple[str, int, int]], body: str, letters: frozenset[str],
+          told: frozenset[int]) -> Reading:
     said = {int(word.text): "supposed" for word in words if word.kind == "display"}
     for rule, start, end in found:  # what stands within comes behind what holds it
         if rule in ("claimed", "stated", "given", "defined", "supposed"):
@@ -108,13 +124,14 @@ def _said(words: Sequence[Word], found: Sequence[tuple[str, int, int]], body: st
     laid = [word for rule, start, end in found if rule == "laid" for word in words[start:end] if word.kind == "display"]
     said |= {int(word.text): "bare" for word in laid}
     defines = any(form in ("given", "defined", "bare") for form in said.values()) or not said
-    facts = [body[words[start].start:words[end - 1].end] for rule, start, end in found
-             if rule == "fact" and _is_taken(words[start:end], defines)]
+    facts = [body[words[start].start:words[end - 1].end] if told.isdisjoint(range(start, end)) else " and ".join(
+        body[word.start:word.end] for word in words[start:end] if word.kind == "math")
+        for rule, start, end in found if rule == "inset" or (rule == "fact" and _is_taken(words[start:end], defines))]
     facts += [f"Define {body[words[start].start:words[end - 1].end]}" for rule, start, end in found if rule == "value"]
     if laid and not any(re.search(r"[A-Za-z]{3}|\\in", fact.split("$")[0]) or r"\in" in fact for fact in facts):
         return Reading(said, (), frozenset(said), frozenset(), letters)  # with $z > 0$ alone, of such a z
-    restricted = {letter for rule, start, end in found if rule in ("held", "then", "supposed", "unsigned")
-                  for word in words[start:end] if word.kind == "math" for letter in _letters(word.text)}
+    restricted = {letter for rule, start, end in found if rule in ("held", "then", "supposed", "unsigned", "judged")
+                  for word in words[start:end] if word.kind == "math" for letter in letters_within(word.text)}
     bare = [(rule, start, end) for rule, start, end in found
             if rule == "fact" and not _is_taken(words[start:end], defines)]
     return Reading(said, tuple(facts), _tied(words, found, bare), frozenset(restricted), letters)
@@ -206,28 +223,6 @@ def _is_letter(side: Node) -> bool:
                                         and isinstance(side.factors[0], Letter) and isinstance(side.factors[1], Group))
 
 
-def _letters(formula: str) -> Collection[str]:
-    """The letters of a formula; those that its text seems to have where it cannot be read."""
-    found = letters_of_text(formula) if formula else set()
-    if found or not formula:
-        return found
-    pieces = {letter for piece in _BETWEEN.split(formula) for letter in letters_of_text(piece)}
-    return pieces or set(re.findall(r"\\?[A-Za-z]+", formula))
-
-
-def _neutral(classes: Sequence[str]) -> bool:
-    """Whether a sentence without displays is made of words alone that take nothing back."""
-    plain = (forms.LETTERS, forms.REAL, forms.VALUE, forms.TIME, forms.REFERENCE, ",", ":", ";")
-    return all(one in forms.NEUTRAL or one in plain for one in classes) and classes[-1] != ":"
-
-
-def _exchanges(words: Sequence[Word], classes: Sequence[str]) -> bool:
-    """Whether a sentence has a letter by itself and within an expression: it may use one for the other."""
-    alone, within = ({letter for word, one in zip(words, classes, strict=True) if one == kind
-                      for letter in _letters(word.text)} for kind in (forms.LETTERS, forms.VALUE))
-    return bool(alone & within)
-
-
 def _loose(classes: Sequence[str]) -> bool:
     """Whether a sentence is made of words alone that claim what it shows, in whatever form; what stands before
     "implies" may be a condition."""
@@ -250,8 +245,8 @@ def _loosely(words: Sequence[Word], classes: Sequence[str]) -> dict[int, str]:
             before = classes[start:place]
             held = before[-1:] and before[-1] in vocabulary.HELD and not {*before[-2:-1]} & _REACHES
             named = classes[place + 1:place + 2] in (["is"], ["are"])  # V = x^2 is positive
-            follows = not named and (forms.FOLLOWS & {*before} or (start and not before)
-                                     or not narrowing.chooses(classes))
+            chosen = narrowing.chooses(classes) or (before[-1:] and before[-1] in _CHOSEN)
+            follows = not named and (forms.FOLLOWS & {*before} or (start and not before) or not chosen)
             said[int(word.text)] = "defined" if held else "stated" if follows else "given"
             start = place + 1
     return said

@@ -7,7 +7,7 @@ from collections.abc import Collection, Mapping
 from workbench.paper.source.letters import values_and_rates
 from workbench.paper.source.lines import continues
 from workbench.paper.source.row import Row
-from workbench.paper.source.standing import Standing
+from workbench.paper.source.shown import Standing
 from workbench.proof.latex.rows import Role, RowEntry, text_of
 from workbench.proof.latex.sides import moving_sides, valued_in
 

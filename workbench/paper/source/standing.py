@@ -5,10 +5,15 @@ from __future__ import annotations
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 
+from workbench.paper.source.conventions import of_another, shows_rate
+from workbench.paper.source.elsewhere import any_numbers, denoted_in_part, drops, nouns_of_displays, said_elsewhere
 from workbench.paper.source.forms import NOUNS
-from workbench.paper.source.letters import letters_said, says_sign, signed_by_words, values_and_rates
+from workbench.paper.source.given import RATE, Gift, given_twice, given_within
+from workbench.paper.source.letters import letters_said, says_sign, signed_by_words
+from workbench.paper.source.narrowing import background, restricts
 from workbench.paper.source.passages import Passages, Sentence
-from workbench.paper.source.reading import Reading, heading_unknown, printed, read_sentence
+from workbench.paper.source.reading import EVERYTHING, Reading, heading_unknown, printed, read_sentence
+from workbench.paper.source.shown import Shown, Standing
 from workbench.paper.source.vocabulary import DERIVED, POINTERS, TEXT
 
 LOCAL = ("theorem", "lemma", "proposition", "corollary", "remark", "example", "proof", "note", "claim", "property",
@@ -21,40 +26,13 @@ ASIDE = {"remark", "note", "definition", "assumption"}  # environments that may 
 # Nouns and adjectives by which a letter that had a sign is said to be something else.
 OTHERWISE = {"real", "number", "numbers", "scalar", "scalars", "function", "functions", "variable", "variables",
              "signal", "signals", "timevarying", "state", "input", "disturbance", "output", "vector", "matrix"}
+VARYING = {"function", "functions", "variable", "variables", "signal", "signals", "timevarying", "time"}
 # Words of an assumption's title beside those that are understood.
 TITLES = {"matching", "condition", "conditions", "persistence", "excitation", "growth", "smoothness", "sector",
           "existence", "controllability", "observability", "detectability", "stabilizability", "regularity",
           "minimum-phase"}
-_RATE = r"\dot{"  # what the rate of a letter is called where displays give it
+DIGITAL = ("discrete-time", "digital", "on-board")  # headings with these are understood
 ALL = ("all", "every", "each", "any", "throughout", "everywhere", "always", "both", "paper", "none", "no", "never")
-
-
-@dataclass(frozen=True)
-class Standing:
-    """What is known of a display.
-
-    form: as `Reading.shown` says. unread: why nothing is claimed of it or taken from it, a line each; named: why it is
-    not claimed, as sentences elsewhere that name it may take it back. doubts: why it is not refuted: what may restrict
-    its letters. contested: of its letters those of which something is said there that is not understood; signed: those
-    of which a sign is said. tied: whether it is said of some values alone. letters: those that it is made of.
-    """
-
-    form: str
-    unread: tuple[str, ...] = ()
-    named: tuple[str, ...] = ()
-    doubts: tuple[str, ...] = ()
-    contested: frozenset[str] = frozenset()
-    signed: frozenset[str] = frozenset()
-    tied: bool = False
-    letters: frozenset[str] = frozenset()
-
-
-@dataclass(frozen=True)
-class Shown:
-    """What a display says: its letters, and the letters that it gives values or rates, with those; nothing else."""
-
-    letters: frozenset[str]
-    gives: Mapping[str, str]
 
 
 @dataclass
@@ -72,10 +50,19 @@ class Text:
     formulas: Mapping[int, Shown]
     readings: list[Reading] = field(init=False)
     shown: dict[int, int] = field(init=False)
+    gifts: tuple[Gift, ...] = field(init=False)
+    spoken_of: list[tuple[int, frozenset[str], frozenset[str]]] = field(init=False)
 
     def __post_init__(self) -> None:
-        self.readings = [read_sentence(one, self.body, self._assumes(one)) for one in self.passages.sentences]
+        given = frozenset(letter for shown in self.formulas.values() for letter in shown.gives) | {
+            letter for one in self.passages.sentences for letter, _ in given_within(one.words)}
+        giving = frozenset(number for number, shown in self.formulas.items() if shown.gives)
+        self.readings = [read_sentence(one, self.body, self._assumes(one), given, giving)
+                         for one in self.passages.sentences]
         self.shown = {number: at for at, one in enumerate(self.readings) for number in one.shown}
+        self.gifts = (*self._gifts(),)
+        self.spoken_of = nouns_of_displays(self.passages.sentences, self.readings, {
+            number: [*shown.gives] for number, shown in self.formulas.items()})
 
     def _names(self, sentence: Sentence) -> list[str]:
         return [self.passages.scopes[scope] for scope in sentence.place.scopes]
@@ -103,50 +90,81 @@ class Text:
                        zip(self.passages.sentences, self.readings, strict=True)
                        if start <= sentence.words[0].start < end)
 
+    def kept(self, labels: Collection[str], number: str) -> bool:
+        """Whether no sentence that is not understood may take back an assumption."""
+        return not any(said.unknown and drops(sentence, labels, number) for sentence, said in
+                       zip(self.passages.sentences, self.readings, strict=True))
+
     def _titled(self, sentence: Sentence) -> bool:
         """Whether an environment in which a sentence stands has a title that is not understood."""
         return any({*heading_unknown(self.passages.titles[scope])} - TITLES for scope in sentence.place.scopes)
 
-    def standing(self, display: int, letters: Collection[str], names: Collection[str], nouns: Mapping[str, set[str]],
-                 facts: Mapping[str, str]) -> Standing:
+    def standing(self, display: int, letters: Collection[str], names: Collection[str],
+                 nouns: Mapping[str, Mapping[str, int]], facts: Mapping[str, str],
+                 called: Mapping[str, Collection[str]]) -> Standing:
         """What may be decided of a display.
 
         letters: its own and those that they are made of; names: its labels and number; nouns: the letters that the text
-        calls by a noun; facts: what the whole text says of a letter.
+        calls by a noun, and from which sentence on; facts: what the whole text says of a letter; called: the letters
+        that the rows of a label or number give.
         """
         at = self.shown[display]
         sentence, reading = self.passages.sentences[at], self.readings[at]
         doubts: list[str] = []
-        contested: set[str] = set()
+        contested: dict[str, str] = {}  # each letter with the sentence that says something of it
         signed: set[str] = set()
         for before, (other, said) in enumerate(zip(self.passages.sentences, self.readings, strict=True)):
             near = _near(other, sentence)
             aside = other.aside or (said.unknown and {self._what(name) for name in self._names(other)} <= ASIDE)
             untold = self._assumes(other) and self._titled(other)
+            behind = said.unknown and 0 < other.place.paragraphs[0] - sentence.place.paragraphs[-1] <= BEHIND
+            if behind and not said.letters and restricts([word.text for word in other.words], ()):
+                doubts.append(self._told(before))
             if not (before < at or near) or not (aside or untold or self._holds_at(other, sentence)):
                 continue
             words = {word.text for word in other.words if word.kind == "word"}
             hidden = frozenset(letter for one in said.shown if said.unknown for letter in self.formulas[one].letters)
-            spoken = said.letters | hidden | {letter for word in words for letter in nouns.get(word, ())}
+            spoken = said.letters | hidden | {letter for word in words for letter, first in nouns.get(word, {}).items()
+                                              if first <= before}
             if said.unknown:
-                contested |= spoken
+                contested = dict.fromkeys(spoken, self._told(before)) | contested
                 section = other.place.headings[:1] == sentence.place.headings[:1]
-                if spoken & {*letters} or words & {*ALL} or near or (section and not said.letters):
+                heading = [word.text for one in other.place.headings for word in self.passages.headings[one]]
+                everywhere = words & {*ALL} and not background(heading)
+                if spoken & {*letters} or everywhere or near or (not said.letters and (
+                        section or restricts([*words], heading))):
                     doubts.append(self._told(before))
             differs = self._differs(said, facts) if self.local(other) else set()
-            contested |= differs
+            contested = dict.fromkeys(differs, self._told(before)) | contested
             supposed = self._supposed(said, display, self._assumes(other))
             supposed |= said.letters if untold else set()
             signed |= {letter for fact in said.facts for letter in signed_by_words(fact)}
-            if (said.restricted | supposed | differs) & {*letters}:
+            if (said.restricted | supposed | differs) & {*letters} or EVERYTHING in said.restricted:
                 doubts.append(self._told(before))
-        contested |= self._anew(at)
+        contested = dict.fromkeys(self._anew(at), "") | contested
         if display in reading.tied:
             doubts.append(self._told(at))
+        own = {letter: told for letter, told in contested.items() if letter in letters}
         return Standing(reading.shown[display], tuple(dict.fromkeys(self._unread(at))),
                         tuple(dict.fromkeys(self._named(names))), tuple(dict.fromkeys(doubts)),
-                        frozenset(contested & {*letters}), frozenset(signed & {*letters}), display in reading.tied,
-                        frozenset(letters))
+                        own, frozenset(signed & {*letters}), display in reading.tied,
+                        frozenset(letters), tuple(self._elsewhere(display, letters, called)))
+
+    def _elsewhere(self, display: int, letters: Collection[str],
+                   called: Mapping[str, Collection[str]]) -> Iterator[str]:
+        """The sentences by which a display may mean something else."""
+        sentence = self.passages.sentences[self.shown[display]]
+        moved = [self.passages.sentences[gift.at].place.headings for gift in self.gifts if gift.form != "inline"
+                 and gift.letter.startswith(RATE) and gift.letter.removeprefix(RATE)[:-1] in letters]
+        for one in sentence.place.headings if moved and shows_rate(self.formulas[display].printed) else ():
+            if one not in moved[0] and of_another([word.text for word in self.passages.headings[one]]):
+                yield f"the heading '{' '.join(word.text for word in self.passages.headings[one])}'"
+        values = " ".join(gift.value for gift in self.gifts if gift.letter in letters)
+        for place in said_elsewhere(self.passages.sentences, self.readings, self.gifts, self.shown[display], letters,
+                                    f"{self.formulas[display].printed} {values}", called, self.spoken_of):
+            other = self.passages.sentences[place]
+            if other.aside or not self.local(other) or self._holds_at(other, sentence):
+                yield self._told(place)
 
     def _supposed(self, said: Reading, display: int, assuming: bool) -> set[str]:
         """The letters of the other displays of a sentence that it supposes, or gives though they define nothing; of an
@@ -156,31 +174,52 @@ class Text:
         return {letter for one in others for letter in self.formulas[one].letters}
 
     def _anew(self, at: int) -> set[str]:
-        """The letters that the text has given two different values, or a sign and then another kind, before a sentence
-        ends."""
-        values: dict[str, str] = {}
-        moved: list[tuple[str, str]] = []
+        """The letters that the text gives two different values, whatever its words say: within the text anywhere, in
+        displays by the end of a sentence's section; those that got a sign, or were constant, and then another kind."""
+        sentence = self.passages.sentences[at]
         signed: set[str] = set()
+        fixed: set[str] = set()
         anew = set()
-        for sentence, said in zip(self.passages.sentences[:at + 1], self.readings, strict=False):
-            inline = {} if self.local(sentence) else {letter: value for fact in said.facts if fact.startswith("Define ")
-                                                      for letter, value in values_and_rates(fact[8:-1])[0].items()}
-            for fact in said.facts if not self.local(sentence) else ():
+        for other, said in zip(self.passages.sentences[:at + 1], self.readings, strict=False):
+            if not self.local(other) or self._holds_at(other, sentence):
+                anew |= signed & {*any_numbers(other.words)}
+                anew |= {*denoted_in_part(other.words)}
+            for fact in said.facts if not self.local(other) else ():
                 letters = letters_said(fact)
+                anew |= letters & fixed if VARYING & {*fact.replace("-", "").split()} else set()
+                if "constant" in fact:
+                    fixed |= letters
                 if says_sign(fact):
                     signed |= letters
                 elif OTHERWISE & {*fact.replace("-", "").split()}:
                     anew |= letters & signed
-            shown = [self.formulas[one].gives for one, form in said.shown.items() if form in ("given", "defined")]
-            rates = [pair for given in shown for pair in given.items() if pair[0].startswith(_RATE)]
-            again = [*moved, *rates] if "defined" in said.shown.values() else rates  # another may be claimed
-            anew |= {letter[len(_RATE):-1] for letter, rate in rates
-                     for other, known in again if letter == other and rate.split() != known.split()}
-            moved += rates
-            for letter, value in (pair for given in (inline, *shown) for pair in given.items()):
-                if values.setdefault(letter, value).split() != value.split():
-                    anew.add(letter)
-        return anew
+        return anew | self._foreign(sentence) | given_twice(
+            one for one in self.gifts if self._counts(one, at, sentence))
+
+    def _foreign(self, sentence: Sentence) -> set[str]:
+        """The letters that displays of other statements and proofs alone give, where a sentence stands in one."""
+        if not self.local(sentence):
+            return set()
+        shown = [(one.letter, self.passages.sentences[one.at]) for one in self.gifts if one.form != "inline"]
+        own = {letter for letter, other in shown if not self.local(other) or self._holds_at(other, sentence)}
+        return {letter for letter, _ in shown} - own
+
+    def _counts(self, gift: Gift, at: int, sentence: Sentence) -> bool:
+        """Whether what a sentence gives may be what is meant where another stands."""
+        other = self.passages.sentences[gift.at]
+        if gift.form == "inline":
+            return not self.local(other) or self._holds_at(other, sentence)
+        return gift.at <= at or other.place.headings[:1] == sentence.place.headings[:1]
+
+    def _gifts(self) -> Iterator[Gift]:
+        """What displays and the text give letters, in order."""
+        for at, (sentence, said) in enumerate(zip(self.passages.sentences, self.readings, strict=True)):
+            for letter, value in given_within(sentence.words):
+                yield Gift(at, letter, value, "inline")
+            for number, form in said.shown.items():
+                if form in ("given", "defined", "bare"):
+                    for letter, value in self.formulas[number].gives.items():
+                        yield Gift(at, letter, value, form)
 
     def _differs(self, said: Reading, facts: Mapping[str, str]) -> set[str]:
         """The letters of which a sentence says something that the whole text does not."""
@@ -208,7 +247,8 @@ class Text:
         """Why what is shown in a sentence may be taken back, or said of something else."""
         sentence = self.passages.sentences[at]
         for heading in sentence.place.headings:
-            if unknown := heading_unknown(self.passages.headings[heading]):
+            unknown = tuple(one for one in heading_unknown(self.passages.headings[heading]) if one not in DIGITAL)
+            if unknown:
                 yield f"heading with {_quoted(unknown)}"
         for scope in sentence.place.scopes:
             name = self.passages.scopes[scope]
@@ -216,6 +256,8 @@ class Text:
                 yield f"environment {name[1:]!r}"
             elif unknown := heading_unknown(self.passages.titles[scope]):
                 yield f"title with {_quoted(unknown)}"
+        if any(r"\intertext" in self.formulas[one].printed for one in self.readings[at].shown):
+            yield "words between its lines"
         for other, (one, said) in enumerate(zip(self.passages.sentences, self.readings, strict=True)):
             if said.unknown and (other == at or (_near(one, sentence) and (abs(other - at) == 1 or _points(one)))):
                 yield self._told(other)
@@ -225,15 +267,15 @@ class Text:
         sentence = printed(self.passages.sentences[at], self.body)
         return f"{_quoted(unknown)} in '{sentence}'" if unknown else f"'{sentence}'"
 
-    def nouns(self) -> dict[str, set[str]]:
-        """The letters that the text calls by a noun, as the gains $k$ and $c$."""
-        found: dict[str, set[str]] = {}
-        for sentence, reading in zip(self.passages.sentences, self.readings, strict=True):
+    def nouns(self) -> dict[str, dict[str, int]]:
+        """The letters that the text calls by a noun, as the gains $k$ and $c$, and which sentence does so first."""
+        found: dict[str, dict[str, int]] = {}
+        for at, (sentence, reading) in enumerate(zip(self.passages.sentences, self.readings, strict=True)):
             if reading.facts:
                 for word in sentence.words:
                     if word.kind == "word" and word.text in NOUNS:
                         for form in (word.text, word.text.removesuffix("s"), f"{word.text}s"):
-                            found.setdefault(form, set()).update(reading.letters)
+                            found[form] = dict.fromkeys(reading.letters, at) | found.get(form, {})
         return found
 
 

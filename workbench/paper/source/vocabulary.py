@@ -38,6 +38,17 @@ GIVEN = _words("""
     vector vectors matrix norm set-point setpoint path curve slope weighting learning memory buffer delay lag
     bandwidth leakage projection deadzone kernel basis regressor neuron neurons layer layers ratio factor factors
     unit units exponent index error errors mean average maximum minimum closed-loop loop sliding-mode mode modes
+    stored armature winding dc ac permanent-magnet on-board
+    traction braking adhesion propulsion steering suspension chassis tire tires yaw pitch roll heading rudder keel hull
+    altitude depth azimuth attitude rotation rotations curvature radius diameter width area volume density viscosity
+    conductivity permeability enthalpy entropy heater cooler evaporator condenser compressor fan blade propeller
+    rotors wing fin flap valve piston cylinder lever crank belt clutch brake brakes bearing hinge crane hoist cable
+    rope payload cart-pole exoskeleton endoscope microphone loudspeaker electrode membrane cantilever beam piezo
+    photovoltaic panel grid-side substation feeder busbar resistor capacitor inductor diode duty ripple reactance
+    impedance admittance susceptance conductance electron photon concentration reagent substrate biomass nutrient
+    enzyme ph stock inventory queue demand supply price tax interest rate rates speeds velocities accelerations forces
+    torques currents voltages pressures temperatures masses lengths heights periods frequencies norms errors
+    inflow outflow inlet outlet bias offset ramp deflection elongation strain stress sway tension thrusters sampling
     Lyapunov lyapunov barrier
 """)
 # What a text names besides.
@@ -71,6 +82,7 @@ MODIFIERS = _words("""
   continuous-time lyapunov control-lyapunov energy storage candidate sliding cross definite semidefinite left-hand
   right-hand left right proportional integral derivative reference two three four finite physical mathematical
   dimensionless normalized inertial magnetic electric switching standing nonholonomic underactuated planar
+  unmeasured unmeasurable unmodelled unmodeled manipulated commanded applied
   one-dimensional inverted rigid flexible elastic robust optimal exponential asymptotic global uniform ultimate
   practical symmetric discontinuous supertwisting above preceding previous foregoing mixed binomial
   arithmetic-geometric geometric arithmetic starting super-twisting backstepping barrier triangle

@@ -99,6 +99,12 @@ def moving_sides(text: str) -> Iterator[tuple[str, str]]:
         yield letter_latex(last), rf"\frac{{{right}}}{{{_plain(before)}}}" if before else right
 
 
+def rated_in(text: str) -> set[str]:
+    r"""The letters of which a line says a rate of any order by itself, as of `\ddot x = u` and `M \dot v(t) = f`."""
+    left, sign, _ = _plain(text).partition("=")
+    return {letter_latex(one) for one in letters_in(left) if set(one.accents) & set(RATES)} if sign else set()
+
+
 def _plain(text: str) -> str:
     """A piece of a line without what lays it out."""
     return " ".join(_LAYOUT.sub(" ", text).split())

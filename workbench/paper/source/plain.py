@@ -1,0 +1,101 @@
+"""Sentences of plain words without a displayed formula: whether they may give something a value all the same."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Collection, Sequence
+
+from workbench.paper.source import conventions, forms, narrowing, vocabulary
+from workbench.paper.source.passages import Word
+from workbench.proof.latex.sides import letters_of_text
+
+# A word that denies or changes nothing, as far as its form shows; words for what is no number are not fit either.
+_FIT = re.compile(r"(?!non|un|in|im|ir|dis|mis|anti|de|re|pseudo|semi|quasi|half)[a-z]{3,}(?<!less)(?<!ed)(?<!ing)")
+_UNFIT = conventions.NO_NUMBER | conventions.TAKES_BACK | narrowing.words_of("""
+    arbitrary negative opposite inverse complement reverse former later previous past future never not only some any
+    few no nor but yet except save sometimes often maybe perhaps set interval function operator component components
+    entry case if when while where which that who whose
+""")
+# What is called so is of another kind than before, where its formula does not say of which.
+_NUMBERS = narrowing.words_of("""
+    real reals number numbers scalar scalars constant constants gain gains parameter parameters coefficient coefficients
+    integer integers
+""")
+# Of what is so called a formula holds for a part of the motion, or not at all.
+_NARROW = conventions.OTHER_PART | narrowing.words_of("""
+    fault fault-free toy wrong true false former average linear approximate crude fictitious hypothetical virtual
+    textbook myth claim conjecture steady static limit worst best initial final terminal local inner outer slow fast
+    fake dummy boundary condition conditions constraint constraints requirement objective goal target specification
+    guess hypothesis
+""")
+_BE = ("is", "are", "denotes", "denote", "represents", "represent", "stands", "being")
+_BETWEEN = re.compile(r"[\s=<>,;()\[\]|+]+|\\[a-z]*(?:le|ge|in|to|ne|frac|cdot)[a-z]*(?![A-Za-z])")
+
+
+def letters_within(formula: str) -> Collection[str]:
+    """The letters of a formula; those that its text seems to have where it cannot be read."""
+    found = letters_of_text(formula) if formula else set()
+    if found or not formula:
+        return found
+    pieces = {letter for piece in _BETWEEN.split(formula) for letter in letters_of_text(piece)}
+    return pieces or set(re.findall(r"\\?[A-Za-z]+", formula))
+
+
+def neutral(classes: Sequence[str]) -> bool:
+    """Whether a sentence without displays is made of words alone that take nothing back."""
+    plain = (forms.LETTERS, forms.REAL, forms.VALUE, forms.TIME, forms.REFERENCE, ",", ":", ";")
+    return all(one in forms.NEUTRAL or one in plain for one in classes) and classes[-1] != ":"
+
+
+def exchanges(words: Sequence[Word], classes: Sequence[str]) -> bool:
+    """Whether a sentence has a letter by itself and within an expression: it may use one for the other."""
+    alone, within = ({letter for word, one in zip(words, classes, strict=True) if one == kind
+                      for letter in letters_within(word.text)} for kind in (forms.LETTERS, forms.VALUE))
+    return bool(alone & within)
+
+
+def described(words: Sequence[Word], classes: Sequence[str],
+              giving: Collection[int]) -> tuple[tuple[str, ...], frozenset[int]]:
+    """The classes with unknown words that only say what a letter stands for taken for nouns, as in `$u$ is the traction
+    force`, and their places: of such a description nothing else is taken than its formula. So are those that only say
+    what is given, as in `A DC motor obeys`; giving: the displays that give letters values or rates."""
+    found, places = list(classes), set()
+    gives = [place for place, word in enumerate(words) if word.kind == "display"][:1]
+    until = next((place for place, one in enumerate(classes) if one in vocabulary.IS), 0) if gives and (
+        int(words[gives[0]].text) in giving) and not _NARROW & {word.text for word in words[:gives[0]]} else 0
+    phrase = forms.NOUNS | vocabulary.MODIFIERS | vocabulary.DETERMINERS | {"of", "with"}
+    for place, (word, one) in enumerate(zip(words, classes, strict=True)):
+        if word.kind != "word" or one in forms.KNOWN | forms.NEUTRAL | _UNFIT or not _FIT.fullmatch(one):
+            continue
+        start = place
+        while start and (found[start - 1] in phrase):
+            start -= 1
+        be = start - 1 - (found[start - 1:start] == ["for"])
+        letter = start < place and be > 0 and found[be] in _BE and found[be - 1] in (
+            forms.LETTERS, forms.REAL, forms.SIGN) and not (
+                found[be - 1] == forms.LETTERS and _NUMBERS & {*_phrase(found, start, phrase)})
+        subject = 0 < place < until and start == 0 and found[0] in vocabulary.DETERMINERS
+        if letter or subject:
+            found[place] = "quantity"
+            places.add(place)
+    return tuple(found), frozenset(places)
+
+
+def _phrase(classes: Sequence[str], start: int, phrase: Collection[str]) -> list[str]:
+    """The words from a place on that may be one description; unknown ones go on."""
+    end = start
+    while end < len(classes) and (classes[end] in phrase or _FIT.fullmatch(classes[end])):
+        end += 1
+    return [*classes[start:end]]
+
+
+def revalued(words: Sequence[Word], classes: Sequence[str], texts: Sequence[str],
+              given: Collection[str]) -> tuple[str, ...]:
+    """The expressions by which a sentence of plain words may give something another value; none where it does not."""
+    values = tuple(word.text for word, one in zip(words, classes, strict=True) if one == forms.VALUE)
+    alone = [letter for word, one in zip(words, classes, strict=True) if one == forms.LETTERS
+             for letter in letters_within(word.text)]
+    if values and narrowing.revalues(texts, bool({*alone} & {*given}) or (bool(alone) and narrowing.names(texts))):
+        return values
+    return tuple(alone) if narrowing.calls_alike(texts) or conventions.any_number(texts) or (
+        len({*alone}) > 1 and narrowing.exchanges_letters(texts)) else ()
