@@ -8,6 +8,7 @@ import select
 import signal
 import warnings
 from functools import cache
+from pathlib import Path
 
 import one_thread  # noqa: F401 - before numba imports numpy
 from numba import float64, njit, types
@@ -16,7 +17,7 @@ from numba.core.ccallback import CFunc
 from numba.core.dispatcher import Dispatcher
 from numba.core.types.functions import BaseFunction
 
-PATIENCE_S = 120.0  # after which a fork hangs on what a thread held, and the kernel is compiled here
+PATIENCE_S = 60.0  # in which a fork that does nothing hangs on what a thread held: the kernel is compiled here
 compile_here, compile_function_here = Dispatcher.compile, CFunc.compile
 
 SIMPLE = {types.Boolean, types.Float, types.Integer}
@@ -54,6 +55,12 @@ def call_type(function, context, arguments, named):
     return remembered(function, context, arguments)
 
 
+def ticks_of(number) -> int:
+    """What a process has had of processors: a busy machine gives it little, but what hangs takes none."""
+    fields = Path(f"/proc/{number}/stat").read_text().rpartition(")")[2].split()
+    return int(fields[11]) + int(fields[12])
+
+
 def in_a_fork(work, *arguments) -> None:
     """What fails there fails here again, where it is seen."""
     first_compilation()
@@ -63,9 +70,11 @@ def in_a_fork(work, *arguments) -> None:
     except OSError:
         return
     if number:
-        handle = os.pidfd_open(number)
-        if not select.select([handle], [], [], PATIENCE_S)[0]:
-            os.kill(number, signal.SIGKILL)
+        handle, spent = os.pidfd_open(number), -1
+        while not select.select([handle], [], [], PATIENCE_S)[0]:
+            before, spent = spent, ticks_of(number)
+            if spent == before:
+                os.kill(number, signal.SIGKILL)
         os.close(handle)
         os.waitpid(number, 0)
         return
