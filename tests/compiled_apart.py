@@ -11,17 +11,13 @@ from functools import cache
 from pathlib import Path
 
 import one_thread  # noqa: F401 - before numba imports numpy
-from numba import float64, njit, types
+from numba import float64, njit
 from numba.core import sigutils
 from numba.core.ccallback import CFunc
 from numba.core.dispatcher import Dispatcher
-from numba.core.types.functions import BaseFunction
 
 PATIENCE_S = 60.0  # in which a fork that does nothing hangs on what a thread held: the kernel is compiled here
 compile_here, compile_function_here = Dispatcher.compile, CFunc.compile
-
-SIMPLE = {types.Boolean, types.Float, types.Integer}
-find_call_type = BaseFunction.get_call_type
 
 
 def kept(cache, signature, target) -> bool:
@@ -40,19 +36,6 @@ def some_of_each(values, x):
 def first_compilation() -> None:
     """What a process does once before it compiles is done here, so that no fork has to do it."""
     compile_here(njit(error_model="numpy")(some_of_each), (float64[::1], float64))
-
-
-@cache
-def remembered(function, context, arguments):
-    return find_call_type(function, context, arguments, {})
-
-
-def call_type(function, context, arguments, named):
-    """What `a * b` is of two numbers, found once: numba goes through all that it knows of arrays at every such sign."""
-    if (named or getattr(function.typing_key, "__module__", "") != "_operator"
-            or not all(type(one) in SIMPLE for one in arguments)):
-        return find_call_type(function, context, arguments, named)
-    return remembered(function, context, arguments)
 
 
 def ticks_of(number) -> int:
@@ -80,7 +63,6 @@ def in_a_fork(work, *arguments) -> None:
         return
     with contextlib.suppress(BaseException):
         Dispatcher.compile, CFunc.compile = compile_here, compile_function_here
-        BaseFunction.get_call_type = call_type
         work(*arguments)
     os._exit(0)
 

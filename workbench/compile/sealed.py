@@ -14,6 +14,7 @@ from typing import Any
 
 from numba.core.caching import IndexDataCacheFile
 
+from workbench.compile.typed_once import typed_once
 from workbench.errors import CompileError
 from workbench.files.cache_folder import CACHE_VARIABLE, cache_folder, note, temporary_folder
 from workbench.files.regular import contents
@@ -43,7 +44,8 @@ def seal(function: Any, folder: Path, name: str, stamp: Any) -> None:
     def compile_in_turn(*signature: Any) -> Any:
         by_numba = type(function).compile
         try:
-            return by_numba(function, *signature)
+            with typed_once():
+                return by_numba(function, *signature)
         finally:
             file.done()
 
