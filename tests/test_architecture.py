@@ -43,7 +43,7 @@ LONGER = {"workbench.proof.checker": 1995, "workbench.optimal.bound_checker": 56
 MAY_LOAD_MODULES = {"workbench.compile.code_cache", "workbench.files.modules", "workbench.proof.loading"}
 # numba's compiled code, of this user's own and held against a digest before it is believed; what a process of a cluster
 # is sent and answers.
-MAY_UNPICKLE = {"workbench.compile.code_cache", "workbench.tasks.sent"}
+MAY_UNPICKLE = {"workbench.compile.sealed", "workbench.tasks.sent"}
 FORBIDDEN_CALLS = {"eval", "exec", "compile", "__import__", "parse_expr"}
 FORBIDDEN_MODULES = {"pickle", "cPickle", "marshal", "shelve", "dill", "cloudpickle", "joblib"}
 

@@ -10,6 +10,7 @@ import compiled_apart
 import pytest
 
 from workbench.compile import code_cache
+from workbench.compile import sealed as sealed_files
 from workbench.errors import CompileError
 from workbench.files import cache_folder as folders
 from workbench.files.cache_folder import TAG, cache_folder, drop, keep, private, temporary_folder
@@ -126,7 +127,7 @@ def run(tmp_path, monkeypatch, capsys):
 
 def damaged(data: bytes) -> dict[str, bytes]:
     return {"empty": b"", "cut off": data[:-7], "a bit": data[:-20] + bytes([data[-20] ^ 1]) + data[-19:],
-            "another format": b"x" + data, "no seal": data[len(code_cache.FORMAT) + 32:]}
+            "another format": b"x" + data, "no seal": data[len(sealed_files.FORMAT) + 32:]}
 
 
 @pytest.mark.parametrize("how", ["empty", "cut off", "a bit", "another format", "no seal"])
@@ -193,7 +194,7 @@ def test_a_full_disk_costs_time_and_no_result(run):
 
 def test_code_of_another_user_is_not_run(tmp_path, monkeypatch):
     sealed = tmp_path / "a.sealed-code"
-    code_cache._write(sealed, b"\x80\x04K\x07.")  # the number 7, pickled
-    assert code_cache._unsealed(sealed) == 7
+    sealed_files._write(sealed, b"\x80\x04K\x07.")  # the number 7, pickled
+    assert sealed_files.kept(sealed) == 7
     monkeypatch.setattr("os.geteuid", lambda: sealed.stat().st_uid + 1)
-    assert code_cache._unsealed(sealed) is None
+    assert sealed_files.kept(sealed) is None

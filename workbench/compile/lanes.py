@@ -23,6 +23,8 @@ from numba.core.typeconv import Conversion
 from numba.extending import intrinsic, lower_cast, overload, register_model
 from numba.np.arrayobj import make_array, populate_array
 
+from workbench.compile.typed_once import SIMPLE
+
 _DOUBLE, _INDEX = ir.DoubleType(), ir.IntType(32)
 Emitted = Callable[[Any, Any, Any], Any]
 
@@ -41,6 +43,9 @@ class Lanes(types.Type):
     def can_convert_from(self, _: Any, other: types.Type) -> Conversion | None:
         """A number can be had in all lanes."""
         return Conversion.safe if isinstance(other, types.Number) else None
+
+
+SIMPLE.add(Lanes)
 
 
 @register_model(Lanes)

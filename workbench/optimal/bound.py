@@ -33,9 +33,9 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from numba import njit
 from numpy.typing import NDArray
 
+from workbench.compile.package_kernels import compiled
 from workbench.errors import WorkbenchError
 from workbench.optimal.bound_fixed import fixed_part, owner_of
 from workbench.optimal.certificate import Certificate
@@ -215,7 +215,7 @@ def minima(terms: Terms) -> Array:
     return np.asarray(_minima(terms.low, terms.high, terms.inverse, terms.constant, terms.slope, terms.square))
 
 
-@njit(cache=True)
+@compiled()
 def _value(v: float, a: float, b: float, c: float, d: float) -> float:
     first = 0.0
     if v > 0.0:
@@ -225,13 +225,13 @@ def _value(v: float, a: float, b: float, c: float, d: float) -> float:
     return first + b + c * v + d * v * v
 
 
-@njit(cache=True)
+@compiled()
 def _falls(v: float, a: float, c: float, d: float) -> bool:
     """Whether a / v + c v + d v^2 falls at v."""
     return bool((c + 2.0 * d * v) * v * v < a) if a != 0.0 else bool(c + 2.0 * d * v < 0.0)
 
 
-@njit(cache=True)
+@compiled()
 def _minima(lows: Array, highs: Array, inverse: Array, constant: Array, slope: Array, square: Array) -> Array:
     found = np.empty(len(lows))
     for k in range(len(lows)):

@@ -8,10 +8,11 @@ is what the limit leaves at the worst of its points, found from the extremes of 
 from __future__ import annotations
 
 import numpy as np
-from numba import njit
 
+from workbench.compile.package_kernels import compiled
 from workbench.errors import WorkbenchError
 from workbench.optimal.course import Array, Course
+from workbench.optimal.force_limits import Limits, force_within
 from workbench.optimal.profile import Profile, largest_force
 from workbench.optimal.vehicle import Vehicle
 from workbench.trains.resistance import davis_resistance
@@ -27,9 +28,7 @@ STRICT_ROUNDS, ROUNDING = 12, 5e-16
 # A cell on which the limit of the force changes by more than this share is divided, into so many at most.
 FINE, MOST_DIVIDED, SHORTEST_CELL_M = 1e-3, 16, 1e-2
 NO_TABLE = np.zeros((0, 2))
-# Force and power of traction and of the electric brake.
-Limits = tuple[tuple[float, float], tuple[float, float]]
-compiled_resistance = njit(cache=True)(davis_resistance)
+compiled_resistance = compiled()(davis_resistance)
 
 
 class InfeasibleRunError(WorkbenchError):
@@ -43,16 +42,7 @@ class InfeasibleRunError(WorkbenchError):
         super().__init__(message)
 
 
-@njit(cache=True, error_model="numpy")
-def force_within(limit: tuple[float, float], table: Array, v: float) -> float:
-    """The least of force limit[0], power limit[1] and the table, at speed v."""
-    force = limit[0] if v * limit[0] <= limit[1] else limit[1] / v
-    if len(table):
-        force = min(force, np.interp(v, table[:, 0], table[:, 1]))
-    return float(force)
-
-
-@njit(cache=True, error_model="numpy")
+@compiled(error_model="numpy")
 def _slope(b: float, sign: float, line: float, drag: float, numbers: tuple[float, ...], limits: Limits,
            tables: tuple[Array, Array]) -> float:
     """db/ds with full traction (sign 1), or its negative with full brakes (sign -1), within the comfort limit."""
@@ -64,7 +54,7 @@ def _slope(b: float, sign: float, line: float, drag: float, numbers: tuple[float
     return float(min((force_within(limits[1], tables[1], v) + friction + resistance) / inertia, hardest))
 
 
-@njit(cache=True, error_model="numpy")
+@compiled(error_model="numpy")
 def _least_force(limit: tuple[float, float], table: Array, slow: float, fast: float) -> float:
     """The least of the limit over speeds from slow to fast."""
     least = min(force_within(limit, table, slow), force_within(limit, table, fast))
@@ -74,7 +64,7 @@ def _least_force(limit: tuple[float, float], table: Array, slow: float, fast: fl
     return least
 
 
-@njit(cache=True, error_model="numpy")
+@compiled(error_model="numpy")
 def _allowed(b: float, reached: float, sign: float, line: tuple[float, float], drag: tuple[float, float], share: float,
              numbers: tuple[float, ...], limits: Limits, tables: tuple[Array, Array]) -> float:
     """What `_slope` allows at every point of a cell on which b changes linearly to `reached`."""
@@ -94,7 +84,7 @@ def _allowed(b: float, reached: float, sign: float, line: tuple[float, float], d
     return float(min((force + least) / inertia, hardest))
 
 
-@njit(cache=True, error_model="numpy")
+@compiled(error_model="numpy")
 def _slope_in_parts(b: float, most: float, step: float, sign: float, line: Array, drag: Array,
                     numbers: tuple[float, ...], limits: Limits, tables: tuple[Array, Array]) -> float:
     """The mean `_slope` of a cell, in parts of PART_M and never above `most`; what ends below 0 stands still.
@@ -115,7 +105,7 @@ def _slope_in_parts(b: float, most: float, step: float, sign: float, line: Array
     return (now - b) / step
 
 
-@njit(cache=True, error_model="numpy")
+@compiled(error_model="numpy")
 def _pass(target: Array, start: float, step: Array, line: Array, drag: Array, usable: Array, stands: Array,
           sign: float, numbers: tuple[float, ...], limits: Limits, tables: tuple[Array, Array],
           is_strict: bool) -> tuple[Array, int]:
@@ -149,7 +139,7 @@ def _pass(target: Array, start: float, step: Array, line: Array, drag: Array, us
     return b, -1
 
 
-@njit(cache=True, error_model="numpy")
+@compiled(error_model="numpy")
 def _run_up(target: Array, top: Array, end: float, more: float, step: Array, line: Array, drag: Array, sign: float,
             numbers: tuple[float, ...], limits: Limits, tables: tuple[Array, Array]) -> Array:
     """The target, raised at the end to what full traction needs in order to reach `end`; below top everywhere.

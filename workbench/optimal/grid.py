@@ -6,9 +6,9 @@ from dataclasses import dataclass
 from itertools import pairwise
 
 import numpy as np
-from numba import njit
 from numpy.typing import NDArray
 
+from workbench.compile.package_kernels import compiled
 from workbench.optimal.course import Array, Course
 
 # Distances over which a stop and a change of the limit ask for shorter intervals, and how many they ask for.
@@ -146,12 +146,19 @@ def with_force_borders(course: Course, nodes: Array, kept: Array) -> Array:
     return np.asarray(_moved(nodes, ~np.isin(nodes, kept), course.position_m))
 
 
-@njit(cache=True)
+@compiled()
 def _moved(nodes: Array, free: NDArray[np.bool_], borders: Array) -> Array:
     """Each move changes what lies near the next border, so that they are made one after the other."""
     moved, movable = nodes.copy(), free.copy()
-    for border in borders[1:-1]:
-        k = min(max(np.searchsorted(moved, border), 1), len(moved) - 1)
+    for i in range(1, len(borders) - 1):
+        border, k, high = borders[i], 0, len(moved)
+        while k < high:  # as np.searchsorted, which takes long to compile
+            middle = (k + high) // 2
+            if moved[middle] < border:
+                k = middle + 1
+            else:
+                high = middle
+        k = min(max(k, 1), len(moved) - 1)
         near = k if moved[k] - border < border - moved[k - 1] else k - 1
         if movable[near] and moved[near - 1] < border < moved[near + 1]:
             room = min(border - moved[near - 1], moved[near + 1] - border)

@@ -8,19 +8,18 @@ under the plan's force, or under the limit itself, and meets the plan's speed at
 from __future__ import annotations
 
 import numpy as np
-from numba import njit
 from numpy.typing import NDArray
 
+from workbench.compile.package_kernels import compiled
 from workbench.optimal.course import Array, Course
 from workbench.optimal.envelope import (
-    Limits,
     compiled_resistance,
     device_limits,
     drivable,
-    force_within,
     resistance_numbers,
     with_fine_cells,
 )
+from workbench.optimal.force_limits import Limits, force_within
 from workbench.optimal.profile import Profile, largest_force
 from workbench.optimal.socp import Plan
 from workbench.optimal.vehicle import Vehicle
@@ -99,7 +98,7 @@ def _held(vehicle: Vehicle, plan: Plan, course: Course, owner: NDArray[np.intp])
     return np.asarray(at_top & ((least >= 0) | (most <= 0)))
 
 
-@njit(cache=True, error_model="numpy")
+@compiled(error_model="numpy")
 def _followed(x: Array, line: Array, drag: Array, first: NDArray[np.intp], b_plan: Array, planned: Array,
               numbers: tuple[float, ...], limits: Limits, tables: tuple[Array, Array]) -> Array:
     """Half the squared speed at x, where each interval is driven from the plan's speed at its start on.
@@ -123,7 +122,7 @@ def _followed(x: Array, line: Array, drag: Array, first: NDArray[np.intp], b_pla
     return b
 
 
-@njit(cache=True, error_model="numpy")
+@compiled(error_model="numpy")
 def _slope(b: float, line: float, drag: float, planned: float, at_mean: tuple[float, float], numbers: tuple[float, ...],
            limits: Limits, tables: tuple[Array, Array]) -> float:
     """db/ds under the plan's force, or under the limit where the plan is at it.

@@ -12,10 +12,11 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-from numba import njit
 
+from workbench.compile.package_kernels import compiled
 from workbench.optimal.course import Array
-from workbench.optimal.envelope import Limits, compiled_resistance, device_limits, resistance_numbers
+from workbench.optimal.envelope import compiled_resistance, device_limits, resistance_numbers
+from workbench.optimal.force_limits import Limits, force_in
 from workbench.optimal.profile import Profile
 from workbench.optimal.vehicle import Vehicle
 
@@ -54,26 +55,26 @@ class Check:
         return np.asarray(profile.time_s + np.where(moving, self.lag_m / np.where(moving, speed, 1.0), 0.0))
 
 
-@njit(cache=True, error_model="numpy")
+@compiled(error_model="numpy")
 def _against(speed: float, share: float, cell: int, line: Array, drag: Array, a: float, b: float, c: float) -> float:
     """What slows the train down at a share of a cell, N: resistance, tunnel and line."""
     tunnel = drag[cell, 0] + share * (drag[cell, 1] - drag[cell, 0])
     return float(compiled_resistance(speed, a, b, c + tunnel) + line[cell, 0] + share * (line[cell, 1] - line[cell, 0]))
 
 
-@njit(cache=True, error_model="numpy")
+@compiled(error_model="numpy")
 def device_forces(v: float, limits: Limits, tables: tuple[Array, Array]) -> tuple[float, float]:
     """What traction and the electric brake give at a speed, N."""
     most = limits[0][0] if v * limits[0][0] <= limits[0][1] else limits[0][1] / v
     brake = limits[1][0] if v * limits[1][0] <= limits[1][1] else limits[1][1] / v
     if len(tables[0]):
-        most = min(most, np.interp(v, tables[0][:, 0], tables[0][:, 1]))
+        most = min(most, force_in(tables[0], v))
     if len(tables[1]):
-        brake = min(brake, np.interp(v, tables[1][:, 0], tables[1][:, 1]))
+        brake = min(brake, force_in(tables[1], v))
     return most, brake
 
 
-@njit(cache=True, error_model="numpy")
+@compiled(error_model="numpy")
 def _drive(time: Array, position: Array, speed: Array, acceleration: Array, limit: Array, line: Array, drag: Array,
            numbers: tuple[float, ...], limits: Limits, tables: tuple[Array, Array],
            step_s: float, lag: Array) -> tuple[float, float, float, float, float, float]:

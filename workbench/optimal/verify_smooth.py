@@ -5,10 +5,11 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numba import njit
 
+from workbench.compile.package_kernels import compiled
 from workbench.optimal.course import Array, Course
-from workbench.optimal.envelope import Limits, compiled_resistance, device_limits, resistance_numbers
+from workbench.optimal.envelope import compiled_resistance, device_limits, resistance_numbers
+from workbench.optimal.force_limits import Limits
 from workbench.optimal.smooth_run import SmoothRun
 from workbench.optimal.vehicle import Vehicle
 from workbench.optimal.verify import POSITION_GAIN, SPEED_GAIN, device_forces
@@ -27,7 +28,7 @@ class SmoothCheck:
     correction_n: float
 
 
-@njit(cache=True)
+@compiled()
 def _resisted(s: float, v: float, section: int, borders: Array, line: Array, drag: Array,
               numbers: tuple[float, ...]) -> float:
     """What slows the train down at a position on a section of the line, N."""
@@ -37,7 +38,7 @@ def _resisted(s: float, v: float, section: int, borders: Array, line: Array, dra
                  + line[section, 0] + share * (line[section, 1] - line[section, 0]))
 
 
-@njit(cache=True)
+@compiled()
 def _at(s: float, section: int, borders: Array) -> int:
     """The section of a position, searched from one nearby."""
     while section < len(borders) - 2 and s > borders[section + 1]:
@@ -47,7 +48,7 @@ def _at(s: float, section: int, borders: Array) -> int:
     return section
 
 
-@njit(cache=True)
+@compiled()
 def _drive(breaks: Array, start: Array, borders: Array, line: Array, drag: Array, numbers: tuple[float, ...],
            limits: Limits, tables: tuple[Array, Array],
            step_s: float) -> tuple[float, float, float, float, float]:

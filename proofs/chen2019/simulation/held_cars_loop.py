@@ -7,11 +7,20 @@ to them. The train is integrated by RK4, one step a row of the reference, as `ca
 # ruff: noqa: F821, ANN001, ANN201
 # mypy: ignore-errors
 
+ENTRIES = ("held_forces",)
+
 # Integrals over the run of sums over the cars, and ends of what was met.
 HELD_COLUMNS = ("position_error_square_s", "speed_error_square_s", "traction_work_j", "largest_position_error_m",
                 "largest_speed_error_mps", "coupler_stretch_m", "stopping_error_m", "car_steps_at_limit")
 
 # --- kernel ---
+
+
+def ahead(state, h, slope, found):
+    """The state h further along a slope; number by number, because expressions of arrays take long to compile."""
+    for i in range(state.shape[0]):
+        for j in range(state.shape[1]):
+            found[i, j] = state[i, j] + h * slope[i, j]
 
 
 def held_forces(first, count, dt, reference, values, cars, sloped, slope, variation, state, pushed, held, totals, log,
@@ -38,12 +47,15 @@ def held_forces(first, count, dt, reference, values, cars, sloped, slope, variat
                 totals[7] += 1.0
         totals[6] = state[0, 0] - s_r
         if k % log_every == 0 and k // log_every < log.shape[0]:
-            log[k // log_every] = state[1]
+            for j in range(state.shape[1]):
+                log[k // log_every, j] = state[1, j]
         rates(now, state, cars, pushed, held, k1)
-        middle[:] = state + 0.5 * dt * k1
+        ahead(state, 0.5 * dt, k1, middle)
         rates(now, middle, cars, pushed, held, k2)
-        middle[:] = state + 0.5 * dt * k2
+        ahead(state, 0.5 * dt, k2, middle)
         rates(now, middle, cars, pushed, held, k3)
-        middle[:] = state + dt * k3
+        ahead(state, dt, k3, middle)
         rates(now, middle, cars, pushed, held, k4)
-        state += dt / 6.0 * (k1 + 2.0 * k2 + 2.0 * k3 + k4)
+        for i in range(state.shape[0]):
+            for j in range(state.shape[1]):
+                state[i, j] += dt / 6.0 * (k1[i, j] + 2.0 * k2[i, j] + 2.0 * k3[i, j] + k4[i, j])

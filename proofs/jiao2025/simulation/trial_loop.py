@@ -6,6 +6,8 @@
 # ruff: noqa: F821, ANN001, ANN201
 # mypy: ignore-errors
 
+ENTRIES = ("additional_force", "step_speed", "step_position", "learn_trial", "trials")
+
 # What is kept of every trial, one row each: mean squared error over its length, largest |error|, error at the first
 # sample, share of the samples where the estimate starts anew, lowest speed.
 TRIAL_COLUMNS = ("mse", "largest_error", "first_error", "reset_share", "lowest_speed")
@@ -74,8 +76,8 @@ def trials(lengths, first_input, first_estimate, k_per_sample, desired, desired_
     """
     n = desired.shape[0] - 1
     u, u_before, phi, e, v, v_before = work[0, :n], work[1, :n], work[2, :n], work[3], work[4], work[5]
-    u[:] = first_input
-    phi[:] = first_estimate
+    for j in range(n):
+        u[j], phi[j] = first_input, first_estimate
     for i in range(lengths.shape[0]):
         if i > 0:
             rows[i, 3] = learn_trial(lengths, i, first_estimate, u, u_before, phi, v, v_before, e, law)

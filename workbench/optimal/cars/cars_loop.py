@@ -6,6 +6,8 @@
 # ruff: noqa: F821, ANN001, ANN201, PLR0912
 # mypy: ignore-errors
 
+ENTRIES = ("drive",)
+
 # Integrals over the run in J of what the cars' `powers` are, in this order: at the supply, at the wheel, what basic
 # resistance and line take, what the couplers' dampers take.
 WORKS = ("supply_j", "wheel_j", "resistance_j", "damper_j")
@@ -60,9 +62,12 @@ def drive(plan, forces, electric, substeps, dt, gains, motors, start, values, pr
     rows, count = forces.shape[0], cars.shape[1]
     state, middle = start.copy(), start.copy()
     k1, k2, k3, k4 = start.copy(), start.copy(), start.copy(), start.copy()
-    pushed, held, returned, pull = start[:1] * 0.0, start[:1] * 0.0, start[:1] * 0.0, start[:1] * 0.0
+    # Room, and zeros: an expression of whole arrays takes long to compile.
+    pushed, held, returned, pull = start[:1].copy(), start[:1].copy(), start[:1].copy(), start[:1].copy()
     steps = (rows - 1) * substeps
-    wanted, given = start[0] * 0.0, start[0] * 0.0
+    wanted, given = start[0].copy(), start[0].copy()
+    for j in range(count):
+        given[j] = start[0, j] * 0.0
     for k in range(steps + 1):
         row, part = k // substeps, k % substeps
         after = min(row + 1, rows - 1)

@@ -17,8 +17,8 @@ from dataclasses import dataclass
 from typing import Literal
 
 import numpy as np
-from numba import njit
 
+from workbench.compile.package_kernels import compiled
 from workbench.errors import InputError
 from workbench.optimal.cars.car_train import CarLimits
 from workbench.optimal.course import Array
@@ -63,7 +63,7 @@ def share_forces(rule: Rule, total_n: Array, limits: CarLimits, ahead_n: Array) 
     return Shares(force, np.maximum(np.minimum(force, 0.0), -scale * electric), scale[:, 0] - 1)
 
 
-@njit(cache=True)
+@compiled()
 def _least(x: Array, d: Array, points: int) -> tuple[float, int]:
     """Where a cost of slope d over x is least, and the first point from which it rises."""
     cut = 0
@@ -76,7 +76,7 @@ def _least(x: Array, d: Array, points: int) -> tuple[float, int]:
     return x[cut - 1] - d[cut - 1] * (x[cut] - x[cut - 1]) / (d[cut] - d[cut - 1]), cut
 
 
-@njit(cache=True)
+@compiled()
 def _splits(total: Array, low: Array, high: Array, q: Array) -> Array:
     """The rule's forces, shape (times, cars)."""
     found, n = np.empty_like(low), low.shape[1]
