@@ -14,6 +14,7 @@ from workbench.proof.building import built
 from workbench.proof.claim import Claim, Goal, Kind, Relation, Verdict
 from workbench.proof.lemmas.lemma import Lemma
 from workbench.proof.loading import ProofFile
+from workbench.proof.places import named_section
 from workbench.proof.selection import NO_PAPER, files_of, targets
 from workbench.proof.verdict import Match, Origin, Severity
 
@@ -58,7 +59,7 @@ class Paper:
                 glyph=glyph and self._id(glyph), mends=mends and self._id(mends), closed_loop=closed_loop,
                 notation={**self.notation, **(where or {})}, scope=scope, at=at, correction=correction,
                 corrected_statement=corrected_statement, repair=repair, note=note or (build.__doc__ or "").strip(),
-                section=section_of(build.__module__),
+                section=named_section(equation) or section_of(build.__module__),
             ))
             return build
 

@@ -12,7 +12,7 @@ from markupsafe import Markup, escape
 
 from workbench.files.folders import CERTIFICATES
 from workbench.proof.checker import CertificateError
-from workbench.proof.places import STATEMENT, place_of, subject_of
+from workbench.proof.places import STATEMENT, place_of, subject_of, whole_of
 from workbench.report.certificate_latex import assignments_latex
 from workbench.report.formulas import formula, in_html
 from workbench.report.number_style import alike, upright
@@ -126,7 +126,7 @@ def _view(entry: Mapping[str, Any], known: set[str]) -> ClaimView:
     refs = {key: tuple(ClaimRef(name, anchor(name) if name in known else None)
                        for name in map(_text, _list(entry.get(key))))
             for key in ("tainted_by", "proved_under", "premises", "rests_on")}
-    trust, place = _text(entry.get("trust")), place_of(_text(entry.get("equation")), "")
+    trust, place = _text(entry.get("trust")), whole_of(_text(entry.get("equation")), _text(entry.get("title")))
     subject = subject_of(_text(entry.get("title")))
     return ClaimView(
         id=_text(entry.get("id")), anchor=anchor(_text(entry.get("id"))), title=in_words(_text(entry.get("title"))),

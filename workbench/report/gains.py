@@ -2,21 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from fractions import Fraction
 from typing import TYPE_CHECKING
 
-from workbench.gains.result import GainReport, GainSet
+from workbench.gains.result import GainReport
 from workbench.paper.cells import Cell, Phrase, Quantity
 from workbench.paper.gain_effects import Effect
 from workbench.paper.recorded_front import GainFront
 from workbench.paper.results import ResultTable, StudyResult
+from workbench.report.gain_words import heading, letter, spoken
 
 if TYPE_CHECKING:
     from workbench.report.document_format import GainsDocument
 
-KINDS = {"rms": "RMS of", "max": "largest"}
-UNITS = {"m", "mps", "mps2", "mps3", "n", "N", "J", "s"}
 LONG = 12  # characters of a fraction that is shown as it is
 APART = 1.02  # by what factor numbers differ that are said to
 NOT_ERRORS = {"energy_J", "command_max", "bound_used", "mse_0", "reversals"}  # less of these is not better tracking
@@ -72,11 +71,11 @@ def _quantities(report: GainReport) -> ResultTable:
 def _front(front: GainFront) -> ResultTable:
     names = [name for name in front.points[0].numbers if name != "cost"]
     rows = tuple((p.name, p.cost, *(p.numbers[name] for name in names), p.bound, p.frozen,
-                  Phrase(", ".join(f"{name} = {{}}" for name in p.gains), tuple(p.gains.values())),
+                  Phrase(", ".join(f"{letter(name)} = {{}}" for name in p.gains), tuple(p.gains.values())),
                   p.certificate) for p in front.points)
     return ResultTable(
         f"cost against what is proved: {front.title}", "runs, and certificates checked again", (
-            "gains", "cost", *(name.replace("_", " ") for name in names), f"proved ({front.unit})",
+            "gains", "cost", *map(heading, names), f"proved ({front.unit})",
             f"none below ({front.unit})", "values", "certificate"), rows,
         f"Proved: {front.bounded}, of the linearised sampled loop over a box of speeds and masses; none below: where a "
         f"bound cannot be, by frequency responses at the hull's vertices. Of {front.evaluations} evaluations.")
@@ -104,11 +103,16 @@ def _near_one(value: float | None) -> Cell:
 def _found(report: GainReport) -> ResultTable:
     return ResultTable("gains found", "best for an objective under what is proved",
                        ("name", "objective", "gains", "proved"), tuple(
-                           (s.name, s.objective, _gains(s), s.proved) for s in report.found))
+                           (_name(s.name), s.objective, _gains(s.values), s.proved) for s in report.found))
 
 
-def _gains(found: GainSet) -> Cell:
-    return Phrase(", ".join(f"{name} = {{}}" for name in found.values), tuple(map(_gain, found.values.values())))
+def _name(gains: str) -> str:
+    """The name of a set of gains as words: it is no letter with indices."""
+    return gains.replace("_", " ")
+
+
+def _gains(values: Mapping[str, Fraction]) -> Cell:
+    return Phrase(", ".join(f"{letter(name)} = {{}}" for name in values), tuple(map(_gain, values.values())))
 
 
 def _gain(value: Fraction) -> str | Quantity:
@@ -124,21 +128,11 @@ def _effects(effects: Sequence[Effect]) -> list[ResultTable]:
     for setting in dict.fromkeys(e.setting for e in effects):
         own = [e for e in effects if e.setting == setting]
         names = list(dict.fromkeys(name for e in own for name in e.numbers))
-        rows = tuple((e.gains, *(e.numbers.get(name) for name in names), "failed" if e.failed else "to the end")
+        rows = tuple((_name(e.gains), *(e.numbers.get(name) for name in names), "failed" if e.failed else "to the end")
                      for e in own)
         tables.append(ResultTable(f"simulated: {setting}", "the paper's own, SI units", (
-            "gains", *(name.replace("_", " ") for name in names), "run"), rows))
+            "gains", *map(heading, names), "run"), rows))
     return tables
-
-
-def _spoken(key: str) -> str:
-    """A metric's key in words, without its unit: `s_tilde_m_rms` is `RMS of s_tilde`."""
-    parts = key.split("_")
-    if all(part in KINDS or part in UNITS for part in parts):
-        return key.replace("_", " ")
-    kind = next((KINDS[part] for part in parts if part in KINDS), "")
-    said = [part for part in parts if part not in KINDS and part not in UNITS]
-    return f"{kind} {('_' if said and len(said[0]) == 1 else ' ').join(said)}".strip()
 
 
 def compared(effects: Sequence[Effect]) -> list[str]:
@@ -159,7 +153,7 @@ def compared(effects: Sequence[Effect]) -> list[str]:
             if key in NOT_ERRORS or not isinstance(value, int | float) or not isinstance(other, int | float):
                 continue
             if abs(value) * APART < abs(other) or abs(other) * APART < abs(value):
-                sides["better" if abs(value) < abs(other) else "worse"].append(_spoken(key))
+                sides["better" if abs(value) < abs(other) else "worse"].append(spoken(key))
         words = [f"{side} in {', '.join(keys)}" for side, keys in sides.items() if keys]
         if e.numbers.get("outcome") != stated.numbers.get("outcome"):
             words.append(f"outcome '{e.numbers['outcome']}' where the stated gains have "
