@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from workbench.report.gain_words import heading, letter, spoken
+from workbench.report.gain_words import heading, letter, spoken, with_powers
 
 
 @pytest.mark.parametrize(("key", "words", "column"), [
@@ -18,3 +18,8 @@ def test_a_number_is_called_by_words_and_its_column_by_its_unit_too(key, words, 
 
 def test_a_gain_is_called_by_its_letter():
     assert [letter(name) for name in ("lamda", "lamda_1", "k_2")] == ["lambda", "lambda_1", "k_2"]
+
+
+def test_powers_of_ten_are_written_as_people_do():
+    assert with_powers("mu = 5e-05 1/s, rounded to 1e-12; 2.447e+04, claim 3e and f2e1") == (
+        "mu = 5 × 10⁻⁵ 1/s, rounded to 10⁻¹²; 2.447 × 10⁴, claim 3e and f2e1")

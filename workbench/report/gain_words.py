@@ -1,4 +1,4 @@
-"""How the numbers of a run with other gains are called, by their keys: in a sentence, and above a column."""
+"""How the numbers of gains are called and written: in a sentence, and above a column."""
 
 from __future__ import annotations
 
@@ -15,6 +15,8 @@ KNOWN = {
     "largest_position_error": ("largest position error", "m"), "stopping_error": ("stopping error", "m"),
     "speed_error_min": ("lowest speed error", "m/s"), "speed_error_max": ("highest speed error", "m/s"),
     "jerk_rms": ("RMS of the jerk", "m/s³"), "command_max": ("largest command", "m/s²")}
+_POWER = re.compile(r"(?<![\w.])(\d(?:\.\d+)?)e([-+]?)0*(\d+)(?![\w.]\w)")
+_RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 _TRIAL = re.compile(r"mse_(\d+)")
 
 
@@ -42,3 +44,12 @@ def heading(key: str) -> str:
     unit = KNOWN[key][1] if key in KNOWN else "m²/s²" if _TRIAL.fullmatch(key) else next(
         (UNITS[part] for part in key.split("_")[1:] if part in UNITS), "")
     return f"{spoken(key)} ({unit})" if unit else spoken(key)
+
+
+def with_powers(text: str) -> str:
+    """Numbers as a program writes them, `5e-05`, as people do: `5 × 10⁻⁵`."""
+    def power(found: re.Match[str]) -> str:
+        exponent = f"{found[2].replace('+', '')}{found[3]}".translate(_RAISED)
+        return f"10{exponent}" if found[1] == "1" else f"{found[1]} × 10{exponent}"
+
+    return _POWER.sub(power, text)

@@ -11,7 +11,7 @@ from workbench.paper.cells import Cell, Phrase, Quantity
 from workbench.paper.gain_effects import Effect
 from workbench.paper.recorded_front import GainFront
 from workbench.paper.results import ResultTable, StudyResult
-from workbench.report.gain_words import heading, letter, spoken
+from workbench.report.gain_words import heading, letter, spoken, with_powers
 
 if TYPE_CHECKING:
     from workbench.report.document_format import GainsDocument
@@ -26,10 +26,11 @@ def gains_result(report: GainReport, effects: Sequence[Effect], fronts: Sequence
     tables = [table for table in (_conditions(report), _quantities(report), _found(report)) if table.rows]
     if effects:
         tables += _effects(effects)
-    tables += [_front(front) for front in fronts]
+    tables += [table for front in fronts for table in (_front(front), _front_gains(front))]
     return StudyResult(
         rows=tuple({"controller": e.gains, "setting": e.setting, **e.numbers, "failed": e.failed} for e in effects),
-        tables=tuple(tables), plots=(), findings=(*compared(effects), *map(front_sentence, fronts), *report.notes),
+        tables=tuple(tables), plots=(),
+        findings=(*compared(effects), *map(front_sentence, fronts), *map(with_powers, report.notes)),
         failures=tuple((f"{e.gains}, {e.setting}", e.failed) for e in effects if e.failed))
 
 
@@ -58,27 +59,35 @@ def gains_document(report: GainReport, effects: Sequence[Effect], fronts: Sequen
 def _conditions(report: GainReport) -> ResultTable:
     return ResultTable("conditions at the stated gains", "the paper's own, and what its conclusions need",
                        ("condition", "states", "value", "met"), tuple(
-                           (c.name, c.statement, c.computed, "yes" if c.met else "no") for c in report.conditions))
+                           (c.name, c.statement, with_powers(c.computed), "yes" if c.met else "no")
+                           for c in report.conditions))
 
 
 def _quantities(report: GainReport) -> ResultTable:
     return ResultTable("what is proved", "certificates by the semidefinite program, re-checked exactly",
                        ("quantity", "by the paper", "proved", "check", "remark"), tuple(
                            (q.name + (f" ({q.unit})" if q.unit else ""), q.papers, _near_one(q.proved),
-                            _near_one(q.check), q.note) for q in report.quantities))
+                            _near_one(q.check), with_powers(q.note)) for q in report.quantities))
 
 
 def _front(front: GainFront) -> ResultTable:
     names = [name for name in front.points[0].numbers if name != "cost"]
-    rows = tuple((p.name, p.cost, *(p.numbers[name] for name in names), p.bound, p.frozen,
-                  Phrase(", ".join(f"{letter(name)} = {{}}" for name in p.gains), tuple(p.gains.values())),
-                  p.certificate) for p in front.points)
+    rows = tuple((_name(p.name), p.cost, *(p.numbers[name] for name in names), p.bound, p.frozen)
+                 for p in front.points)
     return ResultTable(
         f"cost against what is proved: {front.title}", "runs, and certificates checked again", (
             "gains", "cost", *map(heading, names), f"proved ({front.unit})",
-            f"none below ({front.unit})", "values", "certificate"), rows,
+            f"none below ({front.unit})"), rows,
         f"Proved: {front.bounded}, of the linearised sampled loop over a box of speeds and masses; none below: where a "
         f"bound cannot be, by frequency responses at the hull's vertices. Of {front.evaluations} evaluations.")
+
+
+def _front_gains(front: GainFront) -> ResultTable:
+    """The gains themselves, beside whose numbers they would leave a page no room."""
+    return ResultTable(f"gains of that table: {front.title}", "runs, and certificates checked again",
+                       ("gains", "values", "certificate"), tuple(
+                           (_name(p.name), Phrase(", ".join(f"{letter(name)} = {{}}" for name in p.gains),
+                                                  tuple(p.gains.values())), p.certificate) for p in front.points))
 
 
 def front_sentence(front: GainFront) -> str:
@@ -90,7 +99,7 @@ def front_sentence(front: GainFront) -> str:
     proved = f"{'nothing' if stated.bound is None else f'{stated.bound:.3g} {front.unit}'} is proved of them"
     better = [p for p in found if p.cost is not None and p.bound is not None
               and (stated.cost is None or p.cost <= stated.cost) and (stated.bound is None or p.bound <= stated.bound)]
-    best = ", ".join(p.name for p in better)
+    best = ", ".join(_name(p.name) for p in better)
     return (f"{front.title.capitalize()}: the stated gains {ran}, {proved}; "
             f"{f'better in both: {best}' if better else 'none that was found is better in both'}.")
 

@@ -113,7 +113,7 @@ xi_rate, varpi_one = sp.symbols("xi_hat_rate varpi_one", real=True)
              where={r"\hat{\xi}(t)": xi_rate, r"\varpi(t)": varpi_one},
              reading="(41); the extracted text lost the dot over xi_hat, which is 'updated by' it.",
              note="Decided as what the paper chooses it for: the rate for which the coefficient of the estimation error "
-                  "is zero. With several modes the weights of (40) do not fit: see (41).")
+                  "is zero. With several modes the weights of (40) do not fit: see 41.")
 def xi_law_cancels() -> Goal:
     """The coefficient of a component of xi_tilde: m_i z_2 varpi from z_2', and that of its square in (40)."""
     return Goal((equal(xi_rate, Gamma_xi * z_2 * varpi_one),), (equal(m * z_2 * varpi_one - m / Gamma_xi * xi_rate, 0),))
@@ -228,7 +228,7 @@ CHOSEN_44 = ("Decided as what the paper chooses the law for: the rate for which 
              corrected_statement=LAW_44 % "" + r"\ \text{with the weight}\ m_ik_\nu\ \text{of}\ \tilde\rho_{k\nu}^2",
              note=CHOSEN_44 + "The sign is wrong: with (42) and (44) the terms of rho_tilde add up instead, and no "
                   "positive weight in V_2 makes them cancel. (44) drives the estimate the wrong way; see theorem2 for "
-                  "what it does. Taken for l = 1, so that (41) plays no part.")
+                  "what it does. Taken for l = 1, so that the display before (42) plays no part.")
 def rho_k_law_cancels() -> Goal:
     """The coefficient of rho_tilde_knu: z_2 m_i k_nu xi_hat^T varpi from (42), and that of its square in (40)."""
     return at_instant(_law_44(m, -1), {k_v: sp.Integer(15)})
