@@ -7,13 +7,13 @@ from fractions import Fraction
 import sympy as sp
 
 from workbench.model.law import over_neurons
-from workbench.proof.claim import D, Goal, Relation, equal, greater, less
+from workbench.proof.claim import D, Goal, Relation, at_most, equal, greater, less
 from workbench.trains.train import u
 
 from .. import laws as law
 from .. import network
 from ..error_dynamics import EVERY_NETWORK, W_star, epsilon, h
-from ..laws import W_hat, x_2
+from ..laws import W_hat, chi, x_2
 from ..paper import paper
 
 error_f, weight, rest_f, eta, varpi = sp.symbols("f w f_rest eta varpi", real=True)
@@ -160,6 +160,21 @@ def same_motion() -> Relation:
 def f_is_known() -> Goal:
     """The same input, speed and acceleration mean the same f."""
     return Goal((equal(f_1, f_2),), (same_motion(),))
+
+
+one_h = sp.Symbol("h", positive=True)
+
+
+@paper.claim("37.weights", "One law moves the weights", "implication",
+             r"\Delta w_j = \eta[f - \hat{f}]h_j\ \text{and}\ \dot{\hat{W}} = \chi e_2h - \chi\hat{W}", "gap", origin="implied",
+             severity="data", section="5.1",
+             note="(10), (11) and (37) each give the rate of the same weights, and section 6.1 states eta and the momentum "
+                  "factor of the one beside chi of the other. They are two laws; which one runs is not said.")
+def one_law() -> Goal:
+    """A step of (10) is in the direction of (37)."""
+    error_2 = sp.Symbol("e_2", real=True)
+    return Goal((equal(eta * residual(one_h) * one_h, chi * error_2 * one_h - chi * weight),),
+                (greater(eta, 0), less(eta, 1), at_most(one_h, 1)))
 
 
 f_network = over_neurons(W_star * h) + epsilon

@@ -10,7 +10,7 @@ from workbench.model.law import desired_acceleration as xddot_d
 from workbench.model.law import desired_position as x_d
 from workbench.model.law import desired_speed as xdot_d
 from workbench.model.law import over_neurons
-from workbench.proof.claim import D, Goal, at_least, at_most, equal, greater, less
+from workbench.proof.claim import D, Goal, at_least, at_most, equal, greater
 from workbench.trains.train import a_star, b_star, c_star, f, u
 
 from .. import laws as law
@@ -19,7 +19,6 @@ from ..laws import W_hat, a_hat, b_hat, beta, c_hat, chi, k, x_1, x_2
 from ..lyapunov import V_1, barrier, inside, level
 from ..paper import paper
 from ..stated_values import cruise, scenario, stated_davis
-from .section_3 import eta, residual, weight
 from .section_5_1 import IN_SPEEDS, resistance
 
 hats = (a_hat, b_hat, c_hat)
@@ -94,18 +93,6 @@ a_dagger, b_dagger, c_dagger = sp.symbols("a_dagger b_dagger c_dagger", positive
 def coefficients_bounded() -> Goal:
     """At the stated coefficients."""
     return Goal((at_most(sp.Abs(a_star), a_dagger), at_most(sp.Abs(b_star), b_dagger), at_most(sp.Abs(c_star), c_dagger)))
-
-
-@paper.claim("37.weights", "One law moves the weights", "implication",
-             r"\Delta w_j = \eta[f - \hat{f}]h_j\ \text{and}\ \dot{\hat{W}} = \chi e_2h - \chi\hat{W}", "gap", origin="implied",
-             severity="data",
-             note="(10), (11) and (37) each give the rate of the same weights, and section 6.1 states eta and the momentum "
-                  "factor of the one beside chi of the other. They are two laws; which one runs is not said.")
-def one_law() -> Goal:
-    """A step of (10) is in the direction of (37)."""
-    error_2 = sp.Symbol("e_2", real=True)
-    return Goal((equal(eta * residual(one_h) * one_h, chi * error_2 * one_h - chi * weight),),
-                (greater(eta, 0), less(eta, 1), at_most(one_h, 1)))
 
 
 @paper.claim("A4.barrier", "The barrier term of the input is bounded when V is", "implication",
