@@ -7,7 +7,7 @@ import pytest
 from small_decisions import certificate, paper
 
 from workbench.proof.fate import judged
-from workbench.proof.places import place_of, places_of, section_of_place
+from workbench.proof.places import named_section, place_of, places_of, section_of_place, subject_of, whole_of
 from workbench.proof.verdict import Decision, Stated
 from workbench.report.claims import certificate_beside, claim_views
 from workbench.report.counterexample import counterexample_of
@@ -178,9 +178,31 @@ def test_places_of_one_kind_stand_together():
     assert places_of(["41", "41.a"], titles) == ["equation (41)"]
 
 
+def test_what_stands_beside_a_numbered_line_is_not_called_by_its_number():
+    titles = {"41": "The display before (42): rate of V", "52.T": "The text after (52): V is small", "44": "the law"}
+    assert place_of("41", titles["41"]) == whole_of("41", titles["41"]) == "The display before (42)"
+    assert place_of("52.T", titles["52.T"]) == "The text after (52) “V is small”"
+    assert whole_of("52.T", titles["52.T"]) == "The text after (52)" and whole_of("44", "the law") == "Equation (44)"
+    assert places_of(titles, titles) == ["the display before (42)", "the text after (52) “V is small”", "equation (44)"]
+    assert subject_of(titles["41"]) == "rate of V"
+
+
+def test_what_holds_in_its_other_reading_is_not_told_to_fail_as_printed():
+    found = found_by_equation()
+    assert verdict_sentence(found["7"]).startswith("Equation (7) is false as extracted: ")
+    own = {d.claim.equation: d for d in paper()}
+    both = replace(own["4"], claim=replace(own["4"].claim, rests_on=("doe2026:7", "doe2026:lemma2")))
+    rows = {f.equation: f for f in findings(judged([both if d is own["4"] else d for d in own.values()]))}
+    assert rows["4"].because == ("7",) and rows["4"].otherwise == ("7",)
+    assert consequence_sentence(rows["4"]).endswith(
+        "The paper gets there by equation (7), which fails as extracted and holds in its other reading.")
+
+
 def test_a_line_whose_name_says_its_section_is_not_told_another():
     assert section_of_place("41.a", "5.2") == "section 5.2" and section_of_place("41", "") == ""
     assert {section_of_place(name, "3") for name in ("section5.converge", "VIII.a", "conclusion", "intro.b")} == {""}
+    assert [named_section(name) for name in ("section5.converge", "section4", "section", "55.pointwise")] == [
+        "5", "4", "", ""]
 
 
 @pytest.mark.parametrize(("equation", "title", "place"), [

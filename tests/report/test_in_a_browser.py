@@ -209,3 +209,11 @@ def test_nothing_is_cut_and_axe_finds_nothing(view, complaints, width, scheme):
 
 
 AXE = (files("axe_playwright_python") / "axe.min.js").read_text(encoding="utf-8")
+
+
+def test_axes_have_numbers_to_read_by(view):
+    """Less than two powers of ten are drawn on a linear axis, and trials have no halves."""
+    axes = """y => { const found = layout({ x: "", log: false, panels: [{ y: "", log: true, curves: [{ x: [1, 2, 3],
+        y }] }] }); return [found.yaxis.type, found.xaxis.dtick] }"""
+    assert view.evaluate(axes, [3.0, 5.0, 9.0]) == ["linear", 1]
+    assert view.evaluate(axes, [0.5, 5.0, 50.0]) == ["log", 1]

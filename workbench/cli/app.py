@@ -25,6 +25,7 @@ from typer.main import get_command
 
 from workbench.cli.collection import collect_later, end_without_search
 from workbench.cli.console import err_console, out_console
+from workbench.cli.option_mistakes import in_plain_words
 from workbench.cli.options import Version
 from workbench.cli.unused import import_unused_later
 from workbench.errors import InputError, WorkbenchError, of_an_extra, printable
@@ -130,7 +131,8 @@ def main() -> None:
     except TyperException as trouble:  # of options and arguments
         context = getattr(trouble, "ctx", None)
         command = context.command_path if context else "workbench"
-        problem = f"{trouble.format_message().removesuffix('.')}: {_verb_meant()}see '{command} --help'"
+        message = in_plain_words(trouble.format_message().removesuffix("."))
+        problem = f"{message}: {_verb_meant()}see '{command} --help'"
         code = _refused(str(InputError(command.removeprefix("workbench").strip(), "", problem)))
     except OSError as trouble:  # of what no room expects to fail, such as a terminal that is gone
         drop_output()

@@ -10,7 +10,7 @@ import typer
 from workbench.cli.console import err_console, out_console
 from workbench.cli.options import Workers
 from workbench.cli.terminal import progress
-from workbench.errors import InputError, WorkbenchError, in_one_line
+from workbench.errors import InputError, in_one_line
 
 if TYPE_CHECKING:
     from workbench.proof.checker import Row
@@ -34,7 +34,8 @@ def command(folder: Annotated[Path, typer.Argument(help="Folder with certificate
     else:
         rows, bound = _folder(folder, paper or [], workers)
     if not rows:
-        raise WorkbenchError(f"{folder}: holds no certificate (*.json): run 'workbench prove --write' first")
+        there = "holds no certificate (*.json): run 'workbench prove --write' first"
+        raise InputError(folder, "", there if folder.exists() else "no such folder or file: check the path")
     wrong = {path for path, _, reason in rows if reason is not None}
     for path, verdict, reason in rows:
         if reason is not None:

@@ -9,6 +9,7 @@ import typer
 
 from workbench.cli.console import out_console
 from workbench.cli.options import PaperOrFile, load
+from workbench.errors import InputError
 
 NAME = "export-fmu"
 
@@ -23,6 +24,8 @@ def command(paper: PaperOrFile,
     from workbench.fmu.build import fmu_bytes
     from workbench.fmu.unit import unit_of
 
+    if out.suffix != ".fmu":
+        raise InputError(out, "--out", "simulators know a unit by its ending: end the name in .fmu")
     loaded = load(paper)
     unit = unit_of(loaded, controller)
     check_outputs({"--out": out}, [loaded.path])  # now that its laws have been read

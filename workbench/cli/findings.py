@@ -11,7 +11,8 @@ from rich.text import Text
 from workbench.cli.console import out_console
 from workbench.cli.terminal import COLOURS, count_words, verdict_colour
 from workbench.proof.places import section_of_place
-from workbench.proof.verdict import VERDICTS, Decision, FateWord, verdict_words
+from workbench.proof.premises import holds_in_other_reading
+from workbench.proof.verdict import FAILED, VERDICTS, Decision, FateWord, verdict_words
 from workbench.report.finding import Finding, Gravity, findings
 from workbench.report.finding_sentences import (
     HEADINGS,
@@ -89,6 +90,7 @@ def print_rows(decisions: Sequence[Decision]) -> None:
 
 def print_counts(decisions: Sequence[Decision]) -> None:
     """How many lines of the papers have which verdict, and how many questions of ours."""
+    by_id = {d.claim.id: d for d in decisions}
     for ours, what in ((False, "line{} of the paper{}"), (True, "question{} of ours")):
         of_them = [d for d in decisions if (d.claim.origin == "ours") == ours]
         counts, under = Counter(d.verdict for d in of_them), sum(bool(d.proved_under) for d in of_them)
@@ -97,6 +99,8 @@ def print_counts(decisions: Sequence[Decision]) -> None:
             line = Text(f"{total} {what.format('' if total == 1 else 's', '' if papers == 1 else 's')}: ")
             line.append_text(Text(", ").join(Text(count_words(v, counts[v], under), COLOURS[v])
                                              for v in VERDICTS if counts[v]))
+            if readings := sum(d.verdict in FAILED and holds_in_other_reading(d, by_id) for d in of_them):
+                line.append(f"; {readings} of those that fail hold{'s' if readings == 1 else ''} in another reading")
             if by_kernel := sum(d.trust == "kernel" for d in of_them):
                 certified = sum(d.certificate is not None for d in of_them)
                 all_of_them = "its certificate" if certified == 1 else f"all {certified} certificates"

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING
 
 from rich.box import SIMPLE_HEAD
@@ -20,29 +20,31 @@ Lines = Sequence[Sequence[str]]
 BESIDE, AROUND = 3, 2  # characters of room between two columns, and at the sides of a table
 
 
-def print_study(result: StudyResult) -> None:
-    """Tables and findings of a study; on standard error a line for every run that failed."""
+def print_study(result: StudyResult, letters: bool = False) -> None:
+    """Tables and findings of a study; on standard error a line for every run that failed. letters: whether cells hold
+    letters of formulas, such as k_2, and no names."""
     from workbench.report.plain_formulas import plain_words
 
     for table in result.tables:
-        out_console.print(result_table(table))
+        out_console.print(result_table(table, plain_words if letters else str))
     for finding in result.findings:
         out_console.print(f"• {plain_words(finding)}", highlight=False)
     for run, why in result.failures:
         err_console.print(f"{run}: {why}", style="red", soft_wrap=True, highlight=False)
 
 
-def result_table(found: ResultTable) -> RenderableType:
+def result_table(found: ResultTable, shown: Callable[[str], str] = str) -> RenderableType:
     """A study's table, its source beside its title; one that is too wide for the screen with a row a column, and one in
-    which words would be broken even so with a row below the other."""
-    title = f"{found.title} ({found.source})"
-    lines: Lines = [tuple(found.headings), *found.text]
+    which words would be broken even so with a row below the other. shown: what is made of the text of a cell."""
+    title = shown(f"{found.title} ({found.source})")
+    headings, *rows = [tuple(map(shown, line)) for line in (found.headings, *found.text)]
+    lines: Lines = [headings, *rows]
     turned = list(zip(*lines, strict=True))
     if _width(lines) > out_console.width and _width(turned) < _width(lines):
         lines, turned = turned, list(lines)
     if _least_width(lines) > out_console.width:
         if _least_width(turned) > out_console.width:
-            return _below_each_other(title, found.headings, found.text)
+            return _below_each_other(title, headings, rows)
         lines = turned
     table = Table(title=title, title_justify="left", box=SIMPLE_HEAD, pad_edge=False)
     for column in zip(*lines, strict=True):

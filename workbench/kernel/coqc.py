@@ -62,7 +62,8 @@ def missing() -> str | None:
         return f"coqc is missing: {REMEDY}"
     where = subprocess.run([found, "-where"], capture_output=True, text=True, check=False).stdout.strip()
     absent = [name for name in ("Coquelicot", "Interval") if not (Path(where) / "user-contrib" / name).is_dir()]
-    return f"Coq's library {' and '.join(absent)} is missing: {REMEDY}" if absent else None
+    which_are = "library {} is" if len(absent) == 1 else "libraries {} are"
+    return f"Coq's {which_are.format(' and '.join(absent))} missing: {REMEDY}" if absent else None
 
 
 def check_folder(folder: Path, workers: int, seconds: float,

@@ -506,7 +506,7 @@ def _stays_above(term: tuple[int, int, int, int, int, int], value: int, at: int,
 def _contents(path: Path) -> bytes:
     """A regular file's bytes; ValueError for a pipe or a device, which may never end, and for what is too large."""
     if not path.is_file():
-        raise ValueError("is no regular file")
+        raise ValueError("is no regular file" if path.exists() else "there is no such file")
     with path.open("rb") as stream:
         found = stream.read(LARGEST + 1)
     if len(found) > LARGEST:

@@ -14,6 +14,7 @@ from workbench.proof.building import built
 from workbench.proof.claim import Claim, Goal, Kind, Relation, Verdict
 from workbench.proof.lemmas.lemma import Lemma
 from workbench.proof.loading import ProofFile
+from workbench.proof.places import named_section
 from workbench.proof.selection import NO_PAPER, files_of, targets
 from workbench.proof.verdict import Match, Origin, Severity
 
@@ -41,12 +42,12 @@ class Paper:
               where: Mapping[str, sp.Expr] | None = None, scope: str = "all values of the domain",
               at: dict[sp.Expr, Fraction] | None = None, correction: Builder | None = None,
               corrected_statement: str | None = None, repair: dict[sp.Expr, Fraction] | None = None,
-              note: str = "") -> Callable[[Builder], Builder]:
+              note: str = "", section: str = "") -> Callable[[Builder], Builder]:
         """State a claim; the decorated function returns its goal. Claims it names are equations of this paper.
 
         printed: the line as the paper has it; premises: what our proof uses; rests_on: what the paper's text uses,
         where that differs; origin, severity, match, reading, glyph, mends: see `Stated`; closed_loop: see `Claim`;
-        where: letters of this line besides the paper's notation.
+        where: letters of this line besides the paper's notation; section: where the line stands, unless its file says.
         """
         ids = self._ids(equation, premises, "premises")
         chain = None if rests_on is None else self._ids(equation, rests_on, "rests_on")
@@ -58,7 +59,7 @@ class Paper:
                 glyph=glyph and self._id(glyph), mends=mends and self._id(mends), closed_loop=closed_loop,
                 notation={**self.notation, **(where or {})}, scope=scope, at=at, correction=correction,
                 corrected_statement=corrected_statement, repair=repair, note=note or (build.__doc__ or "").strip(),
-                section=section_of(build.__module__),
+                section=section or named_section(equation) or section_of(build.__module__),
             ))
             return build
 

@@ -15,9 +15,11 @@ _UNNUMBERED = {"intro": "Introduction", "text": "Text", "figures": "Figures", "t
     word.lower(): word for word in ("Abstract", "Objective", "Conclusion", "Example", "Notation", *_WORDS.values())}
 STATEMENT = "Statement"  # of a line that has no number in its paper
 _TOLD = f"The {STATEMENT.lower()} "
-_PLACED = re.compile(rf"(?:{'|'.join(_WORDS.values())}) \d+[^:]*: ")
+_PLACED = re.compile(rf"(?:{'|'.join(_WORDS.values())}) \d+[^:]*: |The (?:display|text) (?:before|after) \(\d+\): ")
+_BESIDE = re.compile(r"The (?:display|text) (?:before|after) \(\d+\)(?=: )")  # what the paper does not number
 _NAMED = re.compile(r"([A-Za-z]+?)(\d+)((?:\.\w+)*)")
 _NUMBERED = re.compile(r"(\d+)((?:\.\w+)*)")
+_SECTION = re.compile(r"section(\d+)(?![\w-])")
 _NUMBER = re.compile(r"\(?(\d+(?:\.\d+)*)\b")
 _TELLING = ("Section", "Abstract", "Introduction", "Conclusion")  # names of lines that say where they stand
 
@@ -26,9 +28,12 @@ def place_of(equation: str, title: str | None = None) -> str:
     """The name of a line by its claim's number: `44` is equation (44), `theorem2.speed` a part of Theorem 2.
 
     title: what the claim says. A part of a line is told by it, `Theorem 2 “The speed tracks too”`, and so is a line
-    that has no number in the paper. Without it a part has its short name in brackets, `Theorem 2 [speed]`; with an
+    that has no number in the paper; one that begins with `The display before (42): ` or `The text after (42): ` says
+    where a line stands that has none. Without it a part has its short name in brackets, `Theorem 2 [speed]`; with an
     empty one the part is left out, for a place beside which the title stands.
     """
+    if title and (beside := _BESIDE.match(title)):
+        return beside[0] + (_quoted(title) if "." in equation else "")
     found = _NUMBERED.fullmatch(equation)
     if found:
         return f"Equation ({found[1]})" + _part(found[2], title)
@@ -41,6 +46,12 @@ def place_of(equation: str, title: str | None = None) -> str:
     if title is not None and stem not in _UNNUMBERED:
         return f"{_TOLD.strip()}{_quoted(title)}" if title else STATEMENT
     return _UNNUMBERED.get(stem, stem[:1].upper() + stem[1:]) + _part(dot + rest, title)
+
+
+def whole_of(equation: str, title: str) -> str:
+    """The name of the line that a claim is about or a part of, beside which its title stands."""
+    beside = _BESIDE.match(title)
+    return beside[0] if beside else place_of(equation, "")
 
 
 def _part(suffix: str, title: str | None) -> str:
@@ -67,19 +78,22 @@ def places_of(equations: Sequence[str], titles: Mapping[str, str] | None = None)
     (41) “The rates” and (44)`, as another part of it may hold; without titles parts are left out.
     """
     groups: dict[str, list[str]] = {}
+    named = titles or {}
     for equation in equations:
-        whole = place_of(equation, "")
-        in_whole = any(other != equation and place_of(other) == whole for other in equations)
-        place = whole if titles is None or in_whole else place_of(equation, titles.get(equation))
-        told = place.startswith(_TOLD)
-        kind, number = (_TOLD, place.removeprefix(_TOLD)) if told else place.partition(" ")[::2]
+        place, whole = place_of(equation, named.get(equation)), place_of(equation, "")
+        in_whole = any(other != equation and place_of(other, named.get(other)) == whole for other in equations)
+        beside = _BESIDE.match(named.get(equation, ""))
+        if titles is None or (in_whole and not beside):
+            place = whole
+        kind = place if beside else _TOLD if place.startswith(_TOLD) else f"{place.partition(' ')[0]} "
+        number = place.removeprefix(kind.rstrip()).lstrip()
         if number not in groups.setdefault(kind, []):
             groups[kind].append(number)
     found = []
-    for kind, named in groups.items():
-        numbers = _in_order(named)
+    for kind, members in groups.items():
+        numbers = _in_order(members)
         plural = kind.strip() + ("s" if len(numbers) > 1 else "")
-        if kind in ("Equation", _TOLD):
+        if kind.startswith(("Equation ", "The ")):
             plural = plural[0].lower() + plural[1:]
         found.append(f"{plural} {listed(numbers)}".strip())
     return found
@@ -92,6 +106,12 @@ def _in_order(numbers: list[str]) -> list[str]:
     if len(keys) < len(numbers):
         return numbers
     return [number for _, number in sorted(zip(keys, numbers, strict=True), key=lambda pair: pair[0])]
+
+
+def named_section(equation: str) -> str:
+    """The number of the section that a claim's own name says, `5` of `section5.converge`; empty where it says none."""
+    found = _SECTION.match(equation)
+    return found[1] if found else ""
 
 
 def section_of_place(equation: str, section: str) -> str:

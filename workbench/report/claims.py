@@ -12,7 +12,8 @@ from markupsafe import Markup, escape
 
 from workbench.files.folders import CERTIFICATES
 from workbench.proof.checker import CertificateError
-from workbench.proof.places import STATEMENT, place_of, subject_of
+from workbench.proof.places import STATEMENT, place_of, subject_of, whole_of
+from workbench.proof.verdict import FAILED
 from workbench.report.certificate_latex import assignments_latex
 from workbench.report.formulas import formula, in_html
 from workbench.report.number_style import alike, upright
@@ -44,7 +45,8 @@ class ClaimView:
     paper, empty where that has no number; told: its line and, for a part of one, what it says, formulas between dollar
     signs.
 
-    decided: the goal itself, made from what was decided, where no machine found it in the printed line.
+    decided: the goal itself, made from what was decided, where no machine found it in the printed line; otherwise:
+    whether it fails and its other reading holds.
     """
 
     id: str
@@ -78,13 +80,14 @@ class ClaimView:
     fate_why: Markup
     place: str
     told: str
+    otherwise: bool
 
 
 def claim_views(document: Mapping[str, Any]) -> list[ClaimView]:
     """The claims of a `prove --json` document, in its order."""
     entries = [entry for entry in _list(document.get("claims")) if isinstance(entry, Mapping)]
-    known = {_text(entry.get("id")) for entry in entries}
-    return [_view(entry, known) for entry in entries]
+    verdicts = {_text(entry.get("id")): _text(entry.get("verdict")) for entry in entries}
+    return [_view(entry, verdicts) for entry in entries]
 
 
 def fated(claims: Sequence[ClaimView]) -> list[ClaimView]:
@@ -110,7 +113,7 @@ def counts(claims: Sequence[ClaimView]) -> dict[str, int]:
     return found
 
 
-def _view(entry: Mapping[str, Any], known: set[str]) -> ClaimView:
+def _view(entry: Mapping[str, Any], verdicts: Mapping[str, str]) -> ClaimView:
     verdict = _text(entry.get("verdict")) or "undecided"
     recorded = _text(entry.get("recorded"))
     seconds = entry.get("seconds")
@@ -123,10 +126,10 @@ def _view(entry: Mapping[str, Any], known: set[str]) -> ClaimView:
         shown.insert(0, ("Stands as", escape(", ".join(filter(None, (ORIGINS.get(origin, origin), severity))))))
     if isinstance(seconds, int | float):
         shown.append(("Decided in", escape(f"{seconds:.2g} s")))
-    refs = {key: tuple(ClaimRef(name, anchor(name) if name in known else None)
+    refs = {key: tuple(ClaimRef(name, anchor(name) if name in verdicts else None)
                        for name in map(_text, _list(entry.get(key))))
             for key in ("tainted_by", "proved_under", "premises", "rests_on")}
-    trust, place = _text(entry.get("trust")), place_of(_text(entry.get("equation")), "")
+    trust, place = _text(entry.get("trust")), whole_of(_text(entry.get("equation")), _text(entry.get("title")))
     subject = subject_of(_text(entry.get("title")))
     return ClaimView(
         id=_text(entry.get("id")), anchor=anchor(_text(entry.get("id"))), title=in_words(_text(entry.get("title"))),
@@ -146,6 +149,7 @@ def _view(entry: Mapping[str, Any], known: set[str]) -> ClaimView:
         ours=origin == "ours", fate=_text(entry.get("fate")),
         fate_why=in_words(_text(entry.get("fate_why"))), place=place.replace(STATEMENT, ""),
         told=worded(place_of(_text(entry.get("equation")), _text(entry.get("title")))),
+        otherwise=verdict in FAILED and verdicts.get(_text(entry.get("glyph_claim"))) == "proved",
     )
 
 

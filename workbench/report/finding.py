@@ -32,7 +32,8 @@ class Finding:
     which is proved (empty where none is known); mended_by: the equation of the claim that proves it as a line of its
     own, mended_under: the equations of what that proof uses and that is not shown; counterexample: what breaks it;
     headlines: the theorems and headline statements that rest on it, lines: how many other lines do; because: the lines
-    that fail on the way to it, roots: those of them that rest on no other one; other_reading: LaTeX of how else it may
+    that fail on the way to it, roots: those of them that rest on no other one, otherwise: those of them that hold in
+    their other reading; other_reading: LaTeX of how else it may
     be read, other_holds: whether that is proved; digest: that of the goal in its certificate, None without one; titles:
     what the other lines named here say, by equation.
     """
@@ -54,6 +55,7 @@ class Finding:
     lines: int
     because: tuple[str, ...]
     roots: tuple[str, ...]
+    otherwise: tuple[str, ...]
     fate: FateWord | None
     fate_by: tuple[str, ...]
     other_reading: str
@@ -104,6 +106,7 @@ def _finding(d: Decision, by_id: dict[str, Decision], mended: Decision | None,
         _equations(mended.proved_under) if mended and not d.correction else (),
         cached_counterexample(d.certificate) if d.certificate else None, headlines, lines,
         _equations(d.tainted_by), _equations(name for name in d.tainted_by if not by_id[name].tainted_by),
+        _equations(name for name in d.tainted_by if holds_in_other_reading(by_id[name], by_id)),
         d.fate.word if d.fate else None,
         _equations(fate_by),
         d.other_reading or "", holds, d.claim.note, goal_digest(d.certificate) if d.certificate else None,

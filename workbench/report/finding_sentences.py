@@ -46,7 +46,7 @@ def _named(found: Finding, equations: Sequence[str]) -> str:
 
 def _words(found: Finding) -> str:
     motion = found.counterexample is not None and found.counterexample.motion
-    printed = " as printed" if found.origin == "printed" else ""
+    printed = " as extracted" if found.gravity == "reading" else " as printed" if found.origin == "printed" else ""
     return {"refuted": f"is false{printed}, by a motion of the printed closed loop" if motion else
             f"is false{printed}", "violated": "is broken by the printed numbers",
             "gap": "does not follow from what the paper uses to get there", "undecided": "is not decided",
@@ -105,12 +105,21 @@ def consequence_sentence(found: Finding) -> str:
 
 
 def _way(found: Finding) -> str:
-    """Which lines on the way fail; of many those that rest on no other one of them."""
-    named = found.because if len(found.because) <= NAMED else found.roots
-    others = len(found.because) - len(named)
+    """Which lines on the way fail; of many those that rest on no other one of them. One that holds in its other reading
+    is told apart: the paper is not charged with what its extracted text may have lost."""
+    failing = [line for line in found.because if line not in found.otherwise]
+    roots = [line for line in found.roots if line in failing]
+    named = roots if roots and len(failing) > NAMED else failing
+    others = len(failing) - len(named)
     fail, these = ("fails", "it") if len(named) == 1 else ("fail", "these")
-    more = f", and by {others} more that fail and rest on {these}" if others else ""
-    return f"The paper gets there by {_named(found, named)}, which {fail}{more}."
+    many = f"{others} more that fail and rest" if others > 1 else "one more that fails and rests"
+    more = f", and by {many} on {these}" if others else ""
+    by = [f"by {_named(found, named)}, which {fail}{more}"] if failing else []
+    if found.otherwise:
+        fail = "fails as extracted and holds in its other reading" if len(found.otherwise) == 1 else (
+            "fail as extracted and hold in their other readings")
+        by.append(f"by {_named(found, found.otherwise)}, which {fail}")
+    return f"The paper gets there {', and '.join(by)}."
 
 
 def reading_sentence(found: Finding) -> str:

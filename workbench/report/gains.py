@@ -2,21 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from fractions import Fraction
 from typing import TYPE_CHECKING
 
-from workbench.gains.result import GainReport, GainSet
+from workbench.gains.result import GainReport
 from workbench.paper.cells import Cell, Phrase, Quantity
 from workbench.paper.gain_effects import Effect
 from workbench.paper.recorded_front import GainFront
 from workbench.paper.results import ResultTable, StudyResult
+from workbench.report.gain_words import heading, letter, spoken, with_powers
 
 if TYPE_CHECKING:
     from workbench.report.document_format import GainsDocument
 
-KINDS = {"rms": "RMS of", "max": "largest"}
-UNITS = {"m", "mps", "mps2", "mps3", "n", "N", "J", "s"}
 LONG = 12  # characters of a fraction that is shown as it is
 APART = 1.02  # by what factor numbers differ that are said to
 NOT_ERRORS = {"energy_J", "command_max", "bound_used", "mse_0", "reversals"}  # less of these is not better tracking
@@ -27,10 +26,11 @@ def gains_result(report: GainReport, effects: Sequence[Effect], fronts: Sequence
     tables = [table for table in (_conditions(report), _quantities(report), _found(report)) if table.rows]
     if effects:
         tables += _effects(effects)
-    tables += [_front(front) for front in fronts]
+    tables += [table for front in fronts for table in (_front(front), _front_gains(front))]
     return StudyResult(
         rows=tuple({"controller": e.gains, "setting": e.setting, **e.numbers, "failed": e.failed} for e in effects),
-        tables=tuple(tables), plots=(), findings=(*compared(effects), *map(front_sentence, fronts), *report.notes),
+        tables=tuple(tables), plots=(),
+        findings=(*compared(effects), *map(front_sentence, fronts), *map(with_powers, report.notes)),
         failures=tuple((f"{e.gains}, {e.setting}", e.failed) for e in effects if e.failed))
 
 
@@ -59,27 +59,35 @@ def gains_document(report: GainReport, effects: Sequence[Effect], fronts: Sequen
 def _conditions(report: GainReport) -> ResultTable:
     return ResultTable("conditions at the stated gains", "the paper's own, and what its conclusions need",
                        ("condition", "states", "value", "met"), tuple(
-                           (c.name, c.statement, c.computed, "yes" if c.met else "no") for c in report.conditions))
+                           (c.name, c.statement, with_powers(c.computed), "yes" if c.met else "no")
+                           for c in report.conditions))
 
 
 def _quantities(report: GainReport) -> ResultTable:
     return ResultTable("what is proved", "certificates by the semidefinite program, re-checked exactly",
                        ("quantity", "by the paper", "proved", "check", "remark"), tuple(
                            (q.name + (f" ({q.unit})" if q.unit else ""), q.papers, _near_one(q.proved),
-                            _near_one(q.check), q.note) for q in report.quantities))
+                            _near_one(q.check), with_powers(q.note)) for q in report.quantities))
 
 
 def _front(front: GainFront) -> ResultTable:
     names = [name for name in front.points[0].numbers if name != "cost"]
-    rows = tuple((p.name, p.cost, *(p.numbers[name] for name in names), p.bound, p.frozen,
-                  Phrase(", ".join(f"{name} = {{}}" for name in p.gains), tuple(p.gains.values())),
-                  p.certificate) for p in front.points)
+    rows = tuple((_name(p.name), p.cost, *(p.numbers[name] for name in names), p.bound, p.frozen)
+                 for p in front.points)
     return ResultTable(
         f"cost against what is proved: {front.title}", "runs, and certificates checked again", (
-            "gains", "cost", *(name.replace("_", " ") for name in names), f"proved ({front.unit})",
-            f"none below ({front.unit})", "values", "certificate"), rows,
+            "gains", "cost", *map(heading, names), f"proved ({front.unit})",
+            f"none below ({front.unit})"), rows,
         f"Proved: {front.bounded}, of the linearised sampled loop over a box of speeds and masses; none below: where a "
         f"bound cannot be, by frequency responses at the hull's vertices. Of {front.evaluations} evaluations.")
+
+
+def _front_gains(front: GainFront) -> ResultTable:
+    """The gains themselves, beside whose numbers they would leave a page no room."""
+    return ResultTable(f"gains of that table: {front.title}", "runs, and certificates checked again",
+                       ("gains", "values", "certificate"), tuple(
+                           (_name(p.name), Phrase(", ".join(f"{letter(name)} = {{}}" for name in p.gains),
+                                                  tuple(p.gains.values())), p.certificate) for p in front.points))
 
 
 def front_sentence(front: GainFront) -> str:
@@ -91,7 +99,7 @@ def front_sentence(front: GainFront) -> str:
     proved = f"{'nothing' if stated.bound is None else f'{stated.bound:.3g} {front.unit}'} is proved of them"
     better = [p for p in found if p.cost is not None and p.bound is not None
               and (stated.cost is None or p.cost <= stated.cost) and (stated.bound is None or p.bound <= stated.bound)]
-    best = ", ".join(p.name for p in better)
+    best = ", ".join(_name(p.name) for p in better)
     return (f"{front.title.capitalize()}: the stated gains {ran}, {proved}; "
             f"{f'better in both: {best}' if better else 'none that was found is better in both'}.")
 
@@ -104,11 +112,16 @@ def _near_one(value: float | None) -> Cell:
 def _found(report: GainReport) -> ResultTable:
     return ResultTable("gains found", "best for an objective under what is proved",
                        ("name", "objective", "gains", "proved"), tuple(
-                           (s.name, s.objective, _gains(s), s.proved) for s in report.found))
+                           (_name(s.name), s.objective, _gains(s.values), s.proved) for s in report.found))
 
 
-def _gains(found: GainSet) -> Cell:
-    return Phrase(", ".join(f"{name} = {{}}" for name in found.values), tuple(map(_gain, found.values.values())))
+def _name(gains: str) -> str:
+    """The name of a set of gains as words: it is no letter with indices."""
+    return gains.replace("_", " ")
+
+
+def _gains(values: Mapping[str, Fraction]) -> Cell:
+    return Phrase(", ".join(f"{letter(name)} = {{}}" for name in values), tuple(map(_gain, values.values())))
 
 
 def _gain(value: Fraction) -> str | Quantity:
@@ -124,21 +137,11 @@ def _effects(effects: Sequence[Effect]) -> list[ResultTable]:
     for setting in dict.fromkeys(e.setting for e in effects):
         own = [e for e in effects if e.setting == setting]
         names = list(dict.fromkeys(name for e in own for name in e.numbers))
-        rows = tuple((e.gains, *(e.numbers.get(name) for name in names), "failed" if e.failed else "to the end")
+        rows = tuple((_name(e.gains), *(e.numbers.get(name) for name in names), "failed" if e.failed else "to the end")
                      for e in own)
         tables.append(ResultTable(f"simulated: {setting}", "the paper's own, SI units", (
-            "gains", *(name.replace("_", " ") for name in names), "run"), rows))
+            "gains", *map(heading, names), "run"), rows))
     return tables
-
-
-def _spoken(key: str) -> str:
-    """A metric's key in words, without its unit: `s_tilde_m_rms` is `RMS of s_tilde`."""
-    parts = key.split("_")
-    if all(part in KINDS or part in UNITS for part in parts):
-        return key.replace("_", " ")
-    kind = next((KINDS[part] for part in parts if part in KINDS), "")
-    said = [part for part in parts if part not in KINDS and part not in UNITS]
-    return f"{kind} {('_' if said and len(said[0]) == 1 else ' ').join(said)}".strip()
 
 
 def compared(effects: Sequence[Effect]) -> list[str]:
@@ -159,7 +162,7 @@ def compared(effects: Sequence[Effect]) -> list[str]:
             if key in NOT_ERRORS or not isinstance(value, int | float) or not isinstance(other, int | float):
                 continue
             if abs(value) * APART < abs(other) or abs(other) * APART < abs(value):
-                sides["better" if abs(value) < abs(other) else "worse"].append(_spoken(key))
+                sides["better" if abs(value) < abs(other) else "worse"].append(spoken(key))
         words = [f"{side} in {', '.join(keys)}" for side, keys in sides.items() if keys]
         if e.numbers.get("outcome") != stated.numbers.get("outcome"):
             words.append(f"outcome '{e.numbers['outcome']}' where the stated gains have "

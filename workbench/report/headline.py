@@ -30,6 +30,9 @@ def proof_line(claims: Sequence[ClaimView]) -> Markup | None:
     paper = [claim for claim in claims if not claim.ours]
     line = Markup("<strong>Proof.</strong>")
     line += f" {len(paper)} line{'s' * (len(paper) != 1)} of the paper: {_verdicts(paper)}."
+    if readings := sum(claim.otherwise for claim in paper):
+        line += Markup(" {} of those that fail hold{} in another reading of the text.").format(
+            readings, "s" if readings == 1 else "")
     tainted = sum(claim.verdict == "proved" and bool(claim.tainted_by) for claim in paper)
     if tainted:
         line += Markup(" {} of the proved rest on a line that fails.").format(tainted)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 
@@ -9,6 +10,9 @@ from pydantic import BaseModel
 
 from workbench.files.numbers import NOTHING, exact
 from workbench.files.toml import FileRecord, SourcedRecord
+
+_UNIT = re.compile(r"(?<=m/s)\^([23])(?!\d)")
+_RAISED = {"2": "²", "3": "³"}
 
 
 @dataclass(frozen=True)
@@ -34,7 +38,7 @@ def _walk(record: BaseModel, prefix: str) -> Iterator[SourcedValue]:
             kind, _, words = source.partition(":")
             if kind not in ("assumed", "convention"):
                 kind, words = "paper", source.removeprefix("paper").lstrip(" ,:")
-            yield SourcedValue(key, stated(value), kind, words.strip())
+            yield SourcedValue(key, stated(value), kind, _UNIT.sub(lambda found: _RAISED[found[1]], words.strip()))
         if isinstance(value, BaseModel):
             yield from _walk(value, f"{key}.")
         elif isinstance(value, Mapping):
@@ -59,7 +63,9 @@ def stated(value: object) -> str:
     if isinstance(value, int | float) and not isinstance(value, bool):
         text = exact(value)
     elif isinstance(value, Mapping):
-        text = ", ".join(f"{name} = {stated(entry)}" for name, entry in value.items())
+        entries = [f"{name} = {stated(entry)}" if not isinstance(entry, Mapping) else f"{name} = ({stated(entry)})"
+                   for name, entry in value.items()]
+        text = ", ".join(entries)
     elif isinstance(value, tuple | list) and value and isinstance(value[0], BaseModel):
         text = f"{len(value)} sections"
     elif isinstance(value, tuple | list):

@@ -220,11 +220,18 @@ def variants_table(nominal: Sequence[Metrics],
     for variant, metrics in variants:
         found = {m.controller: m for m in metrics}
         rows.append(VariantRow(
-            variant.title, tuple(f"{key} = {stated(value)}" for key, value in variant.set.items()),
+            variant.title, tuple(map(_change, variant.set, variant.set.values())),
             tuple(_variant_cell(found[m.controller], base[m.controller]) if m.controller in found else None
                   for m in nominal),
         ))
     return rows
+
+
+def _change(key: str, value: object) -> str:
+    """A change of a stated value; of a table what is stated, not where that comes from."""
+    if isinstance(value, Mapping):
+        return f"{key} = ({stated({name: entry for name, entry in value.items() if name != 'source'})})"
+    return f"{key} = {stated(value)}"
 
 
 def _variant_cell(metrics: Metrics, base: float | None) -> VariantCell:

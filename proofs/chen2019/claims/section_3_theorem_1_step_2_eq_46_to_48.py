@@ -102,7 +102,7 @@ def _instants_converge() -> Goal:
                  at_least(S_2 + Z_2, 0)))
 
 
-@paper.claim("55.pointwise", "(48) makes z converge at every instant", "limit",
+@paper.claim("55.pointwise", "The text after (55): (48) makes z converge at every instant", "limit",
              r"\text{Hence, it can conclude that ... $z_{1,i}$ and $z_{2,i}$ are convergent along the iteration axis "
              r"pointwisely.}", "gap", premises=("48",), match="words",
              reading="The integrals of (48) tend to zero, so z_i(t) tends to zero at every t.",

@@ -35,7 +35,7 @@ COLUMNS = {
     "largest_position_error": Column("largest |position error|", "m"),
     "largest_speed_error": Column("largest |speed error|", "m/s"), "stopping_error": Column("stopping error", "m"),
     "energy_J": Column("energy", "kWh", KWH_J), "logged_jerk_rms": Column("jerk RMS of the log", "m/s³"),
-    "stretch_m": Column("coupler stretch", "m"), "at_limit": Column("at a limit"), "step_s": STEP}
+    "stretch_m": Column("coupler stretch", "m"), "at_limit": Column("share of samples at a limit"), "step_s": STEP}
 
 
 def places(study: ChenStudy) -> dict[str, str]:

@@ -171,14 +171,14 @@ def forces(results: ChenResults) -> ResultTable:
 def cost(results: ChenResults) -> ResultTable:
     """Time of a sample against the number of cars."""
     study, measured = results.study, results.measured
+    cars = ", ".join("motor car" if car == "1" else "trailer" for car in study.train.motor_pattern)
     return ResultTable(
-        "What a sample costs", f"trains of {' '.join(study.train.motor_pattern)} …, {study.cost.end_s:g} s, fastest of "
-        f"{study.cost.trials} trials",
+        "What a sample costs", f"trains of {cars} and so on, {study.cost.end_s:g} s, fastest of {study.cost.trials} trials",
         ("Cars", Column("a sample", "µs", 1e-6), Column("a sample and car", "µs", 1e-6),
          Column(f"{study.trials.count} trials of {study.reference.trip_time_s:g} s", "s"),
          Column("Memory of the estimates", "MB", 1e6)),
-        tuple((cars, step_s, step_s / cars, step_s * study.samples * study.trials.count,
-               8.0 * study.samples * (3 * cars + 3)) for cars, step_s in measured.sample_s.items()),
+        tuple((count, step_s, step_s / count, step_s * study.samples * study.trials.count,
+               8.0 * study.samples * (3 * count + 3)) for count, step_s in measured.sample_s.items()),
         f"Train and law together, one core, compiling left out. The time grows as the number of cars to the power "
         f"{fixed(measured.exponent, 2)}.")
 

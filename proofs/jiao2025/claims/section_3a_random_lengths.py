@@ -15,7 +15,7 @@ from ..paper import paper
 sample = sp.Symbol("k", real=True)
 
 
-@paper.claim("3.redundant", "Data that a trial longer than T_d brings are redundant", "inequality",
+@paper.claim("3.redundant", "The text after (13): Data that a trial longer than T_d brings are redundant", "inequality",
              r"T_d \leq T_i \leq T_{\max}:\ \text{the data in } [T_d, T_{\max}] \text{ are redundant}", "refuted", severity="cosmetic", match="words",
              reading="Redundant are samples that are not among the desired ones, k > T_d.",
              note="k = T_d itself is a desired sample; the redundant ones are those of [T_d + 1, T_max]. The paper then takes T_i <= T_d alone.")

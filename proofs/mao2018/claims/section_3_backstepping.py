@@ -247,9 +247,9 @@ RATE_33 = (r"\dot{V}_2 = -r_1z_1^2(t) + z_2(t)\left(\eta(t) + \sum_{i=1}^{l}(m_i
            r"\dot{\bar{\rho}}_i(t)")
 
 
-@paper.claim("33", "Rate of V_2 under the laws (27)-(31)", "identity", RATE_33 % ("i", r"\chi_i(t)", "i"), "refuted",
+@paper.claim("33", "The display before (32): Rate of V_2 under the laws (27)-(31)", "identity", RATE_33 % ("i", r"\chi_i(t)", "i"), "refuted",
              premises=("24.mended",), rests_on=("26", "27", "28", "29", "30", "31"), severity="cosmetic", scope=EVERY_MODE,
-             where={"V_2": V, r"\chi_i(t)": chi_mi}, reading="The display before (32). " + ONE_LETTER,
+             where={"V_2": V, r"\chi_i(t)": chi_mi}, reading=ONE_LETTER,
              correction=lambda: _rate_33(own=True), corrected_statement=RATE_33 % ("mi", "", r"\bar{d}i"),
              note="zeta_i of (33) holds the indicators already, and the disturbance has its own; (34) has them right.")
 def v2_rate_laws() -> Goal:

@@ -94,7 +94,7 @@ def fitting_lyapunov_not_negative() -> Goal:
 T_p, T_next, T_q, T_later = sp.symbols("T_p T_p1 T_q T_q1", nonnegative=True)
 
 
-@paper.claim("40.order", "A mode switches between two failures", "implication",
+@paper.claim("40.order", "The text after (40): A mode switches between two failures", "implication",
              r"\text{Without loss of generality, we assume that } T_p \in (T_q, T_{q+1}) \text{ and } T_{p+1} > T_{q+1}",
              "gap", match="words", severity="cosmetic",
              reading="Failures at T_p < T_{p+1}, the first of them between the switches T_q and T_{q+1}.",
@@ -113,7 +113,7 @@ xi_rate, varpi_one = sp.symbols("xi_hat_rate varpi_one", real=True)
              where={r"\hat{\xi}(t)": xi_rate, r"\varpi(t)": varpi_one},
              reading="(41); the extracted text lost the dot over xi_hat, which is 'updated by' it.",
              note="Decided as what the paper chooses it for: the rate for which the coefficient of the estimation error "
-                  "is zero. With several modes the weights of (40) do not fit: see (41).")
+                  "is zero. With several modes the weights of (40) do not fit: see 41.")
 def xi_law_cancels() -> Goal:
     """The coefficient of a component of xi_tilde: m_i z_2 varpi from z_2', and that of its square in (40)."""
     return Goal((equal(xi_rate, Gamma_xi * z_2 * varpi_one),), (equal(m * z_2 * varpi_one - m / Gamma_xi * xi_rate, 0),))
@@ -132,10 +132,10 @@ RATE_41 = (r"\dot{V}_2 = -r_1z_1^2(t) + z_2(t)\sum_{i=1}^{l}m_ik_{\nu}\chi_{mi}(
            r"r_2z_2^2(t) + %s + \sum_{i=1}^{l}\frac{m_i}{\Gamma_{mi}}\tilde{\rho}_i(t)\dot{\rho}_i(t)")
 
 
-@paper.claim("41", "Rate of V_2 under the laws (27)-(31), (41)", "identity",
+@paper.claim("41", "The display before (42): Rate of V_2 under the laws (27)-(31), (41)", "identity",
              RATE_41 % r"\sum_{i=1}^{l}\frac{m_i}{\Gamma_{k\nu}}\tilde{\rho}_{k\nu}(t)\dot{\rho}_{k\nu}(t)", "refuted",
              premises=("39", "25.idle"), rests_on=("39", "41.law", "27", "28", "29", "30", "31"), scope=ALL_SIGNALS,
-             reading="The display before (42), with the idle modes gathered: their m_i add up to one more number in (40), "
+             reading="With the idle modes gathered: their m_i add up to one more number in (40), "
                      "and their errors rest. The extracted text lost the tildes under the last two dots.",
              correction=lambda: _rate_41(m, m),
              corrected_statement=r"\dot V_2 = \dots\ \text{if}\ V_2\ \text{has}\ m_i\ \text{of one mode instead of}\ "
@@ -228,7 +228,7 @@ CHOSEN_44 = ("Decided as what the paper chooses the law for: the rate for which 
              corrected_statement=LAW_44 % "" + r"\ \text{with the weight}\ m_ik_\nu\ \text{of}\ \tilde\rho_{k\nu}^2",
              note=CHOSEN_44 + "The sign is wrong: with (42) and (44) the terms of rho_tilde add up instead, and no "
                   "positive weight in V_2 makes them cancel. (44) drives the estimate the wrong way; see theorem2 for "
-                  "what it does. Taken for l = 1, so that (41) plays no part.")
+                  "what it does. Taken for l = 1, so that the display before (42) plays no part.")
 def rho_k_law_cancels() -> Goal:
     """The coefficient of rho_tilde_knu: z_2 m_i k_nu xi_hat^T varpi from (42), and that of its square in (40)."""
     return at_instant(_law_44(m, -1), {k_v: sp.Integer(15)})

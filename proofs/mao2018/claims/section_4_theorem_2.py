@@ -120,7 +120,7 @@ def v2_bound_between() -> Goal:
 a_mode, a_before, a_after = sp.symbols("a_mode a_before a_after", real=True)
 
 
-@paper.claim("46.parameters", "The parameters of a mode change their values when the mode switches", "inequality",
+@paper.claim("46.parameters", "The text after (45): The parameters of a mode change their values when the mode switches", "inequality",
              r"\text{the unknown system parameters } a_i, b_i, c_i, \vartheta_i \text{, and } D_i \text{ change their values, at time } "
              r"T_q", "refuted", severity="cosmetic", match="words", rests_on=("8.modes",),
              reading="Of a_i, which by (9), (10) is one unknown constant of its mode: before and after T_q it is not the same.",

@@ -74,7 +74,7 @@ k_one, k_other, n, n_bar = sp.symbols("k_nu k_nu_other n n_bar", positive=True)
 
 
 @paper.claim("48.pattern", "The controller can be computed from what is known", "implication",
-             r"\text{the controller } \nu_0(t) \text{ is designed as } \ldots + \sum_{j=1}^{n-k_{\nu}}\nu_{sj}(t) + \ldots",
+             r"\sum_{j=1}^{n-k_{\nu}}\nu_{sj}(t)\ \text{of (48) is known to the controller}",
              "gap", premises=("A1",), origin="implied", severity="data",
              reading="Two failure patterns that (A1) allows, with one bound delta_j^0 for all motors, must give the same "
                      "sum of nu_sj, since which of them it is cannot be known.",

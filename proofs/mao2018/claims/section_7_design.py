@@ -129,7 +129,7 @@ def _along_63(V: sp.Expr, flow: Flow, damping: sp.Expr) -> Goal:
 
 printed_loop = uncertain_train(rho_law_61) | {rho_k_hat: rho_k_law}
 LOOP = ("Along the printed laws and (40), with no failure signal, exact estimates of rho_i and one mode, so that the errors "
-        "of (41), (44) and (61) play no part. ")
+        "of the display before (42), of (44) and (61) play no part. ")
 
 
 def at_rest(goal: Goal) -> Goal:

@@ -68,12 +68,12 @@ def driven(goal: Goal) -> Goal:
 DRIVEN = "(44), (61) and the weights of (40) break it. "
 
 
-@paper.claim("63.bound", "Rate of V_2 with the bounds of the uncertain resistance", "inequality",
+@paper.claim("63.bound", "The display after (63): Rate of V_2 with the bounds of the uncertain resistance", "inequality",
              r"\dot{V}_2 \leq -r_1z_1^2(t) - r_2z_2^2(t) + \bigg(-k_1z_2^2(t)x_2^2(t) + b_0|z_2(t)||x_2(t)| - "
              r"k_2z_2^2(t)x_2^4(t) + c_0|z_2(t)|x_2^2(t)\bigg)", "refuted", premises=("39", "25.idle"),
              rests_on=("63", "63.drag", "43"), scope=ALL_SIGNALS, closed_loop=True,
              where={"V_2": V_40, "|z_2(t)|": sp.Abs(z_2), "|x_2(t)|": sp.Abs(x_2)},
-             note="The display after (63); mended as 65.mended. " + DRIVEN)
+             note="Mended as 65.mended. " + DRIVEN)
 def v2_bound_sizes() -> Goal:
     """D(V_2) along (58)-(62)."""
     stated = decay + (-k_1 * z_2**2 * x_2**2 + b_0 * sp.Abs(z_2) * sp.Abs(x_2) - k_2 * z_2**2 * x_2**4
@@ -128,7 +128,7 @@ def errors_shrink() -> Goal:
                         {z: flow[z] for z in (z_1, z_2)}), values)
 
 
-@paper.claim("65.bounded", "(65) makes the solution bounded", "limit",
+@paper.claim("65.bounded", "The text after (65): (65) makes the solution bounded", "limit",
              r"\text{It concludes that for any initial states } z_1(0) \text{ and } z_2(0) \text{, the solution of the "
              r"closed-loop system is uniformly bounded}", "gap", rests_on=("65", "65.negative"), match="words",
              reading="Decided as what boundedness of V_2 would give, V_2 <= t from some time on; V_2 = 1 + 2t with z_1 = "

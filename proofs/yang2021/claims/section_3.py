@@ -167,7 +167,7 @@ one_h = sp.Symbol("h", positive=True)
 
 @paper.claim("37.weights", "One law moves the weights", "implication",
              r"\Delta w_j = \eta[f - \hat{f}]h_j\ \text{and}\ \dot{\hat{W}} = \chi e_2h - \chi\hat{W}", "gap", origin="implied",
-             severity="data",
+             severity="data", section="5.1",
              note="(10), (11) and (37) each give the rate of the same weights, and section 6.1 states eta and the momentum "
                   "factor of the one beside chi of the other. They are two laws; which one runs is not said.")
 def one_law() -> Goal:

@@ -40,8 +40,9 @@ paper.axiom("8", "The best weights exist",
             note="For a bounded f. The best weights belong to fixed centers and widths, while (12)-(15) move them.")
 
 
-@paper.claim("7.continuous", "f is smooth, as the approximation with any precision asks", "condition",
-             r"\text{it can approximate any smooth function with any precision}", "violated",
+@paper.claim("7.continuous", "The text before (7): f is smooth, as the approximation with any precision asks", "condition",
+             r"\text{it can approximate any smooth function with any precision [...] RBFNN can approximate the unknown nonlinear "
+             r"additional resistance and interference function with any precision in the compact working domain}", "violated",
              at={f_before: before_jump, f_after: after_jump}, match="words",
              reading="A smooth f has one value from both sides of every border between sections of Table 1.",
              note="At the border with the largest jump, 29,900 m, where the slope steps from 2.5 to -3 per mille. Grade and curve "

@@ -74,9 +74,9 @@ def bounded_by_decay() -> Goal:
                 decreasing=sp.exp(mu * t) * (V_t - l_ / mu), inputs=(V_t_rate,))
 
 
-@paper.claim("20.band", "k = 0.21 constrains the position error to 0.2 m", "implication",
-             r"|e_1(t)| < k,\ k = 0.21 \Rightarrow |e_1(t)| \leq 0.2", "gap",
-             where={"e_1(t)": e_1}, reading="The text: the maximum position error is constrained as 0.2, due to |e_1(t)| < k; taking k = 0.21.",
+@paper.claim("20.band", "The text after (20): k = 0.21 constrains the position error to 0.2 m", "implication",
+             r"\text{the maximum position error is constrained as $e_1(t) = 0.2$, due to $|e_1(t)| < k$; taking $k = 0.21$}", "gap",
+             match="words", reading="|e_1(t)| < k and k = 0.21 bring |e_1(t)| <= 0.2.",
              note="The barrier at k only keeps the error below 0.21 m.")
 def band_from_barrier() -> Goal:
     """|e_1| < 0.21 does not bring |e_1| <= 0.2."""

@@ -133,7 +133,7 @@ def _gains(share: sp.Expr) -> Goal:
 WITNESS = "Such gains are sigma_i = 1, mu = 1 + 1/zeta, alpha = mu/2, beta = (1 + mu)/2, chi = lambda_i = mu."
 
 
-@paper.claim("51.choice", "Gains with mu > 1/zeta can be chosen", "implication", r"\mu > \frac{1}{\zeta}", "proved",
+@paper.claim("51.choice", "The text after (51): Gains with mu > 1/zeta can be chosen", "implication", r"\mu > \frac{1}{\zeta}", "proved",
              rests_on=("51",), glyph="51.choice.glyph", reading=f"For every zeta > 0. {WITNESS}")
 def gains_can_be_chosen() -> Goal:
     """The entries of (49) and 1/zeta at the witness."""
@@ -157,7 +157,7 @@ def _invariant(numerator: sp.Expr) -> Goal:
                                        greater(V_now, zeta)))
 
 
-@paper.claim("51.zeta", "mu > 1/zeta makes V <= zeta invariant", "inequality",
+@paper.claim("51.zeta", "The text after (51): mu > 1/zeta makes V <= zeta invariant", "inequality",
              r"\mu > \frac{1}{\zeta},\ V > \zeta \Rightarrow \dot{V} < 0", "refuted", where=OF_V, rests_on=("51",), glyph="51.zeta.glyph",
              correction=lambda: _invariant(l_),
              corrected_statement=r"\mu > \frac{l}{\zeta},\ V > \zeta \Rightarrow \dot{V} < 0",

@@ -27,7 +27,7 @@ loop = {of_one_neuron(symbol): of_one_neuron(rate) for symbol, rate in flow.item
 smallest = sp.Min(2 * alpha, 2 * beta - 1, chi, *(lam * sigma for lam, sigma in zip(lambdas, sigmas, strict=True)))
 
 
-@paper.claim("52.T", "From some time on V is at most l/mu", "limit",
+@paper.claim("52.T", "The text after (52): From some time on V is at most l/mu", "limit",
              r"\text{there is a moment } T, \text{ and, for } \forall t > T, 0 \leq V(t) \leq \frac{l}{\mu} \text{ is always "
              r"established}", "refuted", rests_on=("52",), closed_loop=True, match="words",
              scope="every network with one neuron", reading="Along (4) with (27), (33)-(37), for mu of (49) and l of (50).",

@@ -37,8 +37,8 @@ def test_a_step_that_is_proved_monotone_gets_worse_in_no_trial_and_learns_more_s
     assert found.numbers["trials_worse"] == 0 < stated.numbers["trials_worse"]
     assert found.numbers["mse_150"] > stated.numbers["mse_150"]
     sentence = next(s for s in compared(done[2]) if "'monotone'" in s)
-    assert "better in trials worse" in sentence
-    assert "worse in mse 50, mse 100, mse 150" in sentence
+    assert "better in number of trials with a larger error than the one before" in sentence
+    assert "worse in mean squared error of trial 50, mean squared error of trial 100" in sentence
 
 
 def test_the_contracting_law_is_far_ahead_of_any_step_of_14(done):

@@ -21,6 +21,18 @@ function traces(chart) {
   }));
 }
 
+// A logarithmic axis has numbers at powers of ten alone: one that holds fewer than two of them is drawn as a linear one.
+function logarithmic(values) {
+  const powers = values.filter(value => value > 0).map(Math.log10);
+  const low = powers.reduce((a, b) => Math.min(a, b), Infinity), high = powers.reduce((a, b) => Math.max(a, b), -Infinity);
+  return Math.floor(high) > Math.ceil(low);
+}
+
+// Trials and other things that are counted have no halves between them.
+function counted(values) {
+  return values.every(Number.isInteger) && Math.max(...values) - Math.min(...values) <= 12;
+}
+
 function layout(chart) {
   const ink = hue("--ink"), line = hue("--line"), panels = chart.panels.length;
   const one = panels > 1 ? (panels > 3 ? 105 : 170) : 330;
@@ -34,17 +46,20 @@ function layout(chart) {
     dragmode: matchMedia("(pointer: coarse)").matches ? false : "zoom", modebar: { orientation: narrow.matches ? "h" : "v" },
     legend: { orientation: "h", y: 1, yanchor: "bottom", x: 0, font: { size: 12 } },
     xaxis: { ...axis, title: { text: chart.x }, type: chart.log ? "log" : "linear",
+             ...(!chart.log && counted(chart.panels.flatMap(panel => panel.curves.flatMap(curve => curve.x.slice(0, 20)))) ?
+               { dtick: 1 } : {}),
              anchor: panels > 1 ? "y" + panels : "y" },
     annotations: chart.panels.filter(panel => panel.title).map(panel => ({
       text: panel.title, xref: "paper", x: 0, xanchor: "left", yref: "paper", yanchor: "bottom", showarrow: false,
       y: 1 - chart.panels.indexOf(panel) / panels - (titled ? 0.22 / panels : 0), font: { size: 11 } })),
   };
   chart.panels.forEach((panel, at) => {
+    const log = panel.log && logarithmic(panel.curves.flatMap(curve => curve.y));
     const top = 1 - at / panels, gap = panels > 1 ? (titled ? 0.24 : 0.12) / panels : 0;
     found[at ? "yaxis" + (at + 1) : "yaxis"] = {
-      ...axis, title: { text: panel.y, font: { size: 12 }, standoff: 6 }, type: panel.log ? "log" : "linear",
+      ...axis, title: { text: panel.y, font: { size: 12 }, standoff: 6 }, type: log ? "log" : "linear",
       domain: [top - 1 / panels + (titled ? 0.02 / panels : gap), titled ? top - gap : top], 
-      nticks: panels > 1 ? 4 : 8, ...(panel.log ? { minor: { showgrid: false, ticks: "" }, dtick: 1 } : {}) };
+      nticks: panels > 1 ? 4 : 8, ...(log ? { minor: { showgrid: false, ticks: "" }, dtick: 1 } : {}) };
   });
   return found;
 }

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Mapping, Sequence
 
-from workbench.proof.places import place_of, section_of_place, subject_of
+from workbench.proof.places import section_of_place, subject_of, whole_of
 from workbench.proof.verdict import VERDICTS, Decision, FateWord
 from workbench.proof.wording import listed
 from workbench.report.counterexample import Counterexample
@@ -38,22 +38,31 @@ def errata(decisions: Sequence[Decision], citation: str, letters: Mapping[str, s
     what letters that are not the paper's stand for, by their names."""
     found = findings(decisions)
     titles = {d.claim.equation: d.claim.title for d in decisions}
-    return [Heading(1, "Corrections"), Paragraph(citation, "Paper"), Paragraph(ABOUT), Paragraph(_counts(decisions)),
+    return [Heading(1, "Corrections"), Paragraph(citation, "Paper"), Paragraph(ABOUT), Paragraph(
+                _counts(decisions, sum(f.gravity == "reading" for f in found))),
             *_fates(decisions), *_corrections(found, titles, _legends(decisions, letters or {})),
             *_readings(found), *mended_statements(decisions, titles, letters or {}),
             *_rechecking(decisions)]
 
 
-def _counts(decisions: Sequence[Decision]) -> str:
+def _counts(decisions: Sequence[Decision], readings: int) -> str:
     counts = Counter(d.verdict for d in decisions if d.claim.origin != "ours")
     words = listed([f"{counts[v]} {_verb(v, counts[v])}" for v in VERDICTS if counts[v]])
     under = sum(bool(d.proved_under) for d in decisions if d.claim.origin != "ours")
     only = f", {under} of them only where lines hold that are not shown" if under else ""
     implied = sum(d.claim.origin == "implied" for d in decisions)
     said = f", {implied} of which the text implies and does not print" if implied else ""
-    return (f"Of {counts.total()} lines{said}, {words}. Proved: true for all values of its domain{only}. Refuted: "
-            "false. Violated: a printed condition that the printed numbers break. Gap: it does not follow from what "
-            "the paper uses to get there. Assumed: a cited result or a definition, taken as given.")
+    open_ = f" {_open_readings(readings)}" if readings else ""
+    return (f"Of {counts.total()} lines{said}, {words}.{open_} Proved: true for all values of its domain{only}. "
+            "Refuted: false. Violated: a printed condition that the printed numbers break. Gap: it does not follow "
+            "from what the paper uses to get there. Assumed: a cited result or a definition, taken as given.")
+
+
+def _open_readings(count: int) -> str:
+    """How many of the lines that fail are the extracted text's, perhaps, and not the paper's."""
+    if count == 1:
+        return "Of those that fail, one fails only as its text was extracted and holds in another reading."
+    return f"Of those that fail, {count} fail only as their text was extracted and hold in another reading."
 
 
 def _verb(verdict: str, count: int) -> str:
@@ -108,7 +117,7 @@ def _correction(number: int, found: Finding, titles: Mapping[str, str], told: Ma
     section = section_of_place(found.equation, found.section)
     where = f" ({section})" if section else ""
     title = subject_of(found.title)
-    blocks: list[Block] = [Heading(3, f"{number}. {place_of(found.equation, '')}{where}: {worded(title)}"),
+    blocks: list[Block] = [Heading(3, f"{number}. {whole_of(found.equation, found.title)}{where}: {worded(title)}"),
                            Formula(found.printed, origin_label(found))]
     if found.should_read:
         label = {"violated": "Holds with", "gap": "What does follow"}.get(found.verdict, "Should read")

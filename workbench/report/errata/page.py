@@ -13,8 +13,9 @@ from workbench.report.math_font import math_font
 STYLE = """:root{color-scheme:light dark}body{font:1.05rem/1.55 Georgia,serif;max-width:46rem;margin:2rem auto;
 padding:0 1rem}h1,h2,h3{line-height:1.25;font-family:system-ui,sans-serif}h2{margin-top:2.5rem;border-bottom:1px solid
 #8886}h3{margin-top:2rem;font-size:1.05rem}.formula{margin:.6rem 0;overflow-x:auto}.label{font:600 .85rem
-system-ui,sans-serif;display:block;opacity:.75}math{font-size:1.05em;font-family:"Page Math",math}pre{font-size:.78rem;
-white-space:pre-wrap;overflow-wrap:anywhere;background:#8881;padding:.5rem}
+system-ui,sans-serif;display:block;margin-bottom:.25rem;opacity:.75}
+math{font-size:1.05em;font-family:"Page Math",math}pre{font-size:.78rem;white-space:pre-wrap;
+overflow-wrap:anywhere;background:#8881;padding:.5rem}
 ul{padding-left:1.2rem}li{margin:.25rem 0}.unbroken{white-space:nowrap}p,.item{overflow:auto hidden}
 @media print{p,.item,.formula{overflow:visible}body{max-width:none;margin:0;font-size:10pt}}"""
 POLICY = "default-src 'none'; style-src 'unsafe-inline'; font-src data:; base-uri 'none'; form-action 'none'"

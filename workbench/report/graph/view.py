@@ -58,7 +58,8 @@ def _ref(line: ClaimView) -> ClaimRef:
 
 
 def _label(line: ClaimView) -> str:
-    return place_of(line.equation).removeprefix("Equation ")
+    place = place_of(line.equation) if line.place == place_of(line.equation, "") else line.place
+    return place.removeprefix("Equation ").removeprefix("The ")
 
 
 def _svg(graph: PremiseGraph) -> Markup:
