@@ -126,6 +126,31 @@ def test_a_law_is_held_against_its_plant():
         Metric("m", "median", x)
 
 
+@pytest.mark.parametrize(("law", "words"), [
+    (StateLaw("l", {u: -x}, states=(LawState(x, rate=-x),)), "its state 'x' has the name of a state of plant 'p'"),
+    (StateLaw("l", {u: -k * x}, states=(LawState(k, rate=x**2),)), "its state 'k' has the name of a parameter"),
+    (StateLaw("l", {u: -z}, states=(LawState(z, rate=x),)), "its state 'z' has the name of a disturbance"),
+    (StateLaw("l", {u: -z}, parameters=(z,)), "its parameter 'z' has the name of a disturbance"),
+    (StateLaw("l", {u: -x}, references=(Reference("x"),)), "its reference's symbol 'x' has the name of a state"),
+    (StateLaw("l", {u: -x}, states=(LawState(sp.Symbol("u_wanted", real=True), rate=x),)), "a column of the log"),
+])
+def test_what_a_law_calls_like_something_of_its_plant_is_refused(law, words):
+    """One symbol for both would take the plant's rate for the law's: x' = -x was "proved" of a mass without damping."""
+    mass = plant(rates=(v, u - k * v + z), disturbances=(z,), parameters=(Parameter(k, 1.0),))
+    for ask in (law.check, lambda one: closed_loop(one, law)):
+        with pytest.raises(ValueError, match=words):
+            ask(mass)
+
+
+def test_a_reference_that_is_called_like_something_of_the_plant_is_refused():
+    """Metrics and the log would show one for the other."""
+    with pytest.raises(ValueError, match="'x' is a name of a state and a reference"):
+        Setting(plant(), 1, references={"x": 1.0})
+    rated = sp.Symbol("r_dot", real=True)
+    with pytest.raises(ValueError, match="'r_dot' is a name of a state and a reference"):
+        Setting(plant(states=(x, rated), rates=(rated, u)), 1, references={"r": 1.0})
+
+
 def test_a_law_takes_the_plants_nominal_values_unless_others_are_given():
     values = COMPUTED_TORQUE.values(PENDULUM, PENDULUM.values(), {"k_p": 1.0, "k_d": 2.0, "m": 3.0})
     assert values == {"k_p": 1.0, "k_d": 2.0, "m": 3.0, "l": 0.5, "g": 9.81, "b": 0.1}

@@ -80,9 +80,7 @@ class Plant:
         put(self, "outputs", self._outputs(where))
         put(self, "domain", tuple(expression(value, f"{where}: domain")
                                   for value in several(self.domain, f"{where}: domain")))
-        own = {symbol for symbol, value in self.outputs.items() if symbol != value}
-        require_distinct({"a state": self.states, "an input": self.inputs, "a disturbance": self.disturbances,
-                          "a parameter": self.parameter_symbols, "an output": sorted(own, key=str)}, where)
+        require_distinct(self.names, where)
         known = (*self.states, *self.inputs, *self.disturbances, *self.parameter_symbols)
         require_known({f"the {kind} of '{s}'": e for s, e in zip(self.states, self.moves, strict=True)}, known, where)
         require_known({f"output '{s}'": value for s, value in self.outputs.items()},
@@ -155,6 +153,14 @@ class Plant:
     def parameter_symbols(self) -> tuple[sp.Symbol, ...]:
         """The parameters' symbols, in their order."""
         return tuple(parameter.symbol for parameter in self.parameters)
+
+    @property
+    def names(self) -> dict[str, Sequence[sp.Symbol]]:
+        """All that the plant and a log of its runs call by a name, by what it is."""
+        return {"a state": self.states, "an input": self.inputs, "a disturbance": self.disturbances,
+                "a parameter": self.parameter_symbols,
+                "an output": [symbol for symbol, value in self.outputs.items() if symbol != value],
+                "a column of the log": [sp.Symbol(name) for name in ("t_s", *(f"{u}_wanted" for u in self.inputs))]}
 
     @property
     def moves(self) -> tuple[sp.Expr, ...]:

@@ -15,7 +15,16 @@ from workbench.systems.law import Reference
 from workbench.systems.metric import Metric
 from workbench.systems.plant import Plant
 from workbench.systems.signals import AnySignal, Constant, signal_of
-from workbench.systems.symbols import CLOCK, is_finite, named_values, plain, require_known, several, written
+from workbench.systems.symbols import (
+    CLOCK,
+    is_finite,
+    named_values,
+    plain,
+    require_distinct,
+    require_known,
+    several,
+    written,
+)
 
 Array = NDArray[np.float64]
 Integrator = Literal["rk4", "radau", "bdf", "lsoda"]
@@ -84,6 +93,8 @@ class Setting:
                                            for name, value in named_values(getattr(self, key), key).items()})
             self._require_names(key, kind, names)
         self._check_numbers()
+        require_distinct({**plant.names, "a reference": [symbol for one in self.channels for symbol in one.symbols]},
+                         f"references of plant '{plant.id}'")
         for name, value in self.delay_s.items():
             self.steps_of(value, f"delay_s.{name}")
         for name, channel in self.tracks.items():
