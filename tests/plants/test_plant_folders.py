@@ -185,6 +185,8 @@ def test_the_folder_is_checked_and_a_wrong_derivative_is_found(mine, tmp_path):
     ('law = "adaptive"', 'law = "adaptve"', "controllers: law 'adaptve' is not known"),
     ('law = "adaptive"', 'law = "own.py::adaptive"', "controllers: 'own.py::adaptive' names "),
     ("alpha = 2.0", "alpa = 2.0", "no parameter of law"), ("k = 4.0", "k = -4.0", "declared positive"),
+    ("period_s = 0.005", "period_s = 0.0", "controllers.adaptive.period_s: input should be greater than 0"),
+    ("k = 4.0", 'k = "4 1/s"', "controllers.adaptive.parameters.k: input should be a valid number"),
     ('initial = { x = 0.3 }', 'initial = { y = 0.3 }', "initial.y"), ("horizon = 8", "horizon = 0", "horizon"),
     ('kind = "sine"', 'kind = "sinus"', "reference.x_d"), ("period_s = 0.05\n", "period_s = 0.0505\n", "whole number"),
     ('factors = ["a"]', 'factors = ["c"]', "uncertainty"), ("weights = { x", "weights = { v", "weights.v")])

@@ -35,6 +35,7 @@ def plant(**changes):
     ({"rates": (v, sp.I * u)}, "not real"),
     ({"rates": (v, "u")}, "no expression"),
     ({"rates": (v, sp.zoo)}, "no number"),
+    ({"rates": (v, sp.Matrix([u]))}, "rate of 'v' is a .*Matrix, no scalar: give one expression each"),
     ({"states": (x, x)}, "'x' is a name of a state, twice"),
     ({"states": (x, "v")}, "no symbol"),
     ({"states": (x, sp.Symbol("v"))}, "not known to be real"),
@@ -189,6 +190,15 @@ def test_casadi_has_the_same_values_as_sympy(expr):
     for at in ((0.5, -0.25), (-1.5, 0.75), (3.25, 1.5)):
         exact = float(expr.subs({x: sp.Float(at[0], 30), v: sp.Float(at[1], 30)}))
         assert float(function(0, ca.DM(at), [], [])[0]) == pytest.approx(exact, rel=1e-12, abs=1e-12)
+
+
+def test_a_case_that_does_not_hold_is_not_calculated():
+    """A root that two terms of a case share was taken out of it, and Python has none of -1."""
+    root = sp.sqrt(x)
+    tank = Plant("tank", (x,), (u - sp.Piecewise((2 * root + sp.sin(root), x > 0), (0, True)),), (u,))
+    assert tank.rates_at([-1.0], [0.5]) == pytest.approx([0.5])
+    assert tank.rates_at([4.0], [0.5]) == pytest.approx([0.5 - 4.0 - math.sin(2.0)])
+    assert tank.to_control().dynamics(0.0, [-1.0], [0.5]) == pytest.approx([0.5])
 
 
 def test_what_casadi_does_not_have_is_said():

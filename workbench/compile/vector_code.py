@@ -140,6 +140,8 @@ def rates_into(count: int, arrays: Arrays) -> str:
 def numeric_vector(arguments: Sequence[sp.Symbol], exprs: Sequence[sp.Expr]) -> Callable[..., Any]:
     """A Python function (time, *arguments) -> list of numbers, interpreted: for other libraries and for checks."""
     names = {symbol: sp.Symbol(f"argument_{i}", real=True) for i, symbol in enumerate((time, *arguments))}
+    # What only a case that holds may calculate, such as a root, must not be taken out of it: Python's raises an error.
+    shares = not any(expr.has(sp.Piecewise) for expr in exprs)
     found: Callable[..., Any] = sp.lambdify([*names.values()], [expr.xreplace(names) for expr in exprs],
-                                            modules=["math"], cse=True)
+                                            modules=["math"], cse=shares)
     return found

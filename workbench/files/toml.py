@@ -221,9 +221,19 @@ def _key(error: dict[str, Any], data: Any) -> str:
         absent = isinstance(table, dict) and part not in table
         if absent and not (error["type"] == "missing" and number == len(location) - 1):
             continue
+        if _is_kind(location[number:], table, error["type"] == "missing"):
+            continue
         parts.append(str(part))
         table = table.get(part) if isinstance(table, dict) else None
     return ".".join(parts)
+
+
+def _is_kind(location: list[Any], table: Any, is_missing: bool) -> bool:
+    """Whether a part of a location is the kind of a union's member, though the table has a key of that name: what comes
+    after it is a key of the same table, or the one that is missing there."""
+    if not isinstance(table, dict) or len(location) < 2 or isinstance(table.get(location[0]), dict | list | tuple):
+        return False
+    return location[1] in table or (is_missing and len(location) == 2)
 
 
 def _short(value: Any, limit: int = 60) -> str:

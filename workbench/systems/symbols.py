@@ -25,7 +25,7 @@ def expression(value: Any, where: str) -> sp.Expr:
         found = sp.sympify(value, strict=True)
     except sp.SympifyError:
         raise ValueError(f"{where} is {written(value)}, no expression: give one of sympy, or a number") from None
-    if not isinstance(found, sp.Expr):
+    if not isinstance(found, sp.Expr) or found.is_Matrix:
         raise ValueError(f"{where} is a {type(found).__name__}, no scalar: give one expression each")
     found = found.replace(lambda e: isinstance(e, sp.Piecewise) and e.args[-1].cond != sp.true,
                           lambda e: _complete(e, where))
