@@ -187,6 +187,9 @@ def test_the_folder_is_checked_and_a_wrong_derivative_is_found(mine, tmp_path):
     ("alpha = 2.0", "alpa = 2.0", "no parameter of law"), ("k = 4.0", "k = -4.0", "declared positive"),
     ("period_s = 0.005", "period_s = 0.0", "controllers.adaptive.period_s: input should be greater than 0"),
     ("k = 4.0", 'k = "4 1/s"', "controllers.adaptive.parameters.k: input should be a valid number"),
+    ("k = [1.0, 20.0]", "k = [-3.0, 20.0]",
+     r"tuning.ranges.adaptive.k\[0\]: input should be greater than 0, not -3.0: correct it$"),
+    ("duration_s = ", "log_every_s = 0.0007\nduration_s = ", "log_every_s = 0.0007 s is no whole number"),
     ('initial = { x = 0.3 }', 'initial = { y = 0.3 }', "initial.y"), ("horizon = 8", "horizon = 0", "horizon"),
     ('kind = "sine"', 'kind = "sinus"', "reference.x_d"), ("period_s = 0.05\n", "period_s = 0.0505\n", "whole number"),
     ('factors = ["a"]', 'factors = ["c"]', "uncertainty"), ("weights = { x", "weights = { v", "weights.v")])

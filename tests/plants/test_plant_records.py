@@ -77,6 +77,8 @@ def test_symbols_may_be_named_and_measured_states_listed():
     ({"references": {"r": math.inf}}, "is no signal"), ({"initial": [1.0, 0.0]}, "initial is .*, no table"),
     ({"initial": {"x": "1"}}, "initial.x = '1': give a finite number"), ({"tracks": {"x": "q"}}, "no reference"),
     ({"metrics": x}, "metrics is x, no list"), ({"step_s": 10**400}, "step_s = 10+: give a positive number"),
+    ({"log_every_s": 0.0007}, "log_every_s = 0.0007 s is no whole number of plant steps of 0.001 s: choose a multiple"),
+    ({"log_every_s": -1.0}, "log_every_s = -1.0: give a positive number"),
     ({"step_s": 2.0}, "duration_s = 1 is shorter than one step of 2 s"),
     ({"references": {"r": -10**5000}}, "thousands of digits is no signal"),
 ])

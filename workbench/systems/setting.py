@@ -67,14 +67,7 @@ class Setting:
         for name in ("duration_s", "step_s", "log_every_s"):
             object.__setattr__(self, name, plain(getattr(self, name)))
         object.__setattr__(self, "step_s", self._step())
-        for name in ("duration_s", "step_s"):
-            if not (is_finite(getattr(self, name)) and getattr(self, name) > 0):
-                raise ValueError(f"{name} = {written(getattr(self, name))}: give a positive number of seconds")
-        if self.duration_s / self.step_s > MOST_STEPS:
-            raise ValueError(f"duration_s / step_s is more than {MOST_STEPS}: take a longer step")
-        if self.duration_s < self.step_s:
-            raise ValueError(f"duration_s = {self.duration_s:g} is shorter than one step of {self.step_s:g} s: give "
-                             "more")
+        self._check_times()
         self._check_integrator()
         object.__setattr__(self, "parameters", plant.values(self.parameters))
         outputs, inputs = [*map(str, plant.outputs)], [*map(str, plant.inputs)]
@@ -104,6 +97,20 @@ class Setting:
         if len(set(names)) < len(names):
             raise ValueError(f"two metrics are called '{max(names, key=names.count)}': rename one")
         require_known({f"metric '{m.id}'": m.expression for m in self.metrics}, self.symbols, f"plant '{plant.id}'")
+
+    def _check_times(self) -> None:
+        for name in ("duration_s", "step_s"):
+            if not (is_finite(getattr(self, name)) and getattr(self, name) > 0):
+                raise ValueError(f"{name} = {written(getattr(self, name))}: give a positive number of seconds")
+        if self.log_every_s is not None:
+            if not (is_finite(self.log_every_s) and self.log_every_s > 0):
+                raise ValueError(f"log_every_s = {written(self.log_every_s)}: give a positive number of seconds")
+            self.steps_of(self.log_every_s, "log_every_s")
+        if self.duration_s / self.step_s > MOST_STEPS:
+            raise ValueError(f"duration_s / step_s is more than {MOST_STEPS}: take a longer step")
+        if self.duration_s < self.step_s:
+            raise ValueError(f"duration_s = {self.duration_s:g} is shorter than one step of {self.step_s:g} s: give "
+                             "more")
 
     def _check_numbers(self) -> None:
         for key in ("noise", "late_s", "lag_s", "delay_s", "initial"):
