@@ -11,6 +11,7 @@ from weakref import ref
 
 import pyarrow.parquet
 import pytest
+from command_line import one_line
 from rich.console import Console
 from test_cli import run
 
@@ -201,6 +202,13 @@ def test_a_mistake_in_the_file_is_one_line_that_names_it(mine, tmp_path, old, ne
     with pytest.raises(InputError, match=words) as caught:
         sweep(load(folder).study, 1, workers=1)
     assert str(caught.value).startswith(str(folder / "study.toml"))
+
+
+@pytest.mark.parametrize("option", [("--rare", "x_error_rms>1"), ("--until-width", "x_error_rms=0.1")])
+def test_what_a_plants_sweep_does_not_have_is_told_as_such(mine, tmp_path, option):
+    """It was told that its own metric is none, and given those of trains."""
+    told = one_line(run("sweep", mine, "--out", tmp_path / "out", *option))
+    assert f"is a plant's study, which is drawn by chance and as often as asked: leave {option[0]} out" in told
 
 
 SCRIPT = """
