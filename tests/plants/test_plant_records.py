@@ -12,6 +12,7 @@ from shown_plants import CART, COMPUTED_TORQUE, FREE, PENDULUM, omega, theta, to
 
 from workbench.errors import CompileError, InputError
 from workbench.model.law import LawState, time
+from workbench.simulate.plants.run import Entrant
 from workbench.systems.law import Reference, StateLaw
 from workbench.systems.lyapunov import Lyapunov, closed_loop
 from workbench.systems.metric import Metric
@@ -152,6 +153,13 @@ def test_a_reference_that_is_called_like_something_of_the_plant_is_refused():
     rated = sp.Symbol("r_dot", real=True)
     with pytest.raises(ValueError, match="'r_dot' is a name of a state and a reference"):
         Setting(plant(states=(x, rated), rates=(rated, u)), 1, references={"r": 1.0})
+
+
+def test_a_laws_state_and_a_reference_that_it_does_not_follow_have_names_of_their_own():
+    """Both are columns of the log, where one hid the other."""
+    law = StateLaw("l", {u: -z}, states=(LawState(z, rate=x),))
+    with pytest.raises(ValueError, match="its state 'z' has the name of a reference"):
+        Entrant("l", 0.1, law).check(Setting(plant(), 1, references={"z": 1.0}))
 
 
 def test_a_law_takes_the_plants_nominal_values_unless_others_are_given():
