@@ -169,7 +169,7 @@ class Plant:
 
     @property
     def flow(self) -> dict[sp.Expr, sp.Expr]:
-        """State to rate, as a goal of the prover takes it; where the rates name time, it is to be given the rate one too.
+        """State to rate, as a goal of the prover takes it; where rates name time, it is to be given the rate one too.
 
         Raises ValueError for a plant in discrete time.
         """
