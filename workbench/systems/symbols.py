@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 import sympy as sp
 
+from workbench.compile.cases import completed
 from workbench.model.law import period, time
 
 Limits = tuple[float, float]
@@ -38,9 +39,10 @@ def expression(value: Any, where: str) -> sp.Expr:
 
 def _complete(cases: sp.Piecewise, where: str) -> sp.Expr:
     """Cases of which one always holds; ValueError naming `where` for cases that leave something open."""
-    if sp.Or(*(one.cond for one in cases.args)) != sp.true:
+    found = completed(cases)
+    if found is None:
         raise ValueError(f"{where}: {cases} says nothing of what is left: end it with (value, True)")
-    return sp.Piecewise(*cases.args[:-1], (cases.args[-1].expr, True))
+    return found
 
 
 def plain(value: Any) -> Any:
