@@ -113,6 +113,8 @@ def test_cases_that_leave_something_open_and_what_is_not_carried_out_are_refused
                            (sp.Derivative(x**2, x), "Derivative.*carry them out")):
         with pytest.raises(CompileError, match=words):
             law_source(ControlLaw("mine.law", "a law", "none", "full state", command))
+    with pytest.raises(CompileError, match=r"^law 'mine.law': Piecewise.*says nothing"):
+        law_loop(ControlLaw("mine.law", "a law", "none", "full state", sp.Piecewise((x, x > 0))))
     both = law_source(ControlLaw("mine.law", "a law", "none", "full state", sp.Piecewise((x, x > 0), (-x, x <= 0))))
     assert "None" not in both
 
