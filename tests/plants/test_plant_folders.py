@@ -204,6 +204,16 @@ def test_a_mistake_in_the_file_is_one_line_that_names_it(mine, tmp_path, old, ne
     assert str(caught.value).startswith(str(folder / "study.toml"))
 
 
+def test_what_has_no_code_is_told_with_its_file_and_as_it_was_stated(mine, tmp_path):
+    folder = write_new_paper("mine2026", tmp_path, "plant")
+    (folder / "study.toml").write_text((mine / "study.toml").read_text())
+    laws = folder / "laws.py"
+    laws.write_text(laws.read_text().replace("a_hat * v + c * x**3}", "a_hat * v + sp.Derivative(x**2, x)}"))
+    told = one_line(run("compare", folder, "--workers", 1))
+    assert told.startswith(f"workbench: {folder / 'study.toml'}: controllers.adaptive: plant 'mine2026.mass' under law")
+    assert "Derivative(x**2, x)" in told and "carry them out" in told
+
+
 @pytest.mark.parametrize("option", [("--rare", "x_error_rms>1"), ("--until-width", "x_error_rms=0.1")])
 def test_what_a_plants_sweep_does_not_have_is_told_as_such(mine, tmp_path, option):
     """It was told that its own metric is none, and given those of trains."""
