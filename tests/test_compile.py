@@ -106,6 +106,19 @@ def test_symbols_that_would_be_one_variable_are_refused():
         law_source(_law(sp.Symbol("x_1", positive=True) * b, b))
 
 
+def test_cases_that_leave_something_open_and_what_is_not_carried_out_are_refused():
+    """Of cases that all fail a run was told with Python's None for a number."""
+    x = position
+    for command, words in ((sp.Piecewise((x, x > 0)), r"says nothing of what is left: end it with \(value, True\)"),
+                           (sp.Derivative(x**2, x), "Derivative.*carry them out")):
+        with pytest.raises(CompileError, match=words):
+            law_source(ControlLaw("mine.law", "a law", "none", "full state", command))
+    with pytest.raises(CompileError, match=r"^law 'mine.law': Piecewise.*says nothing"):
+        law_loop(ControlLaw("mine.law", "a law", "none", "full state", sp.Piecewise((x, x > 0))))
+    both = law_source(ControlLaw("mine.law", "a law", "none", "full state", sp.Piecewise((x, x > 0), (-x, x <= 0))))
+    assert "None" not in both
+
+
 def test_a_sum_inside_a_sum_is_refused():
     weight = sp.IndexedBase("w")[sp.Symbol("j", integer=True, positive=True)]
     law = _law(over_neurons(weight * over_neurons(weight)), states=(LawState(weight, rate=-weight),))

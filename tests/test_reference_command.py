@@ -99,6 +99,25 @@ def test_stops_on_the_way_take_their_time(tmp_path: Path) -> None:
     assert energies[0] < energies[1]
 
 
+def test_a_run_that_arrives_early_says_so(tmp_path: Path) -> None:
+    """With auxiliaries a later arrival costs more: "0.380 km in 200 s" stood above a run of a minute."""
+    (tmp_path / "line.toml").write_text(
+        'name = "short"\nlength_m = 380.0\ngrade = [{ start_m = 0.0, end_m = 380.0, grade_permille = 0.0 }]\n'
+        'curve = [{ start_m = 0.0, end_m = 380.0, radius_m = inf }]\n'
+        'speed_limit = [{ start_m = 0.0, end_m = 380.0, speed_mps = 15.0 }]\n', encoding="utf-8")
+    train = ("mass_kg = 150000.0\ndavis_a_mps2 = 0.02\ndavis_b_per_s = 0.0\ndavis_c_per_m = 0.0\n"
+             "max_traction_n = 200000.0\nmax_braking_n = 160000.0\n")
+    told = {}
+    for auxiliary in (0.0, 80e3):
+        (tmp_path / "train.toml").write_text(f"{train}auxiliary_w = {auxiliary}\n", encoding="utf-8")
+        told[auxiliary] = said(tmp_path / "line.toml", tmp_path / "train.toml", "--time", 100, "--intervals", 60,
+                               "--json", tmp_path / "r.json")
+    assert "arrives  " not in told[0.0]
+    took = json.loads((tmp_path / "r.json").read_text(encoding="utf-8"))["trip_time_s"]
+    assert took < 90
+    assert f"arrives       after {took:.1f} s, {100 - took:.1f} s early" in told[80e3]
+
+
 @pytest.mark.parametrize(("arguments", "message"), [
     ((HILLS, TRAIN, "--time", 60), "60 s is too short: the least feasible trip time is .* allow more time"),
     ((HILLS, TRAIN, "--time", "nan"), "time: nan s is no trip time"),

@@ -11,6 +11,7 @@ from weakref import ref
 
 import pyarrow.parquet
 import pytest
+from command_line import one_line
 from rich.console import Console
 from test_cli import run
 
@@ -185,6 +186,11 @@ def test_the_folder_is_checked_and_a_wrong_derivative_is_found(mine, tmp_path):
     ('law = "adaptive"', 'law = "adaptve"', "controllers: law 'adaptve' is not known"),
     ('law = "adaptive"', 'law = "own.py::adaptive"', "controllers: 'own.py::adaptive' names "),
     ("alpha = 2.0", "alpa = 2.0", "no parameter of law"), ("k = 4.0", "k = -4.0", "declared positive"),
+    ("period_s = 0.005", "period_s = 0.0", "controllers.adaptive.period_s: input should be greater than 0"),
+    ("k = 4.0", 'k = "4 1/s"', "controllers.adaptive.parameters.k: input should be a valid number"),
+    ("k = [1.0, 20.0]", "k = [-3.0, 20.0]",
+     r"tuning.ranges.adaptive.k\[0\]: input should be greater than 0, not -3.0: correct it$"),
+    ("duration_s = ", "log_every_s = 0.0007\nduration_s = ", "log_every_s = 0.0007 s is no whole number"),
     ('initial = { x = 0.3 }', 'initial = { y = 0.3 }', "initial.y"), ("horizon = 8", "horizon = 0", "horizon"),
     ('kind = "sine"', 'kind = "sinus"', "reference.x_d"), ("period_s = 0.05\n", "period_s = 0.0505\n", "whole number"),
     ('factors = ["a"]', 'factors = ["c"]', "uncertainty"), ("weights = { x", "weights = { v", "weights.v")])
@@ -196,6 +202,23 @@ def test_a_mistake_in_the_file_is_one_line_that_names_it(mine, tmp_path, old, ne
     with pytest.raises(InputError, match=words) as caught:
         sweep(load(folder).study, 1, workers=1)
     assert str(caught.value).startswith(str(folder / "study.toml"))
+
+
+def test_what_has_no_code_is_told_with_its_file_and_as_it_was_stated(mine, tmp_path):
+    folder = write_new_paper("mine2026", tmp_path, "plant")
+    (folder / "study.toml").write_text((mine / "study.toml").read_text())
+    laws = folder / "laws.py"
+    laws.write_text(laws.read_text().replace("a_hat * v + c * x**3}", "a_hat * v + sp.Derivative(x**2, x)}"))
+    told = one_line(run("compare", folder, "--workers", 1))
+    assert told.startswith(f"workbench: {folder / 'study.toml'}: controllers.adaptive: plant 'mine2026.mass' under law")
+    assert "Derivative(x**2, x)" in told and "carry them out" in told
+
+
+@pytest.mark.parametrize("option", [("--rare", "x_error_rms>1"), ("--until-width", "x_error_rms=0.1")])
+def test_what_a_plants_sweep_does_not_have_is_told_as_such(mine, tmp_path, option):
+    """It was told that its own metric is none, and given those of trains."""
+    told = one_line(run("sweep", mine, "--out", tmp_path / "out", *option))
+    assert f"is a plant's study, which is drawn by chance and as often as asked: leave {option[0]} out" in told
 
 
 SCRIPT = """

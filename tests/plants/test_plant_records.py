@@ -12,6 +12,7 @@ from shown_plants import CART, COMPUTED_TORQUE, FREE, PENDULUM, omega, theta, to
 
 from workbench.errors import CompileError, InputError
 from workbench.model.law import LawState, time
+from workbench.simulate.plants.run import Entrant
 from workbench.systems.law import Reference, StateLaw
 from workbench.systems.lyapunov import Lyapunov, closed_loop
 from workbench.systems.metric import Metric
@@ -35,6 +36,7 @@ def plant(**changes):
     ({"rates": (v, sp.I * u)}, "not real"),
     ({"rates": (v, "u")}, "no expression"),
     ({"rates": (v, sp.zoo)}, "no number"),
+    ({"rates": (v, sp.Matrix([u]))}, "rate of 'v' is a .*Matrix, no scalar: give one expression each"),
     ({"states": (x, x)}, "'x' is a name of a state, twice"),
     ({"states": (x, "v")}, "no symbol"),
     ({"states": (x, sp.Symbol("v"))}, "not known to be real"),
@@ -76,6 +78,8 @@ def test_symbols_may_be_named_and_measured_states_listed():
     ({"references": {"r": math.inf}}, "is no signal"), ({"initial": [1.0, 0.0]}, "initial is .*, no table"),
     ({"initial": {"x": "1"}}, "initial.x = '1': give a finite number"), ({"tracks": {"x": "q"}}, "no reference"),
     ({"metrics": x}, "metrics is x, no list"), ({"step_s": 10**400}, "step_s = 10+: give a positive number"),
+    ({"log_every_s": 0.0007}, "log_every_s = 0.0007 s is no whole number of plant steps of 0.001 s: choose a multiple"),
+    ({"log_every_s": -1.0}, "log_every_s = -1.0: give a positive number"),
     ({"step_s": 2.0}, "duration_s = 1 is shorter than one step of 2 s"),
     ({"references": {"r": -10**5000}}, "thousands of digits is no signal"),
 ])
@@ -126,6 +130,38 @@ def test_a_law_is_held_against_its_plant():
         Metric("m", "median", x)
 
 
+@pytest.mark.parametrize(("law", "words"), [
+    (StateLaw("l", {u: -x}, states=(LawState(x, rate=-x),)), "its state 'x' has the name of a state of plant 'p'"),
+    (StateLaw("l", {u: -k * x}, states=(LawState(k, rate=x**2),)), "its state 'k' has the name of a parameter"),
+    (StateLaw("l", {u: -z}, states=(LawState(z, rate=x),)), "its state 'z' has the name of a disturbance"),
+    (StateLaw("l", {u: -z}, parameters=(z,)), "its parameter 'z' has the name of a disturbance"),
+    (StateLaw("l", {u: -x}, references=(Reference("x"),)), "its reference's symbol 'x' has the name of a state"),
+    (StateLaw("l", {u: -x}, states=(LawState(sp.Symbol("u_wanted", real=True), rate=x),)), "a column of the log"),
+])
+def test_what_a_law_calls_like_something_of_its_plant_is_refused(law, words):
+    """One symbol for both would take the plant's rate for the law's: x' = -x was "proved" of a mass without damping."""
+    mass = plant(rates=(v, u - k * v + z), disturbances=(z,), parameters=(Parameter(k, 1.0),))
+    for ask in (law.check, lambda one: closed_loop(one, law)):
+        with pytest.raises(ValueError, match=words):
+            ask(mass)
+
+
+def test_a_reference_that_is_called_like_something_of_the_plant_is_refused():
+    """Metrics and the log would show one for the other."""
+    with pytest.raises(ValueError, match="'x' is a name of a state and a reference"):
+        Setting(plant(), 1, references={"x": 1.0})
+    rated = sp.Symbol("r_dot", real=True)
+    with pytest.raises(ValueError, match="'r_dot' is a name of a state and a reference"):
+        Setting(plant(states=(x, rated), rates=(rated, u)), 1, references={"r": 1.0})
+
+
+def test_a_laws_state_and_a_reference_that_it_does_not_follow_have_names_of_their_own():
+    """Both are columns of the log, where one hid the other."""
+    law = StateLaw("l", {u: -z}, states=(LawState(z, rate=x),))
+    with pytest.raises(ValueError, match="its state 'z' has the name of a reference"):
+        Entrant("l", 0.1, law).check(Setting(plant(), 1, references={"z": 1.0}))
+
+
 def test_a_law_takes_the_plants_nominal_values_unless_others_are_given():
     values = COMPUTED_TORQUE.values(PENDULUM, PENDULUM.values(), {"k_p": 1.0, "k_d": 2.0, "m": 3.0})
     assert values == {"k_p": 1.0, "k_d": 2.0, "m": 3.0, "l": 0.5, "g": 9.81, "b": 0.1}
@@ -164,6 +200,15 @@ def test_casadi_has_the_same_values_as_sympy(expr):
     for at in ((0.5, -0.25), (-1.5, 0.75), (3.25, 1.5)):
         exact = float(expr.subs({x: sp.Float(at[0], 30), v: sp.Float(at[1], 30)}))
         assert float(function(0, ca.DM(at), [], [])[0]) == pytest.approx(exact, rel=1e-12, abs=1e-12)
+
+
+def test_a_case_that_does_not_hold_is_not_calculated():
+    """A root that two terms of a case share was taken out of it, and Python has none of -1."""
+    root = sp.sqrt(x)
+    tank = Plant("tank", (x,), (u - sp.Piecewise((2 * root + sp.sin(root), x > 0), (0, True)),), (u,))
+    assert tank.rates_at([-1.0], [0.5]) == pytest.approx([0.5])
+    assert tank.rates_at([4.0], [0.5]) == pytest.approx([0.5 - 4.0 - math.sin(2.0)])
+    assert tank.to_control().dynamics(0.0, [-1.0], [0.5]) == pytest.approx([0.5])
 
 
 def test_what_casadi_does_not_have_is_said():

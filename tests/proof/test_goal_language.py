@@ -36,6 +36,9 @@ REFUSED = {
     "a float": lambda: Goal((at_least(x, 0.1),)),
     "a float in the flow": lambda: Goal((at_least(D(x), 0),), flow={x: sp.Float("0.5")}),
     "a float assumed": lambda: Goal((at_least(x, 0),), (at_least(x, 0.5),)),
+    "a derivative of the time that does not run": lambda: Goal(
+        (at_most(D(x**2 * sp.exp(t)), -2 * x**2 * sp.exp(t)),), flow={x: -x}),
+    "a rate by the time that does not run": lambda: Goal((at_most(D(x**2), 0),), flow={x: -x / (1 + t**2)}),
     "infinity": lambda: Goal((at_most(x, sp.oo),)),
     "not a number": lambda: Goal((at_most(x, sp.nan),)),
     "an imaginary number": lambda: Goal((equal(sp.I * x, 0),)),
@@ -162,3 +165,11 @@ def test_a_rate_that_a_goal_does_not_need_may_be_beyond_certificates_and_one_tha
                  lambda: Goal((equal(D(a), -a),), assume=(at_least(angle, 0),), flow=flow)):
         with pytest.raises(ClaimError, match="no meaning in certificates"):
             goal()
+
+
+def test_a_function_of_time_changes_by_itself_too():
+    """Without the rate of t its own part was left out: V' <= -2 V was proved of V = x^2 exp(t), whose rate is -V."""
+    value = x**2 * sp.exp(t)
+    flow = {x: -x, t: sp.Integer(1)}
+    assert prove_goal(Goal((equal(D(value), -value),), flow=flow)) is not None
+    assert find_counterexample(Goal((at_most(D(value), -2 * value),), flow=flow), "refuted") is not None

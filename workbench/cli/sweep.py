@@ -44,6 +44,11 @@ def command(paper: PaperOrFile,
     from workbench.simulate.stopping import UntilWidth
     from workbench.simulate.sweep import CSV_NAME, Options, monte_carlo
 
+    loaded = load(paper)
+    is_plant = loaded.kind is not None and loaded.data.get("kind") == PLANT
+    if is_plant:  # before their texts are read: the metrics of these are a train's
+        _left_out(loaded.path, "is a plant's study, which is drawn by chance and as often as asked",
+                  {"--draws": draws != "random", "--until-width": until_width is not None, "--rare": rare is not None})
     until = UntilWidth.parse(until_width) if until_width is not None else None
     event = _event(rare, {"--runs": runs, "--resume": resume, "--until-width": until, "--sensitivity": sensitivity,
                           "--draws": draws != "random"})
@@ -51,7 +56,6 @@ def command(paper: PaperOrFile,
         _left_out("--sensitivity", "draws as [joint_sensitivity] states", {
             "--runs": runs, "--seed": seed is not None, "--controller": controller, "--draws": draws != "random",
             "--until-width": until})
-    loaded = load(paper)
     if event is not None:
         with on_cluster(dask, workers):
             _rare(loaded, event, out, seed, controller, workers)
@@ -60,9 +64,7 @@ def command(paper: PaperOrFile,
         with on_cluster(dask, workers):
             _joint(loaded, out, resume, workers)
         return
-    if loaded.kind is not None and loaded.data.get("kind") == PLANT:
-        _left_out(loaded.path, "is a plant's study, which is drawn by chance and as often as asked",
-                  {"--draws": draws != "random", "--until-width": until})
+    if is_plant:
         with on_cluster(dask, workers):
             _sweep_plant(loaded, out, runs, seed, controller, resume, workers)
         return

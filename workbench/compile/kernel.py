@@ -16,6 +16,7 @@ import sympy as sp
 from sympy.printing.codeprinter import PrintMethodNotImplementedError
 from sympy.printing.pycode import PythonCodePrinter
 
+from workbench.compile.cases import numbers_of
 from workbench.compile.code_cache import imported_kernel
 from workbench.compile.literals import require_short
 from workbench.compile.text import module_text, shared_text
@@ -114,7 +115,7 @@ def _assignments(targets: Sequence[str], exprs: Sequence[sp.Expr], prefix: str, 
     """Source lines that compute exprs into targets, common subexpressions first."""
     # Sums were replaced before; Indexed symbols become plain symbols so that cse treats them as leaves.
     leaves = {i: sp.Symbol(_name(i)) for e in exprs for i in e.atoms(sp.Indexed)}
-    shared, reduced = sp.cse([e.xreplace(leaves) for e in exprs], sp.numbered_symbols(prefix))
+    shared, reduced = sp.cse([e.xreplace(leaves) for e in numbers_of(exprs)], sp.numbered_symbols(prefix))
     require_short(reduced + [expr for _, expr in shared])
     try:
         lines = [f"{indent}{name} = {printer.doprint(expr)}" for name, expr in shared]

@@ -19,11 +19,10 @@ from workbench.model.law import time
 Arrays = Mapping[str, Sequence[sp.Symbol]]
 _printer = PythonCodePrinter({"fully_qualified_modules": True})
 _INDENT = "    "
+UNDONE = (sp.Sum, sp.Product, sp.Integral, sp.Derivative)
 
 
 def _printed(expr: sp.Expr) -> str:
-    if expr.has(sp.Sum, sp.Product, sp.Integral, sp.Derivative):
-        raise CompileError(f"{expr}: sums, products, integrals and derivatives cannot be compiled: carry them out")
     require_short([expr])
     try:
         return str(_printer.doprint(expr))
@@ -45,6 +44,9 @@ def _body(exprs: Sequence[sp.Expr], arrays: Arrays, scalars: Mapping[str, sp.Sym
           unpacked: Sequence[str] = ()) -> tuple[list[str], list[str]]:
     """Lines that load what is used and compute what is shared, and the text of each expression."""
     names = _names(arrays, scalars)
+    for expr in exprs:  # before symbols are renamed, so that what is told is what was stated
+        if expr.has(*UNDONE):
+            raise CompileError(f"{expr}: sums, products, integrals and derivatives cannot be compiled: carry them out")
     used = {symbol for expr in exprs for symbol in expr.free_symbols}
     lost = sorted(map(str, used - set(names)))
     if lost:
@@ -140,6 +142,8 @@ def rates_into(count: int, arrays: Arrays) -> str:
 def numeric_vector(arguments: Sequence[sp.Symbol], exprs: Sequence[sp.Expr]) -> Callable[..., Any]:
     """A Python function (time, *arguments) -> list of numbers, interpreted: for other libraries and for checks."""
     names = {symbol: sp.Symbol(f"argument_{i}", real=True) for i, symbol in enumerate((time, *arguments))}
+    # What only a case that holds may calculate, such as a root, must not be taken out of it: Python's raises an error.
+    shares = not any(expr.has(sp.Piecewise) for expr in exprs)
     found: Callable[..., Any] = sp.lambdify([*names.values()], [expr.xreplace(names) for expr in exprs],
-                                            modules=["math"], cse=True)
+                                            modules=["math"], cse=shares)
     return found

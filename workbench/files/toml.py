@@ -199,13 +199,22 @@ def validate_record(data: dict[str, Any], model: type[R], where: Path | str, rep
 
 def mistake(trouble: ValidationError, data: dict[str, Any], model: type[BaseModel] | None = None) -> tuple[str, str]:
     """The first wrong key of what made a record, and in one line what is wrong with it and how many more there are."""
-    errors = trouble.errors()
+    errors = _of_one_member([dict(error) for error in trouble.errors()], data)
     # A mistyped key shows up twice, as unknown and as missing: the unknown one is what to mend.
     first = next((e for e in errors if e["type"] == "extra_forbidden"), errors[0])
-    others = list(dict.fromkeys(_key(dict(error), data) for error in errors if error is not first))
+    others = list(dict.fromkeys(_key(error, data) for error in errors if error is not first))
     more = f" (and {len(errors) - 1} more: {', '.join(others[:MOST_NAMED])}" + (
         ", ...)" if len(others) > MOST_NAMED else ")") if others else ""
-    return _key(dict(first), data), _explain(dict(first), errors, model) + more
+    return _key(first, data), _explain(first, errors, model) + more
+
+
+def _of_one_member(errors: list[dict[str, Any]], data: Any) -> list[dict[str, Any]]:
+    """The errors without those of whole numbers where the same place may hold other numbers, and is told of these."""
+    for error in errors:
+        if error["type"] in ("int_type", "int_from_float") and any(
+                other["loc"] != error["loc"] and _key(other, data) == _key(error, data) for other in errors):
+            return [other for other in errors if other["loc"][:-1] != error["loc"][:-1]]
+    return errors
 
 
 def _key(error: dict[str, Any], data: Any) -> str:
@@ -218,12 +227,22 @@ def _key(error: dict[str, Any], data: Any) -> str:
             parts[-1:] = [f"{parts[-1] if parts else ''}[{part}]"]
             table = table[part] if isinstance(table, list | tuple) and part < len(table) else None
             continue
-        absent = isinstance(table, dict) and part not in table
+        absent = table is not None and not (isinstance(table, dict) and part in table)
         if absent and not (error["type"] == "missing" and number == len(location) - 1):
+            continue
+        if _is_kind(location[number:], table, error["type"] == "missing"):
             continue
         parts.append(str(part))
         table = table.get(part) if isinstance(table, dict) else None
     return ".".join(parts)
+
+
+def _is_kind(location: list[Any], table: Any, is_missing: bool) -> bool:
+    """Whether a part of a location is the kind of a union's member, though the table has a key of that name: what comes
+    after it is a key of the same table, or the one that is missing there."""
+    if not isinstance(table, dict) or len(location) < 2 or isinstance(table.get(location[0]), dict | list | tuple):
+        return False
+    return location[1] in table or (is_missing and len(location) == 2)
 
 
 def _short(value: Any, limit: int = 60) -> str:

@@ -87,7 +87,8 @@ class CertifiedRun(TypedDict):
 class ReferenceDocument(TypedDict):
     """What `workbench reference --json` writes: energy, proven bound, and the runs.
 
-    gap: energy above the bound, as a share; csv: the smooth reference; cars: of a train of several cars.
+    gap: energy above the bound, as a share; trip_time_s and least_trip_time_s: of running, without waits at stops,
+    which are in both energies and in the smooth run; csv: the smooth reference; cars: of a train of several cars.
     """
 
     version: Literal[1]

@@ -84,6 +84,10 @@ def differ(left: Any, right: Any) -> Relation:
     return Relation(sp.sympify(left, strict=True), "!=", sp.sympify(right, strict=True))
 
 
+# The name of time in plants, laws and papers.
+CLOCK = "t"
+
+
 @dataclass(frozen=True)
 class Goal:
     """For all values of the symbols: `assume` implies every relation in `show`.
@@ -118,6 +122,7 @@ class Goal:
         if not self.show:
             raise ClaimError("a goal shows nothing: give at least one relation")
         self._leave_out_unreached()
+        self._require_clock()
         language = Language(self.flow, self.inputs)
         for relation in (*self.relations(), *self.lemmas):
             language.check(relation.left)
@@ -131,6 +136,17 @@ class Goal:
         for symbol in (*self.inputs, *self.named):
             language.check(symbol, symbol.indices[0] if isinstance(symbol, sp.Indexed) else None)
         language.check_whole()
+
+    def _require_clock(self) -> None:
+        """ClaimError where a derivative is of what changes with the time t and the flow does not say that t runs."""
+        named = {str(symbol) for symbol in (*self.flow, *self.inputs)}
+        derived = [inner for r in (*self.relations(), *self.lemmas) for side in (r.left, r.right)
+                   for inner in side.atoms(D)]
+        if CLOCK in named or not derived:
+            return
+        if any(str(symbol) == CLOCK for expr in (*derived, *self.flow.values()) for symbol in expr.free_symbols):
+            raise ClaimError(f"D(...) depends on the time {CLOCK}, to which the flow gives no rate: add {CLOCK}: 1 to "
+                             "the flow, or call it otherwise where it is a constant")
 
     def _leave_out_unreached(self) -> None:
         """Take out of the flow what certificates cannot state and the goal does not speak of.

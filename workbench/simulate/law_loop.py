@@ -13,6 +13,7 @@ from typing import Any
 
 from workbench.compile.code_cache import c_function
 from workbench.compile.kernel import Estimates, law_source, loop_module, plant_source
+from workbench.errors import CompileError
 from workbench.model.law import ControlLaw
 from workbench.mpc.model import Actuator
 from workbench.mpc.whole_run import source
@@ -44,7 +45,12 @@ def law_loop(law: ControlLaw, estimates: Estimates = "corrected", plant: Plant |
     """
     key = id(law), id(plant), estimates
     if key not in _made:
-        _made[key] = plant, law, written_loop(law.source, [law_source(law, estimates)], plant)
+        try:
+            functions = [law_source(law, estimates)]
+        except CompileError as trouble:
+            named = str(trouble).startswith(law.id)
+            raise trouble if named else CompileError(f"law '{law.id}': {trouble}") from None
+        _made[key] = plant, law, written_loop(law.source, functions, plant)
     return _made[key][2]
 
 

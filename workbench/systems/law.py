@@ -131,6 +131,7 @@ class StateLaw:
             if symbol not in self.commands:
                 raise ValueError(f"{where} has no command for input '{symbol}' of plant '{plant.id}': add it, 0 where "
                                  "it is not used")
+        self._require_own_names(plant)
         known = (*plant.outputs, *self.parameters, *self.state_symbols, *self.reference_symbols)
         hidden = {str(state) for state in plant.states if state not in plant.outputs}
         stated = {**{f"the command of '{s}'": e for s, e in self.commands.items()},
@@ -148,6 +149,19 @@ class StateLaw:
                     raise ValueError(f"{where}: {what} uses '{symbol}', a state that plant '{plant.id}' does not "
                                      f"measure: use its outputs {', '.join(map(str, plant.outputs))}")
         require_known(stated, known, where, "make it a parameter, a state or a reference of the law")
+
+    def _require_own_names(self, plant: Plant) -> None:
+        """ValueError where the law calls what is its own by a name of the plant's: both would be taken for one, and a
+        proof of the closed loop would move the plant's state as the law says. Parameters may share names.
+        """
+        taken = {str(symbol): kind for kind, symbols in plant.names.items() for symbol in symbols}
+        shared = {*map(str, plant.parameter_symbols)}
+        for what, symbols in (("state", self.state_symbols), ("reference's symbol", self.reference_symbols),
+                              ("parameter", [one for one in self.parameters if str(one) not in shared])):
+            for symbol in symbols:
+                if str(symbol) in taken:
+                    raise ValueError(f"law '{self.id}': its {what} '{symbol}' has the name of {taken[str(symbol)]} of "
+                                     f"plant '{plant.id}', for which it would be taken: rename it")
 
     def values(self, plant: Plant, nominal: Mapping[str, float], given: Mapping[str, Any]) -> dict[str, float]:
         """Every parameter's value by its name: as given, else the plant's nominal one.

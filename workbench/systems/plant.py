@@ -80,9 +80,7 @@ class Plant:
         put(self, "outputs", self._outputs(where))
         put(self, "domain", tuple(expression(value, f"{where}: domain")
                                   for value in several(self.domain, f"{where}: domain")))
-        own = {symbol for symbol, value in self.outputs.items() if symbol != value}
-        require_distinct({"a state": self.states, "an input": self.inputs, "a disturbance": self.disturbances,
-                          "a parameter": self.parameter_symbols, "an output": sorted(own, key=str)}, where)
+        require_distinct(self.names, where)
         known = (*self.states, *self.inputs, *self.disturbances, *self.parameter_symbols)
         require_known({f"the {kind} of '{s}'": e for s, e in zip(self.states, self.moves, strict=True)}, known, where)
         require_known({f"output '{s}'": value for s, value in self.outputs.items()},
@@ -157,13 +155,21 @@ class Plant:
         return tuple(parameter.symbol for parameter in self.parameters)
 
     @property
+    def names(self) -> dict[str, Sequence[sp.Symbol]]:
+        """All that the plant and a log of its runs call by a name, by what it is."""
+        return {"a state": self.states, "an input": self.inputs, "a disturbance": self.disturbances,
+                "a parameter": self.parameter_symbols,
+                "an output": [symbol for symbol, value in self.outputs.items() if symbol != value],
+                "a column of the log": [sp.Symbol(name) for name in ("t_s", *(f"{u}_wanted" for u in self.inputs))]}
+
+    @property
     def moves(self) -> tuple[sp.Expr, ...]:
         """Rates, or in discrete time updates: one expression a state."""
         return tuple(self.rates) or tuple(self.updates)
 
     @property
     def flow(self) -> dict[sp.Expr, sp.Expr]:
-        """State to rate, as a goal of the prover takes it; time runs with rate one where the rates name it.
+        """State to rate, as a goal of the prover takes it; where rates name time, it is to be given the rate one too.
 
         Raises ValueError for a plant in discrete time.
         """

@@ -15,7 +15,16 @@ from workbench.systems.law import Reference
 from workbench.systems.metric import Metric
 from workbench.systems.plant import Plant
 from workbench.systems.signals import AnySignal, Constant, signal_of
-from workbench.systems.symbols import CLOCK, is_finite, named_values, plain, require_known, several, written
+from workbench.systems.symbols import (
+    CLOCK,
+    is_finite,
+    named_values,
+    plain,
+    require_distinct,
+    require_known,
+    several,
+    written,
+)
 
 Array = NDArray[np.float64]
 Integrator = Literal["rk4", "radau", "bdf", "lsoda"]
@@ -58,14 +67,7 @@ class Setting:
         for name in ("duration_s", "step_s", "log_every_s"):
             object.__setattr__(self, name, plain(getattr(self, name)))
         object.__setattr__(self, "step_s", self._step())
-        for name in ("duration_s", "step_s"):
-            if not (is_finite(getattr(self, name)) and getattr(self, name) > 0):
-                raise ValueError(f"{name} = {written(getattr(self, name))}: give a positive number of seconds")
-        if self.duration_s / self.step_s > MOST_STEPS:
-            raise ValueError(f"duration_s / step_s is more than {MOST_STEPS}: take a longer step")
-        if self.duration_s < self.step_s:
-            raise ValueError(f"duration_s = {self.duration_s:g} is shorter than one step of {self.step_s:g} s: give "
-                             "more")
+        self._check_times()
         self._check_integrator()
         object.__setattr__(self, "parameters", plant.values(self.parameters))
         outputs, inputs = [*map(str, plant.outputs)], [*map(str, plant.inputs)]
@@ -84,6 +86,8 @@ class Setting:
                                            for name, value in named_values(getattr(self, key), key).items()})
             self._require_names(key, kind, names)
         self._check_numbers()
+        require_distinct({**plant.names, "a reference": [symbol for one in self.channels for symbol in one.symbols]},
+                         f"references of plant '{plant.id}'")
         for name, value in self.delay_s.items():
             self.steps_of(value, f"delay_s.{name}")
         for name, channel in self.tracks.items():
@@ -93,6 +97,20 @@ class Setting:
         if len(set(names)) < len(names):
             raise ValueError(f"two metrics are called '{max(names, key=names.count)}': rename one")
         require_known({f"metric '{m.id}'": m.expression for m in self.metrics}, self.symbols, f"plant '{plant.id}'")
+
+    def _check_times(self) -> None:
+        for name in ("duration_s", "step_s"):
+            if not (is_finite(getattr(self, name)) and getattr(self, name) > 0):
+                raise ValueError(f"{name} = {written(getattr(self, name))}: give a positive number of seconds")
+        if self.log_every_s is not None:
+            if not (is_finite(self.log_every_s) and self.log_every_s > 0):
+                raise ValueError(f"log_every_s = {written(self.log_every_s)}: give a positive number of seconds")
+            self.steps_of(self.log_every_s, "log_every_s")
+        if self.duration_s / self.step_s > MOST_STEPS:
+            raise ValueError(f"duration_s / step_s is more than {MOST_STEPS}: take a longer step")
+        if self.duration_s < self.step_s:
+            raise ValueError(f"duration_s = {self.duration_s:g} is shorter than one step of {self.step_s:g} s: give "
+                             "more")
 
     def _check_numbers(self) -> None:
         for key in ("noise", "late_s", "lag_s", "delay_s", "initial"):

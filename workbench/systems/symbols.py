@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 import sympy as sp
 
+from workbench.compile.cases import completed
 from workbench.model.law import period, time
 
 Limits = tuple[float, float]
@@ -25,7 +26,7 @@ def expression(value: Any, where: str) -> sp.Expr:
         found = sp.sympify(value, strict=True)
     except sp.SympifyError:
         raise ValueError(f"{where} is {written(value)}, no expression: give one of sympy, or a number") from None
-    if not isinstance(found, sp.Expr):
+    if not isinstance(found, sp.Expr) or found.is_Matrix:
         raise ValueError(f"{where} is a {type(found).__name__}, no scalar: give one expression each")
     found = found.replace(lambda e: isinstance(e, sp.Piecewise) and e.args[-1].cond != sp.true,
                           lambda e: _complete(e, where))
@@ -38,9 +39,10 @@ def expression(value: Any, where: str) -> sp.Expr:
 
 def _complete(cases: sp.Piecewise, where: str) -> sp.Expr:
     """Cases of which one always holds; ValueError naming `where` for cases that leave something open."""
-    if sp.Or(*(one.cond for one in cases.args)) != sp.true:
+    found = completed(cases)
+    if found is None:
         raise ValueError(f"{where}: {cases} says nothing of what is left: end it with (value, True)")
-    return sp.Piecewise(*cases.args[:-1], (cases.args[-1].expr, True))
+    return found
 
 
 def plain(value: Any) -> Any:

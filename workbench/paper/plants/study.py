@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 
-from workbench.errors import InputError
+from workbench.errors import CompileError, InputError
 from workbench.files.numbers import number, unit_text
 from workbench.paper.cells import Cell, Column, Phrase, Quantity
 from workbench.paper.parameter_search import NONE_YET, Finished, Name, Restart, Tuned, score, search, search_all
@@ -27,7 +27,10 @@ def run(study: LocatedPlantStudy, workers: int, on_progress: Progress) -> StudyR
 
 
 def _run_task(study: LocatedPlantStudy, name: str) -> PlantRun:
-    return run_plant(study.setting, study.entrants()[name], study.setting.parameters)
+    try:
+        return run_plant(study.setting, study.entrants()[name], study.setting.parameters)
+    except CompileError as trouble:
+        raise InputError(study.file, f"controllers.{name}", str(trouble)) from None
 
 
 def told(study: LocatedPlantStudy, runs: Sequence[PlantRun]) -> StudyResult:

@@ -67,6 +67,10 @@ class Entrant:
                 if reference.name not in setting.references:
                     raise ValueError(f"law '{self.law.id}' follows reference '{reference.name}', which is not stated: "
                                      f"state references.{reference.name}")
+            for symbol in self.law.state_symbols:
+                if str(symbol) in setting.references:  # a column of the log each
+                    raise ValueError(f"law '{self.law.id}': its state '{symbol}' has the name of a reference: rename "
+                                     "one")
             self.law.values(setting.plant, setting.plant.values(), self.parameters)
             names = [*map(str, self.law.state_symbols)]
             for name in self.initial:
