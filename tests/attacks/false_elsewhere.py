@@ -59,7 +59,8 @@ UNPROVED = (
         "The actuator has a dead zone", "The wires of the motor have the wrong polarity",
         "The measured state is $x + z$")),
     *(rf"{_PLANT} {said}. {_FALLS}" for said in (
-        "In what follows time runs backwards", "Derivatives are taken with respect to the distance")),
+        "The pivot is now shaken vertically", "In what follows time runs backwards",
+        "Derivatives are taken with respect to the distance")),
     # what is assumed no longer
     rf"{_BOUND} In this section $d$ may grow without bound." "\n\nWe have [[d^2 \\le k^2]]",
     rf"{_BOUND} Heavy rain may invalidate Assumption~\ref{{bound}}." "\n\nWe have [[d^2 \\le k^2]]",
@@ -74,7 +75,7 @@ UNREFUTED = (
     r"We have [[x^3 \ge 0]] \begin{remark} Negative values are excluded here. \end{remark}",
 )
 KEPT = (
-    rf"{_W}It is used for all loops.{_HOLDS}", rf"{_W}{_HOLDS} \section{{Conclusion}} A controller was presented.",
+    rf"{_W}It is used in the analysis.{_HOLDS}", rf"{_W}{_HOLDS} \section{{Conclusion}} A controller was presented.",
     rf"{_PLANT}\section{{Analysis}} Let us recall the model. {_FALLS}",
     rf"{_BOUND} By Assumption~\ref{{bound}}, we have [[d^2 \le k^2]]",
     r"The motion is described by \begin{equation} \dot y = - k y + z , \end{equation} where $y \in \mathbb{R}$ is the "

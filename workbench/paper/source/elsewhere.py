@@ -64,6 +64,7 @@ def said_elsewhere(sentences: Sequence[Sentence], readings: Sequence[Reading], g
              for gift in gifts} & {*letters}
     moved = min((gift.at for gift in gifts if gift.letter.startswith(RATE) and gift.form != "inline"
                  and gift.letter.removeprefix(RATE)[:-1] in letters), default=at) if rates else at
+    since = min((moved, *(gift.at for gift in gifts if gift.letter in taken and not gift.letter.startswith(RATE))))
     for place, (sentence, said) in enumerate(zip(sentences, readings, strict=True)):
         texts = [word.text for word in sentence.words if word.kind == "word"]
         if means_otherwise(texts, printed) or (moved < place < at and not said.shown and moves_otherwise(texts)):
@@ -71,6 +72,10 @@ def said_elsewhere(sentences: Sequence[Sentence], readings: Sequence[Reading], g
         if not said.unknown:
             continue
         formulas = [word.text for word in sentence.words if word.kind == "math"]
+        if since < place < at and sentence.place.headings[:1] == sentences[at].place.headings[:1] and not any(
+                word.kind in ("math", "reference", "display", "cite") for word in sentence.words):
+            yield place  # what it tells of the world, as `the pivot is now shaken`, may change what was given
+            continue
         spoken = {letter for word in sentence.words if word.kind == "reference"
                   for name in word.text.split(",") for letter in called.get(name.strip().strip("()"), ())}
         named = {letter for given, words, ones in nouns if given < place < at and words & {*texts} for letter in ones}
