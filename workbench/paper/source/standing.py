@@ -130,6 +130,7 @@ class Text:
                 contested = dict.fromkeys(spoken, self._told(before)) | contested
                 section = other.place.headings[:1] == sentence.place.headings[:1]
                 heading = [word.text for one in other.place.headings for word in self.passages.headings[one]]
+                heading += ["abstract"] if other.words[0].start < self.body.find(r"\end{abstract}") else []
                 everywhere = words & {*ALL} and not background(heading)
                 if spoken & {*letters} or everywhere or near or (not said.letters and (
                         section or restricts([*words], heading))):
