@@ -169,7 +169,7 @@ def test_bad_input_is_one_line_and_exit_code_2(short, tmp_path):
     missing = tmp_path / "missing.toml"
     assert "missing.toml" in one_line(run_apart("compare", missing))
     assert "name a paper's folder, a proof file" in one_line(run("prove", tmp_path / "missing.py"))
-    assert "no certificate" in one_line(run("check-certificates", tmp_path / "nothing"))
+    assert "no such folder or file" in one_line(run("check-certificates", tmp_path / "nothing"))
     short.write_text(short_toml().replace("mass_kg = 200000.0", "mass_kg = -1.0"))
     line = one_line(run("compare", short))
     assert "short.toml" in line and "train.mass_kg" in line

@@ -168,7 +168,7 @@ def test_the_command_writes_its_document(tmp_path):
     assert {s["name"] for s in document["found"]} == {"repaired", "best"}
     written = [path for path in (tmp_path / "c").rglob("*.json") if path.name != "manifest.json"]
     assert len(written) == len(document["certificates"])
-    assert "c_lambda" in done.stdout
+    assert "c_λ" in done.stdout
 
 
 def test_an_unknown_paper_is_one_line_and_exit_code_2():

@@ -10,7 +10,6 @@ from __future__ import annotations
 import hashlib
 import sys
 from collections.abc import Callable, Iterator
-from pathlib import Path
 from types import ModuleType
 from typing import Any
 
@@ -18,6 +17,7 @@ from numba import njit
 from numba.core.dispatcher import Dispatcher
 
 from workbench.compile.sealed import seal, sealed_folder
+from workbench.files.regular import sha256_of
 
 
 def compiled(**options: Any) -> Callable[[Callable[..., Any]], Any]:
@@ -44,7 +44,7 @@ def compiled(**options: Any) -> Callable[[Callable[..., Any]], Any]:
 
 
 def _digest(function: Callable[..., Any]) -> str:
-    return hashlib.sha256(Path(function.__code__.co_filename).read_bytes()).hexdigest()
+    return sha256_of(function.__code__.co_filename)
 
 
 def made_of(dispatcher: Dispatcher) -> Iterator[str]:

@@ -227,7 +227,8 @@ def _key(error: dict[str, Any], data: Any) -> str:
             parts[-1:] = [f"{parts[-1] if parts else ''}[{part}]"]
             table = table[part] if isinstance(table, list | tuple) and part < len(table) else None
             continue
-        absent = table is not None and not (isinstance(table, dict) and part in table)
+        absent = table is not None and not (isinstance(table, dict) and part in table) and not (
+            isinstance(table, str) and parts[-1:] == ["source"])
         if absent and not (error["type"] == "missing" and number == len(location) - 1):
             continue
         if _is_kind(location[number:], table, error["type"] == "missing"):
@@ -241,6 +242,8 @@ def _is_kind(location: list[Any], table: Any, is_missing: bool) -> bool:
     """Whether a part of a location is the kind of a union's member, though the table has a key of that name: what comes
     after it is a key of the same table, or the one that is missing there."""
     if not isinstance(table, dict) or len(location) < 2 or isinstance(table.get(location[0]), dict | list | tuple):
+        return False
+    if location[0] == "source":  # one text that stands for those of all values
         return False
     return location[1] in table or (is_missing and len(location) == 2)
 
