@@ -103,9 +103,9 @@ class _Words:
 
     def _require_no_name(self, at: int, end: int) -> None:
         """Raise LatexError for letters side by side that spell a function: `sin x` is s times i times n times x."""
-        run = ""
-        while at + len(run) < end and (piece := self.pieces[at + len(run)]).kind == "letter" and (
-                self._adjacent(at, at + len(run))):
+        run, longest = "", max(map(len, SPELLED))
+        while len(run) < longest and at + len(run) < end and (
+                piece := self.pieces[at + len(run)]).kind == "letter" and self._adjacent(at, at + len(run)):
             run += piece.text
         if name := next((name for name in SPELLED if run.startswith(name)), None):
             raise LatexError(f"the letters '{name}' are a product: write \\{name} for the function, or spaces between "
