@@ -9,7 +9,7 @@ from workbench.report.gain_words import heading, letter, spoken, with_powers
 
 @pytest.mark.parametrize(("key", "words", "column"), [
     ("s_tilde_m_rms", "RMS of s_tilde", "RMS of s_tilde (m)"), ("speed_mps_rms", "RMS of speed", "RMS of speed (m/s)"),
-    ("mse_50", "mean squared error of trial 50", "mean squared error of trial 50 (m²/s²)"),
+    ("mse_50", "mean squared error of trial 50", "mean squared error of trial 50"),
     ("position_rms", "RMS of the position error", "RMS of the position error (m)"),
     ("q1_error_largest", "q1 error largest", "q1 error largest")])
 def test_a_number_is_called_by_words_and_its_column_by_its_unit_too(key, words, column):

@@ -41,8 +41,7 @@ def spoken(key: str) -> str:
 
 def heading(key: str) -> str:
     """A number's key in words, with its unit where the key says one."""
-    unit = KNOWN[key][1] if key in KNOWN else "m²/s²" if _TRIAL.fullmatch(key) else next(
-        (UNITS[part] for part in key.split("_")[1:] if part in UNITS), "")
+    unit = KNOWN[key][1] if key in KNOWN else next((UNITS[part] for part in key.split("_")[1:] if part in UNITS), "")
     return f"{spoken(key)} ({unit})" if unit else spoken(key)
 
 
