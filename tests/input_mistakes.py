@@ -13,6 +13,8 @@ SCENARIO_MISTAKES = {
         "max_traction_n = 2", "max_tration_n = 2", "train.max_tration_n", "did you mean 'max_traction_n'",
     ),
     "unknown key": ("[train]", "[train]\ncolour = 1.0", "train.colour", "unknown key: remove it"),
+    "a delay that no memory holds": ("[train]", "[sensing]\nmeasurement_delay_s = 1e300\n[train]",
+                                     "sensing.measurement_delay_s", "less than or equal to 60"),
     "unknown table": ("[train]", "[wagons]\na = 1\n[train]", "wagons", "unknown key"),
     "missing key": ("dwell_s = 5.0\n", "", "simulation.dwell_s", "is missing: add it"),
     "missing in the reference": ("braking_mps2 = 0.5\n", "", "reference.braking_mps2", "is missing: add it"),

@@ -31,6 +31,8 @@ def _plant(push: sp.Expr = u, **more: object) -> wb.Plant:
     (lambda: wb.Step(before=1), "^Step: after: is missing"),
     (lambda: wb.Sine(1.0, 2.0), "^Sine takes its values by name: write Sine"),  # type: ignore[misc]
     (lambda: wb.Setting(_plant(), 1.0, initial={"x": x / 4}), "initial.x = x/4: give a finite number"),
+    (lambda: wb.Setting(_plant(), 1.0, delay_s={"u": 1e300}), "delay_s.u = 1e[+]?300: nothing arrives within 1 s"),
+    (lambda: wb.Setting(_plant(), 1.0, late_s={"x": 2.0}), "late_s.x = 2.0: nothing arrives within 1 s"),
     (lambda: wb.Setting(_plant(), 1.0, references={"r": wb.Spline(file="none.csv", column="r")}), "no such file")])
 def test_a_mistake_is_one_line(made: object, told: str) -> None:
     with pytest.raises(Exception, match=told) as trouble:

@@ -7,7 +7,7 @@ from typing import Annotated, Any, Literal, Self
 from pydantic import Field, PrivateAttr, Strict, model_validator
 
 from workbench.errors import InputError
-from workbench.files.toml import Count, Name, NonNegative, Positive, SourcedRecord, Text
+from workbench.files.toml import Count, Lateness, Name, NonNegative, Positive, SourcedRecord, Text
 from workbench.model.sensing import SpeedFrom
 from workbench.model.tuning import Searched, SearchResult, Seed
 from workbench.paper.study import Study
@@ -42,8 +42,8 @@ class Condition(SourcedRecord):
     failure_from_s: NonNegative = 0.0
     position_noise_m: NonNegative = 0.0
     speed_noise_mps: NonNegative = 0.0
-    measurement_delay_s: NonNegative = 0.0
-    command_delay_s: NonNegative = 0.0
+    measurement_delay_s: Lateness = 0.0
+    command_delay_s: Lateness = 0.0
     position_quantum_m: NonNegative = 0.0
     odometer_spread: Annotated[float, Strict(), Field(ge=0, le=0.2, allow_inf_nan=False)] = 0.0
     balise_spacing_m: NonNegative = 0.0

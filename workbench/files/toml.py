@@ -31,6 +31,8 @@ from workbench.files.text import read_text
 Number = Annotated[float, Strict(), Field(allow_inf_nan=False)]
 Positive = Annotated[float, Strict(), Field(gt=0, allow_inf_nan=False)]
 NonNegative = Annotated[float, Strict(), Field(ge=0, allow_inf_nan=False)]
+# What is late is remembered sample by sample; beyond a minute nobody closes a loop.
+Lateness = Annotated[float, Strict(), Field(ge=0, le=60, allow_inf_nan=False)]
 Whole = Annotated[int, Strict()]
 Count = Annotated[int, Strict(), Field(ge=1)]
 Text = Annotated[str, Strict(), Field(min_length=1)]

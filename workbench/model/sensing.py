@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from pydantic import Field, Strict
 
 from workbench.errors import WorkbenchError
-from workbench.files.toml import NonNegative, SourcedRecord
+from workbench.files.toml import Lateness, NonNegative, SourcedRecord
 
 Array = NDArray[np.float64]
 
@@ -71,8 +71,8 @@ class Instruments(SourcedRecord):
 
     position_noise_m: NonNegative = 0.0
     speed_noise_mps: NonNegative = 0.0
-    measurement_delay_s: NonNegative = 0.0
-    command_delay_s: NonNegative = 0.0
+    measurement_delay_s: Lateness = 0.0
+    command_delay_s: Lateness = 0.0
     seed: Annotated[int, Strict(), Field(ge=0)] = 0
     position_quantum_m: NonNegative = 0.0
     odometer_scale: Scale = 1.0

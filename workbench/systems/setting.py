@@ -118,6 +118,11 @@ class Setting:
                 if not is_finite(value) or (key != "initial" and value < 0):
                     raise ValueError(f"{key}.{name} = {written(value)}: give a finite number"
                                      f"{'' if key == 'initial' else ' that is not negative'}")
+        for key in ("late_s", "delay_s"):
+            for name, value in getattr(self, key).items():
+                if value > self.duration_s:
+                    raise ValueError(f"{key}.{name} = {written(value)}: nothing arrives within {self.duration_s:g} s: "
+                                     "give less, or a longer duration_s")
         if not isinstance(self.seed, int | np.integer) or isinstance(self.seed, bool) or self.seed < 0:
             raise ValueError(f"seed = {self.seed!r}: give a whole number that is not negative")
 
