@@ -16,10 +16,10 @@ from workbench.optimal.course import Course
 from workbench.optimal.envelope import InfeasibleRunError
 from workbench.optimal.profile import energy_j
 from workbench.optimal.reference import find_reference, find_timed_reference, least_time
-from workbench.optimal.schedule import Miss, leg_times, schedule
+from workbench.optimal.schedule import Miss, leg_times, require_possible, schedule
 from workbench.optimal.smooth import smooth_reference
 from workbench.optimal.socp import COARSE_FIRST
-from workbench.optimal.timetable import TOUCH_S, Timetable, TimingPoint, Window
+from workbench.optimal.timetable import TOUCH_S, Timetable, TimingPoint, Window, as_timetable
 from workbench.optimal.vehicle import ForceLimit, Vehicle
 
 TRAIN = Vehicle("regenerating", 3e5, (4e3, 80.0, 9.0), ForceLimit(2e5, 2.2e6), ForceLimit(1.2e5, 2.5e6), 2e5,
@@ -231,6 +231,17 @@ def test_the_nonlinear_program_finds_the_same(stands):
     assert other.energy_j == pytest.approx(cone.energy_j, rel=1e-3)
     np.testing.assert_allclose(other.certificate.window_prices_w[1], cone.certificate.window_prices_w[1], rtol=0.05)
     assert max(cone.lower_bound_j, other.lower_bound_j) <= min(cone.energy_j, other.energy_j)
+
+
+def test_what_a_run_at_hand_does_is_possible_whatever_the_other_estimate_says():
+    """The one on coarser cells may be the slower one: 10401.8 s were too short where 10400.5 s were the least."""
+    quickest = least_time(TRAIN, COURSE)
+    slower = replace(quickest, half_square=quickest.half_square * 0.98)
+    between = as_timetable(COURSE, (quickest.trip_time_s + slower.trip_time_s) / 2)
+    require_possible(TRAIN, between, quickest, slower)
+    require_possible(TRAIN, between, slower, quickest)
+    with pytest.raises(InfeasibleRunError, match="too short"):
+        require_possible(TRAIN, between, slower, slower)
 
 
 def test_a_timetable_of_another_course_or_without_limits_is_refused():

@@ -2,6 +2,7 @@
 
 import csv
 import json
+import re
 from pathlib import Path
 from typing import Any
 
@@ -116,6 +117,17 @@ def test_a_run_that_arrives_early_says_so(tmp_path: Path) -> None:
     took = json.loads((tmp_path / "r.json").read_text(encoding="utf-8"))["trip_time_s"]
     assert took < 90
     assert f"arrives       after {took:.1f} s, {100 - took:.1f} s early" in told[80e3]
+
+
+def test_near_the_least_time_the_window_shrinks_and_it_is_said() -> None:
+    """A run smoothed over a window is later by it: within a second of the least time none is left for one."""
+    least = least_time(HILLS, TRAIN)
+    told = said(HILLS, TRAIN, "--time", f"{least + 0.9:.3f}", "--intervals", 200)
+    assert re.search(r"note: smoothing over 1 s takes more time than there is: over 0\.[25] s here", told)
+    with pytest.raises(WorkbenchError, match=r"its smooth reference is not: .*; or choose a shorter --window$"):
+        said(HILLS, TRAIN, "--time", f"{least + 0.9:.3f}", "--window", 1, "--intervals", 200)
+    with pytest.raises(WorkbenchError, match="the least feasible trip time is"):
+        said(HILLS, TRAIN, "--time", f"{least - 0.9:.3f}")
 
 
 @pytest.mark.parametrize(("arguments", "message"), [

@@ -27,7 +27,9 @@ def command(track: Annotated[Path | None, typer.Argument(help="Line: TOML of thi
                 min=10, max=20_000, help="Of the plan's mesh; default: as many as the gap asks for.")] = None,
             solver: Annotated[Literal["auto", "socp", "nlp"], typer.Option(
                 help="Cone program, nonlinear program, or what the gap asks for.")] = "auto",
-            window: Annotated[float, typer.Option(metavar="S", help="Over which acceleration is smoothed.")] = 1.0,
+            window: Annotated[float | None, typer.Option(
+                metavar="S", help="Over which acceleration is smoothed; default: 1, less where that takes too long.")
+            ] = None,
             max_jerk: Annotated[float | None, typer.Option(metavar="MPS3", help="Limit of the jerk.")] = None,
             json: JsonFile = None,
             csv: Annotated[Path | None, typer.Option(

@@ -133,9 +133,10 @@ def require_possible(vehicle: Vehicle, timetable: Timetable, quickest: Profile, 
     The fastest run is the fastest at every position, so that no run takes less between any two points. `ideal` is that
     run as near as a mesh comes to it; `quickest` a little slower one that surely keeps every limit, which is told.
     """
-    leg_s = leg_times(timetable, ideal)
+    # On cells so long that limits cut their ends `ideal` may be the slower one: what either does can be done.
+    leg_s = np.minimum(leg_times(timetable, ideal), leg_times(timetable, quickest))
     for number, point in enumerate(timetable.points):
-        most = float(np.interp(point.position_m, ideal.position_m, ideal.half_square))
+        most = max(float(np.interp(point.position_m, run.position_m, run.half_square)) for run in (ideal, quickest))
         if point.slowest_mps**2 / 2 > most * (1 + 1e-9) and 0 < number < len(timetable.points) - 1:
             raise InfeasibleRunError(
                 f"timing point {number + 1} at {point.position_m:g} m asks for {point.slowest_mps:.4g} m/s at least: "

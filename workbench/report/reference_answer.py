@@ -23,7 +23,7 @@ from workbench.optimal.inputs.journey import load_timetable
 from workbench.optimal.inputs.line import Line, course
 from workbench.optimal.reference import Reference, find_reference, find_timed_reference, least_time
 from workbench.optimal.regimes import time_shares
-from workbench.optimal.smooth import SmoothReference, smooth_reference
+from workbench.optimal.smooth import WINDOW_S, SmoothReference, smooth_reference
 from workbench.optimal.timetable import Timetable, as_timetable
 from workbench.optimal.vehicle import Vehicle
 from workbench.optimal.verify_smooth import SmoothCheck, check_smooth
@@ -39,6 +39,8 @@ if TYPE_CHECKING:
 ROUNDING = 1e-9
 # A run that arrives within this of its time is in time: what is told has tenths.
 EARLY_S = 0.5
+# A smooth run is later by its window, and keeps back what its average would pass: near the least time that is too much.
+WINDOWS_S = (WINDOW_S, 0.5, 0.2)
 
 
 def answered(asked: Request, line: Line, vehicle: Vehicle, train: CarTrain | None,
@@ -121,6 +123,8 @@ def _told(asked: Request, line: Line, vehicle: Vehicle, run: Course, notes: tupl
     found, smooth, cars = answer.found, answer.smooth, answer.cars
     for note in (*notes, *notes_together(line, vehicle)):
         yield f"note: {note}"
+    if asked.window_s is None and smooth.window_s < WINDOW_S:
+        yield f"note: smoothing over {WINDOW_S:g} s takes more time than there is: over {smooth.window_s:g} s here"
     yield from _summary(asked, line, vehicle, found, stops)
     yield from _of_smooth(answer)
     if asked.timetable:
@@ -139,12 +143,15 @@ def _solve(asked: Request, vehicle: Vehicle, run: Course, dwell_s: float) -> tup
 
 def _smooth(asked: Request, vehicle: Vehicle, run: Course, within: Timetable | float,
             found: Reference) -> SmoothReference:
-    try:
-        return smooth_reference(vehicle, run, within, asked.window_s, asked.max_jerk_mps3, asked.dwell_s,
-                                asked.start_mps, asked.end_mps, asked.intervals, asked.solver, found)
-    except InfeasibleRunError as trouble:
-        raise InfeasibleRunError(f"the run itself is feasible, its smooth reference is not: {trouble}; or choose a "
-                                 "shorter --window", trouble.least_time_s) from None
+    """Over the window asked for, else over the longest of WINDOWS_S that leaves time enough."""
+    for window_s in WINDOWS_S if asked.window_s is None else (asked.window_s,):
+        try:
+            return smooth_reference(vehicle, run, within, window_s, asked.max_jerk_mps3, asked.dwell_s, asked.start_mps,
+                                    asked.end_mps, asked.intervals, asked.solver, found)
+        except InfeasibleRunError as trouble:
+            last = trouble
+    raise InfeasibleRunError(f"the run itself is feasible, its smooth reference is not: {last}; or choose a shorter "
+                             "--window", last.least_time_s)
 
 
 def _with_stops(stops: tuple[float, ...], dwell_s: float) -> str:

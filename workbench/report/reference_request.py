@@ -25,7 +25,7 @@ class Request:
     start_mps: float
     end_mps: float
     intervals: int | None
-    window_s: float
+    window_s: float | None
     max_jerk_mps3: float | None
     json: Path | None
     csv: Path | None
