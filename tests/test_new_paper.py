@@ -94,7 +94,7 @@ def test_nothing_is_overwritten(tmp_path, there):
 
 
 @pytest.mark.parametrize("name", ["2020doe", "a b", "a-b", "a.b", "../a", "..", "", "class", "None", "json", "sympy",
-                                  "_a", "workbench", "étude", "a\0b", "a" * 101])
+                                  "nan", "inf", "_a", "workbench", "étude", "a\0b", "a" * 101])
 def test_a_name_that_no_module_can_have_is_refused(tmp_path, name):
     with pytest.raises(InputError) as caught:
         write_new_paper(name, tmp_path)

@@ -202,6 +202,8 @@ def test_what_does_not_fit_a_controller_is_one_line():
         run(setting, Entrant("law", 0.0015, FREE))
     with pytest.raises(ValueError, match="no whole number of periods"):
         run(setting, Entrant("law", 0.3, FREE))
+    with pytest.raises(ValueError, match="no whole number of periods"):
+        run(setting, Entrant("law", 1e300, FREE))
     with pytest.raises(CompileError, match=r"plant '.*function 'besselj' cannot be compiled"):
         odd = Plant("q", (x,), (sp.besselj(0, x) + u,), inputs=(u,))
         run(Setting(odd, 1.0), Entrant("l", 0.1, StateLaw("l", {u: 0})))

@@ -14,6 +14,8 @@ from pathlib import Path
 from workbench.errors import InputError
 from workbench.files.regular import LARGEST_DATA, LARGEST_TEXT, NotRegularError, TooLargeError, contents, size_words
 
+# What to do about a file that is not there, unless who names it is known.
+CHECK_PATH = "check the path"
 # What a name is that no file can bear, and one that links lead around with.
 NO_NAME = (errno.ENAMETOOLONG, errno.ELOOP, errno.ENOTDIR)
 # What is not named here is data.
@@ -61,7 +63,7 @@ def written_since_read(path: str | Path) -> bool:
     return bool(read_ns) and max(found.st_mtime_ns, found.st_ctime_ns) > read_ns
 
 
-def read_text(path: Path, kind: str, where: str = "check the path") -> str:
+def read_text(path: Path, kind: str, where: str = CHECK_PATH) -> str:
     """A file's text, UTF-8 with or without a mark, its lines ended by a line feed.
 
     kind: what it should hold, as 'TOML', which also says how large it may be; where: what to do when there is none.
@@ -110,7 +112,8 @@ def _contents(path: Path, kind: str, where: str) -> bytes:
     except FileNotFoundError:
         raise InputError(path, "", f"no such file: {where}{_meant(path)}") from None
     except IsADirectoryError:
-        raise InputError(path, "", f"is a folder: name a .{kind.lower()} file in it") from None
+        raise InputError(path, "", f"is a folder: name a .{kind.lower()} file in it"
+                         f"{'' if where == CHECK_PATH else f' ({where})'}") from None
     except NotRegularError:
         raise InputError(path, "", f"is a pipe, a device or a socket: name a regular {kind} file") from None
     except TooLargeError:

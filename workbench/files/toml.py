@@ -25,7 +25,7 @@ from pydantic import (
 
 from workbench.errors import InputError
 from workbench.files.known_keys import meant
-from workbench.files.text import read_text
+from workbench.files.text import CHECK_PATH, read_text
 
 # A number between bounds is declared `mass_kg: Number = Field(ge=1e3, le=1e8)`, a whole one `Whole` likewise.
 Number = Annotated[float, Strict(), Field(allow_inf_nan=False)]
@@ -127,7 +127,7 @@ R = TypeVar("R", bound=BaseModel)
 _tables: dict[tuple[str, int, int, int], dict[str, Any]] = {}
 
 
-def read_toml(path: Path, where: str = "check the path") -> dict[str, Any]:
+def read_toml(path: Path, where: str = CHECK_PATH) -> dict[str, Any]:
     """The table in a TOML file, read once as long as it does not change; InputError when it is missing, unreadable or
     not TOML. where: what to do when there is no such file."""
     try:
@@ -183,7 +183,7 @@ def _integers(value: Any, key: str) -> Iterator[tuple[str, int]]:
             yield from _integers(child, f"{key}[{number}]")
 
 
-def load_record(path: Path, model: type[R], reproduction: bool = False, where: str = "check the path") -> R:
+def load_record(path: Path, model: type[R], reproduction: bool = False, where: str = CHECK_PATH) -> R:
     """Read `path` as a `model`; raises InputError naming the file, the first wrong key and the remedy. where: as for
     `read_toml`."""
     return validate_record(read_toml(path, where), model, path, reproduction)

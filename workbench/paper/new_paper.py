@@ -46,6 +46,8 @@ def new_folder(name: str, directory: Path) -> Path:
         raise InputError("new-paper", name, f"is no name of a Python module: {ANOTHER}")
     if name.startswith("_") or name in sys.stdlib_module_names or name in ("sympy", "workbench"):
         raise InputError("new-paper", name, f"would hide another module, or be hidden: {ANOTHER}")
+    if name in ("nan", "inf"):
+        raise InputError("new-paper", name, f"stands for a number that is none, in tables too: {ANOTHER}")
     folder = directory / name
     if folder.exists() or folder.is_symlink():
         raise InputError(folder, "", "exists already: name another paper, or move it away first")

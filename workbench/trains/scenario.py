@@ -10,6 +10,7 @@ from typing import Annotated, Any, Literal, Self
 from pydantic import BeforeValidator, Field, Strict, WithJsonSchema, model_validator
 
 from workbench.errors import InputError, WorkbenchError
+from workbench.files.text import CHECK_PATH
 from workbench.files.toml import (
     REPRODUCTION,
     Count,
@@ -248,7 +249,7 @@ def with_parameters(scenario: Scenario, name: str, parameters: dict[str, float])
     return scenario.model_copy(update={"controllers": scenario.controllers | {name: changed}})
 
 
-def load_scenario(path: Path, where: str = "check the path") -> Scenario:
+def load_scenario(path: Path, where: str = CHECK_PATH) -> Scenario:
     """Load a scenario from TOML, its line from the file it names; where: as for `read_toml`. Raises InputError naming
     file and key."""
     return build_scenario(path, read_toml(path, where))

@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 from pydantic import Field, Strict, model_validator
 
+from workbench.files.text import CHECK_PATH
 from workbench.files.toml import NonNegative, Positive, Record, SourcedRecord, Text, load_record
 
 
@@ -220,7 +221,7 @@ def speed_limits(track: Track) -> tuple[NDArray[np.float64], NDArray[np.float64]
             np.array([*(section.speed_mps for section in found), np.inf]))
 
 
-def load_track(path: Path, reproduction: bool = False, where: str = "check the path") -> Track:
+def load_track(path: Path, reproduction: bool = False, where: str = CHECK_PATH) -> Track:
     """Load a line from TOML; raises InputError naming file and key. reproduction: every value needs its source; where:
     what to do when there is no such file."""
     return load_record(path, Track, reproduction, where)

@@ -54,7 +54,8 @@ class Entrant:
     def check(self, setting: Setting) -> None:
         """ValueError unless the controller fits the plant and samples at whole plant steps."""
         every = setting.steps_of(self.period_s, f"controller '{self.name}': period_s")
-        if every < 1 or abs(setting.duration_s / self.period_s - round(setting.duration_s / self.period_s)) > 1e-6:
+        count = setting.duration_s / self.period_s
+        if every < 1 or round(count) < 1 or abs(count - round(count)) > 1e-6:
             raise ValueError(f"controller '{self.name}': duration_s = {setting.duration_s:g} s is no whole number of "
                              f"periods of {self.period_s:g} s: choose a multiple")
         for name, late in setting.late_s.items():
