@@ -161,3 +161,14 @@ print("numpy.f2py.f2py2e" in sys.modules, callable(numpy.f2py.get_include), "num
 """
     done = subprocess.run([sys.executable, "-c", program], check=True, capture_output=True, text=True, timeout=300)
     assert done.stdout.split() == ["False", "True", "True"]
+
+
+def test_ctrl_c_while_the_command_is_imported_is_no_traceback():
+    program = ("import runpy, sys\n"
+               "class Pressed:\n"
+               "    def find_spec(self, name, *more):\n"
+               "        if name == 'typer': raise KeyboardInterrupt\n"
+               "sys.meta_path.insert(0, Pressed())\n"
+               "runpy.run_module('workbench', run_name='__main__')\n")
+    done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, timeout=300, check=False)
+    assert (done.returncode, done.stdout, done.stderr) == (130, "", "")
