@@ -19,7 +19,7 @@ from workbench.cli.loading import load
 from workbench.paper.results import Curve, Plot, ResultTable, StudyResult
 from workbench.paper.stages import Stage, run_stages
 from workbench.report import build as building
-from workbench.report.build import Asked, build_study_report
+from workbench.report.build import QUICK_DRAWS, Asked, build_study_report
 from workbench.report.runs import run_study, study_document
 from workbench.report.sources import sourced_values
 from workbench.report.study_figures import study_plot
@@ -211,12 +211,14 @@ def test_progress_comes_through(tiny):
     assert steps == [("runs", 1, 1)]
 
 
-@pytest.mark.parametrize(("full", "drawn"), [(False, 10), (True, 100)])
+@pytest.mark.parametrize(("full", "drawn"), [(False, QUICK_DRAWS), (True, 100)])
 def test_a_report_draws_few_trains_unless_it_is_to_be_full(tmp_path, full, drawn):
     asked = Asked.of(load(PROOFS / "mao2018"), [], tmp_path / "out", full=full)
     assert (asked.draws(100), asked.draws(7)) == (drawn, 7) and asked.command.endswith(" --full") == full
-    assert building._with_draws(asked).study.pairs.draws == drawn
-    assert building._draws_words(asked) == ("" if full else "the first 10 of 100; all with --full")
+    assert building._as_short(asked).study.pairs.draws == drawn
+    of_runs = StudyResult((), (), (), (), left_out=0 if full else 7, runs={1: None})
+    assert building._shortened(asked, of_runs) == ({} if full else {
+        "runs": "1 of 8", "drawn trains": f"the first {QUICK_DRAWS} of 100"})
     assert asked.loaded.study.pairs.draws == 100, "the page shows what is stated"
 
 

@@ -17,10 +17,11 @@ from workbench.files.own_files import read_manifest
 from workbench.files.regular import contents
 from workbench.files.writing import make_folder, require_inside, write_text
 from workbench.gains.result import GainReport
-from workbench.paper.gain_effects import NONE_YET, effects, gains_of
+from workbench.paper.gain_effects import NONE_YET, effects, gains_of, left_out
 from workbench.paper.gain_search import Runs, gain_search_of
 from workbench.paper.loading import Loaded
 from workbench.paper.recorded_front import searched_or_recorded, shown_fronts
+from workbench.paper.reproduced import ReproducedStudy
 from workbench.paper.results import StudyResult
 from workbench.paper.study import Study
 from workbench.paper.tuning_record import Pairs
@@ -45,14 +46,15 @@ MONTE_CARLO, CHECKER = "monte_carlo", "checker.py"
 FILES = ("report.html", "claims.json", CHECKER, "compare.json", "gains.json", f"{MONTE_CARLO}/sweep.csv",
          f"{MONTE_CARLO}/sweep.journal.jsonl", "matches.journal.jsonl", "pareto.journal.jsonl")
 # So many drawn trains a report takes at the most, unless it is to be full.
-QUICK_DRAWS = 10
+QUICK_DRAWS = 8
 
 
 @dataclass(frozen=True)
 class Asked:
     """A report that is asked for, with everything it needs checked; gains: what was found of the paper's gains.
 
-    full: on all drawn trains that the file states, else on the first QUICK_DRAWS of them.
+    full: with what the file marks `only_full` and on all drawn trains that it states, else without and on the first
+    QUICK_DRAWS of them.
     """
 
     loaded: Loaded
@@ -147,34 +149,35 @@ def build_study_report(asked: Asked, on_progress: Progress = lambda what, done, 
     timings: dict[str, float] = {}
     claims = _decide(asked, on_progress, timings)
     with _timed(timings, "runs"):
-        result = run_study(_with_draws(asked), asked.workers, on_progress, out, asked.resume)
+        result = run_study(_as_short(asked), asked.workers, on_progress, out, asked.resume)
         write_json(out / "compare.json", study_document(study, result))
     write_curves(list(map(chart_of, result.plots)), out)
     found = _gains(asked, on_progress, timings, result.runs)
     page = out / "report.html"
     with _timed(timings, "page"):
         text = build_study_page(StudyContent(study, result, claims, timings, (asked.command,), found,
-                                             _draws_words(asked)))
+                                             _shortened(asked, result)))
         write_text(page, text, ANOTHER_OUT)
     return StudyReport(page, claims, study, result, timings)
 
 
-def _with_draws(asked: Asked) -> Loaded:
-    """What is run: the file's study on as many drawn trains as are asked for."""
+def _as_short(asked: Asked) -> Loaded:
+    """What is run: the file's study, without what is for full reports alone and on as many trains as are asked for."""
     study = asked.loaded.study
-    pairs = getattr(study, "pairs", None)
-    if not isinstance(pairs, Pairs):
+    if asked.full or not isinstance(study, ReproducedStudy):
         return asked.loaded
-    fewer = pairs.model_copy(update={"draws": asked.draws(pairs.draws)})
-    return replace(asked.loaded, record=study.model_copy(update={"pairs": fewer}))
+    fewer = study.pairs and study.pairs.model_copy(update={"draws": asked.draws(study.pairs.draws)})
+    return replace(asked.loaded, record=study.model_copy(update={"pairs": fewer}).shortened())
 
 
-def _draws_words(asked: Asked) -> str:
-    """On how many drawn trains the pairs of a page are, where they are not all that the file states."""
-    pairs = getattr(asked.loaded.study, "pairs", None)
-    if not isinstance(pairs, Pairs) or asked.draws(pairs.draws) == pairs.draws:
-        return ""
-    return f"the first {asked.draws(pairs.draws)} of {pairs.draws}; all with --full"
+def _shortened(asked: Asked, result: StudyResult) -> dict[str, str]:
+    """What a page is shorter by than a full one, and how much of it there is; empty of a full one."""
+    pairs, found = getattr(asked.loaded.study, "pairs", None), {}
+    if result.left_out:
+        found["runs"] = f"{len(result.runs)} of {len(result.runs) + result.left_out}"
+    if isinstance(pairs, Pairs) and asked.draws(pairs.draws) < pairs.draws:
+        found["drawn trains"] = f"the first {asked.draws(pairs.draws)} of {pairs.draws}"
+    return found
 
 
 def _decide(asked: Asked, on_progress: Progress, timings: dict[str, float]) -> dict[str, Any]:
@@ -199,11 +202,11 @@ def _gains(asked: Asked, on_progress: Progress, timings: dict[str, float], runs:
         return None
     with _timed(timings, "gains"):
         done = effects(asked.loaded, asked.gains, asked.workers,
-                       lambda at, total, _: on_progress("runs of gains", at, total), runs)
+                       lambda at, total, _: on_progress("runs of gains", at, total), runs, asked.full)
         fronts = shown_fronts(asked.loaded, searched_or_recorded(asked.loaded, False), asked.workers,
                               lambda at, total, _: on_progress("fronts of gains", at, total))
         write_json(asked.out / "gains.json", gains_document(asked.gains, done, fronts))
-    return gains_result(asked.gains, done, fronts)
+    return gains_result(asked.gains, done, fronts, left_out(asked.loaded, asked.gains, done))
 
 
 def _check_folder(loaded: Loaded, out: Path) -> None:

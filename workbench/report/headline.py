@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from itertools import combinations, pairwise
 
 import numpy as np
@@ -153,6 +153,15 @@ def sources_line(values: Sequence[SourcedValue]) -> Markup | None:
     assumed = sum(value.kind == "assumed" for value in values)
     return Markup('<strong>Data.</strong> {} of {} stated values are <a href="#assumptions">assumed</a>: '
                   "the paper does not give them.").format(assumed, len(values))
+
+
+def shortened_line(parts: Mapping[str, str]) -> Markup | None:
+    """What a short report has less of than a full one, and how to get the rest; None of a full one."""
+    if not parts:
+        return None
+    words = "; ".join(f"{what}: {some}" for what, some in parts.items())
+    return Markup("<strong>Short report.</strong> {}. The rest is assumed data, or more of the same: "
+                  "<code>--full</code> makes all of it.").format(words[0].upper() + words[1:])
 
 
 def _rank(verdict: str) -> int:
