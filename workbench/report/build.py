@@ -34,6 +34,7 @@ from workbench.report.charts.files import ANOTHER_OUT, CURVES, write_curves
 from workbench.report.finding import findings
 from workbench.report.finding_sentences import findings_document
 from workbench.report.gains import gains_document, gains_result
+from workbench.report.headline import CHANGES
 from workbench.report.page import ReportContent, build_page, scenario_charts
 from workbench.report.runs import Progress, comparison_document, run_study, study_document
 from workbench.report.study_page import StudyContent, build_study_page
@@ -122,11 +123,17 @@ def build_report(asked: Asked, runs: int | None = None, seed: int | None = None,
     loaded, scenario, out, workers = asked.loaded, asked.loaded.scenario, asked.out, asked.workers
     timings: dict[str, float] = {}
     claims = _decide(asked, on_progress, timings)
+    changes = tuple(change for change in scenario.variants if asked.full or not change.only_full)
+    compared = scenario.model_copy(update={"variants": changes})
     with _timed(timings, "runs and variants"):
-        comparison = compare(loaded.path, loaded.data, scenario, workers=workers,
+        comparison = compare(loaded.path, loaded.data, compared, workers=workers,
                              on_progress=lambda done, total, _: on_progress("runs and variants", done, total))
         write_json(out / "compare.json", comparison_document(comparison))
-    runs = asked.draws(scenario.uncertainty.runs) if runs is None else runs
+    stated = len(scenario.variants)
+    shortened = {CHANGES: f"{len(changes)} of {stated}"} if len(changes) < stated else {}
+    if runs is None:
+        runs = asked.draws(scenario.uncertainty.runs)
+        shortened |= _fewer_trains(runs, scenario.uncertainty.runs)
     seed = scenario.uncertainty.seed if seed is None else seed
     with _timed(timings, "Monte Carlo"):
         rows = sweep(scenario, loaded.path, runs, seed, out=out / MONTE_CARLO, resume=asked.resume, workers=workers,
@@ -134,7 +141,8 @@ def build_report(asked: Asked, runs: int | None = None, seed: int | None = None,
     content = ReportContent(
         scenario=scenario, claims=claims, runs=comparison.runs, metrics=comparison.metrics, sweep=rows,
         sweep_seed=seed, variants=comparison.variants, timings=timings,
-        commands=(f"{asked.command} --runs {runs}",), gains=_gains(asked, on_progress, timings))
+        commands=(f"{asked.command} --runs {runs}",), gains=_gains(asked, on_progress, timings),
+        shortened=shortened)
     page = out / "report.html"
     with _timed(timings, "page"):
         write_curves(list(scenario_charts(content).values()), out)
@@ -175,9 +183,13 @@ def _shortened(asked: Asked, result: StudyResult) -> dict[str, str]:
     pairs, found = getattr(asked.loaded.study, "pairs", None), {}
     if result.left_out:
         found["runs"] = f"{len(result.runs)} of {len(result.runs) + result.left_out}"
-    if isinstance(pairs, Pairs) and asked.draws(pairs.draws) < pairs.draws:
-        found["drawn trains"] = f"the first {asked.draws(pairs.draws)} of {pairs.draws}"
+    if isinstance(pairs, Pairs):
+        found |= _fewer_trains(asked.draws(pairs.draws), pairs.draws)
     return found
+
+
+def _fewer_trains(drawn: int, stated: int) -> dict[str, str]:
+    return {"drawn trains": f"the first {drawn} of {stated}"} if drawn < stated else {}
 
 
 def _decide(asked: Asked, on_progress: Progress, timings: dict[str, float]) -> dict[str, Any]:

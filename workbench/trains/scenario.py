@@ -121,12 +121,13 @@ class PrintedValue(Record):
 class Variant(Record):
     """One change of an assumed value, to see how much it matters: dotted key -> value.
 
-    controllers: those whose run it changes; none named means all.
+    controllers: those whose run it changes; none named means all. only_full: a report runs it with --full alone.
     """
 
     title: Text
     set: dict[str, Any]
     controllers: tuple[Text, ...] = ()
+    only_full: Annotated[bool, Strict()] = False
 
 
 class ScenarioTuning(Searched):
