@@ -33,6 +33,7 @@ def command(paper: Annotated[str, typer.Argument(metavar="PAPER", help="A paper'
         raise InputError(out, "--out", "holds certificates, for whose checker every JSON file there is one: name "
                          "another folder")
     require_few(folder)
+    check_outputs({}, folders={"--out": (out, ())})  # before seconds are spent on proofs
     exported = list(export_folder(folder))
     if not exported:
         raise WorkbenchError(f"{folder}: holds no certificate (*.json): run 'workbench prove --write' first")

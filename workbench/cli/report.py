@@ -41,14 +41,14 @@ def command(paper: PaperOrFile,
 
     loaded = load(paper)
     check_outputs({}, folders={"--out": (out, ())})
+    for option, given in (("--runs", runs), ("--seed", seed)) if loaded.kind is not None else ():
+        if given is not None:
+            raise InputError("", option, "is for scenarios; a study's file states its own runs: leave it out")
     # After what was asked has been read: a mistake need not wait for it.
     from workbench.report.build import Asked, build_report, build_study_report
 
     asked = Asked.of(loaded, proofs or [], out, gains, resume, workers, full)
     if loaded.kind is not None:
-        for option, given in (("--runs", runs), ("--seed", seed)):
-            if given is not None:
-                raise InputError("", option, "is for scenarios; a study's file states its own runs: leave it out")
         with progress() as show, on_cluster(dask, workers):
             study = build_study_report(asked, show)
         _print_study_report(study)

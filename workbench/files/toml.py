@@ -282,6 +282,9 @@ def _explain(error: dict[str, Any], errors: list[Any], model: type[BaseModel] | 
             explained = "is missing: add it"
         case "value_error":
             explained = message.removeprefix("Value error, ")
+        case "union_tag_invalid":
+            of = error["ctx"]
+            explained = f"{of['discriminator']} = {_short(of['tag'])} is not known: choose one of {of['expected_tags']}"
         case "string_pattern_mismatch":
             explained = f"{_short(value)} is no name: use letters, digits, '_', '-', '.', a letter first"
         case "finite_number":
