@@ -59,6 +59,7 @@ def test_half_of_an_option_is_asked_for_the_other_half(tmp_path, option, text, s
 
 def test_a_kind_that_is_none_and_a_controller_without_ranges_are_told_which_there_are(tmp_path):
     text = (PROOFS / "yang2021" / "study.toml").read_text()
+    (tmp_path / "line.toml").write_bytes((PROOFS / "yang2021" / "line.toml").read_bytes())
     (tmp_path / "study.toml").write_text(changed(text, 'kind = "davis_cruise"', 'kind = "davis_cruse"'))
     ended = run("compare", tmp_path / "study.toml")
     assert ended.returncode == 2 and ended.stderr.endswith(
