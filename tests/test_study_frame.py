@@ -22,7 +22,7 @@ from workbench.report import build as building
 from workbench.report.build import QUICK_DRAWS, Asked, build_study_report
 from workbench.report.runs import run_study, study_document
 from workbench.report.sources import sourced_values
-from workbench.report.study_figures import study_plot
+from workbench.report.study_figures import lettered, study_plot
 
 FILE = """
 version = 1
@@ -284,3 +284,12 @@ def test_numbers_of_gains_may_be_of_any_kind_and_what_is_none_is_named(tmp_path)
             "\nfrom", "\nfrom workbench.errors import InputError, SolverError\nfrom", 1)
         own = written(tmp_path / f"raises{number}", gains=text)
         assert f"{own / 'gains.py'}: {words}" in one_line(run_command("gains", own))
+
+
+def test_letters_of_legends_have_their_indices_and_names_stay():
+    assert lettered("v_d, c_1 and γ_a") == r"$\mathregular{v_{d}}$, c₁ and $\mathregular{γ_{a}}$"
+    assert lettered("mpc_linear, rbfnn_pocrac, 5 $") == r"mpc_linear, rbfnn_pocrac, 5 \$"
+    x = np.arange(3.0)
+    plot = Plot("Speeds", "paper, Figure 1", "t (s)", "v_d (m/s)", (Curve("v_d", x, x), Curve("mpc_linear", x, 2 * x)))
+    drawn = study_plot(plot, "letters")
+    assert ">d</tspan>" in drawn and "mpc_linear" in drawn and ">v_d<" not in drawn
