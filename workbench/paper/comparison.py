@@ -120,11 +120,15 @@ class TripComparison:
         """Table, figure and findings; nothing without MPC."""
         study, drivers = results.study, self.drivers
         rows = {**found, **self.own_rows(results)}
-        tasks, every = comparison_tasks(drivers, study), comparison_tasks(drivers, study, full=True)
+        tasks = comparison_tasks(drivers, study)
+        fewer = compared_runs(drivers, {task: {} for task in comparison_tasks(drivers, study, full=True)
+                                        if task not in tasks})
         runs = self.with_own(results, compared_runs(drivers, {task: rows[task] for task in tasks}))
         tables = comparison_table(drivers, study, runs, self.heading, self.note(study, runs), self.told)
-        return Shown((shortened(table, len(every) - len(tasks)) for table in tables),
-                     comparison_plot(*self.drawn(study, runs)), comparison_findings(drivers, study, runs))
+        undrawn = len(self.drawn(study, fewer)[0])
+        return Shown((shortened(table, len(fewer)) for table in tables),
+                     (shortened(plot, undrawn) for plot in comparison_plot(*self.drawn(study, runs))),
+                     comparison_findings(drivers, study, runs))
 
 
 def _none(*_: Any) -> dict[str, Any]:

@@ -113,7 +113,9 @@ class LearningComparison:
         rows = {task: found[task] if task in found else own[task] for task in self.tasks(study)}
         fewer = len(self.tasks(study, full=True)) - len(rows)
         tables = (shortened(table, fewer) for table in self.tables(study, rows))
-        return Shown(tables, self.plots(study, rows), self.findings(study, rows))
+        places = max(1, len({place for place, _, _ in rows}))
+        plots = (shortened(plot, fewer // places) for plot in self.plots(study, rows))
+        return Shown(tables, plots, self.findings(study, rows))
 
     def title(self, name: str, tuned: bool) -> str:
         """A controller as tables have it."""
