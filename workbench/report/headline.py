@@ -165,8 +165,8 @@ def shortened_line(parts: Mapping[str, str]) -> Markup | None:
     if not parts:
         return None
     words = "; ".join(f"{what}: {some}" for what, some in parts.items())
-    return Markup("<strong>Short report.</strong> {}. The rest is assumed data, or more of the same: "
-                  "<code>--full</code> makes all of it.").format(words[0].upper() + words[1:])
+    return Markup("<strong>Short report.</strong> {}. <code>--full</code> makes the rest, too.").format(
+        words[0].upper() + words[1:])
 
 
 def _rank(verdict: str) -> int:

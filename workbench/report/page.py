@@ -56,11 +56,11 @@ def build_page(content: ReportContent) -> str:
     claims = claim_views(content.claims)
     sources = sourced_values(scenario)
     shown = _figures(content, names)
-    first = shown.pop("position-errors", None)
+    first, every = shown.pop("position-errors", None), headline.CHANGES not in content.shortened
     lines = [
         headline.proof_line(claims), headline.nominal_line(scenario, content.metrics, names),
         headline.table_line(scenario, summaries, names, content.sweep),
-        headline.variants_line(content.metrics, content.variants, names, headline.CHANGES not in content.shortened),
+        headline.variants_line(content.metrics, content.variants, names, every),
         headline.sources_line(sources), headline.shortened_line(content.shortened),
     ]
     compared = tables.compared_table(scenario, summaries, names) if summaries else []
@@ -74,7 +74,7 @@ def build_page(content: ReportContent) -> str:
         content=content, scenario=scenario, names=names,
         figures=[figure for anchor, figure in shown.items() if anchor != "spread"], spread=shown.get("spread"),
         standings=(), standings_tables=(), sentences=(), first_figure=first, first_figure_first=False,
-        winners=winners(scenario, content.metrics, content.variants, content.sweep, names),
+        winners=winners(scenario, content.metrics, content.variants, content.sweep, names, every),
         nominal=tables.nominal_table(content.metrics),
         information=[tables.information(scenario, m.controller) for m in content.metrics],
         compared=compared, runs_each=runs_each, solved=tables.compiled_words(scenario, names),
