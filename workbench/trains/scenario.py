@@ -119,10 +119,7 @@ class PrintedValue(Record):
 
 
 class Variant(Record):
-    """One change of an assumed value, to see how much it matters: dotted key -> value.
-
-    controllers: those whose run it changes; none named means all. only_full: a report runs it with --full alone.
-    """
+    """One change of assumed values, dotted key -> value, of the controllers named or all; only_full: see `report`."""
 
     title: Text
     set: dict[str, Any]
