@@ -88,7 +88,10 @@ def test_fronts_are_kept_and_the_same_with_another_number_of_processes(
         small: Contest, scenario: Scenario, known: list[int], tmp_path) -> None:
     first = all_fronts(small, scenario, 1, lambda *_: None, tmp_path, False, "digest")
     count = len(known)
-    assert all_fronts(small, scenario, 1, lambda *_: None, tmp_path, True, "digest") == first
+    counted: list[tuple[int, int]] = []
+    assert all_fronts(small, scenario, 1, lambda done, total, _: counted.append((done, total)), tmp_path, True,
+                      "digest") == first
+    assert counted == [(1, 1)], "what an earlier run has finished counts as done, when it begins"
     assert len(known) == count, "what is kept is searched again"
     with pytest.raises(InputError, match="digest of values"):
         all_fronts(small, scenario, 1, lambda *_: None, tmp_path, True, "another")

@@ -12,6 +12,7 @@ from workbench.paper.comparison import (
     COLUMNS,
     ComparedRun,
     Task,
+    TripComparison,
     compared_runs,
     comparison_findings,
     comparison_note,
@@ -50,6 +51,9 @@ class Errors(BaseModel):
     tuning: Any = None
     errors: dict[str, float]
 
+    def leaves_out(self, part: Any) -> bool:
+        return part is not None and part.only_full
+
 
 def variants(study, name):
     return {"": study} if name in MPC_NAMES else {", low": study, ", high": with_value_at(study, f"errors.{name}", 0.3)}
@@ -62,7 +66,7 @@ DRIVERS = Drivers({"law": "the law", "mpc_linear": "linear MPC"},
 
 @pytest.fixture
 def study():
-    tuning = SimpleNamespace(found={"law": {"error": 0.05}}, runs=10, objective=SimpleNamespace(
+    tuning = SimpleNamespace(found={"law": {"error": 0.05}}, runs=10, only_full=False, objective=SimpleNamespace(
         units={"position_rms": 0.1, "logged_jerk_rms": 0.3}))
     return Errors(tuning=tuning, errors={"law": 0.2, "mpc_linear": 0.1})
 
@@ -82,6 +86,22 @@ def test_every_place_has_all_as_stated_and_what_was_tuned(study):
     assert comparison_tasks(DRIVERS, study) == [] == compared(study)
     assert list(comparison_table(DRIVERS, study, [], "run", "")) == [] == list(comparison_findings(DRIVERS, study, []))
     assert comparison_note(study, [], 0.1) == "" and list(comparison_plot([], "flat")) == []
+
+
+def test_a_short_report_leaves_tuned_rows_out_where_the_file_says_so_and_no_run_is_made_twice(study):
+    own = {Task("flat", "law", ", low"): {"position_rms": 7.0}}
+    beside = TripComparison(DRIVERS, "run", lambda *_: "Of a test.", lambda study, runs: ([], ""),
+                            own_tasks=lambda study: own, own_rows=lambda results: own)
+    results = SimpleNamespace(study=study)
+    for only_full, runs in ((False, 8), (True, 6)):
+        study.tuning.only_full = only_full
+        stage = beside.stage(study)
+        assert len(stage.tasks) == runs - 1 and not own.keys() & set(stage.tasks)
+        (found,) = run_stages((stage,), 1, lambda *_: None)
+        own[Task("flat", "law", ", low")] = dict(found[Task("flat", "law", ", high")], position_rms=7.0)
+        (table,) = beside.shown(results, found).tables
+        assert len(table.rows) == runs and table.rows[0][2] == 7.0
+        assert table.note == "Of a test." + (" Shortened: 2 runs left out; all with --full." if only_full else "")
 
 
 def test_the_table_holds_numbers_and_who_is_told_what(study):

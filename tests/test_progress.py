@@ -46,3 +46,26 @@ def test_a_short_command_says_when_a_stage_has_ended_and_no_more(lines):
         for done in (1, 2):
             show("runs", done, 2)
     assert lines() == ["runs: 2 done"]
+
+
+def test_a_count_that_begins_anew_under_the_same_name_has_a_rate_of_its_own(lines, monkeypatch):
+    """As of a contest, whose Pareto fronts come after its matches: those do not say how long a front takes."""
+    clock = iter([0.0, 3600.0, 3660.0])  # the matches begin, the fronts begin, and a first one is ready after a minute
+    now = [next(clock)]
+    monkeypatch.setattr(time, "monotonic", lambda: now[0])
+    monkeypatch.setattr(terminal, "LINE_EVERY_S", 0.02)
+    with progress() as show:
+        show("runs", 1, 500)
+        now[0] = next(clock)
+        show("runs", 500, 500)
+        show("runs", 0, 4)
+        now[0] = next(clock)
+        show("runs", 1, 4)
+        said: list[str] = []
+        for _ in range(12_000):
+            said += lines()
+            if any(line.startswith("runs: 1 of 4") for line in said):
+                break
+            time.sleep(0.01)
+    assert "runs: 500 done" in said
+    assert next(line for line in said if line.startswith("runs: 1 of 4")) == "runs: 1 of 4, 0.0167/s, 3 min left"

@@ -8,10 +8,12 @@ import pytest
 from refusals import changed
 
 from workbench.errors import InputError
+from workbench.files.numbers import number
 from workbench.files.toml import Number, Positive, Record, read_toml, validate_record
 from workbench.paper.findings import LackingError, found, listed, needed, some, span
 from workbench.paper.gain_search import OwnRuns, Task
 from workbench.paper.loading import Loaded
+from workbench.paper.only_full import ExtraTable
 from workbench.paper.reproduced import (
     STATED,
     ColumnTable,
@@ -223,3 +225,68 @@ def test_words_of_findings():
     for lacking in (lambda: listed(()), lambda: span(()), lambda: some(()), lambda: needed(None)):
         with pytest.raises(LackingError):
             lacking()
+
+
+SHORT = changed(FILE, 'title = "so fast that it fails"', 'title = "so fast that it fails"\nonly_full = true')
+
+
+def by_change(results):
+    rows = [(change.title, case.start, run.end_m) for (case, run), (change, _) in zip(
+        results.changing().items(), results.changed_runs(), strict=True)]
+    return ResultTable("Changes", "not in the paper", ("change", "start", "end"), tuple(rows), "In m.")
+
+
+def failing(results):
+    yield ResultTable("Failing", "not in the paper", ("end",), tuple(
+        (run.end_m,) for _, run in results.under(lambda change: change.set["decay.rate_per_s"] > 50)))
+
+
+def slowest(results):
+    return f"Of one change: {number(results.runs[Case(1, 0)].end_m)} m."
+
+
+def fastest(results):
+    return f"Of the other: {results.runs[Case(1, 1)].failed}."
+
+
+def counted(results):
+    return f"{len(results.changing())} runs of changes."
+
+
+LONG = Reproduction(TinyStudy, cases, run, tables=(table, by_change, failing), plots=(plots,), findings=(
+    ended, slowest, fastest, counted))
+
+
+def test_a_short_report_has_the_same_rows_cells_and_sentences_or_less(tmp_path):
+    study, told = loaded(tmp_path, SHORT), []
+    full = LONG.kind.run(study, 1, lambda *_: None)
+    short = LONG.kind.run(study.shortened(), 1, lambda *step: told.append(step))
+    assert len(told) == 4 and short.left_out == 2 and full.left_out == 0
+    assert short.rows == full.rows[:4] and full.rows[4:] and all(row["failed"] for row in full.rows[4:])
+    stated, changes, fails = full.tables
+    assert short.tables[0] == stated, "a table that lacks nothing is the same"
+    assert short.tables[1].rows == changes.rows[:2] and len(changes.rows) == 4
+    assert short.tables[1].note == "In m. Shortened: 2 runs left out; all with --full."
+    assert len(short.tables) == 2 and fails.title == "Failing", "of a table that lacks all runs nothing is left"
+    assert [plot.title for plot in short.plots] == [plot.title for plot in full.plots]
+    assert full.findings == ("Ends of 0.0183 m.", "Of one change: 0.0366 m.", "Of the other: diverged.",
+                             "4 runs of changes.")
+    assert short.findings == ("Of one change: 0.0366 m.",), "no sentence counts what is not there"
+
+
+def test_only_full_is_for_rows_and_tables_of_runs_alone_and_comes_from_nowhere(tmp_path):
+    for before, after, key in (('name = "tiny"', 'name = "tiny"\nonly_full = true', "only_full"),
+                               ("rate_per_s = 0.5", "rate_per_s = 0.5, only_full = true", "decay.only_full")):
+        with pytest.raises(InputError, match=rf"{key}: (is no key|unknown|.*not)"):
+            loaded(tmp_path, changed(FILE, before, after))
+    with pytest.raises(InputError, match=r"changes\[1\].only_full"):
+        loaded(tmp_path, SHORT.replace("only_full = true", 'only_full = "yes"'))
+
+    class Sweep(ExtraTable):
+        rates: tuple[Positive, ...]
+
+    table = {"rates": (1.0, 2.0), "only_full": True, "source": {"rates": "assumed: some"}}
+    for source in (table["source"], "assumed: some"):
+        assert validate_record(table | {"source": source}, Sweep, "f.toml", reproduction=True).only_full
+    with pytest.raises(InputError, match=r"source\.only_full explains a value"):
+        validate_record(table | {"source": {"rates": "assumed: some", "only_full": "x"}}, Sweep, "f.toml")

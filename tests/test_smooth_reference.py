@@ -147,6 +147,18 @@ def test_requests_that_leave_no_run_are_refused() -> None:
         smooth_reference(TRAIN, course(), 700.0, 0.0)
 
 
+@pytest.mark.parametrize(("stops", "dwell_s"), [((), 0.0), ((4_000.0,), 30.0)])
+def test_a_time_that_is_too_short_is_told_the_least_one(stops: tuple[float, ...], dwell_s: float) -> None:
+    with pytest.raises(InfeasibleRunError, match="it takes") as said:
+        smooth_reference(TRAIN, course(stops=stops), 300.0, 2.0, dwell_s=dwell_s)
+    least_s = said.value.least_time_s
+    assert least_s is not None and f"it takes {least_s:.1f} s at least, {2.0 + dwell_s:g} s of them" in str(said.value)
+    found = smooth_reference(TRAIN, course(stops=stops), least_s + 1.0, 2.0, dwell_s=dwell_s)
+    assert found.run.trip_time_s <= least_s + 1.0
+    with pytest.raises(InfeasibleRunError):
+        smooth_reference(TRAIN, course(stops=stops), least_s - 1.0, 2.0, dwell_s=dwell_s)
+
+
 def test_samples_are_the_motion_of_the_train_under_their_force(tmp_path: Path) -> None:
     run = course()
     found = smooth_reference(TRAIN, run, 700.0)

@@ -19,10 +19,10 @@ from workbench.cli.loading import load
 from workbench.paper.results import Curve, Plot, ResultTable, StudyResult
 from workbench.paper.stages import Stage, run_stages
 from workbench.report import build as building
-from workbench.report.build import Asked, build_study_report
+from workbench.report.build import QUICK_DRAWS, Asked, build_study_report
 from workbench.report.runs import run_study, study_document
 from workbench.report.sources import sourced_values
-from workbench.report.study_figures import study_plot
+from workbench.report.study_figures import lettered, study_plot
 
 FILE = """
 version = 1
@@ -211,12 +211,14 @@ def test_progress_comes_through(tiny):
     assert steps == [("runs", 1, 1)]
 
 
-@pytest.mark.parametrize(("full", "drawn"), [(False, 10), (True, 100)])
+@pytest.mark.parametrize(("full", "drawn"), [(False, QUICK_DRAWS), (True, 100)])
 def test_a_report_draws_few_trains_unless_it_is_to_be_full(tmp_path, full, drawn):
     asked = Asked.of(load(PROOFS / "mao2018"), [], tmp_path / "out", full=full)
     assert (asked.draws(100), asked.draws(7)) == (drawn, 7) and asked.command.endswith(" --full") == full
-    assert building._with_draws(asked).study.pairs.draws == drawn
-    assert building._draws_words(asked) == ("" if full else "the first 10 of 100; all with --full")
+    assert building._as_short(asked).study.pairs.draws == drawn
+    of_runs = StudyResult((), (), (), (), left_out=0 if full else 7, runs={1: None})
+    assert building._shortened(asked, of_runs) == ({} if full else {
+        "runs": "1 of 8", "drawn trains": f"the first {QUICK_DRAWS} of 100"})
     assert asked.loaded.study.pairs.draws == 100, "the page shows what is stated"
 
 
@@ -282,3 +284,12 @@ def test_numbers_of_gains_may_be_of_any_kind_and_what_is_none_is_named(tmp_path)
             "\nfrom", "\nfrom workbench.errors import InputError, SolverError\nfrom", 1)
         own = written(tmp_path / f"raises{number}", gains=text)
         assert f"{own / 'gains.py'}: {words}" in one_line(run_command("gains", own))
+
+
+def test_letters_of_legends_have_their_indices_and_names_stay():
+    assert lettered("v_d, c_1 and γ_a") == r"$\mathregular{v_{d}}$, c₁ and $\mathregular{γ_{a}}$"
+    assert lettered("mpc_linear, rbfnn_pocrac, 5 $") == r"mpc_linear, rbfnn_pocrac, 5 \$"
+    x = np.arange(3.0)
+    plot = Plot("Speeds", "paper, Figure 1", "t (s)", "v_d (m/s)", (Curve("v_d", x, x), Curve("mpc_linear", x, 2 * x)))
+    drawn = study_plot(plot, "letters")
+    assert ">d</tspan>" in drawn and "mpc_linear" in drawn and ">v_d<" not in drawn

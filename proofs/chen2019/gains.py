@@ -201,4 +201,4 @@ def bound_used(run: CarsRun, study: ChenStudy) -> float:
 
 
 RUNS = OwnRuns(case_of, run_case, row)
-SEARCH = GainSearch(report, tasks, RUNS.run, had=RUNS.had)
+SEARCH = GainSearch(report, tasks, RUNS.run, had=RUNS.had, only_full=True)

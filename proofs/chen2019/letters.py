@@ -32,7 +32,7 @@ LETTERS = {
     "g_high": "a bound of the mass",
     "f_slope": "how fast the additional resistance changes with the place",
     "s_prev": "the place in the iteration before",
-    "tilde_prev": r"$\tilde\eta_{i-1}$",
+    "eta_tilde_prev": r"$\tilde\eta_{i-1}$",
     "hat": r"$\hat\theta_{a,i}$",
     "hat_prev": r"$\hat\theta_{a,i-1}$",
     "As": "a car's entry of the vector $As$",

@@ -88,7 +88,9 @@ def _answering(command: Callable[..., Any]) -> Callable[..., Any]:
 
 
 app = typer.Typer(cls=Verbs, no_args_is_help=True, add_completion=True, pretty_exceptions_enable=False,
-                  help="A control paper as one executable object: proof, simulation, comparison.")
+                  help="A control paper as one executable object: proof, simulation, comparison. Begin with 'workbench "
+                       "list' and one of the papers that it names, as in 'workbench prove PAPER'; without a clone "
+                       "write them with 'workbench examples DIR' first.")
 
 
 @app.callback()

@@ -8,7 +8,7 @@ from typing import Annotated
 import typer
 
 from workbench.cli.console import out_console
-from workbench.cli.options import LIMIT_S, JsonFile, Limit
+from workbench.cli.options import LIMIT_S, JsonFile, Limit, path_of
 from workbench.cli.terminal import answer_card
 
 CONTEXT = {"ignore_unknown_options": True}  # a line may begin with a minus
@@ -16,8 +16,8 @@ CONTEXT = {"ignore_unknown_options": True}  # a line may begin with a minus
 
 def command(line: Annotated[str, typer.Argument(metavar="LATEX", help="The line, as in '\\dot V \\le 0'")],
             symbols: Annotated[Path, typer.Option(
-                help="TOML file with symbols, definitions, assumptions and flow, or the folder of a paper, whose "
-                     "Python is run.")],
+                help="TOML file with symbols, definitions, assumptions and flow, or the folder or name of a paper, "
+                     "whose Python is run.")],
             json: JsonFile = None, limit: Limit = LIMIT_S) -> None:
     """Decide a line of LaTeX; exit 0 when it is proved, 1 when it is not, 2 on bad input."""
     from workbench.errors import ClaimError, InputError
@@ -27,6 +27,7 @@ def command(line: Annotated[str, typer.Argument(metavar="LATEX", help="The line,
     from workbench.proof.latex.question import answer
     from workbench.proof.latex.symbols import load_symbols
 
+    symbols = path_of(str(symbols))
     check_outputs({"--json": json}, [symbols])
     letters = load_symbols(symbols)
     try:

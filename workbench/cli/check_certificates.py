@@ -23,8 +23,11 @@ def command(folder: Annotated[Path, typer.Argument(help="Folder with certificate
             claim_digest: Annotated[str | None, typer.Option(
                 help="For one file: the goal digest of the claim that it must be of.")] = None,
             workers: Workers = None) -> None:
-    """Re-check certificates with checker.py, and hold them against their manifest and, where it is at hand, the paper
-    whose claims they are of, whose own Python is run for that; exit 0 when all hold, 1 when one does not."""
+    """Re-check certificates with checker.py; exit 0 when all hold, 1 when one does not.
+
+    They are held against their manifest and, where it is at hand, the paper whose claims they are of, whose own Python
+    is run for that.
+    """
     from workbench.proof.checker import check_file
 
     if folder.is_file():

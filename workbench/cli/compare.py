@@ -18,9 +18,13 @@ def command(paper: PaperOrFile, json: JsonFile = None,
                 metavar="FOLDER", help="Where a contest keeps its finished runs.")] = None,
             resume: Annotated[bool, typer.Option("--resume", help="Go on with the runs kept in --out.")] = False,
             workers: Workers = None, dask: Dask = None) -> None:
-    """Run all controllers of a scenario on the same train and line, and compare them; or all runs of a study."""
+    """Run all controllers of a scenario on the same train and line, and compare them; or all runs of a study.
+
+    Exit code 0, also where some runs failed, 1 where all did, 2 on bad input.
+    """
     loaded = load(paper)  # before what runs is imported: a mistake in the file is said at once
 
+    from workbench.cli.all_failed import end_where_all_failed
     from workbench.cli.study_tables import print_study
     from workbench.cli.terminal import metrics_table, print_failures, progress
     from workbench.files.json_output import write_json
@@ -37,6 +41,7 @@ def command(paper: PaperOrFile, json: JsonFile = None,
         if json:
             write_json(json, study_document(loaded.study, found))
         print_study(found)
+        end_where_all_failed(found.rows)
         return
     from workbench.simulate.compare import compare as run_comparison
 
@@ -50,6 +55,7 @@ def command(paper: PaperOrFile, json: JsonFile = None,
     for variant in document["variants"]:
         out_console.print(metrics_table(variant["rows"], variant["title"]))
     print_failures(document["rows"])
+    end_where_all_failed([*document["rows"], *(row for variant in document["variants"] for row in variant["rows"])])
 
 
 def _kept() -> tuple[str, ...]:

@@ -16,8 +16,11 @@ from workbench.cli.options import path_of
 def command(paper: Annotated[str, typer.Argument(metavar="PAPER", help="A paper's folder, its name, or a folder of "
                                                                        "certificates.")],
             out: Annotated[Path, typer.Option(metavar="DIR", help="Where the Coq files go.")]) -> None:
-    """Write one Coq file a certificate, its statement made from the goal and its proof from the certificate's steps,
-    with the library that they share; say what has no Coq text, and why."""
+    """Write one Coq file a certificate, statement and proof, which check-coq runs.
+
+    The statement is made from the goal, the proof from the certificate's steps; the library that they share is written
+    too, and what has no Coq text is said, and why.
+    """
     from workbench.errors import InputError, WorkbenchError
     from workbench.files.folders import require_few
     from workbench.files.outputs import check_outputs
@@ -30,6 +33,7 @@ def command(paper: Annotated[str, typer.Argument(metavar="PAPER", help="A paper'
         raise InputError(out, "--out", "holds certificates, for whose checker every JSON file there is one: name "
                          "another folder")
     require_few(folder)
+    check_outputs({}, folders={"--out": (out, ())})  # before seconds are spent on proofs
     exported = list(export_folder(folder))
     if not exported:
         raise WorkbenchError(f"{folder}: holds no certificate (*.json): run 'workbench prove --write' first")

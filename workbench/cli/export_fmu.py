@@ -17,8 +17,10 @@ NAME = "export-fmu"
 def command(paper: PaperOrFile,
             controller: Annotated[str, typer.Argument(metavar="CONTROLLER", help="A controller of the file: a law.")],
             out: Annotated[Path, typer.Option(metavar="FILE", help="The unit, as law.fmu.")]) -> None:
-    """Write a control law with its stated values as a co-simulation unit of FMI 3.0, for Simulink, Modelica tools and
-    FMPy; one sample is: set the inputs, read the commands, step by the law's period."""
+    """Write a control law with its stated values as a co-simulation unit of FMI 3.0.
+
+    For Simulink, Modelica tools and FMPy; one sample is: set the inputs, read the commands, step by the law's period.
+    """
     from workbench.files.outputs import check_outputs
     from workbench.files.writing import write_bytes
     from workbench.fmu.build import fmu_bytes

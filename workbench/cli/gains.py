@@ -33,7 +33,7 @@ def command(paper: PaperOrFile, json: JsonFile = None,
     from workbench.report.gains import gains_document, gains_result
 
     loaded = load(paper)
-    check_outputs({"--json": json})
+    check_outputs({"--json": json}, folders={"--certificates": (certificates, ()) if certificates else None})
     check_places([], certificates, {"--json": json})
     check_places([loaded.folder] if write else [], None, {"--json": json})
     with progress() as show, on_cluster(dask, workers):

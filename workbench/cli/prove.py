@@ -65,7 +65,8 @@ def command(paths: Annotated[list[str] | None, typer.Argument(
     from workbench.proof.prove import prove as run_prove
 
     require_oracle(oracle)
-    check_outputs({"--json": json}, [file for target in found for file in target.inputs()])
+    check_outputs({"--json": json}, [file for target in found for file in target.inputs()],
+                  {"--certificates": (certificates, ()) if certificates else None})
     check_places([file for target in found for file in target.files], certificates, {"--json": json})
     with progress() as show, on_cluster(dask, workers):
         proof = run_prove(found, workers or jobs, cache, lambda done, total: show("claims", done, total), limit)

@@ -22,9 +22,10 @@ def command(paper: PaperOrFile,
                 help="Papers whose claims are on the page; default: the paper's own")] = None,
             out: Annotated[Path, typer.Option(help="Folder of the report")] = Path("out"),
             runs: Annotated[int | None, typer.Option(
-                min=1, help="Monte Carlo runs; default: as the scenario states, 10 at the most")] = None,
+                min=1, help="Monte Carlo runs; default: as the scenario states, few without --full")] = None,
             full: Annotated[bool, typer.Option(
-                "--full", help="On all drawn trains that the file states, not on the first 10 alone.")] = False,
+                "--full", help="All of it, which takes minutes: also what the file marks only_full, and all drawn "
+                "trains that it states.")] = False,
             seed: Annotated[int | None, typer.Option(
                 min=0, help="Of the Monte Carlo; default: as the scenario states.")] = None,
             gains: Annotated[bool, typer.Option(
@@ -32,19 +33,22 @@ def command(paper: PaperOrFile,
             resume: Annotated[bool, typer.Option(
                 "--resume", help="Go on with the runs of the Monte Carlo, or of a contest, kept in --out.")] = False,
             workers: Workers = None, dask: Dask = None) -> None:
-    """Check the proof, run and compare the controllers, and put the whole on one page."""
+    """Check the proof, run and compare the controllers, and put the whole on one page.
+
+    Without --full what a file marks only_full is left out, and few trains are drawn; a table that is shorter says so.
+    """
     from workbench.files.outputs import check_outputs
 
     loaded = load(paper)
     check_outputs({}, folders={"--out": (out, ())})
+    for option, given in (("--runs", runs), ("--seed", seed)) if loaded.kind is not None else ():
+        if given is not None:
+            raise InputError("", option, "is for scenarios; a study's file states its own runs: leave it out")
     # After what was asked has been read: a mistake need not wait for it.
     from workbench.report.build import Asked, build_report, build_study_report
 
     asked = Asked.of(loaded, proofs or [], out, gains, resume, workers, full)
     if loaded.kind is not None:
-        for option, given in (("--runs", runs), ("--seed", seed)):
-            if given is not None:
-                raise InputError("", option, "is for scenarios; a study's file states its own runs: leave it out")
         with progress() as show, on_cluster(dask, workers):
             study = build_study_report(asked, show)
         _print_study_report(study)

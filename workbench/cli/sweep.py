@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 import typer
 
+from workbench.cli.all_failed import end_where_all_failed
 from workbench.cli.console import out_console
 from workbench.cli.options import Dask, PaperOrFile, Workers, load, on_cluster
 from workbench.cli.study_tables import result_table
@@ -37,7 +38,10 @@ def command(paper: PaperOrFile,
                 metavar="METRIC>VALUE", help="Instead: how probable that is of a drawn run, however rare."
                 )] = None,
             workers: Workers = None, dask: Dask = None) -> None:
-    """Monte Carlo over the scenario's uncertainty: one row a run, the same bytes for the same seed."""
+    """Monte Carlo over the scenario's uncertainty: one row a run, the same bytes for the same seed.
+
+    Exit code 0, also where some runs failed, 1 where all did, 2 on bad input.
+    """
     from workbench.files.outputs import check_outputs
     from workbench.paper.loading import PLANT
     from workbench.simulate.row_store import CHUNKS, MANIFEST_NAME
@@ -79,6 +83,7 @@ def command(paper: PaperOrFile,
         out_console.print(f"{name}: mean of {until_width} after {found.runs} runs: {mean.mean:g}, an interval of "
                           f"{mean.width:g}", markup=False, highlight=False)
     out_console.print(f"rows: {out / CSV_NAME}", markup=False, highlight=False)
+    end_where_all_failed(map(vars, found.rows()))
 
 
 def _event(rare: str | None, others: dict[str, Any]) -> Any:
@@ -127,6 +132,7 @@ def _sweep_plant(loaded: Loaded, out: Path, runs: int | None, seed: int | None, 
                       lambda done, total, _: show("Monte Carlo", done, total), resume)
     out_console.print(result_table(found.write_csv(out / CSV_NAME)))
     out_console.print(f"rows: {out / CSV_NAME}", markup=False, highlight=False)
+    end_where_all_failed(found.rows())
 
 
 def _joint(loaded: Loaded, out: Path, resume: bool, workers: int | None) -> None:
@@ -140,3 +146,6 @@ def _joint(loaded: Loaded, out: Path, resume: bool, workers: int | None) -> None
     for line in sensitivity_lines(found):
         out_console.print(line, highlight=False)
     out_console.print(f"points: {out / CSV_NAME}")
+    if found.failed == len(found.values):
+        end_where_all_failed([{"controller": found.stated.metric, "failed": "it is counted as failed at every point",
+                               "runs": found.failed}])

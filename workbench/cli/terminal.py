@@ -6,7 +6,7 @@ import threading
 import time
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -46,11 +46,12 @@ def progress() -> Iterator[Any]:
         tasks: dict[str, Any] = {}
 
         def show(what: str, done: int, total: int) -> None:
-            stage = stages.setdefault(what, Stage(what, done))
+            if what not in stages or done < stages[what].done:  # another count: its rate is its own
+                stages[what] = Stage(what, done, begun_s=time.monotonic())
+                tasks[what] = bar.add_task(what, total=total, pace="")
+            stage = stages[what]
             stage.at(done, total)
             if terminal:
-                if what not in tasks:
-                    tasks[what] = bar.add_task(what, total=total, pace="")
                 bar.update(tasks[what], completed=done, total=total, pace=stage.pace())
             elif done == total:
                 _plain(f"{what}: {done} done")
@@ -69,13 +70,14 @@ def _plain(line: str) -> None:
 
 @dataclass
 class Stage:
-    """How far a stage of a command is, and how fast. first: what was done when it began, as by a run before it."""
+    """How far a stage of a command is, and how fast. first: what was done when it began, as by a run before it;
+    begun_s: when that was, by `time.monotonic`."""
 
     what: str
     first: int
+    begun_s: float
     done: int = 0
     total: int = 0
-    begun_s: float = field(default_factory=time.monotonic)
 
     def at(self, done: int, total: int) -> None:
         """Keep how far it is now."""

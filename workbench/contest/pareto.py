@@ -208,8 +208,10 @@ def all_fronts(contest: Contest, scenario: Scenario, workers: int, on_progress: 
         def record(done: int, name: str, fronts: tuple[Front, ...]) -> None:
             if journal:
                 journal.append({"controller": name, "fronts": [asdict(front) for front in fronts]})
-            on_progress(done, len(names), f"{name}: Pareto fronts")
+            on_progress(kept + done, len(names), f"{name}: Pareto fronts")
 
+        kept = len(found)
+        on_progress(kept, len(names), "Pareto fronts")  # so that their rate is counted from here, not from the matches
         found |= results_of(_task, (contest, scenario), [name for name in names if name not in found], workers, record)
     finally:
         if journal:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import tempfile
 from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 
@@ -127,5 +128,19 @@ def _require_writable(option: str, path: Path, folder: Path) -> None:
     there = next((place for place in (folder, *folder.parents) if place.exists() or place.is_symlink()), folder)
     if not there.is_dir():
         raise InputError(path, option, f"cannot be written ({there} is a file): name another place")
-    if not os.access(there, os.W_OK | os.X_OK):
+    if not os.access(there, os.W_OK | os.X_OK) or not _keeps_files(there):
         raise InputError(path, option, f"cannot be written ({there} may not be written): name another place")
+
+
+def _keeps_files(folder: Path) -> bool:
+    """Whether a file can be made in a folder. One of a file system without blocks, as /proc is, says that it may be
+    written and may mean nothing by it: there only trying tells."""
+    if not hasattr(os, "statvfs") or os.statvfs(folder).f_blocks:
+        return True
+    try:
+        handle, name = tempfile.mkstemp(prefix=".workbench-", dir=folder)
+    except OSError:
+        return False
+    os.close(handle)
+    Path(name).unlink()
+    return True

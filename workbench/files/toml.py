@@ -9,7 +9,7 @@ import tomllib
 from collections.abc import Iterator
 from datetime import date, time
 from pathlib import Path
-from typing import Annotated, Any, Self, TypeVar
+from typing import Annotated, Any, ClassVar, Self, TypeVar
 
 from pydantic import (
     AfterValidator,
@@ -92,21 +92,22 @@ class SourcedRecord(Record):
 
     `source = "paper, Table 1"` says it of all values of the record at once.
     In a file that says `reproduction = true` every one must, and starts with `paper`, `assumed:` or `convention:`; the
-    report lists the assumed ones.
+    report lists the assumed ones. NO_VALUES: the fields that say nothing of the subject and so come from nowhere.
     """
 
+    NO_VALUES: ClassVar[frozenset[str]] = frozenset({"source"})
     source: dict[str, Text] = Field(default_factory=dict, json_schema_extra=_or_one_for_all)
 
     @model_validator(mode="before")
     @classmethod
     def _one_source_for_all(cls, data: Any) -> Any:
         if isinstance(data, dict) and isinstance(data.get("source"), str):
-            return data | {"source": {key: data["source"] for key in data if key != "source"}}
+            return data | {"source": {key: data["source"] for key in data if key not in cls.NO_VALUES}}
         return data
 
     @model_validator(mode="after")
     def _every_value_has_a_source(self, info: ValidationInfo) -> Self:
-        stated = self.model_fields_set - {"source"}
+        stated = self.model_fields_set - self.NO_VALUES
         strict = bool((info.context or {}).get(REPRODUCTION))
         for key in sorted(stated - self.source.keys()) if strict else ():
             raise ValueError(f"source.{key} is missing: say where the value of '{key}' comes from")
@@ -283,6 +284,9 @@ def _explain(error: dict[str, Any], errors: list[Any], model: type[BaseModel] | 
             explained = "is missing: add it"
         case "value_error":
             explained = message.removeprefix("Value error, ")
+        case "union_tag_invalid":
+            of = error["ctx"]
+            explained = f"{of['discriminator']} = {_short(of['tag'])} is not known: choose one of {of['expected_tags']}"
         case "string_pattern_mismatch":
             explained = f"{_short(value)} is no name: use letters, digits, '_', '-', '.', a letter first"
         case "finite_number":

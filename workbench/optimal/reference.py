@@ -97,8 +97,9 @@ def find_reference(vehicle: Vehicle, course: Course, trip_time_s: float, start_m
         raise InputError("", "time", f"{trip_time_s:g} s is no trip time: give a positive number of seconds")
     running_s = trip_time_s - waited_s
     if running_s <= 0:
-        raise InputError("", "time", f"{trip_time_s:g} s is no more than the {waited_s:g} s of waiting at stops: allow "
-                         "more time or shorter waits")
+        least_s = least_time(vehicle, course, start_mps, end_mps).trip_time_s + waited_s
+        raise InputError("", "time", f"{trip_time_s:g} s is no more than the {waited_s:g} s of waiting at stops, with "
+                         f"which the least feasible trip time is {least_s:.1f} s: allow more time or shorter waits")
     if course.length_m / running_s < SLOWEST_MEAN_MPS and (
             running_s > SLOWER * least_time(vehicle, course, start_mps, end_mps).trip_time_s):
         raise InputError("", "time", f"{trip_time_s:g} s for {course.length_m:.0f} m is less than {SLOWEST_MEAN_MPS:g} "
@@ -109,7 +110,9 @@ def find_reference(vehicle: Vehicle, course: Course, trip_time_s: float, start_m
     except InfeasibleRunError as trouble:
         if trouble.least_time_s is None or not waited_s:
             raise
-        raise InfeasibleRunError(f"{trouble}; waiting at stops adds {waited_s:g} s", trouble.least_time_s) from None
+        raise InfeasibleRunError(
+            f"{trip_time_s:g} s is too short: with {waited_s:g} s of waiting at stops the least feasible trip time is "
+            f"{trouble.least_time_s + waited_s:.1f} s; the run alone: {trouble}", trouble.least_time_s) from None
     drawn = vehicle.auxiliary_w * waited_s
     return replace(found, energy_j=found.energy_j + drawn, lower_bound_j=found.lower_bound_j + drawn,
                    check=replace(found.check, energy_j=found.check.energy_j + drawn), waits_j=drawn)

@@ -146,8 +146,8 @@ def require_possible(vehicle: Vehicle, timetable: Timetable, quickest: Profile, 
         before = earliest
         earliest += (event.dwell_s if event.waits else float(leg_s[event.point - 1])) if k else 0.0
         if earliest > event.window.latest_s:
-            raise InfeasibleRunError(_too_late(vehicle, timetable, quickest, (since, k), earliest, before),
-                                     None if timetable.trip_time_s is None else quickest.trip_time_s)
+            least_s = None if timetable.trip_time_s is None else max(quickest.trip_time_s, earliest)
+            raise InfeasibleRunError(_too_late(vehicle, timetable, quickest, (since, k), earliest, before), least_s)
         if event.window.earliest_s > earliest:
             since, earliest = k, event.window.earliest_s
 
@@ -157,7 +157,7 @@ def _too_late(vehicle: Vehicle, timetable: Timetable, quickest: Profile, events:
     """In a line: which event is too late by what, from where on, and what binds there."""
     if timetable.trip_time_s is not None:
         return (f"{timetable.trip_time_s:g} s is too short: the least feasible trip time is "
-                f"{quickest.trip_time_s:.1f} s, {binding(vehicle, quickest)}: allow more time")
+                f"{max(quickest.trip_time_s, earliest_s):.1f} s, {binding(vehicle, quickest)}: allow more time")
     chain = timetable.events
     since, event = (chain[k] for k in events)
     point, origin = timetable.points[event.point], timetable.points[since.point]

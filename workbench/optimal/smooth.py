@@ -203,7 +203,14 @@ def _averaged(request: _Request, reserves: tuple[Reserve, ...]) -> tuple[SmoothR
         waiting = f" and {len(course.stops_m)} stops of {request.wait_s:g} s" if course.stops_m else ""
         raise InfeasibleRunError(f"smoothing over {window_s:.4g} s{waiting} leave nothing of {asked:g} s to run: allow "
                                  "more time")
-    optimal = find_reference(vehicle, lowered, spare, *ends, request.intervals, request.solver, like=request.like)
+    try:
+        optimal = find_reference(vehicle, lowered, spare, *ends, request.intervals, request.solver, like=request.like)
+    except InfeasibleRunError as trouble:
+        if trouble.least_time_s is None:
+            raise
+        least_s = trouble.least_time_s + asked - spare
+        raise InfeasibleRunError(f"{asked:g} s is too short: it takes {least_s:.1f} s at least, {asked - spare:g} s of "
+                                 f"them for smoothing and waits; of the rest {trouble}", least_s) from None
     return smoothed(optimal.profile, window_s, request.wait_s), optimal
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -14,6 +14,7 @@ from workbench.mpc.controller import KINDS
 from workbench.paper.cells import Cell, Column
 from workbench.paper.drivers import MPC_NAMES, Drivers, tuning_words
 from workbench.paper.mpc_comparison import best_words, counters_words, differing, known, run_mpc
+from workbench.paper.only_full import shortened
 from workbench.paper.results import Array, Curve, Plot, ResultTable, Shown
 from workbench.paper.stages import Stage
 from workbench.simulate.closed_loop import NOMINAL, Factors, Run, Setting
@@ -80,6 +81,14 @@ def error_curve(run: Run) -> tuple[Array, Array]:
     return time[keep], error[keep]
 
 
+def _no_tasks(study: Any) -> Collection[Task]:
+    return ()
+
+
+def _no_rows(results: Any) -> Mapping[Task, Mapping[str, Any]]:
+    return {}
+
+
 def _as_run(results: Any, runs: Sequence[ComparedRun]) -> list[ComparedRun]:
     return list(runs)
 
@@ -90,7 +99,8 @@ class TripComparison:
 
     heading: what a place is; note(study, runs): of the table; drawn(study, runs): which of them a figure shows, and
     where they drive, in words; told: see `comparison_table`; with_own(results, runs): the runs, and what the study
-    itself has run beside them.
+    itself has run beside them; own_tasks(study): those of `comparison_tasks` that the study itself runs, and
+    own_rows(results): their rows.
     """
 
     drivers: Drivers
@@ -99,17 +109,26 @@ class TripComparison:
     drawn: Callable[[Any, Sequence[ComparedRun]], tuple[list[ComparedRun], str]]
     told: Mapping[str, str] | None = None
     with_own: Callable[[Any, Sequence[ComparedRun]], list[ComparedRun]] = _as_run
+    own_tasks: Callable[[Any], Collection[Task]] = _no_tasks
+    own_rows: Callable[[Any], Mapping[Task, Mapping[str, Any]]] = _no_rows
 
     def stage(self, study: Any) -> Stage:
-        """The runs of `comparison_tasks`."""
-        return comparison_stage(self.drivers, study)
+        """The runs of `comparison_tasks` but those of `own_tasks`."""
+        return comparison_stage(self.drivers, study, self.own_tasks(study))
 
     def shown(self, results: Any, found: Mapping[Task, Mapping[str, Any]]) -> Shown:
         """Table, figure and findings; nothing without MPC."""
         study, drivers = results.study, self.drivers
-        runs = self.with_own(results, compared_runs(drivers, found))
-        return Shown(comparison_table(drivers, study, runs, self.heading, self.note(study, runs), self.told),
-                     comparison_plot(*self.drawn(study, runs)), comparison_findings(drivers, study, runs))
+        rows = {**found, **self.own_rows(results)}
+        tasks = comparison_tasks(drivers, study)
+        fewer = compared_runs(drivers, {task: {} for task in comparison_tasks(drivers, study, full=True)
+                                        if task not in tasks})
+        runs = self.with_own(results, compared_runs(drivers, {task: rows[task] for task in tasks}))
+        tables = comparison_table(drivers, study, runs, self.heading, self.note(study, runs), self.told)
+        undrawn = len(self.drawn(study, fewer)[0])
+        return Shown((shortened(table, len(fewer)) for table in tables),
+                     (shortened(plot, undrawn) for plot in comparison_plot(*self.drawn(study, runs))),
+                     comparison_findings(drivers, study, runs))
 
 
 def _none(*_: Any) -> dict[str, Any]:
@@ -120,19 +139,23 @@ def _none(*_: Any) -> dict[str, Any]:
 ALONE = TripComparison(Drivers({}, _none, _none, _none), "", lambda study, runs: "", lambda study, runs: ([], ""))
 
 
-def comparison_tasks(drivers: Drivers, study: Any) -> list[Task]:
-    """In every place every controller as stated and, where anything was found for it, as tuned; none without MPC."""
-    found = study.tuning.found if study.tuning else {}
+def comparison_tasks(drivers: Drivers, study: Any, full: bool = False) -> list[Task]:
+    """In every place every controller as stated and, where anything was found for it, as tuned; none without MPC.
+
+    full: also what a short report leaves out.
+    """
+    found = study.tuning.found if study.tuning and (full or not study.leaves_out(study.tuning)) else {}
     return [] if study.mpc is None else [
         task for place in drivers.places(study) for name in drivers.titles
         for task in (*(Task(place, name, variant) for variant in drivers.variants(study, name)),
                      *((Task(place, name, tuned=True),) if name in found else ()))]
 
 
-def comparison_stage(drivers: Drivers, study: Any) -> Stage:
-    """The runs of `comparison_tasks` as a stage of the study; MPC, of which most is to be compiled, begins."""
+def comparison_stage(drivers: Drivers, study: Any, done: Collection[Task] = ()) -> Stage:
+    """The runs of `comparison_tasks` but those that are done, as a stage of the study; MPC, of which most is to be
+    compiled, begins."""
     places = drivers.places(study)
-    return Stage(_drive, (drivers, study), comparison_tasks(drivers, study),
+    return Stage(_drive, (drivers, study), [task for task in comparison_tasks(drivers, study) if task not in done],
                  lambda task, _: f"{places[task.place]}, {drivers.titles[task.name]}",
                  work=lambda task: float(task.name in MPC_NAMES))
 
@@ -144,7 +167,7 @@ def _drive(shared: tuple[Drivers, Any], task: Task) -> Mapping[str, Any]:
 
 
 def compared_runs(drivers: Drivers, results: Mapping[Task, Mapping[str, Any]]) -> list[ComparedRun]:
-    """What `comparison_stage` gave, in its order."""
+    """The rows of tasks as runs, in their order."""
     return [ComparedRun(task, drivers.titles[task.name] + task.variant, row) for task, row in results.items()]
 
 

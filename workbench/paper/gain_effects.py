@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import math
+from collections import Counter
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from numbers import Real
 from pathlib import Path
@@ -73,10 +75,12 @@ def _plain(loaded: Loaded, quantity: Quantity) -> Quantity:
 
 
 def effects(loaded: Loaded, report: GainReport, workers: int | None = None,
-            on_progress: Progress = lambda done, total, what: None, runs: Runs = NONE_YET) -> tuple[Effect, ...]:
+            on_progress: Progress = lambda done, total, what: None, runs: Runs = NONE_YET, full: bool = True
+            ) -> tuple[Effect, ...]:
     """Every found set of gains beside the stated ones, in the order of the paper's tasks.
 
-    runs: of the paper's study, where it was run: what is among them is not run again.
+    runs: of the paper's study, where it was run: what is among them is not run again. full: False leaves out what is
+    not among them, where the paper's search is `only_full`.
     """
     search = gain_search_of(loaded)
     tasks = search.tasks(report) if search else []
@@ -88,8 +92,17 @@ def effects(loaded: Loaded, report: GainReport, workers: int | None = None,
         on_progress(len(found), len(tasks), result[1].gains)
 
     left = [(number, task) for number, task in enumerate(tasks) if number not in found]
-    run_tasks(_run, loaded, left, places(workers), record)
-    return tuple(found[number] for number in range(len(tasks)))
+    if full or search is None or not search.only_full:
+        run_tasks(_run, loaded, left, places(workers), record)
+    return tuple(effect for _, effect in sorted(found.items()))
+
+
+def left_out(loaded: Loaded, report: GainReport, done: Sequence[Effect]) -> Mapping[str, int]:
+    """Of each setting how many of the paper's runs are not among those that were done."""
+    search = gain_search_of(loaded)
+    lacking = Counter(task.setting for task in (search.tasks(report) if search else ()))
+    lacking.subtract(effect.setting for effect in done)
+    return lacking
 
 
 def _run(loaded: Loaded, numbered: tuple[int, Task]) -> tuple[int, Effect]:

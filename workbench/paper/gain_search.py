@@ -83,13 +83,15 @@ class GainSearch:
     """report(stated): conditions, certificates and found gains of a file's numbers; tasks(report): the runs, each
     setting first with the stated gains, then with those found for it; run(loaded, task): the numbers of one, in SI
     units, and why it ended early if it did. had(loaded, task, runs): the same where a study has run it already, in its
-    own `runs` by case, else None. front: what cost against proved bound is searched for, if anything."""
+    own `runs` by case, else None. front: what cost against proved bound is searched for, if anything. only_full:
+    whether the runs that `had` does not know are so long that a short report leaves them out."""
 
     report: Callable[[Stated], GainReport]
     tasks: Callable[[GainReport], list[Task]]
     run: Callable[[Loaded, Task], Ended]
     front: FrontSearch | None = None
     had: Callable[[Loaded, Task, Runs], Ended | None] = _never
+    only_full: bool = False
 
 
 @dataclass(frozen=True)

@@ -13,6 +13,7 @@ from workbench.paper.cells import Cell, Column, Phrase
 from workbench.paper.comparison import STEP
 from workbench.paper.drivers import Drivers, entries, tuning_words
 from workbench.paper.mpc_comparison import JERK, best_words
+from workbench.paper.only_full import shortened
 from workbench.paper.pairs import METRIC_NAMES, STATES
 from workbench.paper.results import Array, Curve, Plot, ResultTable, Shown
 from workbench.paper.stages import Stage
@@ -91,10 +92,14 @@ class LearningComparison:
     own_tasks: Callable[[Any], Sequence[Task]] = _none
     own_rows: Callable[[Any], Rows] = _no_rows
 
-    def tasks(self, study: Any) -> list[Task]:
-        """Every controller, as stated and as tuned, in the places of the tuning; none without MPC or tuning."""
-        places = study.tuning.places if study.tuning else ()
-        return [(place, *entry) for place in places for entry in entries(study, self.drivers)]
+    def tasks(self, study: Any, full: bool = False) -> list[Task]:
+        """Every controller, as stated and as tuned, in the places of the tuning; none without MPC or tuning.
+
+        full: also what a short report leaves out.
+        """
+        places, stated = study.tuning.places if study.tuning else (), not full and study.leaves_out(study.tuning)
+        return [(place, *entry) for place in places for entry in entries(study, self.drivers)
+                if not (stated and entry[1])]
 
     def stage(self, study: Any) -> Stage:
         """The runs of `tasks` but those of `own_tasks`."""
@@ -106,7 +111,11 @@ class LearningComparison:
         """Table, figures and findings; nothing without rows."""
         study, own = results.study, self.own_rows(results)
         rows = {task: found[task] if task in found else own[task] for task in self.tasks(study)}
-        return Shown(self.tables(study, rows), self.plots(study, rows), self.findings(study, rows))
+        fewer = len(self.tasks(study, full=True)) - len(rows)
+        tables = (shortened(table, fewer) for table in self.tables(study, rows))
+        places = max(1, len({place for place, _, _ in rows}))
+        plots = (shortened(plot, fewer // places) for plot in self.plots(study, rows))
+        return Shown(tables, plots, self.findings(study, rows))
 
     def title(self, name: str, tuned: bool) -> str:
         """A controller as tables have it."""

@@ -45,8 +45,8 @@ class Loaded:
         from workbench.paper.study import Study  # noqa: PLC0415 - as said above
 
         if isinstance(self.record, Study):
-            raise InputError(self.path, "kind", "is a study, where a scenario is needed: leave `kind` out, or name a "
-                             "scenario")
+            raise InputError(self.path, "kind", "is a study, where a scenario is needed: name a scenario, or leave "
+                             "`kind` out where the file is one")
         return self.record
 
     @property

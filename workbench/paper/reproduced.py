@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, replace
 from typing import Any, Generic, Protocol, Self, TypeVar
 
@@ -10,6 +10,7 @@ from pydantic import model_validator
 
 from workbench.files.toml import Record, SourcedRecord, Text
 from workbench.paper.mpc_comparison import MpcData
+from workbench.paper.only_full import MadeRuns, OnlyFull
 from workbench.paper.study import Study, varied
 from workbench.paper.tuning_record import Pairs, StudyTuning
 
@@ -18,10 +19,14 @@ STATED = -1
 
 
 class Change(Record):
-    """A change of assumed values, to see how much they matter: dotted key -> value."""
+    """A change of assumed values, to see how much they matter: dotted key -> value.
+
+    only_full: its runs are made for a full report alone.
+    """
 
     title: Text
     set: dict[str, Any]
+    only_full: OnlyFull = False
 
 
 class ColumnTable(SourcedRecord):
@@ -112,6 +117,10 @@ class RunCase:
     change: int = STATED
 
 
+def _has(case: object, values: Mapping[str, object]) -> bool:
+    return all(getattr(case, key) == value for key, value in values.items())
+
+
 S = TypeVar("S", bound=ReproducedStudy)
 C = TypeVar("C", bound=HasChange)
 R = TypeVar("R")
@@ -125,20 +134,31 @@ def stated_and_changed(study: ReproducedStudy, stated: Iterable[Any] = (RunCase(
 
 @dataclass(frozen=True)
 class Results(Generic[S, C, R]):
-    """A study and its runs by case, as tables, figures and findings ask for them."""
+    """A study and its runs by case, as tables, figures and findings ask for them; `MadeRuns` where there are fewer."""
 
     study: S
     runs: Mapping[C, R]
 
+    def fitting(self, fits: Callable[[C], bool]) -> dict[C, R]:
+        """The runs whose cases fit; of a short report see `MadeRuns`."""
+        if isinstance(self.runs, MadeRuns):
+            return self.runs.fitting(fits)
+        return {of: run for of, run in self.runs.items() if fits(of)}
+
     def select(self, **case: object) -> dict[C, R]:
         """The runs whose cases have these values."""
-        return {of: run for of, run in self.runs.items() if all(getattr(of, key) == value
-                                                                for key, value in case.items())}
+        return self.fitting(lambda of: _has(of, case))
+
+    def under(self, which: Callable[[Any], bool], **case: object) -> list[tuple[Any, R]]:
+        """Those of `select` under the study's changes for which that holds, each behind its change."""
+        changes = self.study.changes
+        found = self.fitting(lambda of: of.change != STATED and which(changes[of.change]) and _has(of, case))
+        return [(changes[of.change], run) for of, run in found.items()]
 
     def changing(self, *keys: str, **case: object) -> dict[C, R]:
         """Those of `select` under changes of exactly these keys; under any change where no key is named."""
-        return {of: run for of, run in self.select(**case).items() if of.change != STATED and (
-            not keys or self.study.changes[of.change].set.keys() == set(keys))}
+        return self.fitting(lambda of: of.change != STATED and _has(of, case) and (
+            not keys or self.study.changes[of.change].set.keys() == set(keys)))
 
     def changed_runs(self, *keys: str, **case: object) -> list[tuple[Any, R]]:
         """The runs of `changing`, each behind the study's change that it was made under."""
@@ -146,4 +166,6 @@ class Results(Generic[S, C, R]):
 
     def by_change(self, **case: object) -> list[tuple[str, dict[C, R]]]:
         """For each change its title and its runs among those of `select`, in the file's order: for a table of them."""
-        return [(change.title, self.select(change=number, **case)) for number, change in enumerate(self.study.changes)]
+        runs = self.fitting(lambda of: of.change != STATED and _has(of, case))
+        return [(change.title, {of: run for of, run in runs.items() if of.change == number})
+                for number, change in enumerate(self.study.changes) if not self.study.leaves_out(change)]

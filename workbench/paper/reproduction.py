@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Callable, Hashable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Hashable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
 from typing import Any, Protocol
@@ -12,8 +12,9 @@ from workbench.model.desired_curve import DesiredCurve
 from workbench.paper.comparison import ALONE
 from workbench.paper.drivers import Drivers, checked, tune_with
 from workbench.paper.findings import found
+from workbench.paper.only_full import MadeRuns, each
 from workbench.paper.pairs import compared_pairs, pair_findings, pair_stage, pair_table
-from workbench.paper.reproduced import ReproducedStudy, Results
+from workbench.paper.reproduced import STATED, ReproducedStudy, Results
 from workbench.paper.results import Plot, ResultTable, Shown, StudyResult
 from workbench.paper.stages import Stage, Together, run_stages
 from workbench.paper.study import Progress, StudyKind
@@ -46,6 +47,10 @@ def _every(case: Any) -> bool:
     return True
 
 
+def _none(study: Any, case: Any) -> bool:
+    return False
+
+
 def _case_words(study: Any, case: Any) -> dict[str, Any]:
     """The fields of a case, its change by the title."""
     return {key: study.change_title(value) if key == "change" else value for key, value in vars(case).items()}
@@ -75,7 +80,8 @@ class Reproduction:
     order of the page; a finding that lacks its runs is left out.
     beside: law and MPC; track: see `StudyKind`; work: how long a run takes, together: how several are made at once, see
     `Stage`; stages(study): runs of other kinds; told(case): whether the report says that a run failed, which for a
-    sweep's it need not.
+    sweep's it need not; left_out(study, case): whether an `ExtraTable` that a short report leaves out asks for the run;
+    those under changes that it leaves out need not be named.
     """
 
     record: type[ReproducedStudy]
@@ -93,6 +99,7 @@ class Reproduction:
     stages: Callable[[Any], Sequence[Stage]] = _nothing_more
     told: Callable[[Any], bool] = _every
     together: Together | None = None
+    left_out: Callable[[Any, Any], bool] = _none
 
     @property
     def kind(self) -> StudyKind:
@@ -101,20 +108,23 @@ class Reproduction:
         return StudyKind(self.record, partial(_run, self), checked(drivers), tune_with(drivers), track=self.track,
                          run_one=partial(_run_one, self))
 
+    def parted(self, study: Any) -> tuple[list[Any], list[Any]]:
+        """The cases that are run, and those that a short report leaves out."""
+        made, left_out = list[Any](), list[Any]()
+        for case in self.cases(study):
+            change = getattr(case, "change", STATED)
+            out = (change != STATED and study.leaves_out(study.changes[change])) or self.left_out(study, case)
+            (left_out if out else made).append(case)
+        return made, left_out
+
     def own_stage(self, study: Any) -> Stage:
-        """The runs of all cases."""
-        return Stage(self.run, study, self.cases(study), lambda case, _: self.title(study, case),
+        """The runs of all cases but those that are left out."""
+        return Stage(self.run, study, self.parted(study)[0], lambda case, _: self.title(study, case),
                      partial(self.work, study) if self.work else None, self.together)
 
-    def shown(self, results: Any) -> Shown:
-        """The paper's own tables, figures and findings."""
-        return Shown(_each(self.tables, results), _each(self.plots, results), found(self.findings, results))
-
-
-def _each(makers: Sequence[Callable[[Any], Any]], results: Any) -> Iterator[Any]:
-    for maker in makers:
-        made = maker(results)
-        yield from (made,) if isinstance(made, ResultTable | Plot) else made
+    def shown(self, results: Any, strict: Any | None = None) -> Shown:
+        """The paper's own tables, figures and findings; strict: what findings are given where runs are left out."""
+        return Shown(each(self.tables, results), each(self.plots, results), found(self.findings, strict or results))
 
 
 def _run_one(of: Reproduction, study: Any, fields: Mapping[str, Any]) -> dict[str, Any]:
@@ -141,8 +151,10 @@ def _run(of: Reproduction, study: Any, workers: int, on_progress: Progress) -> S
     drivers = of.beside.drivers
     stages = (of.own_stage(study), *of.stages(study), of.beside.stage(study), pair_stage(drivers, study))
     runs, *others, compared, drawn = run_stages(stages, workers, on_progress)
-    results, pairs = of.results(study, runs, *others), compared_pairs(drivers, study, drawn)
-    parts = (of.shown(results), of.beside.shown(results, compared),
+    pairs, left_out = compared_pairs(drivers, study, drawn), of.parted(study)[1]
+    results, strict = (of.results(study, MadeRuns(runs, left_out, strict) if left_out else runs, *others)
+                       for strict in (False, True))
+    parts = (of.shown(results, strict), of.beside.shown(results, compared),
              Shown(pair_table(study, drivers, pairs), (), pair_findings(study, drivers, pairs)))
     plots = [tuple(part.plots) for part in parts]
     return StudyResult(
@@ -154,4 +166,4 @@ def _run(of: Reproduction, study: Any, workers: int, on_progress: Progress) -> S
                        if run.failed is not None and of.told(case)),
         winners=winners_table(study, drivers, pairs, drawn),
         # The first that shows law and MPC together, else the paper's own first one.
-        first_plot=len(plots[0]) if plots[1] else 0 if plots[0] else None, runs=runs)
+        first_plot=len(plots[0]) if plots[1] else 0 if plots[0] else None, runs=runs, left_out=len(left_out))

@@ -123,7 +123,8 @@ class StudyResult:
     in it taken from the runs. failures: (run, why) of runs that ended early. winners, first_plot: what the first screen
     shows, a table and the number of one of the plots; None where nobody is compared. standings: who wins under which
     condition and at what price, a sentence each; a page makes them of the rows of `winners` where there are none. runs:
-    what each of the study's own cases left, for whoever asks for the same run.
+    what each of the study's own cases left, for whoever asks for the same run; left_out: how many cases were not run,
+    for a short report.
     """
 
     rows: tuple[dict[str, Any], ...]
@@ -135,6 +136,7 @@ class StudyResult:
     first_plot: int | None = None
     standings: tuple[str, ...] = ()
     runs: Mapping[Hashable, Any] = field(default_factory=dict)
+    left_out: int = 0
 
     def __post_init__(self) -> None:
         for row in self.rows:

@@ -5,12 +5,13 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any, Literal, TypeVar
+from typing import TYPE_CHECKING, Annotated, Any, Literal, Self, TypeVar
 
-from pydantic import BeforeValidator, Strict, ValidationError
+from pydantic import BeforeValidator, PrivateAttr, Strict, ValidationError
 
 from workbench.files.toml import FileRecord, Name, Text
 from workbench.model.sensitivity import Sensitivity
+from workbench.paper.only_full import Extra
 from workbench.paper.results import StudyResult
 from workbench.trains.scenario import known_version
 
@@ -35,6 +36,17 @@ class Study(FileRecord):
     citation: Text
     reproduction: Annotated[bool, Strict()] = False
     joint_sensitivity: Sensitivity | None = None
+    _short: bool = PrivateAttr(default=False)
+
+    def shortened(self) -> Self:
+        """The same study for a short report, which leaves out what the file marks `only_full`."""
+        found = self.model_copy()
+        found._short = True
+        return found
+
+    def leaves_out(self, part: Extra | None) -> bool:
+        """Whether the runs that a table or row of the file asks for are left out."""
+        return self._short and part is not None and part.only_full
 
 
 S = TypeVar("S", bound=Study)

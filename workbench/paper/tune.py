@@ -39,7 +39,8 @@ def tune_run(loaded: Loaded, names: list[str], write: bool, workers: int | None,
     chosen = list(dict.fromkeys(names)) or list(budget.ranges)
     for name in chosen:
         if name not in budget.ranges:
-            raise InputError(path, f"tuning.ranges.{name}", "is missing: name a controller with ranges, or add them")
+            raise InputError(path, f"tuning.ranges.{name}", "is missing: add ranges there, or name one of "
+                             f"{', '.join(budget.ranges)}")
     if resume and out is None:
         raise InputError("", "--resume", "needs the folder of the restarts to go on with: name it with --out")
     if runs is not None:

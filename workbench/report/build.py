@@ -17,10 +17,11 @@ from workbench.files.own_files import read_manifest
 from workbench.files.regular import contents
 from workbench.files.writing import make_folder, require_inside, write_text
 from workbench.gains.result import GainReport
-from workbench.paper.gain_effects import NONE_YET, effects, gains_of
+from workbench.paper.gain_effects import NONE_YET, effects, gains_of, left_out
 from workbench.paper.gain_search import Runs, gain_search_of
 from workbench.paper.loading import Loaded
 from workbench.paper.recorded_front import searched_or_recorded, shown_fronts
+from workbench.paper.reproduced import ReproducedStudy
 from workbench.paper.results import StudyResult
 from workbench.paper.study import Study
 from workbench.paper.tuning_record import Pairs
@@ -33,6 +34,7 @@ from workbench.report.charts.files import ANOTHER_OUT, CURVES, write_curves
 from workbench.report.finding import findings
 from workbench.report.finding_sentences import findings_document
 from workbench.report.gains import gains_document, gains_result
+from workbench.report.headline import CHANGES
 from workbench.report.page import ReportContent, build_page, scenario_charts
 from workbench.report.runs import Progress, comparison_document, run_study, study_document
 from workbench.report.study_page import StudyContent, build_study_page
@@ -45,14 +47,15 @@ MONTE_CARLO, CHECKER = "monte_carlo", "checker.py"
 FILES = ("report.html", "claims.json", CHECKER, "compare.json", "gains.json", f"{MONTE_CARLO}/sweep.csv",
          f"{MONTE_CARLO}/sweep.journal.jsonl", "matches.journal.jsonl", "pareto.journal.jsonl")
 # So many drawn trains a report takes at the most, unless it is to be full.
-QUICK_DRAWS = 10
+QUICK_DRAWS = 8
 
 
 @dataclass(frozen=True)
 class Asked:
     """A report that is asked for, with everything it needs checked; gains: what was found of the paper's gains.
 
-    full: on all drawn trains that the file states, else on the first QUICK_DRAWS of them.
+    full: with what the file marks `only_full` and on all drawn trains that it states, else without and on the first
+    QUICK_DRAWS of them.
     """
 
     loaded: Loaded
@@ -120,11 +123,17 @@ def build_report(asked: Asked, runs: int | None = None, seed: int | None = None,
     loaded, scenario, out, workers = asked.loaded, asked.loaded.scenario, asked.out, asked.workers
     timings: dict[str, float] = {}
     claims = _decide(asked, on_progress, timings)
+    changes = tuple(change for change in scenario.variants if asked.full or not change.only_full)
+    compared = scenario.model_copy(update={"variants": changes})
     with _timed(timings, "runs and variants"):
-        comparison = compare(loaded.path, loaded.data, scenario, workers=workers,
+        comparison = compare(loaded.path, loaded.data, compared, workers=workers,
                              on_progress=lambda done, total, _: on_progress("runs and variants", done, total))
         write_json(out / "compare.json", comparison_document(comparison))
-    runs = asked.draws(scenario.uncertainty.runs) if runs is None else runs
+    stated = len(scenario.variants)
+    shortened = {CHANGES: f"{len(changes)} of {stated}"} if len(changes) < stated else {}
+    if runs is None:
+        runs = asked.draws(scenario.uncertainty.runs)
+        shortened |= _fewer_trains(runs, scenario.uncertainty.runs)
     seed = scenario.uncertainty.seed if seed is None else seed
     with _timed(timings, "Monte Carlo"):
         rows = sweep(scenario, loaded.path, runs, seed, out=out / MONTE_CARLO, resume=asked.resume, workers=workers,
@@ -132,7 +141,8 @@ def build_report(asked: Asked, runs: int | None = None, seed: int | None = None,
     content = ReportContent(
         scenario=scenario, claims=claims, runs=comparison.runs, metrics=comparison.metrics, sweep=rows,
         sweep_seed=seed, variants=comparison.variants, timings=timings,
-        commands=(f"{asked.command} --runs {runs}",), gains=_gains(asked, on_progress, timings))
+        commands=(f"{asked.command} --runs {runs}",), gains=_gains(asked, on_progress, timings),
+        shortened=shortened)
     page = out / "report.html"
     with _timed(timings, "page"):
         write_curves(list(scenario_charts(content).values()), out)
@@ -147,34 +157,39 @@ def build_study_report(asked: Asked, on_progress: Progress = lambda what, done, 
     timings: dict[str, float] = {}
     claims = _decide(asked, on_progress, timings)
     with _timed(timings, "runs"):
-        result = run_study(_with_draws(asked), asked.workers, on_progress, out, asked.resume)
+        result = run_study(_as_short(asked), asked.workers, on_progress, out, asked.resume)
         write_json(out / "compare.json", study_document(study, result))
     write_curves(list(map(chart_of, result.plots)), out)
     found = _gains(asked, on_progress, timings, result.runs)
     page = out / "report.html"
     with _timed(timings, "page"):
         text = build_study_page(StudyContent(study, result, claims, timings, (asked.command,), found,
-                                             _draws_words(asked)))
+                                             _shortened(asked, result)))
         write_text(page, text, ANOTHER_OUT)
     return StudyReport(page, claims, study, result, timings)
 
 
-def _with_draws(asked: Asked) -> Loaded:
-    """What is run: the file's study on as many drawn trains as are asked for."""
+def _as_short(asked: Asked) -> Loaded:
+    """What is run: the file's study, without what is for full reports alone and on as many trains as are asked for."""
     study = asked.loaded.study
-    pairs = getattr(study, "pairs", None)
-    if not isinstance(pairs, Pairs):
+    if asked.full or not isinstance(study, ReproducedStudy):
         return asked.loaded
-    fewer = pairs.model_copy(update={"draws": asked.draws(pairs.draws)})
-    return replace(asked.loaded, record=study.model_copy(update={"pairs": fewer}))
+    fewer = study.pairs and study.pairs.model_copy(update={"draws": asked.draws(study.pairs.draws)})
+    return replace(asked.loaded, record=study.model_copy(update={"pairs": fewer}).shortened())
 
 
-def _draws_words(asked: Asked) -> str:
-    """On how many drawn trains the pairs of a page are, where they are not all that the file states."""
-    pairs = getattr(asked.loaded.study, "pairs", None)
-    if not isinstance(pairs, Pairs) or asked.draws(pairs.draws) == pairs.draws:
-        return ""
-    return f"the first {asked.draws(pairs.draws)} of {pairs.draws}; all with --full"
+def _shortened(asked: Asked, result: StudyResult) -> dict[str, str]:
+    """What a page is shorter by than a full one, and how much of it there is; empty of a full one."""
+    pairs, found = getattr(asked.loaded.study, "pairs", None), {}
+    if result.left_out:
+        found["runs"] = f"{len(result.runs)} of {len(result.runs) + result.left_out}"
+    if isinstance(pairs, Pairs):
+        found |= _fewer_trains(asked.draws(pairs.draws), pairs.draws)
+    return found
+
+
+def _fewer_trains(drawn: int, stated: int) -> dict[str, str]:
+    return {"drawn trains": f"the first {drawn} of {stated}"} if drawn < stated else {}
 
 
 def _decide(asked: Asked, on_progress: Progress, timings: dict[str, float]) -> dict[str, Any]:
@@ -199,11 +214,11 @@ def _gains(asked: Asked, on_progress: Progress, timings: dict[str, float], runs:
         return None
     with _timed(timings, "gains"):
         done = effects(asked.loaded, asked.gains, asked.workers,
-                       lambda at, total, _: on_progress("runs of gains", at, total), runs)
+                       lambda at, total, _: on_progress("runs of gains", at, total), runs, asked.full)
         fronts = shown_fronts(asked.loaded, searched_or_recorded(asked.loaded, False), asked.workers,
                               lambda at, total, _: on_progress("fronts of gains", at, total))
         write_json(asked.out / "gains.json", gains_document(asked.gains, done, fronts))
-    return gains_result(asked.gains, done, fronts)
+    return gains_result(asked.gains, done, fronts, left_out(asked.loaded, asked.gains, done))
 
 
 def _check_folder(loaded: Loaded, out: Path) -> None:

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 from workbench.gains.result import GainReport
 from workbench.paper.cells import Cell, Phrase, Quantity
 from workbench.paper.gain_effects import Effect
+from workbench.paper.only_full import shortened
 from workbench.paper.recorded_front import GainFront
 from workbench.paper.results import ResultTable, StudyResult
 from workbench.report.gain_words import heading, letter, spoken, with_powers
@@ -21,11 +22,12 @@ APART = 1.02  # by what factor numbers differ that are said to
 NOT_ERRORS = {"energy_J", "command_max", "bound_used", "mse_0", "reversals"}  # less of these is not better tracking
 
 
-def gains_result(report: GainReport, effects: Sequence[Effect], fronts: Sequence[GainFront] = ()) -> StudyResult:
-    """The tables that `workbench gains` prints, its notes as findings."""
+def gains_result(report: GainReport, effects: Sequence[Effect], fronts: Sequence[GainFront] = (),
+                 left_out: Mapping[str, int] | None = None) -> StudyResult:
+    """The tables that `workbench gains` prints, its notes as findings; left_out: setting -> runs that it lacks."""
     tables = [table for table in (_conditions(report), _quantities(report), _found(report)) if table.rows]
     if effects:
-        tables += _effects(effects)
+        tables += _effects(effects, left_out or {})
     tables += [table for front in fronts for table in (_front(front), _front_gains(front))]
     return StudyResult(
         rows=tuple({"controller": e.gains, "setting": e.setting, **e.numbers, "failed": e.failed} for e in effects),
@@ -131,7 +133,7 @@ def _gain(value: Fraction) -> str | Quantity:
     return Quantity(float(value), digits=None if value.denominator == 1 else 4)
 
 
-def _effects(effects: Sequence[Effect]) -> list[ResultTable]:
+def _effects(effects: Sequence[Effect], left_out: Mapping[str, int]) -> list[ResultTable]:
     """A table for each setting, the stated gains first; a failed run has dashes."""
     tables = []
     for setting in dict.fromkeys(e.setting for e in effects):
@@ -139,8 +141,8 @@ def _effects(effects: Sequence[Effect]) -> list[ResultTable]:
         names = list(dict.fromkeys(name for e in own for name in e.numbers))
         rows = tuple((_name(e.gains), *(e.numbers.get(name) for name in names), "failed" if e.failed else "to the end")
                      for e in own)
-        tables.append(ResultTable(f"simulated: {setting}", "the paper's own, SI units", (
-            "gains", *map(heading, names), "run"), rows))
+        tables.append(shortened(ResultTable(f"simulated: {setting}", "the paper's own, SI units", (
+            "gains", *map(heading, names), "run"), rows), left_out.get(setting, 0)))
     return tables
 
 

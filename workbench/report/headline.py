@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from itertools import combinations, pairwise
 
 import numpy as np
@@ -118,8 +118,8 @@ def _ranking(printed: Sequence[str], rows: Sequence[SweepRow], names: dict[str, 
 
 
 def variants_line(nominal: Sequence[Metrics], variants: Sequence[tuple[Variant, Sequence[Metrics]]],
-                  names: dict[str, str]) -> Markup | None:
-    """The change of an assumed value that matters most."""
+                  names: dict[str, str], every: bool = True) -> Markup | None:
+    """The change of an assumed value that matters most; every: False where some are left out, as that may be."""
     base = {m.controller: error for m in nominal if (error := largest_error(m)) is not None}
     if not variants:
         return None
@@ -132,6 +132,8 @@ def variants_line(nominal: Sequence[Metrics], variants: Sequence[tuple[Variant, 
         line += Markup(" “{}” makes {} fail.").format(title, _and(failed))
     if len(broken) > 2:
         line += Markup(' <a href="#variants">{} more</a> make runs fail.').format(len(broken) - 2)
+    if not every:
+        return line
     changes = [(max(error / base[m.controller], base[m.controller] / error), variant, m.controller, error)
                for variant, metrics in variants for m in metrics
                if m.controller in base and (error := largest_error(m)) and base[m.controller]]
@@ -153,6 +155,18 @@ def sources_line(values: Sequence[SourcedValue]) -> Markup | None:
     assumed = sum(value.kind == "assumed" for value in values)
     return Markup('<strong>Data.</strong> {} of {} stated values are <a href="#assumptions">assumed</a>: '
                   "the paper does not give them.").format(assumed, len(values))
+
+
+CHANGES = "changes of assumed values"  # what a scenario's short report has fewer of
+
+
+def shortened_line(parts: Mapping[str, str]) -> Markup | None:
+    """What a short report has less of than a full one, and how to get the rest; None of a full one."""
+    if not parts:
+        return None
+    words = "; ".join(f"{what}: {some}" for what, some in parts.items())
+    return Markup("<strong>Short report.</strong> {}. <code>--full</code> makes the rest, too.").format(
+        words[0].upper() + words[1:])
 
 
 def _rank(verdict: str) -> int:

@@ -31,7 +31,8 @@ class ReportContent:
     claims: the document of `workbench prove --json`, where each claim may also carry `title`, `note`,
     `recorded`, `stated` and `computed`; runs and metrics: the nominal run of each controller, in the same
     order; sweep: its rows, with sweep_seed; variants: each change with the metrics it gave;
-    timings: what was done -> seconds; commands: how to get this page again; gains: what `workbench gains` finds.
+    timings: what was done -> seconds; commands: how to get this page again; gains: what `workbench gains` finds;
+    shortened: what there is less of than on a full page, and how much of it.
     """
 
     scenario: Scenario
@@ -44,6 +45,7 @@ class ReportContent:
     timings: Mapping[str, float] = field(default_factory=dict)
     commands: Sequence[str] = ()
     gains: StudyResult | None = None
+    shortened: Mapping[str, str] = field(default_factory=dict)
 
 
 def build_page(content: ReportContent) -> str:
@@ -54,11 +56,12 @@ def build_page(content: ReportContent) -> str:
     claims = claim_views(content.claims)
     sources = sourced_values(scenario)
     shown = _figures(content, names)
-    first = shown.pop("position-errors", None)
+    first, every = shown.pop("position-errors", None), headline.CHANGES not in content.shortened
     lines = [
         headline.proof_line(claims), headline.nominal_line(scenario, content.metrics, names),
         headline.table_line(scenario, summaries, names, content.sweep),
-        headline.variants_line(content.metrics, content.variants, names), headline.sources_line(sources),
+        headline.variants_line(content.metrics, content.variants, names, every),
+        headline.sources_line(sources), headline.shortened_line(content.shortened),
     ]
     compared = tables.compared_table(scenario, summaries, names) if summaries else []
     runs_each = max((s.runs for s in summaries), default=0)
@@ -71,12 +74,13 @@ def build_page(content: ReportContent) -> str:
         content=content, scenario=scenario, names=names,
         figures=[figure for anchor, figure in shown.items() if anchor != "spread"], spread=shown.get("spread"),
         standings=(), standings_tables=(), sentences=(), first_figure=first, first_figure_first=False,
-        winners=winners(scenario, content.metrics, content.variants, content.sweep, names),
+        winners=winners(scenario, content.metrics, content.variants, content.sweep, names, every),
         nominal=tables.nominal_table(content.metrics),
         information=[tables.information(scenario, m.controller) for m in content.metrics],
         compared=compared, runs_each=runs_each, solved=tables.compiled_words(scenario, names),
         single=tables.printed_values_table(scenario, content.metrics, names),
         variants=tables.variants_table(content.metrics, content.variants) if content.variants else [],
+        fewer_variants=content.shortened.get(headline.CHANGES, ""),
         failures=[(variant.title, m.controller, m.failed)
                   for variant, found in content.variants for m in found if m.failed is not None],
     )

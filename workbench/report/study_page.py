@@ -22,7 +22,7 @@ from workbench.report.template import PageFigure, page_figure, render
 @dataclass(frozen=True)
 class StudyContent:
     """All that a study's page shows; claims: the document of `workbench prove --json`, empty without a proof;
-    gains: what `workbench gains` finds; draws: on how many drawn trains, where they are fewer than stated."""
+    gains: what `workbench gains` finds; shortened: what there is less of than on a full page, and how much of it."""
 
     study: Study
     result: StudyResult
@@ -30,20 +30,22 @@ class StudyContent:
     timings: Mapping[str, float] = field(default_factory=dict)
     commands: Sequence[str] = ()
     gains: StudyResult | None = None
-    draws: str = ""
+    shortened: Mapping[str, str] = field(default_factory=dict)
 
 
 def build_study_page(content: StudyContent) -> str:
     """The page as HTML: styles, figures and formulas within it, no reference to anything outside."""
     study, result = content.study, content.result
     sources = sourced_values(study)
-    lines = [headline.proof_line(claim_views(content.claims)), headline.sources_line(sources)]
+    lines = [headline.proof_line(claim_views(content.claims)), headline.sources_line(sources),
+             headline.shortened_line(content.shortened)]
     figures = _figures(result.plots)
     first = None if result.first_plot is None else figures.pop(result.first_plot)
     return render(
         "study.html.j2", content.claims, sources, subject=study, headline=[line for line in lines if line],
         sentences=result.findings,
-        settings={"study": study.name} | ({"drawn trains": content.draws} if content.draws else {}),
+        settings={"study": study.name} | {
+            what: f"{some}; all with --full" for what, some in content.shortened.items()},
         commands=content.commands, timings=content.timings,
         tables=table_views(result.tables), gains=gains_view(content.gains),
         figures=figures, first_figure=first, first_figure_first=bool(result.standings), failures=result.failures,

@@ -46,9 +46,9 @@ class Winners:
 
 
 def winners(scenario: Scenario, metrics: Sequence[Metrics], variants: Sequence[tuple[Variant, Sequence[Metrics]]],
-            sweep: Sequence[SweepRow], names: Mapping[str, str]) -> Winners | None:
+            sweep: Sequence[SweepRow], names: Mapping[str, str], every: bool = True) -> Winners | None:
     """Of the nominal run, of the drawn runs and of the changes of assumed values; None with fewer than two controllers
-    that end the nominal run.
+    that end the nominal run. every: False where some changes are left out.
 
     A change that not all controllers drove, such as one of a single law's gains, says nothing of who wins.
     """
@@ -67,7 +67,8 @@ def winners(scenario: Scenario, metrics: Sequence[Metrics], variants: Sequence[t
                if {m.controller for m in of_it} >= everyone and (found := _errors(of_it))]
     if changed:
         count = f"{len(changed)} changes" if len(changed) > 1 else "1 change"
-        rows.append(Winner(f"{count} of an assumed value, driven by all", *_said(changed, names)))
+        rows.append(Winner(f"{count} of an assumed value, driven by all{'' if every else ', of those in this report'}",
+                           *_said(changed, names)))
     won = {name for found in [nominal, *drawn.values(), *changed] for name in _best(found)}
     least = min((m.energy_J for m in metrics if m.failed is None), default=0.0)
     prices = tuple(Price(names[m.controller], information(scenario, m.controller),

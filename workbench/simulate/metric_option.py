@@ -13,11 +13,13 @@ def metric_and_number(option: str, text: str, sign: str, metrics: Sequence[str],
 
     Raises InputError for a metric that is none.
     """
-    metric, _, number = text.partition(sign)
+    metric, stated, number = text.partition(sign)
     metric = metric.strip()
     if metric not in metrics:
         raise InputError("", option, f"'{metric[:60]}' is no metric of a run: give {write} with one of "
                          f"{', '.join(metrics)}")
+    if not stated:
+        raise InputError("", option, f"'{text[:60]}' says no number behind '{sign}': give {write.rstrip(',')}")
     try:
         return metric, float(number)
     except ValueError:

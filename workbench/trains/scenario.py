@@ -120,14 +120,12 @@ class PrintedValue(Record):
 
 
 class Variant(Record):
-    """One change of an assumed value, to see how much it matters: dotted key -> value.
-
-    controllers: those whose run it changes; none named means all.
-    """
+    """One change of assumed values, dotted key -> value, of the controllers named or all; only_full: see `report`."""
 
     title: Text
     set: dict[str, Any]
     controllers: tuple[Text, ...] = ()
+    only_full: Annotated[bool, Strict()] = False
 
 
 class ScenarioTuning(Searched):

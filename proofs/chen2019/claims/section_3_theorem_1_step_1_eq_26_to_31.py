@@ -165,7 +165,7 @@ def _learning_bound(number: int) -> None:
         return replace(goal, show=(*equalities, *goal.show))
 
 
-place, place_before, slope, tilde_eta = sp.symbols("s s_prev f_slope tilde_prev", real=True)
+place, place_before, slope, tilde_eta = sp.symbols("s s_prev f_slope eta_tilde_prev", real=True)
 
 
 @paper.claim("31.place", "(31) for an additional resistance that depends on the place", "implication",

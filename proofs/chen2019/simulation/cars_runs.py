@@ -21,6 +21,8 @@ from .cars_trials import MEMORY_RULES, SLOPE_SEEN, SLOPE_VALUES, Array, CarsPlan
 MOST_COMMAND_N = 1e9
 # Runs side by side: as many floats as the vectors of most processors have.
 LANES = 4
+# From how many trials on a run that is left alone is worth a loop of one lane, which may have to be compiled.
+WORTH_ALONE = 10
 # So many learned numbers may all runs side by side have: a gigabyte.
 MOST_TOGETHER = 125_000_000
 
@@ -141,6 +143,10 @@ class _Arrays:
         for mine, theirs in zip(self.every(), other.every(), strict=True):
             mine[..., lane] = theirs
 
+    def only(self, lane: int) -> Self:
+        """What one lane has, alone."""
+        return type(self)(*(np.ascontiguousarray(x[..., lane : lane + 1]) for x in self.every()))
+
     def every(self) -> tuple[Array, ...]:
         """All arrays, in their order."""
         return tuple(getattr(self, one.name) for one in fields(self))
@@ -166,10 +172,18 @@ def _run_alike(plans: Sequence[CarsPlan], lanes_at_most: int) -> list[CarsRun]:
                 del own  # as large as what is learned
         if arrays is None or not any(lanes):
             return [found[number] for number in range(len(plans))]
+        here = [place for place, lane in enumerate(lanes) if lane is not None]
+        if len(lanes) > 1 and len(here) == 1 and _left(lanes[here[0]]) > WORTH_ALONE:
+            lanes, arrays = [lanes[here[0]]], arrays.only(here[0])  # empty lanes cost time, too
         _trial(lanes, arrays)
         for place, lane in enumerate(lanes):
             if lane is not None and lane.ended:
                 found[lane.number], lanes[place] = lane.run(), None
+
+
+def _left(lane: _Lane | None) -> int:
+    """How many trials a lane has before it."""
+    return lane.plan.trials - len(lane.totals) if lane is not None else 0
 
 
 def _trial(lanes: Sequence[_Lane | None], arrays: _Arrays) -> None:

@@ -124,6 +124,8 @@ def mpc_tables(results: ChenResults) -> Iterator[ResultTable]:
         f"{study.mpc.horizon} samples ahead: {MultiCarMpc.information}; the law every {study.sampling.period_s:g} s: "
         f"full state of all cars, model unknown, earlier trials. MPC counted "
         f"{counters_words([measured.trip.counters])}.")
+    if not measured.longer:
+        return
     yield ResultTable(
         "A step of MPC for trains of several lengths", "comparison",
         ("cars", Column("a step of MPC", "µs", 1e-6), Column("p99", "µs", 1e-6),

@@ -125,19 +125,20 @@ def _trailers(results: ChenResults) -> str:
     return f"{text}."
 
 
-def _energy(results: ChenResults) -> str:
+def _energy(results: ChenResults) -> Iterator[str]:
     run = results.stated
     if not len(run.totals):
         raise LackingError
     change, allowed = cef_change(run), allowed_change(results.study, run)
-    text = (f"The energy function (25) of the stated run falls by at least what (35) promises in "
-            f"{int(np.sum(change <= allowed))} of {len(change)} trials")
+    yield (f"The energy function (25) of the stated run falls by at least what (35) promises in "
+           f"{int(np.sum(change <= allowed))} of {len(change)} trials.")
     broken = []
     for one, other in results.group("rules"):
         lost = np.flatnonzero(cef_change(other) > allowed_change(results.study, other))
         if len(lost):
             broken.append(f"{one.title}, first in trial {lost[0] + 1}")
-    return text + (f"; not with these rules: {'; '.join(broken)}." if broken else ".")
+    if broken:
+        yield f"With these rules it does not in every trial: {'; '.join(broken)}."
 
 
 def _place(results: ChenResults) -> str:
@@ -161,7 +162,7 @@ def _assumed(results: ChenResults) -> str:
 
 def _speed(results: ChenResults) -> str:
     run, measured = results.stated, results.measured
-    fewest = min(measured.sample_s)
+    fewest = min(measured.by_length)
     return (f"A million samples of {fewest} cars take {number(1e6 * measured.sample_s[fewest])} s, train and law "
             f"together; the stated run's learned estimates, one set per sample, take {number(run.memory_bytes / 1e6)} "
             f"MB. From {fewest} to {max(measured.sample_s)} cars the time of a sample grows as the number of cars to "

@@ -84,8 +84,8 @@ def _energy(results: ChenResults) -> Iterator[Plot]:
 
 def _cost(results: ChenResults) -> Plot:
     """Time of a sample against the number of cars."""
-    cars = np.array(list(results.measured.sample_s), dtype=float)
-    times = 1e6 * np.array(list(results.measured.sample_s.values()))
+    measured = results.measured.by_length
+    cars, times = np.array(list(measured), dtype=float), 1e6 * np.array(list(measured.values()))
     return Plot("Time of a sample against the number of cars", "not in the paper", "cars", "time of a sample (µs)",
                 (Curve("measured", cars, times),
                  Curve(f"{number(times[0] / cars[0])} µs a car", cars, cars * times[0] / cars[0])),

@@ -8,6 +8,7 @@ from pydantic import Field, model_validator
 
 from workbench.files.toml import Number, Positive, SourcedRecord, Text, Whole
 from workbench.model.desired_curve import TimedCruise
+from workbench.paper.only_full import ExtraTable
 from workbench.paper.reproduced import Change, ReproducedStudy
 
 Mass = Annotated[Number, Field(ge=1e3, le=2e5)]
@@ -113,7 +114,7 @@ class ChenChange(Change):
     group: Literal["rules", "gains", "masses", "assumed"]
 
 
-class Cost(SourcedRecord):
+class Cost(ExtraTable):
     """Trains whose time per sample is measured."""
 
     cars: Annotated[tuple[Cars, ...], Field(min_length=2, max_length=20)]

@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 
 from workbench.model.desired_curve import DesiredCurve
+from workbench.paper.findings import LackingError
 from workbench.paper.learning_comparison import jerk_rms, rises
 from workbench.paper.reproduced import STATED, Results, RunCase
 from workbench.paper.reproduction import case_title
@@ -40,9 +41,17 @@ class Measured:
     longer: tuple[MpcTrip, ...]
 
     @property
+    def by_length(self) -> Mapping[int, float]:
+        """`sample_s` of trains of several lengths; LackingError where a short report measures the study's own alone."""
+        if len(self.sample_s) < 2:
+            raise LackingError
+        return self.sample_s
+
+    @property
     def exponent(self) -> float:
         """The power of the number of cars with which the time of a sample grows, by least squares of logarithms."""
-        return float(np.polyfit(np.log(list(self.sample_s)), np.log(list(self.sample_s.values())), 1)[0])
+        times = self.by_length
+        return float(np.polyfit(np.log(list(times)), np.log(list(times.values())), 1)[0])
 
 
 @dataclass(frozen=True)
@@ -63,16 +72,21 @@ class ChenResults(Results[ChenStudy, RunCase, CarsRun]):
 
     def group(self, name: str) -> list[tuple[ChenChange, CarsRun]]:
         """The runs of a group of changes."""
-        return [(change, run) for change, run in self.changed_runs() if change.group == name]
+        return self.under(lambda change: change.group == name)
 
     def find(self, **values: object) -> CarsRun | None:
         """The run with exactly these values changed (dots as double underscores), if the study has it."""
         wanted = {key.replace("__", "."): value for key, value in values.items()}
-        return next((run for change, run in self.changed_runs() if change.set == wanted), None)
+        return next((run for _, run in self.under(lambda change: change.set == wanted)), None)
 
     def with_more_trials(self) -> list[tuple[int, CarsRun]]:
         """Runs that differ by the number of their trials alone, with it."""
         return [(change.set["trials.count"], run) for change, run in self.changed_runs("trials.count")]
+
+    @property
+    def lacks_more_trials(self) -> bool:
+        """Whether a short report has left such runs out."""
+        return any(self.study.leaves_out(change) for change in self.study.changes if [*change.set] == ["trials.count"])
 
     @property
     def motors_and_trailers(self) -> tuple[list[int], list[int]]:
@@ -109,9 +123,13 @@ def groups(study: ChenStudy, cases: Sequence[RunCase]) -> list[list[RunCase]]:
 
 
 def measure(study: ChenStudy, _: object) -> Measured:
-    """Time per sample of trains of several lengths, MPC's trip, and its beginning with such trains, one by one."""
+    """Time per sample of trains of several lengths, MPC's trip, and its beginning with such trains, one by one.
+
+    Where a short report leaves the table of cost out, of the study's own train alone.
+    """
+    lengths = (study.train.cars,) if study.leaves_out(study.cost) else study.cost.cars
     trains = {cars: study.model_copy(update={"train": study.train.model_copy(update={"cars": cars})})
-              for cars in study.cost.cars}
+              for cars in lengths}
     sample_s = {}
     for cars, longer in trains.items():
         whole = plan(longer)
@@ -120,7 +138,8 @@ def measure(study: ChenStudy, _: object) -> Measured:
         sample_s[cars] = float(run_cars(short).step_us.min()) * 1e-6
     if study.mpc is None:
         return Measured(sample_s, None, ())
-    return Measured(sample_s, run_mpc(study), tuple(run_mpc(one, study.cost.end_s) for one in trains.values()))
+    trip, others = run_mpc(study), () if study.leaves_out(study.cost) else trains.values()
+    return Measured(sample_s, trip, tuple(run_mpc(one, study.cost.end_s) for one in others))
 
 
 def measuring(study: ChenStudy) -> tuple[Stage, ...]:

@@ -87,6 +87,8 @@ def statements(results: ChenResults) -> ResultTable:
         if run.failed is not None or grows_from(run.difference) is not None:
             return f"no: {outcome(run)}"
         longer = next((other for _, other in results.with_more_trials()), None)
+        if run is results.stated and longer is None and results.lacks_more_trials:
+            return "run further with --full"
         if run is not results.stated or longer is None or longer.failed is not None:
             return "yes, as far as they ran" if rises(run.position_error) == 0 else f"no: {outcome(run)}"
         return Phrase(f"{{}} m and {{}} m/s after {{}} ({outcome(longer)})",
@@ -120,8 +122,9 @@ def groups(results: ChenResults) -> Iterator[ResultTable]:
         *trial_columns(Column("|Δu| (kN)", "kN", 1e3), attrgetter("difference"), ends, 1), ("Outcome", outcome)]
     for group, name, source, note in GROUPS:
         runs = [("as stated", results.stated), *((change.title, run) for change, run in results.group(group))]
-        yield run_table(name, source, ("Run",), (((title,), run) for title, run in runs), columns,
-                        f"{LARGEST} {note}".strip())
+        if len(runs) > 1:
+            yield run_table(name, source, ("Run",), (((title,), run) for title, run in runs), columns,
+                            f"{LARGEST} {note}".strip())
 
 
 def bounds(results: ChenResults) -> ResultTable:
@@ -178,7 +181,7 @@ def cost(results: ChenResults) -> ResultTable:
          Column(f"{study.trials.count} trials of {study.reference.trip_time_s:g} s", "s"),
          Column("Memory of the estimates", "MB", 1e6)),
         tuple((count, step_s, step_s / count, step_s * study.samples * study.trials.count,
-               8.0 * study.samples * (3 * count + 3)) for count, step_s in measured.sample_s.items()),
+               8.0 * study.samples * (3 * count + 3)) for count, step_s in measured.by_length.items()),
         f"Train and law together, one core, compiling left out. The time grows as the number of cars to the power "
         f"{fixed(measured.exponent, 2)}.")
 

@@ -56,8 +56,8 @@ def drive(study: JiaoStudy, name: str, place: str, factors: Factors = NOMINAL) -
 
 
 def places(study: JiaoStudy) -> dict[str, str]:
-    """The readings as tables have them."""
-    return {name: reading.title for name, reading in study.readings.items()}
+    """The readings in few words, as conditions of a comparison are called."""
+    return {name: reading.condition for name, reading in study.readings.items()}
 
 
 DRIVERS = Drivers(TITLES, places, keys, drive, first_trial=0)

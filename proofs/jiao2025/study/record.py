@@ -113,6 +113,11 @@ class Reading(SourcedRecord):
         """A few words for legends: the unit and the length of a step, and that there are more steps than k."""
         return f"{self.unit} at {self.step_s:g} s" + (f", {self.per_k} steps a k" if self.per_k > 1 else "")
 
+    @property
+    def condition(self) -> str:
+        """The unit and the length of a step, as words that stand alone: `u in N, steps of 0.1 s`."""
+        return f"u in {self.unit}, steps of {self.step_s:g} s" + (f", {self.per_k} a k" if self.per_k > 1 else "")
+
     @model_validator(mode="after")
     def _whole_samples(self) -> Self:
         if abs(self.per_k * self.k_per_sample - 1) > 1e-9:

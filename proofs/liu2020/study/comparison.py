@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import Any
 
-from workbench.paper.comparison import ComparedRun, TripComparison, compared_row, comparison_note, driven
+from workbench.paper.comparison import ComparedRun, Task, TripComparison, compared_row, comparison_note, driven
 from workbench.paper.drivers import MPC_NAMES, MPC_TITLES, Drivers, keys_in
 from workbench.simulate.closed_loop import NOMINAL, Factors
 
@@ -13,9 +13,10 @@ from .. import plant
 from ..laws import FEEDBACK_GAINS, LAWS
 from ..simulation.trip import davis_newton, run_under, setting_of
 from .record import LiuStudy
+from .runs import COMPARED_LAWS, LiuResults, RunCase, compared, left_out, run_cases
 
 # What is held against MPC: the laws with their signs corrected, by speed and by the position alone.
-LAW_NAMES = {"corrected": LAWS["liu2020.corrected"], "position_only": LAWS["liu2020.position_only"]}
+LAW_NAMES = {law.rpartition(".")[2]: LAWS[law] for law in COMPARED_LAWS}
 TOLD = {name: law.information for name, law in LAW_NAMES.items()}
 ADAPTATION = ("gamma_f_per_s2", "alpha_1_per_s2", "gamma_v_n_per_m", "alpha_2_n_per_m", "kappa_1_mps", "kappa_2_mps")
 FILTER = ("speed_filter_s",)
@@ -46,9 +47,8 @@ def drive(study: LiuStudy, name: str, place: str, factors: Factors = NOMINAL) ->
 
 def variants(study: LiuStudy, name: str) -> dict[str, LiuStudy]:
     """A law with the gains of Table 4's column and of the one before."""
-    columns = dict.fromkeys((study.table_4_column - 1 or 1, study.table_4_column))
     return {"": study} if name in MPC_NAMES else {
-        value_words(column): study.model_copy(update={"table_4_column": column}) for column in columns}
+        value_words(column): study.model_copy(update={"table_4_column": column}) for column in study.compared_columns}
 
 
 def value_words(column: int) -> str:
@@ -72,4 +72,17 @@ def note(study: LiuStudy, runs: Sequence[ComparedRun]) -> str:
                            shorter="The tuning's line is shorter than this one, see the file.")
 
 
-COMPARISON = TripComparison(DRIVERS, "disturbance", note, drawn_runs, TOLD)
+def own_tasks(study: LiuStudy) -> dict[Task, RunCase]:
+    """What the comparison need not run again: the study's own runs of the laws and columns that it compares."""
+    names = {law.id: name for name, law in LAW_NAMES.items()}
+    return {Task(case.disturbance, names[case.law], value_words(case.column)): case for case in run_cases(study)
+            if compared(study, case) and not left_out(study, case)}
+
+
+def own_rows(results: LiuResults) -> dict[Task, Mapping[str, Any]]:
+    """The rows of `own_tasks`."""
+    return {task: row for task, case in own_tasks(results.study).items()
+            if (row := results.runs[case].compared) is not None}
+
+
+COMPARISON = TripComparison(DRIVERS, "disturbance", note, drawn_runs, TOLD, own_tasks=own_tasks, own_rows=own_rows)

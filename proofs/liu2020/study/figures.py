@@ -21,6 +21,7 @@ LABELS = {"s_tilde_m": "position estimation error s̃ (m)", "v_tilde_mps": "spee
 # Figures 5 to 12: what they show, and of which columns.
 BY_COLUMN = ((5, "s_tilde_m", CASE_1), (6, "v_tilde_mps", CASE_1), (7, "input_n", CASE_1), (8, "s_tilde_m", CASE_2),
              (9, "v_tilde_mps", CASE_2), (10, "position_m", CASE_2), (11, "speed_mps", CASE_2), (12, "input_n", CASE_2))
+DRAWN_BY_COLUMN = (CORRECTED, BY_RATE, PRINTED, "liu2020.position_only_speed")
 CONTROL_GAINS = (10, 11, 12)  # what they show depends on k_4 and k_5
 
 
@@ -57,7 +58,7 @@ def _drawn(title: str, figure: int, law: str, label: str, curves: Iterable[Curve
 def _by_column(results: LiuResults) -> Iterator[Plot]:
     alike = "Values 5 and 7, and 6, 8 and 9, have the same control gains and nearly coincide."
     for figure, name, columns in BY_COLUMN:
-        for law in (CORRECTED, *((BY_RATE,) if name == "v_tilde_mps" else ())):
+        for law in results.laws((CORRECTED, *((BY_RATE,) if name == "v_tilde_mps" else ())), column=columns[0]):
             yield from _drawn(f"{_words(name)}, Values {columns[0]} to {columns[-1]}", figure, law, LABELS[name], (
                 curve for column in columns for curve in _of(results.table_3(column, law), name, f"Value {column}")),
                 alike if figure in CONTROL_GAINS else "")
@@ -88,7 +89,7 @@ def _rms_by_column(results: LiuResults) -> Iterator[Plot]:
     for name in RMS:
         curves = [Curve("printed in Table 3", np.array(ALL_COLUMNS, dtype=float),
                         np.array(getattr(results.study.table_3, name)))]
-        for law in (CORRECTED, BY_RATE, PRINTED, "liu2020.position_only_speed"):
+        for law in results.laws(DRAWN_BY_COLUMN, disturbance=results.study.runs.table_3_disturbance):
             curves += _by_value(LAWS[law].title, [results.table_3(column, law) for column in ALL_COLUMNS], name)
         curves += _by_value("feedback alone as inferred", results.inferred(), name)
         yield Plot(f"RMS of {QUANTITIES[name].title} by column of Table 2", "paper, Table 3", "Value",

@@ -10,6 +10,7 @@ from pydantic import Field, model_validator
 
 from workbench.files.toml import NonNegative, Number, Positive, SourcedRecord, Text, Whole
 from workbench.model.desired_curve import RampTime
+from workbench.paper.only_full import ExtraTable
 from workbench.paper.reproduced import Change, ColumnTable, ReproducedStudy, one_of
 
 from ..laws import LAWS
@@ -172,6 +173,12 @@ class Runs(SourcedRecord):
     sensitivity_columns: tuple[Column, ...]
 
 
+class FurtherLaws(ExtraTable):
+    """Laws whose runs of Tables 3 and 4 stand beside those of the printed law and the corrected one."""
+
+    laws: tuple[Text, ...]
+
+
 class LiuChange(Change):
     """One change of an assumed value; columns, law: those that it runs, unless as stated."""
 
@@ -196,7 +203,13 @@ class LiuStudy(ReproducedStudy):
     table_4_column: Column
     figure_ranges: FigureRanges
     runs: Runs
+    further_laws: FurtherLaws
     changes: tuple[LiuChange, ...] = ()
+
+    @property
+    def compared_columns(self) -> tuple[int, ...]:
+        """With whose gains laws are held against MPC: Table 4's column, after the one before."""
+        return tuple(dict.fromkeys((self.table_4_column - 1 or 1, self.table_4_column)))
 
     def check(self) -> None:
         """Tables are as long as what they list, and what names a disturbance, law or change names one that is there."""
@@ -206,6 +219,7 @@ class LiuStudy(ReproducedStudy):
                 raise ValueError(f"{key}: has {table.columns} columns: give {wanted}, one for each that it is of")
         one_of("runs.table_3_disturbance", "disturbance", self.runs.table_3_disturbance, self.disturbances)
         for key, law in (("runs.sensitivity_law", self.runs.sensitivity_law),
+                         *(("further_laws.laws", law) for law in self.further_laws.laws),
                          *((f"changes: '{change.title}'", change.law) for change in self.changes if change.law)):
             one_of(key, "law", law, LAWS)
         titles = [change.title for change in self.changes]

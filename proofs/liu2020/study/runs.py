@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
 from workbench.model.desired_curve import DesiredCurve
+from workbench.paper.comparison import compared_row
 from workbench.paper.reproduced import STATED, Results
 from workbench.paper.tracked import Tracked, of_run
 from workbench.simulate.closed_loop import Array
@@ -23,6 +25,8 @@ CORRECTED, BY_RATE, PRINTED, FEEDBACK = (
 TABLE_LAWS = (CORRECTED, BY_RATE, PRINTED, "liu2020.printed_rate", FEEDBACK, "liu2020.feedback_rate",
               "liu2020.position_only_speed", "liu2020.position_only")
 DRAWN_LAWS = (CORRECTED, BY_RATE)
+# Those that are held against MPC, by speed and by the position alone.
+COMPARED_LAWS = (CORRECTED, "liu2020.position_only")
 TABLE_4_LAWS = (CORRECTED, BY_RATE, PRINTED, FEEDBACK)
 # Where the signs of (19), (21), (32) and (35) are wrong, one by one.
 SIGN_LAWS = (PRINTED, "liu2020.wrong_leakage", "liu2020.wrong_learning", CORRECTED)
@@ -51,7 +55,10 @@ class RunCase:
 
 @dataclass(frozen=True)
 class RunResult:
-    """A run as numbers, none of one that failed, and as curves of a thinned log, none unless drawn; SI units."""
+    """A run as numbers, none of one that failed, and as curves of a thinned log, none unless drawn; SI units.
+
+    compared: its row beside MPC, of the laws and columns that are held against it.
+    """
 
     case: RunCase
     numbers: dict[str, float]
@@ -60,6 +67,7 @@ class RunResult:
     failed: str | None
     step_us: float
     curves: dict[str, Array]
+    compared: Mapping[str, Any] | None = None
 
 
 def run_cases(study: LiuStudy) -> list[RunCase]:
@@ -74,6 +82,17 @@ def run_cases(study: LiuStudy) -> list[RunCase]:
     found += [RunCase(column, change.law or runs.sensitivity_law, of_table_3, number)
               for number, change in enumerate(study.changes) for column in change.columns or runs.sensitivity_columns]
     return list(dict.fromkeys(found))
+
+
+def compared(study: LiuStudy, case: RunCase) -> bool:
+    """Whether the run is one of those that are held against MPC."""
+    return (case.law in COMPARED_LAWS and case.column in study.compared_columns
+            and (case.change, case.leak_rate_per_s) == (STATED, None))
+
+
+def left_out(study: LiuStudy, case: RunCase) -> bool:
+    """Whether a short report leaves out a law beside the printed and the corrected one."""
+    return case.change == STATED and case.law in study.further_laws.laws and study.leaves_out(study.further_laws)
 
 
 def title_of(study: LiuStudy, case: RunCase) -> str:
@@ -102,7 +121,8 @@ def run_case(study: LiuStudy, case: RunCase) -> RunResult:
         "energy_both_J": found.energy_J + run.totals["braking_work_j"], "reversals": run.totals["command_reversals"]}
     drawn = logged | {name: run.column(name) for name in ("t_s", "s_m", "v_mps", "s_desired_m", "v_desired_mps")}
     return RunResult(case, numbers, run.end_s, found.largest_position_error, run.failed, found.step_us_median,
-                     {name: values[::DRAWN] for name, values in drawn.items()} if case.drawn else {})
+                     {name: values[::DRAWN] for name, values in drawn.items()} if case.drawn else {},
+                     compared_row(run, changed.line.length_m) if compared(study, case) else None)
 
 
 @dataclass(frozen=True)
@@ -123,13 +143,19 @@ class LiuResults(Results[LiuStudy, RunCase, RunResult]):
         return self.runs[RunCase(column, law, runs.table_3_disturbance, study.number_titled(runs.divergence_change),
                                  leak_rate_per_s)]
 
+    def laws(self, among: Sequence[str], **case: object) -> list[str]:
+        """Those laws of which there are runs as stated; a short report has fewer. case: which runs, see `select`."""
+        there = {of.law for of in self.fitting(lambda of: of.law in among and (of.change, of.leak_rate_per_s) == (
+            STATED, None) and all(getattr(of, key) == value for key, value in case.items()))}
+        return [law for law in among if law in there]
+
     def inferred(self) -> list[RunResult]:
         """The runs of the changes under which the paper's numbers seem to have been computed."""
-        return [run for change, run in self.assumed() if change.title in self.study.runs.inferred_changes]
+        return [run for _, run in self.assumed(lambda change: change.title in self.study.runs.inferred_changes)]
 
-    def assumed(self) -> list[tuple[LiuChange, RunResult]]:
-        """The runs under changes of assumed values, without those that compare the signs."""
-        return self.changed_runs(leak_rate_per_s=None)
+    def assumed(self, which: Callable[[LiuChange], bool]) -> list[tuple[LiuChange, RunResult]]:
+        """The runs under changes of assumed values for which that holds, without those that compare the signs."""
+        return self.under(which, leak_rate_per_s=None)
 
     def rms(self, column: int, law: str, name: str) -> float | None:
         """A number of a column's run of Table 3; None where it failed."""

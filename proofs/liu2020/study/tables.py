@@ -36,8 +36,9 @@ def _table_3(law: str, results: LiuResults) -> ResultTable:
 
 def _table_4(results: LiuResults) -> ResultTable:
     study, rows = results.study, []
+    laws = results.laws(TABLE_4_LAWS, column=study.table_4_column)
     for index, (key, push) in enumerate(study.disturbances.items()):
-        runs = [results.table_4(key, law) for law in TABLE_4_LAWS]
+        runs = [results.table_4(key, law) for law in laws]
         for name in ("energy", *RMS):
             energy, printed = name == "energy", float(getattr(study.table_4, name)[index])
             numbers = [run.numbers.get(ENERGY if energy else name) for run in runs]
@@ -45,7 +46,7 @@ def _table_4(results: LiuResults) -> ResultTable:
                          Quantity(printed, si=ENERGY_UNIT if energy else 1.0, digits=None),
                          *(Quantity(number, si=ENERGY_UNIT) if energy else number for number in numbers)))
     return ResultTable(f"Table 4: Value {study.table_4_column} under three disturbances", "paper, Table 4",
-                       ("disturbance", "of", "printed", *(LAWS[law].title for law in TABLE_4_LAWS)), tuple(rows),
+                       ("disturbance", "of", "printed", *(LAWS[law].title for law in laws)), tuple(rows),
                        f"{RMS_NOTE} Table 4 prints them in 10⁻⁵; they stand here in m and m/s.")
 
 
@@ -88,11 +89,12 @@ def _ranges(results: LiuResults) -> ResultTable:
 
 def _laws_by_column(results: LiuResults) -> ResultTable:
     rows: list[tuple[Cell, ...]] = []
+    laws = results.laws(TABLE_LAWS, disturbance=results.study.runs.table_3_disturbance)
     for name in RMS:
         sign = QUANTITIES[name].title
         rows.append((sign, "printed in Table 3", *getattr(results.study.table_3, name)))
         rows += [(sign, LAWS[law].title, *(results.rms(column, law, name) for column in ALL_COLUMNS))
-                 for law in TABLE_LAWS]
+                 for law in laws]
     return ResultTable("RMS values of every law, Values 1 to 10", "paper, Table 3", ("error", "law", *map(
         str, ALL_COLUMNS)), tuple(rows), "In m and m/s. k₃ stands before ṽ, as (12) prints, unless said.")
 

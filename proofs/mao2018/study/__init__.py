@@ -8,8 +8,8 @@ from .comparison import COMPARISON
 from .figures import PLOTS
 from .findings import FINDINGS
 from .record import MaoStudy
-from .runs import MaoResults, name_of, run_case, run_cases, steps_of, track
+from .runs import MaoResults, left_out, name_of, run_case, run_cases, steps_of, track
 from .tables import TABLES
 
 KIND = Reproduction(MaoStudy, run_cases, run_case, name_of, lambda study, case, run: run.row, MaoResults, TABLES, PLOTS,
-                    FINDINGS, COMPARISON, track, steps_of).kind
+                    FINDINGS, COMPARISON, track, steps_of, left_out=left_out).kind

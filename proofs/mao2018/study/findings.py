@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable, Iterator
 
 from workbench.paper.cells import cell_text
 from workbench.paper.findings import listed
@@ -15,7 +15,8 @@ def _case(run: RunResult) -> str:
     return f"case {run.case.number} {outcome(run)}"
 
 
-def _in(tuning: int, finding: Callable[[str, MaoResults], str]) -> Callable[[MaoResults], str]:
+def _in(tuning: int, finding: Callable[[str, MaoResults], str | Iterable[str]]
+        ) -> Callable[[MaoResults], str | Iterable[str]]:
     """A finding of a tuning, by its number: the first has scaled regressors, the second those in SI units."""
     return lambda results: finding(list(results.study.tunings)[tuning], results)
 
@@ -109,17 +110,18 @@ def _units(results: MaoResults) -> str:
             f"here, {stated}. Otherwise read, {'; '.join(words)}.") if words else "Units: no other reading was run."
 
 
-def _chattering(tuning: str, results: MaoResults) -> str:
+def _chattering(tuning: str, results: MaoResults) -> Iterator[str]:
     runs = [run for run in results.all_corrected(tuning) if not run.failed]
     if not runs:
-        return "Chattering: no corrected run reached its end."
+        yield "Chattering: no corrected run reached its end."
+        return
     run = max(runs, key=lambda run: run.row["command_change_mps2"])
-    layers = results.changing("law.layer_mps", number=run.case.number).values()
-    softer = "".join(f"; with a boundary layer by {other.row['command_change_mps2']:.1e} m/s², settling to "
-                     f"{length(other.settled_m)}" for other in layers)
-    return (f"Chattering: with sgn(z_2) as printed the command of case {run.case.number} changes by "
-            f"{run.row['command_change_mps2']:.1e} m/s² from sample to sample in the mean and turns "
-            f"{run.row['command_reversals_per_s']:.0f} times a second, settling to {length(run.settled_m)}{softer}.")
+    yield (f"Chattering: with sgn(z_2) as printed the command of case {run.case.number} changes by "
+           f"{run.row['command_change_mps2']:.1e} m/s² from sample to sample in the mean and turns "
+           f"{run.row['command_reversals_per_s']:.0f} times a second, settling to {length(run.settled_m)}.")
+    for other in results.changing("law.layer_mps", number=run.case.number).values():
+        yield (f"With a boundary layer it changes by {other.row['command_change_mps2']:.1e} m/s², settling to "
+               f"{length(other.settled_m)}.")
 
 
 def _forces(tuning: str, results: MaoResults) -> str:

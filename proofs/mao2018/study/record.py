@@ -10,6 +10,7 @@ from pydantic import Field
 from workbench.files.toml import Count, Name, NonNegative, Number, Positive, Record, SourcedRecord, Text, Whole
 from workbench.model.desired_curve import SpeedLevels
 from workbench.model.events import Term
+from workbench.paper.only_full import ExtraTable
 from workbench.paper.reproduced import Change, ReproducedStudy, one_of
 from workbench.trains.scenario import Interval
 
@@ -134,7 +135,7 @@ class Horizon(SourcedRecord):
     settled_window_s: Positive
 
 
-class SamplingData(SourcedRecord):
+class SamplingData(ExtraTable):
     """Which sampling periods and damping the laws bear with the regressors in SI units."""
 
     case: Count
@@ -142,6 +143,12 @@ class SamplingData(SourcedRecord):
     end_s: Positive
     periods_s: tuple[Sampling, ...]
     r_2_per_s: tuple[Gain, ...]
+
+
+class SingleSigns(ExtraTable):
+    """In which tunings each wrong sign of a law that has several is the only one: with `only_full` in a full report."""
+
+    tunings: tuple[Name, ...]
 
 
 class MaoChange(Change):
@@ -168,6 +175,7 @@ class MaoStudy(ReproducedStudy):
     cases: tuple[CaseData, ...]
     horizon: Horizon
     sampling: SamplingData
+    single_signs: SingleSigns
     changes: tuple[MaoChange, ...] = ()
 
     def check(self) -> None:
@@ -198,6 +206,8 @@ class MaoStudy(ReproducedStudy):
         laws = [case.law for case in self.cases]
         if not 2 <= len(laws) <= MOST_CASES or laws[0] != "healthy" or "healthy" in laws[1:]:
             raise ValueError(f"cases: give the healthy one first, then one to {MOST_CASES - 1} with a law for failures")
+        for name in self.single_signs.tunings:
+            one_of("single_signs.tunings", "tuning", name, self.tunings)
         one_of("sampling.tuning", "tuning", self.sampling.tuning, self.tunings)
         one_of("sampling.case", "case", self.sampling.case, range(1, len(laws) + 1))
         for number, case in enumerate(self.cases):

@@ -87,6 +87,14 @@ def run_cases(study: MaoStudy) -> list[RunCase]:
     return runs
 
 
+def left_out(study: MaoStudy, case: RunCase) -> bool:
+    """Whether a short report leaves out a sampling period or a single sign."""
+    if case.end_s is not None:
+        return study.leaves_out(study.sampling)
+    alone = 0 < len(case.mended) < len(wrong_signs(study.cases[case.number - 1]))
+    return alone and study.leaves_out(study.single_signs) and case.tuning in study.single_signs.tunings
+
+
 def steps_of(study: MaoStudy, case: RunCase) -> float:
     """How many samples a run has."""
     return (case.end_s or study.horizon.end_s) / (case.period_s or study.tunings[case.tuning].period_s)

@@ -8,6 +8,7 @@ import pytest
 import sympy as sp
 from chen2019_studies import changed
 
+from proofs.chen2019.simulation import cars_runs
 from proofs.chen2019.simulation.cars_runs import LANES, run_cars, run_together
 from proofs.chen2019.simulation.plans import plan
 from proofs.chen2019.study.runs import groups
@@ -66,8 +67,10 @@ def same_run(one, other):
             and all(np.array_equal(log, other.logs[trial]) for trial, log in one.logs.items()))
 
 
-def test_runs_side_by_side_have_the_bits_of_each_alone(study):
-    """One fails, one goes on from another, one waits for a lane, and one cannot share the others' loop."""
+@pytest.mark.parametrize("worth", [cars_runs.WORTH_ALONE, 0])
+def test_runs_side_by_side_have_the_bits_of_each_alone(study, worth, monkeypatch):
+    """One fails, one goes on from another, one waits for a lane, one cannot share the others' loop, and one is left."""
+    monkeypatch.setattr(cars_runs, "WORTH_ALONE", worth)
     made = fast_plan(study)
     heavy = made.cars.copy()
     heavy[4], heavy[5] = heavy[0] + 10.0, heavy[0] + 80.0

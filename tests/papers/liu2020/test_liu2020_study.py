@@ -10,10 +10,10 @@ from proofs.liu2020 import plant as of_train
 from proofs.liu2020.laws import LAWS
 from proofs.liu2020.simulation.trip import davis_newton, setting_of
 from proofs.liu2020.study import KIND, REPRODUCTION
-from proofs.liu2020.study.comparison import drawn_runs, variants
-from proofs.liu2020.study.runs import DRAWN_LAWS, LiuResults, RunResult, run_cases, title_of
+from proofs.liu2020.study.comparison import DRIVERS, drawn_runs, own_tasks, variants
+from proofs.liu2020.study.runs import DRAWN_LAWS, LiuResults, RunResult, run_case, run_cases, title_of
 from workbench.paper.cells import numbers_in
-from workbench.paper.comparison import ComparedRun, Task
+from workbench.paper.comparison import ComparedRun, Task, comparison_tasks
 from workbench.paper.mpc_comparison import known, run_mpc
 from workbench.report.runs import study_document
 from workbench.report.study_page import StudyContent, build_study_page
@@ -103,3 +103,40 @@ def test_a_study_whose_runs_all_fail_still_reports(small):
     assert list(shown.tables) and list(shown.plots)
     assert not any("None" in text for text in shown.findings)
     assert all(title_of(small, case) for case in outcomes)
+
+
+def test_a_short_report_has_rows_tables_and_sentences_of_the_full_one(small, result):
+    short = KIND.run(small.shortened(), 1, lambda *_: None)
+    assert 0 < short.left_out == len(result.rows) - len(short.rows)
+    timed = {"step_us_median": None}
+    assert [row | timed for row in short.rows] == [row | timed for row in result.rows if row | timed in [
+        other | timed for other in short.rows]]
+    assert {row["controller"] for row in short.rows} >= {"liu2020.printed", "liu2020.corrected"}, "as printed stays"
+    tables, fewer = {table.title: table for table in result.tables}, []
+    for table in short.tables:
+        whole = tables[table.title]
+        kept = [place for place, heading in enumerate(table.headings) if "time a step" not in heading]
+        places = kept if table.headings == whole.headings else [whole.headings.index(table.headings[k]) for k in kept]
+        rows = [tuple(row[place] for place in places) for row in whole.rows]
+        assert all(tuple(row[place] for place in kept) in rows for row in table.rows), table.title
+        if (table.headings, len(table.rows)) != (whole.headings, len(whole.rows)):
+            fewer.append(table.title)
+            assert "Shortened: " in table.note and table.note.endswith("left out; all with --full.")
+    assert {"Sensitivity to what is assumed", "RMS values of every law, Values 1 to 10", "Beside MPC"} <= set(fewer)
+    clock = ("A million control steps", "A step of MPC")
+    said = [finding for finding in short.findings if not finding.startswith(clock)]
+    assert set(said) < set(result.findings) and any(finding.startswith("Values 4 to 9") for finding in said)
+    assert {plot.title for plot in short.plots} <= {plot.title for plot in result.plots}
+
+
+def test_what_the_study_has_run_itself_is_the_same_beside_mpc(small):
+    own = own_tasks(small)
+    assert set(own) <= set(comparison_tasks(DRIVERS, small)) and len(own) == 6
+    for task, case in [*own.items()][::2]:
+        held, driven = run_case(small, case).compared, DRIVERS.drive(
+            DRIVERS.variants(small, task.name)[task.variant], task.name, task.place)
+        assert held.keys() == driven.keys()
+        for key in held.keys() - {"step_us_median", "step_us_p99"}:
+            assert np.array_equal(held[key], driven[key]), key
+    fewer = own_tasks(small.shortened())
+    assert {task.name for task in fewer} == {"corrected"}, "laws that a short report leaves out are run beside MPC"

@@ -67,7 +67,8 @@ def chart_json(chart: Chart) -> str:
 
 def _curve(curve: Curve, labels: Sequence[str]) -> dict[str, object]:
     x, y = thin(curve.x, curve.y, BUCKETS)
-    found: dict[str, object] = {"label": curve.label, "x": _rounded(x), "y": _rounded(y), "points": len(curve.x)}
+    found: dict[str, object] = {"label": plain_words(curve.label), "x": _rounded(x), "y": _rounded(y),
+                                "points": len(curve.x)}
     if curve.label in labels:
         found["series"] = labels.index(curve.label)
     if len(curve.x) <= FEW:

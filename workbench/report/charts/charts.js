@@ -6,13 +6,20 @@ const charts = new Map([...document.querySelectorAll("figure.charted")].map(
   figure => [figure, JSON.parse(figure.querySelector("script").textContent)]));
 const hue = name => getComputedStyle(document.documentElement).getPropertyValue(name).trim();
 
+// A letter with an index that Unicode has no small sign for, as v_d, as the chart's own marks have it; names of several
+// letters before the line, as mpc_linear, stay as they are.
+function lettered(text) {
+  return text.replace(/&/g, "&amp;").replace(/</g, "&lt;").replace(/>/g, "&gt;")
+    .replace(/(?<![\p{L}\p{N}_])(\p{L}\p{M}*)_([\p{L}\p{N}]{1,3})(?![\p{L}\p{N}_])/gu, "$1<sub>$2</sub>");
+}
+
 function traces(chart) {
   const named = new Set();
   return chart.panels.flatMap((panel, at) => panel.curves.map(curve => {
     const beneath = curve.series === undefined, first = curve.label && !named.has(curve.label);
     named.add(curve.label);
     return {
-      x: curve.x, y: curve.y, name: curve.label, legendgroup: curve.label, yaxis: at ? "y" + (at + 1) : "y",
+      x: curve.x, y: curve.y, name: lettered(curve.label), legendgroup: curve.label, yaxis: at ? "y" + (at + 1) : "y",
       showlegend: Boolean(first) && !panel.title, mode: curve.marked ? "lines+markers" : "lines",
       line: { color: beneath ? hue("--faint") : hue("--series-" + curve.series % SERIES), width: beneath ? 5 : 1.6,
               dash: beneath ? "solid" : DASHES[Math.floor(curve.series / SERIES) % DASHES.length] },
@@ -45,19 +52,19 @@ function layout(chart) {
     hovermode: chart.panels.some(panel => panel.curves.length > 10) ? "closest" : "x unified",
     dragmode: matchMedia("(pointer: coarse)").matches ? false : "zoom", modebar: { orientation: narrow.matches ? "h" : "v" },
     legend: { orientation: "h", y: 1, yanchor: "bottom", x: 0, font: { size: 12 } },
-    xaxis: { ...axis, title: { text: chart.x }, type: chart.log ? "log" : "linear",
+    xaxis: { ...axis, title: { text: lettered(chart.x) }, type: chart.log ? "log" : "linear",
              ...(!chart.log && counted(chart.panels.flatMap(panel => panel.curves.flatMap(curve => curve.x.slice(0, 20)))) ?
                { dtick: 1 } : {}),
              anchor: panels > 1 ? "y" + panels : "y" },
     annotations: chart.panels.filter(panel => panel.title).map(panel => ({
-      text: panel.title, xref: "paper", x: 0, xanchor: "left", yref: "paper", yanchor: "bottom", showarrow: false,
+      text: lettered(panel.title), xref: "paper", x: 0, xanchor: "left", yref: "paper", yanchor: "bottom", showarrow: false,
       y: 1 - chart.panels.indexOf(panel) / panels - (titled ? 0.22 / panels : 0), font: { size: 11 } })),
   };
   chart.panels.forEach((panel, at) => {
     const log = panel.log && logarithmic(panel.curves.flatMap(curve => curve.y));
     const top = 1 - at / panels, gap = panels > 1 ? (titled ? 0.24 : 0.12) / panels : 0;
     found[at ? "yaxis" + (at + 1) : "yaxis"] = {
-      ...axis, title: { text: panel.y, font: { size: 12 }, standoff: 6 }, type: log ? "log" : "linear",
+      ...axis, title: { text: lettered(panel.y), font: { size: 12 }, standoff: 6 }, type: log ? "log" : "linear",
       domain: [top - 1 / panels + (titled ? 0.02 / panels : gap), titled ? top - gap : top], 
       nticks: panels > 1 ? 4 : 8, ...(log ? { minor: { showgrid: false, ticks: "" }, dtick: 1 } : {}) };
   });
