@@ -94,7 +94,7 @@ def plain(value: Number) -> Number:
 
 def quotient(a: Number, b: Number) -> Number:
     """a / b, exactly."""
-    return plain(a) if b == 1 else plain(Fraction(a) / b)
+    return plain(a) if b == 1 else plain(Fraction(a, b))
 
 
 def constant(value: Number) -> Poly:
@@ -237,8 +237,10 @@ class Ratio:
     def __init__(self, num: Poly, den: Poly = ONE) -> None:
         spend(4 + len(num) + len(den))
         self.num, self.den = num, ONE if den == ONE else den
-        if any(power > 1 for m in num for atom, power in m if atom == SUM):
-            raise CertificateError("a product of two sums")
+        for monomial in num:
+            for atom, power in monomial:
+                if atom == SUM and power > 1:
+                    raise CertificateError("a product of two sums")
         if self.den is ONE:
             return
         if not den:
@@ -340,7 +342,10 @@ def same(a: Ratio, b: Ratio) -> bool:
 
 def has_open_sum(value: Ratio) -> bool:
     """Whether a sum stands in a value as a factor, not as an atom of its own."""
-    return any((SUM, 1) in monomial for monomial in value.num)
+    for monomial in value.num:  # noqa: SIM110 - asked of every product, and twice as quick as any(...)
+        if (SUM, 1) in monomial:
+            return True
+    return False
 
 
 def atoms_of(value: Ratio) -> set[str]:
@@ -370,8 +375,35 @@ def _tree(text: str) -> ast.expr:
         raise CertificateError(f"cannot read '{text[:80]}'") from None
 
 
+def _term_of(node: ast.expr) -> Poly | None:
+    """The value of a product of symbols, their powers, and whole numbers or fractions of them, which is not zero; None
+    for whatever else."""
+    if isinstance(node, ast.Name):
+        return {((node.id, 1),): 1}
+    if isinstance(node, ast.Constant):
+        return {(): node.value} if type(node.value) is int and node.value else None
+    if isinstance(node, ast.UnaryOp):
+        inner = _term_of(node.operand) if isinstance(node.op, ast.USub) else None
+        return None if inner is None else {m: -c for m, c in inner.items()}
+    if not isinstance(node, ast.BinOp) or (one := _term_of(node.left)) is None:
+        return None
+    right = node.right
+    if isinstance(node.op, ast.Mult) and (two := _term_of(right)) is not None:
+        (((m1, c1),), ((m2, c2),)) = one.items(), two.items()
+        return {times_monomial(m1, m2) if m2 else m1: plain(c1 * c2)}
+    if isinstance(right, ast.Constant) and type(right.value) is int and right.value:
+        ((monomial, coefficient),) = one.items()
+        if isinstance(node.op, ast.Div):
+            return {monomial: quotient(coefficient, right.value)}
+        if isinstance(node.op, ast.Pow) and isinstance(node.left, ast.Name) and right.value <= 64:
+            return {((node.left.id, right.value),): 1}
+    return None
+
+
 class Context:
     """Reads expressions of one goal into Ratios; log and exp of an argument become atoms."""
+
+    plain = True  # a name is a symbol; not so of what reads some names otherwise
 
     def __init__(self, flow: dict[str, str], indexed: list[str], inputs: list[str] | None = None) -> None:
         self.functions: dict[str, tuple[str, Ratio]] = {}
@@ -464,17 +496,54 @@ class Context:
         return a * b
 
     def _require_bound(self, tree: ast.AST, text: str) -> None:
-        if isinstance(tree, ast.Call) and isinstance(tree.func, ast.Name) and tree.func.id == "Sum":
-            return
-        if isinstance(tree, ast.Name) and tree.id in self.indexed:
-            raise CertificateError(f"indexed symbol '{tree.id}' outside a sum in '{text}'")
-        for child in ast.iter_child_nodes(tree):
-            self._require_bound(child, text)
+        waiting = [tree]
+        while waiting:
+            node = waiting.pop()
+            if isinstance(node, ast.BinOp):
+                waiting += (node.left, node.right)
+            elif isinstance(node, ast.Name):
+                if node.id in self.indexed:
+                    raise CertificateError(f"indexed symbol '{node.id}' outside a sum in '{text}'")
+            elif not (isinstance(node, ast.Call) and isinstance(node.func, ast.Name) and node.func.id == "Sum"):
+                waiting += ast.iter_child_nodes(node)
 
     def node(self, node: ast.expr) -> Ratio:
         """The value of a syntax tree."""
         if node in self.parts:  # atoms that were made first are found first: a later reading has the same
             return self.parts[node]
+        term = _term_of(node) if self.plain else None
+        if term is not None:
+            spend(1 + bits_of(term) // 256)
+            value = Ratio.normal(term)
+        elif isinstance(node, ast.BinOp) and isinstance(node.op, (ast.Add, ast.Sub)):
+            value = self._sum_of_parts(node)
+        else:
+            value = self._value(node)
+        self.parts[node] = value
+        return value
+
+    def _sum_of_parts(self, node: ast.BinOp) -> Ratio:
+        """The value of a sum, its parts added from the first to the last."""
+        parts: list[tuple[ast.expr, int]] = []
+        first: ast.expr = node
+        while isinstance(first, ast.BinOp) and isinstance(first.op, (ast.Add, ast.Sub)):
+            parts.append((first.right, 1 if isinstance(first.op, ast.Add) else -1))
+            first = first.left
+        total: Poly = {}
+        whole: Ratio | None = None  # once a part has a denominator
+        for part, sign in [(first, 1), *reversed(parts)]:
+            value = self.node(part)
+            if whole is None and value.den is ONE:
+                spend(1 + len(value.num))
+                for monomial, coefficient in value.num.items():
+                    more = coefficient if sign == 1 else -coefficient
+                    total[monomial] = total[monomial] + more if monomial in total else more
+                continue
+            whole = Ratio.normal({m: c for m, c in total.items() if c}) if whole is None else whole
+            whole = whole + value if sign == 1 else whole - value
+        return Ratio.normal({m: c for m, c in total.items() if c}) if whole is None else whole
+
+    def _value(self, node: ast.expr) -> Ratio:
         match node:
             case ast.Name(id=name):
                 value = symbol(name)
@@ -484,10 +553,6 @@ class Context:
                 value = -self.node(inner)
             case ast.BinOp(left=left, op=ast.Mult(), right=right):
                 value = self.product(self.node(left), self.node(right))
-            case ast.BinOp(left=left, op=ast.Add(), right=right):
-                value = self.node(left) + self.node(right)
-            case ast.BinOp(left=left, op=ast.Sub(), right=right):
-                value = self.node(left) - self.node(right)
             case ast.BinOp(left=left, op=ast.Pow(), right=right):
                 value = self.power(self.closed(self.node(left)), self.node(right))
             case ast.BinOp(left=left, op=ast.Div(), right=right):
@@ -501,7 +566,6 @@ class Context:
                 value = self.call(name, self.node(inner))
             case _:
                 raise CertificateError(f"'{ast.unparse(node)}' is not an expression of the certificate language")
-        self.parts[node] = value
         return value
 
     @staticmethod
@@ -879,16 +943,26 @@ def symbols_of(context: Context, value: Ratio) -> set[str]:
 
 def has_relation(text: str) -> bool:
     """Whether the text is a relation rather than an expression."""
-    return any(f" {operator} " in text for operator in OPERATORS)
+    return bool(_operators_in(text))
 
 
 def split_relation(text: str) -> tuple[str, str, str]:
     """(left, operator, right) of 'left <= right' and the like."""
-    found = [operator for operator in OPERATORS if f" {operator} " in text]
-    if len(found) != 1 or text.count(f" {found[0]} ") != 1:
+    found = _operators_in(text)
+    if len(found) != 1:
         raise CertificateError(f"'{text}' is no single relation")
     left, _, right = text.partition(f" {found[0]} ")
     return left, found[0], right
+
+
+def _operators_in(text: str) -> list[str]:
+    """The operators that stand in a text, each as often as it does."""
+    return _operators(text) if len(text) < LONG_TEXT else _operators.__wrapped__(text)
+
+
+@lru_cache(maxsize=MOST_KEPT)
+def _operators(text: str) -> list[str]:
+    return [operator for operator in OPERATORS for _ in range(text.count(f" {operator} "))]
 
 
 def margin(context: Context, text: str) -> Sign:
