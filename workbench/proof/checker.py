@@ -410,6 +410,7 @@ class Context:
         self.indexed, self.rates, self.inputs = set(indexed), flow, set(inputs or [])
         self.flow: dict[str, Ratio] = {}
         self.values: dict[str, Ratio] = {}
+        self.places: dict[str, list[tuple[ast.expr, str]]] = {}  # where texts may be undefined
         self.parts: dict[ast.expr, Ratio] = {}  # of syntax trees; a later reading has the same atoms
         if any(calls(rate, "D") for rate in flow.values()):
             raise CertificateError("a rate is given by a derivative")
@@ -715,8 +716,10 @@ class Context:
 
     def partial_operations(self, text: str) -> list[tuple[ast.expr, str]]:
         """Where an expression or relation may be undefined; with D, every rate must be defined too."""
-        rates = self.rates.values() if calls(text, "D") else ()
-        return [place for part in (text, *rates) for place in partial_operations(part)]
+        if text not in self.places:
+            rates = self.rates.values() if calls(text, "D") else ()
+            self.places[text] = [place for part in (text, *rates) for place in partial_operations(part)]
+        return self.places[text]
 
     def moving(self) -> set[str]:
         """Symbols that may change along the flow."""

@@ -195,6 +195,31 @@ def derivatives_in(expr: sp.Expr) -> tuple[D, ...]:
     return tuple(expr.atoms(D)) if expr.has(D) else ()
 
 
+@lru_cache(maxsize=4096)
+def has_unstated(expr: sp.Expr) -> bool:
+    """Whether a function stands in an expression that certificates cannot state."""
+    return any(not isinstance(part, (*FUNCTIONS, D))
+               for part in expr.atoms(sp.Function, sp.Max, sp.Min, sp.Piecewise))
+
+
+@lru_cache(maxsize=8192)
+def symbols_in(expr: sp.Expr) -> frozenset[sp.Expr]:
+    """The free symbols of an expression, indexed ones with their index; without the index and the range of sums."""
+    parts = expr.atoms(sp.Indexed, sp.Sum)  # in one walk through the expression, which is all the cost
+    indexed = {part for part in parts if isinstance(part, sp.Indexed)}
+    sums = parts - indexed
+    hidden = {s for i in indexed for s in i.free_symbols}
+    hidden |= {s for total in sums for s in total.bound_symbols}
+    hidden |= {s for total in sums for limit in total.limits for e in limit[1:] for s in e.free_symbols}
+    return frozenset({s for s in expr.free_symbols if s not in hidden and not isinstance(s, sp.IndexedBase)} | indexed)
+
+
+@lru_cache(maxsize=4096)
+def names_in(expr: sp.Expr) -> frozenset[str]:
+    """The names of an expression's free symbols."""
+    return frozenset(map(str, expr.free_symbols))
+
+
 def _has_no_number(expr: sp.Basic) -> bool:
     """Whether one of NO_NUMBERS stands in an expression; `has` would walk through it once for each."""
     waiting = [expr]
