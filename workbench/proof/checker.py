@@ -376,27 +376,22 @@ def _tree(text: str) -> ast.expr:
 
 
 def _term_of(node: ast.expr) -> Poly | None:
-    """The value of a product of symbols, their powers, and whole numbers or fractions of them, which is not zero; None
-    for whatever else."""
+    """The value of a product of symbols, powers of them and numbers, which is not zero, over a number; None for other
+    expressions."""
     if isinstance(node, ast.Name):
         return {((node.id, 1),): 1}
     if isinstance(node, ast.Constant):
         return {(): node.value} if type(node.value) is int and node.value else None
-    if isinstance(node, ast.UnaryOp):
-        inner = _term_of(node.operand) if isinstance(node.op, ast.USub) else None
-        return None if inner is None else {m: -c for m, c in inner.items()}
-    if not isinstance(node, ast.BinOp) or (one := _term_of(node.left)) is None:
+    if not isinstance(node, ast.BinOp) or (one := _term_of(node.left)) is None or (
+            two := _term_of(node.right)) is None:
         return None
-    right = node.right
-    if isinstance(node.op, ast.Mult) and (two := _term_of(right)) is not None:
-        (((m1, c1),), ((m2, c2),)) = one.items(), two.items()
-        return {times_monomial(m1, m2) if m2 else m1: plain(c1 * c2)}
-    if isinstance(right, ast.Constant) and type(right.value) is int and right.value:
-        ((monomial, coefficient),) = one.items()
-        if isinstance(node.op, ast.Div):
-            return {monomial: quotient(coefficient, right.value)}
-        if isinstance(node.op, ast.Pow) and isinstance(node.left, ast.Name) and right.value <= 64:
-            return {((node.left.id, right.value),): 1}
+    ((m1, c1),), ((m2, c2),) = one.items(), two.items()
+    if isinstance(node.op, ast.Mult):
+        return {times_monomial(m1, m2): plain(c1 * c2)}
+    if isinstance(node.op, ast.Div) and not m2:
+        return {m1: quotient(c1, c2)}
+    if isinstance(node.op, ast.Pow) and isinstance(node.left, ast.Name) and not m2 and type(c2) is int and c2 <= 64:
+        return {((node.left.id, c2),): 1}
     return None
 
 
@@ -497,16 +492,12 @@ class Context:
         return a * b
 
     def _require_bound(self, tree: ast.AST, text: str) -> None:
-        waiting = [tree]
-        while waiting:
-            node = waiting.pop()
-            if isinstance(node, ast.BinOp):
-                waiting += (node.left, node.right)
-            elif isinstance(node, ast.Name):
-                if node.id in self.indexed:
-                    raise CertificateError(f"indexed symbol '{node.id}' outside a sum in '{text}'")
-            elif not (isinstance(node, ast.Call) and isinstance(node.func, ast.Name) and node.func.id == "Sum"):
-                waiting += ast.iter_child_nodes(node)
+        if isinstance(tree, ast.Call) and isinstance(tree.func, ast.Name) and tree.func.id == "Sum":
+            return
+        if isinstance(tree, ast.Name) and tree.id in self.indexed:
+            raise CertificateError(f"indexed symbol '{tree.id}' outside a sum in '{text}'")
+        for child in ast.iter_child_nodes(tree):
+            self._require_bound(child, text)
 
     def node(self, node: ast.expr) -> Ratio:
         """The value of a syntax tree."""
@@ -517,32 +508,19 @@ class Context:
             spend(1 + bits_of(term) // 256)
             value = Ratio.normal(term)
         elif isinstance(node, ast.BinOp) and isinstance(node.op, (ast.Add, ast.Sub)):
-            value = self._sum_of_parts(node)
+            value = self._sum(node)
         else:
             value = self._value(node)
         self.parts[node] = value
         return value
 
-    def _sum_of_parts(self, node: ast.BinOp) -> Ratio:
-        """The value of a sum, its parts added from the first to the last."""
-        parts: list[tuple[ast.expr, int]] = []
-        first: ast.expr = node
-        while isinstance(first, ast.BinOp) and isinstance(first.op, (ast.Add, ast.Sub)):
-            parts.append((first.right, 1 if isinstance(first.op, ast.Add) else -1))
-            first = first.left
-        total: Poly = {}
-        whole: Ratio | None = None  # once a part has a denominator
-        for part, sign in [(first, 1), *reversed(parts)]:
-            value = self.node(part)
-            if whole is None and value.den is ONE:
-                spend(1 + len(value.num))
-                for monomial, coefficient in value.num.items():
-                    more = coefficient if sign == 1 else -coefficient
-                    total[monomial] = total[monomial] + more if monomial in total else more
-                continue
-            whole = Ratio.normal({m: c for m, c in total.items() if c}) if whole is None else whole
-            whole = whole + value if sign == 1 else whole - value
-        return Ratio.normal({m: c for m, c in total.items() if c}) if whole is None else whole
+    def _sum(self, node: ast.expr) -> Ratio:
+        parts: list[tuple[ast.expr, bool]] = []
+        while isinstance(node, ast.BinOp) and isinstance(node.op, (ast.Add, ast.Sub)):
+            parts.append((node.right, isinstance(node.op, ast.Sub)))
+            node = node.left
+        return sum_of([self.node(node), *[-self.node(part) if minus else self.node(part)
+                                          for part, minus in reversed(parts)]])
 
     def _value(self, node: ast.expr) -> Ratio:
         match node:
@@ -946,26 +924,16 @@ def symbols_of(context: Context, value: Ratio) -> set[str]:
 
 def has_relation(text: str) -> bool:
     """Whether the text is a relation rather than an expression."""
-    return bool(_operators_in(text))
+    return any(f" {operator} " in text for operator in OPERATORS)
 
 
 def split_relation(text: str) -> tuple[str, str, str]:
     """(left, operator, right) of 'left <= right' and the like."""
-    found = _operators_in(text)
-    if len(found) != 1:
+    found = [operator for operator in OPERATORS if f" {operator} " in text]
+    if len(found) != 1 or text.count(f" {found[0]} ") != 1:
         raise CertificateError(f"'{text}' is no single relation")
     left, _, right = text.partition(f" {found[0]} ")
     return left, found[0], right
-
-
-def _operators_in(text: str) -> list[str]:
-    """The operators that stand in a text, each as often as it does."""
-    return _operators(text) if len(text) < LONG_TEXT else _operators.__wrapped__(text)
-
-
-@lru_cache(maxsize=MOST_KEPT)
-def _operators(text: str) -> list[str]:
-    return [operator for operator in OPERATORS for _ in range(text.count(f" {operator} "))]
 
 
 def margin(context: Context, text: str) -> Sign:

@@ -15,11 +15,13 @@ from workbench.errors import ClaimError
 from workbench.proof.language import (  # noqa: F401 - what goals are stated with
     D,
     Language,
+    cosh,
     derivatives_in,
     has_unstated,
     name_of,
     names_in,
     saturation,
+    sinh,
     symbols_in,
 )
 from workbench.proof.latex.write import latex

@@ -184,6 +184,9 @@ def _require_number(expr: sp.Expr) -> None:
     if isinstance(expr, sp.Rational):
         if max(abs(expr.p), expr.q) > LARGEST_NUMBER:
             raise ClaimError("a number has more than 300 digits: choose other units or smaller powers")
+    elif isinstance(expr, (sp.cosh, sp.sinh)):
+        raise ClaimError(f"'{expr}' is no function of certificates: write {expr.func.__name__} of "
+                         "workbench.proof.claim, which is made of exp")
     elif expr not in (sp.E, sp.pi):
         raise ClaimError(f"'{expr}' has no meaning in certificates: state the claim with + - * / **, "
                          f"{', '.join(LANGUAGE[2:])}")
@@ -249,6 +252,16 @@ def _plain_symbols(expr: sp.Expr) -> set[sp.Expr]:
 def saturation(value: Any, low: Any, high: Any) -> sp.Expr:
     """sat(value, low, high): value, cut off at low and high (low <= high)."""
     return sp.Min(sp.Max(value, low), high)
+
+
+def cosh(value: Any) -> sp.Expr:
+    """The hyperbolic cosine, written by exp as certificates have it."""
+    return (sp.exp(value) + sp.exp(-value)) / 2
+
+
+def sinh(value: Any) -> sp.Expr:
+    """The hyperbolic sine, written by exp as certificates have it."""
+    return (sp.exp(value) - sp.exp(-value)) / 2
 
 
 def name_of(symbol: sp.Expr) -> str:
