@@ -49,7 +49,7 @@ MISTAKES = {
     "an undeclared symbol outside of claims": (HEAD + "V = y**2", "line 7: NameError"),
     "an error in the correction": (HEAD + claim(body="return Goal((at_least(x, 0),))").replace(
         "premises=()", "correction=lambda: Goal((at_least(y, 0),))"), "its correction cannot be made"),
-    "a function that certificates do not know": (HEAD + claim(body="return Goal((at_least(sp.sinh(x), -1),))"),
+    "a function that certificates do not know": (HEAD + claim(body="return Goal((at_least(sp.asinh(x), -1),))"),
                                                  "state the claim with + - * / **"),
     "one premise as text": (HEAD + claim(premises="'12'"), "write ('12',)"),
     "a title that is none": (HEAD + claim().replace('"1", "1"', '"1", None'), "its title is no text"),

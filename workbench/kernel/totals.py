@@ -27,6 +27,8 @@ OF_AN_ATOM = re.compile(rf"{NAMED}a(\d+)(?:_\w+)?")
 class Closed(Context):
     """Reads every sum as an atom, so that sums may be multiplied; of an atom's own name it knows the atom."""
 
+    plain = False
+
     def node(self, node: ast.expr) -> Ratio:
         """The value of a syntax tree, also of one that holds names of atoms (`tree_of`)."""
         if isinstance(node, ast.Name) and (found := OF_AN_ATOM.fullmatch(node.id)):

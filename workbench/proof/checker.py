@@ -94,7 +94,7 @@ def plain(value: Number) -> Number:
 
 def quotient(a: Number, b: Number) -> Number:
     """a / b, exactly."""
-    return plain(a) if b == 1 else plain(Fraction(a) / b)
+    return plain(a) if b == 1 else plain(Fraction(a, b))
 
 
 def constant(value: Number) -> Poly:
@@ -237,8 +237,10 @@ class Ratio:
     def __init__(self, num: Poly, den: Poly = ONE) -> None:
         spend(4 + len(num) + len(den))
         self.num, self.den = num, ONE if den == ONE else den
-        if any(power > 1 for m in num for atom, power in m if atom == SUM):
-            raise CertificateError("a product of two sums")
+        for monomial in num:
+            for atom, power in monomial:
+                if atom == SUM and power > 1:
+                    raise CertificateError("a product of two sums")
         if self.den is ONE:
             return
         if not den:
@@ -340,7 +342,10 @@ def same(a: Ratio, b: Ratio) -> bool:
 
 def has_open_sum(value: Ratio) -> bool:
     """Whether a sum stands in a value as a factor, not as an atom of its own."""
-    return any((SUM, 1) in monomial for monomial in value.num)
+    for monomial in value.num:  # noqa: SIM110 - asked of every product, and twice as quick as any(...)
+        if (SUM, 1) in monomial:
+            return True
+    return False
 
 
 def atoms_of(value: Ratio) -> set[str]:
@@ -370,14 +375,37 @@ def _tree(text: str) -> ast.expr:
         raise CertificateError(f"cannot read '{text[:80]}'") from None
 
 
+def _term_of(node: ast.expr) -> Poly | None:
+    """The value of a product of symbols, powers of them and numbers, which is not zero, over a number; None for other
+    expressions."""
+    if isinstance(node, ast.Name):
+        return {((node.id, 1),): 1}
+    if isinstance(node, ast.Constant):
+        return {(): node.value} if type(node.value) is int and node.value else None
+    if not isinstance(node, ast.BinOp) or (one := _term_of(node.left)) is None or (
+            two := _term_of(node.right)) is None:
+        return None
+    ((m1, c1),), ((m2, c2),) = one.items(), two.items()
+    if isinstance(node.op, ast.Mult):
+        return {times_monomial(m1, m2): plain(c1 * c2)}
+    if isinstance(node.op, ast.Div) and not m2:
+        return {m1: quotient(c1, c2)}
+    if isinstance(node.op, ast.Pow) and isinstance(node.left, ast.Name) and not m2 and type(c2) is int and c2 <= 64:
+        return {((node.left.id, c2),): 1}
+    return None
+
+
 class Context:
     """Reads expressions of one goal into Ratios; log and exp of an argument become atoms."""
+
+    plain = True  # a name is a symbol; not so of what reads some names otherwise
 
     def __init__(self, flow: dict[str, str], indexed: list[str], inputs: list[str] | None = None) -> None:
         self.functions: dict[str, tuple[str, Ratio]] = {}
         self.indexed, self.rates, self.inputs = set(indexed), flow, set(inputs or [])
         self.flow: dict[str, Ratio] = {}
         self.values: dict[str, Ratio] = {}
+        self.places: dict[str, list[tuple[ast.expr, str]]] = {}  # where texts may be undefined
         self.parts: dict[ast.expr, Ratio] = {}  # of syntax trees; a later reading has the same atoms
         if any(calls(rate, "D") for rate in flow.values()):
             raise CertificateError("a rate is given by a derivative")
@@ -475,6 +503,26 @@ class Context:
         """The value of a syntax tree."""
         if node in self.parts:  # atoms that were made first are found first: a later reading has the same
             return self.parts[node]
+        term = _term_of(node) if self.plain else None
+        if term is not None:
+            spend(1 + bits_of(term) // 256)
+            value = Ratio.normal(term)
+        elif isinstance(node, ast.BinOp) and isinstance(node.op, (ast.Add, ast.Sub)):
+            value = self._sum(node)
+        else:
+            value = self._value(node)
+        self.parts[node] = value
+        return value
+
+    def _sum(self, node: ast.expr) -> Ratio:
+        parts: list[tuple[ast.expr, bool]] = []
+        while isinstance(node, ast.BinOp) and isinstance(node.op, (ast.Add, ast.Sub)):
+            parts.append((node.right, isinstance(node.op, ast.Sub)))
+            node = node.left
+        return sum_of([self.node(node), *[-self.node(part) if minus else self.node(part)
+                                          for part, minus in reversed(parts)]])
+
+    def _value(self, node: ast.expr) -> Ratio:
         match node:
             case ast.Name(id=name):
                 value = symbol(name)
@@ -484,10 +532,6 @@ class Context:
                 value = -self.node(inner)
             case ast.BinOp(left=left, op=ast.Mult(), right=right):
                 value = self.product(self.node(left), self.node(right))
-            case ast.BinOp(left=left, op=ast.Add(), right=right):
-                value = self.node(left) + self.node(right)
-            case ast.BinOp(left=left, op=ast.Sub(), right=right):
-                value = self.node(left) - self.node(right)
             case ast.BinOp(left=left, op=ast.Pow(), right=right):
                 value = self.power(self.closed(self.node(left)), self.node(right))
             case ast.BinOp(left=left, op=ast.Div(), right=right):
@@ -501,7 +545,6 @@ class Context:
                 value = self.call(name, self.node(inner))
             case _:
                 raise CertificateError(f"'{ast.unparse(node)}' is not an expression of the certificate language")
-        self.parts[node] = value
         return value
 
     @staticmethod
@@ -651,8 +694,10 @@ class Context:
 
     def partial_operations(self, text: str) -> list[tuple[ast.expr, str]]:
         """Where an expression or relation may be undefined; with D, every rate must be defined too."""
-        rates = self.rates.values() if calls(text, "D") else ()
-        return [place for part in (text, *rates) for place in partial_operations(part)]
+        if text not in self.places:
+            rates = self.rates.values() if calls(text, "D") else ()
+            self.places[text] = [place for part in (text, *rates) for place in partial_operations(part)]
+        return self.places[text]
 
     def moving(self) -> set[str]:
         """Symbols that may change along the flow."""

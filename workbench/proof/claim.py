@@ -12,7 +12,18 @@ from typing import Any, Literal
 import sympy as sp
 
 from workbench.errors import ClaimError
-from workbench.proof.language import FUNCTIONS, D, Language, name_of, saturation  # noqa: F401 - what goals are stated with
+from workbench.proof.language import (  # noqa: F401 - what goals are stated with
+    D,
+    Language,
+    cosh,
+    derivatives_in,
+    has_unstated,
+    name_of,
+    names_in,
+    saturation,
+    sinh,
+    symbols_in,
+)
 from workbench.proof.latex.write import latex
 from workbench.proof.typed import as_evaluated, evaluated, kept_as_typed
 from workbench.proof.verdict import FAILED, VERDICTS, Decision, Kind, Stated, Verdict  # noqa: F401 - all records here
@@ -141,10 +152,10 @@ class Goal:
         """ClaimError where a derivative is of what changes with the time t and the flow does not say that t runs."""
         named = {str(symbol) for symbol in (*self.flow, *self.inputs)}
         derived = [inner for r in (*self.relations(), *self.lemmas) for side in (r.left, r.right)
-                   for inner in side.atoms(D)]
+                   for inner in derivatives_in(side)]
         if CLOCK in named or not derived:
             return
-        if any(str(symbol) == CLOCK for expr in (*derived, *self.flow.values()) for symbol in expr.free_symbols):
+        if any(CLOCK in names_in(expr) for expr in (*derived, *self.flow.values())):
             raise ClaimError(f"D(...) depends on the time {CLOCK}, to which the flow gives no rate: add {CLOCK}: 1 to "
                              "the flow, or call it otherwise where it is a constant")
 
@@ -154,8 +165,7 @@ class Goal:
         A plant's flow has all its rates, of which a goal may need a few; a symbol is needed that stands in the goal
         outside of the flow, or in the rate of one that is needed.
         """
-        unstated = {s for s, rate in self.flow.items() if any(
-            not isinstance(part, (*FUNCTIONS, D)) for part in rate.atoms(sp.Function, sp.Max, sp.Min, sp.Piecewise))}
+        unstated = {s for s, rate in self.flow.items() if has_unstated(rate)}
         if not unstated:
             return
         sides = [side for r in (*self.relations(), *self.lemmas) for side in (r.left, r.right)]
@@ -233,14 +243,7 @@ class Goal:
         found: set[sp.Expr] = set()
         exprs = [e for r in self.relations() for e in (r.left, r.right)]
         for expr in (*exprs, *self.flow, *self.flow.values(), *self.initial.values(), *self.inputs, *self.named):
-            parts = expr.atoms(sp.Indexed, sp.Sum)  # in one walk through the expression, which is all the cost
-            indexed = {part for part in parts if isinstance(part, sp.Indexed)}
-            sums = parts - indexed
-            hidden = {s for i in indexed for s in i.free_symbols}
-            hidden |= {s for total in sums for s in total.bound_symbols}
-            hidden |= {s for total in sums for limit in total.limits for e in limit[1:] for s in e.free_symbols}
-            found |= {s for s in expr.free_symbols if s not in hidden and not isinstance(s, sp.IndexedBase)}
-            found |= indexed
+            found |= symbols_in(expr)
         return tuple(sorted(found, key=name_of))
 
     @cached_property

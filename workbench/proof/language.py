@@ -5,6 +5,8 @@ from __future__ import annotations
 import keyword
 import re
 from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from functools import lru_cache
 from typing import Any
 
 import sympy as sp
@@ -28,6 +30,18 @@ class D(sp.Function):
     nargs = 1
 
 
+@dataclass(frozen=True)
+class Parts:
+    """What an expression has that goals ask about: its symbols by their names, ranges of its sums, and derivatives."""
+
+    symbols: tuple[tuple[str, sp.Expr], ...]
+    ranges: tuple[sp.Tuple, ...]
+    derivatives: tuple[D, ...]
+
+
+NOTHING = Parts((), (), ())
+
+
 class Language:
     """All expressions of one goal go through one of these; ClaimError for what a certificate cannot state exactly.
 
@@ -42,16 +56,19 @@ class Language:
 
     def check(self, expr: sp.Expr, index: sp.Symbol | None = None) -> None:
         """Raise ClaimError unless certificates can state the expression exactly, and it has a real value."""
-        known = not _has_no_number(expr)
-        if known:
-            self._check(expr, index)  # part by part, so that what is evaluated then has a value in every part
-        if not known or (expr.args and _has_no_number(evaluated(expr))):
-            raise ClaimError(f"'{expr}' has no real value: it divides by zero, or takes the root or logarithm of a "
-                             "negative number")
+        parts = _with_value(expr, index)
+        for derivative in parts.derivatives:
+            self._check_derivative(derivative)
+        for limits in parts.ranges:
+            if (self.limits or limits) != limits:
+                raise ClaimError(f"{expr}: all sums of a goal need the same one index and range, none in another")
+            self.limits = limits
+        for name, owner in parts.symbols:
+            self._name(name, owner)
 
     def check_rate(self, rate: sp.Expr, index: sp.Symbol | None = None) -> None:
         """The same for a rate, which is no derivative itself."""
-        if rate.has(D):
+        if derivatives_in(rate):
             raise ClaimError(f"the rate {rate} is given by a derivative: write the rate of each symbol out")
         self.check(rate, index)
 
@@ -61,71 +78,6 @@ class Language:
             if str(symbol) in self.names:
                 raise ClaimError(f"'{symbol}' is the index of the goal's sums or the number of their terms, and stands "
                                  "elsewhere too: the sums hold for every number of terms, so give it another name")
-
-    def _check(self, expr: sp.Expr, index: sp.Symbol | None) -> None:
-        if isinstance(expr, (sp.Symbol, sp.Indexed)):
-            self._check_symbol(expr, index)
-        elif isinstance(expr, sp.Sum):
-            self._check_sum(expr, index)
-        elif isinstance(expr, sp.Pow) and expr.base != sp.E:
-            self._check_power(expr, index)
-        elif isinstance(expr, (sp.Add, sp.Mul, sp.Pow, D, *FUNCTIONS)):
-            if isinstance(expr, D):
-                self._check_derivative(expr)
-            for part in expr.args[1:] if isinstance(expr, sp.Pow) else expr.args:
-                self._check(part, index)
-            if isinstance(expr, sp.log) and evaluated(expr.args[0]).is_nonpositive:
-                raise ClaimError(f"'{expr}' has no real value: the logarithm of what is never positive")
-        else:
-            self._check_number(expr)
-
-    def _check_symbol(self, expr: sp.Symbol | sp.Indexed, index: sp.Symbol | None) -> None:
-        if isinstance(expr, sp.Symbol):
-            if expr == index:
-                raise ClaimError(f"the index {index} stands as a number in a sum: use it as an index only")
-            self._name(str(expr), expr)
-            return
-        if index is None or expr.indices != (index,):
-            raise ClaimError(f"{expr} stands where no sum binds its index: sum over it, with one index")
-        self._name(str(expr.base.label), expr.base)
-
-    def _check_power(self, expr: sp.Pow, index: sp.Symbol | None) -> None:
-        power = evaluated(expr.exp)
-        # x/x is no exponent: that it has no value at 0 would be forgotten with it.
-        if expr.exp.free_symbols or not sp.Mul(power, 2).is_Integer:
-            raise ClaimError(f"'{expr}' has no meaning in certificates: only whole and half powers have")
-        if abs(power) > LARGEST_POWER:
-            raise ClaimError(f"the power {power} is too large: certificates have powers up to {LARGEST_POWER}")
-        self._check(expr.base, index)
-        self._require_value(expr, power)
-
-    @staticmethod
-    def _check_number(expr: sp.Expr) -> None:
-        if isinstance(expr, sp.Float):
-            raise ClaimError(f"the number {expr} is not exact: write it as sympy.Rational or Fraction")
-        if isinstance(expr, sp.Rational):
-            if max(abs(expr.p), expr.q) > LARGEST_NUMBER:
-                raise ClaimError("a number has more than 300 digits: choose other units or smaller powers")
-        elif expr not in (sp.E, sp.pi):
-            raise ClaimError(f"'{expr}' has no meaning in certificates: state the claim with + - * / **, "
-                             f"{', '.join(LANGUAGE[2:])}")
-
-    @staticmethod
-    def _require_value(expr: sp.Pow, power: sp.Rational) -> None:
-        if power < 0 and evaluated(expr.base).is_zero:
-            raise ClaimError(f"'{expr}' has no value: it divides by zero")
-        if power.q == 2 and evaluated(expr.base).is_negative:
-            raise ClaimError(f"'{expr}' has no real value: the root of what is negative")
-
-    def _check_sum(self, expr: sp.Sum, index: sp.Symbol | None) -> None:
-        limits = expr.limits[0]
-        if len(expr.limits) != 1 or len(limits) != 3 or limits[1] != 1 or not isinstance(limits[2], sp.Symbol):
-            raise ClaimError(f"'{expr}': a sum runs from 1 to a symbol, as in Sum(W[j], (j, 1, n)), for every number "
-                             "of terms; write a sum of so many terms out: W_1 + W_2 + W_3")
-        if index is not None or (self.limits or limits) != limits:
-            raise ClaimError(f"{expr}: all sums of a goal need the same one index and range, none in another")
-        self.limits = limits
-        self._check(expr.function, limits[0])
 
     def _check_derivative(self, expr: D) -> None:
         """What D is taken of moves, and all that moves in it has a known rate."""
@@ -152,6 +104,123 @@ class Language:
         if owner.assumptions0 not in (BASES if isinstance(owner, sp.IndexedBase) else SYMBOLS):
             raise ClaimError(f"symbol '{name}': sympy knows more of it than its certificate would say; make it real, "
                              "positive or nonnegative (indexed: real) and state the rest as an assumption")
+
+
+# A paper's V, its rates and its errors stand in most of its goals: what is looked at once is known by its value.
+@lru_cache(maxsize=8192)
+def _with_value(expr: sp.Expr, index: sp.Symbol | None) -> Parts:
+    """The parts of an expression that certificates can state exactly and that has a real value; ClaimError else."""
+    known = not _has_no_number(expr)
+    # Part by part, so that what is evaluated then has a value in every part.
+    parts = _stated(expr, index) if known else NOTHING
+    if not known or (expr.args and _has_no_number(evaluated(expr))):
+        raise ClaimError(f"'{expr}' has no real value: it divides by zero, or takes the root or logarithm of a "
+                         "negative number")
+    return parts
+
+
+@lru_cache(maxsize=16384)
+def _stated(expr: sp.Expr, index: sp.Symbol | None) -> Parts:
+    if isinstance(expr, (sp.Symbol, sp.Indexed)):
+        return _of_symbol(expr, index)
+    if isinstance(expr, sp.Sum):
+        return _of_sum(expr, index)
+    if isinstance(expr, sp.Pow) and expr.base != sp.E:
+        return _of_power(expr, index)
+    if isinstance(expr, (sp.Add, sp.Mul, sp.Pow, D, *FUNCTIONS)):
+        parts = [_stated(part, index) for part in (expr.args[1:] if isinstance(expr, sp.Pow) else expr.args)]
+        if isinstance(expr, sp.log) and evaluated(expr.args[0]).is_nonpositive:
+            raise ClaimError(f"'{expr}' has no real value: the logarithm of what is never positive")
+        return _joined([Parts((), (), (expr,)), *parts] if isinstance(expr, D) else parts)
+    _require_number(expr)
+    return NOTHING
+
+
+def _joined(parts: Sequence[Parts]) -> Parts:
+    if len(parts) == 1:
+        return parts[0]
+    return Parts(*(tuple(dict.fromkeys(one for part in parts for one in getattr(part, name)))
+                   for name in ("symbols", "ranges", "derivatives")))
+
+
+def _of_symbol(expr: sp.Symbol | sp.Indexed, index: sp.Symbol | None) -> Parts:
+    if isinstance(expr, sp.Symbol):
+        if expr == index:
+            raise ClaimError(f"the index {index} stands as a number in a sum: use it as an index only")
+        return Parts(((str(expr), expr),), (), ())
+    if index is None or expr.indices != (index,):
+        raise ClaimError(f"{expr} stands where no sum binds its index: sum over it, with one index")
+    return Parts(((str(expr.base.label), expr.base),), (), ())
+
+
+def _of_power(expr: sp.Pow, index: sp.Symbol | None) -> Parts:
+    power = evaluated(expr.exp)
+    # x/x is no exponent: that it has no value at 0 would be forgotten with it.
+    if expr.exp.free_symbols or not sp.Mul(power, 2).is_Integer:
+        raise ClaimError(f"'{expr}' has no meaning in certificates: only whole and half powers have")
+    if abs(power) > LARGEST_POWER:
+        raise ClaimError(f"the power {power} is too large: certificates have powers up to {LARGEST_POWER}")
+    parts = _stated(expr.base, index)
+    if power < 0 and evaluated(expr.base).is_zero:
+        raise ClaimError(f"'{expr}' has no value: it divides by zero")
+    if power.q == 2 and evaluated(expr.base).is_negative:
+        raise ClaimError(f"'{expr}' has no real value: the root of what is negative")
+    return parts
+
+
+def _of_sum(expr: sp.Sum, index: sp.Symbol | None) -> Parts:
+    limits = expr.limits[0]
+    if len(expr.limits) != 1 or len(limits) != 3 or limits[1] != 1 or not isinstance(limits[2], sp.Symbol):
+        raise ClaimError(f"'{expr}': a sum runs from 1 to a symbol, as in Sum(W[j], (j, 1, n)), for every number "
+                         "of terms; write a sum of so many terms out: W_1 + W_2 + W_3")
+    if index is not None:
+        raise ClaimError(f"{expr}: all sums of a goal need the same one index and range, none in another")
+    return _joined([Parts((), (limits,), ()), _stated(expr.function, limits[0])])
+
+
+def _require_number(expr: sp.Expr) -> None:
+    if isinstance(expr, sp.Float):
+        raise ClaimError(f"the number {expr} is not exact: write it as sympy.Rational or Fraction")
+    if isinstance(expr, sp.Rational):
+        if max(abs(expr.p), expr.q) > LARGEST_NUMBER:
+            raise ClaimError("a number has more than 300 digits: choose other units or smaller powers")
+    elif isinstance(expr, (sp.cosh, sp.sinh)):
+        raise ClaimError(f"'{expr}' is no function of certificates: write {expr.func.__name__} of "
+                         "workbench.proof.claim, which is made of exp")
+    elif expr not in (sp.E, sp.pi):
+        raise ClaimError(f"'{expr}' has no meaning in certificates: state the claim with + - * / **, "
+                         f"{', '.join(LANGUAGE[2:])}")
+
+
+@lru_cache(maxsize=4096)
+def derivatives_in(expr: sp.Expr) -> tuple[D, ...]:
+    """The derivatives that stand in an expression."""
+    return tuple(expr.atoms(D)) if expr.has(D) else ()
+
+
+@lru_cache(maxsize=4096)
+def has_unstated(expr: sp.Expr) -> bool:
+    """Whether a function stands in an expression that certificates cannot state."""
+    return any(not isinstance(part, (*FUNCTIONS, D))
+               for part in expr.atoms(sp.Function, sp.Max, sp.Min, sp.Piecewise))
+
+
+@lru_cache(maxsize=8192)
+def symbols_in(expr: sp.Expr) -> frozenset[sp.Expr]:
+    """The free symbols of an expression, indexed ones with their index; without the index and the range of sums."""
+    parts = expr.atoms(sp.Indexed, sp.Sum)  # in one walk through the expression, which is all the cost
+    indexed = {part for part in parts if isinstance(part, sp.Indexed)}
+    sums = parts - indexed
+    hidden = {s for i in indexed for s in i.free_symbols}
+    hidden |= {s for total in sums for s in total.bound_symbols}
+    hidden |= {s for total in sums for limit in total.limits for e in limit[1:] for s in e.free_symbols}
+    return frozenset({s for s in expr.free_symbols if s not in hidden and not isinstance(s, sp.IndexedBase)} | indexed)
+
+
+@lru_cache(maxsize=4096)
+def names_in(expr: sp.Expr) -> frozenset[str]:
+    """The names of an expression's free symbols."""
+    return frozenset(map(str, expr.free_symbols))
 
 
 def _has_no_number(expr: sp.Basic) -> bool:
@@ -183,6 +252,16 @@ def _plain_symbols(expr: sp.Expr) -> set[sp.Expr]:
 def saturation(value: Any, low: Any, high: Any) -> sp.Expr:
     """sat(value, low, high): value, cut off at low and high (low <= high)."""
     return sp.Min(sp.Max(value, low), high)
+
+
+def cosh(value: Any) -> sp.Expr:
+    """The hyperbolic cosine, written by exp as certificates have it."""
+    return (sp.exp(value) + sp.exp(-value)) / 2
+
+
+def sinh(value: Any) -> sp.Expr:
+    """The hyperbolic sine, written by exp as certificates have it."""
+    return (sp.exp(value) - sp.exp(-value)) / 2
 
 
 def name_of(symbol: sp.Expr) -> str:

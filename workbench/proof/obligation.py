@@ -17,7 +17,7 @@ import sympy as sp
 
 from workbench.errors import ClaimError
 from workbench.proof.checker import partial_operations
-from workbench.proof.claim import Goal, Operator, Relation
+from workbench.proof.claim import Goal, Operator, Relation, cosh, sinh
 from workbench.proof.text import text
 from workbench.proof.typed import as_typed
 
@@ -26,7 +26,8 @@ ARITHMETIC: dict[type[ast.operator], Callable[[sp.Expr, sp.Expr], sp.Expr]] = {
     ast.Add: lambda a, b: a + b, ast.Sub: lambda a, b: a - b, ast.Mult: lambda a, b: a * b,
     ast.Div: lambda a, b: a / b, ast.Pow: lambda a, b: a**b}
 FUNCTIONS = {"abs": sp.Abs, "max": sp.Max, "min": sp.Min, "exp": sp.exp, "log": sp.log, "tanh": sp.tanh,
-             "sqrt": sp.sqrt, "sign": sp.sign, "sin": sp.sin, "cos": sp.cos, "tan": sp.tan, "arctan": sp.atan}
+             "cosh": cosh, "sinh": sinh, "sqrt": sp.sqrt, "sign": sp.sign, "sin": sp.sin, "cos": sp.cos, "tan": sp.tan,
+             "arctan": sp.atan}
 MOST_GOALS, LONGEST = 64, 100_000
 INDEX, COUNT = sp.Symbol("index_", integer=True), sp.Symbol("count_", integer=True, positive=True)
 

@@ -111,6 +111,7 @@ def evaluated(expr: sp.Expr, functions: bool = True) -> sp.Expr:
         return _evaluated(expr, functions)
 
 
+@lru_cache(maxsize=16384)  # what a paper's goals are made of stands in many of them
 def _evaluated(expr: sp.Expr, functions: bool) -> sp.Expr:
     if not expr.args or isinstance(expr, sp.Indexed):
         return expr

@@ -190,6 +190,8 @@ def _holds(context: Context, text: str, point: dict[str, Ratio], terms: Terms | 
 class _AtPoint(Context):
     """Reads expressions without rates and sums as the numbers that they are at a point: nothing is multiplied out."""
 
+    plain = False
+
     def __init__(self, point: Mapping[str, Ratio]) -> None:
         super().__init__({}, [])
         self.point = point

@@ -11,6 +11,7 @@ from workbench.errors import ClaimError
 from workbench.proof.decide.vanishing import vanishes
 from workbench.proof.derive import SUM, Side, Size, Summed, expand_derivatives, formal_sums, unfold
 from workbench.proof.text import text
+from workbench.proof.typed import as_typed
 
 Item = dict[str, object]
 
@@ -51,7 +52,19 @@ class Atoms:
             functions |= {sine: sp.sin(stated, evaluate=False), cosine: sp.cos(stated, evaluate=False)}
         functions |= {s: sp.exp(a.xreplace(functions)) for a, s in self.exps.items()}
         functions |= {s: sp.log(a.xreplace(functions)) for a, s in self.logs.items()}
-        return functions | {s: 1 / known.xreplace(functions) for s, known in self.inverses.items()}
+        return functions | {s: 1 / self._put_in(known, functions) for s, known in self.inverses.items()}
+
+    def stated(self, flat: sp.Expr) -> sp.Expr:
+        """What an expression of atoms stands for. A power of an exponential stays one: to the checker exp(2 x), which
+        sympy makes of it, is another function than exp(x)."""
+        return self._put_in(flat, self.meanings())
+
+    def _put_in(self, flat: sp.Expr, meanings: dict[sp.Symbol, sp.Expr]) -> sp.Expr:
+        exponentials = set(self.exps.values())
+        if any(power.base in exponentials and power.exp not in (1, -1) for power in flat.atoms(sp.Pow)):
+            with as_typed():
+                return flat.xreplace(meanings)
+        return flat.xreplace(meanings)
 
     def index(self, generator: sp.Symbol) -> int:
         """The generator's position, added when new."""

@@ -16,7 +16,6 @@ from typing import Any
 
 import numpy as np
 import sympy as sp
-from scipy.optimize import linprog
 from scipy.sparse import csc_array
 from sympy.polys.matrices import DomainMatrix
 
@@ -37,6 +36,7 @@ from workbench.proof.decide.laurent import (
     trim,
     unreduced,
 )
+from workbench.proof.decide.linear_program import least
 from workbench.proof.decide.unwritten import (
     Candidate,
     Factor,
@@ -54,7 +54,6 @@ MAX_PRODUCT = 12
 MANY_SIGNED = 8  # of more, no products of three are taken
 # (rounds of multiplication, factors of products of assumptions, monomials that z s = 1 hides), cheap ones first
 ATTEMPTS = ((1, 1, False), (1, 2, False), (1, 1, True), (2, 1, False), (2, 2, False), (2, 3, False))
-ITERATIONS, ITERATIONS_A_ROW = 1000, 10  # of a linear program
 SUPPORT_TOLERANCE = 1e-9
 COUNT: Exponents = (-99,)  # no monomial of any goal
 
@@ -227,13 +226,10 @@ def _solve(target: Laurent, terms: list[Candidate], strict: bool) -> list[tuple[
         largest = 1e3 * max(1.0, *(abs(float(c)) for c in target.values()))
         cost = cost - np.array([1e3 if t.sign == ">" else 0.0 for t in terms])
         limits = [(low, largest if low == 0 else None) for low, _ in limits]
-    # One that turns in circles ends without an answer, and only after minutes.
-    most = {"maxiter": ITERATIONS + ITERATIONS_A_ROW * len(rows)}
-    answer = linprog(cost, A_eq=matrix, b_eq=right, bounds=limits, method="highs-ds", options=most)
+    answer = least(cost, matrix, right, limits)
     if answer.status == 3:  # equalities that add up to nothing: leave them out of the cost, which has no least value
         free = np.array([t.sign == "==" for t in terms])
-        answer = linprog(np.where(free, 0.0, cost), A_eq=matrix, b_eq=right, bounds=limits, method="highs-ds",
-                         options=most)
+        answer = least(np.where(free, 0.0, cost), matrix, right, limits)
     if answer.status != 0:
         return None
     support = [k for k, c in enumerate(answer.x) if abs(c) > SUPPORT_TOLERANCE]

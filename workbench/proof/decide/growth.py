@@ -6,7 +6,7 @@ from typing import Any
 
 import sympy as sp
 
-from workbench.proof.claim import Goal, Relation, at_least, greater
+from workbench.proof.claim import Goal, Relation, at_least, at_most, greater
 from workbench.proof.decide.combination import find_combination
 from workbench.proof.decide.identity import find_identity
 from workbench.proof.derive import Side, Size
@@ -47,6 +47,26 @@ def find_by_growth(goal: Goal, shown: Relation, given: Given, steps: int = MOST_
                      "derivative": rising, "at_start": at_start}
             stated = [{"lemma": relation_text(lemma), "proof": proof} for lemma, proof in below]
             return found | ({"between": stated} if stated else {})
+    return None
+
+
+def find_by_growth_both_ways(goal: Goal, shown: Relation, given: Given) -> Found:
+    """A margin with a function in it that is zero where a symbol is, and grows as it leaves, upwards and downwards: so
+    x tanh x is at least the logarithm of cosh x."""
+    margin = shown.margin
+    if shown.operator not in ("<=", ">=") or not margin.has(*GROWING) or margin.has(sp.Sum, sp.Indexed, Size, Side):
+        return None
+    for symbol in sorted(margin.free_symbols, key=str):
+        if symbol.is_nonnegative or any(r.margin.has(symbol) for r in given) or margin.xreplace({symbol: 0}) != 0:
+            continue
+        proof: Proof = {"rule": "cases", "of": text(symbol)}
+        for name, case in (("nonnegative", at_least(symbol, 0)), ("nonpositive", at_most(symbol, 0))):
+            found = find_by_growth(goal, shown, (*given, case))
+            if found is None:
+                break
+            proof[name] = found
+        else:
+            return proof
     return None
 
 

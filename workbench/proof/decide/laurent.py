@@ -89,7 +89,7 @@ def _inverse_of_positive(polynomial: sp.Expr, atoms: Atoms) -> sp.Symbol:
     for symbol, known in atoms.inverses.items():
         if known == polynomial:
             return symbol
-    plain = polynomial.xreplace(atoms.meanings())
+    plain = atoms.stated(polynomial)
     symbol = sp.Dummy(f"z{len(atoms.inverses)}", positive=True)
     atoms.inverses[symbol] = polynomial
     atoms.positive[symbol] = ({"positive": text(1 / plain)}, {"positive": text(plain)})

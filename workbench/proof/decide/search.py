@@ -11,7 +11,7 @@ from workbench.proof.decide.case_roots import apart, has_root_of_size, not_negat
 from workbench.proof.decide.combination import find_combination
 from workbench.proof.decide.cuts import after
 from workbench.proof.decide.first_lemmas import first_lemmas, roots_below
-from workbench.proof.decide.growth import EMPTY, GROWING, find_by_growth
+from workbench.proof.decide.growth import EMPTY, GROWING, find_by_growth, find_by_growth_both_ways
 from workbench.proof.decide.ideals import find_by_ideal
 from workbench.proof.decide.identity import find_identity
 from workbench.proof.decide.log_products import find_by_log_products
@@ -73,6 +73,7 @@ def search(goal: Goal, shown: Relation, given: Given, lemmas: Given = (), depth:
             or find_by_log_products(goal, _carried(shown, goal), given)
             or _by_lemmas(goal, shown, given, lemmas) or _by_contradiction(goal, shown, given)
             or (None if soon else find_by_growth(goal, _carried(shown, goal), given))
+            or (None if given else find_by_growth_both_ways(goal, _carried(shown, goal), given))
             or find_by_totals(goal, shown, given, search)
             or (_by_factors_and_parts(goal, shown, given) if given else None)
             or find_by_tangents(goal, _carried(shown, goal), given)

@@ -139,5 +139,11 @@ def is_next(node: Node) -> bool:
     return isinstance(_base(node), (Named, Dot))
 
 
+def require_end(name: Named, behind: tuple[Node, ...]) -> None:
+    """Raise LatexError where a factor follows what a function is of, to which it may belong too."""
+    if behind and not is_next(behind[0]):
+        raise LatexError(f"the argument of '{name.name}' is open: write it in brackets", name.position)
+
+
 def _base(node: Node) -> Node:
     return node.base if isinstance(node, (Power, Transposed)) else node

@@ -12,8 +12,8 @@ from workbench.proof.latex.brackets import (
     inside,
     inside_all,
     is_argument,
-    is_next,
     plain_exponent,
+    require_end,
     require_factor,
     require_letter_before,
     require_own_power,
@@ -176,20 +176,21 @@ class Converter:
         if name.index:
             raise LatexError(f"'{name.name}' with the index '{name.index}': give the piece in the notation",
                              name.position)
-        first, taken = rest[0], 1
+        first, piece = rest[0], self.notation.piece(rest, 0)
         if isinstance(first, Power) and isinstance(first.base, Group):
             raise LatexError(f"the power may belong to '{name.name}' or to its argument: put brackets around it",
                              first.position)
         if isinstance(first, Group):
-            arguments = [self.expression(side) for side in inside_all(first)]
+            arguments, taken = [self.expression(side) for side in inside_all(first)], 1
+        elif isinstance(first, Named) and piece is None:  # \ln\cosh x
+            value, more = self._function(first, rest[1:])
+            arguments, taken = [value], 1 + more
+            require_end(name, rest[taken:])
         else:
-            piece = self.notation.piece(rest, 0)
-            taken = piece[0] if piece is not None else 1
-            if isinstance(first, Number) and ends_behind_letter(rest):
-                taken = 2  # sin 2x
-            bare = isinstance(first, (Letter, Number, Power, Named))
-            if bare and len(rest) > taken and not is_next(rest[taken]):
-                raise LatexError(f"the argument of '{name.name}' is open: write it in brackets", name.position)
+            is_double = isinstance(first, Number) and ends_behind_letter(rest)  # sin 2x
+            taken = 2 if is_double else piece[0] if piece is not None else 1
+            if isinstance(first, (Letter, Number, Power, Named)):
+                require_end(name, rest[taken:])
             arguments = [self.product(rest[:taken])]
         if name.name == "tr" and len(arguments) == 1:
             return trace(arguments[0], self.limits, name.position, self.declared), taken

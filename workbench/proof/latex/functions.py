@@ -6,12 +6,13 @@ from collections.abc import Sequence
 
 import sympy as sp
 
-from workbench.proof.claim import saturation
+from workbench.proof.claim import cosh, saturation, sinh
 from workbench.proof.latex.error import LatexError
 from workbench.proof.latex.limits import LARGEST_EXPONENT
 from workbench.proof.latex.vectors import is_vector
 
 _ONE = {"tanh": sp.tanh, "sin": sp.sin, "cos": sp.cos, "arctan": sp.atan, "exp": sp.exp, "ln": sp.log, "sgn": sp.sign}
+_BY_EXP = {"cosh": cosh, "sinh": sinh}
 _MOST_ARGUMENTS = 20
 _MOST_BITS = 100_000
 
@@ -22,6 +23,8 @@ def applied(name: str, arguments: Sequence[sp.Expr], position: int) -> sp.Expr:
         if name == "ln" and arguments[0].is_Rational and arguments[0] <= 0:
             raise LatexError(f"ln({arguments[0]}) is no real number: correct it", position)
         return _ONE[name](arguments[0])
+    if name in _BY_EXP and len(arguments) == 1:
+        return _BY_EXP[name](arguments[0])
     if name == "tan" and len(arguments) == 1:
         return sp.sin(arguments[0]) / sp.cos(arguments[0])
     if name in ("max", "min") and 1 < len(arguments) <= _MOST_ARGUMENTS:
@@ -30,7 +33,7 @@ def applied(name: str, arguments: Sequence[sp.Expr], position: int) -> sp.Expr:
         return saturation(*arguments)
     if name == "sat" and len(arguments) == 1:
         raise LatexError("sat without its limits: write sat(x, low, high), or give sat(x) in the notation", position)
-    if name in _ONE or name in ("tan", "max", "min", "sat"):
+    if name in _ONE or name in _BY_EXP or name in ("tan", "max", "min", "sat"):
         raise LatexError(f"{name} with {len(arguments)} arguments: give it what it takes", position)
     raise LatexError(f"'{name}' has no meaning in goals: give the piece in the notation", position)
 
