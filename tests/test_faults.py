@@ -56,7 +56,7 @@ def test_a_sweep_on_a_full_disk_ends_in_a_line_and_goes_on_once_there_is_room(be
 def test_a_folder_that_cannot_be_written_is_named(bench):
     folder = bench.fresh(JOBS["sweep"])
     said = one_line(run("sweep", ".", "--runs", 1, "--out", "/proc/here", folder=folder))
-    assert said.startswith("workbench: /proc/here") and said.endswith("name another output folder")
+    assert said.startswith("workbench: /proc/here") and said.endswith("name another place")
 
 
 def test_a_clock_that_steps_back_changes_nothing(bench, whole, monkeypatch):

@@ -146,7 +146,7 @@ def test_an_event_that_no_run_meets_ends_early_with_what_the_draws_alone_say(sce
 
 @pytest.mark.parametrize(("arguments", "words"), [
     (("--rare", "nothing>1"), "no metric of a run"), (("--rare", "energy_J>much"), "no finite number"),
-    (("--rare", "energy_J"), "no finite number"), (("--rare", "energy_J>inf"), "no finite number"),
+    (("--rare", "energy_J"), "says no number behind"), (("--rare", "energy_J>inf"), "no finite number"),
     (("--rare", "energy_J>1", "--resume"), "leave --resume out"),
     (("--rare", "energy_J>1", "--runs", 5), "leave --runs out"),
     (("--sensitivity", "--runs", 5), "leave --runs out"), (("--sensitivity", "--seed", 0), "leave --seed out"),
