@@ -11,8 +11,9 @@ from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import lru_cache
 from itertools import pairwise
+from types import MappingProxyType
 
-from workbench.paper.source import forms, narrowing, vocabulary
+from workbench.paper.source import forms, narrowing, understood, vocabulary
 from workbench.paper.source.idioms import plainly
 from workbench.paper.source.letters import kinds_in, values_and_rates
 from workbench.paper.source.passages import Sentence, Word
@@ -53,10 +54,10 @@ class Reading:
     unknown: tuple[str, ...] = ()
 
 
-def read_sentence(sentence: Sentence, body: str, assuming: bool = False,
-                  given: Collection[str] = frozenset(), giving: Collection[int] = frozenset()) -> Reading:
+def read_sentence(sentence: Sentence, body: str, assuming: bool = False, given: Collection[str] = frozenset(),
+                  giving: Mapping[int, Collection[str]] = MappingProxyType({})) -> Reading:
     """What a sentence says, if it is understood; assuming: that it stands in the text of an assumption; given: the
-    letters that the text gives values; giving: the displays that give some."""
+    letters that the text gives values; giving: the displays that give some, with the letters."""
     words = plainly(sentence.words)
     asks = words[-1].text == "?"
     while words and words[-1].kind == "mark" and words[-1].text in ".!;,":
@@ -85,7 +86,8 @@ def read_sentence(sentence: Sentence, body: str, assuming: bool = False,
         return Reading(dict.fromkeys(shown, ""), letters=letters, unknown=_unknown(words, classes))
     else:
         said = _said(words, found, body, letters, told)
-    return _whole(said, texts)
+    taken = {*range(len(texts))}.difference(*(range(start, end) for rule, start, end in found or () if rule == "fact"))
+    return _whole(said, texts, [text if at in taken else "" for at, text in enumerate(texts)], giving)
 
 
 def _neutrally(texts: Sequence[str], letters: frozenset[str], values: tuple[str, ...]) -> Reading:
@@ -98,8 +100,13 @@ def _neutrally(texts: Sequence[str], letters: frozenset[str], values: tuple[str,
                    unknown=values or narrowing.changing(texts) if letters or {*texts} & {"it", "this", "input"} else ())
 
 
-def _whole(said: Reading, texts: Sequence[str]) -> Reading:
-    """What a sentence says; nothing where it gives a value or says a fact of a part of the motion alone."""
+def _whole(said: Reading, texts: Sequence[str], taken: Sequence[str], giving: Mapping[int, Collection[str]]) -> Reading:
+    """What a sentence says; nothing where it speaks of a thing that is not understood, or gives a value or says a fact
+    of a part of the motion alone. taken: its words but those that say what letters are."""
+    given = {letter for number, form in said.shown.items() if form in ("given", "defined", "bare")
+             for letter in giving.get(number, ())}
+    if said.shown and (odd := understood.not_understood(taken, not given, all(map(understood.is_marked, given)))):
+        return Reading(dict.fromkeys(said.shown, ""), letters=said.letters, unknown=odd)
     gives = {*said.shown.values()} & {"given", "defined", "bare"}
     phrase = narrowing.partial(texts) if gives else narrowing.begins_partial(texts) if said.facts else ()
     if not phrase:

@@ -56,7 +56,7 @@ class Text:
     def __post_init__(self) -> None:
         given = frozenset(letter for shown in self.formulas.values() for letter in shown.gives) | {
             letter for one in self.passages.sentences for letter, _ in given_within(one.words)}
-        giving = frozenset(number for number, shown in self.formulas.items() if shown.gives)
+        giving = {number: [*shown.gives] for number, shown in self.formulas.items() if shown.gives}
         self.readings = [read_sentence(one, self.body, self._assumes(one), given, giving)
                          for one in self.passages.sentences]
         self.shown = {number: at for at, one in enumerate(self.readings) for number in one.shown}
