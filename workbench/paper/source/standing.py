@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 
+from workbench.paper.source.calling import called_otherwise
 from workbench.paper.source.conventions import of_another, shows_rate
 from workbench.paper.source.elsewhere import any_numbers, denoted_in_part, drops, nouns_of_displays, said_elsewhere
 from workbench.paper.source.forms import NOUNS
@@ -14,6 +15,7 @@ from workbench.paper.source.narrowing import background, restricts
 from workbench.paper.source.passages import Passages, Sentence
 from workbench.paper.source.reading import EVERYTHING, Reading, heading_unknown, printed, read_sentence
 from workbench.paper.source.shown import Shown, Standing
+from workbench.paper.source.understood import is_marked, not_understood
 from workbench.paper.source.vocabulary import DERIVED, POINTERS, TEXT
 
 LOCAL = ("theorem", "lemma", "proposition", "corollary", "remark", "example", "proof", "note", "claim", "property",
@@ -31,7 +33,6 @@ VARYING = {"function", "functions", "variable", "variables", "signal", "signals"
 TITLES = {"matching", "condition", "conditions", "persistence", "excitation", "growth", "smoothness", "sector",
           "existence", "controllability", "observability", "detectability", "stabilizability", "regularity",
           "minimum-phase"}
-DIGITAL = ("discrete-time", "digital", "on-board")  # headings with these are understood
 ALL = ("all", "every", "each", "any", "throughout", "everywhere", "always", "both", "paper", "none", "no", "never")
 
 
@@ -59,10 +60,21 @@ class Text:
         giving = {number: [*shown.gives] for number, shown in self.formulas.items() if shown.gives}
         self.readings = [read_sentence(one, self.body, self._assumes(one), given, giving)
                          for one in self.passages.sentences]
+        self.readings = [self._led(at, one) for at, one in enumerate(self.readings)]
         self.shown = {number: at for at, one in enumerate(self.readings) for number in one.shown}
         self.gifts = (*self._gifts(),)
         self.spoken_of = nouns_of_displays(self.passages.sentences, self.readings, {
             number: [*shown.gives] for number, shown in self.formulas.items()})
+
+    def _led(self, at: int, reading: Reading) -> Reading:
+        """What a sentence says; nothing of a display by itself where the sentence that leads to it is not understood."""
+        sentence = self.passages.sentences[at]
+        gives = any(form == "bare" and self.formulas[one].gives for one, form in reading.shown.items())
+        before = self.passages.sentences[at - 1] if at and gives and sentence.words[0].kind == "display" else None
+        if before is None or self.readings[at - 1].shown or self.readings[at - 1].facts or before.place.paragraphs != sentence.place.paragraphs[:1]:
+            return reading
+        odd = not_understood([word.text if word.kind == "word" else "" for word in before.words], False, True)
+        return Reading(dict.fromkeys(reading.shown, ""), unknown=odd) if odd else reading
 
     def _names(self, sentence: Sentence) -> list[str]:
         return [self.passages.scopes[scope] for scope in sentence.place.scopes]
@@ -97,7 +109,7 @@ class Text:
 
     def _titled(self, sentence: Sentence) -> bool:
         """Whether an environment in which a sentence stands has a title that is not understood."""
-        return any({*heading_unknown(self.passages.titles[scope])} - TITLES for scope in sentence.place.scopes)
+        return any({*heading_unknown(self.passages.titles[scope], True)} - TITLES for scope in sentence.place.scopes)
 
     def standing(self, display: int, letters: Collection[str], names: Collection[str],
                  nouns: Mapping[str, Mapping[str, int]], facts: Mapping[str, str],
@@ -194,8 +206,25 @@ class Text:
                     signed |= letters
                 elif OTHERWISE & {*fact.replace("-", "").split()}:
                     anew |= letters & signed
-        return anew | self._foreign(sentence) | given_twice(
+        return anew | self._recalled(at) | self._foreign(sentence) | given_twice(
             one for one in self.gifts if self._counts(one, at, sentence))
+
+    def _recalled(self, at: int) -> set[str]:
+        """The letters that a sentence calls something else, behind the display that gives them a value or rate."""
+        found: set[str] = set()
+        shown = {gift.letter: gift for gift in reversed(self.gifts) if gift.form != "inline"}
+        for place, other in enumerate(self.passages.sentences):
+            if place <= at or other.place.headings[:1] == self.passages.sentences[at].place.headings[:1]:
+                for name, gift in shown.items():
+                    moves = name.startswith(RATE)
+                    letter = name.removeprefix(RATE)[:-1] if moves else name
+                    if (gift.at < place or (gift.at == place and not moves)) and letter not in found and (
+                            called_otherwise(other.words, letter, self._words(gift.at), moves)):
+                        found.add(letter)
+        return found
+
+    def _words(self, at: int) -> set[str]:
+        return {word.text for word in self.passages.sentences[at].words if word.kind == "word"}
 
     def _foreign(self, sentence: Sentence) -> set[str]:
         """The letters that displays of other statements and proofs alone give, where a sentence stands in one."""
@@ -247,15 +276,17 @@ class Text:
     def _unread(self, at: int) -> Iterator[str]:
         """Why what is shown in a sentence may be taken back, or said of something else."""
         sentence = self.passages.sentences[at]
+        given = [letter for one in self.readings[at].shown for letter in self.formulas[one].gives]
+        marked = not given or any(map(is_marked, given))
         for heading in sentence.place.headings:
-            unknown = tuple(one for one in heading_unknown(self.passages.headings[heading]) if one not in DIGITAL)
+            unknown = heading_unknown(self.passages.headings[heading], marked)
             if unknown:
                 yield f"heading with {_quoted(unknown)}"
         for scope in sentence.place.scopes:
             name = self.passages.scopes[scope]
             if name.startswith("?"):
                 yield f"environment {name[1:]!r}"
-            elif unknown := heading_unknown(self.passages.titles[scope]):
+            elif unknown := heading_unknown(self.passages.titles[scope], marked):
                 yield f"title with {_quoted(unknown)}"
         if any(r"\intertext" in self.formulas[one].printed for one in self.readings[at].shown):
             yield "words between its lines"

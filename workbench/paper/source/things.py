@@ -32,7 +32,7 @@ FUNCTIONS = _words("""
 OF_FUNCTIONS = _words("""
     lyapunov lyapunov's quadratic candidate control energy storage positive definite radially unbounded smooth
     total kinetic potential mechanical stored electrical magnetic energy-like following barrier composite scalar
-    differentiable continuously overall logarithmic augmented common nonnegative
+    differentiable continuously overall logarithmic augmented common nonnegative good suitable
 """)
 # What a law makes small, and other values with a name of their own.
 ERRORS = _words("error errors error-signal deviation deviations variable variables surface surfaces manifold manifolds "
@@ -49,8 +49,12 @@ OF_NUMBERS = _words("positive real time scalar control controller design followi
 # What a law says that moves an estimate.
 UPDATES = _words("adaptation update learning tuning adaptive parameter estimation weight gradient")
 
+# What acts from outside.
+SIGNALS = _words("disturbance disturbances uncertainty uncertainties perturbation perturbations noise signal signals")
+OF_SIGNALS = _words("external exogenous lumped matched bounded unknown constant known scalar load parametric input new")
+
 HEADS = (moving.PLANTS | moving.LOOPS | moving.QUANTITIES | moving.BESIDE | moving.FILTERS | moving.ALONG | LAWS
-         | FUNCTIONS | ERRORS | NUMBERS)
+         | FUNCTIONS | ERRORS | NUMBERS | SIGNALS)
 KINDS = (
     (moving.PLANTS, moving.PLANTS | moving.LIKE | moving.OF_LOOPS | moving.QUANTITIES | moving.OF_QUANTITIES | ERRORS
      | OF_ERRORS | moving.BESIDE | moving.FILTERS),
@@ -58,5 +62,6 @@ KINDS = (
     (moving.QUANTITIES, moving.QUANTITIES | moving.OF_QUANTITIES | moving.PLANTS | moving.LIKE),
     (LAWS, LAWS | OF_LAWS | moving.PLANTS | UPDATES | {"lyapunov"}),
     (FUNCTIONS, FUNCTIONS | OF_FUNCTIONS), (ERRORS, ERRORS | OF_ERRORS | moving.PLANTS),
-    (NUMBERS, NUMBERS | OF_NUMBERS), (moving.BESIDE, OF_ERRORS | moving.LIKE | {"luenberger", "linear", "high-gain"}),
+    (NUMBERS, NUMBERS | OF_NUMBERS), (SIGNALS, SIGNALS | OF_SIGNALS), (moving.BESIDE, OF_ERRORS | moving.LIKE | {"luenberger", "linear", "high-gain"}),
     (moving.FILTERS, moving.LIKE | {"low-pass"}))
+OF_THEM = frozenset().union(*(kinds for _, kinds in KINDS))

@@ -8,7 +8,7 @@ kinds, is not understood.
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Sequence
+from collections.abc import Collection, Iterator, Sequence
 
 from workbench.paper.source import moving, things, vocabulary, words
 
@@ -38,12 +38,24 @@ _GIVING = (vocabulary.DETERMINERS | (vocabulary.CONNECTIVES - _ORDINALS - {"agai
     use uses respectively moves move evolves according behaves basis based motivated denoting denotes denote denoted
     called say says following
 """)) - _words("average mean maximum minimum value mode modes estimated updated reduced simplified implemented used "
-               "generated posed second first choice approach method each")
+               "posed second first choice approach method each")
 # The same of what is claimed, of which nothing is taken.
 _CLAIMING = (_GIVING | vocabulary.CLAIMING | vocabulary.HELD | _ORDINALS | words.VERBS | words.QUALITIES | words.MATTERS
-             | _words("value mean inequality")) - _words("work heat mass charge fuel budget start beginning middle end "
+             | _words("if when whenever provided while assume suppose such exists true valid satisfied until every "
+                      "value mean time not standing switching")) - _words("work heat mass charge fuel budget start beginning middle end "
                                                          "half halves")
-_NAMING = things.HEADS.union(*(kinds for _, kinds in things.KINDS))
+# What headings say besides.
+_HEADINGS = _words("""
+    introduction problem formulation statement preliminaries main results description modelling modeling lecture
+    controlled setup synthesis notation notations background backstepping sliding mode adaptive passivity digital
+    discrete-time on-board controller law laws stabilisation performance exercise solution day week
+""")
+# A word for another thing, or for a part of one, where it stands otherwise than in the forms that are understood.
+_OTHER = (vocabulary.GIVEN | vocabulary.MODIFIERS | things.HEADS | things.OF_THEM | _ORDINALS | _words("""
+    leader leaders follower followers literature practice half twice
+""")) - vocabulary.TEXT - (vocabulary.TELLING - things.HEADS) - _words("smooth continuous differentiable known bounded "
+                                                                       "available scalar real")
+_NAMING = things.HEADS | things.OF_THEM
 _PLACES = _words("on at over within through")  # what is said of such a place holds there alone
 _MOTIONS = _words("dynamics motion equation equations trajectories trajectory solutions solution")
 
@@ -59,14 +71,25 @@ def not_understood(texts: Sequence[str], claims: bool, marked: bool) -> tuple[st
     texts: its words, empty for formulas and marks; claims: whether nothing is taken of what it shows; marked: whether
     the letters that it gives bear a hat or another mark, as those of what moves beside the plant do.
     """
-    known = _CLAIMING if claims else _GIVING
+    return _odd(texts, _CLAIMING if claims else _GIVING, marked and not claims)
+
+
+def heading_not_understood(texts: Sequence[str], marked: bool) -> tuple[str, ...]:
+    """The same of a heading."""
+    return _odd(texts, _CLAIMING | _HEADINGS, marked)
+
+
+def _odd(texts: Sequence[str], known: Collection[str], beside: bool) -> tuple[str, ...]:
+    """The words that are neither known nor of a thing; beside: whether they may tell of what moves beside the plant."""
     odd: dict[str, None] = {}
     held: set[int] = set()
     for start, end in _things(texts):
-        odd |= dict.fromkeys(_misplaced(texts, start, end, claims, marked))
+        odd |= dict.fromkeys(_misplaced(texts, start, end, beside))
         held |= {*range(start, end)}
     for at, text in enumerate(texts):
-        counted = text in _ORDINALS and (not texts[at + 1:at + 2] or {*texts[at + 1:at + 2]} & (_COUNTED | {""}))
+        behind = texts[at + 1] if at + 1 < len(texts) else ""
+        counted = (text in _ORDINALS and (not behind or behind in _COUNTED)) or (
+            text == "one" and behind in vocabulary.HAS) or (text == "time" and behind.startswith("derivative"))
         if text and at not in held and text not in known and not counted:
             odd[text] = None
     return tuple(odd)
@@ -85,20 +108,24 @@ def _things(texts: Sequence[str]) -> Iterator[tuple[int, int]]:
         at = end + 1 if last is None else last + 1
 
 
-def _misplaced(texts: Sequence[str], start: int, end: int, claims: bool, marked: bool) -> Iterator[str]:
+def _misplaced(texts: Sequence[str], start: int, end: int, beside: bool) -> Iterator[str]:
     """The words of and before a thing by which it is another one."""
     thing, before = texts[end - 1], texts[start - 1] if start else ""
     kinds = frozenset().union(*(kinds for heads, kinds in things.KINDS if thing in heads))
     yield from (text for text in texts[start:end - 1] if text not in kinds)
-    if before and before not in _BEFORE:
+    if before and before not in _BEFORE and not (thing in things.NUMBERS and before in vocabulary.ALL):
         yield before
-    beside = moving.BESIDE & {*texts[start:end]}
-    if beside and not (things.ERRORS | things.NUMBERS) & {thing} and (claims or not marked):
-        yield from beside
+    if not beside and thing not in things.ERRORS | things.NUMBERS:
+        yield from moving.BESIDE & {*texts[start:end]}
     at = start - 1 - (before in vocabulary.DETERMINERS)
     place, owner = (texts[at], texts[at - 1] if at else "") if at >= 0 else ("", "")
-    if place in _PLACES:
+    if place in _PLACES and owner != "based":
         yield place
     elif place in ("of", "for", "along") and ((thing in moving.BESIDE | moving.FILTERS and owner not in _MOTIONS) or (
             thing in things.LAWS and owner in moving.PLANTS)):
         yield thing
+
+
+def changed_by(texts: Sequence[str]) -> tuple[str, ...]:
+    """The words by which a sentence without formulas may speak of another thing than was given, or of a part of it."""
+    return tuple(word for word in not_understood(texts, True, True) if word in _OTHER)
