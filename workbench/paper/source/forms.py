@@ -93,7 +93,7 @@ stated = [whose | its]? <derived> <is> [, <quantified> ,]? :? <shown>
 given = [<subject> | it | they] <is> [, <quantified> ,]? :? <shown>
 subject = <subjects> [[, | and | , and | together with] <subjects>]*
 subjects = DETERMINER? [MODIFIER | NOUN | NAME]* [QUANTITY | LETTERS | VALUE | REF] [LETTERS | VALUE | <inset>]? REF?
-    [[of | for | along | with respect to | with] <part>]*
+    [[of | for | in | along | with respect to | with] <part>]*
 inset = REAL | SIGN
 is = ADVERB* [IS | [has | have | takes | take] the following? form | [is | are] ADVERB* MADE | can ADVERB* be ADVERB*
     MADE | is then | [was | were | been] MADE] <as>?
@@ -139,7 +139,7 @@ letter = LETTERS | REAL | SIGN | TIME
 sure = SIGN
 be = [is | are | be | being | denotes | denote | denoting | represents | represent | stands for | stand for | means |
     designates]
-kind = DETERMINER? [MODIFIER [but]? | NOUN]* NOUN [and DETERMINER? [MODIFIER | NOUN]* NOUN]* [[of | for | in | on |
+kind = DETERMINER? [MODIFIER [but]? | NOUN]* NOUN [[, | and | , and] DETERMINER? [MODIFIER | NOUN]* NOUN]* [[of | for | in | on |
     to] <part>]* [to be [chosen | designed | determined | selected | tuned | estimated | tracked]]? [respectively]?
 adjectives = [[ADJECTIVE | MODIFIER] [, | and | but | , and]?]* [ADJECTIVE | MODIFIER]
 # what an assumption says
@@ -191,7 +191,7 @@ GRAMMAR = Grammar(_rules(_RULES), {
     "DERIVED": vocabulary.DERIVED, "ADVERB": vocabulary.ADVERBS, "MANNER": vocabulary.MANNER,
     "STABLE": vocabulary.STABLE,
     "ADJECTIVE": vocabulary.ADJECTIVES, "VALUENOUN": QUANTITIES | MODIFIERS, "QUANTITY": QUANTITIES,
-    "FOLLOWING": (NOUNS | vocabulary.NAMES | MODIFIERS) - vocabulary.WISHED}, KEPT)
+    "FOLLOWING": (NOUNS | vocabulary.NAMES | MODIFIERS) - vocabulary.WISHED - things.LAWS}, KEPT)
 # Every word that a sentence of some form may have, for telling which ones were not understood.
 KNOWN = (NOUNS | vocabulary.NAMES | MODIFIERS | vocabulary.DETERMINERS | vocabulary.CONNECTIVES
          | vocabulary.HAVE | vocabulary.GIVES | vocabulary.IS | vocabulary.MADE | vocabulary.GERUNDS

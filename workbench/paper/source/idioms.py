@@ -22,7 +22,7 @@ _IDIOMS = tuple((tuple(frozenset(word.split("|")) for word in said.split()), pla
     ("some algebra|algebraic|calculation|calculations|manipulation|manipulations|simple|steps|computations", "simple"),
     ("terms of indefinite|unknown sign", "terms"),
     ("left with", "arrive at"), ("end up with", "arrive at"),
-    ("evolves|behaves according to", "satisfies"), ("leads to", "gives"), ("results in", "gives")))
+    ("evolves|behaves|moves according to", "satisfies"), ("leads to", "gives"), ("results in", "gives")))
 
 
 def plainly(words: Sequence[Word]) -> tuple[Word, ...]:

@@ -20,7 +20,7 @@ PLANTS = _words("""
     rectifier oscillator beam ball plate mass integrator mass-spring-damper heater room building
     house boiler furnace oven exchanger incubator greenhouse freezer refrigerator column bioreactor fermenter chemostat
     population epidemic microgrid grid gyroscope telescope disk disc hovercraft unicycle
-    segway maglev levitation ball-and-beam drivetrain powertrain
+    segway maglev levitation ball-and-beam drivetrain powertrain drive
 """)
 # What is said of a plant that is still the same one: what it is made of, and what its equation looks like.
 LIKE = _words("""
@@ -39,7 +39,7 @@ OF_LOOPS = _words("closed resulting closed-loop overall whole entire complete")
 # What a plant has, by which its motion may be named, and where that is.
 QUANTITIES = _words("""
     position speed velocity acceleration angle temperature level pressure current voltage concentration altitude height
-    depth yaw roll pitch heading attitude displacement distance state states output outputs charge flux rate biomass
+    depth yaw roll pitch heading attitude displacement distance state states output outputs charge flux rate biomass glucose
     population mass density humidity frequency volume elevation
 """)
 OF_QUANTITIES = _words("""

@@ -35,6 +35,9 @@ _RELATED = re.compile(r"[=<>]|\\(?:leq?|geq?|leqslant|geqslant|in|notin|neq?|ll|
 # A value behind one of these is that of what it names: `the analysis is based on the function ...`.
 _CHOSEN = {"function", "functional", "candidate", "law", "controller", "observer", "filter", "surface"}
 _POINTING = {"it", "this", "they", "these", "them", "that"}
+# Whose letters are not the plant's.
+_STRANGERS = {"leader", "leaders", "follower", "followers", "agent", "agents", "neighbour", "neighbor", "node", "nodes",
+              "competitor", "baseline", "benchmark"}
 _REACHES = {"arrive", "arrives", "arrived", "result", "results", "resulting", "left"}  # ... at a formula, with it
 
 
@@ -89,7 +92,8 @@ def read_sentence(sentence: Sentence, body: str, assuming: bool = False, given: 
     else:
         said = _said(words, found, body, letters, told)
     taken = {*range(len(texts))}.difference(*(range(start, end) for rule, start, end in found or () if rule == "fact"))
-    return _whole(said, texts, [text if at in taken else "" for at, text in enumerate(texts)], giving)
+    bound = [words[at].text for at in sorted(taken) if classes[at] in (forms.SIGN, forms.RELATION)]
+    return _whole(said, texts, [text if at in taken else "" for at, text in enumerate(texts)], bound, giving)
 
 
 def _neutrally(texts: Sequence[str], letters: frozenset[str], values: tuple[str, ...]) -> Reading:
@@ -103,13 +107,19 @@ def _neutrally(texts: Sequence[str], letters: frozenset[str], values: tuple[str,
         values or narrowing.changing(texts) or understood.changed_by(texts)) if speaks else ())
 
 
-def _whole(said: Reading, texts: Sequence[str], taken: Sequence[str], giving: Mapping[int, Collection[str]]) -> Reading:
+def _whole(said: Reading, texts: Sequence[str], taken: Sequence[str], bound: Sequence[str],
+           giving: Mapping[int, Collection[str]]) -> Reading:
     """What a sentence says; nothing where it speaks of a thing that is not understood, or gives a value or says a fact
-    of a part of the motion alone. taken: its words but those that say what letters are."""
+    of a part of the motion alone. taken: its words but those that say what letters are; bound: its relations."""
     given = {letter for number, form in said.shown.items() if form in ("given", "defined", "bare")
              for letter in giving.get(number, ())} or {fact for fact in said.facts if fact.startswith(DEFINE)}
-    if (said.shown or any(fact.startswith(DEFINE) for fact in said.facts)) and (odd := understood.not_understood(taken, not given, any(map(understood.is_marked, given)))):
-        return Reading(dict.fromkeys(said.shown, ""), letters=said.letters, unknown=odd)
+    if said.shown or given:
+        odd = understood.not_understood(taken, not given, any(map(understood.is_marked, given))) or (
+            (*bound, *(_STRANGERS & {*texts})) if given else ())
+    else:
+        odd = understood.changed_by(texts) if not said.facts and {*texts} & (things.HEADS | _POINTING) else ()
+    if odd:
+        return Reading(dict.fromkeys(said.shown, ""), letters=said.letters, unknown=tuple(odd))
     gives = {*said.shown.values()} & {"given", "defined", "bare"}
     phrase = narrowing.partial(texts) if gives else narrowing.begins_partial(texts) if said.facts else ()
     if not phrase:

@@ -52,7 +52,7 @@ _HEADINGS = _words("""
 """)
 # A word for another thing, or for a part of one, where it stands otherwise than in the forms that are understood.
 _OTHER = (vocabulary.GIVEN | vocabulary.MODIFIERS | things.HEADS | things.OF_THEM | _ORDINALS | _words("""
-    leader leaders follower followers literature practice half twice
+    leader leaders follower followers literature practice half twice start starts starting begin begins
 """)) - vocabulary.TEXT - (vocabulary.TELLING - things.HEADS) - _words("smooth continuous differentiable known bounded "
                                                                        "available scalar real")
 _NAMING = things.HEADS | things.OF_THEM
@@ -128,4 +128,5 @@ def _misplaced(texts: Sequence[str], start: int, end: int, beside: bool) -> Iter
 
 def changed_by(texts: Sequence[str]) -> tuple[str, ...]:
     """The words by which a sentence without formulas may speak of another thing than was given, or of a part of it."""
-    return tuple(word for word in not_understood(texts, True, True) if word in _OTHER)
+    return tuple(word for word in (*not_understood(texts, True, True), *({"filter", "filters"} & {*texts}))
+                 if word in _OTHER)
