@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Collection, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import lru_cache
 from itertools import pairwise
 from types import MappingProxyType
@@ -102,9 +102,8 @@ def _neutrally(texts: Sequence[str], letters: frozenset[str], values: tuple[str,
     restricted = letters if narrowing.SIGNED & {*texts} else frozenset()
     if not letters and narrowing.LIMITING & {*texts}:
         restricted = frozenset((EVERYTHING,))
-    speaks = letters or {*texts} & (things.HEADS | _POINTING)
-    return Reading(letters=letters, restricted=restricted, unknown=(
-        values or narrowing.changing(texts) or understood.changed_by(texts)) if speaks else ())
+    changing = narrowing.changing(texts) if letters or {*texts} & (things.HEADS | _POINTING) else ()
+    return Reading(letters=letters, restricted=restricted, unknown=values or changing or understood.changed_by(texts))
 
 
 def _whole(said: Reading, texts: Sequence[str], taken: Sequence[str], bound: Sequence[str],
@@ -117,9 +116,11 @@ def _whole(said: Reading, texts: Sequence[str], taken: Sequence[str], bound: Seq
         odd = understood.not_understood(taken, not given, any(map(understood.is_marked, given))) or (
             (*bound, *(_STRANGERS & {*texts})) if given else ())
     else:
-        odd = understood.changed_by(texts) if not said.facts and {*texts} & (things.HEADS | _POINTING) else ()
+        odd = () if said.facts else understood.changed_by(texts)
     if odd:
         return Reading(dict.fromkeys(said.shown, ""), letters=said.letters, unknown=tuple(odd))
+    if understood.by_design(texts):
+        said = replace(said, tied=said.tied | {*said.shown})
     gives = {*said.shown.values()} & {"given", "defined", "bare"}
     phrase = narrowing.partial(texts) if gives else narrowing.begins_partial(texts) if said.facts else ()
     if not phrase:

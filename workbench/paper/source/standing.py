@@ -227,12 +227,16 @@ class Text:
         return {word.text for word in self.passages.sentences[at].words if word.kind == "word"}
 
     def _foreign(self, sentence: Sentence) -> set[str]:
-        """The letters that displays of other statements and proofs alone give, where a sentence stands in one."""
-        if not self.local(sentence):
-            return set()
+        """The letters that displays of other proofs alone give, and, where a sentence stands in a statement or proof,
+        those of other statements."""
         shown = [(one.letter, self.passages.sentences[one.at]) for one in self.gifts if one.form != "inline"]
-        own = {letter for letter, other in shown if not self.local(other) or self._holds_at(other, sentence)}
+        local = self.local(sentence)
+        own = {letter for letter, other in shown if self._holds_at(other, sentence) or not (
+            self.local(other) if local else self._proves(other))}
         return {letter for letter, _ in shown} - own
+
+    def _proves(self, sentence: Sentence) -> bool:
+        return any(name.removesuffix("*") not in self.whats for name in self._names(sentence))
 
     def _counts(self, gift: Gift, at: int, sentence: Sentence) -> bool:
         """Whether what a sentence gives may be what is meant where another stands."""
@@ -260,8 +264,8 @@ class Text:
         """Whether what a sentence says may hold where another stands: in its environment; of a statement, in proofs and
         in what is said directly behind it."""
         scopes, own = other.place.scopes, sentence.place.scopes
-        stated = not any(name.removesuffix("*") not in self.whats for name in self._names(other))
-        proof = any(name.removesuffix("*") not in self.whats for name in self._names(sentence))
+        stated = not self._proves(other)
+        proof = self._proves(sentence)
         near = sentence.place.paragraphs[0] - other.place.paragraphs[-1] <= BEHIND
         behind = near and scopes[:-1] == own and not self._assumes(other)
         return own[:len(scopes)] == scopes or (stated and (proof or behind))

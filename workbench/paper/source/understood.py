@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Collection, Iterator, Sequence
+from itertools import pairwise
 
 from workbench.paper.source import moving, things, vocabulary, words
 
@@ -42,7 +43,7 @@ _GIVING = (vocabulary.DETERMINERS | (vocabulary.CONNECTIVES - _ORDINALS - {"agai
 # The same of what is claimed, of which nothing is taken.
 _CLAIMING = (_GIVING | vocabulary.CLAIMING | vocabulary.HELD | _ORDINALS | words.VERBS | words.QUALITIES | words.MATTERS
              | _words("if when whenever provided while assume suppose such exists true valid satisfied until every "
-                      "value mean time not standing switching")) - _words("work heat mass charge fuel budget start beginning middle end "
+                      "value not standing switching")) - _words("mean time work heat mass charge fuel budget start beginning middle end "
                                                          "half halves")
 # What headings say besides.
 _HEADINGS = _words("""
@@ -89,7 +90,8 @@ def _odd(texts: Sequence[str], known: Collection[str], beside: bool) -> tuple[st
     for at, text in enumerate(texts):
         behind = texts[at + 1] if at + 1 < len(texts) else ""
         counted = (text in _ORDINALS and (not behind or behind in _COUNTED)) or (
-            text == "one" and behind in vocabulary.HAS) or (text == "time" and behind.startswith("derivative"))
+            text == "one" and behind in vocabulary.HAS) or (text == "time" and behind.startswith("derivative")) or (
+            text == "mean" and (behind in ("value", "inequality") or texts[at - 1:at] in (["that"], ["this"], ["which"])))
         if text and at not in held and text not in known and not counted:
             odd[text] = None
     return tuple(odd)
@@ -124,6 +126,12 @@ def _misplaced(texts: Sequence[str], start: int, end: int, beside: bool) -> Iter
     elif place in ("of", "for", "along") and ((thing in moving.BESIDE | moving.FILTERS and owner not in _MOTIONS) or (
             thing in things.LAWS and owner in moving.PLANTS)):
         yield thing
+
+
+def by_design(texts: Sequence[str]) -> bool:
+    """Whether a sentence says that something holds by what is chosen or assumed, and so for some values alone."""
+    return any(one == "by" and two in ("design", "assumption", "construction", "choice", "hypothesis")
+               for one, two in pairwise(texts))
 
 
 def changed_by(texts: Sequence[str]) -> tuple[str, ...]:
