@@ -67,7 +67,7 @@ part = DETERMINER? [MODIFIER | NOUN | NAME]* [NOUN | NAME | LETTERS | VALUE | RE
     REAL | <sure>]? REF? | both sides | this | these | REF [, REF]* [, ]? and REF | REF [to | -] REF
 derived = DETERMINER? FOLLOWING* DERIVED VALUES? [[of | for | along | to | with respect to | in | on] <part>]*
 # what is claimed
-saying = <claimed> | <concludes> | <stated> | <given> | <defines> | <named>
+saying = <claimed> | <stated> | <given> | <concludes> | <defines> | <named>
 claimed = <shown> <holds>?
 holds = [holds | hold | follows | follow] [true | as well | too]? [from <things> | by <things>]?
 shown = DISPLAY [[, | and | , and | ; | , that is ,? | or equivalently]? DISPLAY]*

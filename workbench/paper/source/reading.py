@@ -116,7 +116,7 @@ def _whole(said: Reading, texts: Sequence[str], taken: Sequence[str], bound: Seq
         odd = understood.not_understood(taken, not given, any(map(understood.is_marked, given))) or (
             (*bound, *(_STRANGERS & {*texts})) if given else ())
     else:
-        odd = () if said.facts else understood.changed_by(texts)
+        odd = () if any("$" in fact for fact in said.facts) else understood.changed_by(texts)
     if odd:
         return Reading(dict.fromkeys(said.shown, ""), letters=said.letters, unknown=tuple(odd))
     if understood.by_design(texts):

@@ -39,7 +39,7 @@ _GIVING = (vocabulary.DETERMINERS | (vocabulary.CONNECTIVES - _ORDINALS - {"agai
     use uses respectively moves move evolves according behaves basis based motivated denoting denotes denote denoted
     called say says following
 """)) - _words("average mean maximum minimum value mode modes estimated updated reduced simplified implemented used "
-               "posed second first choice approach method each")
+               "posed bounded dominated majorized upper-bounded lower-bounded second first choice approach method each")
 # The same of what is claimed, of which nothing is taken.
 _CLAIMING = (_GIVING | vocabulary.CLAIMING | vocabulary.HELD | _ORDINALS | words.VERBS | words.QUALITIES | words.MATTERS
              | _words("if when whenever provided while assume suppose such exists true valid satisfied until every "
@@ -51,11 +51,14 @@ _HEADINGS = _words("""
     controlled setup synthesis notation notations background backstepping sliding mode adaptive passivity digital
     discrete-time on-board controller law laws stabilisation performance exercise solution day week
 """)
+# By these a sentence without formulas changes what was given, or speaks of a part of it.
+_TURNS = _words("""
+    leader leaders follower followers literature practice half twice average averaged limited clipped sampled delayed
+    saturated filter filters maximum minimum
+""")
 # A word for another thing, or for a part of one, where it stands otherwise than in the forms that are understood.
-_OTHER = (vocabulary.GIVEN | vocabulary.MODIFIERS | things.HEADS | things.OF_THEM | _ORDINALS | _words("""
-    leader leaders follower followers literature practice half twice start starts starting begin begins
-""")) - vocabulary.TEXT - (vocabulary.TELLING - things.HEADS) - _words("smooth continuous differentiable known bounded "
-                                                                       "available scalar real")
+_OTHER = (vocabulary.GIVEN | vocabulary.MODIFIERS | things.HEADS | things.OF_THEM | _ORDINALS) - vocabulary.TEXT - (
+    vocabulary.TELLING - things.HEADS) - _words("smooth continuous differentiable known bounded available scalar real")
 _NAMING = things.HEADS | things.OF_THEM
 _PLACES = _words("on at over within through")  # what is said of such a place holds there alone
 _MOTIONS = _words("dynamics motion equation equations trajectories trajectory solutions solution")
@@ -136,5 +139,5 @@ def by_design(texts: Sequence[str]) -> bool:
 
 def changed_by(texts: Sequence[str]) -> tuple[str, ...]:
     """The words by which a sentence without formulas may speak of another thing than was given, or of a part of it."""
-    return tuple(word for word in (*not_understood(texts, True, True), *({"filter", "filters"} & {*texts}))
-                 if word in _OTHER)
+    return (*(word for word in not_understood(texts, True, True) if word in _OTHER | {"mean"}),
+            *(word for word in texts if word in _TURNS))
