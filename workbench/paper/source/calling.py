@@ -5,7 +5,9 @@ from __future__ import annotations
 from collections.abc import Collection, Iterator, Sequence
 
 from workbench.paper.source import moving, things, understood, vocabulary
-from workbench.paper.source.passages import Word
+from workbench.paper.source.given import RATE, Gift
+from workbench.paper.source.narrowing import words_of
+from workbench.paper.source.passages import Sentence, Word
 
 _BE = {"is", "are", "be", "being", "denotes", "denote", "denoting", "represents", "represent", "stands", "means",
        "designates", "was", "becomes"}
@@ -20,6 +22,32 @@ _ALIKE = (
 _MOVING = moving.QUANTITIES | moving.OF_QUANTITIES | things.ERRORS | things.OF_ERRORS | moving.BESIDE | things.SIGNALS
 
 
+# Where a name that stands before a letter begins.
+_ENDS = vocabulary.DETERMINERS | vocabulary.GERUNDS | vocabulary.DEFINE | vocabulary.DEFINING | _BE | words_of("""
+    of in for with by to as at from into under along via upon on over within through and or that which where if since
+    because when let we all any every have has obtain get gives yields use uses choose then hence thus both
+""")
+
+
+def recalled(sentences: Sequence[Sentence], gifts: Sequence[Gift], at: int) -> set[str]:
+    """The letters that a sentence calls something else, behind the display that gives them a value or rate; at: the
+    sentence up to which, and in whose section, that counts."""
+    found: set[str] = set()
+    shown = {gift.letter: gift for gift in reversed(gifts) if gift.form != "inline"}
+    first = {gift.at: {word.text for word in sentences[gift.at].words if word.kind == "word"}
+             for gift in shown.values()}
+    for place, other in enumerate(sentences):
+        if place > at and other.place.headings[:1] != sentences[at].place.headings[:1]:
+            continue
+        for name, gift in shown.items():
+            moves = name.startswith(RATE)
+            letter = name.removeprefix(RATE)[:-1] if moves else name
+            if (gift.at < place or (gift.at == place and not moves)) and letter not in found and called_otherwise(
+                    other.words, letter, first[gift.at], moves):
+                found.add(letter)
+    return found
+
+
 def called_otherwise(words: Sequence[Word], letter: str, first: Collection[str], moves: bool) -> bool:
     """Whether a sentence calls a letter something else than it was.
 
@@ -32,7 +60,7 @@ def called_otherwise(words: Sequence[Word], letter: str, first: Collection[str],
 
 
 def _phrases(words: Sequence[Word], place: int) -> Iterator[list[str]]:
-    """What a letter is called before it, as `the estimate $x$`, and behind it, as `$x$ is the state of the observer`."""
+    """What a letter is called before it, as `the estimate $x$`, and behind it, as `$x$ is the output`."""
     start = place
     while start and words[start - 1].kind == "word" and words[start - 1].text not in _ENDS:
         start -= 1
@@ -48,20 +76,10 @@ def _phrases(words: Sequence[Word], place: int) -> Iterator[list[str]]:
         yield [word.text for word in words[behind + 1:end]]
 
 
-_ENDS = vocabulary.DETERMINERS | vocabulary.GERUNDS | vocabulary.DEFINE | vocabulary.DEFINING | _BE | frozenset("""
-    of in for with by to as at from into under along via upon on over within through and or that which where if since
-    because when let we all any every have has obtain get gives yields use uses choose then hence thus both
-""".split())
-
-
 def _otherwise(phrase: Sequence[str], alike: Collection[str]) -> bool:
     """Whether a phrase calls something by a word that is not understood, or by a thing that is not alike."""
-    named = [text for text in phrase if text in things.HEADS]
-    owned = phrase[:next((at for at, text in enumerate(phrase) if text in ("of", "for")), len(phrase))]
-    if [*phrase] and {*phrase} <= _LETTERS | vocabulary.DETERMINERS:
+    if {*phrase} <= _LETTERS | vocabulary.DETERMINERS:
         return False
-    if understood.not_understood(phrase, True, False):
-        return True
-    if "estimate" in phrase or "estimates" in phrase:
-        return True
-    return bool(named) and bool({*owned} & things.HEADS) and not ({*owned} & things.HEADS) <= alike
+    own = phrase[:next((at for at, text in enumerate(phrase) if text in ("of", "for")), len(phrase))]
+    return bool(understood.not_understood(phrase, True, False)) or bool({"estimate", "estimates"} & {*phrase}) or bool(
+        {*own} & things.HEADS - {*alike})

@@ -109,7 +109,7 @@ def left_to_the_author(row: RowEntry, verdict: str, standing: Standing | None, r
 
 
 def relates_letters_alone(text: str) -> bool:
-    """Whether a line relates letters, their sums and multiples alone, as a condition on them does: `x = y`, `h \\ge 0`."""
+    """Whether a line relates letters, their sums and multiples alone, as a condition on them does, `x = y`."""
     try:
         sides = [side for chain in read_line(text).chains for side in chain.sides]
     except LatexError:

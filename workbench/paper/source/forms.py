@@ -139,8 +139,9 @@ letter = LETTERS | REAL | SIGN | TIME
 sure = SIGN
 be = [is | are | be | being | denotes | denote | denoting | represents | represent | stands for | stand for | means |
     designates]
-kind = DETERMINER? [MODIFIER [but]? | NOUN]* NOUN [[, | and | , and] DETERMINER? [MODIFIER | NOUN]* NOUN]* [[of | for | in | on |
-    to] <part>]* [to be [chosen | designed | determined | selected | tuned | estimated | tracked]]? [respectively]?
+kind = DETERMINER? [MODIFIER [but]? | NOUN]* NOUN [[, | and | , and] DETERMINER? [MODIFIER | NOUN]* NOUN]* [[of |
+    for | in | on | to] <part>]* [to be [chosen | designed | determined | selected | tuned | estimated | tracked]]?
+    [respectively]?
 adjectives = [[ADJECTIVE | MODIFIER] [, | and | but | , and]?]* [ADJECTIVE | MODIFIER]
 # what an assumption says
 assumes = <assumed> [[, | and | ; | , and] <assumed>]*

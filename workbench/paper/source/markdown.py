@@ -9,7 +9,7 @@ _LEVELS = ("section", "section", "subsection", "subsubsection")
 
 
 def with_latex_headings(text: str) -> str:
-    """A text with its Markdown headings as sections, and without the title in its first line; a LaTeX source as it is."""
+    """A text with its Markdown headings as sections, without the title in its first line; LaTeX as it is."""
     if r"\documentclass" in text or r"\begin{document}" in text:
         return text
     title = _HEADING.match(text.lstrip())

@@ -39,8 +39,8 @@ OF_LOOPS = _words("closed resulting closed-loop overall whole entire complete")
 # What a plant has, by which its motion may be named, and where that is.
 QUANTITIES = _words("""
     position speed velocity acceleration angle temperature level pressure current voltage concentration altitude height
-    depth yaw roll pitch heading attitude displacement distance state states output outputs charge flux rate biomass glucose
-    population mass density humidity frequency volume elevation
+    depth yaw roll pitch heading attitude displacement distance state states output outputs charge flux rate biomass
+    glucose population mass density humidity frequency volume elevation
 """)
 OF_QUANTITIES = _words("""
     angular armature inductor capacitor stator rotor shaft coil winding air output state water liquid

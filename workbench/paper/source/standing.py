@@ -5,25 +5,22 @@ from __future__ import annotations
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 
-from workbench.paper.source.calling import called_otherwise
+from workbench.paper.source.calling import recalled
 from workbench.paper.source.conventions import of_another, shows_rate
 from workbench.paper.source.elsewhere import any_numbers, denoted_in_part, drops, nouns_of_displays, said_elsewhere
 from workbench.paper.source.forms import NOUNS
 from workbench.paper.source.given import RATE, Gift, given_twice, given_within
+from workbench.paper.source.leading import as_led_to, near, points
 from workbench.paper.source.letters import letters_said, says_sign, signed_by_words
 from workbench.paper.source.narrowing import background, restricts
 from workbench.paper.source.passages import Passages, Sentence
 from workbench.paper.source.reading import EVERYTHING, Reading, heading_unknown, printed, read_sentence
 from workbench.paper.source.shown import Shown, Standing
-from workbench.paper.source.understood import is_marked, not_understood
-from workbench.paper.source.vocabulary import DERIVED, POINTERS, TEXT
+from workbench.paper.source.understood import is_marked
 
 LOCAL = ("theorem", "lemma", "proposition", "corollary", "remark", "example", "proof", "note", "claim", "property",
          "fact", "problem")
-# Words by which a sentence may speak of what stands before it: pronouns and the names of formulas.
-POINTING = POINTERS | DERIVED | TEXT
 BEHIND = 2  # paragraphs behind a statement that may go on with what it supposes
-SHORT = 5  # words of a sentence that speaks of what stands before it, whatever they are
 ASIDE = {"remark", "note", "definition", "assumption"}  # environments that may speak of what stands around them
 # Nouns and adjectives by which a letter that had a sign is said to be something else.
 OTHERWISE = {"real", "number", "numbers", "scalar", "scalars", "function", "functions", "variable", "variables",
@@ -60,21 +57,11 @@ class Text:
         giving = {number: [*shown.gives] for number, shown in self.formulas.items() if shown.gives}
         self.readings = [read_sentence(one, self.body, self._assumes(one), given, giving)
                          for one in self.passages.sentences]
-        self.readings = [self._led(at, one) for at, one in enumerate(self.readings)]
+        self.readings = as_led_to(self.passages.sentences, self.readings, giving)
         self.shown = {number: at for at, one in enumerate(self.readings) for number in one.shown}
         self.gifts = (*self._gifts(),)
         self.spoken_of = nouns_of_displays(self.passages.sentences, self.readings, {
             number: [*shown.gives] for number, shown in self.formulas.items()})
-
-    def _led(self, at: int, reading: Reading) -> Reading:
-        """What a sentence says; nothing of a display by itself where the sentence that leads to it is not understood."""
-        sentence = self.passages.sentences[at]
-        gives = any(form == "bare" and self.formulas[one].gives for one, form in reading.shown.items())
-        before = self.passages.sentences[at - 1] if at and gives and sentence.words[0].kind == "display" else None
-        if before is None or self.readings[at - 1].shown or self.readings[at - 1].facts or before.place.paragraphs != sentence.place.paragraphs[:1]:
-            return reading
-        odd = not_understood([word.text if word.kind == "word" else "" for word in before.words], False, True)
-        return Reading(dict.fromkeys(reading.shown, ""), unknown=odd) if odd else reading
 
     def _names(self, sentence: Sentence) -> list[str]:
         return [self.passages.scopes[scope] for scope in sentence.place.scopes]
@@ -126,13 +113,13 @@ class Text:
         contested: dict[str, str] = {}  # each letter with the sentence that says something of it
         signed: set[str] = set()
         for before, (other, said) in enumerate(zip(self.passages.sentences, self.readings, strict=True)):
-            near = _near(other, sentence)
+            beside = near(other, sentence)
             aside = other.aside or (said.unknown and {self._what(name) for name in self._names(other)} <= ASIDE)
             untold = self._assumes(other) and self._titled(other)
             behind = said.unknown and 0 < other.place.paragraphs[0] - sentence.place.paragraphs[-1] <= BEHIND
             if behind and not said.letters and restricts([word.text for word in other.words], ()):
                 doubts.append(self._told(before))
-            if not (before < at or near) or not (aside or untold or self._holds_at(other, sentence)):
+            if not (before < at or beside) or not (aside or untold or self._holds_at(other, sentence)):
                 continue
             words = {word.text for word in other.words if word.kind == "word"}
             hidden = frozenset(letter for one in said.shown if said.unknown for letter in self.formulas[one].letters)
@@ -144,7 +131,7 @@ class Text:
                 heading = [word.text for one in other.place.headings for word in self.passages.headings[one]]
                 heading += ["abstract"] if other.words[0].start < self.body.find(r"\end{abstract}") else []
                 everywhere = words & {*ALL} and not background(heading)
-                if spoken & {*letters} or everywhere or near or (not said.letters and (
+                if spoken & {*letters} or everywhere or beside or (not said.letters and (
                         section or restricts([*words], heading))):
                     doubts.append(self._told(before))
             differs = self._differs(said, facts) if self.local(other) else set()
@@ -206,25 +193,8 @@ class Text:
                     signed |= letters
                 elif OTHERWISE & {*fact.replace("-", "").split()}:
                     anew |= letters & signed
-        return anew | self._recalled(at) | self._foreign(sentence) | given_twice(
+        return anew | recalled(self.passages.sentences, self.gifts, at) | self._foreign(sentence) | given_twice(
             one for one in self.gifts if self._counts(one, at, sentence))
-
-    def _recalled(self, at: int) -> set[str]:
-        """The letters that a sentence calls something else, behind the display that gives them a value or rate."""
-        found: set[str] = set()
-        shown = {gift.letter: gift for gift in reversed(self.gifts) if gift.form != "inline"}
-        for place, other in enumerate(self.passages.sentences):
-            if place <= at or other.place.headings[:1] == self.passages.sentences[at].place.headings[:1]:
-                for name, gift in shown.items():
-                    moves = name.startswith(RATE)
-                    letter = name.removeprefix(RATE)[:-1] if moves else name
-                    if (gift.at < place or (gift.at == place and not moves)) and letter not in found and (
-                            called_otherwise(other.words, letter, self._words(gift.at), moves)):
-                        found.add(letter)
-        return found
-
-    def _words(self, at: int) -> set[str]:
-        return {word.text for word in self.passages.sentences[at].words if word.kind == "word"}
 
     def _foreign(self, sentence: Sentence) -> set[str]:
         """The letters that displays of other proofs alone give, and, where a sentence stands in a statement or proof,
@@ -295,7 +265,7 @@ class Text:
         if any(r"\intertext" in self.formulas[one].printed for one in self.readings[at].shown):
             yield "words between its lines"
         for other, (one, said) in enumerate(zip(self.passages.sentences, self.readings, strict=True)):
-            if said.unknown and (other == at or (_near(one, sentence) and (abs(other - at) == 1 or _points(one)))):
+            if said.unknown and (other == at or (near(one, sentence) and (abs(other - at) == 1 or points(one)))):
                 yield self._told(other)
 
     def _told(self, at: int) -> str:
@@ -313,19 +283,6 @@ class Text:
                         for form in (word.text, word.text.removesuffix("s"), f"{word.text}s"):
                             found[form] = dict.fromkeys(reading.letters, at) | found.get(form, {})
         return found
-
-
-def _points(sentence: Sentence) -> bool:
-    """Whether a sentence may speak of what stands beside it: by a pronoun, a formula's name, or as it is short."""
-    words = [word for word in sentence.words if word.kind == "word"]
-    return len(words) <= SHORT or any(word.text in POINTING for word in words) or any(
-        word.kind in ("reference", "display") for word in sentence.words)
-
-
-def _near(other: Sentence, sentence: Sentence) -> bool:
-    """Whether a sentence stands in the paragraph of another, or as the first one behind that and pointing back."""
-    own = other.place.paragraphs if _points(other) else other.place.paragraphs[-1:]
-    return bool({*own} & {*sentence.place.paragraphs})
 
 
 def _quoted(words: Sequence[str]) -> str:

@@ -19,9 +19,9 @@ LAWS = _words("""
 """)
 OF_LAWS = _words("""
     linear nonlinear proportional pd pid pi proportional-derivative proportional-integral
-    proportional-integral-derivative p adaptive robust state-feedback feedback tracking backstepping sliding-mode sliding
-    mode proposed following smooth cascade speed position velocity level temperature current voltage angle altitude
-    heading cruise linearizing stabilizing state passivity-based energy-based traction braking motor heating input
+    proportional-integral-derivative p adaptive robust state-feedback feedback tracking backstepping sliding-mode
+    sliding mode proposed following smooth cascade speed position velocity level temperature current voltage angle
+    altitude heading cruise linearizing stabilizing state passivity-based energy-based traction braking motor heating input
     drive driving scalar continuous bounded super-twisting supertwisting lyapunov-based cascaded model-based full-state
     armature control cooling pump heater hovering hover pole-placement output
 """)
@@ -62,6 +62,7 @@ KINDS = (
     (moving.QUANTITIES, moving.QUANTITIES | moving.OF_QUANTITIES | moving.PLANTS | moving.LIKE),
     (LAWS, LAWS | OF_LAWS | moving.PLANTS | UPDATES | {"lyapunov"}),
     (FUNCTIONS, FUNCTIONS | OF_FUNCTIONS), (ERRORS, ERRORS | OF_ERRORS | moving.PLANTS),
-    (NUMBERS, NUMBERS | OF_NUMBERS), (SIGNALS, SIGNALS | OF_SIGNALS), (moving.BESIDE, OF_ERRORS | moving.LIKE | {"luenberger", "linear", "high-gain"}),
+    (NUMBERS, NUMBERS | OF_NUMBERS), (SIGNALS, SIGNALS | OF_SIGNALS),
+    (moving.BESIDE, OF_ERRORS | moving.LIKE | {"luenberger", "linear", "high-gain"}),
     (moving.FILTERS, moving.LIKE | {"low-pass"}))
 OF_THEM = frozenset().union(*(kinds for _, kinds in KINDS))

@@ -43,8 +43,8 @@ _GIVING = (vocabulary.DETERMINERS | (vocabulary.CONNECTIVES - _ORDINALS - {"agai
 # The same of what is claimed, of which nothing is taken.
 _CLAIMING = (_GIVING | vocabulary.CLAIMING | vocabulary.HELD | _ORDINALS | words.VERBS | words.QUALITIES | words.MATTERS
              | _words("if when whenever provided while assume suppose such exists true valid satisfied until every "
-                      "value not standing switching")) - _words("mean time work heat mass charge fuel budget start beginning middle end "
-                                                         "half halves")
+                      "value not standing switching")) - _words(
+                          "mean time work heat mass charge fuel budget start beginning middle end half halves")
 # What headings say besides.
 _HEADINGS = _words("""
     introduction problem formulation statement preliminaries main results description modelling modeling lecture
@@ -59,14 +59,15 @@ _TURNS = _words("""
 # A word for another thing, or for a part of one, where it stands otherwise than in the forms that are understood.
 _OTHER = (vocabulary.GIVEN | vocabulary.MODIFIERS | things.HEADS | things.OF_THEM | _ORDINALS) - vocabulary.TEXT - (
     vocabulary.TELLING - things.HEADS) - _words("smooth continuous differentiable known bounded available scalar real")
+_MARK = re.compile(r"\\(?:wide)?(?:hat|tilde|bar|check|breve)(?![A-Za-z])|_\{?[a-z]")
 _NAMING = things.HEADS | things.OF_THEM
 _PLACES = _words("on at over within through")  # what is said of such a place holds there alone
 _MOTIONS = _words("dynamics motion equation equations trajectories trajectory solutions solution")
 
 
 def is_marked(letter: str) -> bool:
-    r"""Whether a letter, or its rate, bears a mark by which it is another one than the plant's, as `\\hat x` and `x_m`."""
-    return letter in ("r", "w") or re.search(r"\\(?:wide)?(?:hat|tilde|bar|check|breve)(?![A-Za-z])|_\{?[a-z]", letter) is not None
+    r"""Whether a letter, or its rate, bears a mark by which it is none of the plant's, as `\\hat x` and `x_m`."""
+    return letter in ("r", "w") or _MARK.search(letter) is not None
 
 
 def not_understood(texts: Sequence[str], claims: bool, marked: bool) -> tuple[str, ...]:
@@ -92,12 +93,16 @@ def _odd(texts: Sequence[str], known: Collection[str], beside: bool) -> tuple[st
         held |= {*range(start, end)}
     for at, text in enumerate(texts):
         behind = texts[at + 1] if at + 1 < len(texts) else ""
-        counted = (text in _ORDINALS and (not behind or behind in _COUNTED)) or (
-            text == "one" and behind in vocabulary.HAS) or (text == "time" and behind.startswith("derivative")) or (
-            text == "mean" and (behind in ("value", "inequality") or texts[at - 1:at] in (["that"], ["this"], ["which"])))
-        if text and at not in held and text not in known and not counted:
+        if text and at not in held and text not in known and not _goes_with(text, texts[at - 1] if at else "", behind):
             odd[text] = None
     return tuple(odd)
+
+
+def _goes_with(text: str, before: str, behind: str) -> bool:
+    """Whether a word is understood by the one beside it: `second step`, `one gets`, `time derivative`, `this means`."""
+    return (text in _ORDINALS and behind in _COUNTED | {""}) or (text == "one" and behind in vocabulary.HAS) or (
+        text == "time" and behind.startswith("derivative")) or (
+        text == "mean" and (behind in ("value", "inequality") or before in ("that", "this", "which")))
 
 
 def _things(texts: Sequence[str]) -> Iterator[tuple[int, int]]:
