@@ -21,9 +21,9 @@ OF_LAWS = _words("""
     linear nonlinear proportional pd pid pi proportional-derivative proportional-integral
     proportional-integral-derivative p adaptive robust state-feedback feedback tracking backstepping sliding-mode
     sliding mode proposed following smooth cascade speed position velocity level temperature current voltage angle
-    altitude heading cruise linearizing stabilizing state passivity-based energy-based traction braking motor heating input
-    drive driving scalar continuous bounded super-twisting supertwisting lyapunov-based cascaded model-based full-state
-    armature control cooling pump heater hovering hover pole-placement output
+    altitude heading cruise linearizing stabilizing state passivity-based energy-based traction braking motor heating
+    input drive driving scalar continuous bounded super-twisting supertwisting lyapunov-based cascaded model-based
+    full-state armature control cooling pump heater hovering hover pole-placement output
 """)
 # A function that is looked at along the motion.
 FUNCTIONS = _words("""

@@ -61,7 +61,7 @@ _OTHER = (vocabulary.GIVEN | vocabulary.MODIFIERS | things.HEADS | things.OF_THE
     vocabulary.TELLING - things.HEADS) - _words("smooth continuous differentiable known bounded available scalar real")
 _MARK = re.compile(r"\\(?:wide)?(?:hat|tilde|bar|check|breve)(?![A-Za-z])|_\{?[a-z]")
 _NAMING = things.HEADS | things.OF_THEM
-_PLACES = _words("on at over within through")  # what is said of such a place holds there alone
+_PLACES = _words("on at over within before after behind beyond")  # what is said of such a place holds there alone
 _MOTIONS = _words("dynamics motion equation equations trajectories trajectory solutions solution")
 
 
@@ -144,5 +144,6 @@ def by_design(texts: Sequence[str]) -> bool:
 
 def changed_by(texts: Sequence[str]) -> tuple[str, ...]:
     """The words by which a sentence without formulas may speak of another thing than was given, or of a part of it."""
-    return (*(word for word in not_understood(texts, True, True) if word in _OTHER | {"mean"}),
+    misplaced = {word for start, end in _things(texts) for word in _misplaced(texts, start, end, False)}
+    return (*(word for word in not_understood(texts, True, True) if word in _OTHER | misplaced | {"mean"}),
             *(word for word in texts if word in _TURNS))
