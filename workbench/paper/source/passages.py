@@ -222,6 +222,9 @@ class _Reader:
     def _item(self, found: re.Match[str], end: int) -> int:
         self.flush()
         self.broken = False
+        label = found["labelled"] or ""
+        if re.search("[A-Za-z]{3}", label):  # a name, and no number: `\\item[Leader]`
+            self.read(found.start("labelled"), found.end("labelled"))
         return found.end()
 
     def _aside(self, found: re.Match[str], end: int) -> int:

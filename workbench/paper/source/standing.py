@@ -5,23 +5,22 @@ from __future__ import annotations
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 
+from workbench.paper.source.calling import recalled
 from workbench.paper.source.conventions import of_another, shows_rate
 from workbench.paper.source.elsewhere import any_numbers, denoted_in_part, drops, nouns_of_displays, said_elsewhere
 from workbench.paper.source.forms import NOUNS
 from workbench.paper.source.given import RATE, Gift, given_twice, given_within
+from workbench.paper.source.leading import as_led_to, near, points
 from workbench.paper.source.letters import letters_said, says_sign, signed_by_words
 from workbench.paper.source.narrowing import background, restricts
 from workbench.paper.source.passages import Passages, Sentence
 from workbench.paper.source.reading import EVERYTHING, Reading, heading_unknown, printed, read_sentence
 from workbench.paper.source.shown import Shown, Standing
-from workbench.paper.source.vocabulary import DERIVED, POINTERS, TEXT
+from workbench.paper.source.understood import is_marked
 
 LOCAL = ("theorem", "lemma", "proposition", "corollary", "remark", "example", "proof", "note", "claim", "property",
          "fact", "problem")
-# Words by which a sentence may speak of what stands before it: pronouns and the names of formulas.
-POINTING = POINTERS | DERIVED | TEXT
 BEHIND = 2  # paragraphs behind a statement that may go on with what it supposes
-SHORT = 5  # words of a sentence that speaks of what stands before it, whatever they are
 ASIDE = {"remark", "note", "definition", "assumption"}  # environments that may speak of what stands around them
 # Nouns and adjectives by which a letter that had a sign is said to be something else.
 OTHERWISE = {"real", "number", "numbers", "scalar", "scalars", "function", "functions", "variable", "variables",
@@ -31,7 +30,6 @@ VARYING = {"function", "functions", "variable", "variables", "signal", "signals"
 TITLES = {"matching", "condition", "conditions", "persistence", "excitation", "growth", "smoothness", "sector",
           "existence", "controllability", "observability", "detectability", "stabilizability", "regularity",
           "minimum-phase"}
-DIGITAL = ("discrete-time", "digital", "on-board")  # headings with these are understood
 ALL = ("all", "every", "each", "any", "throughout", "everywhere", "always", "both", "paper", "none", "no", "never")
 
 
@@ -56,9 +54,10 @@ class Text:
     def __post_init__(self) -> None:
         given = frozenset(letter for shown in self.formulas.values() for letter in shown.gives) | {
             letter for one in self.passages.sentences for letter, _ in given_within(one.words)}
-        giving = frozenset(number for number, shown in self.formulas.items() if shown.gives)
+        giving = {number: [*shown.gives] for number, shown in self.formulas.items() if shown.gives}
         self.readings = [read_sentence(one, self.body, self._assumes(one), given, giving)
                          for one in self.passages.sentences]
+        self.readings = as_led_to(self.passages.sentences, self.readings, giving)
         self.shown = {number: at for at, one in enumerate(self.readings) for number in one.shown}
         self.gifts = (*self._gifts(),)
         self.spoken_of = nouns_of_displays(self.passages.sentences, self.readings, {
@@ -97,7 +96,7 @@ class Text:
 
     def _titled(self, sentence: Sentence) -> bool:
         """Whether an environment in which a sentence stands has a title that is not understood."""
-        return any({*heading_unknown(self.passages.titles[scope])} - TITLES for scope in sentence.place.scopes)
+        return any({*heading_unknown(self.passages.titles[scope], True)} - TITLES for scope in sentence.place.scopes)
 
     def standing(self, display: int, letters: Collection[str], names: Collection[str],
                  nouns: Mapping[str, Mapping[str, int]], facts: Mapping[str, str],
@@ -114,13 +113,13 @@ class Text:
         contested: dict[str, str] = {}  # each letter with the sentence that says something of it
         signed: set[str] = set()
         for before, (other, said) in enumerate(zip(self.passages.sentences, self.readings, strict=True)):
-            near = _near(other, sentence)
+            beside = near(other, sentence)
             aside = other.aside or (said.unknown and {self._what(name) for name in self._names(other)} <= ASIDE)
             untold = self._assumes(other) and self._titled(other)
             behind = said.unknown and 0 < other.place.paragraphs[0] - sentence.place.paragraphs[-1] <= BEHIND
             if behind and not said.letters and restricts([word.text for word in other.words], ()):
                 doubts.append(self._told(before))
-            if not (before < at or near) or not (aside or untold or self._holds_at(other, sentence)):
+            if not (before < at or beside) or not (aside or untold or self._holds_at(other, sentence)):
                 continue
             words = {word.text for word in other.words if word.kind == "word"}
             hidden = frozenset(letter for one in said.shown if said.unknown for letter in self.formulas[one].letters)
@@ -132,7 +131,7 @@ class Text:
                 heading = [word.text for one in other.place.headings for word in self.passages.headings[one]]
                 heading += ["abstract"] if other.words[0].start < self.body.find(r"\end{abstract}") else []
                 everywhere = words & {*ALL} and not background(heading)
-                if spoken & {*letters} or everywhere or near or (not said.letters and (
+                if spoken & {*letters} or everywhere or beside or (not said.letters and (
                         section or restricts([*words], heading))):
                     doubts.append(self._told(before))
             differs = self._differs(said, facts) if self.local(other) else set()
@@ -194,16 +193,20 @@ class Text:
                     signed |= letters
                 elif OTHERWISE & {*fact.replace("-", "").split()}:
                     anew |= letters & signed
-        return anew | self._foreign(sentence) | given_twice(
+        return anew | recalled(self.passages.sentences, self.gifts, at) | self._foreign(sentence) | given_twice(
             one for one in self.gifts if self._counts(one, at, sentence))
 
     def _foreign(self, sentence: Sentence) -> set[str]:
-        """The letters that displays of other statements and proofs alone give, where a sentence stands in one."""
-        if not self.local(sentence):
-            return set()
+        """The letters that displays of other proofs alone give, and, where a sentence stands in a statement or proof,
+        those of other statements."""
         shown = [(one.letter, self.passages.sentences[one.at]) for one in self.gifts if one.form != "inline"]
-        own = {letter for letter, other in shown if not self.local(other) or self._holds_at(other, sentence)}
+        local = self.local(sentence)
+        own = {letter for letter, other in shown if self._holds_at(other, sentence) or not (
+            self.local(other) if local else self._proves(other))}
         return {letter for letter, _ in shown} - own
+
+    def _proves(self, sentence: Sentence) -> bool:
+        return any(name.removesuffix("*") not in self.whats for name in self._names(sentence))
 
     def _counts(self, gift: Gift, at: int, sentence: Sentence) -> bool:
         """Whether what a sentence gives may be what is meant where another stands."""
@@ -231,8 +234,8 @@ class Text:
         """Whether what a sentence says may hold where another stands: in its environment; of a statement, in proofs and
         in what is said directly behind it."""
         scopes, own = other.place.scopes, sentence.place.scopes
-        stated = not any(name.removesuffix("*") not in self.whats for name in self._names(other))
-        proof = any(name.removesuffix("*") not in self.whats for name in self._names(sentence))
+        stated = not self._proves(other)
+        proof = self._proves(sentence)
         near = sentence.place.paragraphs[0] - other.place.paragraphs[-1] <= BEHIND
         behind = near and scopes[:-1] == own and not self._assumes(other)
         return own[:len(scopes)] == scopes or (stated and (proof or behind))
@@ -247,20 +250,22 @@ class Text:
     def _unread(self, at: int) -> Iterator[str]:
         """Why what is shown in a sentence may be taken back, or said of something else."""
         sentence = self.passages.sentences[at]
+        given = [letter for one in self.readings[at].shown for letter in self.formulas[one].gives]
+        marked = not given or any(map(is_marked, given))
         for heading in sentence.place.headings:
-            unknown = tuple(one for one in heading_unknown(self.passages.headings[heading]) if one not in DIGITAL)
+            unknown = heading_unknown(self.passages.headings[heading], marked)
             if unknown:
                 yield f"heading with {_quoted(unknown)}"
         for scope in sentence.place.scopes:
             name = self.passages.scopes[scope]
             if name.startswith("?"):
                 yield f"environment {name[1:]!r}"
-            elif unknown := heading_unknown(self.passages.titles[scope]):
+            elif unknown := heading_unknown(self.passages.titles[scope], marked):
                 yield f"title with {_quoted(unknown)}"
         if any(r"\intertext" in self.formulas[one].printed for one in self.readings[at].shown):
             yield "words between its lines"
         for other, (one, said) in enumerate(zip(self.passages.sentences, self.readings, strict=True)):
-            if said.unknown and (other == at or (_near(one, sentence) and (abs(other - at) == 1 or _points(one)))):
+            if said.unknown and (other == at or (near(one, sentence) and (abs(other - at) == 1 or points(one)))):
                 yield self._told(other)
 
     def _told(self, at: int) -> str:
@@ -278,19 +283,6 @@ class Text:
                         for form in (word.text, word.text.removesuffix("s"), f"{word.text}s"):
                             found[form] = dict.fromkeys(reading.letters, at) | found.get(form, {})
         return found
-
-
-def _points(sentence: Sentence) -> bool:
-    """Whether a sentence may speak of what stands beside it: by a pronoun, a formula's name, or as it is short."""
-    words = [word for word in sentence.words if word.kind == "word"]
-    return len(words) <= SHORT or any(word.text in POINTING for word in words) or any(
-        word.kind in ("reference", "display") for word in sentence.words)
-
-
-def _near(other: Sentence, sentence: Sentence) -> bool:
-    """Whether a sentence stands in the paragraph of another, or as the first one behind that and pointing back."""
-    own = other.place.paragraphs if _points(other) else other.place.paragraphs[-1:]
-    return bool({*own} & {*sentence.place.paragraphs})
 
 
 def _quoted(words: Sequence[str]) -> str:
