@@ -9,7 +9,7 @@ from workbench.paper.source.given import RATE, Gift
 from workbench.paper.source.narrowing import words_of
 from workbench.paper.source.passages import Sentence, Word
 
-_BE = {"is", "are", "be", "being", "denotes", "denote", "denoting", "represents", "represent", "stands", "means",
+BE = {"is", "are", "be", "being", "denotes", "denote", "denoting", "represents", "represent", "stands", "means",
        "designates", "was", "becomes"}
 # Nouns that stand before a letter without saying what it is.
 _LETTERS = {"letter", "letters", "symbol", "function", "variable", "quantity", "signal", "scalar"}
@@ -23,7 +23,7 @@ _MOVING = moving.QUANTITIES | moving.OF_QUANTITIES | things.ERRORS | things.OF_E
 
 
 # Where a name that stands before a letter begins.
-_ENDS = vocabulary.DETERMINERS | vocabulary.GERUNDS | vocabulary.DEFINE | vocabulary.DEFINING | _BE | words_of("""
+ENDS = vocabulary.DETERMINERS | vocabulary.GERUNDS | vocabulary.DEFINE | vocabulary.DEFINING | BE | words_of("""
     of in for with by to as at from into under along via upon on over within through and or that which where if since
     because when let we all any every have has obtain get gives yields use uses choose then hence thus both
 """)
@@ -62,14 +62,14 @@ def called_otherwise(words: Sequence[Word], letter: str, first: Collection[str],
 def _phrases(words: Sequence[Word], place: int) -> Iterator[list[str]]:
     """What a letter is called before it, as `the estimate $x$`, and behind it, as `$x$ is the output`."""
     start = place
-    while start and words[start - 1].kind == "word" and words[start - 1].text not in _ENDS:
+    while start and words[start - 1].kind == "word" and words[start - 1].text not in ENDS:
         start -= 1
     if start < place and (start == 0 or words[start - 1].text in vocabulary.DETERMINERS or start == place - 1):
         yield [word.text for word in words[start:place]]
     behind = place + 1
     while behind < len(words) and words[behind].text in ("then", "now", "also", "again"):
         behind += 1
-    if behind < len(words) and words[behind].text in _BE:
+    if behind < len(words) and words[behind].text in BE:
         end = behind + 1
         while end < len(words) and words[end].kind == "word" and words[end].text not in ("and", "where", "while"):
             end += 1

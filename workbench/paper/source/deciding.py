@@ -91,7 +91,12 @@ def left_to_the_author(row: RowEntry, verdict: str, standing: Standing | None, r
         gains = bool(own) and all(one in letters and letters[one].role == "constant" for one in own)
         valued = {letter for one in rows if one.role == "definition" for letter in dict(sides_of(text_of(one)))}
         gains = gains or (not own & valued and relates_letters_alone(text_of(row)))
-        doubts = standing.doubts or (("what its sentence gives is no definition",) if given else ()) or (
+        natural = [standing.natural[one] for one in own & standing.natural.keys()
+                   if one in letters and letters[one].kind in ("", "real")]
+        untaken = sorted(standing.given & letters.keys())
+        again = [f"what is said of {one}: {told or 'it is given twice'}" for one, told in standing.contested.items()]
+        doubts = standing.doubts or natural or again or (
+            (f"what is given for {', '.join(untaken)}",) if untaken else ()) or (("what its sentence gives is no definition",) if given else ()) or (
             (f"what is said of the sign of {', '.join(unsigned)}",) if unsigned else ()) or (
             ("a relation of letters alone, which may be asked of them",) if gains else ()) or standing.otherwise
         return f"false by itself; what may restrict it is for you to read: {'; '.join(doubts)}" if doubts else ""

@@ -24,6 +24,7 @@ from workbench.proof.latex.sides import letters_of_text
 from workbench.proof.latex.tree import Group, Letter, Line, Node, Product
 
 DEFINE = "Define "  # with this a fact begins that gives a letter a value
+GIVING = ("given", "defined", "bare")  # what of a display gives letters values or rates
 EVERYTHING = "*"  # stands for all letters, where a sentence without any may restrict them
 LONGEST = 220  # words of a sentence that is read; a longer one is left to the author
 _TIME = re.compile(r"(?:\\forall\s*)?t\s*(?:(?:\\geq?|\\geqslant|>)\s*(?:0|t_0|t_\{0\})|\\in\s*\[0,\s*\\infty\))?")
@@ -48,7 +49,7 @@ class Reading:
     shown: for each of its displays whether it is claimed, stated of what follows, given, defined, or supposed; bare
     where no word stands with it. facts: what it says of letters, as printed. tied: displays that it says of some values
     alone. restricted: the letters of what it supposes. letters: those of its formulas. unknown: the words that are
-    not understood.
+    not understood. beyond: where it shows and says nothing, those by which it may tell that something else acts.
     """
 
     shown: Mapping[int, str] = field(default_factory=dict)
@@ -57,6 +58,7 @@ class Reading:
     restricted: frozenset[str] = frozenset()
     letters: frozenset[str] = frozenset()
     unknown: tuple[str, ...] = ()
+    beyond: tuple[str, ...] = ()
 
 
 def read_sentence(sentence: Sentence, body: str, assuming: bool = False, given: Collection[str] = frozenset(),
@@ -110,7 +112,7 @@ def _whole(said: Reading, texts: Sequence[str], taken: Sequence[str], bound: Seq
            giving: Mapping[int, Collection[str]]) -> Reading:
     """What a sentence says; nothing where it speaks of a thing that is not understood, or gives a value or says a fact
     of a part of the motion alone. taken: its words but those that say what letters are; bound: its relations."""
-    given = {letter for number, form in said.shown.items() if form in ("given", "defined", "bare")
+    given = {letter for number, form in said.shown.items() if form in GIVING
              for letter in giving.get(number, ())} or {fact for fact in said.facts if fact.startswith(DEFINE)}
     if said.shown or given:
         odd = understood.not_understood(taken, not given, any(map(understood.is_marked, given))) or (
@@ -121,7 +123,7 @@ def _whole(said: Reading, texts: Sequence[str], taken: Sequence[str], bound: Seq
         return Reading(dict.fromkeys(said.shown, ""), letters=said.letters, unknown=tuple(odd))
     if understood.by_design(texts):
         said = replace(said, tied=said.tied | {*said.shown})
-    gives = {*said.shown.values()} & {"given", "defined", "bare"}
+    gives = {*said.shown.values()} & {*GIVING}
     phrase = narrowing.partial(texts) if gives else narrowing.begins_partial(texts) if said.facts else ()
     if not phrase:
         return said
@@ -144,7 +146,7 @@ def _said(words: Sequence[Word], found: Sequence[tuple[str, int, int]], body: st
                     said[int(word.text)] = outer if outer in ("stated", "given") and rule == "claimed" else rule
     laid = [word for rule, start, end in found if rule == "laid" for word in words[start:end] if word.kind == "display"]
     said |= {int(word.text): "bare" for word in laid}
-    defines = any(form in ("given", "defined", "bare") for form in said.values()) or not said
+    defines = any(form in GIVING for form in said.values()) or not said
     facts = [body[words[start].start:words[end - 1].end] if told.isdisjoint(range(start, end)) else " and ".join(
         body[word.start:word.end] for word in words[start:end] if word.kind == "math")
         for rule, start, end in found if rule == "inset" or (rule == "fact" and _is_taken(words[start:end], defines))]
@@ -287,11 +289,3 @@ def heading_unknown(words: Sequence[Word], marked: bool) -> tuple[str, ...]:
     texts = [word.text if word.kind == "word" else "" for word in words]
     return (*(word.text for word in words if word.kind in ("odd", "command", "cite")),
             *understood.heading_not_understood(texts, marked))
-
-
-def printed(sentence: Sentence, body: str) -> str:
-    """A sentence as it is printed, for telling which one it is; its displays left out."""
-    places = dict.fromkeys((word.start, word.end) for word in sentence.words if word.kind != "display")
-    pieces = (body[start:end] for start, end in places)
-    text = " ".join(" ".join(pieces).split())
-    return text if len(text) <= 80 else text[:77] + "..."

@@ -39,7 +39,8 @@ _GIVING = (vocabulary.DETERMINERS | (vocabulary.CONNECTIVES - _ORDINALS - {"agai
     use uses respectively moves move evolves according behaves basis based motivated denoting denotes denote denoted
     called say says following
 """)) - _words("average mean maximum minimum value mode modes estimated updated reduced simplified implemented used "
-               "posed bounded dominated majorized upper-bounded lower-bounded second first choice approach method each")
+               "posed their bounded dominated majorized upper-bounded lower-bounded second first choice approach "
+               "method each")
 # The same of what is claimed, of which nothing is taken.
 _CLAIMING = (_GIVING | vocabulary.CLAIMING | vocabulary.HELD | _ORDINALS | words.VERBS | words.QUALITIES | words.MATTERS
              | _words("if when whenever provided while assume suppose such exists true valid satisfied until every "
@@ -61,6 +62,8 @@ _OTHER = (vocabulary.GIVEN | vocabulary.MODIFIERS | things.HEADS | things.OF_THE
     vocabulary.TELLING - things.HEADS) - _words("smooth continuous differentiable known bounded available scalar real")
 _MARK = re.compile(r"\\(?:wide)?(?:hat|tilde|bar|check|breve)(?![A-Za-z])|_\{?[a-z]")
 _NAMING = things.HEADS | things.OF_THEM
+_OTHERS = _words("other another old new left right front rear inner outer same")
+_MODELS = _words("model models linear")  # what belongs to a model may be none of the plant's
 _PLACES = _words("on at over within before after behind beyond")  # what is said of such a place holds there alone
 _MOTIONS = _words("dynamics motion equation equations trajectories trajectory solutions solution")
 
@@ -134,6 +137,13 @@ def _misplaced(texts: Sequence[str], start: int, end: int, beside: bool) -> Iter
     elif place in ("of", "for", "along") and ((thing in moving.BESIDE | moving.FILTERS and owner not in _MOTIONS) or (
             thing in things.LAWS and owner in moving.PLANTS)):
         yield thing
+    elif place == "of" and _MODELS & {*texts[start:end]}:
+        yield from texts[start:end]
+
+
+def one_of_several(texts: Sequence[str]) -> tuple[str, ...]:
+    """The words by which one of several things is meant, as `second motor`; none where there are no such."""
+    return next((pair for pair in pairwise(texts) if pair[0] in _ORDINALS | _OTHERS and pair[1] in things.HEADS), ())
 
 
 def by_design(texts: Sequence[str]) -> bool:
