@@ -96,7 +96,8 @@ def left_to_the_author(row: RowEntry, verdict: str, standing: Standing | None, r
         untaken = sorted(standing.given & letters.keys())
         again = [f"what is said of {one}: {told or 'it is given twice'}" for one, told in standing.contested.items()]
         doubts = standing.doubts or natural or again or (
-            (f"what is given for {', '.join(untaken)}",) if untaken else ()) or (("what its sentence gives is no definition",) if given else ()) or (
+            (f"what is given for {', '.join(untaken)}",) if untaken else ()) or (
+            ("what its sentence gives is no definition",) if given else ()) or (
             (f"what is said of the sign of {', '.join(unsigned)}",) if unsigned else ()) or (
             ("a relation of letters alone, which may be asked of them",) if gains else ()) or standing.otherwise
         return f"false by itself; what may restrict it is for you to read: {'; '.join(doubts)}" if doubts else ""
