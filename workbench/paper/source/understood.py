@@ -60,6 +60,7 @@ _TURNS = _words("""
 _OTHER = (vocabulary.GIVEN | vocabulary.MODIFIERS | things.HEADS | things.OF_THEM | _ORDINALS) - vocabulary.TEXT - (
     vocabulary.TELLING - things.HEADS) - _words("smooth continuous differentiable known bounded available scalar real")
 _MARK = re.compile(r"\\(?:wide)?(?:hat|tilde|bar|check|breve)(?![A-Za-z])|_\{?[a-z]")
+_CHOSEN = _words("design assumption construction choice hypothesis")
 _ENSURES = _words("guarantee guarantees guaranteed ensure ensures ensured")
 _NAMING = things.HEADS | things.OF_THEM
 _PLACES = _words("on at over within before after behind beyond")  # what is said of such a place holds there alone
@@ -139,8 +140,7 @@ def _misplaced(texts: Sequence[str], start: int, end: int, beside: bool) -> Iter
 
 def by_design(texts: Sequence[str]) -> bool:
     """Whether a sentence says that something holds by what is chosen or assumed, and so maybe for some values alone."""
-    return bool(_ENSURES & {*texts}) or any(one == "by" and two in ("design", "assumption", "construction", "choice", "hypothesis")
-               for one, two in pairwise(texts))
+    return bool(_ENSURES & {*texts}) or any(one == "by" and two in _CHOSEN for one, two in pairwise(texts))
 
 
 def changed_by(texts: Sequence[str]) -> tuple[str, ...]:
