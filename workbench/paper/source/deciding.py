@@ -74,7 +74,7 @@ def given_otherwise(rows: list[RowEntry], verdicts: Mapping[str, str],
              and verdicts.get(row.id) not in ("proved", "assumed")]
     refuted = [(row, form) for row, form in again if verdicts.get(row.id) == "refuted"]
     given = [part for row, form in refuted for number, part in enumerate(values_and_rates(text_of(row)))
-             if form == "given" or (form == "bare" and number == 0)]
+             if form == "given" or (form in ("bare", "stated") and number == 0)]
     moved = [rated_in(text_of(row)) for row, form in again if form == "given"]
     return frozenset(letter for part in (*given, *moved) for letter in part)
 

@@ -61,6 +61,8 @@ _TURNS = _words("""
 _OTHER = (vocabulary.GIVEN | vocabulary.MODIFIERS | things.HEADS | things.OF_THEM | _ORDINALS) - vocabulary.TEXT - (
     vocabulary.TELLING - things.HEADS) - _words("smooth continuous differentiable known bounded available scalar real")
 _MARK = re.compile(r"\\(?:wide)?(?:hat|tilde|bar|check|breve)(?![A-Za-z])|_\{?[a-z]")
+_CHOSEN = _words("design assumption construction choice hypothesis")
+_ENSURES = _words("guarantee guarantees guaranteed ensure ensures ensured")
 _NAMING = things.HEADS | things.OF_THEM
 _OTHERS = _words("other another old new left right front rear inner outer same")
 _MODELS = _words("model models linear")  # what belongs to a model may be none of the plant's
@@ -147,9 +149,8 @@ def one_of_several(texts: Sequence[str]) -> tuple[str, ...]:
 
 
 def by_design(texts: Sequence[str]) -> bool:
-    """Whether a sentence says that something holds by what is chosen or assumed, and so for some values alone."""
-    return any(one == "by" and two in ("design", "assumption", "construction", "choice", "hypothesis")
-               for one, two in pairwise(texts))
+    """Whether a sentence says that something holds by what is chosen or assumed, and so maybe for some values alone."""
+    return bool(_ENSURES & {*texts}) or any(one == "by" and two in _CHOSEN for one, two in pairwise(texts))
 
 
 def changed_by(texts: Sequence[str]) -> tuple[str, ...]:
