@@ -72,5 +72,5 @@ def untold(words: Sequence[Word]) -> tuple[str, ...]:
 
 def of_a_motion(words: Sequence[Word]) -> bool:
     """Whether a sentence claims something of a thing that moves, which may hold along its motion alone."""
-    texts = {word.text for word in words}
+    texts = {word.text for word in words if word.kind == "word"}
     return bool(texts & _MOVING) and not texts & _DEDUCING
