@@ -340,7 +340,7 @@ def test_a_formula_without_a_number_defines_only_what_nothing_else_does(tmp_path
         \begin{proof} \[ W = y \] \end{proof} \begin{align*} U &= x^2 \\ & + 1, \\ U &\ge 1, \\ U &> y \end{align*}""")
     found = write_from_source("p2029", tmp_path, tmp_path / "s.tex")
     assert {row.id: (row.role, row.printed) for row in rows_of(found.folder).values()} == {
-        "display1": ("claim", "V = x^4"), "1": ("definition", "V = x^2"), "display2": ("claim", "W = y"),
+        "display1": ("words", "V = x^4"), "1": ("definition", "V = x^2"), "display2": ("claim", "W = y"),
         "display3": ("definition", "U = x^2 + 1"), "display4": ("claim", r"U \ge 1"), "display5": ("claim", "U > y")}
     assert (found.verdicts["display4"], found.verdicts["display5"]) == ("proved", "refuted")
 

@@ -24,7 +24,7 @@ def test_what_may_mean_something_else_is_not_proved(tmp_path):
     claimed = [text for text in UNPROVED if not left(text, "proved")]
     assert not [text for number, text in enumerate(claimed)
                 if verdict(tmp_path / str(number), "notes", text) == "proved"]
-    assert len(claimed) < 4  # of which another line says that they give a rate twice
+    assert len(claimed) < 6  # of which another line says that they give a rate twice, or the plant is not understood
 
 
 @pytest.mark.parametrize("text", UNREFUTED)

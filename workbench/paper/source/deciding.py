@@ -9,8 +9,11 @@ from workbench.paper.source.document import Source
 from workbench.paper.source.letters import defined_in_text, said_of, values_and_rates
 from workbench.paper.source.row import Row
 from workbench.paper.source.shown import Standing
+from workbench.proof.latex.error import LatexError
+from workbench.proof.latex.read import read_line
 from workbench.proof.latex.rows import LetterEntry, RowEntry, text_of
 from workbench.proof.latex.sides import letters_of_text, moving_sides, rated_in, sides_of
+from workbench.proof.latex.tree import Letter, Number, Product, Quotient, Terms, parts_of
 
 
 def standings(made: list[tuple[Row, RowEntry]], found: Source, facts: str) -> dict[str, Standing]:
@@ -71,7 +74,7 @@ def given_otherwise(rows: list[RowEntry], verdicts: Mapping[str, str],
              and verdicts.get(row.id) not in ("proved", "assumed")]
     refuted = [(row, form) for row, form in again if verdicts.get(row.id) == "refuted"]
     given = [part for row, form in refuted for number, part in enumerate(values_and_rates(text_of(row)))
-             if form == "given" or (form == "bare" and number == 0)]
+             if form == "given" or (form in ("bare", "stated") and number == 0)]
     moved = [rated_in(text_of(row)) for row, form in again if form == "given"]
     return frozenset(letter for part in (*given, *moved) for letter in part)
 
@@ -86,9 +89,17 @@ def left_to_the_author(row: RowEntry, verdict: str, standing: Standing | None, r
         unsigned = sorted(one for one in standing.signed if one in letters and letters[one].kind in ("", "real"))
         own = letters_of_text(text_of(row))
         gains = bool(own) and all(one in letters and letters[one].role == "constant" for one in own)
-        doubts = standing.doubts or (("what its sentence gives is no definition",) if given else ()) or (
+        valued = {letter for one in rows if one.role == "definition" for letter in dict(sides_of(text_of(one)))}
+        gains = gains or (not own & valued and relates_letters_alone(text_of(row)))
+        natural = [standing.natural[one] for one in own & standing.natural.keys()
+                   if one in letters and letters[one].kind in ("", "real")]
+        untaken = sorted(standing.given & letters.keys())
+        again = [f"what is said of {one}: {told or 'it is given twice'}" for one, told in standing.contested.items()]
+        doubts = standing.doubts or natural or again or (
+            (f"what is given for {', '.join(untaken)}",) if untaken else ()) or (
+            ("what its sentence gives is no definition",) if given else ()) or (
             (f"what is said of the sign of {', '.join(unsigned)}",) if unsigned else ()) or (
-            ("a relation of constants alone, which may be asked of them",) if gains else ()) or standing.otherwise
+            ("a relation of letters alone, which may be asked of them",) if gains else ()) or standing.otherwise
         return f"false by itself; what may restrict it is for you to read: {'; '.join(doubts)}" if doubts else ""
     if standing.otherwise:
         return f"what is said elsewhere may change what it means: {'; '.join(standing.otherwise)}"
@@ -101,6 +112,19 @@ def left_to_the_author(row: RowEntry, verdict: str, standing: Standing | None, r
     used = sorted(({*standing.contested} | (otherwise & standing.letters)) & known)
     told = "; ".join(dict.fromkeys(standing.contested.get(one) or "it is given twice" for one in used))
     return f"what is not understood may say otherwise of {', '.join(used)}: {told}" if used else ""
+
+
+def relates_letters_alone(text: str) -> bool:
+    """Whether a line relates letters, their sums and multiples alone, as a condition on them does, `x = y`."""
+    try:
+        sides = [side for chain in read_line(text).chains for side in chain.sides]
+    except LatexError:
+        return False
+    parts = [part for side in sides for part in parts_of(side)]
+    return all(isinstance(part, (Letter, Number, Terms)) or (
+        isinstance(part, (Product, Quotient)) and len([one for one in parts_of(part) if isinstance(one, Letter)]) < 2)
+        for part in parts) and not any("dot" in accent for part in parts if isinstance(part, Letter)
+                                       for accent in part.accents)
 
 
 def left_out(why: str) -> str:

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from workbench.paper.source.letters import values_and_rates
 from workbench.paper.source.lines import LABEL, TAG, WITHOUT_NUMBER, chained, cleaned, goes_on, lines_of, system_lines
 from workbench.paper.source.macros import SourceError, decided, expanded, group, optional, without_comments
+from workbench.paper.source.markdown import with_latex_headings
 from workbench.paper.source.passages import Display, passages
 from workbench.paper.source.pieces import require_plain
 from workbench.paper.source.row import Row, resolve
@@ -47,7 +48,7 @@ class Source:
 
 def read_source(text: str) -> Source:
     """The rows of a LaTeX source; raises SourceError in one line for what is not closed or has no rows."""
-    plain = _PARENTHESIS.sub("$", expanded(decided(without_comments(text))))
+    plain = _PARENTHESIS.sub("$", expanded(decided(without_comments(with_latex_headings(text)))))
     begin = plain.find(r"\begin{document}")
     preamble, body = (plain[:begin], plain[begin + 16:]) if begin >= 0 else (plain, plain)
     end = body.find(r"\end{document}")

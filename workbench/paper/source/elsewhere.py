@@ -18,9 +18,9 @@ from workbench.paper.source.conventions import (
     shows_rate,
     turns,
 )
-from workbench.paper.source.given import RATE, Gift
+from workbench.paper.source.given import RATE, Gift, letter_of
 from workbench.paper.source.passages import Sentence, Word
-from workbench.paper.source.reading import Reading
+from workbench.paper.source.reading import GIVING, Reading
 from workbench.proof.latex.sides import letters_of_text
 
 
@@ -42,7 +42,7 @@ def nouns_of_displays(sentences: Sequence[Sentence], readings: Sequence[Reading]
     """The sentences that give letters in displays, with the nouns by which a text may speak of those, and these."""
     found = []
     for at, (sentence, reading) in enumerate(zip(sentences, readings, strict=True)):
-        letters = frozenset(letter for number, form in reading.shown.items() if form in ("given", "defined", "bare")
+        letters = frozenset(letter for number, form in reading.shown.items() if form in GIVING
                             for letter in gives[number] if not letter.startswith(RATE))
         words = {word.text for word in sentence.words if word.kind == "word"}
         nouns = frozenset().union(*(alike for alike in _ALIKE if alike & words))
@@ -60,8 +60,10 @@ def said_elsewhere(sentences: Sequence[Sentence], readings: Sequence[Reading], g
     text calls by a label or number give; nouns: those by which it speaks of letters, as `nouns_of_displays` finds them.
     """
     rates = shows_rate(printed)
-    taken = {gift.letter.removeprefix(RATE).removesuffix("}") if gift.letter.startswith(RATE) else gift.letter
+    taken = {letter_of(gift.letter)
              for gift in gifts} & {*letters}
+    used = {gift.letter for gift in gifts if not gift.letter.startswith(RATE)} & {*letters} or (
+        rates and any(gift.letter.startswith(RATE) for gift in gifts))
     moved = min((gift.at for gift in gifts if gift.letter.startswith(RATE) and gift.form != "inline"
                  and gift.letter.removeprefix(RATE)[:-1] in letters), default=at) if rates else at
     since = min((moved, *(gift.at for gift in gifts if gift.letter in taken and not gift.letter.startswith(RATE))))
@@ -69,6 +71,8 @@ def said_elsewhere(sentences: Sequence[Sentence], readings: Sequence[Reading], g
         texts = [word.text for word in sentence.words if word.kind == "word"]
         if means_otherwise(texts, printed) or (moved < place < at and not said.shown and moves_otherwise(texts)):
             yield place
+        if said.beyond and used and since < place < at:
+            yield place  # it may tell that something else acts than was given
         if not said.unknown:
             continue
         formulas = [word.text for word in sentence.words if word.kind == "math"]

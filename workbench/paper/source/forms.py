@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import re
 
-from workbench.paper.source import vocabulary, words
+from workbench.paper.source import things, vocabulary, words
 from workbench.paper.source.phrases import Grammar
 
 DISPLAY, REFERENCE = "$$", "#"
@@ -67,7 +67,7 @@ part = DETERMINER? [MODIFIER | NOUN | NAME]* [NOUN | NAME | LETTERS | VALUE | RE
     REAL | <sure>]? REF? | both sides | this | these | REF [, REF]* [, ]? and REF | REF [to | -] REF
 derived = DETERMINER? FOLLOWING* DERIVED VALUES? [[of | for | along | to | with respect to | in | on] <part>]*
 # what is claimed
-saying = <claimed> | <concludes> | <stated> | <given> | <defines> | <named>
+saying = <claimed> | <stated> | <given> | <concludes> | <defines> | <named>
 claimed = <shown> <holds>?
 holds = [holds | hold | follows | follow] [true | as well | too]? [from <things> | by <things>]?
 shown = DISPLAY [[, | and | , and | ; | , that is ,? | or equivalently]? DISPLAY]*
@@ -93,7 +93,7 @@ stated = [whose | its]? <derived> <is> [, <quantified> ,]? :? <shown>
 given = [<subject> | it | they] <is> [, <quantified> ,]? :? <shown>
 subject = <subjects> [[, | and | , and | together with] <subjects>]*
 subjects = DETERMINER? [MODIFIER | NOUN | NAME]* [QUANTITY | LETTERS | VALUE | REF] [LETTERS | VALUE | <inset>]? REF?
-    [[of | for | along | with respect to | with] <part>]*
+    [[of | for | in | along | with respect to | with] <part>]*
 inset = REAL | SIGN
 is = ADVERB* [IS | [has | have | takes | take] the following? form | [is | are] ADVERB* MADE | can ADVERB* be ADVERB*
     MADE | is then | [was | were | been] MADE] <as>?
@@ -139,8 +139,9 @@ letter = LETTERS | REAL | SIGN | TIME
 sure = SIGN
 be = [is | are | be | being | denotes | denote | denoting | represents | represent | stands for | stand for | means |
     designates]
-kind = DETERMINER? [MODIFIER [but]? | NOUN]* NOUN [and DETERMINER? [MODIFIER | NOUN]* NOUN]* [[of | for | in | on |
-    to] <part>]* [to be [chosen | designed | determined | selected | tuned | estimated | tracked]]? [respectively]?
+kind = DETERMINER? [MODIFIER [but]? | NOUN]* NOUN [[, | and | , and] DETERMINER? [MODIFIER | NOUN]* NOUN]* [[of |
+    for | in | on | to] <part>]* [to be [chosen | designed | determined | selected | tuned | estimated | tracked]]?
+    [respectively]?
 adjectives = [[ADJECTIVE | MODIFIER] [, | and | but | , and]?]* [ADJECTIVE | MODIFIER]
 # what an assumption says
 assumes = <assumed> [[, | and | ; | , and] <assumed>]*
@@ -178,29 +179,30 @@ def _rules(text: str) -> dict[str, str]:
 
 
 ERROR = "error-signal"  # an error that is the difference of two signals
-NOUNS = (vocabulary.GIVEN | vocabulary.DERIVED | vocabulary.TEXT | {ERROR}) - {"error", "errors"}
+NOUNS = (vocabulary.GIVEN | vocabulary.DERIVED | vocabulary.TEXT | things.HEADS | {ERROR}) - {"error", "errors"}
+MODIFIERS = vocabulary.MODIFIERS | things.OF_THEM - NOUNS
 # A quantity that an author may give, and a noun that stands before a relation.
-QUANTITIES = (vocabulary.GIVEN | {ERROR}) - {"error", "errors"}
+QUANTITIES = (vocabulary.GIVEN | things.HEADS | {ERROR}) - {"error", "errors"}
 GRAMMAR = Grammar(_rules(_RULES), {
     **{name: frozenset(kinds) for name, kinds in KINDS.items()},
     "CONNECTIVE": vocabulary.CONNECTIVES, "HAVE": vocabulary.HAVE, "HAS": vocabulary.HAS, "SEEN": vocabulary.SEEN,
     "GIVES": vocabulary.GIVES, "IS": vocabulary.IS, "MADE": vocabulary.MADE, "DEFINE": vocabulary.DEFINE,
     "DEFINING": vocabulary.DEFINING, "AIM": vocabulary.AIM, "GERUND": vocabulary.GERUNDS, "NOUN": NOUNS,
-    "NAME": vocabulary.NAMES, "MODIFIER": vocabulary.MODIFIERS, "DETERMINER": vocabulary.DETERMINERS,
+    "NAME": vocabulary.NAMES, "MODIFIER": MODIFIERS, "DETERMINER": vocabulary.DETERMINERS,
     "DERIVED": vocabulary.DERIVED, "ADVERB": vocabulary.ADVERBS, "MANNER": vocabulary.MANNER,
     "STABLE": vocabulary.STABLE,
-    "ADJECTIVE": vocabulary.ADJECTIVES, "VALUENOUN": QUANTITIES | vocabulary.MODIFIERS, "QUANTITY": QUANTITIES,
-    "FOLLOWING": (NOUNS | vocabulary.NAMES | vocabulary.MODIFIERS) - vocabulary.WISHED}, KEPT)
+    "ADJECTIVE": vocabulary.ADJECTIVES, "VALUENOUN": QUANTITIES | MODIFIERS, "QUANTITY": QUANTITIES,
+    "FOLLOWING": (NOUNS | vocabulary.NAMES | MODIFIERS) - vocabulary.WISHED - things.LAWS}, KEPT)
 # Every word that a sentence of some form may have, for telling which ones were not understood.
-KNOWN = (NOUNS | vocabulary.NAMES | vocabulary.MODIFIERS | vocabulary.DETERMINERS | vocabulary.CONNECTIVES
+KNOWN = (NOUNS | vocabulary.NAMES | MODIFIERS | vocabulary.DETERMINERS | vocabulary.CONNECTIVES
          | vocabulary.HAVE | vocabulary.GIVES | vocabulary.IS | vocabulary.MADE | vocabulary.GERUNDS
          | vocabulary.ADJECTIVES | vocabulary.ADVERBS | vocabulary.MANNER | vocabulary.STABLE)
 _UNCLEAR = {"error", "errors"}
 PROSE = words.VERBS | words.QUALITIES | words.MATTERS
 # What a sentence without a displayed formula is made of, and what one that claims some in a form of its own.
-NEUTRAL = (NOUNS | vocabulary.NAMES | vocabulary.MODIFIERS | vocabulary.DETERMINERS | vocabulary.PLAIN
+NEUTRAL = (NOUNS | vocabulary.NAMES | MODIFIERS | vocabulary.DETERMINERS | vocabulary.PLAIN
            | vocabulary.TELLING | vocabulary.CLAIMING | PROSE | words.STORY) - _UNCLEAR
-LOOSE = (vocabulary.CLAIMING | NOUNS | vocabulary.NAMES | vocabulary.MODIFIERS | vocabulary.DETERMINERS
+LOOSE = (vocabulary.CLAIMING | NOUNS | vocabulary.NAMES | MODIFIERS | vocabulary.DETERMINERS
          | vocabulary.MADE | vocabulary.CONNECTIVES | vocabulary.GERUNDS | PROSE | {"let"}
          ) - vocabulary.WISHED - _UNCLEAR | {"given"}
 # Words by which a formula follows from what was said, so that it gives nothing.

@@ -42,6 +42,11 @@ def rate_of(letter: str) -> str:
     return f"{RATE}{letter}}}"
 
 
+def letter_of(name: str) -> str:
+    """A letter, of itself or of what its rate is called."""
+    return name.removeprefix(RATE).removesuffix("}") if name.startswith(RATE) else name
+
+
 def given_within(words: Sequence[Word]) -> Iterator[tuple[str, str]]:
     """The letters that formulas within a sentence give a value, and the rates, whatever its words say."""
     for place, word in enumerate(words):

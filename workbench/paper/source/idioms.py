@@ -17,12 +17,14 @@ _IDIOMS = tuple((tuple(frozenset(word.split("|")) for word in said.split()), pla
     (f"it should|must|may|can be {_NOTED} out that", "note that"),
     (f"it should|must|may be {_NOTED} that", "note that"),
     (f"it is worth {_WORTH} out that", "note that"), (f"it is worth {_WORTH} that", "note that"),
-    ("in what follows", "here"), ("at once", "immediately"), ("the claim follows", "it follows"), ("let's", "let us"),
+    ("in what follows", "here"), ("in the end", "finally"),
+    ("as desired|required|wished", "as stated"), ("at once", "immediately"), ("the claim follows", "it follows"),
+    ("let's", "let us"),
     ("we|one can", "$"), ("keep|bear in mind that", "note that"), ("after|by some", "$"), ("as can be", "as is"),
     ("some algebra|algebraic|calculation|calculations|manipulation|manipulations|simple|steps|computations", "simple"),
     ("terms of indefinite|unknown sign", "terms"),
     ("left with", "arrive at"), ("end up with", "arrive at"),
-    ("evolves|behaves according to", "satisfies"), ("leads to", "gives"), ("results in", "gives")))
+    ("evolves|behaves|moves according to", "satisfies"), ("leads to", "gives"), ("results in", "gives")))
 
 
 def plainly(words: Sequence[Word]) -> tuple[Word, ...]:

@@ -58,6 +58,14 @@ class Passages:
     titles: list[tuple[Word, ...]] = field(default_factory=list)
 
 
+def printed(sentence: Sentence, body: str) -> str:
+    """A sentence as it is printed, for telling which one it is; its displays left out."""
+    places = dict.fromkeys((word.start, word.end) for word in sentence.words if word.kind != "display")
+    pieces = (body[start:end] for start, end in places)
+    text = " ".join(" ".join(pieces).split())
+    return text if len(text) <= 80 else text[:77] + "..."
+
+
 def passages(body: str, displays: Sequence[Display], named: Collection[str]) -> Passages:
     """The sentences of a body whose displayed formulas are known.
 
@@ -222,6 +230,9 @@ class _Reader:
     def _item(self, found: re.Match[str], end: int) -> int:
         self.flush()
         self.broken = False
+        label = found["labelled"] or ""
+        if re.search("[A-Za-z]{3}", label):  # a name, and no number: `\\item[Leader]`
+            self.read(found.start("labelled"), found.end("labelled"))
         return found.end()
 
     def _aside(self, found: re.Match[str], end: int) -> int:

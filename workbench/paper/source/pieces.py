@@ -12,7 +12,7 @@ SKIPPED = ("verbatim", "lstlisting", "comment", "thebibliography", "tikzpicture"
 TABLES = ("tabular", "algorithm")  # their words are skipped; their formulas may say what values letters have
 PIECE = re.compile(r"""
     (?P<begin>\\begin\s*\{(?P<begun>[^{}]*)\}) | (?P<end>\\end\s*\{(?P<ended>[^{}]*)\})
-  | (?P<item>\\item(?![A-Za-z])(?:\s*\[[^\]]*\])?)
+  | (?P<item>\\item(?![A-Za-z])(?:\s*\[(?P<labelled>[^\]]*)\])?)
   | \\(?P<heading>part|chapter|(?:sub)*section|(?:sub)?paragraph)(?![A-Za-z])\*?
   | (?P<math>(?<![\\$])\$(?!\$)(?P<formula>.+?)(?<!\\)\$)
   | \(\s*\\ref\*?\s*\{(?P<bracketed>[^{}]*)\}\s*\)

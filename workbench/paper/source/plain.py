@@ -21,13 +21,6 @@ _NUMBERS = narrowing.words_of("""
     real reals number numbers scalar scalars constant constants gain gains parameter parameters coefficient coefficients
     integer integers
 """)
-# Of what is so called a formula holds for a part of the motion, or not at all.
-_NARROW = conventions.OTHER_PART | narrowing.words_of("""
-    fault fault-free toy wrong true false former average linear approximate crude fictitious hypothetical virtual
-    textbook myth claim conjecture steady static limit worst best initial final terminal local inner outer slow fast
-    fake dummy boundary condition conditions constraint constraints requirement objective goal target specification
-    guess hypothesis
-""")
 _BE = ("is", "are", "denotes", "denote", "represents", "represent", "stands", "being")
 _BETWEEN = re.compile(r"[\s=<>,;()\[\]|+]+|\\[a-z]*(?:le|ge|in|to|ne|frac|cdot)[a-z]*(?![A-Za-z])")
 
@@ -54,16 +47,11 @@ def exchanges(words: Sequence[Word], classes: Sequence[str]) -> bool:
     return bool(alone & within)
 
 
-def described(words: Sequence[Word], classes: Sequence[str],
-              giving: Collection[int]) -> tuple[tuple[str, ...], frozenset[int]]:
+def described(words: Sequence[Word], classes: Sequence[str]) -> tuple[tuple[str, ...], frozenset[int]]:
     """The classes with unknown words that only say what a letter stands for taken for nouns, as in `$u$ is the traction
-    force`, and their places: of such a description nothing else is taken than its formula. So are those that only say
-    what is given, as in `A DC motor obeys`; giving: the displays that give letters values or rates."""
+    force`, and their places: of such a description nothing else is taken than its formula."""
     found, places = list(classes), set()
-    gives = [place for place, word in enumerate(words) if word.kind == "display"][:1]
-    until = next((place for place, one in enumerate(classes) if one in vocabulary.IS), 0) if gives and (
-        int(words[gives[0]].text) in giving) and not _NARROW & {word.text for word in words[:gives[0]]} else 0
-    phrase = forms.NOUNS | vocabulary.MODIFIERS | vocabulary.DETERMINERS | {"of", "with"}
+    phrase = forms.NOUNS | forms.MODIFIERS | vocabulary.DETERMINERS | {"of", "with"}
     for place, (word, one) in enumerate(zip(words, classes, strict=True)):
         if word.kind != "word" or one in forms.KNOWN | forms.NEUTRAL | _UNFIT or not _FIT.fullmatch(one):
             continue
@@ -71,11 +59,9 @@ def described(words: Sequence[Word], classes: Sequence[str],
         while start and (found[start - 1] in phrase):
             start -= 1
         be = start - 1 - (found[start - 1:start] == ["for"])
-        letter = start < place and be > 0 and found[be] in _BE and found[be - 1] in (
-            forms.LETTERS, forms.REAL, forms.SIGN) and not (
-                found[be - 1] == forms.LETTERS and _NUMBERS & {*_phrase(found, start, phrase)})
-        subject = 0 < place < until and start == 0 and found[0] in vocabulary.DETERMINERS
-        if letter or subject:
+        if start < place and be > 0 and found[be] in _BE and found[be - 1] in (
+                forms.LETTERS, forms.REAL, forms.SIGN) and not (
+                    found[be - 1] == forms.LETTERS and _NUMBERS & {*_phrase(found, start, phrase)}):
             found[place] = "quantity"
             places.add(place)
     return tuple(found), frozenset(places)

@@ -8,11 +8,12 @@ from __future__ import annotations
 
 import re
 from collections.abc import Collection, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import lru_cache
 from itertools import pairwise
+from types import MappingProxyType
 
-from workbench.paper.source import forms, narrowing, vocabulary
+from workbench.paper.source import forms, narrowing, things, understood, vocabulary
 from workbench.paper.source.idioms import plainly
 from workbench.paper.source.letters import kinds_in, values_and_rates
 from workbench.paper.source.passages import Sentence, Word
@@ -22,6 +23,8 @@ from workbench.proof.latex.read import read_line
 from workbench.proof.latex.sides import letters_of_text
 from workbench.proof.latex.tree import Group, Letter, Line, Node, Product
 
+DEFINE = "Define "  # with this a fact begins that gives a letter a value
+GIVING = ("given", "defined", "bare")  # what of a display gives letters values or rates
 EVERYTHING = "*"  # stands for all letters, where a sentence without any may restrict them
 LONGEST = 220  # words of a sentence that is read; a longer one is left to the author
 _TIME = re.compile(r"(?:\\forall\s*)?t\s*(?:(?:\\geq?|\\geqslant|>)\s*(?:0|t_0|t_\{0\})|\\in\s*\[0,\s*\\infty\))?")
@@ -32,6 +35,10 @@ _RELATED = re.compile(r"[=<>]|\\(?:leq?|geq?|leqslant|geqslant|in|notin|neq?|ll|
                       r"(?![A-Za-z])")
 # A value behind one of these is that of what it names: `the analysis is based on the function ...`.
 _CHOSEN = {"function", "functional", "candidate", "law", "controller", "observer", "filter", "surface"}
+_POINTING = {"it", "this", "they", "these", "them", "that"}
+# Whose letters are not the plant's.
+_STRANGERS = {"leader", "leaders", "follower", "followers", "agent", "agents", "neighbour", "neighbor", "node", "nodes",
+              "competitor", "baseline", "benchmark"}
 _REACHES = {"arrive", "arrives", "arrived", "result", "results", "resulting", "left"}  # ... at a formula, with it
 
 
@@ -42,7 +49,7 @@ class Reading:
     shown: for each of its displays whether it is claimed, stated of what follows, given, defined, or supposed; bare
     where no word stands with it. facts: what it says of letters, as printed. tied: displays that it says of some values
     alone. restricted: the letters of what it supposes. letters: those of its formulas. unknown: the words that are
-    not understood.
+    not understood. beyond: where it shows and says nothing, those by which it may tell that something else acts.
     """
 
     shown: Mapping[int, str] = field(default_factory=dict)
@@ -51,12 +58,13 @@ class Reading:
     restricted: frozenset[str] = frozenset()
     letters: frozenset[str] = frozenset()
     unknown: tuple[str, ...] = ()
+    beyond: tuple[str, ...] = ()
 
 
-def read_sentence(sentence: Sentence, body: str, assuming: bool = False,
-                  given: Collection[str] = frozenset(), giving: Collection[int] = frozenset()) -> Reading:
+def read_sentence(sentence: Sentence, body: str, assuming: bool = False, given: Collection[str] = frozenset(),
+                  giving: Mapping[int, Collection[str]] = MappingProxyType({})) -> Reading:
     """What a sentence says, if it is understood; assuming: that it stands in the text of an assumption; given: the
-    letters that the text gives values; giving: the displays that give some."""
+    letters that the text gives values; giving: the displays that give some, with the letters."""
     words = plainly(sentence.words)
     asks = words[-1].text == "?"
     while words and words[-1].kind == "mark" and words[-1].text in ".!;,":
@@ -75,7 +83,7 @@ def read_sentence(sentence: Sentence, body: str, assuming: bool = False,
     found = _matched(rule, tuple(classes)) if len(words) <= LONGEST and not asks else None
     told: frozenset[int] = frozenset()  # places of words that say what a letter stands for
     if found is None and len(words) <= LONGEST and not asks:
-        opened, told = described(words, classes, giving)
+        opened, told = described(words, classes)
         found = _matched(rule, opened) if told else None
     if found is None and not shown and not asks and neutral(classes) and not exchanges(words, classes):
         return _neutrally(texts, letters, revalued(words, classes, texts, given))
@@ -85,7 +93,9 @@ def read_sentence(sentence: Sentence, body: str, assuming: bool = False,
         return Reading(dict.fromkeys(shown, ""), letters=letters, unknown=_unknown(words, classes))
     else:
         said = _said(words, found, body, letters, told)
-    return _whole(said, texts)
+    taken = {*range(len(texts))}.difference(*(range(start, end) for rule, start, end in found or () if rule == "fact"))
+    bound = [words[at].text for at in sorted(taken) if classes[at] in (forms.SIGN, forms.RELATION)]
+    return _whole(said, texts, [text if at in taken else "" for at, text in enumerate(texts)], bound, giving)
 
 
 def _neutrally(texts: Sequence[str], letters: frozenset[str], values: tuple[str, ...]) -> Reading:
@@ -94,13 +104,26 @@ def _neutrally(texts: Sequence[str], letters: frozenset[str], values: tuple[str,
     restricted = letters if narrowing.SIGNED & {*texts} else frozenset()
     if not letters and narrowing.LIMITING & {*texts}:
         restricted = frozenset((EVERYTHING,))
-    return Reading(letters=letters, restricted=restricted,
-                   unknown=values or narrowing.changing(texts) if letters or {*texts} & {"it", "this", "input"} else ())
+    changing = narrowing.changing(texts) if letters or {*texts} & (things.HEADS | _POINTING) else ()
+    return Reading(letters=letters, restricted=restricted, unknown=values or changing or understood.changed_by(texts))
 
 
-def _whole(said: Reading, texts: Sequence[str]) -> Reading:
-    """What a sentence says; nothing where it gives a value or says a fact of a part of the motion alone."""
-    gives = {*said.shown.values()} & {"given", "defined", "bare"}
+def _whole(said: Reading, texts: Sequence[str], taken: Sequence[str], bound: Sequence[str],
+           giving: Mapping[int, Collection[str]]) -> Reading:
+    """What a sentence says; nothing where it speaks of a thing that is not understood, or gives a value or says a fact
+    of a part of the motion alone. taken: its words but those that say what letters are; bound: its relations."""
+    given = {letter for number, form in said.shown.items() if form in GIVING
+             for letter in giving.get(number, ())} or {fact for fact in said.facts if fact.startswith(DEFINE)}
+    if said.shown or given:
+        odd = understood.not_understood(taken, not given, any(map(understood.is_marked, given))) or (
+            (*bound, *(_STRANGERS & {*texts})) if given else ())
+    else:
+        odd = () if any("$" in fact for fact in said.facts) else understood.changed_by(texts)
+    if odd:
+        return Reading(dict.fromkeys(said.shown, ""), letters=said.letters, unknown=tuple(odd))
+    if understood.by_design(texts):
+        said = replace(said, tied=said.tied | {*said.shown})
+    gives = {*said.shown.values()} & {*GIVING}
     phrase = narrowing.partial(texts) if gives else narrowing.begins_partial(texts) if said.facts else ()
     if not phrase:
         return said
@@ -123,11 +146,11 @@ def _said(words: Sequence[Word], found: Sequence[tuple[str, int, int]], body: st
                     said[int(word.text)] = outer if outer in ("stated", "given") and rule == "claimed" else rule
     laid = [word for rule, start, end in found if rule == "laid" for word in words[start:end] if word.kind == "display"]
     said |= {int(word.text): "bare" for word in laid}
-    defines = any(form in ("given", "defined", "bare") for form in said.values()) or not said
+    defines = any(form in GIVING for form in said.values()) or not said
     facts = [body[words[start].start:words[end - 1].end] if told.isdisjoint(range(start, end)) else " and ".join(
         body[word.start:word.end] for word in words[start:end] if word.kind == "math")
         for rule, start, end in found if rule == "inset" or (rule == "fact" and _is_taken(words[start:end], defines))]
-    facts += [f"Define {body[words[start].start:words[end - 1].end]}" for rule, start, end in found if rule == "value"]
+    facts += [f"{DEFINE}{body[words[start].start:words[end - 1].end]}" for rule, start, end in found if rule == "value"]
     if laid and not any(re.search(r"[A-Za-z]{3}|\\in", fact.split("$")[0]) or r"\in" in fact for fact in facts):
         return Reading(said, (), frozenset(said), frozenset(), letters)  # with $z > 0$ alone, of such a z
     restricted = {letter for rule, start, end in found if rule in ("held", "then", "supposed", "unsigned", "judged")
@@ -185,7 +208,7 @@ def _word_class(text: str, before: str, behind: Word | None) -> str:
         return forms.ERROR if signal else text
     parts = text.split("-")
     if len(parts) > 1 and text not in forms.KNOWN and all(
-            part in vocabulary.MODIFIERS or part in forms.NOUNS for part in parts):
+            part in forms.MODIFIERS or part in forms.NOUNS for part in parts):
         return parts[-1]
     return text
 
@@ -260,16 +283,9 @@ def _unknown(words: Sequence[Word], classes: Sequence[str]) -> tuple[str, ...]:
     return tuple(dict.fromkeys(odd)) or tuple(word.text for word in words if word.kind == "word")
 
 
-def heading_unknown(words: Sequence[Word]) -> tuple[str, ...]:
-    """The words of a heading that are not understood; none where all are."""
-    known = forms.KNOWN | forms.NEUTRAL
-    return tuple(word.text for word, one in zip(words, classes_of(words), strict=True)
-                 if word.kind in ("word", "odd", "command", "cite") and one not in known)
-
-
-def printed(sentence: Sentence, body: str) -> str:
-    """A sentence as it is printed, for telling which one it is; its displays left out."""
-    places = dict.fromkeys((word.start, word.end) for word in sentence.words if word.kind != "display")
-    pieces = (body[start:end] for start, end in places)
-    text = " ".join(" ".join(pieces).split())
-    return text if len(text) <= 80 else text[:77] + "..."
+def heading_unknown(words: Sequence[Word], marked: bool) -> tuple[str, ...]:
+    """The words of a heading that are not understood; none where all are. marked: whether what it stands over bears a
+    mark, as what moves beside the plant does."""
+    texts = [word.text if word.kind == "word" else "" for word in words]
+    return (*(word.text for word in words if word.kind in ("odd", "command", "cite")),
+            *understood.heading_not_understood(texts, marked))

@@ -30,10 +30,17 @@ def with_roles(rows: list[RowEntry], standing: Mapping[str, Standing], shown: Ma
     def remark(row: RowEntry) -> bool:
         return row.id in shown and shown[row.id].remark
 
-    given = {letter for row in rows if row.role == "claim" and row.id not in unnumbered and gives(row)
-             for part in values_and_rates(text_of(row)) for letter in part}
+    given: set[str] = set()
+    before: set[str] = set()  # letters that a line without a number moves: a later rate of theirs is claimed
+    for row in rows:
+        values, rates = values_and_rates(text_of(row)) if row.role == "claim" and gives(row) else ({}, {})
+        if row.id not in unnumbered:
+            given |= {*values, *rates} - before
+        elif row.id in standing and standing[row.id].form != "bare" and not aside(row):
+            before |= {*rates}
     defined: set[str] = set()
     moved: set[str] = set()
+    hidden: set[str] = set()  # letters moved by lines that are not understood: a later rate may follow from those
     found = []
     given_values: set[str] = set()
     states: set[str] = set()
@@ -52,8 +59,10 @@ def with_roles(rows: list[RowEntry], standing: Mapping[str, Standing], shown: Ma
             if values and not set(values) & (defined | states):
                 role = "definition"
                 defined |= set(values)
-            elif rates and not aside(row) and set(rates) <= states - moved:
+            elif rates and not aside(row) and set(rates) <= states - moved - hidden:
                 role = "dynamics"
                 moved |= set(rates)
+        if row.id in standing and standing[row.id].unread:
+            hidden |= {letter for letter, _ in moving_sides(text_of(row))}
         found.append(row.model_copy(update={"role": role}))
     return found

@@ -15,7 +15,9 @@ class Standing:
     its letters. contested: of its letters those of which something is said there that is not understood, each with that
     sentence, empty where the text gives it twice; signed: those
     of which a sign is said. tied: whether it is said of some values alone. letters: those that it is made of.
-    otherwise: what is said elsewhere by which it may mean something else, so that it is not proved.
+    otherwise: what is said elsewhere by which it may mean something else, so that it is not proved. given: of its
+    letters those that get a value somewhere; natural: those that may have a sign by what they are called, each with
+    the sentence that does so.
     """
 
     form: str
@@ -27,6 +29,8 @@ class Standing:
     tied: bool = False
     letters: frozenset[str] = frozenset()
     otherwise: tuple[str, ...] = ()
+    given: frozenset[str] = frozenset()
+    natural: Mapping[str, str] = field(default_factory=dict)
 
 
 @dataclass(frozen=True)

@@ -2,102 +2,34 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
+from collections.abc import Collection, Iterator, Mapping
 
+from workbench.paper.source.calling import recalled
 from workbench.paper.source.conventions import of_another, shows_rate
-from workbench.paper.source.elsewhere import any_numbers, denoted_in_part, drops, nouns_of_displays, said_elsewhere
-from workbench.paper.source.forms import NOUNS
-from workbench.paper.source.given import RATE, Gift, given_twice, given_within
+from workbench.paper.source.elsewhere import any_numbers, denoted_in_part, said_elsewhere
+from workbench.paper.source.given import RATE, Gift, given_twice
+from workbench.paper.source.leading import near, points
 from workbench.paper.source.letters import letters_said, says_sign, signed_by_words
+from workbench.paper.source.naming import signed_by_nature, two_names
 from workbench.paper.source.narrowing import background, restricts
-from workbench.paper.source.passages import Passages, Sentence
-from workbench.paper.source.reading import EVERYTHING, Reading, heading_unknown, printed, read_sentence
-from workbench.paper.source.shown import Shown, Standing
-from workbench.paper.source.vocabulary import DERIVED, POINTERS, TEXT
+from workbench.paper.source.passages import Sentence
+from workbench.paper.source.reading import EVERYTHING, GIVING, Reading, heading_unknown
+from workbench.paper.source.said import BEHIND, SaidText, quoted
+from workbench.paper.source.shown import Standing
+from workbench.paper.source.telling import of_a_motion
+from workbench.paper.source.understood import is_marked
+from workbench.proof.latex.sides import letters_of_text
 
-LOCAL = ("theorem", "lemma", "proposition", "corollary", "remark", "example", "proof", "note", "claim", "property",
-         "fact", "problem")
-# Words by which a sentence may speak of what stands before it: pronouns and the names of formulas.
-POINTING = POINTERS | DERIVED | TEXT
-BEHIND = 2  # paragraphs behind a statement that may go on with what it supposes
-SHORT = 5  # words of a sentence that speaks of what stands before it, whatever they are
 ASIDE = {"remark", "note", "definition", "assumption"}  # environments that may speak of what stands around them
 # Nouns and adjectives by which a letter that had a sign is said to be something else.
 OTHERWISE = {"real", "number", "numbers", "scalar", "scalars", "function", "functions", "variable", "variables",
              "signal", "signals", "timevarying", "state", "input", "disturbance", "output", "vector", "matrix"}
 VARYING = {"function", "functions", "variable", "variables", "signal", "signals", "timevarying", "time"}
-# Words of an assumption's title beside those that are understood.
-TITLES = {"matching", "condition", "conditions", "persistence", "excitation", "growth", "smoothness", "sector",
-          "existence", "controllability", "observability", "detectability", "stabilizability", "regularity",
-          "minimum-phase"}
-DIGITAL = ("discrete-time", "digital", "on-board")  # headings with these are understood
 ALL = ("all", "every", "each", "any", "throughout", "everywhere", "always", "both", "paper", "none", "no", "never")
 
 
-@dataclass
-class Text:
-    """The sentences of a source with what each says, and the environments in which they stand.
-
-    whats: what each environment is called, by its name; assuming: those whose text is taken as it is; formulas: what
-    each display says.
-    """
-
-    body: str
-    passages: Passages
-    whats: Mapping[str, str]
-    assuming: Collection[str]
-    formulas: Mapping[int, Shown]
-    readings: list[Reading] = field(init=False)
-    shown: dict[int, int] = field(init=False)
-    gifts: tuple[Gift, ...] = field(init=False)
-    spoken_of: list[tuple[int, frozenset[str], frozenset[str]]] = field(init=False)
-
-    def __post_init__(self) -> None:
-        given = frozenset(letter for shown in self.formulas.values() for letter in shown.gives) | {
-            letter for one in self.passages.sentences for letter, _ in given_within(one.words)}
-        giving = frozenset(number for number, shown in self.formulas.items() if shown.gives)
-        self.readings = [read_sentence(one, self.body, self._assumes(one), given, giving)
-                         for one in self.passages.sentences]
-        self.shown = {number: at for at, one in enumerate(self.readings) for number in one.shown}
-        self.gifts = (*self._gifts(),)
-        self.spoken_of = nouns_of_displays(self.passages.sentences, self.readings, {
-            number: [*shown.gives] for number, shown in self.formulas.items()})
-
-    def _names(self, sentence: Sentence) -> list[str]:
-        return [self.passages.scopes[scope] for scope in sentence.place.scopes]
-
-    def _assumes(self, sentence: Sentence) -> bool:
-        return any(name.removesuffix("*") in self.assuming for name in self._names(sentence))
-
-    def local(self, sentence: Sentence) -> bool:
-        """Whether what a sentence says of letters is said for its own environment alone."""
-        return sentence.aside or any(
-            name.startswith("?") or self._what(name) in LOCAL for name in self._names(sentence))
-
-    def _what(self, name: str) -> str:
-        """The noun by which an environment is called, from its name."""
-        return self.whats.get(name.removesuffix("*"), "proof").lower().split()[-1]
-
-    def facts(self) -> str:
-        """What the whole text says of letters, for the whole paper."""
-        return "\n\n".join(f"{fact}." for sentence, reading in zip(self.passages.sentences, self.readings, strict=True)
-                           if not self.local(sentence) for fact in reading.facts)
-
-    def understood(self, start: int, end: int) -> bool:
-        """Whether all sentences between two places of the body are, and the titles of their environments."""
-        return not any(reading.unknown or self._titled(sentence) for sentence, reading in
-                       zip(self.passages.sentences, self.readings, strict=True)
-                       if start <= sentence.words[0].start < end)
-
-    def kept(self, labels: Collection[str], number: str) -> bool:
-        """Whether no sentence that is not understood may take back an assumption."""
-        return not any(said.unknown and drops(sentence, labels, number) for sentence, said in
-                       zip(self.passages.sentences, self.readings, strict=True))
-
-    def _titled(self, sentence: Sentence) -> bool:
-        """Whether an environment in which a sentence stands has a title that is not understood."""
-        return any({*heading_unknown(self.passages.titles[scope])} - TITLES for scope in sentence.place.scopes)
+class Text(SaidText):
+    """The sentences of a source, of which each of its displays is judged."""
 
     def standing(self, display: int, letters: Collection[str], names: Collection[str],
                  nouns: Mapping[str, Mapping[str, int]], facts: Mapping[str, str],
@@ -114,25 +46,26 @@ class Text:
         contested: dict[str, str] = {}  # each letter with the sentence that says something of it
         signed: set[str] = set()
         for before, (other, said) in enumerate(zip(self.passages.sentences, self.readings, strict=True)):
-            near = _near(other, sentence)
+            beside = near(other, sentence)
             aside = other.aside or (said.unknown and {self._what(name) for name in self._names(other)} <= ASIDE)
             untold = self._assumes(other) and self._titled(other)
             behind = said.unknown and 0 < other.place.paragraphs[0] - sentence.place.paragraphs[-1] <= BEHIND
             if behind and not said.letters and restricts([word.text for word in other.words], ()):
                 doubts.append(self._told(before))
-            if not (before < at or near) or not (aside or untold or self._holds_at(other, sentence)):
+            if not (before < at or beside) or not (aside or untold or self._holds_at(other, sentence)):
                 continue
             words = {word.text for word in other.words if word.kind == "word"}
             hidden = frozenset(letter for one in said.shown if said.unknown for letter in self.formulas[one].letters)
             spoken = said.letters | hidden | {letter for word in words for letter, first in nouns.get(word, {}).items()
                                               if first <= before}
+            if said.beyond and not self._background(other):
+                doubts.append(self._told(before))
             if said.unknown:
                 contested = dict.fromkeys(spoken, self._told(before)) | contested
                 section = other.place.headings[:1] == sentence.place.headings[:1]
-                heading = [word.text for one in other.place.headings for word in self.passages.headings[one]]
-                heading += ["abstract"] if other.words[0].start < self.body.find(r"\end{abstract}") else []
+                heading = self._heading(other)
                 everywhere = words & {*ALL} and not background(heading)
-                if spoken & {*letters} or everywhere or near or (not said.letters and (
+                if spoken & {*letters} or everywhere or beside or (not said.letters and (
                         section or restricts([*words], heading))):
                     doubts.append(self._told(before))
             differs = self._differs(said, facts) if self.local(other) else set()
@@ -142,6 +75,17 @@ class Text:
             signed |= {letter for fact in said.facts for letter in signed_by_words(fact)}
             if (said.restricted | supposed | differs) & {*letters} or EVERYTHING in said.restricted:
                 doubts.append(self._told(before))
+        doubts += [self._told(place) for place in self._valued(letters)]
+        last = self.readings[at - 1] if at else reading
+        if not last.shown and not last.facts and of_a_motion(self.passages.sentences[at - 1].words):
+            doubts.append(self._told(at - 1))  # the loop is stable, hence some number is negative
+        named = {letter: self.called.get(letter, []) for letter in letters}
+        natural = {letter: self._told(place) for letter, one in named.items() for place, name in one
+                   if signed_by_nature(name)}
+        given = frozenset(gift.letter for gift in self.gifts) & {*letters}
+        contested |= {letter: self._told(named[letter][-1][0]) for letter in given
+                      if two_names([name for _, name in named[letter]])}
+        contested |= {letter: self._told(place) for letter, place in self.renamed.items() if letter in letters}
         contested = dict.fromkeys(self._anew(at), "") | contested
         if display in reading.tied:
             doubts.append(self._told(at))
@@ -149,7 +93,7 @@ class Text:
         return Standing(reading.shown[display], tuple(dict.fromkeys(self._unread(at))),
                         tuple(dict.fromkeys(self._named(names))), tuple(dict.fromkeys(doubts)),
                         own, frozenset(signed & {*letters}), display in reading.tied,
-                        frozenset(letters), tuple(self._elsewhere(display, letters, called)))
+                        frozenset(letters), tuple(self._elsewhere(display, letters, called)), given, natural)
 
     def _elsewhere(self, display: int, letters: Collection[str],
                    called: Mapping[str, Collection[str]]) -> Iterator[str]:
@@ -164,6 +108,8 @@ class Text:
         for place in said_elsewhere(self.passages.sentences, self.readings, self.gifts, self.shown[display], letters,
                                     f"{self.formulas[display].printed} {values}", called, self.spoken_of):
             other = self.passages.sentences[place]
+            if self.readings[place].beyond and self._background(other):
+                continue
             if other.aside or not self.local(other) or self._holds_at(other, sentence):
                 yield self._told(place)
 
@@ -180,7 +126,8 @@ class Text:
         sentence = self.passages.sentences[at]
         signed: set[str] = set()
         fixed: set[str] = set()
-        anew = set()
+        anew: set[str] = set()
+        still: set[str] = set()  # constants that nothing else is said of
         for other, said in zip(self.passages.sentences[:at + 1], self.readings, strict=False):
             if not self.local(other) or self._holds_at(other, sentence):
                 anew |= signed & {*any_numbers(other.words)}
@@ -190,19 +137,29 @@ class Text:
                 anew |= letters & fixed if VARYING & {*fact.replace("-", "").split()} else set()
                 if "constant" in fact:
                     fixed |= letters
+                    still |= letters if r"\in" not in fact else set()
                 if says_sign(fact):
                     signed |= letters
                 elif OTHERWISE & {*fact.replace("-", "").split()}:
                     anew |= letters & signed
-        return anew | self._foreign(sentence) | given_twice(
+        anew |= {gift.letter for gift in self.gifts if gift.letter in still and letters_of_text(gift.value)
+                 and not any("constant" in fact for fact in self.readings[gift.at].facts)}
+        return anew | recalled(self.passages.sentences, self.gifts, at) | self._foreign(sentence) | given_twice(
             one for one in self.gifts if self._counts(one, at, sentence))
 
+    def _valued(self, letters: Collection[str]) -> list[int]:
+        """The sentences that claim a value of a letter which nothing gives: it may be what defines the letter."""
+        given = {gift.letter for gift in self.gifts}
+        return [at for at, said in enumerate(self.readings) for number, form in said.shown.items()
+                if form not in GIVING and ({*self.formulas[number].gives} & {*letters}) - given]
+
     def _foreign(self, sentence: Sentence) -> set[str]:
-        """The letters that displays of other statements and proofs alone give, where a sentence stands in one."""
-        if not self.local(sentence):
-            return set()
+        """The letters that displays of other proofs alone give, and, where a sentence stands in a statement or proof,
+        those of other statements."""
         shown = [(one.letter, self.passages.sentences[one.at]) for one in self.gifts if one.form != "inline"]
-        own = {letter for letter, other in shown if not self.local(other) or self._holds_at(other, sentence)}
+        local = self.local(sentence)
+        own = {letter for letter, other in shown if self._holds_at(other, sentence) or not (
+            self.local(other) if local else self._proves(other))}
         return {letter for letter, _ in shown} - own
 
     def _counts(self, gift: Gift, at: int, sentence: Sentence) -> bool:
@@ -212,30 +169,10 @@ class Text:
             return not self.local(other) or self._holds_at(other, sentence)
         return gift.at <= at or other.place.headings[:1] == sentence.place.headings[:1]
 
-    def _gifts(self) -> Iterator[Gift]:
-        """What displays and the text give letters, in order."""
-        for at, (sentence, said) in enumerate(zip(self.passages.sentences, self.readings, strict=True)):
-            for letter, value in given_within(sentence.words):
-                yield Gift(at, letter, value, "inline")
-            for number, form in said.shown.items():
-                if form in ("given", "defined", "bare"):
-                    for letter, value in self.formulas[number].gives.items():
-                        yield Gift(at, letter, value, form)
-
     def _differs(self, said: Reading, facts: Mapping[str, str]) -> set[str]:
         """The letters of which a sentence says something that the whole text does not."""
         told = {letter for letter in said.letters if facts.get(letter) not in said.facts} if said.facts else set()
         return told | said.restricted
-
-    def _holds_at(self, other: Sentence, sentence: Sentence) -> bool:
-        """Whether what a sentence says may hold where another stands: in its environment; of a statement, in proofs and
-        in what is said directly behind it."""
-        scopes, own = other.place.scopes, sentence.place.scopes
-        stated = not any(name.removesuffix("*") not in self.whats for name in self._names(other))
-        proof = any(name.removesuffix("*") not in self.whats for name in self._names(sentence))
-        near = sentence.place.paragraphs[0] - other.place.paragraphs[-1] <= BEHIND
-        behind = near and scopes[:-1] == own and not self._assumes(other)
-        return own[:len(scopes)] == scopes or (stated and (proof or behind))
 
     def _named(self, names: Collection[str]) -> Iterator[str]:
         """The sentences that are not understood and name one of some rows."""
@@ -247,51 +184,20 @@ class Text:
     def _unread(self, at: int) -> Iterator[str]:
         """Why what is shown in a sentence may be taken back, or said of something else."""
         sentence = self.passages.sentences[at]
+        given = [letter for one in self.readings[at].shown for letter in self.formulas[one].gives]
+        marked = not given or any(map(is_marked, given))
         for heading in sentence.place.headings:
-            unknown = tuple(one for one in heading_unknown(self.passages.headings[heading]) if one not in DIGITAL)
+            unknown = heading_unknown(self.passages.headings[heading], marked)
             if unknown:
-                yield f"heading with {_quoted(unknown)}"
+                yield f"heading with {quoted(unknown)}"
         for scope in sentence.place.scopes:
             name = self.passages.scopes[scope]
             if name.startswith("?"):
                 yield f"environment {name[1:]!r}"
-            elif unknown := heading_unknown(self.passages.titles[scope]):
-                yield f"title with {_quoted(unknown)}"
+            elif unknown := heading_unknown(self.passages.titles[scope], marked):
+                yield f"title with {quoted(unknown)}"
         if any(r"\intertext" in self.formulas[one].printed for one in self.readings[at].shown):
             yield "words between its lines"
         for other, (one, said) in enumerate(zip(self.passages.sentences, self.readings, strict=True)):
-            if said.unknown and (other == at or (_near(one, sentence) and (abs(other - at) == 1 or _points(one)))):
+            if said.unknown and (other == at or (near(one, sentence) and (abs(other - at) == 1 or points(one)))):
                 yield self._told(other)
-
-    def _told(self, at: int) -> str:
-        unknown = self.readings[at].unknown
-        sentence = printed(self.passages.sentences[at], self.body)
-        return f"{_quoted(unknown)} in '{sentence}'" if unknown else f"'{sentence}'"
-
-    def nouns(self) -> dict[str, dict[str, int]]:
-        """The letters that the text calls by a noun, as the gains $k$ and $c$, and which sentence does so first."""
-        found: dict[str, dict[str, int]] = {}
-        for at, (sentence, reading) in enumerate(zip(self.passages.sentences, self.readings, strict=True)):
-            if reading.facts:
-                for word in sentence.words:
-                    if word.kind == "word" and word.text in NOUNS:
-                        for form in (word.text, word.text.removesuffix("s"), f"{word.text}s"):
-                            found[form] = dict.fromkeys(reading.letters, at) | found.get(form, {})
-        return found
-
-
-def _points(sentence: Sentence) -> bool:
-    """Whether a sentence may speak of what stands beside it: by a pronoun, a formula's name, or as it is short."""
-    words = [word for word in sentence.words if word.kind == "word"]
-    return len(words) <= SHORT or any(word.text in POINTING for word in words) or any(
-        word.kind in ("reference", "display") for word in sentence.words)
-
-
-def _near(other: Sentence, sentence: Sentence) -> bool:
-    """Whether a sentence stands in the paragraph of another, or as the first one behind that and pointing back."""
-    own = other.place.paragraphs if _points(other) else other.place.paragraphs[-1:]
-    return bool({*own} & {*sentence.place.paragraphs})
-
-
-def _quoted(words: Sequence[str]) -> str:
-    return ", ".join(f"'{word}'" for word in words[:6]) + (", ..." if len(words) > 6 else "")

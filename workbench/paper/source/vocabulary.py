@@ -257,3 +257,5 @@ HELD = _words("""
     replacing given taking with for in on at under putting put take let over within into among along of considering
     setting
 """)
+# Of how many something is said.
+ALL = _words("all every any each some both")
