@@ -6,9 +6,10 @@ from typing import Any
 
 import sympy as sp
 
-from workbench.proof.claim import Goal, Relation, at_least, at_most, greater
+from workbench.proof.claim import Goal, Relation, at_least, greater
 from workbench.proof.decide.combination import find_combination
 from workbench.proof.decide.identity import find_identity
+from workbench.proof.decide.sign_cases import by_sign
 from workbench.proof.derive import Side, Size
 from workbench.proof.text import relation_text, text
 
@@ -59,13 +60,8 @@ def find_by_growth_both_ways(goal: Goal, shown: Relation, given: Given) -> Found
     for symbol in sorted(margin.free_symbols, key=str):
         if symbol.is_nonnegative or any(r.margin.has(symbol) for r in given) or margin.xreplace({symbol: 0}) != 0:
             continue
-        proof: Proof = {"rule": "cases", "of": text(symbol)}
-        for name, case in (("nonnegative", at_least(symbol, 0)), ("nonpositive", at_most(symbol, 0))):
-            found = find_by_growth(goal, shown, (*given, case))
-            if found is None:
-                break
-            proof[name] = found
-        else:
+        proof = by_sign(symbol, lambda case: find_by_growth(goal, shown, (*given, case)))
+        if proof is not None:
             return proof
     return None
 

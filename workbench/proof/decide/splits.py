@@ -19,7 +19,8 @@ from workbench.proof.decide.cuts import after
 from workbench.proof.decide.exact_look import Exact
 from workbench.proof.decide.proposals import proposals
 from workbench.proof.decide.sample_points import NEAR_ZERO, holds_at, sample_points, value_at
-from workbench.proof.text import goal_text, text
+from workbench.proof.decide.sign_cases import by_sign
+from workbench.proof.text import goal_text
 
 Proof = dict[str, Any]
 Given = tuple[Relation, ...]
@@ -63,14 +64,13 @@ def find_by_factor_signs(goal: Goal, shown: Relation, given: Given, search: Sear
     points, (_, odd) = sample_points(shown, given), _factors(shown.margin)
     plain = [sp.Add(*(term for term in sp.Add.make_args(factor) if not term.has(sp.Function))) for factor in odd]
     turned = [of for of in dict.fromkeys(plain) if of.free_symbols and not of.is_Symbol]
+
+    def find(case: Relation) -> Proof | None:
+        near = [point for point in points if holds_at(case, point)]
+        return _by_factors(goal, shown, (*given, case), near, search)
+
     for of in (*turned[:2], *_candidates(shown, given)):
-        proof: Proof = {"rule": "cases", "of": text(of)}
-        for name, case in (("nonnegative", at_least(of, 0)), ("nonpositive", at_most(of, 0))):
-            near = [point for point in points if holds_at(case, point)]
-            if (found := _by_factors(goal, shown, (*given, case), near, search)) is None:
-                break
-            proof[name] = found
-        else:
+        if (proof := by_sign(of, find)) is not None:
             return proof
     return None
 
@@ -86,16 +86,13 @@ def _fails_somewhere(pointwise: Goal) -> bool:
 
 def _in_cases(goal: Goal, shown: Relation, given: Given, points: list[dict[sp.Symbol, float]], search: Search,
               depth: int) -> Proof | None:
+    def find(case: Relation) -> Proof | None:
+        here, near = (*given, case), [point for point in points if holds_at(case, point)]
+        return (_by_factors(goal, shown, here, near, search) or search(goal, shown, here)
+                or (_in_cases(goal, shown, here, near, search, depth - 1) if depth > 1 else None))
+
     for of in _candidates(shown, given):
-        proof: Proof = {"rule": "cases", "of": text(of)}
-        for name, case in (("nonnegative", at_least(of, 0)), ("nonpositive", at_most(of, 0))):
-            here, near = (*given, case), [point for point in points if holds_at(case, point)]
-            found = (_by_factors(goal, shown, here, near, search) or search(goal, shown, here)
-                     or (_in_cases(goal, shown, here, near, search, depth - 1) if depth > 1 else None))
-            if found is None:
-                break
-            proof[name] = found
-        else:
+        if (proof := by_sign(of, find)) is not None:
             return proof
     return None
 
