@@ -16,6 +16,7 @@ from workbench.model.law import period, time
 Limits = tuple[float, float]
 # What every expression may use, and no plant or law may call its own.
 CLOCK = (time, period)
+NO_NUMBERS = {sp.nan, sp.zoo, sp.oo, -sp.oo}
 
 
 def expression(value: Any, where: str) -> sp.Expr:
@@ -28,13 +29,31 @@ def expression(value: Any, where: str) -> sp.Expr:
         raise ValueError(f"{where} is {written(value)}, no expression: give one of sympy, or a number") from None
     if not isinstance(found, sp.Expr) or found.is_Matrix:
         raise ValueError(f"{where} is a {type(found).__name__}, no scalar: give one expression each")
-    found = found.replace(lambda e: isinstance(e, sp.Piecewise) and e.args[-1].cond != sp.true,
-                          lambda e: _complete(e, where))
-    if found.has(sp.nan, sp.zoo, sp.oo, -sp.oo):
+    parts = _distinct_parts(found)
+    if any(_is_open(part) for part in parts):
+        found = found.replace(_is_open, lambda cases: _complete(cases, where))
+        parts = _distinct_parts(found)
+    if parts & NO_NUMBERS:
         raise ValueError(f"{where} holds {found}, which is no number: correct the expression")
-    if found.has(sp.I) or found.is_extended_real is False:
+    if sp.I in parts or found.is_extended_real is False:
         raise ValueError(f"{where} is not real: {found}: state real dynamics, a complex state as two real ones")
     return found
+
+
+def _distinct_parts(expr: sp.Basic) -> set[sp.Basic]:
+    """All that an expression is made of, each once: a law's terms share most of theirs, which a walk over the tree
+    would see thousands of times."""
+    seen, left = {expr}, [expr]
+    while left:
+        new = set(left.pop().args) - seen
+        seen |= new
+        left += new
+    return seen
+
+
+def _is_open(expr: sp.Basic) -> bool:
+    """Whether cases end without one that always holds."""
+    return isinstance(expr, sp.Piecewise) and expr.args[-1].cond != sp.true
 
 
 def _complete(cases: sp.Piecewise, where: str) -> sp.Expr:
