@@ -21,6 +21,7 @@ from workbench.contest.told import Told, look
 from workbench.contest.tune import DRAWS_FROM, tune_all
 from workbench.errors import InputError, WorkbenchError
 from workbench.files.numbers import length, number
+from workbench.paper.cells import Phrase, numbers_in
 from workbench.paper.statistics import Bootstrap, rankings
 from workbench.paper.tune import BEGIN, tune_run
 from workbench.trains.scenario import Scenario
@@ -235,6 +236,14 @@ def test_a_small_contest_is_told_whole(contest: Contest, scenario: Scenario) -> 
         assert sentence.startswith(f"{stated.title}: every 5 ms pid wins with a position RMS of "
                                    f"{length(pid['position_rms'])} (")
         assert f" µs a step, {number(pid['energy_J'] / 3.6e6)} kWh)" in sentence
+    # The page begins with who tracks best at each period, and what that comes to.
+    assert result.winners is not None
+    assert result.winners.headings == ("condition", "a command every 5 ms", "draws")
+    for (name, stated), row in zip(small.conditions.items(), result.winners.rows, strict=True):
+        pid = next(row for row in result.rows if (row["condition"], row["controller"]) == (name, "pid"))
+        assert (row[0], row[-1]) == (stated.title, pid["runs"])
+        assert isinstance(row[1], Phrase) and row[1].words == "pid: {}"
+        assert list(numbers_in(row[1])) == [pytest.approx(pid["position_rms"])]
 
 
 def test_no_run_takes_less_than_the_bound(contest: Contest, scenario: Scenario) -> None:

@@ -10,6 +10,7 @@ from typing import Any
 
 import numpy as np
 
+from workbench.contest.best_trackers import best_trackers_table
 from workbench.contest.by_period import at_each_period, period_findings, period_tables
 from workbench.contest.energy import best_run
 from workbench.contest.entrants import check_entrants, check_names, entered, follows_curve, learns
@@ -156,7 +157,8 @@ def _run(contest: Contest, workers: int, on_progress: Progress, played: Sequence
                        plots=(*traded, *plots, *learning_plot(told), *convergence_plot(told)),
                        findings=(*period_findings(told), *_findings(told), *premises_findings(told, words),
                                  *learning_findings(told)),
-                       failures=failures, standings=standings(told), first_plot=0 if traded or plots else None)
+                       failures=failures, winners=best_trackers_table(told), standings=standings(told),
+                       first_plot=0 if traded or plots else None)
 
 
 def _rows(told: Told) -> Iterator[dict[str, Any]]:

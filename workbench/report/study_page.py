@@ -18,6 +18,8 @@ from workbench.report.study_figures import study_plot
 from workbench.report.table_view import caption, gains_view, table_views
 from workbench.report.template import PageFigure, page_figure, render
 
+WHO_WINS = "Who wins, and at what price"
+
 
 @dataclass(frozen=True)
 class StudyContent:
@@ -50,7 +52,8 @@ def build_study_page(content: StudyContent) -> str:
         tables=table_views(result.tables), gains=gains_view(content.gains),
         figures=figures, first_figure=first, first_figure_first=bool(result.standings), failures=result.failures,
         standings=[parted(sentence) for sentence in result.standings or standings(result.winners)],
-        standings_title=result.winners.title if result.winners else "Who wins, and at what price",
+        standings_title=result.winners.title if result.winners and not result.standings else WHO_WINS,
+        standings_folded=bool(result.standings and result.winners),
         standings_tables=table_views([result.winners] if result.winners else [], "winners"), winners=None)
 
 
