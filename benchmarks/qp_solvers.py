@@ -1,9 +1,9 @@
 """The program of linear MPC put to the QP solvers of the package index, at equal accuracy.
 
 Unknowns are steps from the desired run, in the order of the stages; each solver takes the program in the form it is
-made for (sparse, or condensed for daqp, which is not counted), keeps its matrices from sample to sample where it can,
-and is timed over what a sample takes of it: new vectors, new dynamics, solution. One that is not installed is told, and
-why; one whose commands are not those of the others has no equal accuracy, which is told too.
+made for (sparse; condensed for daqp, stage by stage for hpipm, which is not counted), keeps its matrices from sample to
+sample where it can, and is timed over what a sample takes of it: new vectors, new dynamics, solution. One that is not
+installed is told, and why; one whose commands are not those of the others has no equal accuracy, which is told too.
 """
 
 from __future__ import annotations
@@ -25,8 +25,9 @@ from workbench.mpc.problem import Array, Problem
 # Residuals that every solver is asked for: a command is then right to better than EQUAL_MPS2.
 TOLERANCE = 1e-8
 EQUAL_MPS2 = 1e-4
+HPIPM_TOLERANCE = 1e-7  # of the program as it stands; 1e-8 is beyond what it reaches in the hard run
 MODULES = {"piqp": "piqp", "daqp": "daqp", "proxqp": "proxsuite", "osqp": "osqp", "qpalm": "qpalm",
-           "clarabel": "clarabel"}
+           "clarabel": "clarabel", "hpipm": "casadi"}
 
 
 # (program) -> its solution.
@@ -67,8 +68,10 @@ def _osqp(first: Program) -> Solve:
     import osqp  # noqa: PLC0415
 
     solver = osqp.OSQP()
-    solver.setup(sparse.triu(first.P, format="csc"), first.q, first.A, first.low, first.high, eps_abs=TOLERANCE,
-                 eps_rel=TOLERANCE, max_iter=100_000, polishing=True, verbose=False)
+    # It scales what it is given in place, which the other solvers are to see as it is.
+    solver.setup(sparse.triu(first.P, format="csc"), first.q.copy(), first.A.copy(), first.low.copy(),
+                 first.high.copy(), eps_abs=TOLERANCE, eps_rel=TOLERANCE, max_iter=100_000, polishing=True,
+                 verbose=False)
 
     def solve(program: Program) -> Array:
         solver.update(q=program.q, l=program.low, u=program.high, Ax=program.A.data)
@@ -118,8 +121,8 @@ def _clarabel(first: Program) -> Solve:
     return solve
 
 
-# What daqp alone took of each sample, s.
-condensed_s: list[float] = []
+# What a solver alone took of each sample, s, where its program is put into another form for it.
+alone_s: list[float] = []
 
 
 def _daqp(first: Program) -> Solve:
@@ -149,7 +152,7 @@ def _daqp(first: Program) -> Solve:
         before = time.thread_time()
         y, *_ = daqp.solve(np.ascontiguousarray(H), f, np.ascontiguousarray(G), bound_high, bound_low,
                            np.zeros(len(bound_low), dtype=np.int32))
-        condensed_s.append(time.thread_time() - before)
+        alone_s.append(time.thread_time() - before)
         z = np.zeros(len(program.q))
         z[others], z[states] = y, S @ np.asarray(y) + c
         return z
@@ -157,14 +160,61 @@ def _daqp(first: Program) -> Solve:
     return solve
 
 
+def _hpipm(first: Program) -> Solve:
+    """Stage by stage, as casadi ships it; its own processor time counts, not what casadi or the form takes."""
+    import casadi as ca  # noqa: PLC0415
+
+    N, width = (first.equations - 3) // 3, _width(first)
+    rows = width - 4
+    # The first three equations say the state, which becomes bounds; of a row's pair the second is the soft limit.
+    limits = first.equations + np.arange(N)[:, None] * (1 + 2 * rows)
+    soft = limits + 2 + 2 * np.arange(rows)
+    order = np.hstack((3 + np.arange(3 * N).reshape(N, 3), soft)).ravel()
+    turned = np.tile([-1.0] * 3 + [1.0] * rows, N)
+    commands = np.arange(N)[:, None] * width + 3
+    slacks = (commands + 1 + np.arange(rows)).ravel()
+
+    def matrix(part: Any) -> Any:
+        kept = sparse.csc_matrix(part)
+        kept.sort_indices()
+        pattern = ca.Sparsity(*kept.shape, kept.indptr.tolist(), kept.indices.tolist())
+        return ca.DM(pattern, kept.data)
+
+    def constraints(program: Program) -> Any:
+        return matrix(sparse.diags(turned) @ program.A.tocsr()[order])
+
+    of_each = {"nx": [3] * (N + 1), "nu": [width - 3] * N + [0], "ng": [rows] * N + [0]}
+    residuals = dict.fromkeys(("res_g_max", "res_b_max", "res_d_max", "res_m_max"), HPIPM_TOLERANCE)
+    solver = ca.conic("hpipm", "hpipm", {"h": matrix(first.P).sparsity(), "a": constraints(first).sparsity()},
+                      {"N": N, **of_each, "hpipm": {"mode": "speed", "iter_max": 100, **residuals}})
+
+    def solve(program: Program) -> Array:
+        ends = np.where(turned < 0, -program.high[order], -np.inf), np.where(turned < 0, -program.low[order],
+                                                                             program.high[order])
+        low, high = np.full(len(program.q), -np.inf), np.full(len(program.q), np.inf)
+        low[:3] = high[:3] = program.low[:3]
+        low[commands], high[commands], low[slacks] = program.low[limits], program.high[limits], 0.0
+        found = solver(h=matrix(program.P), g=program.q, a=constraints(program), lba=ends[0], uba=ends[1], lbx=low,
+                       ubx=high)
+        alone_s.append(solver.stats()["t_proc_solver"])
+        return np.asarray(found["x"]).ravel()
+
+    return solve
+
+
+def _width(program: Program) -> int:
+    """Unknowns of a stage."""
+    return (len(program.q) - 3) // ((program.equations - 3) // 3)
+
+
 def _is_state(program: Program) -> Array:
     """Of each unknown whether it is one of a state: these the equations lead to."""
-    width = (len(program.q) - 3) // ((program.equations - 3) // 3)
-    return np.arange(len(program.q)) % width < 3
+    return np.arange(len(program.q)) % _width(program) < 3
 
 
 MADE: dict[str, Callable[[Program], Solve]] = {
-    "piqp": _piqp, "daqp": _daqp, "proxqp": _proxqp, "osqp": _osqp, "qpalm": _qpalm, "clarabel": _clarabel}
+    "piqp": _piqp, "daqp": _daqp, "proxqp": _proxqp, "osqp": _osqp, "qpalm": _qpalm, "clarabel": _clarabel,
+    "hpipm": _hpipm}
 
 
 def missing() -> dict[str, str]:
@@ -195,13 +245,13 @@ def rows(problem: Problem, ahead: Array, start: Array, samples: int) -> list[dic
             found.append({"solver": name, "why": lacking[name]})
             continue
         solve, off = make(programs[0]), 0.0
-        condensed_s.clear()
+        alone_s.clear()
         for k, program in enumerate(programs):
             before = time.thread_time()
             z = solve(program)
             taken[k] = time.thread_time() - before
             off = max(off, abs(float(z[program.first]) + float(stages.along.u[k]) - commands[k]))
-        found.append(_row(name, np.array(condensed_s) if condensed_s else taken, off))
+        found.append(_row(name, np.array(alone_s) if alone_s else taken, off))
     return found
 
 
