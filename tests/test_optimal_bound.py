@@ -10,6 +10,7 @@ from optimal_instances import certificate_values, courses, numbers, random_runs,
 from scipy.optimize import minimize_scalar
 
 from workbench.errors import WorkbenchError
+from workbench.optimal import bound as bound_module
 from workbench.optimal.bound import Certificate, Terms, cell_bounds, lower_bound, minima
 from workbench.optimal.course import Course
 from workbench.optimal.envelope import InfeasibleRunError
@@ -96,6 +97,17 @@ def test_no_run_in_time_takes_less_than_the_bound_of_a_reference(vehicle, course
         bound = lower_bound(vehicle, course, certificate, max(asked, run.trip_time_s))
         energy, tolerance = own_energy(vehicle, run)
         assert bound <= energy + drawn * run.trip_time_s + tolerance
+
+
+@settings(max_examples=20)
+@given(vehicles(), courses(), st.integers(1, 9), st.data())
+def test_cells_are_bounded_alike_in_blocks_of_any_size(vehicle, course, block, data):
+    left, right, price = data.draw(certificate_values(len(kept_borders(course)) - 1))
+    certificate = Certificate(kept_borders(course), left, right, price)
+    whole = cell_bounds(vehicle, course, certificate, as_timetable(course, 600.0))
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(bound_module, "BLOCK", block)
+        assert np.array_equal(cell_bounds(vehicle, course, certificate, as_timetable(course, 600.0)), whole)
 
 
 def test_a_jump_of_the_price_inside_a_cell_of_two_limits_proves_nothing_false():

@@ -46,6 +46,8 @@ from workbench.optimal.vehicle import Vehicle
 
 # A tunnel's drag is linear along a cell up to this share.
 DRAG_TOLERANCE = 1e-9
+# So many cells at a time: what is worked out of them then stays in the processor's cache.
+BLOCK = 1024
 
 
 @dataclass(frozen=True)
@@ -84,30 +86,32 @@ def cell_bounds(vehicle: Vehicle, course: Course, certificate: Certificate, time
 
 def cell_bounds_of(vehicle: Vehicle, course: Course, forms: Sequence[Certificate], timetable: Timetable) -> Array:
     """The same for several certificates on the same cells, at the same prices: shape (forms, n)."""
-    terms = bound_terms(vehicle, course, forms, timetable)
-    shape = len(forms), len(forms[0].left)
-    ends = np.full((2, shape[0] * shape[1]), np.inf)
-    np.minimum.at(ends, (terms.end.astype(int), terms.cell.astype(int)), minima(terms))
-    return np.asarray(np.diff(forms[0].position_m) * ends.mean(axis=0).reshape(shape))
-
-
-def bound_terms(vehicle: Vehicle, course: Course, forms: Sequence[Certificate], timetable: Timetable) -> Terms:
-    """Every minimisation that the bounds need: for both ends of each cell, on each range of speeds; the cells of the
-    second certificate are numbered after those of the first, and so on."""
-    first, count = forms[0], len(forms)
-    cells = _cells(course, first).repeated(count)
+    first = forms[0]
     if first.auxiliary_w > vehicle.auxiliary_w:
         raise WorkbenchError(f"certificate of a bound: counts {first.auxiliary_w:g} W of auxiliaries, more "
                              f"than the train's {vehicle.auxiliary_w:g} W: solve again")
-    price = np.tile(first.cell_prices_w(timetable), count)
-    left, right = (np.concatenate([getattr(form, side) for form in forms]) for side in ("left", "right"))
-    slope = (right - left) / np.tile(np.diff(first.position_m), count)
+    cells, price, length = _cells(course, first), first.cell_prices_w(timetable), np.diff(first.position_m)
+    least = np.full((len(forms), 2, len(length)), np.inf)
+    for k, form in enumerate(forms):
+        for begin in range(0, len(length), BLOCK):
+            block = slice(begin, begin + BLOCK)
+            terms = bound_terms(vehicle, cells.part(block), np.stack((form.left[block], form.right[block])),
+                                price[block], length[block])
+            np.minimum.at(least[k, :, block], (terms.end.astype(int), terms.cell.astype(int)), minima(terms))
+    return np.asarray(length * least.mean(axis=1))
+
+
+def bound_terms(vehicle: Vehicle, cells: Cells, p: Array, price: Array, length_m: Array) -> Terms:
+    """Every minimisation that the bounds of cells need: for both ends of each, on each range of speeds.
+
+    p: at both ends, shape (2, n); price: of the cells' running time, W.
+    """
+    left, right = p
     # p times a drag that changes along the cell bends: below its chord by a quarter of the product at most.
     bend = np.maximum((right - left) * (cells.drag[1] - cells.drag[0]), 0.0) / 4
     a, b_1, c = vehicle.davis_n
-    p, middle = np.stack((left, right)), (left + right) / 2
-    ranges, way = _cheapest(vehicle, cells, p, middle)
-    square = p * (c + cells.drag) - bend - vehicle.inertia_kg * slope / 2 + way[3]
+    ranges, way = _cheapest(vehicle, cells, p, (left + right) / 2)
+    square = p * (c + cells.drag) - bend - vehicle.inertia_kg * ((right - left) / length_m) / 2 + way[3]
     shape = (len(ranges.low), *p.shape)
     high = np.minimum(ranges.high, cells.limit_mps)
     inside = np.broadcast_to(high > ranges.low, shape)
@@ -117,21 +121,24 @@ def bound_terms(vehicle: Vehicle, course: Course, forms: Sequence[Certificate], 
 
 
 @dataclass(frozen=True)
-class _Cells:
-    """On each cell: the speed limit, the drag at both ends, and the extremes of the line's force and of the drag."""
+class Cells:
+    """On each cell: the speed limit, the drag at both ends, and the extremes of the line's force.
 
+    top_mps: the highest limit of all cells, those of other blocks too.
+    """
+
+    top_mps: float
     limit_mps: Array
     drag: Array
     least_force: Array
     most_force: Array
 
-    def repeated(self, count: int) -> _Cells:
-        """So many times the same cells one after another."""
-        return _Cells(np.tile(self.limit_mps, count), np.tile(self.drag, count), np.tile(self.least_force, count),
-                      np.tile(self.most_force, count))
+    def part(self, of: slice) -> Cells:
+        """Some of them."""
+        return Cells(self.top_mps, self.limit_mps[of], self.drag[:, of], self.least_force[of], self.most_force[of])
 
 
-def _cells(course: Course, certificate: Certificate) -> _Cells:
+def _cells(course: Course, certificate: Certificate) -> Cells:
     x, fine = certificate.position_m, course.split(certificate.position_m[1:-1])
     owner, count = owner_of(x, fine.position_m), len(certificate.left)
     limit, least, most = np.zeros(count), np.full(count, np.inf), np.full(count, -np.inf)
@@ -147,10 +154,10 @@ def _cells(course: Course, certificate: Certificate) -> _Cells:
         if np.any(np.abs(fine.drag[:, end] - chord) > DRAG_TOLERANCE * (1e-3 + chord)):
             raise WorkbenchError("certificate of a bound: a cell crosses a change of the tunnels' drag: give the "
                                  "change a border")
-    return _Cells(limit, drag, least, most)
+    return Cells(float(limit.max()), limit, drag, least, most)
 
 
-def _cheapest(vehicle: Vehicle, cells: _Cells, p: Array, middle: Array) -> tuple[Ranges, Coefficients]:
+def _cheapest(vehicle: Vehicle, cells: Cells, p: Array, middle: Array) -> tuple[Ranges, Coefficients]:
     """Ranges of speed, and on each and every cell the least of c(u) - p u from below.
 
     p: shape (2, n), at both ends of the cells; all that is returned can be broadcast to (ranges, 2, n). Each of several
@@ -167,7 +174,7 @@ def _cheapest(vehicle: Vehicle, cells: _Cells, p: Array, middle: Array) -> tuple
     hardest = (zero, vehicle.inertia_kg * vehicle.max_deceleration_mps2 - a - cells.least_force, zero - b_1,
                zero - c - cells.drag.min(axis=0))
     friction = (zero, zero + vehicle.friction_brake_n, zero, zero)
-    ranges = speed_ranges(vehicle, float(cells.limit_mps.max()))
+    ranges = speed_ranges(vehicle, cells.top_mps)
     is_accelerated = np.isfinite(vehicle.max_acceleration_mps2)
     is_braked = np.isfinite(vehicle.max_deceleration_mps2)
     ranges = cut_at_crossings(ranges, [
