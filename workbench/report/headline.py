@@ -154,7 +154,7 @@ def sources_line(values: Sequence[SourcedValue]) -> Markup | None:
         return None
     assumed = sum(value.kind == "assumed" for value in values)
     return Markup('<strong>Data.</strong> {} of {} stated values are <a href="#assumptions">assumed</a>: '
-                  "the paper does not give them.").format(assumed, len(values))
+                  "no source gives them.").format(assumed, len(values))
 
 
 CHANGES = "changes of assumed values"  # what a scenario's short report has fewer of
