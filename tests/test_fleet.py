@@ -2,6 +2,7 @@
 
 import csv
 import json
+import re
 from pathlib import Path
 
 import pytest
@@ -96,6 +97,9 @@ def test_a_day_of_which_no_trip_can_be_run_ends_as_a_mistake_below_its_table(tmp
     error = ended.stderr.splitlines()[-1]
     assert "fleet.toml: trips: none of 4 could be run, trip 'a' because of" in error and "no such file" in error
     assert len((tmp_path / "a.csv").read_text(encoding="utf-8").splitlines()) == 5
+    path.write_text(re.sub(r"^train = .*$", r'train = "a\\u0000b"', FLEET, flags=re.MULTILINE), encoding="utf-8")
+    ended = run("reference", "--fleet", path, "--json", tmp_path / "a.json", "--resume")
+    assert ended.returncode == 2 and "Traceback" not in ended.stderr and "could be run, trip 'a'" in ended.stderr
     # What a trip waits at its stops is told where the time left is too short.
     path.write_text(FLEET.replace("time_s = 20.0, to_m = 1250.0", "time_s = 20.0, stops = true"), encoding="utf-8")
     assert "20 s is no more than the 60 s of waiting at stops" in run("reference", "--fleet", path).stdout

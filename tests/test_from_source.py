@@ -8,7 +8,7 @@ import pytest
 from test_cli import one_line, run
 
 from workbench.errors import InputError
-from workbench.paper.source import folder
+from workbench.paper.source import document, folder
 from workbench.paper.source.document import read_source
 from workbench.paper.source.folder import write_from_source
 from workbench.paper.source.letters import assumed_formulas, defined_in_text, values_and_rates
@@ -141,9 +141,15 @@ def test_a_source_that_cannot_be_read_is_one_line(text, words):
 
 
 def test_a_source_whose_tables_would_be_too_large_to_read_is_named_and_nothing_is_written(tmp_path, monkeypatch):
-    monkeypatch.setattr(folder, "LARGEST_TEXT", 2000)
-    with pytest.raises(InputError, match=r"backstepping.tex: becomes tables of more than"):
-        write_from_source("grown2030", tmp_path, SOURCES / "backstepping.tex")
+    with monkeypatch.context() as small:
+        small.setattr(folder, "MOST_SHOWN", 2000)
+        with pytest.raises(InputError, match=r"backstepping.tex: becomes tables of more than"):
+            write_from_source("grown2030", tmp_path, SOURCES / "backstepping.tex")
+    # What macros make of a few lines is refused before its formulas are read.
+    monkeypatch.setattr(document, "cleaned", pytest.fail)
+    many = r"\newcommand{\a}{" + "x" * 40_000 + r"}\newcommand{\b}{\a\a\a\a\a\a}" + "\n"
+    with pytest.raises(SourceError, match="becomes tables of more than 2 MiB"):
+        read_source(many + r"\begin{equation} V = \b\b\b\b\b\b\b\b\b \end{equation}")
     assert not list(tmp_path.iterdir())
 
 

@@ -258,6 +258,10 @@ def test_a_line_that_is_not_there_is_told_with_the_key_that_names_it(tmp_path):
     study.write_text(changed(text, '"nowhere.toml"', '"."'))
     said = one_line(run("compare", study))
     assert "is a folder: name a .toml file in it (check the path, 'track' in" in said and str(study) in said
+    (folder / "words.toml").write_text("no table", encoding="utf-8")
+    study.write_text(changed(text, '"nowhere.toml"', '"words.toml"'))
+    said = one_line(run("compare", study))
+    assert "words.toml: is not valid TOML" in said and f"(check the path, 'track' in {study})" in said
     curve = '[reference]\nkind = "table"\nfile = "nowhere.csv"\n'
     study.write_text(re.sub(r"(?ms)^\[reference\].*?(?=^\[)", curve, changed(text, '"nowhere.toml"', '"line.toml"')))
     said = one_line(run("compare", study))

@@ -143,16 +143,17 @@ def read_toml(path: Path, where: str = CHECK_PATH) -> dict[str, Any]:
 
 def _table(path: Path, where: str) -> dict[str, Any]:
     text = read_text(path, "TOML", where)
+    named = "" if where == CHECK_PATH else f" ({where})"
     if not text.strip():
-        raise InputError(path, "", "is empty: a TOML table is expected")
+        raise InputError(path, "", f"is empty: a TOML table is expected{named}")
     _require_quick(path, text)
     try:
         table = tomllib.loads(text)
         integers = list(_integers(table, ""))
     except ValueError as trouble:  # TOMLDecodeError, and Python's own limit on the digits of an integer
-        raise InputError(path, "", f"is not valid TOML: {trouble}") from None
+        raise InputError(path, "", f"is not valid TOML: {trouble}{named}") from None
     except RecursionError:
-        raise InputError(path, "", "is nested too deeply: write flatter tables") from None
+        raise InputError(path, "", f"is nested too deeply: write flatter tables{named}") from None
     for key, number in integers:
         if abs(number) > LARGEST_INTEGER:
             raise InputError(path, key, "is a whole number beyond 64 bits: give a finite number that fits, or a float")

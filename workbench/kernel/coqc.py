@@ -208,6 +208,6 @@ def _coqc(folder: Path, name: str, seconds: float) -> tuple[str, str]:
         return run.stdout, ""
     if run.returncode in (-signal.SIGXCPU, -signal.SIGKILL):
         return run.stdout, f"takes more than {seconds:g} s"
-    lines = run.stderr.partition("Error:")[2].split("\n")
+    lines = (run.stderr.partition("Error:")[2] or run.stderr).split("\n")
     said = " ".join(line.strip() for line in lines if line.strip())[:300]
-    return run.stdout, said or f"coqc ends with {run.returncode}"
+    return run.stdout, said or f"coqc ends with {run.returncode} and says nothing"

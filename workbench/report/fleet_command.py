@@ -101,7 +101,7 @@ def _digest(trip: Any) -> str:
     for path in (trip.track, trip.train):
         try:
             text.update(contents(path, LARGEST_DATA))
-        except OSError:
+        except (OSError, ValueError):  # no file, or what no file can be called
             text.update(b"unreadable")
     return text.hexdigest()
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from dataclasses import dataclass
 
+from workbench.files.regular import LARGEST_TEXT, size_words
 from workbench.paper.source.letters import values_and_rates
 from workbench.paper.source.lines import LABEL, TAG, WITHOUT_NUMBER, chained, cleaned, goes_on, lines_of, system_lines
 from workbench.paper.source.macros import SourceError, decided, expanded, group, optional, without_comments
@@ -35,6 +36,10 @@ _NEWTHEOREM = re.compile(r"\\newtheorem(\*?)\s*\{([^{}]*)\}\s*(?:\[([^\]]*)\])?\
 _WITHIN = re.compile(r"\\numberwithin\s*\{equation\}\s*\{section\}")
 _REMARKS = re.compile("remark|example|note", re.IGNORECASE)
 _REFERENCE = re.compile(r"\\(?:eqref|[cC]ref|autoref|ref)\s*\{([^{}]*)\}")
+
+MOST_SHOWN = LARGEST_TEXT // 2  # verdicts are added to what is shown, and the table is read again
+TOO_MUCH = (f"becomes tables of more than {size_words(MOST_SHOWN)}, as where a macro writes itself many times over: "
+            "leave out what is not mathematics, or give it in parts")
 
 
 @dataclass
@@ -99,6 +104,7 @@ class _Reader:
         self.group_labels: dict[str, list[str]] = {}
         self.remarking = False
         self.displays: list[Display] = []
+        self.shown = 0  # letters of all displays
         self.waiting: list[tuple[str, int]] = []  # labels of subequations, and from which row on they hold
 
     def read(self) -> None:
@@ -196,6 +202,9 @@ class _Reader:
 
     def _equations(self, name: str, text: str, within: str, around: tuple[int, int], numbered: bool) -> None:
         """The rows of a display; around: where it begins and ends in the body."""
+        self.shown += len(text)
+        if self.shown > MOST_SHOWN:  # said before they are read, which takes long
+            raise SourceError(TOO_MUCH)
         lines = [text] if name in WHOLE else lines_of(text)
         carried, labels = "", ()
         before = len(self.rows)

@@ -9,7 +9,6 @@ from dataclasses import dataclass
 from pathlib import Path, PurePath
 
 from workbench.errors import InputError
-from workbench.files.regular import LARGEST_TEXT
 from workbench.files.text import read_text
 from workbench.files.writing import write_text, write_tree
 from workbench.paper.new_paper import new_folder
@@ -21,7 +20,7 @@ from workbench.paper.source.deciding import (
     left_to_the_author,
     standings,
 )
-from workbench.paper.source.document import Source, read_source
+from workbench.paper.source.document import MOST_SHOWN, TOO_MUCH, Source, read_source
 from workbench.paper.source.letters import (
     assumed_formulas,
     defined_in_text,
@@ -94,9 +93,8 @@ def write_from_source(name: str, directory: Path, source: Path) -> FromSource:
     except SourceError as trouble:
         raise InputError(source, "", str(trouble)) from None
     rows, letters, standing = rows_and_letters(found)
-    if len(rows_text(rows).encode()) > LARGEST_TEXT // 2:  # verdicts are added, and the table is read again
-        raise InputError(source, "", "becomes tables of more than 2 MiB, as where a macro writes itself many times "
-                         "over: leave out what is not mathematics, or give it in parts")
+    if len(rows_text(rows).encode()) > MOST_SHOWN:
+        raise InputError(source, "", TOO_MUCH)
     write_tree(folder, {
         PurePath("paper.py"): PAPER.format(name=name).encode(), PurePath("claims/rows.py"): CLAIMS.encode(),
         PurePath(ROWS): rows_text(rows).encode(), PurePath(SYMBOLS): letters_text(letters).encode()}, REMEDY)
